@@ -73,23 +73,23 @@ pub struct PartOfContact {
     /// Losses by its friction, without impacts.
     pub friction: f64,
     /// Losses in its compliance, by damping or by the energy left when it opens; for a layer the work that crushes it.
-    pub yielding: f64,
+    pub compliance_loss: f64,
     /// Work that moving walls do through it.
     pub work: f64,
 }
 
 #[cfg(feature = "std")]
 impl PartOfContact {
-    fn of([friction, yielding, work]: [f64; 3]) -> PartOfContact {
+    fn of([friction, compliance_loss, work]: [f64; 3]) -> PartOfContact {
         PartOfContact {
             friction,
-            yielding,
+            compliance_loss,
             work,
         }
     }
 
     fn numbers(self) -> [f64; 3] {
-        [self.friction, self.yielding, self.work]
+        [self.friction, self.compliance_loss, self.work]
     }
 }
 

@@ -27,7 +27,7 @@ use crate::{Singular, StepError, System, Vector};
 use algebra::{backward, dot, forward, length, remove, share};
 use choice::{Choice, Rank};
 #[cfg(feature = "std")]
-pub(crate) use closest::{Miss, closest};
+pub(crate) use closest::{Violation, closest};
 use scale::Scales;
 use workspace::{Workspace, in_workspace};
 
@@ -36,11 +36,11 @@ use workspace::{Workspace, in_workspace};
 pub(crate) const RESIDUAL: f64 = 1e-13;
 
 /// Residuals above this are reduced, so that rows that depend on several others satisfy the bound as well.
-const WORKED_OFF: f64 = 0.25 * RESIDUAL;
+const REDUCTION_THRESHOLD: f64 = 0.25 * RESIDUAL;
 
 /// The same if rows are dependent, or nearly so: the chosen rows change along the motion, and the residuals of the other rows must be as
 /// small. Newton's method continues until rounding stops it.
-const WORKED_OFF_REDUNDANT: f64 = 4.0 * f64::EPSILON;
+const REDUCTION_THRESHOLD_REDUNDANT: f64 = 4.0 * f64::EPSILON;
 
 /// Relative change of a residual by rounding alone: some eight operations from a coordinate to a constraint.
 const ROUNDOFF: f64 = 8.0 * f64::EPSILON;
@@ -269,7 +269,7 @@ impl<V: Vector> Constraints<V> {
                 0.0
             };
         }
-        if positions.0 <= self.worked_off() && rates.0 <= self.worked_off() {
+        if positions.0 <= self.reduction_threshold() && rates.0 <= self.reduction_threshold() {
             return Ok(false);
         }
         if self.redundant && self.kept.is_none() {
@@ -289,7 +289,7 @@ impl<V: Vector> Constraints<V> {
         } else {
             prepared?;
         }
-        self.scales.note_metric(workspace.metric.as_slice());
+        self.scales.record_metric(workspace.metric.as_slice());
         let mut done = Ok(());
         for level in levels {
             let left = self.left(system, workspace, place)[*level as usize];
@@ -302,11 +302,11 @@ impl<V: Vector> Constraints<V> {
         Ok(true)
     }
 
-    fn worked_off(&self) -> f64 {
+    fn reduction_threshold(&self) -> f64 {
         if self.redundant || self.tight {
-            WORKED_OFF_REDUNDANT
+            REDUCTION_THRESHOLD_REDUNDANT
         } else {
-            WORKED_OFF
+            REDUCTION_THRESHOLD
         }
     }
 
@@ -326,7 +326,7 @@ impl<V: Vector> Constraints<V> {
         let mut fresh = true;
         let mut far = self.distance(workspace, level);
         for _ in 0..ROUNDS {
-            if left <= self.worked_off() {
+            if left <= self.reduction_threshold() {
                 return Ok(());
             }
             self.correction(workspace, level);
@@ -356,7 +356,7 @@ impl<V: Vector> Constraints<V> {
             {
                 *moved += part * by;
             }
-            if left <= self.worked_off() {
+            if left <= self.reduction_threshold() {
                 return Ok(());
             }
             if fresh && !(near <= (1.0 - 0.125 * part) * far) {
@@ -375,14 +375,15 @@ impl<V: Vector> Constraints<V> {
         }
         // It may have stagnated at the round-off of the constraints themselves.
         for _ in 0..=workspace.m {
-            let promised = self.promised(workspace, place, level);
+            let guaranteed = self.guaranteed(workspace, place, level);
             let last = &*place.level(level)[0];
-            if promised.0 <= RESIDUAL
-                || (promised.0 <= CONSISTENT && self.scales.is_roundoff(at, workspace.column, last))
+            if guaranteed.0 <= RESIDUAL
+                || (guaranteed.0 <= CONSISTENT
+                    && self.scales.is_roundoff(at, workspace.column, last))
             {
                 return Ok(());
             }
-            (left, worst) = promised;
+            (left, worst) = guaranteed;
             if !self.is_rounding(system, workspace, place, level, worst) {
                 break;
             }
@@ -391,7 +392,7 @@ impl<V: Vector> Constraints<V> {
                 Level::Positions => workspace.positions[worst],
                 Level::Rates => workspace.rates[worst],
             };
-            self.scales.note_grain(at, row, of_row);
+            self.scales.record_rounding(at, row, of_row);
         }
         Err(StepError::Inconsistent {
             constraint: worst,
@@ -475,7 +476,7 @@ impl<V: Vector> Constraints<V> {
     }
 
     /// The largest residual of the chosen rows on one level, relative to the scale of the guaranteed bound, and its row.
-    fn promised<M>(
+    fn guaranteed<M>(
         &self,
         workspace: &Workspace<'_, M>,
         place: &Place<'_, V>,
@@ -485,8 +486,8 @@ impl<V: Vector> Constraints<V> {
         for chosen in 0..self.choice.rank {
             let k = self.choice.row(chosen);
             let now = self.relative(workspace, k, place.q[0], place.v[0])[level as usize];
-            if !(now.promised <= most.0) {
-                most = (now.promised, k);
+            if !(now.guaranteed <= most.0) {
+                most = (now.guaranteed, k);
             }
         }
         most
@@ -514,7 +515,7 @@ impl<V: Vector> Constraints<V> {
         let (q, v) = (&*place.q[0], &*place.v[0]);
         let mut most = (0.0, 0);
         for (k, _) in system.constraints().enumerate() {
-            let [positions, rates] = self.relative(workspace, k, q, v).map(|of| of.promised);
+            let [positions, rates] = self.relative(workspace, k, q, v).map(|of| of.guaranteed);
             let now = if positions > rates { positions } else { rates };
             if !(now <= most.0) {
                 most = (now, k);
@@ -535,7 +536,7 @@ impl<V: Vector> Constraints<V> {
         {
             let by_rates = dot(row, v.as_slice());
             self.scales
-                .note_terms(k, row, (workspace.rates[k] - by_rates).abs());
+                .record_terms(k, row, (workspace.rates[k] - by_rates).abs());
         }
         Ok(())
     }

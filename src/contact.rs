@@ -32,9 +32,9 @@ mod touching;
 
 pub use event::{ContactEvent, ContactEventKind, ContactImpact, ImpactAcross};
 pub use force::{UnilateralForce, unilateral_forces};
-pub(crate) use impact::{Impact, Jam};
-pub(crate) use stepping::Stepped;
+pub(crate) use impact::{Impact, ParadoxResolution};
+pub(crate) use stepping::SteppedContacts;
 pub use touching::Mode;
-pub(crate) use touching::Touching;
+pub(crate) use touching::UnilateralState;
 
 use crate::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};

@@ -20,13 +20,13 @@ use std::vec::Vec;
 use crate::callbacks::{Observe, Watched};
 use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
-use crate::observation::Sight;
+use crate::observation::ObservedSystem;
 use crate::roots;
 use crate::stepper::Stepper;
 use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
 
 /// Fractions of a step at which the sign is evaluated if it changes at most once.
-pub(crate) const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+pub(crate) const SAMPLE_FRACTIONS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// A coordinate that turns by more than this in a step, in rad, may have returned to the same angle between two of the eight points. Functions of the
 /// motion are then interpolated to convergence.
@@ -166,12 +166,12 @@ impl<M: Machine> Watch<'_, M> {
     /// with the move is a jump of the function, which has the right sign on either side.
     fn settle<L: InputLaw<M::System>, A: Quadratures<M::System>>(
         &mut self,
-        sight: &Sight<'_, M::System, L>,
+        observed_system: &ObservedSystem<'_, M::System, L>,
         stepper: &StepperOf<'_, M, L, A>,
     ) -> Result<(), Error> {
-        let system = sight.system;
+        let system = observed_system.system;
         let mut value_of = |state: &State<Coordinates<M>>| {
-            let observe = || sight.observe::<M, A>(stepper, state);
+            let observe = || observed_system.observe::<M, A>(stepper, state);
             (self.function)(state, &observe)
         };
         self.begun = true;
@@ -325,12 +325,12 @@ pub(crate) enum Places {
 /// that ends the run, which is the answer.
 pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
     watches: &mut [Watch<'_, M>],
-    sight: &Sight<'_, M::System, L>,
+    observed_system: &ObservedSystem<'_, M::System, L>,
     stepper: &mut StepperOf<'_, M, L, A>,
     interpolant: &mut Option<Interpolant<<M::System as System>::Vector>>,
     events: &mut Vec<Event<Coordinates<M>>>,
 ) -> Result<Option<Terminal>, Error> {
-    let system = sight.system;
+    let system = observed_system.system;
     let mut found = Vec::new();
     let roundoff = theta_roundoff(stepper);
     let is_series = stepper.coefficients().is_some();
@@ -338,12 +338,12 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     let mut sampled = None;
     for (index, watch) in watches.iter_mut().enumerate() {
         if !watch.begun {
-            watch.settle(sight, stepper)?;
+            watch.settle(observed_system, stepper)?;
         }
         let value = |watch: &mut Watch<'_, M>,
                      stepper: &StepperOf<'_, M, L, A>,
                      at: &State<Coordinates<M>>| {
-            watch.value(at, &|| sight.observe::<M, A>(stepper, at))
+            watch.value(at, &|| observed_system.observe::<M, A>(stepper, at))
         };
         let mut places = Places::All;
         let known = watch.latest.take();
@@ -379,7 +379,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                     let at = state(system, interpolated_at(stepper, theta));
                     value(watch, stepper, &at)
                 };
-                watch.changes(&LOOKS, roundoff, look, |_, _, _| {
+                watch.changes(&SAMPLE_FRACTIONS, roundoff, look, |_, _, _| {
                     suspected = true;
                     Ok(())
                 })?;
@@ -391,14 +391,14 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         }
 
         // There may be something: look again, exactly.
-        let interpolant = made(interpolant, stepper, system)?;
+        let interpolant = step_motion(interpolant, stepper, system)?;
         let exact = |watch: &mut Watch<'_, M>, theta: f64| {
             let at = state_at(system, stepper, interpolant, theta)?;
             value(watch, stepper, &state(system, at))
         };
         let looks = match places {
             Places::All => &*roots::looks(|theta| exact(watch, theta))?,
-            Places::Few => &LOOKS,
+            Places::Few => &SAMPLE_FRACTIONS,
         };
         watch.changes(looks, roundoff, exact, |watch, from, to| {
             let side_before = watch.side;
@@ -448,7 +448,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         }
         let slope = slope(theta, roundoff, |theta| {
             let at = at(theta)?;
-            (watch.function)(&at, &|| sight.observe::<M, A>(stepper, &at))
+            (watch.function)(&at, &|| observed_system.observe::<M, A>(stepper, &at))
         })?;
         return Ok(Some(Terminal {
             watch: index,
@@ -542,7 +542,7 @@ pub(crate) fn at_fractions<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     interpolant: &mut Option<Interpolant<S::Vector>>,
 ) -> Result<[Triple<S::Vector>; roots::FRACTIONS.len()], Error> {
     if stepper.is_implicit() {
-        made(interpolant, stepper, system)?;
+        step_motion(interpolant, stepper, system)?;
     }
     let along = interpolant.as_ref().filter(|_| stepper.is_implicit());
     Ok(roots::FRACTIONS.map(|theta| match along {
@@ -681,7 +681,7 @@ fn sign(x: f64) -> f64 {
 }
 
 /// The motion within the last step.
-pub(crate) fn made<'p, S: System, L: InputLaw<S>, A: Quadratures<S>>(
+pub(crate) fn step_motion<'p, S: System, L: InputLaw<S>, A: Quadratures<S>>(
     interpolant: &'p mut Option<Interpolant<S::Vector>>,
     stepper: &mut Stepper<'_, S, L, A>,
     system: &S,
@@ -689,10 +689,10 @@ pub(crate) fn made<'p, S: System, L: InputLaw<S>, A: Quadratures<S>>(
     match interpolant {
         Some(interpolant) => Ok(interpolant),
         None => {
-            let made = stepper
+            let step_motion = stepper
                 .interpolant()
                 .map_err(|error| Error::of_step(error, system))?;
-            Ok(interpolant.insert(made))
+            Ok(interpolant.insert(step_motion))
         }
     }
 }

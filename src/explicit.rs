@@ -105,7 +105,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         machine: &impl Accelerate<N, V>,
     ) -> Result<Self, StepError> {
         let mut track = Self::resting(method, tolerance, (t, q, v));
-        track.look(machine)?;
+        track.evaluate_now(machine)?;
         Ok(track)
     }
 
@@ -235,7 +235,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
     }
 
     /// Evaluates the present accelerations of the only trajectory, at its start or after the inputs have changed.
-    pub fn look(&mut self, machine: &impl Accelerate<N, V>) -> Result<(), StepError> {
+    pub fn evaluate_now(&mut self, machine: &impl Accelerate<N, V>) -> Result<(), StepError> {
         let newest = self.newest();
         let Self { now, k, .. } = self;
         let (mut failed, mut trying) = (N::each(|_| None), N::each(|_| true));
@@ -377,10 +377,10 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let lanes = lanes.as_mut();
         let (scheme, stages) = (&method.scheme, method.tableau.stages);
         let mut trying = N::each(|lane| lanes[lane].is_running);
-        let mut asked = N::each(|_| 0);
-        let mut count = |asked: N::Each<usize>| {
-            for (lane, asked) in lanes.iter_mut().zip(asked.as_ref()) {
-                lane.control.work.evaluations += asked;
+        let mut evaluations = N::each(|_| 0);
+        let mut count = |evaluations: N::Each<usize>| {
+            for (lane, evaluations) in lanes.iter_mut().zip(evaluations.as_ref()) {
+                lane.control.work.evaluations += evaluations;
             }
         };
 
@@ -390,8 +390,8 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
                 let from = (&*before, h);
                 let to = [&mut *q, &mut *v];
                 let t = attempt::go_to_stage::<R, N, V>((method, i), from, k, to);
-                ask::<R, V>(
-                    (machine, &mut asked),
+                evaluate_counted::<R, V>(
+                    (machine, &mut evaluations),
                     (t, &*q, &*v),
                     &mut k[i],
                     &mut trying,
@@ -402,7 +402,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         }
         if !tries {
             choose_point(&N::each(|_| true), now, before);
-            count(asked);
+            count(evaluations);
             return N::each(|_| f64::INFINITY);
         }
 
@@ -410,8 +410,8 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         if scheme.error_needs_end && trying.as_ref().contains(&true) {
             keep_where(&trying, now, before);
             let at = (now.t, &now.q, &now.v);
-            ask::<R, V>(
-                (machine, &mut asked),
+            evaluate_counted::<R, V>(
+                (machine, &mut evaluations),
                 at,
                 &mut k[stages],
                 &mut trying,
@@ -441,10 +441,16 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         if !scheme.error_needs_end && good.as_ref().contains(&true) {
             keep_where(&good, now, before);
             let at = (now.t, &now.q, &now.v);
-            ask::<R, V>((machine, &mut asked), at, &mut k[stages], &mut good, failed);
+            evaluate_counted::<R, V>(
+                (machine, &mut evaluations),
+                at,
+                &mut k[stages],
+                &mut good,
+                failed,
+            );
         }
         keep_where(&good, now, before);
-        count(asked);
+        count(evaluations);
         errors
     }
 
@@ -583,8 +589,8 @@ fn give_up<N: StepNumber, V: Vector<N>>(
 ///
 /// A function and not a closure, since a closure would not be compiled into its caller for wide registers.
 #[inline(always)]
-fn ask<R, V>(
-    (machine, asked): (&impl Accelerate<R::Stored, V>, &mut Each<R, usize>),
+fn evaluate_counted<R, V>(
+    (machine, evaluations): (&impl Accelerate<R::Stored, V>, &mut Each<R, usize>),
     at: (R::Stored, &V, &V),
     a: &mut V,
     trying: &mut Each<R, bool>,
@@ -593,8 +599,8 @@ fn ask<R, V>(
     R: Scalar<Stored: StepNumber>,
     V: Vector<R::Stored>,
 {
-    for (asked, trying) in asked.as_mut().iter_mut().zip(trying.as_ref()) {
-        *asked += usize::from(*trying);
+    for (evaluations, trying) in evaluations.as_mut().iter_mut().zip(trying.as_ref()) {
+        *evaluations += usize::from(*trying);
     }
     let none = machine.accelerate(at.0, at.1, at.2, a).err();
     if none.is_some() || !are_all_finite::<R>(a.as_slice()) {

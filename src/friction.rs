@@ -34,7 +34,7 @@ mod law;
 
 #[cfg(feature = "std")]
 use law::ROUNDING;
-use law::{Each, Layout, Paradox, Parts, Question, length, solve};
+use law::{Each, Layout, OpenStates, Paradox, Parts, length, solve};
 pub(crate) use law::{Mode, Motion};
 
 use crate::system::MOST_CONTACTS;
@@ -109,7 +109,7 @@ pub(crate) struct Contacts {
     /// The largest slips so far.
     sizes: Each,
     /// Whether directions are continued through rest.
-    follows: bool,
+    continues_through_rest: bool,
 }
 
 /// The end of a contact state.
@@ -175,7 +175,7 @@ pub fn contact_forces<S: System>(
 ) -> Result<(), Singular> {
     let slips = resting_slips(system, t, q, v);
     with_parts(system, t, q, v, u, |parts, _| {
-        let known = Question::from_slips(&slips, parts.layout);
+        let known = OpenStates::from_slips(&slips, parts.layout);
         let (mode, friction_forces) = known.answer(parts).map_err(Paradox::singular)?;
         results(parts, &friction_forces, accelerations, multipliers);
         in_contacts(parts, &mode, &friction_forces, &slips, forces);
@@ -315,14 +315,14 @@ impl Contacts {
     ) -> Result<Contacts, StepError> {
         let slips = resting_slips(system, t, q, v);
         let mode = with_parts(system, t, q, v, u, |parts, _| {
-            let question = Question::from_slips(&slips, parts.layout);
-            let (mode, _) = question.answer(parts).map_err(Paradox::singular)?;
+            let open_states = OpenStates::from_slips(&slips, parts.layout);
+            let (mode, _) = open_states.answer(parts).map_err(Paradox::singular)?;
             Ok(mode)
         });
         let mut contacts = Contacts {
             count: system.contacts().len(),
             seconds: system.second_tangents(),
-            follows: true,
+            continues_through_rest: true,
             mode: mode.map_err(|singular| StepError::Singular { singular, t })?,
             sizes: [0.0; MOST_CONTACTS],
         };
@@ -338,10 +338,10 @@ impl Contacts {
     }
 
     /// Records the directions of skidding contacts at the beginning of a step.
-    pub fn take_headings<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+    pub fn record_headings<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
         if self.skids() {
             let as_seen = Contacts {
-                follows: false,
+                continues_through_rest: false,
                 ..self.clone()
             };
             self.mode = as_seen.mode_of(&slips(system, t, q, v));
@@ -350,9 +350,9 @@ impl Contacts {
 
     /// The contacts as seen after the run, at any time until their next change, by which a slip may have turned in any direction.
     #[cfg(feature = "std")]
-    pub fn as_seen_later(&self) -> Contacts {
+    pub fn for_later_observation(&self) -> Contacts {
         Contacts {
-            follows: false,
+            continues_through_rest: false,
             ..self.clone()
         }
     }
@@ -391,14 +391,15 @@ impl Contacts {
             if speed == 0.0 || speed <= NO_DIRECTION * greatest {
                 continue;
             }
-            let heading = [mode.course[k], mode.course[k + 1]];
+            let heading = [mode.slip_direction[k], mode.slip_direction[k + 1]];
             let ahead = heading[0] * slips[k] + heading[1] * slips[k + 1];
-            let way = if self.follows && ahead < 0.0 {
+            let way = if self.continues_through_rest && ahead < 0.0 {
                 -speed
             } else {
                 speed
             };
-            (mode.course[k], mode.course[k + 1]) = (slips[k] / way, slips[k + 1] / way);
+            (mode.slip_direction[k], mode.slip_direction[k + 1]) =
+                (slips[k] / way, slips[k + 1] / way);
         }
         mode
     }
@@ -503,7 +504,7 @@ impl Contacts {
                         [reserve, Margin::ENDLESS]
                     }
                     Motion::Skids => {
-                        let heading = &self.mode.course;
+                        let heading = &self.mode.slip_direction;
                         let value = heading[k] * slips[k] + heading[k + 1] * slips[k + 1];
                         let rounding = 0.0;
                         [Margin { value, rounding }, Margin::ENDLESS]
@@ -531,7 +532,7 @@ impl Contacts {
 
     /// The states that have ended according to their margins, and the index of the margin.
     #[cfg(feature = "std")]
-    pub fn seem_ended(
+    pub fn ended_by_margins(
         &self,
         margins: &[[Margin; 2]; MOST_CONTACTS],
     ) -> [Option<(Change, usize)>; 2 * MOST_CONTACTS] {
@@ -562,14 +563,14 @@ impl Contacts {
         (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
     ) -> Result<(), StepError> {
         let mode = self.mode_at(system, t, q, v);
-        let question = Question {
+        let open_states = OpenStates {
             motion: mode.motion.map(Some),
-            course: mode.course,
+            slip_direction: mode.slip_direction,
             excluded: None,
             turned: None,
         };
         with_parts(system, t, q, v, u, |parts, _| {
-            match question.answer(parts) {
+            match open_states.answer(parts) {
                 Err(paradox) if paradox.several => Err(paradox.singular()),
                 // If there is no motion, the state has ended, which is detected elsewhere.
                 _ => Ok(()),
@@ -596,7 +597,7 @@ impl Contacts {
             (_, cause) => cause == Cause::Veered,
         };
         if veers {
-            self.take_headings(system, t, q, v[0]);
+            self.record_headings(system, t, q, v[0]);
             return Ok(true);
         }
         let mut resting = [false; MOST_CONTACTS];
@@ -621,12 +622,12 @@ impl Contacts {
         let mut motion: [Option<Motion>; MOST_CONTACTS] =
             core::array::from_fn(|k| (!resting[k]).then_some(self.mode.motion[k]));
         let own = (k, self.mode.motion[k]);
-        let mut course = self.mode_of(&now).course;
+        let mut slip_direction = self.mode_of(&now).slip_direction;
         let at = |singular| StepError::Singular { singular, t };
         if change.cause == Cause::BrokeAway && self.seconds >> (k + 1) & 1 != 0 {
             // On a surface the law of friction determines the direction.
             (motion[k], motion[k + 1]) = (Some(Motion::Skids), Some(Motion::Skids));
-            (course[k], course[k + 1]) = (0.0, 0.0);
+            (slip_direction[k], slip_direction[k + 1]) = (0.0, 0.0);
         } else if change.cause == Cause::BrokeAway {
             let held = with_parts(system, t, q, v, u, |parts, _| {
                 friction_forces(parts, &self.mode)
@@ -639,12 +640,12 @@ impl Contacts {
         // A contact that has come to rest may continue in any direction.
         for k in 0..self.count {
             if motion[k].is_none() {
-                course[k] = 0.0;
+                slip_direction[k] = 0.0;
             }
         }
-        let question = Question {
+        let open_states = OpenStates {
             motion,
-            course,
+            slip_direction,
             excluded: match change.cause {
                 Cause::BrokeAway | Cause::Veered => None,
                 // It may continue in another direction.
@@ -657,7 +658,7 @@ impl Contacts {
             turned: (change.cause == Cause::Turned).then_some((own.0, own.1, -self.mode.press[k])),
         };
         let decided = with_parts(system, t, q, v, u, |parts, _| {
-            question.answer(parts).map_err(Paradox::singular)
+            open_states.answer(parts).map_err(Paradox::singular)
         });
         (self.mode, _) = decided.map_err(at)?;
         Ok(false)

@@ -31,7 +31,7 @@ use crate::tolerance::{SAFETY, Tolerance};
 use crate::{System, Vector};
 use jacobian::Jacobian;
 use lu::{Complex, Lu};
-use newton::{Apart, ROUNDS, ROUNDS_OF_PAIR};
+use newton::{ROUNDS, ROUNDS_OF_PAIR, StageJacobians};
 use std::boxed::Box;
 use std::vec::Vec;
 
@@ -50,7 +50,7 @@ pub(crate) struct Implicit {
     spectrum: Spectrum,
     n: usize,
     jacobian: Jacobian,
-    age: Age,
+    age: JacobianAge,
     /// `I − h μ a_v − h² μ² a_q` for all eigenvalues, factorized, and their `h`; 0 for none.
     real: Lu<f64>,
     complex: Vec<Lu<Complex>>,
@@ -60,7 +60,7 @@ pub(crate) struct Implicit {
     /// The residuals of the stages, later their changes.
     change: Vec<Vec<f64>>,
     /// Memory for Jacobians at each stage, once they were needed, and the number of steps for which they remain in use.
-    apart: Option<Box<Apart>>,
+    apart: Option<Box<StageJacobians>>,
     steps_apart: usize,
 
     /// Accelerations at the stages of the last step solved, its beginning and its length; 0 for none.
@@ -84,7 +84,7 @@ pub(crate) struct Implicit {
 
 /// Age of the Jacobian.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Age {
+enum JacobianAge {
     None,
     /// That of an earlier step.
     Old,
@@ -93,7 +93,7 @@ enum Age {
 }
 
 /// A step to be solved: its beginning, its length, and its tolerance.
-pub(crate) struct Task<'t, V> {
+pub(crate) struct StepProblem<'t, V> {
     pub method: &'static Method,
     pub before: &'t Point<V>,
     pub h: f64,
@@ -120,7 +120,7 @@ impl Implicit {
             spectrum,
             n,
             jacobian: Jacobian::new(system),
-            age: Age::None,
+            age: JacobianAge::None,
             real: Lu::new(n),
             complex: std::vec![Lu::new(n); pairs],
             factored: 0.0,
@@ -149,7 +149,7 @@ impl Implicit {
 
     /// Forgets the previous steps, since the accelerations have jumped.
     pub fn forget(&mut self) {
-        self.age = Age::None;
+        self.age = JacobianAge::None;
         self.known_length = 0.0;
         self.step_before = 0.0;
         self.left = 1.0;
@@ -162,20 +162,20 @@ impl Implicit {
     /// Those of `accelerations`.
     pub fn solve<V: Vector>(
         &mut self,
-        task: &Task<'_, V>,
+        task: &StepProblem<'_, V>,
         k: &mut [V; MAX_STAGES],
         [q, v]: [&mut V; 2],
         mut accelerations: impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
     ) -> Result<bool, StepError> {
         loop {
-            if self.age == Age::None {
+            if self.age == JacobianAge::None {
                 let [.., here, there] = k;
                 q.clone_from(&task.before.q);
                 v.clone_from(&task.before.v);
                 let scratch = [&mut *q, &mut *v, here, there];
                 let at = (task.before.t, task.h);
                 self.jacobian.find(at, scratch, &mut accelerations)?;
-                self.age = Age::Fresh;
+                self.age = JacobianAge::Fresh;
                 self.factored = 0.0;
             }
             let solved = if self.factor(task.h) {
@@ -195,17 +195,17 @@ impl Implicit {
                 return Ok(true);
             }
             self.left = 1.0;
-            if self.age == Age::Fresh && self.steps_apart == 0 && solved.is_ok() {
+            if self.age == JacobianAge::Fresh && self.steps_apart == 0 && solved.is_ok() {
                 self.steps_apart = STEPS_APART;
                 continue;
             }
-            if self.age == Age::Fresh || self.steps_apart > 0 {
+            if self.age == JacobianAge::Fresh || self.steps_apart > 0 {
                 if let Solved::Shorter(factor) = solved? {
                     self.shorter = factor;
                 }
                 return Ok(false);
             }
-            self.age = Age::None;
+            self.age = JacobianAge::None;
         }
     }
 
@@ -256,7 +256,7 @@ impl Implicit {
     /// so that a transient that the method damps does not count as an error (eq. (IV.8.20)).
     pub fn error_of_step<V: Vector>(
         &mut self,
-        task: &Task<'_, V>,
+        task: &StepProblem<'_, V>,
         (k, now): (&mut [V; MAX_STAGES], &Point<V>),
         [q, v]: [&mut V; 2],
         again: bool,
@@ -321,8 +321,8 @@ impl Implicit {
         }
     }
 
-    fn size_of_error<V: Vector>(&self, task: &Task<'_, V>, now: &Point<V>) -> f64 {
-        let Task {
+    fn size_of_error<V: Vector>(&self, task: &StepProblem<'_, V>, now: &Point<V>) -> f64 {
+        let StepProblem {
             before, tolerance, ..
         } = task;
         let mut sum = 0.0;
@@ -380,7 +380,11 @@ impl Implicit {
                 self.factored = 0.0;
             }
         }
-        self.age = if stays { Age::Old } else { Age::None };
+        self.age = if stays {
+            JacobianAge::Old
+        } else {
+            JacobianAge::None
+        };
         let factor = factor.clamp(shrink, grow);
         if stays && (1.0..=HARDLY_LONGER).contains(&factor) {
             1.0

@@ -72,7 +72,7 @@ pub struct Named {
 }
 
 /// The settings and the start of a run.
-type ToBeMade<'a, 'l> = (
+type RunTask<'a, 'l> = (
     Task<'a, InterpretedMachine, Law<'l, InterpretedSystem>>,
     State<Named>,
 );

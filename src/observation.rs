@@ -4,7 +4,7 @@ use std::vec;
 use std::vec::Vec;
 
 use crate::constraints::Constraints;
-use crate::contact::Touching;
+use crate::contact::UnilateralState;
 use crate::friction::{ContactForce, Contacts};
 use crate::inputs::{Held, InputLaw};
 use crate::step_error::StepError;
@@ -47,16 +47,16 @@ pub struct Observation<M: Machine> {
 pub(crate) struct Known<'x, V> {
     pub constraints: &'x Option<Constraints<V>>,
     pub contacts: Option<&'x Contacts>,
-    pub touching: Option<&'x Touching>,
+    pub touching: Option<&'x UnilateralState>,
 }
 
 /// A system with the law of its inputs, for observation during a run.
-pub(crate) struct Sight<'r, S: System, L> {
+pub(crate) struct ObservedSystem<'r, S: System, L> {
     pub system: &'r S,
     pub law: Held<'r, L, S::Inputs>,
 }
 
-impl<S: System, L: InputLaw<S>> Sight<'_, S, L> {
+impl<S: System, L: InputLaw<S>> ObservedSystem<'_, S, L> {
     pub fn inputs(&self, t: f64, q: &S::Vector, v: &S::Vector) -> S::Inputs {
         let mut inputs = self.system.default_inputs();
         self.law.set(self.system, t, q, v, &mut inputs);

@@ -4,7 +4,7 @@ use std::vec::Vec;
 
 use crate::balance::PartOfContact;
 use crate::constraints::Constraints;
-use crate::contact::{Impact, Mode as ContactMode, Touching};
+use crate::contact::{Impact, Mode as ContactMode, UnilateralState};
 use crate::stepper::Cause;
 use crate::{ContactEnergies, ContactEvent, ContactImpact, System, Warning};
 
@@ -12,7 +12,7 @@ use crate::{ContactEnergies, ContactEvent, ContactImpact, System, Warning};
 #[derive(Clone, Debug)]
 pub(crate) struct Phase<V> {
     pub since: f64,
-    pub touching: Touching,
+    pub touching: UnilateralState,
     /// The change with which it began, and its cause.
     pub change: Change,
     /// The constraints that hold the closed contacts.
@@ -21,17 +21,29 @@ pub(crate) struct Phase<V> {
 
 /// The energies of each contact up to an instant, and their rates there.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Book {
+pub(crate) struct EnergyEntry {
     pub of_each: Vec<ContactEnergies>,
     pub powers: Vec<PartOfContact>,
 }
 
-impl Book {
+impl EnergyEntry {
     /// The energies of a contact at the fraction `share` of the time `h` to another instant, if nothing
     /// jumps in between.
-    pub fn towards(&self, next: &Book, contact: usize, h: f64, share: f64) -> ContactEnergies {
-        let [from, to] = [self, next].map(|book| book.of_each[contact]);
-        let power = |book: &Book| book.powers.get(contact).copied().unwrap_or_default();
+    pub fn towards(
+        &self,
+        next: &EnergyEntry,
+        contact: usize,
+        h: f64,
+        share: f64,
+    ) -> ContactEnergies {
+        let [from, to] = [self, next].map(|energy_entry| energy_entry.of_each[contact]);
+        let power = |energy_entry: &EnergyEntry| {
+            energy_entry
+                .powers
+                .get(contact)
+                .copied()
+                .unwrap_or_default()
+        };
         let [begins, ends] = [power(self), power(next)];
         // Cubic Hermite interpolation.
         let between = |[from, to]: [f64; 2], [begins, ends]: [f64; 2]| {
@@ -47,11 +59,11 @@ impl Book {
             ),
             damping_loss: between(
                 [from.damping_loss, to.damping_loss],
-                [begins.yielding, ends.yielding],
+                [begins.compliance_loss, ends.compliance_loss],
             ),
             crushing_work: between(
                 [from.crushing_work, to.crushing_work],
-                [begins.yielding, ends.yielding],
+                [begins.compliance_loss, ends.compliance_loss],
             ),
             work: between([from.work, to.work], [begins.work, ends.work]),
         }
@@ -107,9 +119,9 @@ pub enum PhaseCause {
 
 impl<V> Phase<V> {
     /// Its public view.
-    pub fn told(&self) -> ContactPhase<'_> {
+    pub fn public_view(&self) -> ContactPhase<'_> {
         let impact = |of: &Impact| {
-            let told = ContactImpact {
+            let impact = ContactImpact {
                 gap_rate: of.gap_rate,
                 slip: of.slip,
                 impulse: of.impulse,
@@ -117,14 +129,14 @@ impl<V> Phase<V> {
                 // Here the second tangent of a contact has an impact of its own.
                 across: None,
             };
-            (of.contact, told)
+            (of.contact, impact)
         };
         ContactPhase {
             since: self.since,
             modes: self.touching.modes(),
             loaded: self.touching.loaded().collect(),
             cause: match self.change.cause {
-                Some(Cause::Asked) => PhaseCause::Asked,
+                Some(Cause::Unspecified) => PhaseCause::Asked,
                 Some(Cause::Lifts(k) | Cause::Leaves(k)) => PhaseCause::Lifts(k),
                 Some(Cause::Stops(k)) => PhaseCause::Stops(k),
                 Some(Cause::Breaks(k)) => PhaseCause::Breaks(k),
@@ -140,35 +152,35 @@ impl<V> Phase<V> {
 
 /// The record of the unilateral contacts of a run.
 #[derive(Clone, Debug)]
-pub(crate) struct Kept<C, V> {
+pub(crate) struct UnilateralRecord<C, V> {
     pub phases: Vec<Phase<V>>,
     pub events: Vec<ContactEvent<C>>,
     /// For each contact the energy lost in its impacts, in J.
     pub losses: Vec<f64>,
     /// The energies of each contact, at the same instants as the energies of the machine.
-    pub books: Vec<Book>,
+    pub energy_entries: Vec<EnergyEntry>,
     /// In time stepping, for each contact whether it is closed permanently.
     pub last: Vec<bool>,
     /// Impacts that created energy: their number, and the worst.
-    pub gains: usize,
+    pub energy_gains: usize,
     pub worst: Option<(usize, f64, f64)>,
 }
 
-impl<C, V> Default for Kept<C, V> {
+impl<C, V> Default for UnilateralRecord<C, V> {
     fn default() -> Self {
-        Kept {
+        UnilateralRecord {
             phases: Vec::new(),
             events: Vec::new(),
             losses: Vec::new(),
-            books: Vec::new(),
+            energy_entries: Vec::new(),
             last: Vec::new(),
-            gains: 0,
+            energy_gains: 0,
             worst: None,
         }
     }
 }
 
-impl<C, V> Kept<C, V> {
+impl<C, V> UnilateralRecord<C, V> {
     /// The warning to be reported, if any.
     pub fn warning<S: System>(&self, system: &S) -> Option<Warning> {
         let (contact, t, gain) = self.worst?;
@@ -177,7 +189,7 @@ impl<C, V> Kept<C, V> {
             contact: contacts.nth(contact).map_or("?", |of| of.name).into(),
             t,
             gain,
-            impacts: self.gains,
+            impacts: self.energy_gains,
         })
     }
 }

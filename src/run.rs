@@ -15,37 +15,37 @@ use std::time::Instant;
 use std::vec::Vec;
 
 use crate::balance::{Energies, EnergyBalance, EnergyIntegrals, Quadratures};
-use crate::constraints::{Constraints, Miss, closest};
+use crate::constraints::{Constraints, Violation, closest};
 use crate::contact::Mode;
 use crate::equations::check_equations;
 use crate::error::{KeptContradiction, constraint_name};
-use crate::event::{self, Crossing, Event, Places, Terminal, Triple, made, state};
+use crate::event::{self, Crossing, Event, Places, Terminal, Triple, state, step_motion};
 use crate::friction::{Cause, Change, Contacts, Motion};
 use crate::inputs::{Held, InputLaw, Law};
 use crate::interpolant::Interpolant;
 use crate::methods::{Kind, Method};
 use crate::names::rate_name;
-use crate::observation::{Known, Sight};
-use crate::phases::Kept;
+use crate::observation::{Known, ObservedSystem};
+use crate::phases::UnilateralRecord;
 use crate::piece::Piece;
 use crate::roots;
 use crate::settings::{Callbacks, Of, Progress, Settings, Task};
 use crate::solution::{
-    Ending, Handover, Made, MethodChoice, MethodReason, Solution, Statistics, Steps, handover,
+    Ending, Handover, MethodChoice, MethodReason, RunResult, Solution, Statistics, Steps, handover,
     is_beyond,
 };
 use crate::stages::Point;
 use crate::step_error::StepError;
-use crate::stepper::{Stepper, Whose};
+use crate::stepper::{BorrowedOrOwned, Stepper};
 use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 use crate::{
     ContactTrouble, Coordinates, Error, Inputs, Machine, Pivot, Singular, State, StepMotion,
     System, Vector, Warning,
 };
 use choosing::{CANDIDATES, Choosing};
-use contacts::Meeting;
+use contacts::PendingChange;
 use explained::Explained;
-use handing_over::Pace;
+use handing_over::ContactActivity;
 
 /// Makes the run of a simulation, and returns it with the error that ended it early, if any.
 ///
@@ -56,7 +56,7 @@ use handing_over::Pace;
 pub(crate) fn run<M: Machine>(
     task: Task<'_, M, Law<'_, M::System>>,
     start: State<Coordinates<M>>,
-) -> Made<M> {
+) -> RunResult<M> {
     let mut prepared = Prepared::new(task, start)?;
     let mut run = prepared.begin()?;
     let ending = run.go_to_end();
@@ -202,7 +202,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let held = sampling.is_some().then(|| system.default_inputs());
         let model = Model {
             system,
-            sight: Sight {
+            observed_system: ObservedSystem {
                 system,
                 law: Held {
                     law,
@@ -220,8 +220,8 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         }
         let begun = |method| {
             Stepper::begun(
-                Whose::Borrowed(system),
-                model.sight.law.clone(),
+                BorrowedOrOwned::Borrowed(system),
+                model.observed_system.law.clone(),
                 quadratures.clone(),
                 method,
                 tolerance.clone(),
@@ -244,14 +244,14 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             stepper.set_first_step(step);
         }
         for watch in &mut callbacks.watches {
-            let observe = || model.sight.observe::<M, _>(&stepper, start);
+            let observe = || model.observed_system.observe::<M, _>(&stepper, start);
             watch.begin(start, ended.as_ref() == Some(&watch.name), &observe)?;
         }
         for stream in &mut callbacks.streams {
             stream.begin(start);
         }
 
-        let pace = Pace::new(
+        let activity = ContactActivity::new(
             settings.hands_over && settings.method.kind == Kind::RungeKutta,
             system.unilateral_contacts().len(),
         );
@@ -272,7 +272,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             stop: until,
             sampling,
             next_step: None,
-            pace,
+            activity,
             choosing,
             record: Record {
                 held: held.map(|held| (start.t, held)).into_iter().collect(),
@@ -282,7 +282,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
                 events: Vec::new(),
                 energies: Vec::new(),
                 contacts: Vec::new(),
-                unilateral: Kept::default(),
+                unilateral: UnilateralRecord::default(),
                 handovers: Vec::new(),
                 kinetic_energy: 0.0,
                 explained: Explained::default(),
@@ -290,7 +290,11 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             },
             settings,
         };
-        let contacts = run.stepper.contacts().iter().map(Contacts::as_seen_later);
+        let contacts = run
+            .stepper
+            .contacts()
+            .iter()
+            .map(Contacts::for_later_observation);
         run.record
             .contacts
             .extend(contacts.map(|known| (start.t, known)));
@@ -299,7 +303,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             return Err(Error::EnergiesUnknown { t: start.t });
         }
         if <M::System as System>::MAY_COLLIDE {
-            run.meet_at_start()?;
+            run.resolve_contacts_at_start()?;
         }
         run.begin_choosing()?;
         Ok(run)
@@ -454,7 +458,7 @@ pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures
     /// The length of the step within which the run ended at an event.
     next_step: Option<f64>,
     /// How frequently contacts change.
-    pace: Pace,
+    activity: ContactActivity,
     /// The choice of the method, if the run makes it.
     choosing: Choosing,
     record: Record<M>,
@@ -469,7 +473,7 @@ struct BetweenSteps {
     /// Time of the last change of contacts, and the number of changes at that time.
     last_change: (f64, usize),
     /// A change of unilateral contacts at which the stepper will stop.
-    meeting: Option<Meeting>,
+    pending_change: Option<PendingChange>,
 }
 
 impl BetweenSteps {
@@ -478,7 +482,7 @@ impl BetweenSteps {
             ending: Ok(Ending::End),
             pending: None,
             last_change: (f64::NAN, 0),
-            meeting: None,
+            pending_change: None,
         }
     }
 }
@@ -496,7 +500,7 @@ struct Record<M: Machine> {
     /// The states of the guided contacts, each with the time from which it holds.
     contacts: Vec<(f64, Contacts)>,
     /// Record of the unilateral contacts.
-    unilateral: Kept<Coordinates<M>, VectorOf<M>>,
+    unilateral: UnilateralRecord<Coordinates<M>, VectorOf<M>>,
     /// When the run changed to time stepping and back.
     handovers: Vec<Handover>,
     /// The largest kinetic energy so far, in J.
@@ -533,7 +537,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         while !self.stepper.is_done() {
             self.check_count()?;
             let stepped = self.stepper.step();
-            if let Some(ending) = self.look_at_step(&mut between, stepped)? {
+            if let Some(ending) = self.examine_step(&mut between, stepped)? {
                 return Ok(ending);
             }
         }
@@ -563,7 +567,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Examines a step that was taken or failed. Returns the reason if the run ends.
     #[inline(always)]
-    fn look_at_step(
+    fn examine_step(
         &mut self,
         between: &mut BetweenSteps,
         stepped: Result<(), StepError>,
@@ -572,7 +576,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             ending,
             pending,
             last_change,
-            meeting,
+            pending_change,
         } = between;
         if let Err(error) = stepped {
             // Where an assumption ends there may be no accelerations to go on with; then the end of the assumption is the reason.
@@ -580,13 +584,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             if self.leave_series(&error) {
                 return Ok(None);
             }
-            let error = self.unheld(&error).unwrap_or(error);
+            let error = self.vanishing_gradient_error(&error).unwrap_or(error);
             return Err(self
                 .model
                 .explain(error, self.stepper.q(), self.stepper.v()));
         }
 
-        if <M::System as System>::MAY_COLLIDE && self.is_stepped() && self.is_roused() {
+        if <M::System as System>::MAY_COLLIDE && self.is_stepped() && self.undo_step_into_motion() {
             return Ok(None);
         }
         let mut interpolant = None;
@@ -608,11 +612,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             && !self.stepper.is_by_impulses()
         {
             let looks = ending.is_ok();
-            let next = self.follow_contacts(meeting, &mut interpolant, looks, last_change)?;
+            let next =
+                self.follow_contacts(pending_change, &mut interpolant, looks, last_change)?;
             match next {
-                contacts::Next::Step => return Ok(None),
-                contacts::Next::End(ending) => return Ok(Some(ending)),
-                contacts::Next::Keep => {}
+                contacts::AfterContacts::Step => return Ok(None),
+                contacts::AfterContacts::End(ending) => return Ok(Some(ending)),
+                contacts::AfterContacts::Keep => {}
             }
         }
         // To end the run within a step, the step is repeated up to that time. So the end and the energy balance are as accurate as at
@@ -623,7 +628,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.stepper.retreat(t);
             *ending = Err(Error::AssumptionEnded { assumption, t });
             *pending = None;
-            *meeting = None;
+            *pending_change = None;
             return Ok(None);
         }
         if let Some(found) = self.find_events(&mut interpolant)? {
@@ -636,7 +641,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if <M::System as System>::MAY_COLLIDE && self.is_stepped() {
             self.go_on_after_step()?;
         }
-        if pending.is_none() && meeting.is_none() && ending.is_ok() {
+        if pending.is_none() && pending_change.is_none() && ending.is_ok() {
             self.choose_again()?;
         }
         if <M::System as System>::MAY_SLIDE && self.stepper.is_done() {
@@ -644,7 +649,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         if <M::System as System>::MAY_COLLIDE
             && self.stepper.is_done()
-            && let Some(ending) = self.meet(meeting, last_change)?
+            && let Some(ending) = self.resolve_pending_change(pending_change, last_change)?
         {
             return Ok(Some(ending));
         }
@@ -653,11 +658,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// The error of a run that stops because the gap of a closed contact hardly depends on the coordinates any more: the force that holds
     /// it shut grows without bound, and steps shrink.
-    fn unheld(&self, error: &StepError) -> Option<StepError> {
+    fn vanishing_gradient_error(&self, error: &StepError) -> Option<StepError> {
         let StepError::StepTooSmall { t, .. } = *error else {
             return None;
         };
-        self.slack(NEAR_FORK, |_| true)
+        self.contact_with_small_gradient(NEAR_FORK, |_| true)
             .map(|contact| StepError::Contact {
                 contact,
                 trouble: ContactTrouble::NotHeld,
@@ -667,7 +672,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// The first closed contact among those that `counts` selects whose gap has a gradient of less than `share` times its length
     /// at the start.
-    fn slack(&self, share: f64, counts: impl Fn(usize) -> bool) -> Option<usize> {
+    fn contact_with_small_gradient(
+        &self,
+        share: f64,
+        counts: impl Fn(usize) -> bool,
+    ) -> Option<usize> {
         let (touching, system) = (self.stepper.touching().as_ref()?, self.model.system);
         let is_closed = |contact: &usize| touching.modes()[*contact] != Mode::Open;
         let closed = (0..touching.modes().len()).filter(|k| counts(*k) && is_closed(k));
@@ -706,10 +715,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let mut earliest: Option<(f64, f64, Change)> = None;
         let mut theta_before = 0.0;
         let theta_roundoff = event::theta_roundoff(stepper);
-        for theta in event::LOOKS {
-            let ended = contacts.seem_ended(&margins(&event::interpolated_at(stepper, theta))?);
+        for theta in event::SAMPLE_FRACTIONS {
+            let ended =
+                contacts.ended_by_margins(&margins(&event::interpolated_at(stepper, theta))?);
             for (change, kind) in ended.into_iter().flatten() {
-                let interpolant = made(interpolant, stepper, model.system)?;
+                let interpolant = step_motion(interpolant, stepper, model.system)?;
                 let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
                 let exactly = |theta| Ok(margins(&at(theta)?)?[change.contact][kind]);
                 if !exactly(theta)?.is_lost_since(exactly(theta_before)?) {
@@ -777,12 +787,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             steps.jump(&self.stepper);
             self.enter_energies();
         }
-        self.note_contacts(before);
+        self.record_contacts(before);
         Ok(())
     }
 
     /// Records the states of the contacts with friction.
-    fn note_contacts(&mut self, before: Option<Contacts>) {
+    fn record_contacts(&mut self, before: Option<Contacts>) {
         let t = self.stepper.t();
         let Some(now) = self.stepper.contacts() else {
             return;
@@ -811,7 +821,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 state: state(self.model.system, at),
             });
         }
-        self.record.contacts.push((t, now.as_seen_later()));
+        self.record.contacts.push((t, now.for_later_observation()));
     }
 
     /// The time at which an assumption of the description ended in the last step, and its text. It may hold again at the end of the step,
@@ -824,7 +834,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let Some(looks) = model.looks_at_assumptions(stepper, interpolant)? else {
             return Ok(None);
         };
-        let interpolant = made(interpolant, stepper, model.system)?;
+        let interpolant = step_motion(interpolant, stepper, model.system)?;
         let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
         for theta in looks {
             let Some((index, text)) = model.ended_assumption(at(theta)?) else {
@@ -853,7 +863,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         } = self;
         event::find(
             &mut callbacks.watches,
-            &model.sight,
+            &model.observed_system,
             stepper,
             interpolant,
             &mut record.events,
@@ -885,7 +895,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 (t, self.stepper.q().clone(), self.stepper.v().clone()),
             );
             let watch = &mut self.callbacks.watches[found.watch];
-            let observe = || self.model.sight.observe::<M, A>(&self.stepper, &state);
+            let observe = || {
+                self.model
+                    .observed_system
+                    .observe::<M, A>(&self.stepper, &state)
+            };
             let correction = match found.slope {
                 Some(slope) if is_step => -watch.value(&state, &observe)? / slope,
                 _ => 0.0,
@@ -921,7 +935,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.keep_samples(interpolant)?;
         self.show(interpolant)?;
         if <M::System as System>::MAY_COLLIDE && self.is_stepped() {
-            self.note_step();
+            self.record_step();
         }
         let before = self.record.energies.last().copied();
         let explained = self.enter_energies();
@@ -954,7 +968,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         } = self;
         match &callbacks.observer {
             None => Ok(()),
-            Some(observer) => (observer.lock())(&mut Within {
+            Some(observer) => (observer.lock())(&mut LastStep {
                 model,
                 stepper,
                 interpolant,
@@ -1001,7 +1015,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let (q, v) = if t == self.stepper.t() {
             (self.stepper.q().clone(), self.stepper.v().clone())
         } else {
-            let (mut q, mut v) = made(interpolant, &mut self.stepper, system)?.state(t);
+            let (mut q, mut v) = step_motion(interpolant, &mut self.stepper, system)?.state(t);
             self.stepper
                 .project(t, &mut q, &mut v)
                 .map_err(|error| Error::of_step(error, system))?;
@@ -1030,15 +1044,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             && record.energies.last().is_some_and(Energies::are_finite)
         {
             record.energies.pop();
-            record.unilateral.books.pop();
+            record.unilateral.energy_entries.pop();
         }
         record.energies.push(Energies {
             potential: energies.potential + stored,
             ..energies
         });
         if <M::System as System>::MAY_COLLIDE && self.stepper.touching().is_some() {
-            let book = self.book();
-            self.record.unilateral.books.push(book);
+            let energy_entry = self.energy_entry();
+            self.record.unilateral.energy_entries.push(energy_entry);
         }
         explained
     }
@@ -1068,7 +1082,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return;
         }
         let bound = 0.1 * explained;
-        let known = made(interpolant, &mut self.stepper, self.model.system)
+        let known = step_motion(interpolant, &mut self.stepper, self.model.system)
             .is_ok_and(|of_step| matches!(self.stepper.integrate_along(of_step, bound), Ok(true)));
         // If this did not help once, it is not tried again: the residual stays, and the run reports it.
         self.record.is_unexplained = !known;
@@ -1077,7 +1091,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             && let Some(now) = self.record.energies.last_mut()
         {
             (now.work, now.dissipated) = (integrals.work(), integrals.dissipated());
-            self.correct_book();
+            self.correct_energy_entry();
         }
     }
 
@@ -1126,13 +1140,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 }
 
 /// The last step, as an observer sees it.
-struct Within<'w, 'r, 's, S: System, L, K, A> {
+struct LastStep<'w, 'r, 's, S: System, L, K, A> {
     model: &'w Model<'r, S, L>,
     stepper: &'w mut Stepper<'s, S, K, A>,
     interpolant: &'w mut Option<Interpolant<S::Vector>>,
 }
 
-impl<M, L, K, A> StepMotion<M> for Within<'_, '_, '_, M::System, L, K, A>
+impl<M, L, K, A> StepMotion<M> for LastStep<'_, '_, '_, M::System, L, K, A>
 where
     M: Machine,
     L: InputLaw<M::System>,
@@ -1159,7 +1173,7 @@ where
             v.clone_from(stepper.v_before());
             return Ok(stepper.t_before());
         }
-        let interpolant = made(self.interpolant, stepper, model.system)?;
+        let interpolant = step_motion(self.interpolant, stepper, model.system)?;
         event::state_into(model.system, stepper, interpolant, theta, [q, v])
     }
 
@@ -1171,7 +1185,7 @@ where
             _ if t == to => (stepper.q().clone(), stepper.v().clone()),
             _ if t == from => (stepper.q_before().clone(), stepper.v_before().clone()),
             _ => {
-                let (mut q, mut v) = made(self.interpolant, stepper, system)?.state(t);
+                let (mut q, mut v) = step_motion(self.interpolant, stepper, system)?.state(t);
                 stepper
                     .project(t, &mut q, &mut v)
                     .map_err(|error| Error::of_step(error, system))?;
@@ -1201,14 +1215,14 @@ where
 /// A system with its inputs.
 struct Model<'r, S: System, L> {
     system: &'r S,
-    sight: Sight<'r, S, L>,
+    observed_system: ObservedSystem<'r, S, L>,
     /// Time and coordinates at the start of the run.
     start: (f64, &'r S::Vector),
 }
 
 impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     fn inputs(&self, t: f64, q: &S::Vector, v: &S::Vector) -> S::Inputs {
-        self.sight.inputs(t, q, v)
+        self.observed_system.inputs(t, q, v)
     }
 
     /// The fractions of the last step at which to evaluate the assumptions: between neighbours none of them fails and holds again. `None`
@@ -1233,7 +1247,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             };
             if self.system.has_linear_assumptions()
                 && holds(t, q, v)
-                && self.hold_along(stepper, coefficients, holds)
+                && self.hold_throughout_series(stepper, coefficients, holds)
             {
                 return Ok(None);
             }
@@ -1266,10 +1280,10 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 return Ok(None);
             }
         }
-        let interpolant = made(interpolant, stepper, self.system)?;
+        let interpolant = step_motion(interpolant, stepper, self.system)?;
         let at = |theta| event::state_at(self.system, stepper, interpolant, theta);
         let mut looks = if places.contains(&Some(Places::Few)) {
-            event::LOOKS.to_vec()
+            event::SAMPLE_FRACTIONS.to_vec()
         } else {
             Vec::new()
         };
@@ -1300,7 +1314,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     ///
     /// The motion is `Σ cⱼ θʲ` with `1 ≥ θ ≥ θ² ≥ …`, which is a convex combination of the partial sums `Σ cⱼ` over `j ≤ k`. So a fact that
     /// holds at each partial sum holds along the step.
-    fn hold_along<A: Quadratures<S>>(
+    fn hold_throughout_series<A: Quadratures<S>>(
         &self,
         stepper: &Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
         coefficients: &[S::Vector],
@@ -1403,8 +1417,8 @@ fn project_start<S: System>(
     let mut projected = known.begin(system, &mut start.place(), kept.clone());
     if let (Err(_), Some(kept)) = (&projected, kept) {
         start = Point::new(t, q.clone(), v.clone());
-        let misses = closest(system, &mut start.place(), &kept);
-        if let Some(error) = contradicts_kept(system, &start, &kept, &misses) {
+        let violations = closest(system, &mut start.place(), &kept);
+        if let Some(error) = contradicts_kept(system, &start, &kept, &violations) {
             return Err(error);
         }
         // The projection converges from here, since this start is near the constraints.
@@ -1448,13 +1462,13 @@ fn contradicts_kept<S: System>(
     system: &S,
     best: &Point<S::Vector>,
     kept: &[S::Vector; 2],
-    misses: &[Miss],
+    violations: &[Violation],
 ) -> Option<Error> {
     let n = best.q.as_slice().len();
     let m = system.constraints().len();
     let mut rows = std::vec![0.0; m * n];
     system.constraint_matrix(best.t, &best.q, &mut rows);
-    let contradiction = |&(row, level, residual): &Miss| {
+    let contradiction = |&(row, level, residual): &Violation| {
         let is_kept = |j: usize| kept[level].as_slice()[j] != 0.0 && rows[row * n + j] != 0.0;
         let coordinates = system.coordinates().enumerate();
         let kept = coordinates.filter(|(j, _)| is_kept(*j));
@@ -1472,7 +1486,7 @@ fn contradicts_kept<S: System>(
             },
         })
     };
-    let contradictions: Vec<_> = misses.iter().filter_map(contradiction).collect();
+    let contradictions: Vec<_> = violations.iter().filter_map(contradiction).collect();
     let is_kept = contradictions.iter().any(|of| !of.kept.is_empty());
     is_kept.then_some(Error::KeptStart {
         contradictions,

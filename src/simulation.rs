@@ -10,7 +10,7 @@ use crate::methods::Method;
 use crate::observation::Observation;
 use crate::run;
 use crate::settings::{Callbacks, Of, Progress, Resumed, Sampled, Settings, Stream, Task};
-use crate::solution::{Ending, Made, Solution};
+use crate::solution::{Ending, RunResult, Solution};
 use crate::table::{Table, TableInputs};
 use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
 
@@ -632,7 +632,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     pub(crate) fn run_by(
         self,
         start: State<Coordinates<M>>,
-        make: impl FnOnce(Task<'a, M, Law<'_, M::System>>, State<Coordinates<M>>) -> Made<M>,
+        make: impl FnOnce(Task<'a, M, Law<'_, M::System>>, State<Coordinates<M>>) -> RunResult<M>,
     ) -> Result<(Solution<M, L>, Option<Error>), Error> {
         let task = Task {
             of: self.of,

@@ -20,7 +20,7 @@ use crate::inputs::{DefaultInputs, InputLaw};
 use crate::interpolant::Interpolant;
 use crate::methods::{Kind, Method};
 use crate::observation::{Known, Observation};
-use crate::phases::{Kept, Phase};
+use crate::phases::{Phase, UnilateralRecord};
 use crate::piece::Piece;
 use crate::settings::Settings;
 use crate::step_error::StepError;
@@ -59,7 +59,7 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     /// The intervals of time in which the inputs are smooth, in the order of the run; empty if they are smooth throughout.
     pub(crate) pieces: Vec<Piece>,
     /// Record of the unilateral contacts.
-    pub(crate) unilateral: Kept<Coordinates<M>, VectorOf<M>>,
+    pub(crate) unilateral: UnilateralRecord<Coordinates<M>, VectorOf<M>>,
     /// When the run changed to time stepping and back.
     pub(crate) handovers: Vec<Handover>,
     /// The methods that were chosen.
@@ -132,7 +132,7 @@ pub struct Statistics {
 }
 
 /// A run without its law and the error that ended it early, or an error if it could not begin.
-pub(crate) type Made<M> = Result<(Solution<M, ()>, Option<Error>), Error>;
+pub(crate) type RunResult<M> = Result<(Solution<M, ()>, Option<Error>), Error>;
 
 impl<M: Machine> Solution<M, ()> {
     /// Adds the law that drove the run.
@@ -404,7 +404,7 @@ impl<M: Machine, L> Solution<M, L> {
 
     /// The phases of the unilateral contacts, from one change to the next.
     pub fn contact_phases(&self) -> impl ExactSizeIterator<Item = ContactPhase<'_>> {
-        self.unilateral.phases.iter().map(Phase::told)
+        self.unilateral.phases.iter().map(Phase::public_view)
     }
 
     /// The energy stored in compliant unilateral contacts, in J.
@@ -443,7 +443,7 @@ impl<M: Machine, L> Solution<M, L> {
 
     /// The energies of each unilateral contact, if the simulation kept the energy balance; otherwise empty.
     pub fn contact_energies(&self) -> &[ContactEnergies] {
-        (self.unilateral.books.last()).map_or(&[], |book| book.of_each.as_slice())
+        (self.unilateral.energy_entries.last()).map_or(&[], |book| book.of_each.as_slice())
     }
 
     /// For each unilateral contact the work that crushed its layer until the end, in J; 0 for contacts without a layer.
@@ -468,13 +468,16 @@ impl<M: Machine, L> Solution<M, L> {
     /// the ends of steps and interpolated between them by cubic Hermite polynomials. `None` if the energies at the ends of steps
     /// were not kept.
     pub fn contact_energies_at(&self, t: f64) -> Option<Vec<ContactEnergies>> {
-        let books = &self.unilateral.books;
-        if !self.settings.keep_energies || books.len() != self.energies.len() {
-            return (t == self.end.t && !books.is_empty())
+        let energy_entries = &self.unilateral.energy_entries;
+        if !self.settings.keep_energies || energy_entries.len() != self.energies.len() {
+            return (t == self.end.t && !energy_entries.is_empty())
                 .then(|| self.contact_energies().to_vec());
         }
         let after = self.energies.partition_point(|of| of.t <= t);
-        let (before, next) = (books.get(after.checked_sub(1)?)?, books.get(after));
+        let (before, next) = (
+            energy_entries.get(after.checked_sub(1)?)?,
+            energy_entries.get(after),
+        );
         let from = self.energies[after - 1].t;
         let Some(next) = next else {
             return (from == t).then(|| before.of_each.clone());

@@ -6,6 +6,8 @@ mod along_dense_output;
 #[cfg(feature = "std")]
 mod changing;
 #[cfg(feature = "std")]
+mod contact_changes;
+#[cfg(feature = "std")]
 mod handing_over;
 #[cfg(feature = "std")]
 mod implicitly;
@@ -16,15 +18,13 @@ pub(crate) mod in_lanes;
 #[cfg(feature = "std")]
 mod in_series;
 mod kernels;
-#[cfg(feature = "std")]
-mod meeting;
 mod of_fixed_length;
 
 mod owned;
 #[cfg(feature = "std")]
-pub(crate) use meeting::{Cause, Happened};
+pub(crate) use contact_changes::{Cause, ContactChanges};
 
-pub(crate) use owned::Whose;
+pub(crate) use owned::BorrowedOrOwned;
 pub use owned::{ControlledStepper, StepperBuilder};
 
 use crate::attempt::{self, not_finite};
@@ -33,7 +33,7 @@ use crate::balance::{NoBalance, Quadratures};
 use crate::compensated::Sum;
 use crate::constraints::Constraints;
 #[cfg(feature = "std")]
-use crate::contact::Touching;
+use crate::contact::UnilateralState;
 use crate::control::{self, Control, MAX_STEPS, Work};
 #[cfg(feature = "std")]
 use crate::friction::Change;
@@ -118,7 +118,7 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
 
 /// Limits on the length of a step at its beginning, in s.
 #[derive(Clone, Copy, Debug)]
-struct Room {
+struct StepLimits {
     /// Below this length a step is too small.
     least: f64,
     /// The signed distance to the end.
@@ -128,7 +128,7 @@ struct Room {
 /// The equations of motion with their inputs.
 #[derive(Clone, Debug)]
 struct Model<'s, S: System, L> {
-    system: Whose<'s, S>,
+    system: BorrowedOrOwned<'s, S>,
     law: L,
     inputs: S::Inputs,
     /// `None` if the machine has no constraints.
@@ -137,7 +137,7 @@ struct Model<'s, S: System, L> {
     contacts: Option<Contacts>,
     /// `None` if it has no unilateral contacts. The closed ones are among `constraints`.
     #[cfg(feature = "std")]
-    touching: Option<Touching>,
+    touching: Option<UnilateralState>,
 }
 
 /// State of the stiffness test of DOP853 (section IV.2 of the second volume).
@@ -164,7 +164,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         end: f64,
     ) -> Result<Self, StepError> {
         Self::check(system, &start)?;
-        let system = Whose::Borrowed(system);
+        let system = BorrowedOrOwned::Borrowed(system);
         Self::begun(system, law, quadratures, method, tolerance, start, end)
     }
 
@@ -183,7 +183,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// [`new`](Self::new) for a run, which locates the events of unilateral contacts.
     pub(crate) fn begun(
-        system: Whose<'s, S>,
+        system: BorrowedOrOwned<'s, S>,
         law: L,
         quadratures: A,
         method: &'static Method,
@@ -282,13 +282,13 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
         #[cfg(feature = "std")]
         if S::MAY_COLLIDE && model.system.unilateral_contacts().len() != 0 {
-            model.touching = Some(Touching::new(model.system.get()));
+            model.touching = Some(UnilateralState::new(model.system.get()));
         }
         let found = model.accelerations(now.t, &now.q, &now.v, &mut k[0], work);
         if S::MAY_BE_CONSTRAINED
             && let Some(constraints) = &mut model.constraints
             && found.is_err()
-            && constraints.meet_fork(
+            && constraints.notice_fork(
                 [constraints.hold(model.system.get(), now.t, &now.q); 3],
                 false,
             )
@@ -453,7 +453,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 // The slip cannot turn instantaneously. It is the field of tangents that is discontinuous here, as every such field is
                 // somewhere on a sphere. The next step has to begin beyond the discontinuity.
                 move_by_rounding(&mut now.q, &now.v);
-                contacts.take_headings(system, now.t, &now.q, &now.v);
+                contacts.record_headings(system, now.t, &now.q, &now.v);
             }
         }
         let newest = self.newest;
@@ -682,9 +682,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if self.taylor.is_some() {
             self.choose_length()?;
         }
-        let room = self.begin_tries()?;
+        let limits = self.begin_tries()?;
         loop {
-            let (h, last) = self.choose(room);
+            let (h, last) = self.choose(limits);
             #[cfg(feature = "std")]
             let tried = match (&self.implicit, &self.taylor) {
                 (None, None) => self.attempt(h, last),
@@ -693,7 +693,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             };
             #[cfg(not(feature = "std"))]
             let tried = self.attempt(h, last);
-            if self.decide((h, room), tried)? {
+            if self.decide((h, limits), tried)? {
                 return Ok(());
             }
         }
@@ -701,7 +701,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// Prepares the tries of a step.
     #[inline(always)]
-    fn begin_tries(&mut self) -> Result<Room, StepError> {
+    fn begin_tries(&mut self) -> Result<StepLimits, StepError> {
         if self.control.work.steps == 0 && self.control.step == 0.0 {
             self.control.step = self.first_step();
         }
@@ -712,14 +712,14 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
         self.begin();
         self.control.is_retry = false;
-        Ok(Room { least, left })
+        Ok(StepLimits { least, left })
     }
 
     /// The length of the next try, and whether it would be the last step.
     #[inline(always)]
-    fn choose(&mut self, room: Room) -> (f64, bool) {
-        let last = self.control.is_last(room.left, self.longest);
-        let h = if last { room.left } else { self.control.step };
+    fn choose(&mut self, limits: StepLimits) -> (f64, bool) {
+        let last = self.control.is_last(limits.left, self.longest);
+        let h = if last { limits.left } else { self.control.step };
         self.control.last_step = h;
         (h, last)
     }
@@ -728,7 +728,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     #[inline(always)]
     fn decide(
         &mut self,
-        (h, room): (f64, Room),
+        (h, limits): (f64, StepLimits),
         tried: Result<f64, StepError>,
     ) -> Result<bool, StepError> {
         let (next, cause) = match tried {
@@ -738,7 +738,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 self.accept(h);
                 return Ok(true);
             }
-            _ if self.meets_fork(h, false) => {
+            _ if self.may_have_met_fork(h, false) => {
                 // Try once more, with the dependence of the constraints taken into account.
                 self.control.work.rejected += 1;
                 return Ok(false);
@@ -747,10 +747,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             // A stage may have left the set of states in which the machine can be.
             Err(cause) => (0.1 * h, Some(cause)),
         };
-        if self.control.give_up(next, room.least) {
+        if self.control.give_up(next, limits.least) {
             return Ok(false);
         }
-        if self.meets_fork(h, true) {
+        if self.may_have_met_fork(h, true) {
             self.control.step = h;
             return Ok(false);
         }
@@ -813,7 +813,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             && let Some(contacts) = &mut self.model.contacts
         {
             let (system, now) = (self.model.system.get(), &self.before);
-            contacts.take_headings(system, now.t, &now.q, &now.v);
+            contacts.record_headings(system, now.t, &now.q, &now.v);
         }
         #[cfg(feature = "std")]
         if S::MAY_COLLIDE {
@@ -928,7 +928,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// Whether the step just tried may have failed because constraints become dependent on the way, which was not known before.
     /// `at_last` says that no shorter step is possible.
-    fn meets_fork(&mut self, h: f64, at_last: bool) -> bool {
+    fn may_have_met_fork(&mut self, h: f64, at_last: bool) -> bool {
         let Self {
             model,
             before,
@@ -956,7 +956,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             }
             constraints.hold(model.system.get(), before.t + theta * h, ahead)
         });
-        constraints.meet_fork(holds, at_last)
+        constraints.notice_fork(holds, at_last)
     }
 
     /// Accepts the step just tried.
@@ -1252,7 +1252,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         if let Some(constraints) = &mut self.constraints {
             constraints.accept(&now.q, &now.v);
             if constraints.at_fork {
-                constraints.pass_fork(self.system.get(), now.t, &now.q);
+                constraints.update_fork(self.system.get(), now.t, &now.q);
             }
             if constraints.redundant {
                 // If that fails, the previous rows will do, or the next step returns the error.

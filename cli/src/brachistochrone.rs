@@ -113,7 +113,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     if found.is_motion() {
         Ok(())
     } else {
-        Err(Failure::Said)
+        Err(Failure::AlreadyReported)
     }
 }
 

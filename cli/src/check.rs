@@ -106,7 +106,7 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
     let is_denied =
         (call.strict && differs) || (call.deny_warnings && !reading.report.warnings().is_empty());
     if reading.report.has_errors() || is_denied {
-        Err(Failure::Said)
+        Err(Failure::AlreadyReported)
     } else {
         Ok(())
     }

@@ -18,9 +18,9 @@ struct Account {
     energies: ContactEnergies,
     has_balance: bool,
     /// Whether it has friction.
-    rubs: bool,
+    has_friction: bool,
     /// Whether it is compliant, and whether it is a layer that is crushed.
-    yields: bool,
+    is_compliant: bool,
     is_layer: bool,
     /// Whether it is the rolling friction of another contact.
     rolls: bool,
@@ -52,8 +52,8 @@ fn accounts(run: &Run) -> Vec<Account> {
                 energies
             }),
             has_balance: k < books.len(),
-            rubs: contact.rubs,
-            yields: contact.compliance.is_some(),
+            has_friction: contact.rubs,
+            is_compliant: contact.compliance.is_some(),
             is_layer: contact.compliance == Some(Compliance::Layer),
             rolls: contact.rolls,
             closed_at: closes.map(|event| (event.state.t, event.time_error)),
@@ -92,11 +92,11 @@ pub fn taken(system: &InterpretedSystem, energies: &[ContactEnergies]) -> Vec<(S
     }
     let of_contact = |(contact, of): &(UnilateralContact<'_>, ContactEnergies)| {
         let is_layer = contact.compliance == Some(Compliance::Layer);
-        let yields = contact.compliance.is_some();
+        let is_compliant = contact.compliance.is_some();
         [
-            ("impacts", of.impact_loss, !yields),
+            ("impacts", of.impact_loss, !is_compliant),
             ("friction", of.friction_loss, contact.rubs),
-            ("damping", of.damping_loss, yields && !is_layer),
+            ("damping", of.damping_loss, is_compliant && !is_layer),
             ("crushing", of.crushing_work, is_layer),
         ]
         .into_iter()
@@ -130,8 +130,8 @@ pub fn lines(run: &Run) -> Vec<String> {
             impacts,
             energies,
             has_balance,
-            rubs,
-            yields,
+            has_friction,
+            is_compliant,
             is_layer,
             rolls,
             closed_at,
@@ -140,15 +140,15 @@ pub fn lines(run: &Run) -> Vec<String> {
         let loss = energies.impact_loss;
         let mut line = match impacts {
             _ if is_layer => format!("{name}: crushed by {:.6e} J", energies.crushing_work),
-            _ if yields => format!("{name}: yields"),
+            _ if is_compliant => format!("{name}: yields"),
             _ if rolls => format!("{name}: impacts took {loss:.6e} J"),
             1 => format!("{name}: 1 impact, which took {loss:.6e} J"),
             _ => format!("{name}: {impacts} impacts, which took {loss:.6e} J"),
         };
-        if has_balance && (rubs || rolls) {
+        if has_balance && (has_friction || rolls) {
             line.push_str(&format!("; friction took {:.6e} J", energies.friction_loss));
         }
-        if has_balance && yields && !is_layer {
+        if has_balance && is_compliant && !is_layer {
             line.push_str(&format!("; damping took {:.6e} J", energies.damping_loss));
         }
         if energies.work.abs() > rounding {
@@ -220,7 +220,8 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
             .any(|known| known.across && known.name == second)
     };
     let events = run.contact_events().iter();
-    let events = events.map(|told| event(told, slips_across(&told.contact)));
+    let events =
+        events.map(|contact_event| event(contact_event, slips_across(&contact_event.contact)));
     let mut fields = vec![
         ("contact_events", events.collect()),
         ("unilateral_contacts", accounts.into()),

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::modes::number;
 use crate::numbers::shortest;
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
-use crate::runs::{self, Columns, Looks, Options, Quantity, factor, header};
+use crate::runs::{self, Columns, Options, Quantity, SampleInstants, factor, header};
 use crate::table;
 
 /// The column of energy errors, which is not part of the motion.
@@ -158,8 +158,8 @@ fn both(call: &call::Compare, files: &[&Destination]) -> Result<[Columns; 2], Fa
             options.method = call.second_method.as_deref().or(options.method);
         }
         let looks = match (&rows, call.runs.every) {
-            (Some(rows), None) => Looks::At(rows),
-            _ => Looks::Even,
+            (Some(rows), None) => SampleInstants::At(rows),
+            _ => SampleInstants::Even,
         };
         runs::spec(&options, &looks, files)
     };

@@ -19,7 +19,7 @@ use crate::recording::Run;
 pub struct Contacts {
     system: InterpretedSystem,
     contacts: Vec<Contact>,
-    seen: Mutex<Seen>,
+    seen: Mutex<PreviousState>,
 }
 
 /// A rolling contact.
@@ -33,7 +33,7 @@ struct Contact {
 
 /// What is stored from one evaluated state to the next.
 #[derive(Default)]
-struct Seen {
+struct PreviousState {
     /// The last state, and the multipliers there.
     last: Option<(State<Named>, Vec<f64>)>,
     /// The record of each contact.
@@ -127,7 +127,7 @@ impl Contacts {
                 multipliers,
             });
         let contacts: Vec<Contact> = contacts.collect();
-        let seen = Seen {
+        let seen = PreviousState {
             last: None,
             tracks: vec![Track::default(); contacts.len()],
         };
@@ -187,7 +187,7 @@ impl Contacts {
         simulation.event_on(&slipping(&contact.name), Crossing::Falling, reserve)
     }
 
-    fn seen(&self) -> MutexGuard<'_, Seen> {
+    fn seen(&self) -> MutexGuard<'_, PreviousState> {
         self.seen.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -299,15 +299,15 @@ impl Track {
             && b.1 >= a.1
             && b.1 >= c.1
         {
-            self.raise(vertex(a, b, c));
+            self.raise_demand(vertex(a, b, c));
         }
         if let Some(now) = now {
-            self.raise(now);
+            self.raise_demand(now);
         }
         self.before = [second, now];
     }
 
-    fn raise(&mut self, (t, demand): (f64, f64)) {
+    fn raise_demand(&mut self, (t, demand): (f64, f64)) {
         if self.greatest.is_none_or(|(most, _)| demand > most) {
             self.greatest = Some((demand, t));
         }

@@ -66,11 +66,11 @@ pub fn print(report: &Report, sources: &Sources) {
         Renderer::plain()
     };
     for diagnostic in report.messages() {
-        output::complain(format_args!("{}\n", render(diagnostic, sources, &renderer)));
+        output::print_error(format_args!("{}\n", render(diagnostic, sources, &renderer)));
     }
     let errors = report.diagnostics().len() + report.omitted();
     if errors > 0 {
-        output::complain(counted(errors, "error", "errors"));
+        output::print_error(counted(errors, "error", "errors"));
     }
 }
 
@@ -78,12 +78,12 @@ pub fn print(report: &Report, sources: &Sources) {
 ///
 /// # Errors
 /// The first error, in the words of the spec: values that a machine cannot have, such as a negative mass.
-pub fn refused(said: &[Diagnostic]) -> Result<(), String> {
-    for diagnostic in said {
+pub fn refused(diagnostics: &[Diagnostic]) -> Result<(), String> {
+    for diagnostic in diagnostics {
         match diagnostic.code.severity() {
             Severity::Error => return Err(format!("{} [{}]", diagnostic.message, diagnostic.code)),
             Severity::Warning => {
-                output::complain(format_args!("warning: {}", diagnostic.message));
+                output::print_error(format_args!("warning: {}", diagnostic.message));
             }
         }
     }

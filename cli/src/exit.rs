@@ -10,7 +10,7 @@ impl Failure {
     pub fn report(self, json: bool) -> u8 {
         let mut fields = Map::new();
         let (status, message) = match self {
-            Failure::Said => return 1,
+            Failure::AlreadyReported => return 1,
             Failure::Interrupted => return interrupt::STATUS,
             Failure::Spec(wrong) => {
                 let (report, sources) = *wrong;
@@ -38,7 +38,7 @@ impl Failure {
             }
             output::line(format_args!("{document:#}"));
         }
-        output::complain(format_args!("error: {message}"));
+        output::print_error(format_args!("error: {message}"));
         status
     }
 }

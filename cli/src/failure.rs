@@ -16,7 +16,7 @@ pub enum Failure {
     /// Like [`Failure::Run`], with further fields for programs.
     Detailed(String, Map<String, Value>),
     /// Like [`Failure::Run`], but the message has been printed.
-    Said,
+    AlreadyReported,
     /// The user interrupted it, and the message has been printed.
     Interrupted,
     /// The call is invalid.
@@ -36,7 +36,7 @@ impl Failure {
                 message
             }
             Failure::Spec(_) => "the spec is wrong".to_owned(),
-            Failure::Said | Failure::Interrupted => String::new(),
+            Failure::AlreadyReported | Failure::Interrupted => String::new(),
         }
     }
 }

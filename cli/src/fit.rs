@@ -2,7 +2,7 @@
 
 mod data;
 mod figure;
-mod told;
+mod findings;
 mod variant;
 
 use std::path::Path;
@@ -11,7 +11,9 @@ use std::sync::Arc;
 use lagrangian::Machine;
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
 use lagrangian_fit::least_squares::Trouble;
-use lagrangian_fit::motion::{Experiment, Fit, Found, Held, Quantity, Running, Sought, Subject};
+use lagrangian_fit::motion::{
+    ConstraintFindings, Experiment, Fit, Found, Quantity, Running, Sought, Subject,
+};
 use lagrangian_fit::searches::{Failed, Search, Sigmas, search};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::{Severity, nearest};
@@ -105,7 +107,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let laws = reading.drive(&call.spec, &everywhere)?;
     let formulas = reading.formulas();
     let compiled = reading.compile_beside(&dag, files.all());
-    let mut compiled = compiled.map_err(inputs::told)?;
+    let mut compiled = compiled.map_err(inputs::as_call_failure)?;
     let machine = reading::machine(&compiled, &call.start)?;
     // Formulas of inputs are not reported as outputs of the machine.
     let own = compiled.model.outputs.len() - formulas;
@@ -124,7 +126,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let (classes, ignored) =
         data::measure(call, &machine, &compiled, &mut given, &mut experiments)?;
     for note in ignored {
-        output::complain(format_args!("note: {note}"));
+        output::print_error(format_args!("note: {note}"));
     }
     let sought = sought(call, &machine, &compiled, &given, &experiments)?;
     check_values(&machine, &sought)?;
@@ -153,7 +155,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
         },
         refusal: &refusal,
         runs: [0, 0],
-        held: Held::default(),
+        held: ConstraintFindings::default(),
     };
     let measured = data::count(&fit.experiments);
     if measured < fit.sought.len() {
@@ -187,7 +189,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
         warnings: Vec::new(),
         fit: &mut fit,
     };
-    result.warnings = told::warnings(&result);
+    result.warnings = findings::warnings(&result);
     let error = match written(&mut result, &files) {
         Err(Failure::Interrupted) => return Err(Failure::Interrupted),
         Err(failure) => Some(failure.message()),
@@ -199,22 +201,22 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
         )),
     };
     if call.spec.json {
-        let mut document = told::document(&result);
+        let mut document = findings::document(&result);
         if let Some(error) = &error {
             document["error"] = error.as_str().into();
         }
         output::line(format_args!("{document:#}"));
     } else {
-        output::text(&told::text(&result));
+        output::text(&findings::text(&result));
         for warning in &result.warnings {
-            output::complain(format_args!("warning: {warning}"));
+            output::print_error(format_args!("warning: {warning}"));
         }
     }
     match error {
         None => Ok(()),
         Some(error) => {
-            output::complain(format_args!("error: {error}"));
-            Err(Failure::Said)
+            output::print_error(format_args!("error: {error}"));
+            Err(Failure::AlreadyReported)
         }
     }
 }
@@ -279,7 +281,7 @@ fn stopped(trouble: Trouble) -> Failure {
     match trouble {
         Trouble::NoValue(why) => Failure::Run(why),
         Trouble::Stopped => {
-            output::complain("interrupted: nothing is written or printed");
+            output::print_error("interrupted: nothing is written or printed");
             Failure::Interrupted
         }
     }

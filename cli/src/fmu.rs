@@ -147,7 +147,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     let mut reading = Reading::open(&call.spec)?;
     for event in &call.events {
         check_name(&event.name)?;
-        reading.ask(&format!("--event {}", event.name), &event.value, None);
+        reading.add_formula(&format!("--event {}", event.name), &event.value, None);
     }
     let compiled = reading.compile_beside(&dag, [&out])?;
     check_sections(&compiled.program)?;
@@ -221,12 +221,12 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     let bytes = archive::bytes(&entries).map_err(Failure::run)?;
     out.write(|to| to.write_all(&bytes))?;
     let folders: Vec<&str> = libraries.iter().map(|(p, _)| p.folder).collect();
-    say(call, &unit, &folders);
+    print_summary(call, &unit, &folders);
     Ok(())
 }
 
 /// Prints a summary of a unit.
-fn say(call: &call::Fmu, unit: &Unit<'_>, platforms: &[&str]) {
+fn print_summary(call: &call::Fmu, unit: &Unit<'_>, platforms: &[&str]) {
     let Program {
         coordinates,
         parameters,
@@ -413,11 +413,11 @@ fn derivatives(compiled: &Compiled<'_>) -> Result<Option<Derivatives>, Failure> 
         return Ok(None);
     }
     progress::now("proving derivatives");
-    let told =
+    let to_failure =
         |unproved: Unproved| Failure::run(format!("there is no unit of this machine: {unproved}"));
     Ok(Some(Derivatives {
-        tangent: program.tangent(model).map_err(told)?,
-        adjoint: program.adjoint(model).map_err(told)?,
+        tangent: program.tangent(model).map_err(to_failure)?,
+        adjoint: program.adjoint(model).map_err(to_failure)?,
     }))
 }
 

@@ -27,7 +27,7 @@ const FINER: f64 = 1e-2;
 const ROUNDING: f64 = 0.3;
 
 /// A run whose error is estimated.
-pub struct Asked<'a> {
+pub struct EstimatedRun<'a> {
     pub machine: &'a InterpretedMachine,
     /// `None` where inputs vary.
     pub series: Option<Result<ProvedSeries, NoSeries>>,
@@ -42,11 +42,11 @@ pub struct Estimate {
     errors: Vec<f64>,
     /// The effect of perturbing the start by its rounding, in the same order.
     rounding: Option<Vec<f64>>,
-    how: How,
+    how: Reference,
 }
 
 /// The reference of the comparison.
-enum How {
+enum Reference {
     /// A run in double-doubles.
     Wide,
     /// A run at this tolerance.
@@ -59,11 +59,11 @@ enum How {
 /// # Errors
 /// Why there is no estimate.
 pub fn estimate(
-    asked: Asked<'_>,
+    asked: EstimatedRun<'_>,
     (start, end): (&State<Named>, &State<Named>),
     again: impl Fn(f64, State<Named>) -> Option<State<Named>>,
 ) -> Result<Estimate, String> {
-    let Asked {
+    let EstimatedRun {
         machine,
         series,
         tolerance,
@@ -81,7 +81,7 @@ pub fn estimate(
         return Ok(Estimate {
             errors: wide.errors(end),
             rounding,
-            how: How::Wide,
+            how: Reference::Wide,
         });
     }
     if has_fixed_steps {
@@ -113,7 +113,7 @@ pub fn estimate(
     Ok(Estimate {
         errors,
         rounding,
-        how: How::Finer(finer),
+        how: Reference::Finer(finer),
     })
 }
 
@@ -157,8 +157,8 @@ fn names(end: &State<Named>) -> Vec<Option<String>> {
 impl Estimate {
     fn how(&self) -> String {
         match self.how {
-            How::Wide => "an estimate, by a run in double-double".into(),
-            How::Finer(tolerance) => format!(
+            Reference::Wide => "an estimate, by a run in double-double".into(),
+            Reference::Finer(tolerance) => format!(
                 "an estimate, by a run at a tolerance of {}",
                 shortest(tolerance)
             ),
@@ -205,8 +205,8 @@ impl Estimate {
         json!({
             "kind": "estimate",
             "by": match self.how {
-                How::Wide => "a run in double-double".to_owned(),
-                How::Finer(tolerance) => format!("a run at a tolerance of {}", shortest(tolerance)),
+                Reference::Wide => "a run in double-double".to_owned(),
+                Reference::Finer(tolerance) => format!("a run at a tolerance of {}", shortest(tolerance)),
             },
             "errors": Value::Object(named.collect::<Map<_, _>>()),
             "greatest": greatest,

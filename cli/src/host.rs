@@ -25,14 +25,14 @@ pub struct Answer {
 }
 
 /// What the surrounding program provides.
-struct Lent {
+struct HostContext {
     spec: SpecText,
     stop: Arc<AtomicBool>,
     answer: Answer,
 }
 
 thread_local! {
-    static LENT: RefCell<Option<Lent>> = const { RefCell::new(None) };
+    static HOST_CONTEXT: RefCell<Option<HostContext>> = const { RefCell::new(None) };
 }
 
 /// Runs a command on a spec in memory with its constants, given the name of the command and its options. Files that the call names
@@ -70,22 +70,25 @@ pub fn answer(
             };
         }
     };
-    let lent = Lent {
+    let lent = HostContext {
         spec: spec.clone(),
         stop: stop.clone(),
         answer: Answer::default(),
     };
-    LENT.set(Some(lent));
+    HOST_CONTEXT.set(Some(lent));
     let json = call.command.json();
     let status = crate::status(&call, json);
-    let answer = LENT.take().map(|lent| lent.answer).unwrap_or_default();
+    let answer = HOST_CONTEXT
+        .take()
+        .map(|lent| lent.answer)
+        .unwrap_or_default();
     Answer { status, ..answer }
 }
 
 /// Captures output for the surrounding program; returns whether there is one.
-pub fn keeps(text: &str, is_error: bool) -> bool {
-    LENT.with_borrow_mut(|lent| {
-        let Some(Lent { answer, .. }) = lent else {
+pub fn captures(text: &str, is_error: bool) -> bool {
+    HOST_CONTEXT.with_borrow_mut(|lent| {
+        let Some(HostContext { answer, .. }) = lent else {
             return false;
         };
         if is_error {
@@ -99,7 +102,7 @@ pub fn keeps(text: &str, is_error: bool) -> bool {
 
 /// The flag with which the surrounding program interrupts the command, if there is one.
 pub fn stop() -> Option<Arc<AtomicBool>> {
-    LENT.with_borrow(|lent| Some(lent.as_ref()?.stop.clone()))
+    HOST_CONTEXT.with_borrow(|lent| Some(lent.as_ref()?.stop.clone()))
 }
 
 /// The files from which specs are read: on disk, or held by the surrounding program.
@@ -108,8 +111,8 @@ pub struct Specs;
 
 impl Files for Specs {
     fn read(&mut self, path: &str, from: Option<&str>) -> Result<(String, String), String> {
-        LENT.with_borrow(|lent| {
-            let Some(Lent { spec, .. }) = lent else {
+        HOST_CONTEXT.with_borrow(|lent| {
+            let Some(HostContext { spec, .. }) = lent else {
                 return Disk.read(path, from);
             };
             // A variant in the same folder refers to the spec by its file name.

@@ -71,11 +71,11 @@ pub fn run(call: &call::Import) -> Result<(), Failure> {
     }
     let machine = robot.and_then(|robot| machine::written(&robot, &file, call, &mut faults));
     let Some(machine) = machine.filter(|_| faults.is_empty()) else {
-        return Err(Failure::Run(faults.told()));
+        return Err(Failure::Run(faults.into_message()));
     };
     check(&machine, out.as_ref())?;
     for warning in &machine.warnings {
-        output::complain(format_args!("warning: {warning}"));
+        output::print_error(format_args!("warning: {warning}"));
     }
     if let Some(file) = &out {
         file.write_text(&machine.text)?;

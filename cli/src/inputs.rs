@@ -44,7 +44,7 @@ pub fn laws(
 }
 
 /// Converts a failure of the spec to one of the call, if all errors are in formulas of the call.
-pub fn told(failure: Failure) -> Failure {
+pub fn as_call_failure(failure: Failure) -> Failure {
     match failure {
         Failure::Spec(wrong) => {
             let (report, sources) = *wrong;

@@ -74,7 +74,7 @@ pub fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             let printed = message.print();
             // Help and version are results, written to standard output.
             if !message.use_stderr() {
-                output::remember_result(printed);
+                output::record_result(printed);
             }
             message.exit_code() as u8 // 2, or 0
         }
@@ -88,7 +88,7 @@ pub fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             status => status,
         },
         Err(error) => {
-            output::complain(format_args!(
+            output::print_error(format_args!(
                 "error: cannot write to standard output: {error}"
             ));
             status.max(1)

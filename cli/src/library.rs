@@ -40,7 +40,7 @@ fn warn_of_constraints(program: &Proved) {
         return;
     }
     if let Some(constraint) = dependent_constraint(&machine, &start) {
-        output::complain(format_args!(
+        output::print_error(format_args!(
             "warning: the constraint `{constraint}` follows from others at the start, and the library, which solves for the multipliers of \
              all of them, has no accelerations there: where it does so everywhere, leave it out in a variant, `remove constraints.{constraint};`"
         ));
@@ -71,7 +71,7 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     }
     warn_of_constraints(&program);
     if !program.unilateral.is_empty() {
-        output::complain(
+        output::print_error(
             "warning: whether contacts are closed is no function of q and v alone: `eval` has the accelerations with all of them open, and \
              which of them press, and how they bounce, is for its caller to find out, from what `eval_contacts` and `eval_inertia` say",
         );
@@ -355,10 +355,10 @@ fn compile(source: &str, is_in_pairs: bool, call: &call::Library) -> Result<Vec<
     if output.status.success() {
         return std::fs::read(&library).map_err(unkept);
     }
-    let said = String::from_utf8_lossy(&output.stderr);
+    let stderr = String::from_utf8_lossy(&output.stderr);
     Err(Failure::run(format!(
         "rustc does not compile the library:\n{}",
-        said.trim_end()
+        stderr.trim_end()
     )))
 }
 

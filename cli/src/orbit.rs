@@ -63,7 +63,7 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
         return along(call, &ready, &sought, vary, &files);
     }
     let orbit = orbit::find(&ready.machine, &sought)
-        .map_err(|none| said(&none, call, &left_in(&ready.machine, &sought)))?;
+        .map_err(|none| no_orbit_failure(&none, call, &left_in(&ready.machine, &sought)))?;
     let motion = motion(&ready.machine, &orbit, call)?;
     runs::warn(&motion);
     if let Some(file) = &files[0] {
@@ -89,7 +89,7 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
 }
 
 /// The reason why there is no orbit, with the options that may help.
-fn said(none: &NoOrbit, call: &call::Orbit, left_in: &[String]) -> Failure {
+fn no_orbit_failure(none: &NoOrbit, call: &call::Orbit, left_in: &[String]) -> Failure {
     let help = match none {
         NoOrbit::Driven(_) if call.near.is_some() => {
             "; --near is for machines that nothing drives, --period gives one"
@@ -136,7 +136,7 @@ fn ready<'d>(
 ) -> Result<Ready<'d>, Failure> {
     let mut reading = Reading::open(&call.spec)?;
     if let Some(period) = &call.period {
-        reading.ask("--period TIME", period, Some("s"));
+        reading.add_formula("--period TIME", period, Some("s"));
     }
     let compiled = modes::compiled_with(
         reading,
@@ -159,7 +159,7 @@ fn ready<'d>(
             Ok(())
         },
     );
-    let compiled = compiled.map_err(inputs::told)?;
+    let compiled = compiled.map_err(inputs::as_call_failure)?;
     let machine = reading::machine(&compiled, &call.start)?;
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
@@ -538,25 +538,25 @@ fn along(
         let mut machine = machine.clone();
         machine
             .set(&vary.name, value)
-            .map_err(|wrong| Stop::Said(Failure::run(wrong)))?;
+            .map_err(|wrong| Stop::Failed(Failure::run(wrong)))?;
         let said = ready
             .compiled
             .model
             .refused_values(machine.parameter_values());
-        crate::diagnostics::refused(&said).map_err(|said| Stop::Said(Failure::Call(said)))?;
+        crate::diagnostics::refused(&said).map_err(|said| Stop::Failed(Failure::Call(said)))?;
         let period = match &ready.period {
             None => None,
             Some((formula, output)) => {
                 let start = machine.start();
                 let period = runs::period_of(&machine, &start, *output, "--period", formula);
-                Some(period.map_err(Stop::Said)?)
+                Some(period.map_err(Stop::Failed)?)
             }
         };
         Ok((machine, period))
     };
     let trace = orbit::follow(make, sought, &values).map_err(|stop| match stop {
-        Stop::Said(failure) => failure,
-        Stop::None(none) => said(&none, call, &left_in(&ready.machine, sought)),
+        Stop::Failed(failure) => failure,
+        Stop::None(none) => no_orbit_failure(&none, call, &left_in(&ready.machine, sought)),
     })?;
     let label = header(&vary.name, Some(&unit));
     if let Some(file) = &files[0] {
@@ -601,7 +601,7 @@ fn along(
 
 /// Why a continuation is stopped.
 enum Stop {
-    Said(Failure),
+    Failed(Failure),
     None(NoOrbit),
 }
 

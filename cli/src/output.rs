@@ -33,8 +33,8 @@ pub fn line(line: impl Display) {
 /// requested as a file.
 pub fn text(text: &str) {
     match IS_TAKEN.load(Ordering::Relaxed) {
-        _ if host::keeps(text, false) => {}
-        true => complain_as_is(text),
+        _ if host::captures(text, false) => {}
+        true => print_error_as_is(text),
         false => {
             // The error is reported once, at the end.
             let _ = bytes(text.as_bytes());
@@ -43,12 +43,12 @@ pub fn text(text: &str) {
 }
 
 /// Writes a line to standard error. Errors of this are ignored, because they cannot be reported.
-pub fn complain(line: impl Display) {
-    complain_as_is(&format!("{line}\n"));
+pub fn print_error(line: impl Display) {
+    print_error_as_is(&format!("{line}\n"));
 }
 
-fn complain_as_is(text: &str) {
-    if host::keeps(text, true) {
+fn print_error_as_is(text: &str) {
+    if host::captures(text, true) {
         return;
     }
     progress::end();
@@ -62,17 +62,17 @@ fn bytes(bytes: &[u8]) -> io::Result<()> {
         Some(error) => Err(same(error)),
         None => io::stdout().lock().write_all(bytes),
     };
-    written.map_err(remember)
+    written.map_err(record_failure)
 }
 
-fn remember(error: io::Error) -> io::Error {
+fn record_failure(error: io::Error) -> io::Error {
     same(FAILED.get_or_init(|| error))
 }
 
 /// Records the result of a write to standard output made elsewhere.
-pub fn remember_result(written: io::Result<()>) {
+pub fn record_result(written: io::Result<()>) {
     if let Err(error) = written {
-        remember(error);
+        record_failure(error);
     }
 }
 
@@ -85,15 +85,15 @@ fn same(error: &io::Error) -> io::Error {
 }
 
 /// Standard output that was requested as a file.
-struct Taken;
+struct RedirectedOutput;
 
-impl Write for Taken {
+impl Write for RedirectedOutput {
     fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
         bytes(buffer).map(|()| buffer.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        io::stdout().lock().flush().map_err(remember)
+        io::stdout().lock().flush().map_err(record_failure)
     }
 }
 
@@ -102,7 +102,7 @@ impl Write for Taken {
 /// # Errors
 /// The first error of standard output.
 pub fn finish() -> io::Result<()> {
-    let flushed = io::stdout().lock().flush().map_err(remember);
+    let flushed = io::stdout().lock().flush().map_err(record_failure);
     match FAILED.get() {
         Some(error) => Err(same(error)),
         None => flushed,

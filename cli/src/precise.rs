@@ -114,10 +114,12 @@ pub fn run_to(
     };
     let builder = ExplicitStepper::builder(system).method(method);
     let builder = builder.tolerance(tolerance).max_steps(max_steps);
-    let stepper = builder.start(start).map_err(|error| said(machine, error));
+    let stepper = builder
+        .start(start)
+        .map_err(|error| step_failure(machine, error));
     let mut stepper = stepper?;
     let advanced = stepper.advance_to(until);
-    advanced.map_err(|error| said(machine, error))?;
+    advanced.map_err(|error| step_failure(machine, error))?;
     Ok(End {
         q: stepper.q().clone(),
         v: stepper.v().clone(),
@@ -125,7 +127,7 @@ pub fn run_to(
     })
 }
 
-fn said(machine: &InterpretedMachine, error: lagrangian::StepError) -> Failure {
+fn step_failure(machine: &InterpretedMachine, error: lagrangian::StepError) -> Failure {
     Failure::run(lagrangian::Error::of_step(error, &machine.prepare()))
 }
 
@@ -215,7 +217,7 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
         "  {steps} steps, {rejected} rejected, {evaluations} evaluations"
     ));
     output::line(format_args!("  at the end"));
-    for (name, title, at) in told(&names) {
+    for (name, title, at) in printed_quantities(&names) {
         let x = match at {
             (0, i) => end.q[i],
             (_, i) => end.v[i],
@@ -268,20 +270,24 @@ pub fn worst(numbers: &[f64]) -> (usize, f64) {
 
 /// The printed quantities of a state: names of coordinates and of their rates padded to equal width, and the index of each number.
 /// Integrals of states of first order are left out, and their rates are the states.
-fn told(names: &[&str]) -> Vec<(String, usize, (usize, usize))> {
-    let mut told: Vec<(String, (usize, usize))> = Vec::new();
+fn printed_quantities(names: &[&str]) -> Vec<(String, usize, (usize, usize))> {
+    let mut quantities: Vec<(String, (usize, usize))> = Vec::new();
     for (i, name) in names.iter().enumerate() {
         match state_of(name) {
-            Some(state) => told.push((state.to_owned(), (1, i))),
+            Some(state) => quantities.push((state.to_owned(), (1, i))),
             None => {
-                told.push(((*name).to_owned(), (0, i)));
-                told.push((format!("der({name})"), (1, i)));
+                quantities.push(((*name).to_owned(), (0, i)));
+                quantities.push((format!("der({name})"), (1, i)));
             }
         }
     }
-    let width = told.iter().map(|(name, _)| name.chars().count()).max();
+    let width = quantities
+        .iter()
+        .map(|(name, _)| name.chars().count())
+        .max();
     let width = width.unwrap_or(0);
-    told.into_iter()
+    quantities
+        .into_iter()
         .map(|(name, at)| (name, width, at))
         .collect()
 }
@@ -345,7 +351,7 @@ pub fn validated(call: &call::Simulate) -> Result<(), Failure> {
             enclosure.steps()
         ));
         output::line(format_args!("  proved to contain the end of the motion"));
-        for (name, title, at) in told(&names) {
+        for (name, title, at) in printed_quantities(&names) {
             let y = match at {
                 (0, i) => &enclosure.q()[i],
                 (_, i) => &enclosure.v()[i],
@@ -361,8 +367,8 @@ pub fn validated(call: &call::Simulate) -> Result<(), Failure> {
     match ended {
         Ok(()) => Ok(()),
         Err(error) => {
-            output::complain(format_args!("error: {error}"));
-            Err(Failure::Said)
+            output::print_error(format_args!("error: {error}"));
+            Err(Failure::AlreadyReported)
         }
     }
 }

@@ -25,7 +25,7 @@ const LONGEST: Duration = Duration::from_secs(600);
 const TICKS: u64 = 1000;
 
 /// The reporting thread, and the current activity.
-static SPEAKER: Mutex<Option<JoinHandle<()>>> = Mutex::new(None);
+static REPORTER: Mutex<Option<JoinHandle<()>>> = Mutex::new(None);
 static WORK: Mutex<Work> = Mutex::new(Work {
     what: "",
     until: None,
@@ -62,7 +62,7 @@ pub fn begin(json: bool) {
     };
     // If no thread can be created, nothing is reported.
     let thread = std::thread::Builder::new().name("progress".into());
-    *lock(&SPEAKER) = thread.spawn(speak).ok();
+    *lock(&REPORTER) = thread.spawn(speak).ok();
 }
 
 /// Sets the activity.
@@ -85,7 +85,7 @@ pub fn at(t: f64, part: f64, steps: usize) {
 
 /// Stops reporting, and removes the line.
 pub fn end() {
-    let Some(speaker) = lock(&SPEAKER).take() else {
+    let Some(speaker) = lock(&REPORTER).take() else {
         return;
     };
     lock(&WORK).has_ended = true;
@@ -109,7 +109,7 @@ fn part() -> f64 {
     f64::from_bits(PART.load(Ordering::Relaxed))
 }
 
-fn said(work: &Work, began: Instant) -> String {
+fn status_line(work: &Work, began: Instant) -> String {
     let seconds = began.elapsed().as_secs();
     let what = work.what;
     let Some(until) = work.until else {
@@ -127,7 +127,7 @@ fn in_lines(began: Instant) {
     let mut time = FIRST_LINE;
     let mut next = began + time;
     while let Some(work) = wait(next.saturating_duration_since(Instant::now())) {
-        let line = format!("{}\n", said(&work, began));
+        let line = format!("{}\n", status_line(&work, began));
         drop(work);
         let _ = io::stderr().lock().write_all(line.as_bytes());
         next += time;
@@ -149,7 +149,7 @@ fn on_terminal(began: Instant) {
         if let Some(style) = style {
             bar.set_style(style);
         }
-        bar.set_message(said(&work, began));
+        bar.set_message(status_line(&work, began));
         drop(work);
         bar.set_position((part() * TICKS as f64) as u64);
         bar.tick();

@@ -146,7 +146,7 @@ impl Reading {
 
     /// Adds a formula of the call, as an output after all others. `said` is the option that contains it, followed by a space, so
     /// that the output is left out of tables.
-    pub fn ask(&mut self, said: &str, formula: &str, unit: Option<&str>) {
+    pub fn add_formula(&mut self, said: &str, formula: &str, unit: Option<&str>) {
         self.formulas
             .push((said.to_owned(), formula.to_owned(), unit.map(str::to_owned)));
     }

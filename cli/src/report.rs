@@ -42,7 +42,7 @@ const IMPACTS: usize = 12_000;
 /// A run with all data for its page.
 pub struct Report<'a, 'd> {
     /// The settings of the caller.
-    pub asked: &'a Asked,
+    pub asked: &'a CallSettings,
     /// The derived machine.
     pub compiled: &'a Compiled<'d>,
     /// The machine with its parameters.
@@ -62,7 +62,7 @@ pub struct Report<'a, 'd> {
 }
 
 /// The settings of a call, as text.
-pub struct Asked {
+pub struct CallSettings {
     /// The name of the spec's file.
     pub file: String,
     /// The relative and absolute tolerance of a step.
@@ -109,7 +109,7 @@ impl Report<'_, '_> {
         self.page_with(None)
     }
 
-    /// The page with a program of the machine, which can run it again; see [`live::objection`] for machines that cannot.
+    /// The page with a program of the machine, which can run it again; see [`live::reason_not_live`] for machines that cannot.
     pub(crate) fn page_that_runs(&self, live: &Live) -> String {
         self.page_with(Some(live))
     }

@@ -262,7 +262,7 @@ pub fn table(path: &Path) -> Result<Columns, Failure> {
 }
 
 /// The instants at which a run is sampled.
-pub enum Looks<'a> {
+pub enum SampleInstants<'a> {
     /// At equal intervals.
     Even,
     /// At these, as far as they lie within the run.
@@ -323,7 +323,7 @@ pub fn replaced(list: &mut Vec<Assignment>, others: &[Assignment]) {
 /// If the spec or the call is invalid, or the run fails.
 pub fn spec(
     options: &Options<'_>,
-    looks: &Looks<'_>,
+    looks: &SampleInstants<'_>,
     files: &[&Destination],
 ) -> Result<Columns, Failure> {
     made(options, looks, files).map(|(_, recording)| Columns::of(recording))
@@ -332,7 +332,7 @@ pub fn spec(
 /// Runs a spec; returns the run and its recording.
 fn made(
     options: &Options<'_>,
-    looks: &Looks<'_>,
+    looks: &SampleInstants<'_>,
     files: &[&Destination],
 ) -> Result<(Run, Recording), Failure> {
     let runs = options.runs;
@@ -362,13 +362,17 @@ fn made(
     let laws = reading.drive(&spec, &written)?;
     let driving = reading.formulas();
     match looks {
-        Looks::Crossing(formula, _) => reading.ask("--crossing FORMULA", formula, None),
-        Looks::Period(formula) => reading.ask("--every-period TIME", formula, Some("s")),
-        Looks::Even | Looks::At(_) => {}
+        SampleInstants::Crossing(formula, _) => {
+            reading.add_formula("--crossing FORMULA", formula, None)
+        }
+        SampleInstants::Period(formula) => {
+            reading.add_formula("--every-period TIME", formula, Some("s"))
+        }
+        SampleInstants::Even | SampleInstants::At(_) => {}
     }
     let formulas = reading.formulas();
     let compiled = reading.compile_beside(&dag, files.iter().copied());
-    let compiled = compiled.map_err(inputs::told)?;
+    let compiled = compiled.map_err(inputs::as_call_failure)?;
     let machine = reading::machine(&compiled, &options.start)?;
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
@@ -394,9 +398,9 @@ fn made(
     simulation = reading::keep(simulation, &runs.keep);
     let interval = runs.every.unwrap_or(options.until / SAMPLES);
     match looks {
-        Looks::Even => simulation = simulation.every(interval).forget_steps(),
-        Looks::At(_) => {}
-        Looks::Crossing(formula, direction) => {
+        SampleInstants::Even => simulation = simulation.every(interval).forget_steps(),
+        SampleInstants::At(_) => {}
+        SampleInstants::Crossing(formula, direction) => {
             let value = &compiled.model.outputs[asked].value;
             if value.stage() == stage::ACCELERATION {
                 return Err(Failure::Call(format!(
@@ -412,10 +416,10 @@ fn made(
                 seen.outputs.values.get(asked).copied().unwrap_or(f64::NAN)
             });
         }
-        Looks::Period(_) => {}
+        SampleInstants::Period(_) => {}
     }
     let period = match looks {
-        Looks::Period(formula) => {
+        SampleInstants::Period(formula) => {
             let stage = compiled.model.outputs[asked].value.stage();
             if stage > stage::PARAMETER {
                 return Err(Failure::Call(format!(
@@ -434,7 +438,7 @@ fn made(
     };
     let ran = simulation
         .run_interpreted(start)
-        .map_err(|error| Failure::Run(verdict::said(&error)))?;
+        .map_err(|error| Failure::Run(verdict::message_of(&error)))?;
     if let Some(objection) = verdict::objection(&ran) {
         return Err(Failure::Run(objection));
     }
@@ -445,13 +449,13 @@ fn made(
     };
     let end = ran.end().t;
     let recording = match (looks, period) {
-        (Looks::Even, _) => simulate::record(&ran),
-        (Looks::At(times), _) => {
+        (SampleInstants::Even, _) => simulate::record(&ran),
+        (SampleInstants::At(times), _) => {
             let within = times.iter().copied().filter(|t| (0.0..=end).contains(t));
             at(within.collect())?
         }
-        (Looks::Crossing(..), _) => crossings(&ran),
-        (Looks::Period(_), period) => {
+        (SampleInstants::Crossing(..), _) => crossings(&ran),
+        (SampleInstants::Period(_), period) => {
             let period = period.unwrap_or(f64::INFINITY);
             let count = (end / period * (1.0 + 1e-12)).floor() as usize;
             let times = (0..=count).map(|k| (k as f64 * period).min(end));
@@ -467,7 +471,7 @@ where
     L: InputLaw<M::System>,
 {
     for warning in run.warnings() {
-        output::complain(format_args!("warning: {warning}"));
+        output::print_error(format_args!("warning: {warning}"));
     }
 }
 
@@ -522,7 +526,7 @@ pub fn one_with_run(
     keep_apart(files.iter().copied(), &[(part.run.as_path(), "the run")])?;
     let (columns, exactness) = if is_spec(&part.run)? {
         let options = Options::of(&part.run, &part.runs, None)?;
-        let (run, recording) = made(&options, &Looks::Even, files)?;
+        let (run, recording) = made(&options, &SampleInstants::Even, files)?;
         let method = methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
         let tolerance = if method.has_fixed_steps() {
             ROUNDING

@@ -8,7 +8,7 @@ use crate::drawing::{self, Curve, Pane};
 use crate::failure::Failure;
 use crate::modes::number;
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
-use crate::runs::{self, Columns, Looks, Options, Quantity};
+use crate::runs::{self, Columns, Options, Quantity, SampleInstants};
 use crate::table;
 
 /// The number of points that are printed.
@@ -96,14 +96,14 @@ fn points(call: &call::Section, files: &[&Destination]) -> Result<Columns, Failu
         }
         let options = Options::of(&part.run, &part.runs, None)?;
         match (&call.period, &call.crossing) {
-            (Some(period), _) => runs::spec(&options, &Looks::Period(period), files)?,
+            (Some(period), _) => runs::spec(&options, &SampleInstants::Period(period), files)?,
             (None, Some(crossing)) => {
                 // `x=0.1*m` means where x − 0.1 m crosses 0.
                 let formula = match crossing.split_once('=') {
                     Some((name, value)) => format!("({name}) - ({value})"),
                     None => crossing.clone(),
                 };
-                let looks = Looks::Crossing(&formula, call.direction);
+                let looks = SampleInstants::Crossing(&formula, call.direction);
                 runs::spec(&options, &looks, files)?
             }
             (None, None) => return Err(neither()),

@@ -494,7 +494,7 @@ fn made(
     }
     let run = simulation
         .run_interpreted(from)
-        .map_err(|error| Failure::Run(verdict::said(&error)))?;
+        .map_err(|error| Failure::Run(verdict::message_of(&error)))?;
     warn(&run);
     if is_held {
         check_drift(machine, run.end(), variations)?;
@@ -585,7 +585,7 @@ fn across_impacts(
         until: call.until,
         most_steps: call.max_steps,
     };
-    let failed = |error: lagrangian::Error| Failure::Run(verdict::said(&error));
+    let failed = |error: lagrangian::Error| Failure::Run(verdict::message_of(&error));
     let run = across::run(&wanted, &start).map_err(|why| match why {
         NoDerivatives::Run(error) => failed(error),
         // The run itself may continue where its derivatives do not.

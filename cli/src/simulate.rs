@@ -30,7 +30,7 @@ use crate::precise;
 use crate::progress;
 use crate::reading::{self, Reading};
 use crate::recording::{Recording, Run};
-use crate::report::{self, Asked, Live, Report};
+use crate::report::{self, CallSettings, Live, Report};
 use crate::{plot, table};
 
 /// The default number of recorded samples of a run.
@@ -82,7 +82,7 @@ struct Trouble<'a> {
 impl Trouble<'_> {
     /// All reasons for an error status, each as a sentence.
     fn errors(&self) -> Vec<String> {
-        let error = self.error.map(verdict::said);
+        let error = self.error.map(verdict::message_of);
         error
             .into_iter()
             .chain(self.other.iter().cloned())
@@ -132,7 +132,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let laws = reading.drive(&call.spec, &written)?;
     let formulas = reading.formulas();
     let compiled = reading.compile_beside(&dag, files.all());
-    let mut compiled = compiled.map_err(inputs::told)?;
+    let mut compiled = compiled.map_err(inputs::as_call_failure)?;
     let mut machine = reading::machine(&compiled, &call.start)?;
     // Formulas of inputs are not outputs of the machine.
     let own = compiled.model.outputs.len() - formulas;
@@ -147,7 +147,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         let reason = reason.or_else(|| signals::without_series(&signals, &machine));
         if let Some(reason) = reason {
             method = <&Method>::default();
-            output::complain(format_args!(
+            output::print_error(format_args!(
                 "warning: no Taylor series: {reason}; {} is used",
                 method.tableau.name
             ));
@@ -155,7 +155,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         machine = machine.with_series(series);
     }
     if call.live
-        && let Some(objection) = report::live::objection(
+        && let Some(objection) = report::live::reason_not_live(
             &compiled.program,
             method,
             !laws.is_empty(),
@@ -197,7 +197,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         .max_steps(call.max_steps)
         .energy_balance(true)
         .forget_steps()
-        .stop_if(|_| interrupt.came())
+        .stop_if(|_| interrupt.was_pressed())
         .progress(|now| {
             progress::at(now.t, now.fraction, now.steps);
             // Reported at once, not after hours of running.
@@ -205,7 +205,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
                 .stiff_since
                 .filter(|_| !std::mem::replace(&mut is_said, true))
             {
-                output::complain(format_args!(
+                output::print_error(format_args!(
                     "warning: {}: --method radau5",
                     Warning::Stiff { t }
                 ));
@@ -244,7 +244,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
                 .longest_step(call.longest_step.unwrap_or(f64::INFINITY))
                 .max_steps(call.max_steps)
                 .forget_steps()
-                .stop_if(|_| interrupt.came());
+                .stop_if(|_| interrupt.was_pressed());
             let simulation = reading::keep(simulation, &call.keep);
             let simulation = if is_auto {
                 simulation.automatic()
@@ -256,7 +256,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         };
         let is_driven = !signals.is_empty();
         let wide = (!is_driven).then(|| ProvedSeries::derive(&compiled.model));
-        let asked = global_error::Asked {
+        let asked = global_error::EstimatedRun {
             machine: &machine,
             series: wide,
             tolerance,
@@ -281,7 +281,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         trouble.other.extend(written);
         if let Some(file) = &files.report {
             let report = Report {
-                asked: &asked(call, tolerance),
+                asked: &call_settings(call, tolerance),
                 compiled: &compiled,
                 contacts: &contacts,
                 machine: &machine,
@@ -337,20 +337,20 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     }
     let errors = trouble.errors();
     for error in &errors {
-        output::complain(format_args!("error: {error}"));
+        output::print_error(format_args!("error: {error}"));
     }
     match (errors.is_empty(), interruption) {
-        (false, _) => Err(Failure::Said),
+        (false, _) => Err(Failure::AlreadyReported),
         (true, Some(_)) => Err(Failure::Interrupted),
         (true, None) => Ok(()),
     }
 }
 
 /// The settings of the call for the page of a run.
-fn asked(call: &call::Simulate, tolerance: f64) -> Asked {
+fn call_settings(call: &call::Simulate, tolerance: f64) -> CallSettings {
     let file = call.spec.path.file_name();
     let inputs = call.inputs.iter();
-    Asked {
+    CallSettings {
         file: file.map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
         tolerance: shortest(tolerance),
         constants: call

@@ -2,7 +2,7 @@
 
 mod design;
 mod reductions;
-mod spoken;
+mod reporter;
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -30,7 +30,7 @@ use crate::output::{self, Destination, TABLE, ending_is_one_of, keep_apart};
 use crate::progress;
 use crate::reading;
 use crate::table;
-use spoken::Spoken;
+use reporter::Reporter;
 
 /// The destination of rows.
 struct Out {
@@ -135,10 +135,10 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
     });
     let began = Instant::now();
     progress::end();
-    let mut spoken = Spoken::new(sweep.plan().runs(), call.spec.json);
-    let watch = &mut |now| spoken.say(now);
+    let mut reporter = Reporter::new(sweep.plan().runs(), call.spec.json);
+    let watch = &mut |now| reporter.report(now);
     let made = run_all(sweep, &folder, (threads, call.limit), &stop, watch);
-    spoken.end();
+    reporter.end();
     let going_on = "the same command goes on";
     let now = made.map_err(|trouble| {
         Failure::Run(format!(
@@ -177,16 +177,16 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
         })?;
         folder.remove().map_err(refused)?;
     }
-    tell(call, &summary, (seconds, now), &shown.to_string());
+    print_summary(call, &summary, (seconds, now), &shown.to_string());
     if call.strict && summary.failed > 0 {
-        Err(Failure::Said)
+        Err(Failure::AlreadyReported)
     } else {
         Ok(())
     }
 }
 
 /// Prints a summary.
-fn tell(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u64), shown: &str) {
+fn print_summary(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u64), shown: &str) {
     let Summary {
         runs,
         failed,
@@ -329,7 +329,7 @@ fn made(plan: Plan, engine: Engine) -> Result<Sweep, Failure> {
         }
     })?;
     if let Some(warning) = sweep.warning() {
-        output::complain(format_args!("warning: {warning}"));
+        output::print_error(format_args!("warning: {warning}"));
     }
     Ok(sweep)
 }

@@ -3,7 +3,7 @@
 use lagrangian::interpreted::{InterpretedMachine, Named, Recording};
 use lagrangian::methods::Method;
 use lagrangian::{Ending, Solution, State, System};
-use lagrangian_cli::report::{Asked, Report, finer};
+use lagrangian_cli::report::{CallSettings, Report, finer};
 use lagrangian_mechanics::Compiled;
 use lagrangian_sweep::verdict;
 use numpy::PyArray1;
@@ -120,7 +120,7 @@ start.t + duration * (k as f64 / parts as f64)
         let method = Method::named(method).unwrap_or_default();
         let (file, tolerance, inputs) = asked;
         let constants = machine.derived.text.constants.iter();
-        let asked = Asked {
+        let asked = CallSettings {
             file,
             tolerance,
             constants: constants.map(|(name, _)| name.clone()).collect(),

@@ -12,7 +12,7 @@ const ROUNDS: usize = 200;
 
 /// Residuals below this, relative to the residual at the start, count as zero: their square is the
 /// round-off in a sum of squares.
-const NO_MISS: f64 = 1e-7;
+const NO_VIOLATION: f64 = 1e-7;
 
 /// Residuals below this, relative to the terms of a row, count as zero as well: runs demand less, and
 /// rounding is far below.
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-11;
 const BESIDE: f64 = 1e-4;
 
 /// A row that cannot be satisfied: its index, its level (0 for positions, 1 for rates), and its residual.
-pub(crate) type Miss = (usize, usize, f64);
+pub(crate) type Violation = (usize, usize, f64);
 
 /// The rows that cannot be satisfied by moving the free numbers; those with nonzero `kept` are fixed.
 /// These are the rows with a remainder where the sum of squares of all residuals is smallest. Rates are
@@ -35,13 +35,13 @@ pub(crate) fn closest<S: System>(
     system: &S,
     place: &mut Place<'_, S::Vector>,
     kept: &[S::Vector; 2],
-) -> Vec<Miss> {
+) -> Vec<Violation> {
     for level in [Level::Positions, Level::Rates] {
         let mut search = Search::new(system, place, &kept[level as usize], level);
         search.go(system, place);
-        let misses = search.misses();
-        if !misses.is_empty() {
-            return misses;
+        let violations = search.violations();
+        if !violations.is_empty() {
+            return violations;
         }
     }
     Vec::new()
@@ -91,7 +91,7 @@ impl Search {
             free: inverse.clone(),
             nothing: 0.0,
         };
-        search.look(system, place);
+        search.evaluate(system, place);
         for (row, size) in search.matrix.chunks_exact(n).zip(&mut search.sizes) {
             let squares = row.iter().zip(&inverse).map(|(g, w)| g * g * w);
             let length = squares.sum::<f64>().sqrt();
@@ -99,7 +99,7 @@ impl Search {
                 *size = length;
             }
         }
-        search.look(system, place);
+        search.evaluate(system, place);
         let y = match level {
             Level::Positions => &*place.q[0],
             Level::Rates => &*place.v[0],
@@ -120,7 +120,7 @@ impl Search {
                 .zip(&reach)
                 .map(|(g, y)| g.abs() * y)
                 .sum::<f64>();
-            let nothing = (ROUNDING * (terms + left.abs())).max(NO_MISS * left.abs());
+            let nothing = (ROUNDING * (terms + left.abs())).max(NO_VIOLATION * left.abs());
             search.nothing = search.nothing.max(nothing);
         }
         for (free, kept) in search.free.iter_mut().zip(kept.as_slice()) {
@@ -132,7 +132,7 @@ impl Search {
     }
 
     /// Evaluates residuals and rows at a state.
-    fn look<S: System>(&mut self, system: &S, place: &Place<'_, S::Vector>) {
+    fn evaluate<S: System>(&mut self, system: &S, place: &Place<'_, S::Vector>) {
         let m = system.constraints().len();
         let (mut left, mut matrix) = (vec![0.0; m], vec![0.0; m * self.n]);
         let (q, v) = (&*place.q[0], &*place.v[0]);
@@ -152,7 +152,7 @@ impl Search {
 
     fn go<S: System>(&mut self, system: &S, place: &mut Place<'_, S::Vector>) {
         let (n, m) = (self.n, self.rows.len());
-        self.look(system, place);
+        self.evaluate(system, place);
         let mut damping = 1e-3;
         let mut squares = dot(&self.left, &self.left);
         for _ in 0..ROUNDS {
@@ -182,7 +182,7 @@ impl Search {
                     *y -= w * g * weight;
                 }
             }
-            self.look(system, place);
+            self.evaluate(system, place);
             let now = dot(&self.left, &self.left);
             if now < squares {
                 let gain = 1.0 - now / squares;
@@ -193,23 +193,23 @@ impl Search {
                 }
             } else {
                 *place.level(self.level)[0] = before;
-                self.look(system, place);
+                self.evaluate(system, place);
                 damping *= 10.0;
             }
         }
     }
 
     /// The constraints that are violated at the present state, with their residuals.
-    fn misses(&self) -> Vec<Miss> {
+    fn violations(&self) -> Vec<Violation> {
         let most = self.left.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let rows = self.rows.iter().zip(&self.left).zip(&self.sizes);
         let missed = rows.filter(|((_, left), _)| left.abs() > BESIDE * most);
         let level = self.level as usize;
-        let misses = missed.map(|((k, left), size)| (*k, level, left * size));
+        let violations = missed.map(|((k, left), size)| (*k, level, left * size));
         if most <= self.nothing {
             Vec::new()
         } else {
-            misses.collect()
+            violations.collect()
         }
     }
 }

@@ -7,7 +7,7 @@
 //! removes it once `ε` is no longer small. Therefore, while a motion passes such a pose,
 //!
 //! * its stages are projected onto the constraints before their accelerations are evaluated;
-//! * accelerations within [`PASSED_OVER`] are interpolated between four states on the same branch, two before and two after, at
+//! * accelerations within [`INTERPOLATED_BELOW`] are interpolated between four states on the same branch, two before and two after, at
 //!   which the rows are strong: an error of order `ε⁴`;
 //! * a state with `ε` below [`WEAK`] is not moved along such weak rows: it continues as it came, and so does the branch;
 //! * the error of a step is measured along the motion, as the error of the state after its projection (E. Hairer, G. Wanner,
@@ -27,10 +27,10 @@ pub(super) const WEAK: f64 = 1e-4;
 pub(super) const TIGHT: f64 = 1e-2;
 
 /// Below this strength, accelerations are interpolated from both sides of the pose.
-pub(super) const PASSED_OVER: f64 = 3e-4;
+pub(super) const INTERPOLATED_BELOW: f64 = 3e-4;
 
 /// A step that fails may have failed because of such a pose if the strength is below this, and may vanish within the step.
-const IN_SIGHT: f64 = 0.5;
+const NEARLY_DEPENDENT: f64 = 0.5;
 
 /// Below this strength such a pose is near, however long the step.
 const NEAR: f64 = 0.1;
@@ -96,7 +96,7 @@ impl<V: Vector> Constraints<V> {
 
     /// Called after a step failed, with the [strengths](Self::hold) at its beginning, its middle and its end; returns whether such a pose
     /// may be the cause, unless that was known before. `at_last` says that no shorter step is possible.
-    pub fn meet_fork(&mut self, holds: [f64; 3], at_last: bool) -> bool {
+    pub fn notice_fork(&mut self, holds: [f64; 3], at_last: bool) -> bool {
         if self.at_fork {
             return false;
         }
@@ -106,14 +106,14 @@ impl<V: Vector> Constraints<V> {
         let is_in_reach = holds
             .windows(2)
             .any(|pair| is_in_reach(least, pair[1] - pair[0]));
-        self.at_fork = least < IN_SIGHT && (at_last || is_in_reach);
+        self.at_fork = least < NEARLY_DEPENDENT && (at_last || is_in_reach);
         [self.held, ..] = holds;
         self.away = 0;
         self.at_fork
     }
 
     /// Called at the end of a step; updates whether the motion is still near the pose.
-    pub fn pass_fork<S: System<Vector = V>>(&mut self, system: &S, t: f64, q: &V) {
+    pub fn update_fork<S: System<Vector = V>>(&mut self, system: &S, t: f64, q: &V) {
         if !self.at_fork {
             return;
         }
@@ -124,7 +124,7 @@ impl<V: Vector> Constraints<V> {
             self.away += 1;
         }
         self.held = hold;
-        self.at_fork = hold < IN_SIGHT && self.away < STEPS_AWAY;
+        self.at_fork = hold < NEARLY_DEPENDENT && self.away < STEPS_AWAY;
     }
 
     /// Accelerations of a state after its projection onto the constraints: the error of a stage would otherwise grow as
@@ -135,11 +135,11 @@ impl<V: Vector> Constraints<V> {
         (t, q, v, u): (f64, &V, &V, &S::Inputs),
         a: &mut V,
     ) -> Result<(), StepError> {
-        if self.hold(system, t, q) < PASSED_OVER {
+        if self.hold(system, t, q) < INTERPOLATED_BELOW {
             return self.accelerations_across(system, (t, q, v, u), a);
         }
         let (mut q, mut v) = (q.clone(), v.clone());
-        self.put_on(system, t, &mut q, &mut v)?;
+        self.project_onto_chosen(system, t, &mut q, &mut v)?;
         self.accelerations_here(system, (t, &q, &v, u), a)
     }
 
@@ -156,7 +156,7 @@ impl<V: Vector> Constraints<V> {
         let mut times = [0.0; 4];
         let mut beside: [V; 4] = a.several_zeros_like();
         for (pair, direction) in [1.0, -1.0].into_iter().enumerate() {
-            let mut far = PASSED_OVER;
+            let mut far = INTERPOLATED_BELOW;
             for k in [2 * pair, 2 * pair + 1] {
                 let at = (t, q, v, u);
                 let (by, was) =
@@ -195,9 +195,9 @@ impl<V: Vector> Constraints<V> {
             for (q, v) in ahead.as_mut_slice().iter_mut().zip(v.as_slice()) {
                 *q += by * v;
             }
-            if self.hold(system, t + by, &ahead) >= 2.0 * PASSED_OVER {
+            if self.hold(system, t + by, &ahead) >= 2.0 * INTERPOLATED_BELOW {
                 let mut rates = v.clone();
-                self.put_on(system, t + by, &mut ahead, &mut rates)?;
+                self.project_onto_chosen(system, t + by, &mut ahead, &mut rates)?;
                 self.accelerations_here(system, (t + by, &ahead, &rates, u), a)?;
                 return Ok((by, far));
             }
@@ -208,7 +208,7 @@ impl<V: Vector> Constraints<V> {
     }
 
     /// Projects a state at which rows may be weak, but do not vanish, onto all chosen rows.
-    pub(super) fn put_on<S: System<Vector = V>>(
+    pub(super) fn project_onto_chosen<S: System<Vector = V>>(
         &self,
         system: &S,
         t: f64,

@@ -14,7 +14,7 @@
 //!   cancel each other). Their size is not known beforehand: it is measured when Newton's method stagnates.
 
 use super::algebra::{root, share};
-use super::{RESIDUAL, ROUNDOFF, WORKED_OFF};
+use super::{REDUCTION_THRESHOLD, RESIDUAL, ROUNDOFF};
 use crate::math::sqrt;
 use crate::{System, Vector};
 
@@ -22,7 +22,7 @@ use crate::{System, Vector};
 const REMEMBERED: usize = 4;
 
 /// Weight of the inertial scale, such that the bound of the residuals is some round-offs of it.
-pub(super) const OF_INERTIA: f64 = ROUNDOFF / WORKED_OFF;
+pub(super) const OF_INERTIA: f64 = ROUNDOFF / REDUCTION_THRESHOLD;
 
 /// The largest values and terms seen during a run.
 #[derive(Clone, Debug)]
@@ -34,12 +34,12 @@ pub(crate) struct Scales<V> {
     /// For each row the largest sum of terms so far, of positions and of rates.
     terms: [[V; REMEMBERED]; 2],
     /// For each row, the change of its terms over the sizes of the coordinates, at the start.
-    bends: [V; REMEMBERED],
+    curvatures: [V; REMEMBERED],
     /// `√Mⱼⱼ`.
     inertia: V,
     /// The observed round-off of positions and rates, as a length in the metric of inertia, relative to the
     /// round-off unit.
-    grain: [f64; 2],
+    observed_roundoff: [f64; 2],
 }
 
 /// A row's residual, of positions or rates, relative to its scale.
@@ -48,7 +48,7 @@ pub(super) struct Relative {
     /// Relative to the present terms; Newton's method reduces this.
     pub now: f64,
     /// Relative to the largest terms so far; this is what the bound guarantees.
-    pub promised: f64,
+    pub guaranteed: f64,
 }
 
 impl<V: Vector> Scales<V> {
@@ -74,9 +74,9 @@ impl<V: Vector> Scales<V> {
             sizes,
             angles,
             terms: [zeros.several_zeros_like(), zeros.several_zeros_like()],
-            bends: zeros.several_zeros_like(),
+            curvatures: zeros.several_zeros_like(),
             inertia: zeros.clone(),
-            grain: [0.0; 2],
+            observed_roundoff: [0.0; 2],
         }
     }
 
@@ -90,7 +90,7 @@ impl<V: Vector> Scales<V> {
     }
 
     /// Records the terms of a row at a state; `by_time` is `|∂gₖ/∂t|`.
-    pub fn note_terms(&mut self, k: usize, row: &[f64], by_time: f64) {
+    pub fn record_terms(&mut self, k: usize, row: &[f64], by_time: f64) {
         let (sizes_q, sizes_v) = (self.sizes[0].as_slice(), self.sizes[1].as_slice());
         let sum = |sizes: &[f64]| row.iter().zip(sizes).map(|(g, y)| g.abs() * y).sum::<f64>();
         let terms = [sum(sizes_q), sum(sizes_v) + by_time];
@@ -105,11 +105,11 @@ impl<V: Vector> Scales<V> {
     }
 
     /// Records how the terms of a row bend.
-    pub fn note_bend(&mut self, k: usize, bend: f64) {
-        if let Some(known) = slot_mut(&mut self.bends, k)
-            && bend.is_finite()
+    pub fn record_curvature(&mut self, k: usize, curvature: f64) {
+        if let Some(known) = slot_mut(&mut self.curvatures, k)
+            && curvature.is_finite()
         {
-            *known = known.max(bend);
+            *known = known.max(curvature);
         }
     }
 
@@ -138,7 +138,9 @@ impl<V: Vector> Scales<V> {
     /// The size of a row's terms in a pose relative to the largest: where it is small, the row is weak.
     pub fn strength(&self, k: usize, row: &[f64], q: &V) -> f64 {
         let now = self.sum(row, q, 0);
-        let greatest = now.max(slot(&self.terms[0], k)).max(slot(&self.bends, k));
+        let greatest = now
+            .max(slot(&self.terms[0], k))
+            .max(slot(&self.curvatures, k));
         if greatest > 0.0 { now / greatest } else { 1.0 }
     }
 
@@ -151,7 +153,7 @@ impl<V: Vector> Scales<V> {
     }
 
     /// Records the metric from its factor `L`.
-    pub fn note_metric(&mut self, l: &[f64]) {
+    pub fn record_metric(&mut self, l: &[f64]) {
         let n = root(l.len());
         for (j, inertia) in self.inertia.as_mut_slice().iter_mut().enumerate() {
             *inertia = sqrt(l[j * n..][..=j].iter().map(|x| x * x).sum());
@@ -182,7 +184,10 @@ impl<V: Vector> Scales<V> {
         let positions = self.sum(row, q, 0);
         let rates = self.sum(row, v, 1) + (left[1] - by_rates).abs();
         let within = self.length(row) * OF_INERTIA;
-        let inertial = [self.grain[0], self.grain[1] + self.speed(v)];
+        let inertial = [
+            self.observed_roundoff[0],
+            self.observed_roundoff[1] + self.speed(v),
+        ];
         let of = |level: usize, now: f64| {
             let greatest = now.max(slot(&self.terms[level], k));
             // Relative to the largest size of the row.
@@ -190,18 +195,18 @@ impl<V: Vector> Scales<V> {
             let floor = within * reach * inertial[level];
             Relative {
                 now: share(left[level], now + floor),
-                promised: share(left[level], greatest + floor),
+                guaranteed: share(left[level], greatest + floor),
             }
         };
         [of(0, positions), of(1, rates)]
     }
 
     /// Records the observed round-off of a row.
-    pub fn note_grain(&mut self, level: usize, row: &[f64], left: f64) {
+    pub fn record_rounding(&mut self, level: usize, row: &[f64], left: f64) {
         let length = self.length(row);
         if length > 0.0 && left.is_finite() {
-            let grain = left.abs() / (length * ROUNDOFF);
-            self.grain[level] = self.grain[level].max(grain);
+            let observed_roundoff = left.abs() / (length * ROUNDOFF);
+            self.observed_roundoff[level] = self.observed_roundoff[level].max(observed_roundoff);
         }
     }
 

@@ -92,7 +92,7 @@ impl<V: Vector> Constraints<V> {
         }
         // Rows that depend on others everywhere depend only on those.
         if self
-            .put_on(system, later, &mut ahead, &mut v.clone())
+            .project_onto_chosen(system, later, &mut ahead, &mut v.clone())
             .is_err()
         {
             return Ok(());
@@ -138,7 +138,7 @@ impl<V: Vector> Constraints<V> {
             self.choice = known.made(system, (place.t, place.q[0]), rank, by)?;
             self.redundant = self.choice.rank < system.constraints().len();
             let approached = in_workspace(system, place.t, n, |workspace| {
-                self.note_bends(system, workspace, (place.t, place.q[0]));
+                self.record_curvatures(system, workspace, (place.t, place.q[0]));
                 self.approach(system, workspace, place, levels)
             });
             match approached {
@@ -158,7 +158,7 @@ impl<V: Vector> Constraints<V> {
 
     /// Records the change of rows over the sizes of the coordinates: `½ sᵀ (∂²g/∂q²) s` for some
     /// displacements `s`, from the part of `γ` that is even in the rates.
-    fn note_bends<S: System<Vector = V>>(
+    fn record_curvatures<S: System<Vector = V>>(
         &mut self,
         system: &S,
         workspace: &mut Workspace<'_, S::Matrix>,
@@ -173,7 +173,7 @@ impl<V: Vector> Constraints<V> {
             system.constraint_drift(t, q, &s, workspace.rates);
             for k in 0..workspace.m {
                 let even = 0.5 * (workspace.positions[k] + workspace.rates[k]) - workspace.row[k];
-                self.scales.note_bend(k, 0.5 * even.abs());
+                self.scales.record_curvature(k, 0.5 * even.abs());
             }
         }
     }

@@ -36,7 +36,7 @@ const ROUNDS: usize = 9;
 const STEPS: usize = 40;
 
 /// Directions in which the friction of one contact is looked for first.
-const LOOKS: usize = 48;
+const DIRECTIONS: usize = 48;
 
 /// A normal direction, or the tangent or both tangents of a contact.
 #[derive(Clone, Debug)]
@@ -44,12 +44,12 @@ pub(super) enum Part {
     /// The place of a normal force among the unknowns.
     Normal(usize),
     /// The places of one or two tangential forces, which together are no greater than `μ` times the force at `on`, if there is
-    /// one, and `beside` that.
+    /// one, and `known_normal` that.
     Disc {
         places: Vec<usize>,
         friction: f64,
         on: Option<usize>,
-        beside: f64,
+        known_normal: f64,
     },
 }
 
@@ -69,7 +69,7 @@ pub(super) fn solve(problem: &Problem) -> Result<(Vec<f64>, f64), Unsolved> {
         return Err(Unsolved);
     }
     let mut z = vec![0.0; n];
-    let mut best = (problem.missed(&z), z.clone());
+    let mut best = (problem.relative_residual(&z), z.clone());
     for round in 0..ROUNDS {
         for _ in 0..FIRST_SWEEPS << round {
             let moved = problem.sweep(&mut z);
@@ -104,8 +104,8 @@ impl Problem {
         terms.fold(self.b[i], |sum, (a, z)| sum + a * z)
     }
 
-    fn radius(friction: f64, on: Option<usize>, beside: f64, z: &[f64]) -> f64 {
-        (friction * (on.map_or(0.0, |on| z[on]) + beside)).max(0.0)
+    fn radius(friction: f64, on: Option<usize>, known_normal: f64, z: &[f64]) -> f64 {
+        (friction * (on.map_or(0.0, |on| z[on]) + known_normal)).max(0.0)
     }
 
     /// `Φ`, in the order of the unknowns.
@@ -118,9 +118,9 @@ impl Problem {
                     places,
                     friction,
                     on,
-                    beside,
+                    known_normal,
                 } => {
-                    let radius = Self::radius(*friction, *on, *beside, z);
+                    let radius = Self::radius(*friction, *on, *known_normal, z);
                     let towards = places.iter().map(|&i| z[i] - self.rate(i, z));
                     let towards: Vec<f64> = towards.collect();
                     let length = norm(&towards);
@@ -139,7 +139,7 @@ impl Problem {
     }
 
     /// The greatest part of `Φ`, relative to the size of forces and rates.
-    fn missed(&self, z: &[f64]) -> f64 {
+    fn relative_residual(&self, z: &[f64]) -> f64 {
         let size = z.iter().fold(1.0_f64, |size, z| size.max(z.abs()));
         let phi = self.residual(z);
         phi.iter().fold(0.0_f64, |most, phi| most.max(phi.abs())) / size
@@ -149,7 +149,7 @@ impl Problem {
     fn polish(&self, z: &[f64], best: &mut (f64, Vec<f64>)) {
         let mut z = z.to_vec();
         let mut note = |z: &[f64]| {
-            let missed = self.missed(z);
+            let missed = self.relative_residual(z);
             if missed < best.0 {
                 *best = (missed, z.to_vec());
             }
@@ -202,9 +202,9 @@ impl Problem {
                     places,
                     friction,
                     on,
-                    beside,
+                    known_normal,
                 } => {
-                    let radius = Self::radius(*friction, *on, *beside, z);
+                    let radius = Self::radius(*friction, *on, *known_normal, z);
                     let towards = places.iter().map(|&i| z[i] - self.rate(i, z));
                     let towards: Vec<f64> = towards.collect();
                     let length = norm(&towards);
@@ -250,16 +250,18 @@ impl Problem {
                             places,
                             friction,
                             on: Some(on),
-                            beside,
-                        } if on == i => Some((places, *friction, *beside)),
+                            known_normal,
+                        } if on == i => Some((places, *friction, *known_normal)),
                         _ => None,
                     });
-                    let (places, friction, beside) = match &own {
-                        Some((places, friction, beside)) => (places.as_slice(), *friction, *beside),
+                    let (places, friction, known_normal) = match &own {
+                        Some((places, friction, known_normal)) => {
+                            (places.as_slice(), *friction, *known_normal)
+                        }
                         None => (&[][..], 0.0, 0.0),
                     };
                     let all: Vec<usize> = [*i].into_iter().chain(places.iter().copied()).collect();
-                    let found = self.alone(&all, friction, beside, z);
+                    let found = self.single_contact_forces(&all, friction, known_normal, z);
                     for (&i, value) in all.iter().zip(found) {
                         moved = moved.max((value - z[i]).abs());
                         (z[i], solved[i]) = (value, true);
@@ -269,9 +271,9 @@ impl Problem {
                     places,
                     friction,
                     on,
-                    beside,
+                    known_normal,
                 } if !solved[places[0]] => {
-                    let radius = Self::radius(*friction, *on, *beside, z);
+                    let radius = Self::radius(*friction, *on, *known_normal, z);
                     let found = self.on_disc(places, radius, z);
                     for (&i, value) in places.iter().zip(found) {
                         moved = moved.max((value - z[i]).abs());
@@ -285,7 +287,7 @@ impl Problem {
     }
 
     /// The rates of some directions without the forces along these.
-    fn without(&self, places: &[usize], z: &[f64]) -> Vec<f64> {
+    fn rates_without(&self, places: &[usize], z: &[f64]) -> Vec<f64> {
         let own = |i: usize| {
             let row = self.row(i);
             places.iter().map(|&j| row[j] * z[j]).sum::<f64>()
@@ -294,17 +296,23 @@ impl Problem {
     }
 
     /// The forces of one contact, normal and tangents, with all others as they are.
-    fn alone(&self, places: &[usize], friction: f64, beside: f64, z: &[f64]) -> Vec<f64> {
+    fn single_contact_forces(
+        &self,
+        places: &[usize],
+        friction: f64,
+        known_normal: f64,
+        z: &[f64],
+    ) -> Vec<f64> {
         let m = places.len();
         let w = |i: usize, j: usize| self.matrix[places[i] * self.n() + places[j]];
-        let q = self.without(places, z);
+        let q = self.rates_without(places, z);
         // What is beside the normal force rubs even where the contact opens.
         if q[0] >= 0.0 {
             let mut found = vec![0.0; m];
-            if beside > 0.0 && m > 1 {
+            if known_normal > 0.0 && m > 1 {
                 let mut open = z.to_vec();
                 open[places[0]] = 0.0;
-                let rest = self.on_disc(&places[1..], friction * beside, &open);
+                let rest = self.on_disc(&places[1..], friction * known_normal, &open);
                 found[1..].copy_from_slice(&rest);
                 let rate = (1..m).fold(q[0], |rate, j| rate + w(0, j) * found[j]);
                 if rate >= 0.0 {
@@ -321,14 +329,14 @@ impl Problem {
         let mut left: Vec<f64> = (0..m * m).map(|k| w(k / m, k % m)).collect();
         let mut right: Vec<f64> = q.iter().map(|q| -q).collect();
         let (held, _) = lcp::solve(&mut left, &mut right);
-        let most = friction * (held[0] + beside);
+        let most = friction * (held[0] + known_normal);
         if held[0] >= 0.0 && norm(&held[1..]) <= most {
             return held;
         }
         // It slips in a direction e: with Λₜ = −r e and γₙ = 0, γₜ is to lie along e.
         let slipping = |e: &[f64]| -> Option<(Vec<f64>, Vec<f64>)> {
             let against = |i: usize| e.iter().zip(1..m).map(|(e, j)| w(i, j) * e).sum::<f64>();
-            let given = friction * beside;
+            let given = friction * known_normal;
             let own = w(0, 0) - friction * against(0);
             let normal = -(q[0] - given * against(0)) / own;
             if own <= 0.0 || normal < 0.0 {
@@ -343,7 +351,7 @@ impl Problem {
         slipping_direction(m - 1, slipping).unwrap_or_else(|| {
             // None is found: a small step towards one.
             let normal = (z[places[0]] - 0.5 * self.rate(places[0], z)).max(0.0);
-            let radius = friction * (normal + beside);
+            let radius = friction * (normal + known_normal);
             let rest = places[1..].iter();
             let towards: Vec<f64> = rest.map(|&i| z[i] - 0.5 * self.rate(i, z)).collect();
             let length = norm(&towards);
@@ -361,7 +369,7 @@ impl Problem {
     fn on_disc(&self, places: &[usize], radius: f64, z: &[f64]) -> Vec<f64> {
         let m = places.len();
         let w = |i: usize, j: usize| self.matrix[places[i] * self.n() + places[j]];
-        let q = self.without(places, z);
+        let q = self.rates_without(places, z);
         let mut left: Vec<f64> = (0..m * m).map(|k| w(k / m, k % m)).collect();
         let mut right: Vec<f64> = q.iter().map(|q| -q).collect();
         let (held, _) = lcp::solve(&mut left, &mut right);
@@ -407,9 +415,9 @@ fn slipping_direction(
     };
     let mut best: Option<Vec<f64>> = None;
     let whole = 2.0 * core::f64::consts::PI;
-    let at = |look: usize| whole * look as f64 / LOOKS as f64;
+    let at = |look: usize| whole * look as f64 / DIRECTIONS as f64;
     let mut before = aside(at(0));
-    for look in 1..=LOOKS {
+    for look in 1..=DIRECTIONS {
         let (mut from, mut to) = (at(look - 1), at(look));
         let after = aside(to);
         let (Some(mut low), Some(high)) = (before, after) else {
@@ -478,7 +486,7 @@ mod tests {
                     places: vec![3 * k + 1, 3 * k + 2],
                     friction,
                     on: Some(3 * k),
-                    beside: 0.0,
+                    known_normal: 0.0,
                 },
             ]
         });
@@ -504,9 +512,9 @@ mod tests {
                     places,
                     friction,
                     on,
-                    beside,
+                    known_normal,
                 } => {
-                    let most = friction * (on.map_or(0.0, |on| z[on]) + beside);
+                    let most = friction * (on.map_or(0.0, |on| z[on]) + known_normal);
                     let force: Vec<f64> = places.iter().map(|i| z[*i]).collect();
                     let slip: Vec<f64> = places.iter().map(|i| problem.rate(*i, z)).collect();
                     worst = worst.max(norm(&force) - most);
@@ -550,7 +558,7 @@ mod tests {
                 places: vec![1, 2],
                 friction: 0.5,
                 on: Some(0),
-                beside: 0.0,
+                known_normal: 0.0,
             };
             let problem = Problem {
                 matrix,

@@ -2,8 +2,8 @@
 
 use std::vec::Vec;
 
-use super::touching::Here;
-use super::{Mode, Touching};
+use super::touching::ContactKinematics;
+use super::{Mode, UnilateralState};
 use crate::{StepError, System};
 
 /// A unilateral contact at a state.
@@ -44,9 +44,9 @@ pub fn unilateral_forces<S: System>(
     a: &mut S::Vector,
 ) -> Result<Vec<UnilateralForce>, StepError> {
     let (t, q, v, _) = at;
-    let mut touching = Touching::new(system);
+    let mut touching = UnilateralState::new(system);
     let (touches, _) = touching.near(system, (t, q, v), true);
-    let closed = touching.lasting(system, (t, q, v), &touches, true);
+    let closed = touching.persisting(system, (t, q, v), &touches, true);
     let resting = touching.resting(system, (t, q, v), &closed);
     let (modes, shares) = touching.settled_by_forces(system, at, &closed, &resting, None)?;
     touching.set_modes(modes);
@@ -54,7 +54,7 @@ pub fn unilateral_forces<S: System>(
     touching.forces_shared(system, at, a, Some(&shares))
 }
 
-impl Touching {
+impl UnilateralState {
     /// Accelerations and forces while everything stays as it is.
     pub(crate) fn forces<S: System>(
         &self,
@@ -75,7 +75,7 @@ impl Touching {
     ) -> Result<Vec<UnilateralForce>, StepError> {
         use crate::Vector;
         let (t, q, v, _) = at;
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let mut reaction = self.reaction(system, at)?;
         a.as_mut_slice().copy_from_slice(&reaction.a);
         if let (false, Some(shares)) = (reaction.is_only, shares) {
@@ -85,7 +85,7 @@ impl Touching {
             gap: here.gaps[k],
             gap_rate: here.rates[2 * k],
             slip: here.rates[2 * k + 1],
-            normal: reaction.forces[self.leans(k).unwrap_or(k)][0],
+            normal: reaction.forces[self.carrier(k).unwrap_or(k)][0],
             friction: reaction.forces[k][1],
             crushing_work: self.crushing_work(&here, k),
             closed: *mode != Mode::Open,

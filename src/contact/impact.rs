@@ -4,9 +4,9 @@ use std::vec;
 use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
-use super::problem::{self, Answer, Asked};
-use super::routh::{self, Expansion, Meeting};
-use super::touching::{Here, Touching};
+use super::problem::{self, Answer, ContactUnknowns};
+use super::routh::{self, Expansion, SingleImpact};
+use super::touching::{ContactKinematics, UnilateralState};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Mode, Painleve};
 use crate::{Singular, StepError, System, Vector};
 
@@ -43,20 +43,20 @@ pub(crate) struct Impact {
 
 impl Impact {
     /// What of the loss friction takes, in J. In time stepping it is that of a contact that lasts.
-    pub fn taken_by_slip(&self) -> f64 {
+    pub fn friction_loss(&self) -> f64 {
         -0.5 * self.impulse[1] * (self.slip[0] + self.slip[1])
     }
 }
 
 /// A way out of Painlevé's paradox.
-pub(crate) enum Jam {
+pub(crate) enum ParadoxResolution {
     /// The contact opens.
     Opens(usize),
     /// An impact without a collision, and how it changes the rates.
     Impact { impact: Impact, change: Vec<f64> },
 }
 
-impl Touching {
+impl UnilateralState {
     /// Which contacts touch, and which of these close.
     ///
     /// What is held is at rest, whatever rounding makes of its rate, as long as the rates are `as_held`: no impact has
@@ -67,10 +67,10 @@ impl Touching {
         (t, q, v): (f64, &S::Vector, &S::Vector),
         as_held: bool,
     ) -> (Vec<bool>, Vec<bool>) {
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let touches: Vec<bool> = (0..here.gaps.len())
             .map(|k| {
-                let touches = self.modes()[k] != Mode::Open || here.is_shut(k);
+                let touches = self.modes()[k] != Mode::Open || here.is_gap_closed(k);
                 touches && here.is_within(k, q.as_slice())
             })
             .collect();
@@ -79,8 +79,8 @@ impl Touching {
             .enumerate()
             .map(|(k, touches)| {
                 let may = *touches
-                    && !self.yields(k)
-                    && self.leans(k).is_none()
+                    && !self.is_compliant(k)
+                    && self.carrier(k).is_none()
                     && !(as_held && self.modes()[k] != Mode::Open);
                 let least = LEAST_BOUNCE * 1e-3 * self.speed;
                 may && here.rates[2 * k] < -here.rate_rounding(2 * k).max(least)
@@ -97,9 +97,10 @@ impl Touching {
         q: &S::Vector,
         v: &S::Vector,
     ) -> Option<usize> {
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         // What yields may be pressed at the start, but for a layer: what it went through is not known.
-        let is_free = |k: usize| self.leans(k).is_some() || self.yields(k) && !self.is_layer(k);
+        let is_free =
+            |k: usize| self.carrier(k).is_some() || self.is_compliant(k) && !self.is_layer(k);
         let is_deep = |k: usize| here.gaps[k] < 0.0 && here.gaps[k] < -here.gap_rounding(k);
         (0..here.gaps.len()).find(|&k| !is_free(k) && is_deep(k))
     }
@@ -114,37 +115,37 @@ impl Touching {
         if self.order == ImpactOrder::AtOnce {
             return touches.to_vec();
         }
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let rate = |k: &usize| here.rates[2 * k];
-        let may = |k: &usize| touches[*k] && !self.yields(*k) && self.leans(*k).is_none();
+        let may = |k: &usize| touches[*k] && !self.is_compliant(*k) && self.carrier(*k).is_none();
         let closing = (0..touches.len()).filter(may);
         let fastest = closing.min_by(|a, b| rate(a).total_cmp(&rate(b)));
         let mut next: Vec<bool> = (0..touches.len()).map(|k| Some(k) == fastest).collect();
-        self.lean(&mut next);
+        self.copy_from_carriers(&mut next);
         next
     }
 
     /// Whether any contact is to have a way out of Painlevé's paradox.
-    pub fn may_jam(&self) -> bool {
+    pub fn may_have_paradox(&self) -> bool {
         self.painleve.contains(&Painleve::Impact)
     }
 
     /// The way out of Painlevé's paradox of a contact that slips and whose friction leaves no motion, or several. None
     /// if there is no such contact.
-    pub fn jam<S: System>(
+    pub fn resolve_paradox<S: System>(
         &self,
         system: &S,
         at: super::touching::At<'_, S>,
         closed: &[bool],
         resting: &[bool],
-    ) -> Result<Option<Jam>, StepError> {
-        let may = |k: usize| closed[k] && self.rubs(k) && !self.yields(k);
+    ) -> Result<Option<ParadoxResolution>, StepError> {
+        let may = |k: usize| closed[k] && self.has_friction(k) && !self.is_compliant(k);
         let may = |k: usize| may(k) && !resting[k] && self.painleve[k] == Painleve::Impact;
         let (t, q, v, _) = at;
         let Some(first) = (0..closed.len()).find(|k| may(*k)) else {
             return Ok(None);
         };
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let singular = |singular: Singular| StepError::Singular { singular, t };
         let inertia = Inertia::new(system, t, q).map_err(singular)?;
         let free = Self::free(system, at)?;
@@ -158,7 +159,7 @@ impl Touching {
                 continue;
             }
             if opens >= 0.0 {
-                return Ok(Some(Jam::Opens(k)));
+                return Ok(Some(ParadoxResolution::Opens(k)));
             }
             let trouble = |trouble| StepError::Contact {
                 contact: k,
@@ -168,13 +169,13 @@ impl Touching {
             if (0..closed.len()).any(|other| other != k && closed[other]) {
                 return Err(trouble(ContactTrouble::Paradox));
             }
-            let meeting = Meeting {
+            let single_impact = SingleImpact {
                 inverse_masses: [g[0], g[1], g[3]],
                 rates: [0.0, slip],
                 restitution: here.restitution(k)[0],
                 friction: here.friction(k),
             };
-            let impulse = routh::impulse(meeting, Expansion::Impulse)
+            let impulse = routh::impulse(single_impact, Expansion::Impulse)
                 .ok_or_else(|| trouble(ContactTrouble::Paradox))?;
             let change = inertia.response(&images, impulse);
             let by = |row: usize| g[2 * row] * impulse[0] + g[2 * row + 1] * impulse[1];
@@ -189,7 +190,7 @@ impl Touching {
                 loss,
                 work: here.work_of_walls(k, impulse, v.as_slice()),
             };
-            return Ok(Some(Jam::Impact { impact, change }));
+            return Ok(Some(ParadoxResolution::Impact { impact, change }));
         }
         Ok(None)
     }
@@ -204,28 +205,28 @@ impl Touching {
         touches: &[bool],
         as_held: bool,
     ) -> Result<Vec<Impact>, StepError> {
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let singular = |singular: Singular| StepError::Singular { singular, t };
         let inertia = Inertia::new(system, t, q).map_err(singular)?;
         // What opens already has no part in it, nor has what yields: its force is finite.
-        let meets: Vec<usize> = (0..touches.len())
-            .filter(|&k| touches[k] && !self.yields(self.leans(k).unwrap_or(k)))
+        let colliding: Vec<usize> = (0..touches.len())
+            .filter(|&k| touches[k] && !self.is_compliant(self.carrier(k).unwrap_or(k)))
             .filter(|&k| {
                 let is_held = as_held && self.modes()[k] != Mode::Open;
                 is_held || here.rates[2 * k] <= here.rate_rounding(2 * k)
             })
             .collect();
-        let directions: Vec<usize> = meets.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
+        let directions: Vec<usize> = colliding.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
         let images: Vec<Vec<f64>> = (directions.iter())
             .map(|direction| inertia.image(here.row(*direction)))
             .collect();
         let g = matrix(&images);
         let before: Vec<f64> = directions.iter().map(|d| here.rates[*d]).collect();
-        let impulses = self.impulses(t, &here, &meets, &g, &before)?;
+        let impulses = self.impulses(t, &here, &colliding, &g, &before)?;
 
         let width = directions.len();
-        let mut impacts = Vec::with_capacity(meets.len());
-        for (place, &k) in meets.iter().enumerate() {
+        let mut impacts = Vec::with_capacity(colliding.len());
+        for (place, &k) in colliding.iter().enumerate() {
             let [gap_rate, slip] = [0, 1].map(|part| {
                 let row = 2 * place + part;
                 let own = g[row * width..][..width].iter();
@@ -255,23 +256,23 @@ impl Touching {
     }
 
     /// What is asked of a contact that has this place among those that meet.
-    pub(super) fn asked_of_impact(
+    pub(super) fn unknowns_of_impact(
         &self,
-        here: &Here,
+        here: &ContactKinematics,
         (place, contact): (usize, usize),
-        beside: &[f64],
-    ) -> Asked {
+        known_normal: &[f64],
+    ) -> ContactUnknowns {
         let friction = here.friction(contact)[0];
-        match self.leans(contact) {
-            Some(_) if self.first(contact) != contact => Asked::Across,
-            None => Asked::Both {
+        match self.carrier(contact) {
+            Some(_) if self.first(contact) != contact => ContactUnknowns::SecondTangent,
+            None => ContactUnknowns::Both {
                 friction,
-                beside: beside[place],
+                known_normal: known_normal[place],
             },
             // What it leans on comes before it.
-            Some(_) => Asked::Leaning {
+            Some(_) => ContactUnknowns::OnCarrier {
                 friction,
-                beside: beside[place - 1],
+                known_normal: known_normal[place - 1],
                 on: place - 1,
             },
         }
@@ -281,23 +282,23 @@ impl Touching {
     fn impulses(
         &self,
         t: f64,
-        here: &Here,
-        meets: &[usize],
+        here: &ContactKinematics,
+        colliding: &[usize],
         g: &[f64],
         before: &[f64],
     ) -> Result<Vec<[f64; 2]>, StepError> {
         let trouble = |place: usize, trouble| StepError::Contact {
-            contact: meets[place],
+            contact: colliding[place],
             trouble,
             t,
         };
-        let unsolved = || self.unsolved(meets, t);
+        let unsolved = || self.unsolved(colliding, t);
         let width = before.len();
-        let solved = |beside: &[f64], b: &[f64]| -> Result<Answer, StepError> {
-            let asked: Vec<Asked> = (meets.iter().enumerate())
-                .map(|(place, &k)| self.asked_of_impact(here, (place, k), beside))
+        let solved = |known_normal: &[f64], b: &[f64]| -> Result<Answer, StepError> {
+            let unknowns: Vec<ContactUnknowns> = (colliding.iter().enumerate())
+                .map(|(place, &k)| self.unknowns_of_impact(here, (place, k), known_normal))
                 .collect();
-            let answer = problem::solve(&asked, g, b).map_err(|_| unsolved())?;
+            let answer = problem::solve(&unknowns, g, b).map_err(|_| unsolved())?;
             if answer.residual > 1e-8 {
                 Err(unsolved())
             } else {
@@ -312,11 +313,11 @@ impl Touching {
             };
             b.iter().enumerate().map(row).collect()
         };
-        let none = vec![0.0; meets.len()];
+        let none = vec![0.0; colliding.len()];
         match self.law {
             ImpactLaw::Newton => {
                 let mut b = before.to_vec();
-                for (b, &k) in b.chunks_exact_mut(2).zip(meets) {
+                for (b, &k) in b.chunks_exact_mut(2).zip(colliding) {
                     let [normal, tangential] = here.restitution(k);
                     b[0] *= 1.0 + normal;
                     b[1] *= 1.0 + tangential;
@@ -327,12 +328,12 @@ impl Touching {
                 let compression = solved(&none, before)?.forces;
                 let middle = after(before, &compression);
                 // What the expansion gives at least, and what it adds to that.
-                let given: Vec<[f64; 2]> = (meets.iter().zip(&compression))
+                let given: Vec<[f64; 2]> = (colliding.iter().zip(&compression))
                     .map(|(&k, impulse)| [here.restitution(k)[0] * impulse[0], 0.0])
                     .collect();
                 // Nothing is given along the normal of what leans, whose impulse there is none.
-                let beside: Vec<f64> = given.iter().map(|given| given[0]).collect();
-                let expansion = solved(&beside, &after(&middle, &given))?.forces;
+                let known_normal: Vec<f64> = given.iter().map(|given| given[0]).collect();
+                let expansion = solved(&known_normal, &after(&middle, &given))?.forces;
                 let sum = |((c, g), e): ((&[f64; 2], &[f64; 2]), &[f64; 2])| {
                     [c[0] + g[0] + e[0], c[1] + g[1] + e[1]]
                 };
@@ -346,9 +347,9 @@ impl Touching {
                     ImpactLaw::Poisson => Expansion::Impulse,
                     _ => Expansion::Work,
                 };
-                let mut impulses = vec![[0.0; 2]; meets.len()];
+                let mut impulses = vec![[0.0; 2]; colliding.len()];
                 for (place, impulse) in impulses.iter_mut().enumerate() {
-                    let k = meets[place];
+                    let k = colliding[place];
                     let entry = |i: usize, j: usize| g[(2 * place + i) * width + 2 * place + j];
                     let is_coupled = |other: usize| {
                         let pairs = [0, 1].map(|i| {
@@ -363,16 +364,16 @@ impl Touching {
                     if here.rates[2 * k] >= -here.rate_rounding(2 * k) {
                         continue;
                     }
-                    if (0..meets.len()).any(is_coupled) {
+                    if (0..colliding.len()).any(is_coupled) {
                         return Err(trouble(place, ContactTrouble::SeveralAtOnce));
                     }
-                    let meeting = Meeting {
+                    let single_impact = SingleImpact {
                         inverse_masses: [entry(0, 0), entry(0, 1), entry(1, 1)],
                         rates: [before[2 * place], before[2 * place + 1]],
                         restitution: here.restitution(k)[0],
                         friction: here.friction(k),
                     };
-                    *impulse = routh::impulse(meeting, expansion)
+                    *impulse = routh::impulse(single_impact, expansion)
                         .ok_or_else(|| trouble(place, ContactTrouble::Paradox))?;
                 }
                 Ok(impulses)
@@ -381,35 +382,35 @@ impl Touching {
     }
 
     /// Whether bounces of a contact have become so low that they are at their end: how long the rest of them takes,
-    /// in s. Its rate is what the impact left of it, and `falls` what it changes by while it is open.
-    pub fn ends_bouncing<S: System>(
+    /// in s. Its rate is what the impact left of it, and `gap_acceleration` what it changes by while it is open.
+    pub fn remaining_bounce_time<S: System>(
         &mut self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
         contact: usize,
-        falls: f64,
+        gap_acceleration: f64,
     ) -> Option<f64> {
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let opening = here.rates[2 * contact];
         let last = core::mem::replace(&mut self.openings[contact], opening);
         let share = opening / last;
-        if opening <= 0.0 || falls >= 0.0 || last <= 0.0 || share >= 1.0 {
+        if opening <= 0.0 || gap_acceleration >= 0.0 || last <= 0.0 || share >= 1.0 {
             return None;
         }
         let rounding = here.gap_rounding(contact) * (f64::EPSILON / super::touching::ROUNDING);
-        let least = (2.0 * -falls * LEAST_HEIGHT * rounding).sqrt();
+        let least = (2.0 * -gap_acceleration * LEAST_HEIGHT * rounding).sqrt();
         let limit = least.max(LEAST_BOUNCE * self.speed);
-        (opening <= limit).then(|| 2.0 * opening / -falls / (1.0 - share))
+        (opening <= limit).then(|| 2.0 * opening / -gap_acceleration / (1.0 - share))
     }
 
     /// How fast the rate of a gap changes while the machine has these accelerations.
-    pub fn falls<S: System>(
+    pub fn gap_acceleration<S: System>(
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
         contact: usize,
         a: &[f64],
     ) -> f64 {
-        Here::of(system, t, q, v).acceleration(2 * contact, a)[0]
+        ContactKinematics::of(system, t, q, v).acceleration(2 * contact, a)[0]
     }
 
     /// Which of the contacts that are closed are at rest along their tangents.
@@ -419,7 +420,7 @@ impl Touching {
         (t, q, v): (f64, &S::Vector, &S::Vector),
         closed: &[bool],
     ) -> Vec<bool> {
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let rests = |k: usize| {
             if !closed[k] {
                 return false;
@@ -436,14 +437,14 @@ impl Touching {
 
     /// Takes note of how fast what is closed slips: slips that are rounding of it are rest, and several that stop at one instant stop
     /// together.
-    pub fn note_slips<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+    pub fn record_slips<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
         let slides = |mode: &Mode| matches!(mode, Mode::Slides(sign) if *sign != 0.0);
         if !self.modes().iter().any(slides) {
             return;
         }
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let own = self.modes().iter().enumerate();
-        let own = own.filter(|(k, mode)| slides(mode) && self.leans(*k).is_none());
+        let own = own.filter(|(k, mode)| slides(mode) && self.carrier(*k).is_none());
         let slips = own.map(|(k, _)| here.rates[2 * k + 1].abs());
         self.slip = slips.fold(self.slip, f64::max);
     }
@@ -458,7 +459,7 @@ impl Touching {
         if !self.has_two_tangents(contact) {
             return true;
         }
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let [slip, rounding] = self.slip(&here, contact);
         let least = rounding[0].hypot(rounding[1]).max(1e-12 * self.speed);
         slip[0].hypot(slip[1]) <= STOPPED * least
@@ -476,7 +477,7 @@ impl Touching {
             return Ok(true);
         };
         let (t, q, v, _) = at;
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         if self.is_slow(system, (t, q, v), contact) {
             return Ok(true);
         }
@@ -490,17 +491,17 @@ impl Touching {
     }
 
     /// Which contacts neither open nor close; of those that yield, which are pressed.
-    pub fn lasting<S: System>(
+    pub fn persisting<S: System>(
         &self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
         touches: &[bool],
         as_held: bool,
     ) -> Vec<bool> {
-        let here = Here::of(system, t, q, v);
-        let mut lasting: Vec<bool> = (touches.iter().enumerate())
+        let here = ContactKinematics::of(system, t, q, v);
+        let mut persisting: Vec<bool> = (touches.iter().enumerate())
             .map(|(k, touches)| {
-                if self.yields(k) {
+                if self.is_compliant(k) {
                     let deep = -self.clearance(&here, k).value > here.gap_rounding(k);
                     return self.modes()[k] != Mode::Open || deep;
                 }
@@ -514,7 +515,7 @@ impl Touching {
                 *touches && here.rates[2 * k].abs() <= rounding()
             })
             .collect();
-        self.lean(&mut lasting);
-        lasting
+        self.copy_from_carriers(&mut persisting);
+        persisting
     }
 }

@@ -26,9 +26,9 @@ use super::lcp::{Unsolved, lemke};
 
 /// What is asked of a contact.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Asked {
+pub(super) enum ContactUnknowns {
     /// Both directions, with friction `μ`, and a normal impulse `Λ₀` that counts beside its own.
-    Both { friction: f64, beside: f64 },
+    Both { friction: f64, known_normal: f64 },
     /// The normal; the tangential force is `κ` times the normal one.
     Normal { share: f64 },
     /// The tangent, with friction `μ` of a normal force that is known.
@@ -36,38 +36,51 @@ pub(super) enum Asked {
     /// Nothing: both forces are known.
     Nothing,
     /// The tangent, with a friction of `μ` times the normal of another contact, and of an impulse `Λ₀` beside that.
-    Leaning {
+    OnCarrier {
         friction: f64,
-        beside: f64,
+        known_normal: f64,
         on: usize,
     },
     /// The tangent, whose force is `κ` times the normal one of another contact.
-    Carried { share: f64, on: usize },
+    ShareOfCarrier { share: f64, on: usize },
     /// The second tangent of the contact before it, whose friction limits both together.
-    Across,
+    SecondTangent,
 }
 
 /// Solves for normal and tangential forces or impulses of each contact. `g` has two rows and columns for each, its
 /// normal and its tangent, and so has `b`.
-pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Unsolved> {
-    if asked.iter().any(|asked| matches!(asked, Asked::Across)) {
-        return in_space(asked, g, b);
+pub(super) fn solve(
+    contacts: &[ContactUnknowns],
+    g: &[f64],
+    b: &[f64],
+) -> Result<Answer, Unsolved> {
+    if contacts
+        .iter()
+        .any(|contacts| matches!(contacts, ContactUnknowns::SecondTangent))
+    {
+        return in_space(contacts, g, b);
     }
-    let m = asked.len();
+    let m = contacts.len();
     let entry = |i: usize, j: usize| g[i * 2 * m + j];
     // What is unknown: for each contact its kind, and in which units of impulse.
     let mut unknowns: Vec<(usize, Kind)> = Vec::new();
-    for (k, asked) in asked.iter().enumerate() {
-        let rubs = match asked {
-            Asked::Both { friction, .. } => *friction > 0.0,
-            Asked::Tangent { friction, normal } => friction * normal > 0.0,
-            Asked::Leaning { friction, .. } => *friction > 0.0,
-            Asked::Normal { .. } | Asked::Nothing | Asked::Carried { .. } | Asked::Across => false,
+    for (k, contacts) in contacts.iter().enumerate() {
+        let has_friction = match contacts {
+            ContactUnknowns::Both { friction, .. } => *friction > 0.0,
+            ContactUnknowns::Tangent { friction, normal } => friction * normal > 0.0,
+            ContactUnknowns::OnCarrier { friction, .. } => *friction > 0.0,
+            ContactUnknowns::Normal { .. }
+            | ContactUnknowns::Nothing
+            | ContactUnknowns::ShareOfCarrier { .. }
+            | ContactUnknowns::SecondTangent => false,
         };
-        if matches!(asked, Asked::Both { .. } | Asked::Normal { .. }) {
+        if matches!(
+            contacts,
+            ContactUnknowns::Both { .. } | ContactUnknowns::Normal { .. }
+        ) {
             unknowns.push((k, Kind::Normal));
         }
-        if rubs {
+        if has_friction {
             unknowns.extend([(k, Kind::Forward), (k, Kind::Backward), (k, Kind::Slip)]);
         }
     }
@@ -81,8 +94,8 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
     let unit: Vec<f64> = (0..m)
         .map(|k| {
             // A contact and its tangent have one unit; what leans has a direction of its own.
-            let own = match asked[k] {
-                Asked::Leaning { .. } => entry(2 * k + 1, 2 * k + 1),
+            let own = match contacts[k] {
+                ContactUnknowns::OnCarrier { .. } => entry(2 * k + 1, 2 * k + 1),
                 _ => entry(2 * k, 2 * k),
             };
             if own > 0.0 { 1.0 / own } else { 1.0 }
@@ -91,12 +104,14 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
     // What a unit of an unknown does to the rate of a direction.
     let effect = |row: usize, (k, kind): (usize, Kind)| match kind {
         Kind::Normal => {
-            let share = match asked[k] {
-                Asked::Normal { share } => share,
+            let share = match contacts[k] {
+                ContactUnknowns::Normal { share } => share,
                 _ => 0.0,
             };
-            let carried = (asked.iter().enumerate()).map(|(other, asked)| match asked {
-                Asked::Carried { share, on } if *on == k => share * entry(row, 2 * other + 1),
+            let carried = (contacts.iter().enumerate()).map(|(other, contacts)| match contacts {
+                ContactUnknowns::ShareOfCarrier { share, on } if *on == k => {
+                    share * entry(row, 2 * other + 1)
+                }
                 _ => 0.0,
             });
             let carried: f64 = carried.sum();
@@ -110,20 +125,26 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
     let (mut matrix, mut q) = (vec![0.0; n * n], vec![0.0; n]);
     for (i, &(k, kind)) in unknowns.iter().enumerate() {
         let row = &mut matrix[i * n..][..n];
-        let (friction, beside) = match asked[k] {
-            Asked::Both { friction, beside } => (friction, beside / (unit[k] * rate)),
+        let (friction, known_normal) = match contacts[k] {
+            ContactUnknowns::Both {
+                friction,
+                known_normal,
+            } => (friction, known_normal / (unit[k] * rate)),
             // Its own normal impulse is none, and the known one stands beside that.
-            Asked::Tangent { friction, normal } => (friction, normal / (unit[k] * rate)),
-            Asked::Leaning {
-                friction, beside, ..
-            } => (friction, beside / (unit[k] * rate)),
-            Asked::Normal { .. } | Asked::Nothing | Asked::Carried { .. } | Asked::Across => {
-                (0.0, 0.0)
-            }
+            ContactUnknowns::Tangent { friction, normal } => (friction, normal / (unit[k] * rate)),
+            ContactUnknowns::OnCarrier {
+                friction,
+                known_normal,
+                ..
+            } => (friction, known_normal / (unit[k] * rate)),
+            ContactUnknowns::Normal { .. }
+            | ContactUnknowns::Nothing
+            | ContactUnknowns::ShareOfCarrier { .. }
+            | ContactUnknowns::SecondTangent => (0.0, 0.0),
         };
         // Where what presses is another contact, which, and how many of its units are one of these.
-        let leans = match asked[k] {
-            Asked::Leaning { on, .. } => Some((on, unit[on] / unit[k])),
+        let carrier = match contacts[k] {
+            ContactUnknowns::OnCarrier { on, .. } => Some((on, unit[on] / unit[k])),
             _ => None,
         };
         for (entry, &unknown) in row.iter_mut().zip(&unknowns) {
@@ -133,7 +154,7 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
                 (Kind::Forward | Kind::Backward, Kind::Slip) => f64::from(u8::from(is_own)),
                 (Kind::Forward, _) => effect(2 * k + 1, unknown),
                 (Kind::Backward, _) => -effect(2 * k + 1, unknown),
-                (Kind::Slip, Kind::Normal) => match leans {
+                (Kind::Slip, Kind::Normal) => match carrier {
                     Some((on, units)) if on == unknown.0 => friction * units,
                     None if is_own => friction,
                     _ => 0.0,
@@ -146,7 +167,7 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
             Kind::Normal => b[2 * k] / rate,
             Kind::Forward => b[2 * k + 1] / rate,
             Kind::Backward => -b[2 * k + 1] / rate,
-            Kind::Slip => friction * beside,
+            Kind::Slip => friction * known_normal,
         };
     }
     let solution = lemke(&matrix, &q)?;
@@ -156,7 +177,7 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
         match kind {
             Kind::Normal => {
                 forces[k][0] += value;
-                if let Asked::Normal { share } = asked[k] {
+                if let ContactUnknowns::Normal { share } = contacts[k] {
                     forces[k][1] += share * value;
                 }
             }
@@ -165,8 +186,8 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
             Kind::Slip => {}
         }
     }
-    for (k, asked) in asked.iter().enumerate() {
-        if let Asked::Carried { share, on } = asked {
+    for (k, contacts) in contacts.iter().enumerate() {
+        if let ContactUnknowns::ShareOfCarrier { share, on } = contacts {
             forces[k][1] = share * forces[*on][0];
         }
     }
@@ -177,8 +198,8 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
 }
 
 /// As [`solve`], where some contacts have a second tangent.
-fn in_space(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Unsolved> {
-    let (m, all_asked) = (asked.len(), asked);
+fn in_space(contacts: &[ContactUnknowns], g: &[f64], b: &[f64]) -> Result<Answer, Unsolved> {
+    let (m, all_contacts) = (contacts.len(), contacts);
     let entry = |i: usize, j: usize| g[i * 2 * m + j];
     let rate = b.iter().fold(0.0_f64, |size, b| size.max(b.abs()));
     if rate == 0.0 {
@@ -191,17 +212,17 @@ fn in_space(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Unsolved> {
     // direction is a share of the normal force.
     let mut unknowns: Vec<Vec<(usize, f64)>> = Vec::new();
     let mut normals = vec![None; m];
-    for (k, asked) in asked.iter().enumerate() {
-        match *asked {
-            Asked::Both { .. } => {
+    for (k, contacts) in contacts.iter().enumerate() {
+        match *contacts {
+            ContactUnknowns::Both { .. } => {
                 normals[k] = Some(unknowns.len());
                 unknowns.push(vec![(2 * k, 1.0)]);
             }
-            Asked::Normal { share } => {
+            ContactUnknowns::Normal { share } => {
                 normals[k] = Some(unknowns.len());
                 unknowns.push(vec![(2 * k, 1.0), (2 * k + 1, share)]);
             }
-            Asked::Carried { share, on } => {
+            ContactUnknowns::ShareOfCarrier { share, on } => {
                 if let Some(normal) = normals[on] {
                     unknowns[normal].push((2 * k + 1, share));
                 }
@@ -210,27 +231,38 @@ fn in_space(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Unsolved> {
         }
     }
     let mut parts = Vec::new();
-    for (k, asked) in asked.iter().enumerate() {
-        let (friction, on, beside) = match *asked {
-            Asked::Both { friction, beside } => (friction, normals[k], beside),
-            Asked::Tangent { friction, normal } => (friction, None, normal),
-            Asked::Leaning {
+    for (k, contacts) in contacts.iter().enumerate() {
+        let (friction, on, known_normal) = match *contacts {
+            ContactUnknowns::Both {
                 friction,
-                beside,
+                known_normal,
+            } => (friction, normals[k], known_normal),
+            ContactUnknowns::Tangent { friction, normal } => (friction, None, normal),
+            ContactUnknowns::OnCarrier {
+                friction,
+                known_normal,
                 on,
-            } => (friction, normals[on], beside),
-            Asked::Normal { .. } | Asked::Carried { .. } | Asked::Nothing | Asked::Across => {
+            } => (friction, normals[on], known_normal),
+            ContactUnknowns::Normal { .. }
+            | ContactUnknowns::ShareOfCarrier { .. }
+            | ContactUnknowns::Nothing
+            | ContactUnknowns::SecondTangent => {
                 parts.extend(normals[k].map(Part::Normal));
                 continue;
             }
         };
-        if matches!(asked, Asked::Both { .. }) {
+        if matches!(contacts, ContactUnknowns::Both { .. }) {
             parts.extend(normals[k].map(Part::Normal));
         }
-        if friction <= 0.0 || (on.is_none() && beside <= 0.0) {
+        if friction <= 0.0 || (on.is_none() && known_normal <= 0.0) {
             continue;
         }
-        let is_across = |next: &usize| matches!(all_asked.get(*next), Some(Asked::Across));
+        let is_across = |next: &usize| {
+            matches!(
+                all_contacts.get(*next),
+                Some(ContactUnknowns::SecondTangent)
+            )
+        };
         let tangents = [k].into_iter().chain([k + 1].into_iter().filter(is_across));
         let mut places = Vec::new();
         for tangent in tangents {
@@ -241,7 +273,7 @@ fn in_space(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Unsolved> {
             places,
             friction,
             on,
-            beside,
+            known_normal,
         });
     }
     // Both tangents of a contact have one unit of impulse, so that its disc stays one.
@@ -276,13 +308,13 @@ fn in_space(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Unsolved> {
             places,
             friction,
             on,
-            beside,
+            known_normal,
         } = part
         {
             let own = units[places[0]];
             let pressing = on.map_or(own, |on| units[on]);
             *friction *= pressing / own;
-            *beside /= pressing * rate;
+            *known_normal /= pressing * rate;
         }
     }
     let (z, residual) = cone::solve(&problem)?;
@@ -342,23 +374,25 @@ mod tests {
                 g[i * n + i] += 1.55 + 1.45 * drawn(&mut seed);
             }
             let b: Vec<f64> = (0..n).map(|_| drawn(&mut seed)).collect();
-            let both = Asked::Both {
+            let both = ContactUnknowns::Both {
                 friction: 0.3,
-                beside: 0.2 * f64::from(u8::from(case % 4 == 3)),
+                known_normal: 0.2 * f64::from(u8::from(case % 4 == 3)),
             };
             let first = match case % 4 {
-                1 => Asked::Tangent {
+                1 => ContactUnknowns::Tangent {
                     friction: 0.3,
                     normal: 0.4,
                 },
-                2 => Asked::Normal { share: 0.2 },
+                2 => ContactUnknowns::Normal { share: 0.2 },
                 _ => both,
             };
             let plane = solve(&[first, both], &g, &b).expect("solved by pivoting");
             // Behind each stands its second tangent, which nothing moves; that of one whose slip is known has no friction.
             let second = match first {
-                Asked::Normal { .. } => Asked::Carried { share: 0.0, on: 0 },
-                _ => Asked::Across,
+                ContactUnknowns::Normal { .. } => {
+                    ContactUnknowns::ShareOfCarrier { share: 0.0, on: 0 }
+                }
+                _ => ContactUnknowns::SecondTangent,
             };
             let places = [0, 1, 4, 5];
             let mut wide = vec![0.0; 64];
@@ -370,8 +404,8 @@ mod tests {
             (wide[3 * 8 + 3], wide[7 * 8 + 7]) = (1.0, 2.0);
             let mut rates = vec![0.0; 8];
             places.iter().zip(&b).for_each(|(i, b)| rates[*i] = *b);
-            let asked = [first, second, both, Asked::Across];
-            let space = solve(&asked, &wide, &rates).expect("solved on cones");
+            let contacts = [first, second, both, ContactUnknowns::SecondTangent];
+            let space = solve(&contacts, &wide, &rates).expect("solved on cones");
             for (k, place) in [0, 2].into_iter().enumerate() {
                 for (plane, space) in plane.forces[k].iter().zip(&space.forces[place]) {
                     assert!(

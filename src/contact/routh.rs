@@ -15,7 +15,7 @@ pub(super) enum Expansion {
 
 /// One contact that meets.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting {
+pub(super) struct SingleImpact {
     /// `Gₙₙ`, `Gₙₜ` and `Gₜₜ`.
     pub inverse_masses: [f64; 3],
     /// `γₙ` and `γₜ` before.
@@ -27,13 +27,13 @@ pub(super) struct Meeting {
 }
 
 /// Normal and tangential impulse; none where the normal impulse has no end.
-pub(super) fn impulse(meeting: Meeting, expansion: Expansion) -> Option<[f64; 2]> {
-    let Meeting {
+pub(super) fn impulse(single_impact: SingleImpact, expansion: Expansion) -> Option<[f64; 2]> {
+    let SingleImpact {
         inverse_masses: [nn, nt, tt],
         rates: [mut normal, mut slip],
         restitution,
         friction: [friction, static_friction],
-    } = meeting;
+    } = single_impact;
     let mut impulse = [0.0; 2];
     let mut work = 0.0;
     // The normal impulse at which expansion ends, and the work, once compression is over.
@@ -111,9 +111,9 @@ mod tests {
         ]
     }
 
-    fn energy_lost(meeting: Meeting, [normal, tangential]: [f64; 2]) -> f64 {
-        let [nn, nt, tt] = meeting.inverse_masses;
-        let [a, b] = meeting.rates;
+    fn energy_lost(single_impact: SingleImpact, [normal, tangential]: [f64; 2]) -> f64 {
+        let [nn, nt, tt] = single_impact.inverse_masses;
+        let [a, b] = single_impact.rates;
         let after = [
             a + nn * normal + nt * tangential,
             b + nt * normal + tt * tangential,
@@ -123,15 +123,15 @@ mod tests {
 
     #[test]
     fn without_friction_both_laws_are_newtons() {
-        let meeting = Meeting {
+        let single_impact = SingleImpact {
             inverse_masses: rod(0.7),
             rates: [-2.0, 0.5],
             restitution: 0.6,
             friction: [0.0; 2],
         };
         for expansion in [Expansion::Impulse, Expansion::Work] {
-            let [normal, tangential] = impulse(meeting, expansion).unwrap_or_default();
-            let newton = 1.6 * 2.0 / meeting.inverse_masses[0];
+            let [normal, tangential] = impulse(single_impact, expansion).unwrap_or_default();
+            let newton = 1.6 * 2.0 / single_impact.inverse_masses[0];
             assert!((normal - newton).abs() < 1e-14 && tangential == 0.0);
         }
     }
@@ -141,14 +141,14 @@ mod tests {
         for k in 0..400 {
             let angle = 0.05 + 0.0037 * f64::from(k);
             let slip = 0.013 * f64::from(k % 97) - 0.6;
-            let meeting = Meeting {
+            let single_impact = SingleImpact {
                 inverse_masses: rod(angle),
                 rates: [-1.0, slip],
                 restitution: 0.9,
                 friction: [0.3; 2],
             };
-            let found = impulse(meeting, Expansion::Work);
-            let lost = found.map(|found| energy_lost(meeting, found));
+            let found = impulse(single_impact, Expansion::Work);
+            let lost = found.map(|found| energy_lost(single_impact, found));
             assert!(lost.is_some_and(|lost| lost >= -1e-13), "{k}: {lost:?}");
         }
     }
@@ -156,15 +156,15 @@ mod tests {
     #[test]
     fn a_rod_that_cannot_slip_on_is_stopped_by_an_impulse() {
         // Beyond Painlevé's μ = 4/3 the normal rate falls while it slips: the slip ends first.
-        let meeting = Meeting {
+        let single_impact = SingleImpact {
             inverse_masses: rod(1.1),
             rates: [0.0, -1.0],
             restitution: 0.0,
             friction: [2.0; 2],
         };
-        let [nn, nt, _] = meeting.inverse_masses;
+        let [nn, nt, _] = single_impact.inverse_masses;
         assert!(nn + 2.0 * nt < 0.0 || nn - 2.0 * nt < 0.0);
-        let found = impulse(meeting, Expansion::Impulse);
+        let found = impulse(single_impact, Expansion::Impulse);
         assert!(found.is_some_and(|[normal, _]| normal >= 0.0));
     }
 }

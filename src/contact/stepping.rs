@@ -15,9 +15,9 @@ use std::vec;
 use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
-use super::problem::{self, Asked};
-use super::touching::{At, Here, Reaction, SATURATED};
-use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, Touching};
+use super::problem::{self, ContactUnknowns};
+use super::touching::{At, ContactKinematics, Reaction, SATURATED};
+use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, UnilateralState};
 use crate::{Singular, StepError, System, Vector};
 
 /// How often a penetration is moved out of, at most: each time squares the remainder.
@@ -28,7 +28,7 @@ const NEAR: f64 = 8.0;
 
 /// What contacts did in a step.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Stepped {
+pub(crate) struct SteppedContacts {
     /// The impulses that they gave.
     pub impacts: Vec<Impact>,
     /// The work that what moves by itself did through them, and what they took, in J.
@@ -37,10 +37,10 @@ pub(crate) struct Stepped {
     /// Contacts that were penetrated at the end of the step, and the energy that moving out of them has added, in J: impacts
     /// a little late have taken so much less.
     pub penetrated: Vec<usize>,
-    pub lifted: f64,
+    pub energy_added: f64,
 }
 
-impl Touching {
+impl UnilateralState {
     /// Whether time stepping knows the laws of the contacts.
     ///
     /// # Errors
@@ -50,10 +50,10 @@ impl Touching {
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
     ) -> Result<(), StepError> {
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let is_known = |k: usize| {
             let [kinetic, at_rest] = here.friction(k);
-            !self.yields(k) && kinetic == at_rest
+            !self.is_compliant(k) && kinetic == at_rest
         };
         let count = self.modes().len();
         let other = match (self.law, self.order) {
@@ -82,8 +82,8 @@ impl Touching {
         before: &S::Vector,
         v: &mut S::Vector,
         h: f64,
-    ) -> Result<Stepped, StepError> {
-        let here = Here::of(system, t, q, before);
+    ) -> Result<SteppedContacts, StepError> {
+        let here = ContactKinematics::of(system, t, q, before);
         let count = self.modes().len();
         let mut free = vec![0.0; 2 * count];
         system.contact_rates(t, q, v, &mut free);
@@ -91,7 +91,7 @@ impl Touching {
         // step, by the square of its length: it may come back by as much.
         let lasts = |k: usize| self.modes()[k] != Mode::Open;
         let is_active = |k: &usize| {
-            let touches = lasts(*k) || here.is_shut(*k);
+            let touches = lasts(*k) || here.is_gap_closed(*k);
             touches && here.is_within(*k, q.as_slice())
         };
         let way_back = |k: usize| {
@@ -106,7 +106,7 @@ impl Touching {
         let mut forces = vec![[0.0; 2]; count];
         if active.is_empty() {
             self.set_stepped(modes, forces);
-            return Ok(Stepped::default());
+            return Ok(SteppedContacts::default());
         }
         let singular = |singular: Singular| StepError::Singular { singular, t };
         let inertia = Inertia::new(system, t, q).map_err(singular)?;
@@ -126,26 +126,26 @@ impl Touching {
             })
             .collect();
         let none = vec![0.0; active.len()];
-        let asked: Vec<Asked> = (active.iter().enumerate())
-            .map(|(place, &k)| self.asked_of_impact(&here, (place, k), &none))
+        let unknowns: Vec<ContactUnknowns> = (active.iter().enumerate())
+            .map(|(place, &k)| self.unknowns_of_impact(&here, (place, k), &none))
             .collect();
         let unsolved = || StepError::Contact {
             contact: active[0],
             trouble: ContactTrouble::Unsettled,
             t,
         };
-        let answer = problem::solve(&asked, &g, &b).map_err(|_| unsolved())?;
+        let answer = problem::solve(&unknowns, &g, &b).map_err(|_| unsolved())?;
         if answer.residual > 1e-8 {
             return Err(unsolved());
         }
 
         let energy_free = system.kinetic_energy(t, q, v);
         // The impulses along the changes of the rates that are not theirs.
-        let mut beside = 0.0;
+        let mut known_normal = 0.0;
         for (&direction, impulse) in directions.iter().zip(answer.forces.as_flattened()) {
             let row = here.row(direction).iter();
             let terms = row.zip(before.as_slice().iter().zip(v.as_slice()));
-            beside += impulse
+            known_normal += impulse
                 * terms
                     .map(|(w, (before, free))| w * (before - free))
                     .sum::<f64>();
@@ -155,7 +155,7 @@ impl Touching {
             *v += by;
         }
 
-        let mut stepped = Stepped::default();
+        let mut stepped = SteppedContacts::default();
         let width = directions.len();
         let slip_after = |place: usize| {
             let own = g[(2 * place + 1) * width..][..width].iter();
@@ -172,17 +172,17 @@ impl Touching {
             // Of contacts that share a load some may press and some not, from step to step: what does not open is closed.
             let opens =
                 impulse == [0.0; 2] && gap_rate[1] + way_back(k) > here.rate_rounding(2 * k);
-            if self.leans(k).map_or(opens, |on| modes[on] == Mode::Open) {
+            if self.carrier(k).map_or(opens, |on| modes[on] == Mode::Open) {
                 continue;
             }
             let loss = -0.5
                 * (impulse[0] * (gap_rate[0] + gap_rate[1]) + impulse[1] * (slip[0] + slip[1]));
-            let pressing = match self.leans(k) {
+            let pressing = match self.carrier(k) {
                 Some(_) => answer.forces[place - 1][0],
                 None => impulse[0],
             };
             let most = here.friction(k)[0] * pressing;
-            modes[k] = match self.rubs(k) {
+            modes[k] = match self.has_friction(k) {
                 true if self.first(k) != k => modes[k - 1],
                 true if self.second(k).is_some() => {
                     let used = [0, 1].map(|part| answer.forces[place + part][1]);
@@ -221,7 +221,7 @@ impl Touching {
         }
         if !stepped.impacts.is_empty() {
             // What the impulses did to the rates in the mean of the step; that beyond the losses is done by what moves.
-            let gained = system.kinetic_energy(t, q, v) - energy_free + 0.5 * beside;
+            let gained = system.kinetic_energy(t, q, v) - energy_free + 0.5 * known_normal;
             stepped.work = gained + stepped.lost;
         }
         self.set_stepped(modes, forces);
@@ -232,7 +232,7 @@ impl Touching {
     ///
     /// # Errors
     /// Where the mass matrix is singular, or there is no way out.
-    pub fn move_out<S: System>(
+    pub fn resolve_penetration<S: System>(
         &self,
         system: &S,
         t: f64,
@@ -241,10 +241,10 @@ impl Touching {
     ) -> Result<Vec<usize>, StepError> {
         let mut penetrated = Vec::new();
         for _ in 0..CORRECTIONS {
-            let here = Here::of(system, t, q, v);
+            let here = ContactKinematics::of(system, t, q, v);
             let is_deep = |k: &usize| {
                 let gap = here.gaps[*k];
-                self.leans(*k).is_none() && gap < 0.0 && gap < -0.5 * here.gap_rounding(*k)
+                self.carrier(*k).is_none() && gap < 0.0 && gap < -0.5 * here.gap_rounding(*k)
             };
             let deep: Vec<usize> = (0..here.gaps.len()).filter(is_deep).collect();
             if deep.is_empty() {
@@ -256,8 +256,8 @@ impl Touching {
             penetrated.extend(deep);
             // What is near takes part, lest what is moved out of one penetrates the other.
             let touching: Vec<usize> = (0..here.gaps.len())
-                .filter(|k| self.leans(*k).is_none())
-                .filter(|k| here.gaps[*k] <= NEAR * deepest || here.is_shut(*k))
+                .filter(|k| self.carrier(*k).is_none())
+                .filter(|k| here.gaps[*k] <= NEAR * deepest || here.is_gap_closed(*k))
                 .filter(|k| here.is_within(*k, q.as_slice()))
                 .collect();
             let singular = |singular: Singular| StepError::Singular { singular, t };
@@ -271,13 +271,13 @@ impl Touching {
                 .iter()
                 .flat_map(|k| [here.height(*k), 0.0])
                 .collect();
-            let asked = vec![Asked::Normal { share: 0.0 }; touching.len()];
+            let unknowns = vec![ContactUnknowns::Normal { share: 0.0 }; touching.len()];
             let unsolved = |_| StepError::Contact {
                 contact: touching[0],
                 trouble: ContactTrouble::Unsettled,
                 t,
             };
-            let answer = problem::solve(&asked, &matrix(&images), &gaps).map_err(unsolved)?;
+            let answer = problem::solve(&unknowns, &matrix(&images), &gaps).map_err(unsolved)?;
             let by = inertia.response(&images, answer.forces.iter().flatten().copied());
             for (q, by) in q.as_mut_slice().iter_mut().zip(by) {
                 *q += by;
@@ -296,7 +296,7 @@ impl Touching {
         forces: &[[f64; 2]],
     ) -> Result<Reaction, StepError> {
         if forces.as_flattened().iter().any(|force| *force != 0.0) {
-            let here = Here::of(system, t, q, v);
+            let here = ContactKinematics::of(system, t, q, v);
             let singular = |singular: Singular| StepError::Singular { singular, t };
             let inertia = Inertia::new(system, t, q).map_err(singular)?;
             let acting = forces.as_flattened().iter().enumerate();
@@ -309,6 +309,6 @@ impl Touching {
                 *a += by;
             }
         }
-        Ok(Reaction::of_forces(a, forces.to_vec()))
+        Ok(Reaction::from_known_forces(a, forces.to_vec()))
     }
 }

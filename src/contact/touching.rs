@@ -8,11 +8,11 @@ use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
 use super::lcp;
-use super::problem::{self, Asked};
+use super::problem::{self, ContactUnknowns};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
 use crate::balance::PartOfContact;
 use crate::{Pivot, Singular, StepError, System, Vector};
-use compliant::Yielding;
+use compliant::ComplianceState;
 pub(crate) use held::Held;
 
 /// A gap within this of its scale is closed, and a rate within this of its scale is rest.
@@ -61,16 +61,16 @@ pub(crate) use crate::friction::Margin;
 
 /// What a run knows of its unilateral contacts.
 #[derive(Clone, Debug)]
-pub(crate) struct Touching {
+pub(crate) struct UnilateralState {
     modes: Vec<Mode>,
-    rubs: Vec<bool>,
+    has_friction: Vec<bool>,
     /// Of the rolling of a contact, and of its second tangent, that contact: it has its gap and its normal force, and is open where
     /// that is.
-    leans: Vec<Option<usize>>,
+    carrier: Vec<Option<usize>>,
     /// Which of these are second tangents. What a contact does along one tangent it does along both.
     across: Vec<bool>,
     /// Of contacts that yield, their law and what it remembers.
-    yielding: Vec<Option<Yielding>>,
+    compliance: Vec<Option<ComplianceState>>,
     pub(super) law: ImpactLaw,
     pub(super) order: ImpactOrder,
     pub(super) painleve: Vec<Painleve>,
@@ -82,13 +82,13 @@ pub(crate) struct Touching {
     /// How fast each contact opened after its last impact.
     pub openings: Vec<f64>,
     /// Whether a direction is followed through rest, within a step: see [`Mode::Skids`].
-    follows: bool,
+    continues_through_rest: bool,
     /// In time stepping the mean forces of the last step along normal and tangent, in N.
     stepped: Option<Vec<[f64; 2]>>,
 }
 
 /// Gaps, rates and all that belongs to them at a state.
-pub(super) struct Here {
+pub(super) struct ContactKinematics {
     pub n: usize,
     pub gaps: Vec<f64>,
     pub rates: Vec<f64>,
@@ -136,10 +136,10 @@ pub(super) fn faces<S: System>(
         .collect()
 }
 
-impl Here {
-    pub fn of<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Here {
+impl ContactKinematics {
+    pub fn of<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> ContactKinematics {
         let (n, m) = (q.as_slice().len(), system.unilateral_contacts().len());
-        let mut here = Here {
+        let mut here = ContactKinematics {
             n,
             gaps: vec![0.0; m],
             rates: vec![0.0; 2 * m],
@@ -186,7 +186,7 @@ impl Here {
     }
 
     /// Whether the gap of a contact is no more than rounding.
-    pub fn is_shut(&self, contact: usize) -> bool {
+    pub fn is_gap_closed(&self, contact: usize) -> bool {
         self.gaps[contact] <= self.gap_rounding(contact)
     }
 
@@ -270,7 +270,7 @@ pub(crate) struct Reaction {
 
 impl Reaction {
     /// Of forces that are known.
-    pub(super) fn of_forces(a: Vec<f64>, forces: Vec<[f64; 2]>) -> Self {
+    pub(super) fn from_known_forces(a: Vec<f64>, forces: Vec<[f64; 2]>) -> Self {
         Self {
             a,
             sizes: vec![0.0; forces.len()],
@@ -309,40 +309,42 @@ pub(crate) type At<'a, S> = (
     &'a <S as System>::Inputs,
 );
 
-impl Touching {
+impl UnilateralState {
     /// All contacts open.
-    pub fn new<S: System>(system: &S) -> Touching {
-        let rubs: Vec<bool> = system.unilateral_contacts().map(|c| c.rubs).collect();
-        let leans = system.unilateral_contacts().enumerate();
-        let leans = leans.map(|(k, c)| {
+    pub fn new<S: System>(system: &S) -> UnilateralState {
+        let has_friction: Vec<bool> = system.unilateral_contacts().map(|c| c.rubs).collect();
+        let carrier = system.unilateral_contacts().enumerate();
+        let carrier = carrier.map(|(k, c)| {
             if c.rolls || c.across {
                 k.checked_sub(1)
             } else {
                 None
             }
         });
-        let leans = leans.collect();
+        let carrier = carrier.collect();
         let across = system.unilateral_contacts().map(|c| c.across).collect();
         let mut bouncing = system.unilateral_contacts();
         let bouncing = bouncing.find(|c| c.compliance.is_none());
         let (law, order) = (bouncing.map(|c| c.law), bouncing.map(|c| c.order));
         let painleve = system.unilateral_contacts().map(|c| c.painleve).collect();
-        let yielding = system.unilateral_contacts();
-        let yielding = yielding.map(|c| c.compliance.map(Yielding::new)).collect();
-        Touching {
-            modes: vec![Mode::Open; rubs.len()],
+        let compliance = system.unilateral_contacts();
+        let compliance = compliance
+            .map(|c| c.compliance.map(ComplianceState::new))
+            .collect();
+        UnilateralState {
+            modes: vec![Mode::Open; has_friction.len()],
             law: law.unwrap_or_default(),
             order: order.unwrap_or_default(),
             painleve,
-            yielding,
+            compliance,
             held: Vec::new(),
             speed: 0.0,
             slip: 0.0,
-            openings: vec![0.0; rubs.len()],
-            leans,
+            openings: vec![0.0; has_friction.len()],
+            carrier,
             across,
-            rubs,
-            follows: true,
+            has_friction,
+            continues_through_rest: true,
             stepped: None,
         }
     }
@@ -377,7 +379,7 @@ impl Touching {
         let Ok(free) = Self::free(system, at) else {
             return 0.0;
         };
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let falls = (0..self.modes.len()).map(|k| -here.acceleration(2 * k, &free)[0]);
         falls.fold(0.0, f64::max)
     }
@@ -402,8 +404,8 @@ impl Touching {
     }
 
     /// The contact on which another leans, if that is the rolling of one.
-    pub fn leans(&self, contact: usize) -> Option<usize> {
-        self.leans[contact]
+    pub fn carrier(&self, contact: usize) -> Option<usize> {
+        self.carrier[contact]
     }
 
     /// The second tangent of a contact, if it has one.
@@ -423,7 +425,7 @@ impl Touching {
     }
 
     /// The slip of a contact along both of its tangents, and the rounding of each.
-    pub(super) fn slip(&self, here: &Here, contact: usize) -> [[f64; 2]; 2] {
+    pub(super) fn slip(&self, here: &ContactKinematics, contact: usize) -> [[f64; 2]; 2] {
         let first = self.first(contact);
         let directions = [2 * first + 1, 2 * first + 3];
         [
@@ -435,7 +437,7 @@ impl Touching {
     /// The component along this tangent of the direction in which a contact skids. Where it has come through rest since the step
     /// began it is taken to slip backwards, so that its friction changes smoothly through there: that it has is found, and the
     /// step ends there.
-    fn course(&self, here: &Here, contact: usize) -> f64 {
+    fn slip_direction(&self, here: &ContactKinematics, contact: usize) -> f64 {
         let Mode::Skids(heading) = self.modes[contact] else {
             return 0.0;
         };
@@ -447,7 +449,7 @@ impl Touching {
         }
         let ahead = heading[0] * slip[0] + heading[1] * slip[1];
         let direction = slip[part] / speed;
-        if self.follows && ahead < 0.0 {
+        if self.continues_through_rest && ahead < 0.0 {
             -direction
         } else {
             direction
@@ -455,19 +457,19 @@ impl Touching {
     }
 
     /// As it is looked at after the run, at any time until something changes: by then a slip may have turned anywhere.
-    pub fn as_seen_later(&self) -> Touching {
-        Touching {
-            follows: false,
+    pub fn for_later_observation(&self) -> UnilateralState {
+        UnilateralState {
+            continues_through_rest: false,
             ..self.clone()
         }
     }
 
     /// Takes note of the directions in which contacts skid where a step begins.
-    pub fn take_headings<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+    pub fn record_headings<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
         if !self.modes.iter().any(|mode| matches!(mode, Mode::Skids(_))) {
             return;
         }
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         for k in 0..self.modes.len() {
             if let Mode::Skids(_) = self.modes[k] {
                 let [slip, rounding] = self.slip(&here, k);
@@ -480,14 +482,16 @@ impl Touching {
     }
 
     /// The error where contacts that are asked together have no answer.
-    pub(super) fn unsolved(&self, asked_of: &[usize], t: f64) -> StepError {
-        let trouble = match asked_of.iter().any(|k| self.across[*k]) {
+    pub(super) fn unsolved(&self, solved_contacts: &[usize], t: f64) -> StepError {
+        let trouble = match solved_contacts.iter().any(|k| self.across[*k]) {
             true => ContactTrouble::Unsolved,
-            false if asked_of.iter().any(|k| self.rubs[*k]) => ContactTrouble::Paradox,
+            false if solved_contacts.iter().any(|k| self.has_friction[*k]) => {
+                ContactTrouble::Paradox
+            }
             false => ContactTrouble::NotHeld,
         };
         StepError::Contact {
-            contact: asked_of[0],
+            contact: solved_contacts[0],
             trouble,
             t,
         }
@@ -519,17 +523,17 @@ impl Touching {
     }
 
     /// Says of what leans what is said of the contact that it leans on.
-    pub fn lean<T: Copy>(&self, said: &mut [T]) {
-        for (k, on) in self.leans.iter().enumerate() {
+    pub fn copy_from_carriers<T: Copy>(&self, values: &mut [T]) {
+        for (k, on) in self.carrier.iter().enumerate() {
             if let Some(on) = on {
-                said[k] = said[*on];
+                values[k] = values[*on];
             }
         }
     }
 
     /// Whether a contact has friction.
-    pub(super) fn rubs(&self, contact: usize) -> bool {
-        self.rubs[contact]
+    pub(super) fn has_friction(&self, contact: usize) -> bool {
+        self.has_friction[contact]
     }
 
     /// The machine with what is closed as constraints.
@@ -560,7 +564,7 @@ impl Touching {
     pub fn reaction<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Reaction, StepError> {
         let (t, q, v, _) = at;
         let is_asked = !self.is_free() && self.stepped.is_none();
-        let here = is_asked.then(|| Here::of(system, t, q, v));
+        let here = is_asked.then(|| ContactKinematics::of(system, t, q, v));
         self.reaction_here(system, at, here.as_ref())
     }
 
@@ -569,7 +573,7 @@ impl Touching {
         &self,
         system: &S,
         at: At<'_, S>,
-        here: Option<&Here>,
+        here: Option<&ContactKinematics>,
     ) -> Result<Reaction, StepError> {
         let (t, q, _, _) = at;
         let a = Self::free(system, at)?;
@@ -603,28 +607,28 @@ impl Touching {
         // Of what slides the tangential force is a share of the normal one; what sticks has two unknowns.
         let share = |k: usize| match self.modes[k] {
             Mode::Slides(sign) => -sign * here.friction(k)[0],
-            Mode::Skids(_) => -self.course(here, k) * here.friction(k)[0],
+            Mode::Skids(_) => -self.slip_direction(here, k) * here.friction(k)[0],
             _ => 0.0,
         };
         let mut unknowns: Vec<(usize, usize)> = Vec::new();
         for (place, &k) in closed.iter().enumerate() {
-            if let Some(pressed) = self.pressed(here, k) {
+            if let Some(pressed) = self.compliant_force(here, k) {
                 let normal = pressed.force;
                 reaction.forces[k] = [normal, share(k) * normal];
                 reaction.sizes[k] = normal.abs();
-            } else if let Some(on) = self.leans[k] {
-                if self.yields(on) {
+            } else if let Some(on) = self.carrier[k] {
+                if self.is_compliant(on) {
                     reaction.forces[k] = [0.0, share(k) * reaction.forces[on][0]];
                     reaction.sizes[k] = reaction.sizes[on];
                 }
             } else {
                 unknowns.push((place, 0));
             }
-            if self.modes[k] == Mode::Sticks && self.rubs[k] {
+            if self.modes[k] == Mode::Sticks && self.has_friction[k] {
                 unknowns.push((place, 1));
             }
         }
-        if closed.iter().any(|k| self.yields(*k)) {
+        if closed.iter().any(|k| self.is_compliant(*k)) {
             let known = closed.iter().flat_map(|k| reaction.forces[*k]);
             let response = inertia.response(&images, known);
             for (a, by) in reaction.a.iter_mut().zip(response) {
@@ -634,11 +638,11 @@ impl Touching {
         // Of what leans on a contact, where it stands among the closed ones and its share of the normal force.
         let carried = |place: usize| {
             let next = closed.get(place + 1).copied();
-            let leaning = next.filter(|next| self.leans[*next] == Some(closed[place]));
+            let leaning = next.filter(|next| self.carrier[*next] == Some(closed[place]));
             leaning.map(|k| (place + 1, share(k)))
         };
         for (place, &k) in closed.iter().enumerate() {
-            if self.yields(k) || self.leans[k].is_some() {
+            if self.is_compliant(k) || self.carrier[k].is_some() {
                 continue;
             }
             let own = g[2 * place * width + 2 * place];
@@ -714,7 +718,7 @@ impl Touching {
         }
         let n = q.as_slice().len();
         let reaction = self.reaction(system, at)?;
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let (mut mass, mut forces) = (S::Matrix::zeros(n * n), q.zeros_like());
         let mut rows = vec![0.0; m * n];
         system.mass_matrix(t, q, &mut mass);
@@ -755,7 +759,7 @@ impl Touching {
         if self.is_free() || self.stepped.is_some() {
             return Powers::default();
         }
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let Ok(reaction) = self.reaction_here(system, at, Some(&here)) else {
             return Powers {
                 work: f64::NAN,
@@ -778,11 +782,11 @@ impl Touching {
                 own.friction = -force[1] * here.rates[2 * k + 1];
                 taken += own.friction;
             }
-            if let Some(pressed) = self.pressed(&here, k) {
-                own.yielding = pressed.lost;
+            if let Some(pressed) = self.compliant_force(&here, k) {
+                own.compliance_loss = pressed.lost;
                 taken -= pressed.force * here.rates[2 * k];
             }
-            lost += own.friction + own.yielding;
+            lost += own.friction + own.compliance_loss;
         }
         // Where constraints move by themselves, the machine counts as work whatever changes its energy.
         let m = system.constraints().len();
@@ -813,12 +817,12 @@ impl Touching {
             });
         }
         let (t, q, v, _) = at;
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let reaction = self.reaction_here(system, at, Some(&here))?;
         for (k, margin) in margins.iter_mut().enumerate() {
             let tangential = reaction.forces[k][1];
             // Where a torque resists rolling, the normal force is that of the contact, which says itself whether it presses.
-            let pressed = self.leans[k].unwrap_or(k);
+            let pressed = self.carrier[k].unwrap_or(k);
             let normal = reaction.forces[pressed][0];
             let size = if pressed == k {
                 reaction.sizes[k]
@@ -834,7 +838,7 @@ impl Touching {
                 },
             };
             let [presses, loads] = if pressed == k {
-                self.margins_of_yielding(&here, k).unwrap_or([
+                self.margins_of_compliance(&here, k).unwrap_or([
                     Margin {
                         value: normal,
                         rounding,
@@ -867,7 +871,7 @@ impl Touching {
                     };
                     [presses, slips, loads, stays]
                 }
-                Mode::Sticks if !self.rubs[k] => [presses, Margin::ENDLESS, loads, stays],
+                Mode::Sticks if !self.has_friction[k] => [presses, Margin::ENDLESS, loads, stays],
                 Mode::Sticks => {
                     let friction = here.friction(k)[1];
                     let used = match self.second(k) {
@@ -883,7 +887,7 @@ impl Touching {
             };
         }
         let is_doubtful = |(k, margin): (usize, &[Margin; 4])| {
-            let shared = if self.yields(k) { 1..2 } else { 0..2 };
+            let shared = if self.is_compliant(k) { 1..2 } else { 0..2 };
             margin[shared].iter().any(|m| m.value < -m.rounding)
         };
         if !reaction.is_only && margins.iter().enumerate().any(is_doubtful) {
@@ -894,7 +898,7 @@ impl Touching {
             let mut pairs = settled.iter().zip(&self.modes);
             if pairs.all(|(settled, mode)| settled.is_like(*mode)) {
                 for (k, (margin, mode)) in margins.iter_mut().zip(&self.modes).enumerate() {
-                    if !self.yields(k) {
+                    if !self.is_compliant(k) {
                         margin[0] = Margin::ENDLESS;
                     }
                     if *mode == Mode::Sticks {
@@ -939,19 +943,22 @@ impl Touching {
         let (t, q, v, _) = at;
         let mut modes = vec![Mode::Open; closed.len()];
         let mut forces = vec![[0.0; 2]; closed.len()];
-        let asked_of: Vec<usize> = (0..closed.len())
-            .filter(|k| closed[*k] && known != Some((self.leans[*k].unwrap_or(*k), Mode::Open)))
+        let solved_contacts: Vec<usize> = (0..closed.len())
+            .filter(|k| closed[*k] && known != Some((self.carrier[*k].unwrap_or(*k), Mode::Open)))
             .collect();
         // Where among them what a contact leans on stands: before it.
-        let leans = |place: usize| self.leans[asked_of[place]].map(|_| place - 1);
-        if asked_of.is_empty() {
+        let carrier = |place: usize| self.carrier[solved_contacts[place]].map(|_| place - 1);
+        if solved_contacts.is_empty() {
             return Ok((modes, forces));
         }
         let free = Self::free(system, at)?;
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         let singular = |singular: Singular| StepError::Singular { singular, t };
         let inertia = Inertia::new(system, t, q).map_err(singular)?;
-        let directions: Vec<usize> = asked_of.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
+        let directions: Vec<usize> = solved_contacts
+            .iter()
+            .flat_map(|k| [2 * k, 2 * k + 1])
+            .collect();
         let images: Vec<Vec<f64>> = (directions.iter())
             .map(|direction| inertia.image(here.row(*direction)))
             .collect();
@@ -961,9 +968,9 @@ impl Touching {
             .map(|direction| here.acceleration(*direction, &free))
             .collect();
         // The normal forces that are known, of contacts that yield.
-        let pressing: Vec<Option<f64>> = (asked_of.iter())
+        let pressing: Vec<Option<f64>> = (solved_contacts.iter())
             .map(|k| {
-                self.pressing(&here, self.leans[*k].unwrap_or(*k))
+                self.compliant_force_at_closing(&here, self.carrier[*k].unwrap_or(*k))
                     .map(|pressed| pressed.force.max(0.0))
             })
             .collect();
@@ -973,10 +980,10 @@ impl Touching {
             t,
         };
         // How each slips: from its rate, or found out below; none where it may stick.
-        let mut slipping: Vec<Option<f64>> = asked_of
+        let mut slipping: Vec<Option<f64>> = solved_contacts
             .iter()
             .enumerate()
-            .map(|(place, &k)| match (self.rubs[k], resting[k]) {
+            .map(|(place, &k)| match (self.has_friction[k], resting[k]) {
                 (false, _) => Some(0.0),
                 _ if known.is_some_and(|(known, _)| known == k) => match known {
                     Some((_, Mode::Slides(sign))) => Some(sign),
@@ -1004,15 +1011,15 @@ impl Touching {
             })
             .collect();
         // Which contacts with two tangents are at rest and will skid: in which direction is for their friction to say.
-        let mut breaks: Vec<bool> = (asked_of.iter())
+        let mut breaks: Vec<bool> = (solved_contacts.iter())
             .map(|&k| match known {
                 Some((known, Mode::Skids(_))) => known == k,
                 _ => false,
             })
             .collect();
-        for _ in 0..=asked_of.len() {
-            let mut asked = Vec::with_capacity(asked_of.len());
-            for (place, &k) in asked_of.iter().enumerate() {
+        for _ in 0..=solved_contacts.len() {
+            let mut unknowns = Vec::with_capacity(solved_contacts.len());
+            for (place, &k) in solved_contacts.iter().enumerate() {
                 let [friction, static_friction] = here.friction(k);
                 let static_friction = if breaks[place] {
                     friction
@@ -1020,32 +1027,32 @@ impl Touching {
                     static_friction
                 };
                 if self.across[k] && slipping[place].is_none() {
-                    asked.push(Asked::Across);
+                    unknowns.push(ContactUnknowns::SecondTangent);
                     continue;
                 }
-                if let (Some(on), None) = (leans(place), pressing[place]) {
-                    asked.push(match slipping[place] {
-                        Some(sign) => Asked::Carried {
+                if let (Some(on), None) = (carrier(place), pressing[place]) {
+                    unknowns.push(match slipping[place] {
+                        Some(sign) => ContactUnknowns::ShareOfCarrier {
                             share: -sign * friction,
                             on,
                         },
-                        None => Asked::Leaning {
+                        None => ContactUnknowns::OnCarrier {
                             friction: static_friction,
-                            beside: 0.0,
+                            known_normal: 0.0,
                             on,
                         },
                     });
                     continue;
                 }
-                asked.push(match (slipping[place], pressing[place]) {
-                    (Some(_), Some(_)) => Asked::Nothing,
-                    (None, Some(normal)) => Asked::Tangent {
+                unknowns.push(match (slipping[place], pressing[place]) {
+                    (Some(_), Some(_)) => ContactUnknowns::Nothing,
+                    (None, Some(normal)) => ContactUnknowns::Tangent {
                         friction: static_friction,
                         normal,
                     },
-                    (None, None) => Asked::Both {
+                    (None, None) => ContactUnknowns::Both {
                         friction: static_friction,
-                        beside: 0.0,
+                        known_normal: 0.0,
                     },
                     (Some(sign), None) => {
                         let share = -sign * friction;
@@ -1063,32 +1070,33 @@ impl Touching {
                         if own + coupled <= ROUNDING_OF_FORCES * own {
                             return Err(trouble(k, ContactTrouble::Paradox));
                         }
-                        Asked::Normal { share }
+                        ContactUnknowns::Normal { share }
                     }
                 });
             }
             let known = |place: usize| {
                 let normal = pressing[place].unwrap_or(0.0);
-                let share =
-                    slipping[place].map_or(0.0, |sign| -sign * here.friction(asked_of[place])[0]);
-                match leans(place) {
+                let share = slipping[place]
+                    .map_or(0.0, |sign| -sign * here.friction(solved_contacts[place])[0]);
+                match carrier(place) {
                     None => [normal, share * normal],
                     Some(_) => [0.0, share * normal],
                 }
             };
-            let known: Vec<[f64; 2]> = (0..asked_of.len()).map(known).collect();
+            let known: Vec<[f64; 2]> = (0..solved_contacts.len()).map(known).collect();
             let b: Vec<f64> = (accelerations.iter().enumerate())
                 .map(|(row, [value, _])| {
                     let by = g[row * width..][..width].iter().zip(known.iter().flatten());
                     by.fold(*value, |sum, (g, force)| sum + g * force)
                 })
                 .collect();
-            let answer = problem::solve(&asked, &g, &b).map_err(|_| self.unsolved(&asked_of, t))?;
+            let answer = problem::solve(&unknowns, &g, &b)
+                .map_err(|_| self.unsolved(&solved_contacts, t))?;
             if answer.residual > 1e-8 {
-                return Err(self.unsolved(&asked_of, t));
+                return Err(self.unsolved(&solved_contacts, t));
             }
             let mut breaks_away = false;
-            for (place, &k) in asked_of.iter().enumerate() {
+            for (place, &k) in solved_contacts.iter().enumerate() {
                 let after = |part: usize| {
                     let row = 2 * place + part;
                     let of = |forces: &[[f64; 2]]| {
@@ -1106,10 +1114,12 @@ impl Touching {
                 let row = 2 * place;
                 let pressed = g[row * width + row] * answer.forces[place][0];
                 modes[k] = match slipping[place] {
-                    _ if leans(place).is_some_and(|on| modes[asked_of[on]] == Mode::Open) => {
+                    _ if carrier(place)
+                        .is_some_and(|on| modes[solved_contacts[on]] == Mode::Open) =>
+                    {
                         Mode::Open
                     }
-                    _ if leans(place).is_none()
+                    _ if carrier(place).is_none()
                         && opens > rounding.max(pressed)
                         && pressing[place].is_none() =>
                     {
@@ -1149,7 +1159,7 @@ impl Touching {
                     }
                     None => {
                         let tangential = answer.forces[place][1];
-                        let normal = answer.forces[leans(place).unwrap_or(place)][0];
+                        let normal = answer.forces[carrier(place).unwrap_or(place)][0];
                         let normal = pressing[place].unwrap_or(normal);
                         let most = here.friction(k)[1] * normal;
                         let (slips, rounding) = after(1);
@@ -1173,14 +1183,14 @@ impl Touching {
             }
             if !breaks_away {
                 let parts = known.iter().zip(&answer.forces);
-                for (&k, (known, found)) in asked_of.iter().zip(parts) {
+                for (&k, (known, found)) in solved_contacts.iter().zip(parts) {
                     forces[k] = [known[0] + found[0], known[1] + found[1]];
                 }
                 return Ok((modes, forces));
             }
         }
         Err(StepError::Contact {
-            contact: asked_of[0],
+            contact: solved_contacts[0],
             trouble: ContactTrouble::Unsettled,
             t,
         })

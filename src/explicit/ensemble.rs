@@ -168,7 +168,7 @@ impl<const W: usize> Ensemble<W> {
         let Some(first) = next(&mut arrived) else {
             return;
         };
-        let mut side_by_side = SideBySide::<S, T, W>::new(self, &first);
+        let mut side_by_side = ActiveTrajectories::<S, T, W>::new(self, &first);
         side_by_side.insert(0, first);
         for lane in 1..W {
             match next(&mut arrived) {
@@ -237,7 +237,7 @@ impl<const W: usize> Ensemble<W> {
             system.to_vector(&start.q),
             system.to_vector(&start.v),
         );
-        let machine = Alone(&system, &inputs);
+        let machine = OneSystem(&system, &inputs);
         let by_series = self.method.kind == Kind::Series && cfg!(feature = "std");
         if by_series && system.check_series().is_err() {
             let (inputs, t) = (false, start.t);
@@ -283,9 +283,9 @@ impl<S: System> Begun<S> {
 }
 
 /// A system with its inputs.
-struct Alone<'s, S: System>(&'s S, &'s S::Inputs);
+struct OneSystem<'s, S: System>(&'s S, &'s S::Inputs);
 
-impl<S: System> Accelerate<f64, S::Vector> for Alone<'_, S> {
+impl<S: System> Accelerate<f64, S::Vector> for OneSystem<'_, S> {
     #[inline(always)]
     fn accelerate(
         &self,
@@ -301,9 +301,9 @@ impl<S: System> Accelerate<f64, S::Vector> for Alone<'_, S> {
 }
 
 /// Systems with their inputs.
-struct Together<'s, S: Batched<W>, const W: usize>(&'s Batch<S, W>, &'s S::BatchInputs);
+struct SystemBatch<'s, S: Batched<W>, const W: usize>(&'s Batch<S, W>, &'s S::BatchInputs);
 
-impl<S: Batched<W>, const W: usize> Accelerate<Lanes<W>, S::Vectors> for Together<'_, S, W> {
+impl<S: Batched<W>, const W: usize> Accelerate<Lanes<W>, S::Vectors> for SystemBatch<'_, S, W> {
     #[inline(always)]
     fn accelerate(
         &self,
@@ -393,7 +393,7 @@ impl<S: Batched<W>, const W: usize> Steps<S, W> for Track<Lanes<W>, S::Vectors> 
     }
 
     fn attempt(&mut self, batch: &Batch<S, W>, inputs: &S::BatchInputs) -> [Outcome; W] {
-        S::Vectors::run(Attempt(self, &Together(batch, inputs)))
+        S::Vectors::run(Attempt(self, &SystemBatch(batch, inputs)))
     }
 
     fn now(&self) -> &Point<S::Vectors, Lanes<W>> {
@@ -461,7 +461,7 @@ impl<S: Batched<W>, const W: usize> Steps<S, W> for InSeries<S::Vectors, S::Seri
 }
 
 /// The trajectories that are under way.
-struct SideBySide<S: Batched<W>, T, const W: usize> {
+struct ActiveTrajectories<S: Batched<W>, T, const W: usize> {
     indices: [usize; W],
     systems: [S; W],
     inputs: [S::Inputs; W],
@@ -472,7 +472,7 @@ struct SideBySide<S: Batched<W>, T, const W: usize> {
     steps: T,
 }
 
-impl<S: Batched<W>, T: Steps<S, W>, const W: usize> SideBySide<S, T, W> {
+impl<S: Batched<W>, T: Steps<S, W>, const W: usize> ActiveTrajectories<S, T, W> {
     /// Lanes that are all at the start of `first`; those into which nothing is put stay there.
     fn new(ensemble: &Ensemble<W>, first: &Begun<S>) -> Self {
         let inputs: [S::Inputs; W] = core::array::from_fn(|_| first.inputs.clone());

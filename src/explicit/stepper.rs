@@ -69,9 +69,11 @@ pub struct ExplicitStepperBuilder<
 }
 
 /// A system with the law of its inputs.
-struct With<'s, S, L>(&'s S, &'s L);
+struct SystemWithLaw<'s, S, L>(&'s S, &'s L);
 
-impl<N: Real, S: SystemIn<N>, L: InputLawIn<S, N>> Accelerate<N, S::Vector> for With<'_, S, L> {
+impl<N: Real, S: SystemIn<N>, L: InputLawIn<S, N>> Accelerate<N, S::Vector>
+    for SystemWithLaw<'_, S, L>
+{
     #[inline(always)]
     fn accelerate(
         &self,
@@ -123,9 +125,9 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         if self.is_done() {
             return Ok(());
         }
-        let machine = With(&self.system, &self.law);
+        let machine = SystemWithLaw(&self.system, &self.law);
         if self.changed {
-            self.track.look(&machine)?;
+            self.track.evaluate_now(&machine)?;
             self.changed = false;
         }
         self.track.choose_first_step(&machine);
@@ -258,7 +260,8 @@ impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
         if self.changed && self.track.dense_needs_evaluations() {
             return Err(StepError::Changed { t });
         }
-        self.track.interpolant(&With(&self.system, &self.law))
+        self.track
+            .interpolant(&SystemWithLaw(&self.system, &self.law))
     }
 
     /// The state at a time within the last step, from [`t_before`](Self::t_before) to now, on the continuous extension of the method.
@@ -421,7 +424,7 @@ impl<S: SystemIn<N>, N: Real, L> ExplicitStepperBuilder<S, N, L> {
             system.to_vector(&state.v),
         );
         check::<N>(method, state.t)?;
-        let mut track = Track::begin(method, tolerance, start, &With(&system, &law))?;
+        let mut track = Track::begin(method, tolerance, start, &SystemWithLaw(&system, &law))?;
         track.set_longest_step(longest_step);
         if first_step.is_finite() {
             track.set_first_step(first_step);

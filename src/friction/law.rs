@@ -21,7 +21,7 @@ const SINGULAR: f64 = 1e-12;
 const MOST_STEPS: usize = 400;
 
 /// Number of directions at which the search begins for the direction in which a contact on a surface starts to slide.
-const LOOKS: usize = 48;
+const DIRECTIONS: usize = 48;
 
 /// Number of bisections from the angle between two of these directions to its round-off.
 const BISECTIONS: usize = 54;
@@ -36,7 +36,7 @@ pub(crate) enum Motion {
     Sticks,
     /// It slides forward (1) or backward (−1).
     Slides(f64),
-    /// It slides on a surface, along both of its tangents, in the direction [`Mode::course`].
+    /// It slides on a surface, along both of its tangents, in the direction [`Mode::slip_direction`].
     Skids,
 }
 
@@ -46,7 +46,7 @@ pub(crate) struct Mode {
     pub motion: [Motion; MOST_CONTACTS],
     pub press: Each,
     /// For skidding contacts the components of their direction along the two tangents; both are 0 if the direction is not known.
-    pub course: Each,
+    pub slip_direction: Each,
 }
 
 impl Mode {
@@ -55,7 +55,7 @@ impl Mode {
         match self.motion[contact] {
             Motion::Sticks => 0.0,
             Motion::Slides(sign) => sign,
-            Motion::Skids => self.course[contact],
+            Motion::Skids => self.slip_direction[contact],
         }
     }
 }
@@ -347,7 +347,12 @@ impl Parts<'_> {
     }
 
     /// Whether a contact that starts to slide accelerates in its direction.
-    fn departs(&self, mode: &Mode, friction_forces: &Each, contact: usize) -> bool {
+    fn accelerates_in_its_direction(
+        &self,
+        mode: &Mode,
+        friction_forces: &Each,
+        contact: usize,
+    ) -> bool {
         let [rate, terms] = self.sum(self.slip_rate(contact), friction_forces);
         match mode.motion[contact] {
             Motion::Sticks => true,
@@ -355,7 +360,8 @@ impl Parts<'_> {
             Motion::Skids if self.layout.is_second(contact) => true,
             Motion::Skids => {
                 let [across, more] = self.sum(self.slip_rate(contact + 1), friction_forces);
-                let ahead = mode.course[contact] * rate + mode.course[contact + 1] * across;
+                let ahead =
+                    mode.slip_direction[contact] * rate + mode.slip_direction[contact + 1] * across;
                 ahead >= -ROUNDING * (terms + more)
             }
         }
@@ -373,17 +379,22 @@ impl Parts<'_> {
 
     /// Calls `look` with all friction forces in given states, where the contacts on surfaces in `open` start to slide in
     /// directions that are to be found. Returns false if there may be others.
-    fn each_course(&self, mode: Mode, open: &[usize], look: &mut dyn FnMut(Mode, Each)) -> bool {
+    fn each_slip_direction(
+        &self,
+        mode: Mode,
+        open: &[usize],
+        look: &mut dyn FnMut(Mode, Each),
+    ) -> bool {
         match *open {
             [] => self.each_solution(&mode, &mut |forces| look(mode, forces)),
             [contact] => {
                 let mut known = true;
-                self.courses(mode, contact, &mut |mode| {
+                self.find_slip_directions(mode, contact, &mut |mode| {
                     known &= self.each_solution(&mode, &mut |forces| look(mode, forces));
                 });
                 known
             }
-            _ => match self.courses_together(mode, open) {
+            _ => match self.find_slip_directions_together(mode, open) {
                 Some(mode) => self.each_solution(&mode, &mut |forces| look(mode, forces)),
                 None => false,
             },
@@ -392,23 +403,29 @@ impl Parts<'_> {
 
     /// Finds the directions in which a contact on a surface may start to slide while all others are in given states: those in
     /// which its slip grows along itself. The search samples the circle and then bisects to round-off.
-    fn courses(&self, mut mode: Mode, contact: usize, look: &mut dyn FnMut(Mode)) {
+    fn find_slip_directions(&self, mut mode: Mode, contact: usize, look: &mut dyn FnMut(Mode)) {
         let mut along = |angle: f64| {
             let (sin, cos) = Scalar::sin_cos(angle);
-            (mode.course[contact], mode.course[contact + 1]) = (cos, sin);
+            (
+                mode.slip_direction[contact],
+                mode.slip_direction[contact + 1],
+            ) = (cos, sin);
             mode
         };
         // The growth of the slip to the left of the direction, and along it.
         let grows = |mode: &Mode| {
             let forces = self.friction_forces(mode).ok()?;
             let [x, y] = [contact, contact + 1].map(|k| self.sum(self.slip_rate(k), &forces)[0]);
-            let [a, b] = [mode.course[contact], mode.course[contact + 1]];
+            let [a, b] = [
+                mode.slip_direction[contact],
+                mode.slip_direction[contact + 1],
+            ];
             Some([a * y - b * x, a * x + b * y])
         };
         let whole = 2.0 * core::f64::consts::PI;
-        let at = |number: usize| whole * number as f64 / LOOKS as f64;
+        let at = |number: usize| whole * number as f64 / DIRECTIONS as f64;
         let mut before = grows(&along(at(0)));
-        for number in 1..=LOOKS {
+        for number in 1..=DIRECTIONS {
             let (mut from, mut to) = (at(number - 1), at(number));
             let after = grows(&along(to));
             let (Some([mut aside, _]), Some([next, _])) = (before, after) else {
@@ -439,17 +456,25 @@ impl Parts<'_> {
 
     /// The directions of several contacts on surfaces that start to slide at once, by iteration over the contacts until none
     /// turns. `None` if one of them could go in several directions, or the iteration does not converge.
-    fn courses_together(&self, mut mode: Mode, open: &[usize]) -> Option<Mode> {
+    fn find_slip_directions_together(&self, mut mode: Mode, open: &[usize]) -> Option<Mode> {
         for _ in 0..MOST_STEPS {
             let mut turned = 0.0_f64;
             for &contact in open {
                 let (mut found, mut several) = (None, false);
-                self.courses(mode, contact, &mut |next| {
+                self.find_slip_directions(mode, contact, &mut |next| {
                     let forces = self.friction_forces(&next).ok();
-                    if forces.is_some_and(|forces| self.departs(&next, &forces, contact)) {
+                    if forces.is_some_and(|forces| {
+                        self.accelerates_in_its_direction(&next, &forces, contact)
+                    }) {
                         several |= found.is_some_and(|known: Mode| {
-                            let [a, b] = [known.course[contact], known.course[contact + 1]];
-                            let [c, d] = [next.course[contact], next.course[contact + 1]];
+                            let [a, b] = [
+                                known.slip_direction[contact],
+                                known.slip_direction[contact + 1],
+                            ];
+                            let [c, d] = [
+                                next.slip_direction[contact],
+                                next.slip_direction[contact + 1],
+                            ];
                             (a * d - b * c).abs() > SAME || a * c + b * d < 0.0
                         });
                         found = Some(next);
@@ -457,7 +482,7 @@ impl Parts<'_> {
                 });
                 let next = found.filter(|_| !several)?;
                 for k in [contact, contact + 1] {
-                    turned = turned.max((next.course[k] - mode.course[k]).abs());
+                    turned = turned.max((next.slip_direction[k] - mode.slip_direction[k]).abs());
                 }
                 mode = next;
             }
@@ -485,35 +510,35 @@ pub(super) type Turned = (usize, Motion, f64);
 
 /// The states that are unknown when the state of a contact ends.
 #[derive(Clone, Copy)]
-pub(super) struct Question {
+pub(super) struct OpenStates {
     /// The motion of each contact, if known.
     pub motion: [Option<Motion>; MOST_CONTACTS],
     /// The direction of each contact that is known to skid; 0 if the direction is unknown too.
-    pub course: Each,
+    pub slip_direction: Each,
     /// A state that has just proved impossible: a contact, its motion, and possibly the side to which it presses.
     pub excluded: Option<(usize, Motion, Option<f64>)>,
     /// The contact that presses to the other side from here on, unless it stops.
     pub turned: Option<Turned>,
 }
 
-impl Question {
+impl OpenStates {
     /// If only the slips are known: contacts with a slip slide, the states of the others are unknown.
-    pub fn from_slips(slips: &Each, layout: Layout) -> Question {
+    pub fn from_slips(slips: &Each, layout: Layout) -> OpenStates {
         let sliding = |slip: f64| (slip != 0.0).then_some(Motion::Slides(slip.signum()));
-        let mut question = Question {
+        let mut open_states = OpenStates {
             motion: slips.map(sliding),
-            course: [0.0; MOST_CONTACTS],
+            slip_direction: [0.0; MOST_CONTACTS],
             excluded: None,
             turned: None,
         };
         for k in (0..layout.k).filter(|k| layout.has_second(*k)) {
             let speed = length([slips[k], slips[k + 1]]);
             for k in [k, k + 1] {
-                question.motion[k] = (speed != 0.0).then_some(Motion::Skids);
-                question.course[k] = if speed != 0.0 { slips[k] / speed } else { 0.0 };
+                open_states.motion[k] = (speed != 0.0).then_some(Motion::Skids);
+                open_states.slip_direction[k] = if speed != 0.0 { slips[k] / speed } else { 0.0 };
             }
         }
-        question
+        open_states
     }
 
     /// The unique solution.
@@ -534,13 +559,15 @@ impl Question {
             // That a contact skids may be known without its direction.
             let is_asked = |k: usize| {
                 let skids = self.motion[k] == Some(Motion::Skids) && parts.layout.has_second(k);
-                skids && self.course[k] == 0.0 && self.course[k + 1] == 0.0
+                skids && self.slip_direction[k] == 0.0 && self.slip_direction[k + 1] == 0.0
             };
-            let departs = |k: usize| {
+            let accelerates_in_its_direction = |k: usize| {
                 let is_known = self.motion[k].is_some() && !is_asked(k);
-                is_known || parts.departs(&mode, &friction_forces, k)
+                is_known || parts.accelerates_in_its_direction(&mode, &friction_forces, k)
             };
-            if !parts.admits(&mode, &friction_forces, self.turned) || !(0..count).all(departs) {
+            if !parts.admits(&mode, &friction_forces, self.turned)
+                || !(0..count).all(accelerates_in_its_direction)
+            {
                 return;
             }
             let Some((known, other)) = &best else {
@@ -568,12 +595,12 @@ impl Question {
             let (mut open, mut number) = ([0; MOST_CONTACTS], 0);
             for k in 0..count {
                 let skids = mode.motion[k] == Motion::Skids && parts.layout.has_second(k);
-                if skids && mode.course[k] == 0.0 && mode.course[k + 1] == 0.0 {
+                if skids && mode.slip_direction[k] == 0.0 && mode.slip_direction[k + 1] == 0.0 {
                     open[number] = k;
                     number += 1;
                 }
             }
-            let known = parts.each_course(mode, &open[..number], &mut look);
+            let known = parts.each_slip_direction(mode, &open[..number], &mut look);
             if !known {
                 unknown = (0..count).find(|k| mode.motion[*k] != Motion::Sticks);
             }
@@ -616,7 +643,7 @@ impl Question {
             let mut mode = Mode {
                 motion: [Motion::Sticks; MOST_CONTACTS],
                 press: [1.0; MOST_CONTACTS],
-                course: [0.0; MOST_CONTACTS],
+                slip_direction: [0.0; MOST_CONTACTS],
             };
             let mut is_open = true;
             for (k, &digit) in digits[..count].iter().enumerate() {
@@ -626,7 +653,7 @@ impl Question {
                     states(k)[digit]
                 };
                 if mode.motion[k] == Motion::Skids {
-                    mode.course[k] = self.course[k];
+                    mode.slip_direction[k] = self.slip_direction[k];
                 }
                 is_open &= self.motion[k].is_none_or(|known| known == mode.motion[k]);
                 if let Some((contact, motion, press)) = self.excluded

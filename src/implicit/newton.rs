@@ -2,7 +2,7 @@
 
 use super::jacobian::Jacobian;
 use super::lu::{Complex, Lu};
-use super::{Implicit, Solved, Task};
+use super::{Implicit, Solved, StepProblem};
 use crate::math::{rough_power, sqrt};
 use crate::methods::MAX_STAGES;
 use crate::stages::stage_state;
@@ -28,21 +28,21 @@ const CONTRACTS: f64 = 0.05;
 
 /// An iteration that leaves more than this fraction of the error stagnates, provided that the earlier
 /// ones converged.
-const STANDS: f64 = 0.3;
+const STAGNATES: f64 = 0.3;
 
 /// They converged if the last change is at most this fraction of the first.
 const FAR: f64 = 0.01;
 
 /// The Jacobians at each stage, and the matrix of all of them together.
 #[derive(Clone, Debug)]
-pub(super) struct Apart {
+pub(super) struct StageJacobians {
     jacobians: Vec<Jacobian>,
     /// Its rows and columns are the accelerations of the first stage, then of the second, and so on.
     matrix: Lu<f64>,
     x: Vec<f64>,
 }
 
-impl Apart {
+impl StageJacobians {
     fn new(like: &Jacobian, stages: usize) -> Self {
         let n = like.noise.len();
         Self {
@@ -58,7 +58,7 @@ impl Apart {
     }
 
     /// Factorizes the matrix of blocks `δᵢⱼ I − h aᵢⱼ a_v(i) − h² āᵢⱼ a_q(i)`.
-    fn factor<V>(&mut self, task: &Task<'_, V>) -> bool {
+    fn factor<V>(&mut self, task: &StepProblem<'_, V>) -> bool {
         let stages = self.jacobians.len();
         let n = self.x.len() / stages;
         let mut weights = [[[0.0; 2]; MAX_STAGES]; MAX_STAGES];
@@ -96,10 +96,10 @@ impl Apart {
     }
 }
 
-impl<V: Vector> Task<'_, V> {
+impl<V: Vector> StepProblem<'_, V> {
     /// Sets `q` and `v` to the state at a stage; returns its time.
     fn go_to(&self, stage: usize, k: &[V; MAX_STAGES], [q, v]: [&mut V; 2]) -> f64 {
-        let Task {
+        let StepProblem {
             method, before, h, ..
         } = self;
         let c = method.tableau.c[stage];
@@ -120,7 +120,7 @@ fn subtract<V: Vector>(a: &V, k: &V, difference: &mut [f64]) {
 impl Implicit {
     /// The initial guess of Newton's method: the extrapolated polynomial through the stages of the last
     /// step, or at the beginning of a run the acceleration there.
-    fn predict<V: Vector>(&self, task: &Task<'_, V>, k: &mut [V; MAX_STAGES]) {
+    fn predict<V: Vector>(&self, task: &StepProblem<'_, V>, k: &mut [V; MAX_STAGES]) {
         let (start, stages) = k.split_at_mut(1);
         let count = self.known.len();
         let (c, stages) = (&task.method.tableau.c[1..=count], &mut stages[..count]);
@@ -130,7 +130,7 @@ impl Implicit {
             }
             return;
         }
-        let Task { before, h, .. } = task;
+        let StepProblem { before, h, .. } = task;
         let since = (before.t - self.known_from.high) + (before.t_low - self.known_from.low);
         for (stage, c_stage) in stages.iter_mut().zip(c) {
             let x = (since + c_stage * h) / self.known_length;
@@ -153,7 +153,7 @@ impl Implicit {
     /// again until it contracts.
     pub(super) fn newton<V: Vector>(
         &mut self,
-        task: &Task<'_, V>,
+        task: &StepProblem<'_, V>,
         k: &mut [V; MAX_STAGES],
         scratch: [&mut V; 2],
         accelerations: &mut impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
@@ -183,7 +183,7 @@ impl Implicit {
             if round > 1 {
                 let now = size / size_before;
                 let far = size > FAR * first;
-                if now > STANDS && !far && size <= self.standing(task) {
+                if now > STAGNATES && !far && size <= self.standing(task) {
                     return Ok(Solved::Yes);
                 }
                 self.contraction = match round {
@@ -223,20 +223,20 @@ impl Implicit {
 
     /// The fraction of the tolerance that Newton's method may leave as its error, which is smaller at
     /// finer tolerances.
-    fn share<V>(&self, task: &Task<'_, V>) -> f64 {
+    fn share<V>(&self, task: &StepProblem<'_, V>) -> f64 {
         let relative = task.tolerance.relative;
         LEFT.min(sqrt(relative)).max(10.0 * f64::EPSILON / relative)
     }
 
     /// The largest change with which an iteration that stagnates is accepted.
-    fn standing<V>(&self, task: &Task<'_, V>) -> f64 {
+    fn standing<V>(&self, task: &StepProblem<'_, V>) -> f64 {
         (LEFT_BY_ROUNDING / self.share(task)).max(1.0)
     }
 
     /// Computes the residuals `a(tᵢ, qᵢ, vᵢ) − kᵢ` of the stages in `change`.
     fn residuals<V: Vector>(
         &mut self,
-        task: &Task<'_, V>,
+        task: &StepProblem<'_, V>,
         k: &mut [V; MAX_STAGES],
         [q, v]: [&mut V; 2],
         accelerations: &mut impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
@@ -254,7 +254,7 @@ impl Implicit {
     /// before: residuals and changes. Returns whether the matrix is invertible.
     fn solve_apart<V: Vector>(
         &mut self,
-        task: &Task<'_, V>,
+        task: &StepProblem<'_, V>,
         k: &mut [V; MAX_STAGES],
         [q, v]: [&mut V; 2],
         anew: bool,
@@ -262,7 +262,7 @@ impl Implicit {
     ) -> Result<bool, StepError> {
         let mut apart = match self.apart.take() {
             Some(apart) => apart,
-            None => Box::new(Apart::new(&self.jacobian, self.change.len())),
+            None => Box::new(StageJacobians::new(&self.jacobian, self.change.len())),
         };
         let solved = if anew {
             let found = (1..=self.change.len()).try_for_each(|stage| {
@@ -330,8 +330,8 @@ impl Implicit {
 
     /// The change of positions and velocities of the stages, as root mean square over all of them; 1 is
     /// the error that Newton's method may leave, or round-off.
-    fn size_of_change<V: Vector>(&self, task: &Task<'_, V>) -> f64 {
-        let &Task {
+    fn size_of_change<V: Vector>(&self, task: &StepProblem<'_, V>) -> f64 {
+        let &StepProblem {
             method,
             before,
             h,

@@ -7,12 +7,12 @@ use lagrangian_jit::{Library, Several, SeveralArguments};
 use lagrangian_native::Lanes;
 use lagrangian_program::{Function, Op, Program, Role};
 
-use super::{InterpretedMachine, InterpretedSystem, Named, ToBeMade};
+use super::{InterpretedMachine, InterpretedSystem, Named, RunTask};
 use crate::run::Prepared;
 use crate::run::in_lanes::{Machines, run_all};
 use crate::run::run;
 use crate::settings::Of;
-use crate::solution::Made;
+use crate::solution::RunResult;
 use crate::stepper::in_lanes::{Evaluate, LaneMask, WIDTH, Wide};
 
 /// The machines of all lanes, executed by machine code.
@@ -37,7 +37,7 @@ fn is_zero(function: &Function) -> bool {
 }
 
 /// Makes all these runs, in lanes if the machine of the first has code for that.
-pub(super) fn made(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
+pub(super) fn made(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
     let first = tasks.first().map(|(task, _)| &task.of);
     let machine = match first {
         Some(Of::Machine(machine)) if machine.may_run_in_lanes() => *machine,
@@ -58,7 +58,7 @@ pub(super) fn made(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>
         has_powers: [Role::WorkRate, Role::DissipationRate].map(has),
     };
     let mut all = Vec::new();
-    let mut made: Vec<Option<Made<InterpretedMachine>>> = Vec::new();
+    let mut made: Vec<Option<RunResult<InterpretedMachine>>> = Vec::new();
     for (task, start) in tasks {
         match Prepared::new(task, start) {
             Ok(prepared) => {
@@ -77,7 +77,7 @@ pub(super) fn made(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>
         .collect()
 }
 
-fn alone(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
+fn alone(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
     let tasks = tasks.into_iter();
     tasks.map(|(task, start)| run(task, start)).collect()
 }

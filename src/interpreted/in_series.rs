@@ -159,12 +159,12 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
     /// If a step cannot be taken; the state is then the end of the last one. If `t` is not a finite number; then nothing happens.
     pub fn advance_to(&mut self, t: N) -> Result<(), Error> {
         if !lagrangian_scalar::Scalar::is_finite(t) {
-            return Err(self.said(StepError::NoTime { t: t.to_f64() }));
+            return Err(self.to_error(StepError::NoTime { t: t.to_f64() }));
         }
         let mut taken = 0;
         while self.t != t {
             check_count(taken, self.max_steps, self.t.to_f64())
-                .map_err(|error| self.said(error))?;
+                .map_err(|error| self.to_error(error))?;
             self.step(t)?;
             taken += 1;
         }
@@ -176,7 +176,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
     /// # Errors
     /// As for [`advance_to`](Self::advance_to).
     pub fn step(&mut self, end: N) -> Result<(), Error> {
-        let (h, is_last) = self.choose(end).map_err(|error| self.said(error))?;
+        let (h, is_last) = self.choose(end).map_err(|error| self.to_error(error))?;
         let t = self.t.to_f64();
         for theta in self.looks(h)? {
             let tau = N::from_f64(theta) * h;
@@ -184,7 +184,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
             let mut numbers = q.iter().zip(&v);
             let is_finite = |x: &N| lagrangian_scalar::Scalar::is_finite(*x);
             if let Some(coordinate) = numbers.position(|(q, v)| !is_finite(q) || !is_finite(v)) {
-                return Err(self.said(StepError::NotFinite { coordinate, t }));
+                return Err(self.to_error(StepError::NotFinite { coordinate, t }));
             }
             let t = (self.t + tau).to_f64();
             if let Some(assumption) = self.ended_assumption(t, [&q, &v]) {
@@ -229,7 +229,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         Some(ended.text.into())
     }
 
-    fn said(&self, error: StepError) -> Error {
+    fn to_error(&self, error: StepError) -> Error {
         Error::of_step(error, &self.system)
     }
 

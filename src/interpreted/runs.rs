@@ -7,10 +7,10 @@ use crate::inputs::{InputLaw, Law};
 use crate::run::run;
 use crate::sensitivities::{Sensitive, SensitiveSystem};
 use crate::settings::Task;
-use crate::solution::{Made, Solution};
+use crate::solution::{RunResult, Solution};
 use crate::{Coordinates, Error, Simulation, State};
 
-use super::{InterpretedMachine, InterpretedSystem, ToBeMade};
+use super::{InterpretedMachine, InterpretedSystem, RunTask};
 use std::vec::Vec;
 
 type Start<M> = State<Coordinates<M>>;
@@ -112,8 +112,8 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
             };
             (task, start)
         });
-        let made = made_in_lanes(tasks.collect());
-        let with_law = |(made, law): (Made<InterpretedMachine>, L)| {
+        let made = run_in_lanes(tasks.collect());
+        let with_law = |(made, law): (RunResult<InterpretedMachine>, L)| {
             made.map(|(solution, error)| (solution.with_law(law), error))
         };
         made.into_iter().zip(laws).map(with_law).collect()
@@ -132,7 +132,7 @@ where
         self,
         start: Start<SensitiveMachine<'m>>,
     ) -> Result<Solution<SensitiveMachine<'m>, L>, Error> {
-        complete(self.run_by(start, made_with_derivatives)?)
+        complete(self.run_by(start, run_with_derivatives)?)
     }
 }
 
@@ -146,24 +146,24 @@ fn complete<S>((solution, error): (S, Option<Error>)) -> Result<S, Error> {
 fn made(
     task: Task<'_, InterpretedMachine, Law<'_, InterpretedSystem>>,
     start: Start<InterpretedMachine>,
-) -> Made<InterpretedMachine> {
+) -> RunResult<InterpretedMachine> {
     run(task, start)
 }
 
 #[cfg(feature = "jit")]
-fn made_in_lanes(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
+fn run_in_lanes(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
     super::in_lanes::made(tasks)
 }
 
 #[cfg(not(feature = "jit"))]
-fn made_in_lanes(tasks: Vec<ToBeMade<'_, '_>>) -> Vec<Made<InterpretedMachine>> {
+fn run_in_lanes(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
     let tasks = tasks.into_iter();
     tasks.map(|(task, start)| made(task, start)).collect()
 }
 
-fn made_with_derivatives<'m>(
+fn run_with_derivatives<'m>(
     task: Task<'_, SensitiveMachine<'m>, Law<'_, SensitiveSystem<InterpretedSystem>>>,
     start: Start<SensitiveMachine<'m>>,
-) -> Made<SensitiveMachine<'m>> {
+) -> RunResult<SensitiveMachine<'m>> {
     run(task, start)
 }

@@ -345,12 +345,12 @@ fn factor(of: &str, unit: &str) -> Result<f64, String> {
     let factor = value_in(&text, unit, &mut sources, &mut report);
     let factor = factor.filter(|factor| factor.is_finite() && *factor != 0.0);
     factor.ok_or_else(|| {
-        let said = report.diagnostics().into_iter();
-        let said: Vec<String> = said.map(|wrong| wrong.message.clone()).collect();
-        if said.is_empty() {
+        let messages = report.diagnostics().into_iter();
+        let messages: Vec<String> = messages.map(|wrong| wrong.message.clone()).collect();
+        if messages.is_empty() {
             "it cannot be converted".into()
         } else {
-            said.join("; ")
+            messages.join("; ")
         }
     })
 }

@@ -7,13 +7,13 @@ use std::vec::Vec;
 use super::{LastInterpolant, Run, VectorOf};
 use crate::balance::Quadratures;
 use crate::contact::{Impact, Mode};
-use crate::event::{self, Crossing, Event, Triple, made, state};
+use crate::event::{self, Crossing, Event, Triple, state, step_motion};
 use crate::inputs::InputLaw;
-use crate::phases::{Book, Change};
+use crate::phases::{Change, EnergyEntry};
 use crate::roots;
 use crate::solution::Ending;
 use crate::step_error::StepError;
-use crate::stepper::{Cause, Happened};
+use crate::stepper::{Cause, ContactChanges};
 use crate::{
     ContactEvent, ContactEventKind, ContactImpact, ContactTrouble, Error, ImpactAcross, Machine,
     Stepper, System, Vector,
@@ -30,16 +30,16 @@ const CORRECTIONS: usize = 8;
 const BEYOND: f64 = 1e-9;
 
 /// Between two looks at a gap no angle that it depends on turns further than this, in rad.
-const TURN_BETWEEN_LOOKS: f64 = 0.5;
+const TURN_BETWEEN_SAMPLES: f64 = 0.5;
 
 /// Between two looks a gap falls no faster than this many times the greatest of its rates at looks.
-const FALLS: f64 = 2.0;
+const MOST_RATE_GROWTH: f64 = 2.0;
 
 /// What opens at a look is looked at from this part of the way to the next one on.
 const OPENED: f64 = 1e-3;
 
 /// The most looks at a step.
-const MOST_LOOKS: f64 = 1e6;
+const MOST_SAMPLES: f64 = 1e6;
 
 /// A gap that closes where it changes with the coordinates by less than this share of what it did at the start, the root of rounding, is taken
 /// not to change with them: it does so the less the nearer it is to 0, and how near that is only rounding says.
@@ -52,7 +52,7 @@ pub(super) const LEAST_APPROACH: f64 = 1e-9;
 
 /// A change that waits for the stepper to come to its instant.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting {
+pub(super) struct PendingChange {
     cause: Cause,
     /// The contact whose gap closes.
     closes: Option<usize>,
@@ -62,10 +62,10 @@ pub(super) struct Meeting {
 }
 
 /// What is told of a contact: which, what, the direction of its slip along both tangents, and its impact if it is one.
-pub(super) type Told = (usize, ContactEventKind, [f64; 2], Option<ContactImpact>);
+pub(super) type ReportedEvent = (usize, ContactEventKind, [f64; 2], Option<ContactImpact>);
 
 /// What the run does next.
-pub(super) enum Next {
+pub(super) enum AfterContacts {
     /// It steps again.
     Step,
     /// It keeps the last step.
@@ -76,7 +76,7 @@ pub(super) enum Next {
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// Contacts at the start of the run: what touches there is closed, or bounces.
-    pub(super) fn meet_at_start(&mut self) -> Result<(), Error> {
+    pub(super) fn resolve_contacts_at_start(&mut self) -> Result<(), Error> {
         let Some(touching) = self.stepper.touching().clone() else {
             return Ok(());
         };
@@ -95,75 +95,76 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return self.begin_stepping(&touching);
         }
         let step = self.settings.first_step.unwrap_or(0.0);
-        self.meet_now(Cause::Asked, step, true)
+        self.resolve_contacts_now(Cause::Unspecified, step, true)
     }
 
     /// Follows the contacts through the last step.
     pub(super) fn follow_contacts(
         &mut self,
-        meeting: &mut Option<Meeting>,
+        pending_change: &mut Option<PendingChange>,
         interpolant: &mut LastInterpolant<M>,
         looks: bool,
         changes: &mut (f64, usize),
-    ) -> Result<Next, Error> {
-        if let Some(meeting) = meeting {
+    ) -> Result<AfterContacts, Error> {
+        if let Some(pending_change) = pending_change {
             // A gap is 0 at the end of the step, and not only on its dense output.
             if self.stepper.is_done()
-                && let Some(contact) = meeting.closes
-                && meeting.corrected < CORRECTIONS
+                && let Some(contact) = pending_change.closes
+                && pending_change.corrected < CORRECTIONS
             {
                 let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
                 let Some(touching) = self.stepper.touching() else {
-                    return Ok(Next::Keep);
+                    return Ok(AfterContacts::Keep);
                 };
                 let near = touching.clearances(self.model.system, (t, q, v))[contact];
                 let (gap, rate) = (near.value, near.rate);
                 let next = t - gap / rate;
                 let correction = (next - t).abs();
                 let from = self.stepper.t_before();
-                let is_within = near.is_of_gap && next > from && correction < 0.5 * (t - from);
+                let is_within =
+                    near.is_rate_of_value && next > from && correction < 0.5 * (t - from);
                 if is_within && correction > f64::EPSILON * t.abs() {
-                    meeting.corrected += 1;
+                    pending_change.corrected += 1;
                     self.stepper.retreat(next);
-                    return Ok(Next::Step);
+                    return Ok(AfterContacts::Step);
                 }
             }
-            return Ok(Next::Keep);
+            return Ok(AfterContacts::Keep);
         }
         if !looks {
-            return Ok(Next::Keep);
+            return Ok(AfterContacts::Keep);
         }
         let Some((t, cause, closes)) = self.contact_found(interpolant)? else {
-            return Ok(Next::Keep);
+            return Ok(AfterContacts::Keep);
         };
         let step = self.stepper.last_step();
         self.stepper.retreat(t);
-        *meeting = Some(Meeting {
+        *pending_change = Some(PendingChange {
             cause,
             closes,
             step,
             corrected: 0,
         });
         if self.stepper.is_done()
-            && let Some(ending) = self.meet(meeting, changes)?
+            && let Some(ending) = self.resolve_pending_change(pending_change, changes)?
         {
-            return Ok(Next::End(ending));
+            return Ok(AfterContacts::End(ending));
         }
-        Ok(Next::Step)
+        Ok(AfterContacts::Step)
     }
 
     /// Lets contacts meet, if the stepper stands where they do. The answer is the event that ends the run.
-    pub(super) fn meet(
+    pub(super) fn resolve_pending_change(
         &mut self,
-        meeting: &mut Option<Meeting>,
+        pending_change: &mut Option<PendingChange>,
         (last_t, times): &mut (f64, usize),
     ) -> Result<Option<Ending>, Error> {
-        let Some(Meeting {
+        let Some(PendingChange {
             cause,
             step,
             closes,
             ..
-        }) = meeting.take()
+        }) = pending_change.take()
         else {
             return Ok(None);
         };
@@ -183,12 +184,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             let (q, v) = (self.stepper.q(), self.stepper.v());
             return Err(self.model.explain(error, q, v));
         }
-        self.meet_now(cause, step, false)?;
-        self.hand_over_if_crowded()?;
+        self.resolve_contacts_now(cause, step, false)?;
+        self.hand_over_if_changes_are_frequent()?;
         self.watch_jumps()
     }
 
-    pub(super) fn meet_now(
+    pub(super) fn resolve_contacts_now(
         &mut self,
         cause: Cause,
         step: f64,
@@ -196,9 +197,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     ) -> Result<(), Error> {
         let before = (self.settings.hands_over).then(|| self.stepper.standing());
         self.forget_values();
-        let met = self.stepper.meet(cause, self.stop, step);
-        let happened = match met {
-            Ok(happened) => happened,
+        let met = self.stepper.resolve_contacts(cause, self.stop, step);
+        let changes_at_instant = match met {
+            Ok(changes_at_instant) => changes_at_instant,
             Err(error) => {
                 let (q, v) = (self.stepper.q().clone(), self.stepper.v().clone());
                 if let Some(before) = before {
@@ -211,8 +212,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
         };
         // Whether what closes on such a gap rests there is for rounding to say: it is not held.
-        let closes = |k: usize| !at_start && happened.before[k] == Mode::Open && !self.yields(k);
-        if let Some(contact) = self.slack(VANISHED, closes) {
+        let closes = |k: usize| {
+            !at_start && changes_at_instant.before[k] == Mode::Open && !self.is_compliant(k)
+        };
+        if let Some(contact) = self.contact_with_small_gradient(VANISHED, closes) {
             let error = StepError::Contact {
                 contact,
                 trouble: ContactTrouble::NotHeld,
@@ -220,27 +223,32 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             };
             return Err((self.model).explain(error, self.stepper.q(), self.stepper.v()));
         }
-        self.pace.take(self.stepper.t(), &happened);
+        self.activity
+            .record_changes(self.stepper.t(), &changes_at_instant);
         if !at_start && let Some(steps) = &mut self.record.steps {
             steps.jump(&self.stepper);
         }
         if !at_start {
             self.enter_energies();
         }
-        self.tell(&happened, at_start);
+        self.report_changes(&changes_at_instant, at_start);
         if !at_start {
-            self.correct_book();
+            self.correct_energy_entry();
         }
         self.keep_phase(Change {
             cause: Some(cause),
-            impacts: happened.impacts,
-            ended: happened.ended.iter().map(|(contact, _)| *contact).collect(),
+            impacts: changes_at_instant.impacts,
+            ended: changes_at_instant
+                .ended
+                .iter()
+                .map(|(contact, _)| *contact)
+                .collect(),
         });
         Ok(())
     }
 
     /// Where energy went in each contact so far.
-    pub(super) fn book(&self) -> Book {
+    pub(super) fn energy_entry(&self) -> EnergyEntry {
         let Self {
             model,
             stepper,
@@ -250,7 +258,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let (Some(integrals), Some(touching)) =
             (stepper.quadratures().integrals(), stepper.touching())
         else {
-            return Book::default();
+            return EnergyEntry::default();
         };
         let place = (stepper.t(), stepper.q(), stepper.v());
         let crushed = touching.crushing_works(model.system, place);
@@ -260,27 +268,28 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             let impact_loss = losses.get(k).copied().unwrap_or(0.0);
             touching.energies(k, part, impact_loss, crushing_work)
         });
-        Book {
+        EnergyEntry {
             of_each: of_each.collect(),
             powers: (0..losses.len()).map(|k| integrals.power_of(k)).collect(),
         }
     }
 
     /// Writes down anew where energy went in each contact until now.
-    pub(super) fn correct_book(&mut self) {
-        let book = self.book();
-        if let Some(last) = self.record.unilateral.books.last_mut() {
-            *last = book;
+    pub(super) fn correct_energy_entry(&mut self) {
+        let energy_entry = self.energy_entry();
+        if let Some(last) = self.record.unilateral.energy_entries.last_mut() {
+            *last = energy_entry;
         }
     }
 
     /// Writes down what happened.
-    pub(super) fn tell(&mut self, happened: &Happened, at_start: bool) {
+    pub(super) fn report_changes(&mut self, changes_at_instant: &ContactChanges, at_start: bool) {
         let t = self.stepper.t();
-        let mut told: Vec<Told> = Vec::new();
+        let mut reported: Vec<ReportedEvent> = Vec::new();
         let size = |impulse: [f64; 2]| impulse[0].abs().max(impulse[1].abs());
-        let greatest = (happened.impacts.iter()).fold(0.0_f64, |most, i| most.max(size(i.impulse)));
-        for (place, impact) in happened.impacts.iter().enumerate() {
+        let greatest =
+            (changes_at_instant.impacts.iter()).fold(0.0_f64, |most, i| most.max(size(i.impulse)));
+        for (place, impact) in changes_at_instant.impacts.iter().enumerate() {
             let &Impact {
                 contact,
                 gap_rate,
@@ -291,10 +300,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             } = impact;
             self.record.unilateral.losses[contact] += loss;
             // What is at rest and is not hit has an impulse of rounding.
-            let leans = self.leans(contact);
-            let is_hit = size(impulse) > 1e-12 * greatest && !leans;
+            let has_carrier = self.has_carrier(contact);
+            let is_hit = size(impulse) > 1e-12 * greatest && !has_carrier;
             if is_hit {
-                let across = self.across_of(&happened.impacts[place..]);
+                let across = self.across_of(&changes_at_instant.impacts[place..]);
                 let impact = ContactImpact {
                     gap_rate,
                     slip,
@@ -302,21 +311,26 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     loss: loss + across.map_or(0.0, |(_, loss)| loss),
                     across: across.map(|(across, _)| across),
                 };
-                told.push((contact, ContactEventKind::Impact, [0.0; 2], Some(impact)));
+                reported.push((contact, ContactEventKind::Impact, [0.0; 2], Some(impact)));
             }
         }
-        self.note_gains(&happened.impacts, t);
-        for (contact, (before, after)) in happened.before.iter().zip(&happened.after).enumerate() {
+        self.record_energy_gains(&changes_at_instant.impacts, t);
+        for (contact, (before, after)) in changes_at_instant
+            .before
+            .iter()
+            .zip(&changes_at_instant.after)
+            .enumerate()
+        {
             use ContactEventKind::{Closes, Lifts, Opens, Reverses, Slips, Sticks};
             let (kind, direction) = match (*before, *after) {
                 (Mode::Open, Mode::Open) => continue,
                 // What leans on a contact closes and opens with it.
-                (Mode::Open, _) | (_, Mode::Open) if self.leans(contact) => continue,
+                (Mode::Open, _) | (_, Mode::Open) if self.has_carrier(contact) => continue,
                 // What is done along both tangents is told of the contact.
                 _ if self.is_across(contact) => continue,
                 (Mode::Open, _) if at_start => continue,
                 (Mode::Open, _) => (Closes, 0.0),
-                (_, Mode::Open) if self.yields(contact) => (Opens, 0.0),
+                (_, Mode::Open) if self.is_compliant(contact) => (Opens, 0.0),
                 (_, Mode::Open) => (Lifts, 0.0),
                 (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, to),
                 (Mode::Slides(from), Mode::Sticks) if from != 0.0 => (Sticks, 0.0),
@@ -329,36 +343,43 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 Slips => after.direction(),
                 _ => [direction, 0.0],
             };
-            told.push((contact, kind, directions, None));
+            reported.push((contact, kind, directions, None));
         }
-        for &(contact, is_loaded) in &happened.turned {
-            let (before, after) = (happened.before[contact], happened.after[contact]);
+        for &(contact, is_loaded) in &changes_at_instant.turned {
+            let (before, after) = (
+                changes_at_instant.before[contact],
+                changes_at_instant.after[contact],
+            );
             if before != Mode::Open && after != Mode::Open {
                 let kind = if is_loaded {
                     ContactEventKind::Crushes
                 } else {
                     ContactEventKind::Turns
                 };
-                told.push((contact, kind, [0.0; 2], None));
+                reported.push((contact, kind, [0.0; 2], None));
             }
         }
-        let shared = happened.lost_at_end / happened.ended.len().max(1) as f64;
-        for (contact, _) in &happened.ended {
+        let shared = changes_at_instant.lost_at_end / changes_at_instant.ended.len().max(1) as f64;
+        for (contact, _) in &changes_at_instant.ended {
             self.record.unilateral.losses[*contact] += shared;
         }
-        self.enter_contact_events(told, &happened.ended);
+        self.enter_contact_events(reported, &changes_at_instant.ended);
     }
 
     /// Writes down events of contacts now. `ended` are contacts whose bounces came to their end, with how long these would
     /// have gone on, in s.
-    pub(super) fn enter_contact_events(&mut self, told: Vec<Told>, ended: &[(usize, f64)]) {
+    pub(super) fn enter_contact_events(
+        &mut self,
+        reported: Vec<ReportedEvent>,
+        ended: &[(usize, f64)],
+    ) {
         let system = self.model.system;
         let (q, v) = (self.stepper.q().clone(), self.stepper.v().clone());
         let now = state(system, (self.stepper.t(), q, v));
         let names: Vec<String> = (system.unilateral_contacts())
             .map(|contact| contact.name.into())
             .collect();
-        for (contact, kind, direction, impact) in told {
+        for (contact, kind, direction, impact) in reported {
             let ended = ended.iter().find(|(ended, _)| *ended == contact);
             let left = match (kind, ended) {
                 (ContactEventKind::Closes, Some((_, left))) => *left,
@@ -389,9 +410,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Whether a contact is the rolling of another.
-    pub(super) fn leans(&self, contact: usize) -> bool {
+    pub(super) fn has_carrier(&self, contact: usize) -> bool {
         let touching = self.stepper.touching().as_ref();
-        touching.is_some_and(|touching| touching.leans(contact).is_some())
+        touching.is_some_and(|touching| touching.carrier(contact).is_some())
     }
 
     /// Whether it is the second tangent of a contact.
@@ -414,13 +435,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         is_own.then_some((across, next.loss))
     }
 
-    fn yields(&self, contact: usize) -> bool {
+    fn is_compliant(&self, contact: usize) -> bool {
         let mut contacts = self.model.system.unilateral_contacts();
         (contacts.nth(contact)).is_some_and(|contact| contact.compliance.is_some())
     }
 
     /// Notes impacts that have created energy beyond rounding.
-    pub(super) fn note_gains(&mut self, impacts: &[Impact], t: f64) {
+    pub(super) fn record_energy_gains(&mut self, impacts: &[Impact], t: f64) {
         let loss: f64 = impacts.iter().map(|impact| impact.loss).sum();
         let turned_over: f64 = (impacts.iter())
             .map(|i| (i.impulse[0] * i.gap_rate[0]).abs() + (i.impulse[1] * i.slip[0]).abs())
@@ -429,7 +450,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return;
         }
         let kept = &mut self.record.unilateral;
-        kept.gains += 1;
+        kept.energy_gains += 1;
         let own = impacts.iter().min_by(|a, b| a.loss.total_cmp(&b.loss));
         if kept.worst.is_none_or(|(.., gain)| gain < -loss) {
             kept.worst = own.map(|own| (own.contact, t, -loss));
@@ -445,7 +466,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         );
         let now = state(self.model.system, (t, q, v));
         let mut ending = None;
-        let observe = || self.model.sight.observe::<M, A>(&self.stepper, &now);
+        let observe = || {
+            self.model
+                .observed_system
+                .observe::<M, A>(&self.stepper, &now)
+        };
         for watch in &mut self.callbacks.watches {
             let value = watch.value(&now, &observe)?;
             let before = watch.side;
@@ -516,13 +541,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             let now = clearances(&looked);
             let mut earliest: Option<(f64, Cause, Option<usize>)> = None;
             for (k, mode) in touching.modes().iter().enumerate() {
-                if *mode != Mode::Open || touching.leans(k).is_some() {
+                if *mode != Mode::Open || touching.carrier(k).is_some() {
                     continue;
                 }
                 let (from, to) = (before[k], now[k]);
                 let mut between = [theta_before, theta];
                 let part = stepper.last_step().abs() * (theta - theta_before);
-                let may_fall = |greatest_rate: f64| FALLS * greatest_rate * part;
+                let may_fall = |greatest_rate: f64| MOST_RATE_GROWTH * greatest_rate * part;
                 let comes_back = from.rate < 0.0
                     && to.rate > 0.0
                     && from.value <= may_fall(to.rate.max(-from.rate));
@@ -533,14 +558,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                         let (t, q, v) = event::interpolated_at(stepper, theta);
                         Ok(touching.clearances(system, (t, &q, &v))[k].value)
                     };
-                    if let Some(least) = dip(between, gap)? {
+                    if let Some(least) = find_penetration(between, gap)? {
                         (between, closes) = (least, true);
                     }
                 }
                 if !closes {
                     continue;
                 }
-                let interpolant = made(interpolant, stepper, system)?;
+                let interpolant = step_motion(interpolant, stepper, system)?;
                 let at = |theta: f64| {
                     let (t, q, v) = if theta == 0.0 {
                         beginning.clone()
@@ -550,19 +575,19 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     let near = touching.clearances(system, (t, &q, &v))[k];
                     Ok([near.value, near.rate])
                 };
-                let yields = touching.yields(k);
-                let found = if yields {
-                    pressing(between, roundoff, at)?
+                let is_compliant = touching.is_compliant(k);
+                let found = if is_compliant {
+                    find_loading_start(between, roundoff, at)?
                 } else {
                     closing(between, roundoff, at)?
                 };
                 if let Some(found) = found
                     && earliest.is_none_or(|(known, ..)| found < known)
                 {
-                    let cause = if yields {
+                    let cause = if is_compliant {
                         Cause::Presses(k)
                     } else {
-                        Cause::Asked
+                        Cause::Unspecified
                     };
                     earliest = Some((found, cause, Some(k)));
                 }
@@ -582,7 +607,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     if !doubtful(k, kind) {
                         continue;
                     }
-                    let interpolant = made(interpolant, stepper, system)?;
+                    let interpolant = step_motion(interpolant, stepper, system)?;
                     let exactly = |theta: f64| {
                         if theta == 0.0 {
                             return margins(&beginning);
@@ -604,9 +629,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     // Where a face ends and when a slip stops is seen in the motion itself, however a load is shared.
                     let mode = touching.modes()[k];
                     let is_of_motion = kind == 3 || kind == 1 && matches!(mode, Mode::Slides(_));
-                    let is_shared = !is_only && !is_of_motion && (kind == 1 || !touching.yields(k));
+                    let is_shared =
+                        !is_only && !is_of_motion && (kind == 1 || !touching.is_compliant(k));
                     let mut cause = match (is_shared, mode, kind) {
-                        (true, ..) => Cause::Asked,
+                        (true, ..) => Cause::Unspecified,
                         (_, _, 3) => Cause::Leaves(k),
                         (_, _, 0) => Cause::Lifts(k),
                         (_, _, 2) => Cause::Turns(k),
@@ -620,7 +646,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                         let (t, q, v) = event::state_at(system, stepper, interpolant, found)?;
                         if !touching.is_slow(system, (t, &q, &v), k) {
                             // It has turned, or stops where the step is too long to tell: up to shortly before.
-                            (found, cause) = (APPROACH * found, Cause::Asked);
+                            (found, cause) = (APPROACH * found, Cause::Unspecified);
                         }
                     }
                     if earliest.is_none_or(|(known, ..)| found < known) {
@@ -632,7 +658,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 let t = if theta == 0.0 {
                     beginning.0
                 } else {
-                    let interpolant = made(interpolant, stepper, system)?;
+                    let interpolant = step_motion(interpolant, stepper, system)?;
                     interpolant.time_at(theta)
                 };
                 return Ok(Some((t, cause, closes)));
@@ -644,7 +670,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 }
 
 /// Where a gap with kinks that is open at two looks falls below zero between them: from where it is open to where it is least.
-fn dip(
+fn find_penetration(
     [from, to]: [f64; 2],
     mut gap: impl FnMut(f64) -> Result<f64, Error>,
 ) -> Result<Option<[f64; 2]>, Error> {
@@ -666,8 +692,8 @@ fn looks<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     system: &S,
     stepper: &Stepper<'_, S, L, A>,
 ) -> usize {
-    const FEWEST: usize = event::LOOKS.len();
-    let at_once = FEWEST as f64 * TURN_BETWEEN_LOOKS;
+    const FEWEST: usize = event::SAMPLE_FRACTIONS.len();
+    let at_once = FEWEST as f64 * TURN_BETWEEN_SAMPLES;
     if event::turn(system, stepper, |_| true) <= at_once {
         return FEWEST;
     }
@@ -679,9 +705,9 @@ fn looks<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     system.contact_matrix(stepper.t(), stepper.q(), &mut rows);
     let counts = |i: usize| (0..m).any(|contact| rows[2 * contact * n + i] != 0.0);
     let turn = event::turn(system, stepper, counts);
-    (turn / TURN_BETWEEN_LOOKS)
+    (turn / TURN_BETWEEN_SAMPLES)
         .ceil()
-        .clamp(FEWEST as f64, MOST_LOOKS) as usize
+        .clamp(FEWEST as f64, MOST_SAMPLES) as usize
 }
 
 /// Where a gap closes between two looks at an open contact, if it does: not before it has opened, where it begins
@@ -725,7 +751,7 @@ fn closing(
 }
 
 /// Where a contact that yields begins to press between two looks, if it does.
-fn pressing(
+fn find_loading_start(
     [from, to]: [f64; 2],
     roundoff: f64,
     mut at: impl FnMut(f64) -> Result<[f64; 2], Error>,

@@ -45,7 +45,7 @@ impl Explained {
             .max(energies.kinetic.abs() + energies.potential.abs() + of_states)
             .max(energies.work.abs() + energies.dissipated.abs());
         if self.steps.is_power_of_two() {
-            self.look(system, (t, q, u), energies.potential);
+            self.update_costly_bounds(system, (t, q, u), energies.potential);
         }
         let tolerable = |of: &S::Vector| {
             let mut tolerable = of.clone();
@@ -93,7 +93,12 @@ impl Explained {
     }
 
     /// Updates the quantities that take many evaluations.
-    fn look<S: System>(&mut self, system: &S, (t, q, u): (f64, &S::Vector, &S::Inputs), here: f64) {
+    fn update_costly_bounds<S: System>(
+        &mut self,
+        system: &S,
+        (t, q, u): (f64, &S::Vector, &S::Inputs),
+        here: f64,
+    ) {
         let n = q.as_slice().len();
         self.inertia = vec![0.0; n];
         let rest = q.zeros_like();

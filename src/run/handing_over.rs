@@ -12,7 +12,7 @@ use crate::inputs::InputLaw;
 use crate::methods::Kind;
 use crate::phases::{Change, Phase};
 use crate::solution::Handover;
-use crate::stepper::Happened;
+use crate::stepper::ContactChanges;
 use crate::{ContactTrouble, Error, Machine, StepError, System};
 
 /// Number of instants of changes that are evaluated together.
@@ -32,14 +32,14 @@ const REST: f64 = 1e-20;
 
 /// How frequently contacts change, and how long they have been quiet.
 #[derive(Debug)]
-pub(super) struct Pace {
+pub(super) struct ContactActivity {
     /// Whether the run may change to time stepping at all.
     is_free: bool,
     /// The last instants at which contacts changed.
     times: VecDeque<f64>,
     /// The accelerations at which forces close gaps at these instants, in m/s². At a single instant this may be almost zero: a spring
     /// passes through rest just when it releases.
-    pulls: VecDeque<f64>,
+    closing_accelerations: VecDeque<f64>,
     /// The number of instants, and for each contact the number of its last.
     count: usize,
     last: Vec<usize>,
@@ -51,13 +51,13 @@ pub(super) struct Pace {
     kinetic: f64,
 }
 
-impl Pace {
+impl ContactActivity {
     /// For a machine with this number of contacts.
     pub fn new(is_free: bool, contacts: usize) -> Self {
         Self {
             is_free: is_free && contacts >= FEWEST,
             times: VecDeque::new(),
-            pulls: VecDeque::new(),
+            closing_accelerations: VecDeque::new(),
             count: 0,
             last: vec![0; contacts],
             quiet: 0,
@@ -68,7 +68,7 @@ impl Pace {
     }
 
     /// Records the changes at an instant.
-    pub fn take(&mut self, t: f64, happened: &Happened) {
+    pub fn record_changes(&mut self, t: f64, changes_at_instant: &ContactChanges) {
         if !self.is_free {
             return;
         }
@@ -77,28 +77,31 @@ impl Pace {
             self.times.pop_front();
         }
         self.times.push_back(t);
-        let modes = happened.before.iter().zip(&happened.after);
+        let modes = changes_at_instant
+            .before
+            .iter()
+            .zip(&changes_at_instant.after);
         for (k, (before, after)) in modes.enumerate() {
             if before != after {
                 self.last[k] = self.count;
             }
         }
-        for impact in &happened.impacts {
+        for impact in &changes_at_instant.impacts {
             self.last[impact.contact] = self.count;
         }
     }
 
     /// Records a step of time stepping.
-    pub fn take_step(&mut self, is_quiet: bool) {
+    pub fn count_quiet_step(&mut self, is_quiet: bool) {
         self.quiet = if is_quiet { self.quiet + 1 } else { 0 };
     }
 
     /// Records the acceleration at which forces close gaps.
-    fn take_pull(&mut self, pull: f64) {
-        if self.pulls.len() == WINDOW {
-            self.pulls.pop_front();
+    fn record_closing_acceleration(&mut self, closing_acceleration: f64) {
+        if self.closing_accelerations.len() == WINDOW {
+            self.closing_accelerations.pop_front();
         }
-        self.pulls.push_back(pull);
+        self.closing_accelerations.push_back(closing_acceleration);
     }
 
     /// The duration of the last `WINDOW` instants, if there were as many, and enough contacts took part.
@@ -113,12 +116,12 @@ impl Pace {
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// Changes to time stepping if contacts have changed more often than it would take steps. Then it costs less, and where changes
     /// accumulate without end, arbitrarily less.
-    pub(super) fn hand_over_if_crowded(&mut self) -> Result<(), Error> {
-        if !self.pace.is_free {
+    pub(super) fn hand_over_if_changes_are_frequent(&mut self) -> Result<(), Error> {
+        if !self.activity.is_free {
             return Ok(());
         }
         let step = self.length_of_steps();
-        let Some(took) = self.pace.window() else {
+        let Some(took) = self.activity.window() else {
             return Ok(());
         };
         if took <= WINDOW as f64 * step {
@@ -142,7 +145,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 if several => {}
             _ => return Ok(false),
         }
-        if !self.pace.is_free {
+        if !self.activity.is_free {
             return Ok(false);
         }
         let step = self.length_of_steps();
@@ -156,9 +159,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// The length of steps of time stepping.
     fn length_of_steps(&mut self) -> f64 {
         let t = self.stepper.t();
-        let [speed, pull] = self.stepper.closing();
-        self.pace.take_pull(pull);
-        let greatest = self.pace.pulls.iter().copied().fold(0.0, f64::max);
+        let [speed, closing_acceleration] = self.stepper.closing();
+        self.activity
+            .record_closing_acceleration(closing_acceleration);
+        let greatest = self
+            .activity
+            .closing_accelerations
+            .iter()
+            .copied()
+            .fold(0.0, f64::max);
         let scale = Some(speed / greatest).filter(|scale| *scale > 0.0 && scale.is_finite());
         // Without forces that close gaps the only known time scale is the duration of the run so far.
         let scale = scale.unwrap_or(t - self.start).min(self.until - self.start);
@@ -176,9 +185,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             && step.is_finite()
             && touching.check_stepping(self.model.system, at).is_ok();
         if !is_possible {
-            self.pace.is_free = false;
-            self.pace.times.clear();
-            self.pace.pulls.clear();
+            self.activity.is_free = false;
+            self.activity.times.clear();
+            self.activity.closing_accelerations.clear();
             return Ok(false);
         }
         self.record.unilateral.last = (touching.modes().iter())
@@ -189,10 +198,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Err(self.model.explain(error, q, v));
         }
         let kinetic = self.kinetic_energy_now();
-        self.pace.times.clear();
-        self.pace.pulls.clear();
-        self.pace.quiet = 0;
-        (self.pace.step, self.pace.kinetic) = (step, kinetic);
+        self.activity.times.clear();
+        self.activity.closing_accelerations.clear();
+        self.activity.quiet = 0;
+        (self.activity.step, self.activity.kinetic) = (step, kinetic);
         self.keep_phase(Change::default());
         self.record.handovers.push(Handover {
             t,
@@ -209,19 +218,19 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Undoes the last step of time stepping if it was long, because everything was at rest, but ends in motion.
-    pub(super) fn is_roused(&mut self) -> bool {
-        if self.settings.method.is_by_impulses() || self.stepper.last_step() <= self.pace.step {
+    pub(super) fn undo_step_into_motion(&mut self) -> bool {
+        if self.settings.method.is_by_impulses() || self.stepper.last_step() <= self.activity.step {
             return false;
         }
         let before = self.stepper.stepped();
         let modes = self.stepper.touching().as_ref().map(|now| now.modes());
         let changes = before.map(|(_, before)| before.modes()) != modes;
-        if !changes && self.kinetic_energy_now() <= REST * self.pace.kinetic {
+        if !changes && self.kinetic_energy_now() <= REST * self.activity.kinetic {
             return false;
         }
         self.stepper.retreat(self.stop);
-        self.stepper.set_longest_step(self.pace.step);
-        self.pace.quiet = 0;
+        self.stepper.set_longest_step(self.activity.step);
+        self.activity.quiet = 0;
         true
     }
 
@@ -232,28 +241,30 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Ok(());
         }
         let kinetic = self.kinetic_energy_now();
-        self.pace.kinetic = self.pace.kinetic.max(kinetic);
-        if self.pace.quiet >= QUIET && kinetic <= REST * self.pace.kinetic {
+        self.activity.kinetic = self.activity.kinetic.max(kinetic);
+        if self.activity.quiet >= QUIET && kinetic <= REST * self.activity.kinetic {
             let longer = 2.0 * self.stepper.last_step();
-            let longest = longer.clamp(self.pace.step, self.settings.longest_step);
+            let longest = longer.clamp(self.activity.step, self.settings.longest_step);
             self.stepper.set_longest_step(longest);
         }
-        self.take_over_if_quiet()
+        self.return_to_events_if_quiet()
     }
 
     /// Returns to locating every event if contacts have been quiet for long enough and their forces are unique: if contacts share loads in
     /// several ways, as in piles, events cost more than steps.
-    fn take_over_if_quiet(&mut self) -> Result<(), Error> {
-        if self.pace.quiet < self.pace.needed {
+    fn return_to_events_if_quiet(&mut self) -> Result<(), Error> {
+        if self.activity.quiet < self.activity.needed {
             return Ok(());
         }
         let (method, longest) = (self.settings.method, self.settings.longest_step);
         let step = self.stepper.last_step();
-        self.pace.needed *= 2;
+        self.activity.needed *= 2;
         if !self.stepper.forces_are_the_only_ones() {
             return Ok(());
         }
-        let Ok(happened) = (self.stepper).end_stepping(method, (longest, step), self.stop) else {
+        let Ok(changes_at_instant) =
+            (self.stepper).end_stepping(method, (longest, step), self.stop)
+        else {
             // Time stepping continues.
             return Ok(());
         };
@@ -261,18 +272,19 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             steps.jump(&self.stepper);
         }
         self.enter_energies();
-        if happened.impacts.is_empty() && happened.ended.is_empty() {
-            let closed = happened.after.iter().enumerate();
+        if changes_at_instant.impacts.is_empty() && changes_at_instant.ended.is_empty() {
+            let closed = changes_at_instant.after.iter().enumerate();
             let closed: Vec<usize> = closed
                 .filter(|(_, mode)| **mode != Mode::Open)
                 .map(|(k, _)| k)
                 .collect();
             for &k in &closed {
-                self.record.unilateral.losses[k] += happened.lost_at_end / closed.len() as f64;
+                self.record.unilateral.losses[k] +=
+                    changes_at_instant.lost_at_end / closed.len() as f64;
             }
         }
-        self.tell(&happened, false);
-        self.correct_book();
+        self.report_changes(&changes_at_instant, false);
+        self.correct_energy_entry();
         self.keep_phase(Change::default());
         self.record.handovers.push(Handover {
             t: self.stepper.t(),
@@ -287,7 +299,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if let Some(touching) = self.stepper.touching() {
             self.record.unilateral.phases.push(Phase {
                 since: self.stepper.t(),
-                touching: touching.as_seen_later(),
+                touching: touching.for_later_observation(),
                 change,
                 constraints: self.stepper.constraints().clone(),
             });

@@ -155,7 +155,7 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
     }
 
     fn look(&mut self, stepped: Result<(), StepError>) -> Option<End> {
-        let looked = self.run.look_at_step(&mut self.between, stepped);
+        let looked = self.run.examine_step(&mut self.between, stepped);
         looked.transpose()
     }
 }

@@ -40,7 +40,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// ends the run, if any.
     pub(super) fn change_inputs(&mut self) -> Result<Option<Ending>, Error> {
         let forward = self.until >= self.start;
-        let mut stop = self.model.sight.law.piece.end(forward);
+        let mut stop = self.model.observed_system.law.piece.end(forward);
         if stop.is_infinite() && self.sampling.is_none() {
             return Ok(None);
         }
@@ -81,8 +81,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         match (acting, entered) {
             (None, None) => Ok(None),
             (None, Some(piece)) if !piece.jumps => {
-                self.model.sight.law.piece = piece;
-                self.stepper.go_on_with(self.model.sight.law.clone());
+                self.model.observed_system.law.piece = piece;
+                self.stepper
+                    .go_on_with(self.model.observed_system.law.clone());
                 Ok(None)
             }
             (acting, entered) => self.jump_inputs(acting, entered),
@@ -94,7 +95,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let t = self.stepper.t();
         let order = self.settings.method.tableau.order;
         let direction = if forward { 1.0 } else { -1.0 };
-        let law = &self.model.sight.law;
+        let law = &self.model.observed_system.law;
         let mut end = law.piece.end(forward);
         let mut entered: Option<Piece> = None;
         // Pieces that end within the round-off of time are passed at once.
@@ -121,7 +122,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     ) -> Result<Option<Ending>, Error> {
         let t = self.stepper.t();
         let before = self.stepper.contacts().clone();
-        let law = &mut self.model.sight.law;
+        let law = &mut self.model.observed_system.law;
         if let Some(piece) = piece {
             law.piece = piece;
         }
@@ -140,7 +141,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             && !self.stepper.is_by_impulses()
         {
             let step = self.stepper.next_step();
-            self.meet_now(Cause::Asked, step, at_start)?;
+            self.resolve_contacts_now(Cause::Unspecified, step, at_start)?;
         } else if !at_start {
             if let Some(steps) = &mut self.record.steps {
                 steps.jump(&self.stepper);
@@ -148,7 +149,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.enter_energies();
         }
         if <M::System as System>::MAY_SLIDE && before.is_some() {
-            self.note_contacts(before);
+            self.record_contacts(before);
         }
         if !at_start {
             return self.watch_jumps();
@@ -156,7 +157,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         // The state at the start is the one after the first sample.
         let now = (t, self.stepper.q().clone(), self.stepper.v().clone());
         let now = state(self.model.system, now);
-        let observe = || self.model.sight.observe::<M, A>(&self.stepper, &now);
+        let observe = || {
+            self.model
+                .observed_system
+                .observe::<M, A>(&self.stepper, &now)
+        };
         for watch in &mut self.callbacks.watches {
             watch.begin(&now, watch.at_zero, &observe)?;
         }

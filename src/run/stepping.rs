@@ -4,9 +4,9 @@ use std::vec;
 use std::vec::Vec;
 
 use super::Run;
-use super::contacts::Told;
+use super::contacts::ReportedEvent;
 use crate::balance::Quadratures;
-use crate::contact::{Impact, Mode, Touching};
+use crate::contact::{Impact, Mode, UnilateralState};
 use crate::inputs::InputLaw;
 use crate::phases::{Change, Phase};
 use crate::{ContactEventKind, ContactImpact, Error, Machine};
@@ -14,7 +14,7 @@ use crate::{ContactEventKind, ContactImpact, Error, Machine};
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// Checks the contacts at the start of time stepping: none may be penetrated, and time stepping must support
     /// the law of each.
-    pub(super) fn begin_stepping(&mut self, touching: &Touching) -> Result<(), Error> {
+    pub(super) fn begin_stepping(&mut self, touching: &UnilateralState) -> Result<(), Error> {
         let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
         touching
             .check_stepping(self.model.system, (t, q, v))
@@ -31,7 +31,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Records the changes of contacts in the last step. A contact that presses for the first time has had an impact;
     /// if it still presses in the next step, it has closed.
-    pub(super) fn note_step(&mut self) {
+    pub(super) fn record_step(&mut self) {
         use ContactEventKind::{Closes, Lifts, Reverses, Slips, Sticks};
         let Some((stepped, before)) = self.stepper.stepped() else {
             return;
@@ -41,19 +41,19 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         };
         let (stepped, before) = (stepped.clone(), before.modes().to_vec());
         let impacts = stepped.impacts;
-        let lifted = stepped.lifted / stepped.penetrated.len().max(1) as f64;
+        let energy_added = stepped.energy_added / stepped.penetrated.len().max(1) as f64;
         for k in stepped.penetrated {
-            self.record.unilateral.losses[k] -= lifted;
+            self.record.unilateral.losses[k] -= energy_added;
         }
-        let mut told: Vec<Told> = Vec::new();
+        let mut reported: Vec<ReportedEvent> = Vec::new();
         for (place, impact) in impacts.iter().enumerate() {
             // Friction losses while a contact stays closed are not losses of an impact.
             let of_friction = match before[impact.contact] {
                 Mode::Open => 0.0,
-                _ => impact.taken_by_slip(),
+                _ => impact.friction_loss(),
             };
             self.record.unilateral.losses[impact.contact] += impact.loss - of_friction;
-            if before[impact.contact] == Mode::Open && !self.leans(impact.contact) {
+            if before[impact.contact] == Mode::Open && !self.has_carrier(impact.contact) {
                 let across = self.across_of(&impacts[place..]);
                 let of = ContactImpact {
                     gap_rate: impact.gap_rate,
@@ -62,19 +62,19 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     loss: impact.loss + across.map_or(0.0, |(_, loss)| loss),
                     across: across.map(|(across, _)| across),
                 };
-                told.push((impact.contact, ContactEventKind::Impact, [0.0; 2], Some(of)));
+                reported.push((impact.contact, ContactEventKind::Impact, [0.0; 2], Some(of)));
             }
         }
         for (k, (before, after)) in before.iter().zip(now.modes()).enumerate() {
-            let (leans, is_across) = (self.leans(k), self.is_across(k));
+            let (has_carrier, is_across) = (self.has_carrier(k), self.is_across(k));
             let lasts = &mut self.record.unilateral.last[k];
             let kind = match (before, after) {
                 (Mode::Open, _) => continue,
-                (_, Mode::Open) if leans => continue,
+                (_, Mode::Open) if has_carrier => continue,
                 _ if is_across => continue,
                 (_, Mode::Open) if std::mem::take(lasts) => (Lifts, 0.0),
                 (_, Mode::Open) => continue,
-                _ if !leans && !std::mem::replace(lasts, true) => (Closes, 0.0),
+                _ if !has_carrier && !std::mem::replace(lasts, true) => (Closes, 0.0),
                 (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, *to),
                 (Mode::Slides(from), Mode::Sticks) if *from != 0.0 => (Sticks, 0.0),
                 (Mode::Sticks, Mode::Slides(to)) if *to != 0.0 => (Slips, *to),
@@ -86,18 +86,18 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 Slips => after.direction(),
                 _ => [kind.1, 0.0],
             };
-            told.push((k, kind.0, directions, None));
+            reported.push((k, kind.0, directions, None));
         }
         let is_new = |impact: &&Impact| before[impact.contact] == Mode::Open;
         let hits: Vec<Impact> = impacts.iter().filter(is_new).copied().collect();
-        self.note_gains(&hits, self.stepper.t());
-        self.pace.take_step(told.is_empty());
-        self.enter_contact_events(told, &[]);
+        self.record_energy_gains(&hits, self.stepper.t());
+        self.activity.count_quiet_step(reported.is_empty());
+        self.enter_contact_events(reported, &[]);
         let is_new = !impacts.is_empty() || before != now.modes();
         if is_new {
             self.record.unilateral.phases.push(Phase {
                 since: self.stepper.t_before(),
-                touching: now.as_seen_later(),
+                touching: now.for_later_observation(),
                 change: Change::default(),
                 constraints: self.stepper.constraints().clone(),
             });

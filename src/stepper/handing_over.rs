@@ -1,10 +1,10 @@
 //! Changes a run with unilateral contacts from locating every event to time stepping, and back.
 
-use super::meeting::{Cause, Happened, hold};
+use super::contact_changes::{Cause, ContactChanges, hold};
 use super::{InImpulses, Stepper};
 use crate::balance::Quadratures;
 use crate::constraints::Constraints;
-use crate::contact::Touching;
+use crate::contact::UnilateralState;
 use crate::inputs::InputLaw;
 use crate::methods::Method;
 use crate::stages::Point;
@@ -14,7 +14,7 @@ use std::boxed::Box;
 /// A copy of the parts of a stepper that change when contacts meet.
 pub(crate) struct Standing<S: System, A> {
     now: Point<S::Vector>,
-    touching: Option<Touching>,
+    touching: Option<UnilateralState>,
     constraints: Option<Constraints<S::Vector>>,
     quadratures: A,
 }
@@ -44,7 +44,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 
     /// The fastest rate at which any gap closed so far, in m/s, and the acceleration that forces add to such a rate now, in m/s²:
-    /// see [`Touching`].
+    /// see [`UnilateralState`].
     pub(crate) fn closing(&mut self) -> [f64; 2] {
         let Self { model, now, .. } = self;
         model.set_inputs(now.t, &now.q, &now.v);
@@ -91,7 +91,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         method: &'static Method,
         (longest, step): (f64, f64),
         end: f64,
-    ) -> Result<Happened, StepError> {
+    ) -> Result<ContactChanges, StepError> {
         let before = (
             self.model.touching.clone(),
             self.model.constraints.clone(),
@@ -112,15 +112,15 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             touching.end_stepping();
         }
         let met = self.go_on_by(method, longest);
-        match met.and_then(|()| self.meet(Cause::Asked, end, step)) {
-            Ok(mut happened) => {
-                if happened.impacts.is_empty() {
+        match met.and_then(|()| self.resolve_contacts(Cause::Unspecified, end, step)) {
+            Ok(mut changes_at_instant) => {
+                if changes_at_instant.impacts.is_empty() {
                     let taken = energy_before - energy(self);
                     self.quadratures
-                        .add_at_once(0.0, taken - happened.lost_at_end);
-                    happened.lost_at_end = taken;
+                        .add_at_once(0.0, taken - changes_at_instant.lost_at_end);
+                    changes_at_instant.lost_at_end = taken;
                 }
-                Ok(happened)
+                Ok(changes_at_instant)
             }
             Err(error) => {
                 let (touching, constraints, now, quadratures, impulses, settings) = before;

@@ -4,7 +4,7 @@ use super::Stepper;
 use crate::attempt::{self, not_finite};
 use crate::balance::Quadratures;
 use crate::control::Control;
-use crate::implicit::Task;
+use crate::implicit::StepProblem;
 use crate::stages::stage_state;
 use crate::{InputLaw, StepError, System};
 
@@ -28,7 +28,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let Some(implicit) = implicit else {
             return Ok(f64::INFINITY);
         };
-        let task = Task {
+        let task = StepProblem {
             method,
             before,
             h,

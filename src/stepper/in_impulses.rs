@@ -6,7 +6,7 @@ use super::{Model, Stepper};
 use crate::attempt::not_finite;
 use crate::balance::{PartOfContact, Quadratures};
 use crate::compensated::two_sum;
-use crate::contact::{Mode, Stepped, Touching};
+use crate::contact::{Mode, SteppedContacts, UnilateralState};
 use crate::stages::Point;
 use crate::{InputLaw, StepError, System, Vector};
 
@@ -16,16 +16,16 @@ pub(crate) struct InImpulses<V> {
     /// The motion within the step, in powers of the time since its beginning: of the second degree, through the rates
     /// at both ends.
     of_step: Vec<V>,
-    stepped: Stepped,
+    stepped: SteppedContacts,
     /// The contacts at its beginning.
-    before: Option<Touching>,
+    before: Option<UnilateralState>,
 }
 
 impl<V: Vector> InImpulses<V> {
     pub fn new(q: &V, v: &V) -> Self {
         Self {
             of_step: [q.clone(), v.clone(), q.zeros_like()].into(),
-            stepped: Stepped::default(),
+            stepped: SteppedContacts::default(),
             before: None,
         }
     }
@@ -36,14 +36,14 @@ impl<V: Vector> InImpulses<V> {
     }
 
     /// Returns the contacts at the beginning of the last step, which is being undone.
-    pub fn retreat(&mut self) -> Option<Touching> {
+    pub fn retreat(&mut self) -> Option<UnilateralState> {
         self.before.take()
     }
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// The changes of contacts in the last step of time stepping, and the contacts before it.
-    pub(crate) fn stepped(&self) -> Option<(&Stepped, &Touching)> {
+    pub(crate) fn stepped(&self) -> Option<(&SteppedContacts, &UnilateralState)> {
         let impulses = self.impulses.as_ref()?;
         Some((&impulses.stepped, impulses.before.as_ref()?))
     }
@@ -73,17 +73,20 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.control.take(h, 0.0, 1.0);
         self.accept(h);
         if let Some(impulses) = &self.impulses {
-            let Stepped {
-                work, lost, lifted, ..
+            let SteppedContacts {
+                work,
+                lost,
+                energy_added,
+                ..
             } = impulses.stepped;
-            self.quadratures.add_at_once(work, lost - lifted);
-            let lasting = impulses.before.as_ref().map(Touching::modes);
+            self.quadratures.add_at_once(work, lost - energy_added);
+            let lasting = impulses.before.as_ref().map(UnilateralState::modes);
             for impact in &impulses.stepped.impacts {
                 let lasts = lasting.is_some_and(|modes| modes[impact.contact] != Mode::Open);
                 let part = PartOfContact {
-                    friction: if lasts { impact.taken_by_slip() } else { 0.0 },
+                    friction: if lasts { impact.friction_loss() } else { 0.0 },
                     work: impact.work,
-                    yielding: 0.0,
+                    compliance_loss: 0.0,
                 };
                 (self.quadratures).share_out_at_once(impact.contact, part);
             }
@@ -116,7 +119,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             *q += half * v;
         }
         impulses.before.clone_from(&model.touching);
-        impulses.stepped = Stepped::default();
+        impulses.stepped = SteppedContacts::default();
 
         // The rates at the middle, for forces that depend on rates, and the rates at the end, as if nothing touched.
         let touching = model.touching.take();
@@ -170,13 +173,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             if let Some(touching) = &model.touching {
                 let system = model.system.get();
                 impulses.stepped.penetrated =
-                    touching.move_out(system, now.t, &mut now.q, &now.v)?;
+                    touching.resolve_penetration(system, now.t, &mut now.q, &now.v)?;
             }
             if !impulses.stepped.penetrated.is_empty() {
                 now.q_low.as_mut_slice().fill(0.0);
                 model.project(now)?;
                 if let Some(before) = before {
-                    impulses.stepped.lifted = energy(model, now) - before;
+                    impulses.stepped.energy_added = energy(model, now) - before;
                 }
             }
         }

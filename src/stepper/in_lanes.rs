@@ -8,7 +8,7 @@
 
 use std::vec::Vec;
 
-use super::{Room, Stepper};
+use super::{StepLimits, Stepper};
 use crate::attempt;
 use crate::balance::Quadratures;
 use crate::inputs::InputLaw;
@@ -44,7 +44,7 @@ pub(crate) trait Evaluate {
 pub(crate) struct Try {
     h: f64,
     last: bool,
-    room: Room,
+    limits: StepLimits,
 }
 
 /// The data of the steps of all lanes.
@@ -89,13 +89,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if self.changed {
             self.look_again()?;
         }
-        let room = self.begin_tries()?;
-        Ok(self.next_try(room))
+        let limits = self.begin_tries()?;
+        Ok(self.next_try(limits))
     }
 
-    fn next_try(&mut self, room: Room) -> Try {
-        let (h, last) = self.choose(room);
-        Try { h, last, room }
+    fn next_try(&mut self, limits: StepLimits) -> Try {
+        let (h, last) = self.choose(limits);
+        Try { h, last, limits }
     }
 
     /// Ends a try; returns the next one, or `None` if the step was taken.
@@ -110,8 +110,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             Some(error) => Ok(error),
             None => self.attempt(of.h, of.last),
         };
-        let is_taken = self.decide((of.h, of.room), tried)?;
-        Ok((!is_taken).then(|| self.next_try(of.room)))
+        let is_taken = self.decide((of.h, of.limits), tried)?;
+        Ok((!is_taken).then(|| self.next_try(of.limits)))
     }
 }
 
@@ -242,7 +242,8 @@ impl Tries {
             let from = (&*before, *h);
             let to = [&mut *q, &mut *v];
             let t = attempt::go_to_stage::<R, _, _>((method, i), from, k, to);
-            *went_well &= look::<R>((machines, powers.as_deref_mut()), i, (t, q, v), &mut k[i]);
+            *went_well &=
+                evaluate_stage::<R>((machines, powers.as_deref_mut()), i, (t, q, v), &mut k[i]);
             if *went_well == 0 {
                 return;
             }
@@ -253,7 +254,7 @@ impl Tries {
         }
         if method.scheme.error_needs_end {
             let at = (now.t, &*now.q, &*now.v);
-            *went_well &= look::<R>(
+            *went_well &= evaluate_stage::<R>(
                 (machines, powers.as_deref_mut()),
                 stages,
                 at,
@@ -272,7 +273,7 @@ impl Tries {
         good &= *went_well;
         if !method.scheme.error_needs_end && good != 0 {
             let at = (now.t, &*now.q, &*now.v);
-            let fine = look::<R>((machines, powers), stages, at, &mut k[stages]);
+            let fine = evaluate_stage::<R>((machines, powers), stages, at, &mut k[stages]);
             *went_well &= fine | !good;
         }
     }
@@ -287,7 +288,7 @@ fn is_held<S: System, L, A>(stepper: &Stepper<'_, S, L, A>) -> bool {
 ///
 /// A function and not a closure, since a closure would not be compiled into its caller for wide registers.
 #[inline(always)]
-fn look<R: Scalar<Stored = Wide>>(
+fn evaluate_stage<R: Scalar<Stored = Wide>>(
     (machines, powers): (&mut impl Evaluate, Option<&mut [[Wide; 2]; MAX_STAGES]>),
     stage: usize,
     at: (Wide, &[Wide], &[Wide]),

@@ -13,12 +13,12 @@ use crate::{State, System, Vector};
 
 /// A borrowed or an owned system.
 #[derive(Clone, Debug)]
-pub(crate) enum Whose<'s, S> {
+pub(crate) enum BorrowedOrOwned<'s, S> {
     Borrowed(&'s S),
     Own(S),
 }
 
-impl<S> Whose<'_, S> {
+impl<S> BorrowedOrOwned<'_, S> {
     #[inline(always)]
     pub fn get(&self) -> &S {
         match self {
@@ -28,7 +28,7 @@ impl<S> Whose<'_, S> {
     }
 }
 
-impl<S> Deref for Whose<'_, S> {
+impl<S> Deref for BorrowedOrOwned<'_, S> {
     type Target = S;
 
     #[inline(always)]
@@ -161,7 +161,7 @@ impl<S: System> StepperBuilder<S> {
         );
         ControlledStepper::check(&system, &start)?;
         let law = HeldInputs(inputs);
-        let own = Whose::Own(system);
+        let own = BorrowedOrOwned::Own(system);
         let mut stepper =
             ControlledStepper::begun(own, law, NoBalance, method, tolerance, start, state.t)?;
         stepper.set_longest_step(longest_step);

@@ -221,7 +221,7 @@ impl<'a, 'd> Found<'a, 'd> {
 
     /// Warnings about guides that violate Coulomb's law, and about motions that may be faster.
     pub fn warnings(&self) -> Vec<String> {
-        let told = |lapse: &Lapse| {
+        let describe = |lapse: &Lapse| {
             if lapse.backwards {
                 format!(
                     "`{}` slides backwards from t = {} s: friction was taken to act against its `direction`",
@@ -240,7 +240,7 @@ impl<'a, 'd> Found<'a, 'd> {
         let arrival = self.arrival.as_ref().err();
         let lost = arrival.map(|why| format!("simulated under the control forces, {why}"));
         let lapses = self.motion.lapses();
-        let lapses = lapses.iter().map(told).chain(lost);
+        let lapses = lapses.iter().map(describe).chain(lost);
         lapses.chain(self.doubt()).collect()
     }
 

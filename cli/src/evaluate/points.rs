@@ -74,7 +74,7 @@ pub fn read(name: &str, text: &str) -> Result<Vec<Result<Point, String>>, String
 }
 
 /// The byte offset of an error, and its message.
-type Wrong = (usize, String);
+type ReadError = (usize, String);
 
 struct Reader<'a> {
     name: &'a str,
@@ -133,7 +133,7 @@ impl<'a> Reader<'a> {
         (piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
     }
 
-    fn expected(&self, value: &RawValue, what: &str) -> Wrong {
+    fn expected(&self, value: &RawValue, what: &str) -> ReadError {
         let text = value.get();
         let found = match text.as_bytes().first() {
             Some(b'"') => "a text",
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
         (self.place(text), format!("expected {what}, found {found}"))
     }
 
-    fn point(&self, value: &'a RawValue) -> Result<Point, Wrong> {
+    fn point(&self, value: &'a RawValue) -> Result<Point, ReadError> {
         let mut point = Point::default();
         for (name, value) in self.pairs(value, "a point, `{\"q\": …}`")? {
             let in_field = |(at, what)| (at, format!("\"{name}\": {what}"));
@@ -172,7 +172,11 @@ impl<'a> Reader<'a> {
     }
 
     /// The entries of an object in their order, with unique names.
-    fn pairs(&self, value: &'a RawValue, what: &str) -> Result<Vec<(String, &'a RawValue)>, Wrong> {
+    fn pairs(
+        &self,
+        value: &'a RawValue,
+        what: &str,
+    ) -> Result<Vec<(String, &'a RawValue)>, ReadError> {
         let pairs: Result<Pairs, _> = serde_json::from_str(value.get());
         let Pairs(mut pairs) = pairs.map_err(|_| self.expected(value, what))?;
         // Names are normalized like those of a spec: two encodings of é are the same name.
@@ -190,7 +194,7 @@ impl<'a> Reader<'a> {
         Ok(pairs)
     }
 
-    fn number(&self, value: &RawValue) -> Result<f64, Wrong> {
+    fn number(&self, value: &RawValue) -> Result<f64, ReadError> {
         let number: Result<f64, _> = serde_json::from_str(value.get());
         let is_number = value
             .get()
@@ -205,13 +209,13 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn list(&self, value: &'a RawValue) -> Result<Vec<f64>, Wrong> {
+    fn list(&self, value: &'a RawValue) -> Result<Vec<f64>, ReadError> {
         let list: Result<Vec<&RawValue>, _> = serde_json::from_str(value.get());
         let list = list.map_err(|_| self.expected(value, "a list of numbers"))?;
         list.into_iter().map(|value| self.number(value)).collect()
     }
 
-    fn numbers(&self, value: &'a RawValue) -> Result<Numbers, Wrong> {
+    fn numbers(&self, value: &'a RawValue) -> Result<Numbers, ReadError> {
         match value.get().as_bytes().first() {
             Some(b'[') => self.list(value).map(Numbers::List),
             Some(b'{') => self.entries(value).map(Numbers::ByName),
@@ -219,7 +223,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn entries(&self, value: &'a RawValue) -> Result<Vec<(String, Entry)>, Wrong> {
+    fn entries(&self, value: &'a RawValue) -> Result<Vec<(String, Entry)>, ReadError> {
         let pairs = self.pairs(value, "names with numbers, `{\"name\": 1}`")?;
         let entry = |(name, value): (String, &'a RawValue)| {
             let entry = match value.get().as_bytes().first() {

@@ -1,6 +1,6 @@
 //! Measured against computed values: for each quantity the motion with its measurements, and the residuals below it.
 
-use lagrangian_fit::motion::{Experiment, Fit, Held};
+use lagrangian_fit::motion::{ConstraintFindings, Experiment, Fit};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -102,7 +102,7 @@ fn densely(fit: &Fit<'_>, e: usize, x: &[f64]) -> Result<Vec<(f64, Vec<f64>)>, F
         running: fit.running.clone(),
         refusal: fit.refusal,
         runs: [0, 0],
-        held: Held::default(),
+        held: ConstraintFindings::default(),
     };
     let values = dense.computed(e, x).map_err(stopped)?;
     Ok(times.into_iter().zip(values).collect())

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use lagrangian_fit::motion::{Sought, Subject};
 use lagrangian_spec::unit::{self, state_of};
 
-use super::{Fitted, told};
+use super::{Fitted, findings};
 use crate::failure::Failure;
 use crate::numbers::shortest;
 use crate::output::Destination;
@@ -43,7 +43,7 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
                 Ok(())
             }
             Subject::Start(e, place) => {
-                let name = told::coordinate(result, e, place);
+                let name = findings::coordinate(result, e, place);
                 let unit = &program.coordinates[place].unit_text;
                 writeln!(
                     coordinates,
@@ -51,7 +51,7 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
                 )
             }
             Subject::Rate(e, place) => {
-                let name = told::coordinate(result, e, place);
+                let name = findings::coordinate(result, e, place);
                 let unit = &program.coordinates[place].unit_text;
                 if let Some(state) = state_of(&name) {
                     let unit = unit::rate_unit(&name, unit);

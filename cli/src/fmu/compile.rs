@@ -151,10 +151,10 @@ fn library(
         ))
     })?;
     if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
+        let stderr = String::from_utf8_lossy(&output.stderr);
         return Err(Failure::run(format!(
             "{compiler} does not compile the unit:\n{}",
-            said.trim_end()
+            stderr.trim_end()
         )));
     }
     let bytes = std::fs::read(folder.path().join(&library)).map_err(unkept)?;

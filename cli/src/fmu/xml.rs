@@ -53,8 +53,8 @@ impl Document {
     }
 
     fn element(&mut self, name: &str, attributes: Attributes<'_>, end: &str) {
-        let told = attributes.iter().filter(|(_, value)| !value.is_empty());
-        self.write(name, told, end);
+        let nonempty = attributes.iter().filter(|(_, value)| !value.is_empty());
+        self.write(name, nonempty, end);
     }
 
     fn write<'a>(

@@ -45,7 +45,7 @@ impl Faults {
     }
 
     /// All errors in the order of the file, one per line, as `file:line:column: message`.
-    pub fn told(mut self) -> String {
+    pub fn into_message(mut self) -> String {
         const MOST: usize = 20;
         self.found.sort();
         let mut lines: Vec<String> = Vec::new();

@@ -247,7 +247,7 @@ impl<'a> Writer<'a> {
             let (kind, part) = (joint.label, self.robot.part);
             let name = quoted(&joint.name);
             let mut comment = format!("Joint {name}, {kind}, {part} {child} on {part} {parent}");
-            comment.push_str(&said(joint));
+            comment.push_str(&joint_comment(joint));
             comment.push('.');
             self.motion[index] = match joint.kind {
                 Kind::Fixed => Vec::new(),
@@ -496,7 +496,7 @@ impl<'a> Writer<'a> {
                 quoted(&joint.name),
                 joint.label,
                 quoted(&mimic.joint),
-                said(joint)
+                joint_comment(joint)
             );
             self.text
                 .add("define", Some(comment), vec![format!("{name} = {value}")]);
@@ -1197,7 +1197,7 @@ fn measured(joint: &Joint, value: &Number) -> String {
 }
 
 /// The text of a joint's comment: its range, and limits of velocity and effort.
-fn said(joint: &Joint) -> String {
+fn joint_comment(joint: &Joint) -> String {
     let (angle, force) = match joint.kind {
         Kind::Prismatic => ("m", "N"),
         _ => ("rad", "N*m"),

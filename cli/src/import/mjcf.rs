@@ -621,7 +621,7 @@ impl<'e> Reader<'_, '_, 'e> {
         })
     }
 
-    fn said(&self, item: &Item<'e>, name: &str) -> Option<&'e Attribute> {
+    fn attribute_of(&self, item: &Item<'e>, name: &str) -> Option<&'e Attribute> {
         let own = [item.element.name.as_str()];
         let tags = if DRIVES.contains(&own[0]) && OF_DRIVES.contains(&name) {
             &DRIVES[..]
@@ -632,13 +632,13 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 
     fn word(&self, item: &Item<'e>, name: &str) -> Option<&'e str> {
-        self.said(item, name)
+        self.attribute_of(item, name)
             .map(|attribute| attribute.value.as_str())
     }
 
     /// The value of a Boolean attribute; `None` for `auto`.
     fn flag(&mut self, item: &Item<'e>, name: &str) -> Option<bool> {
-        let attribute = self.said(item, name)?;
+        let attribute = self.attribute_of(item, name)?;
         match attribute.value.as_str() {
             "true" | "1" => Some(true),
             "false" | "0" => Some(false),
@@ -657,7 +657,7 @@ impl<'e> Reader<'_, '_, 'e> {
 
     /// A list of any length.
     fn list(&mut self, item: &Item<'e>, name: &str) -> Option<(Vec<Number>, usize)> {
-        let attribute = self.said(item, name)?;
+        let attribute = self.attribute_of(item, name)?;
         let numbers = attribute.value.split_whitespace().map(Number::read);
         match numbers.collect::<Result<Vec<Number>, String>>() {
             Ok(numbers) => Some((numbers, attribute.at)),
@@ -736,7 +736,7 @@ impl<'e> Reader<'_, '_, 'e> {
         if let Some(angle) = self.word(&item, "angle") {
             self.compiler.is_in_degrees = angle == "degree";
         }
-        if let Some(sequence) = self.said(&item, "eulerseq") {
+        if let Some(sequence) = self.attribute_of(&item, "eulerseq") {
             let is_fine = sequence.value.len() == 3
                 && sequence
                     .value
@@ -840,7 +840,7 @@ impl<'e> Reader<'_, '_, 'e> {
         let name = match own[..] {
             [] => ORIENTATIONS
                 .into_iter()
-                .find(|name| self.said(item, name).is_some()),
+                .find(|name| self.attribute_of(item, name).is_some()),
             [name] => Some(name),
             [_, other, ..] => {
                 let at = item.element.own(other).map_or(item.element.at, |it| it.at);
@@ -902,7 +902,9 @@ impl<'e> Reader<'_, '_, 'e> {
             None => Vec::new(),
             Some(Some(rotation)) => steps::turns(&rotation),
             Some(None) => {
-                let at = self.said(item, name).map_or(item.element.at, |it| it.at);
+                let at = self
+                    .attribute_of(item, name)
+                    .map_or(item.element.at, |it| it.at);
                 let message = format!("`{name}` of {} has no direction", item.owner);
                 self.faults.add(at, message);
                 Vec::new()

@@ -170,8 +170,8 @@ pub fn trace(
     let mut critical: Vec<Critical> = Vec::new();
     let mut before: Option<At> = None;
     for k in 0..=last {
-        if interrupt.came() {
-            output::complain("interrupted: nothing is written or printed");
+        if interrupt.was_pressed() {
+            output::print_error("interrupted: nothing is written or printed");
             return Err(Failure::Interrupted);
         }
         let value = value(k);
@@ -183,7 +183,7 @@ pub fn trace(
             (Some(Ok(motion)), _) => Ok(motion),
             // The branch has ended; there may be another one.
             (Some(Err(_)), Some(before)) => tracer.from(&before.motion, value),
-            _ => tracer.anew(value),
+            _ => tracer.solve_anew(value),
         };
         if let (Ok(motion), true, Some(before)) = (&found, continues, &before) {
             tracer.locate(before, value, motion, &mut critical);
@@ -328,7 +328,7 @@ impl<'a> Tracer<'a> {
         motion(machine, q, &wanted)
     }
 
-    fn anew(&self, value: f64) -> Result<Motion, Failure> {
+    fn solve_anew(&self, value: f64) -> Result<Motion, Failure> {
         let machine = self.machine_at(value);
         let (q, mut wanted) = self.start(&machine)?;
         wanted.steps = search::MOST_STEPS;

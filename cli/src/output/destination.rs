@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 use super::ending::{self, Endings};
-use super::{FAILED, IS_TAKEN, Taken};
+use super::{FAILED, IS_TAKEN, RedirectedOutput};
 use crate::failure::Failure;
 
 /// The most symbolic links that are followed, as in Linux.
@@ -148,7 +148,7 @@ impl Destination {
             }
             Target::Output => {
                 IS_TAKEN.store(true, Ordering::Relaxed);
-                match buffered(Taken, content) {
+                match buffered(RedirectedOutput, content) {
                     // The error is reported once, at the end.
                     Err(_) if FAILED.get().is_some() => Ok(()),
                     written => written.map(drop),

@@ -34,7 +34,7 @@ pub const SECTION: &str = r#"<section id="live" aria-labelledby="live-title">
 const EXPLICIT: [&str; 3] = ["dop853", "dopri5", "bs32"];
 
 /// Why a page cannot run a machine; `None` if it can.
-pub fn objection(
+pub fn reason_not_live(
     program: &Program,
     method: &Method,
     is_driven: bool,

@@ -16,15 +16,15 @@
 //! The search has several starts: the straight path, paths to either side of it, and guesses. Each is improved to the fastest
 //! polygon near it (`descent`), for which the energy balance suffices, and every distinct polygon is a start of Newton's method for
 //! the conditions. If none leads to a motion, or a polygon is faster than all motions found, motions of the machine without
-//! friction are continued while friction grows (`followed`). If that fails too, the machine with frozen coefficients is used, whose
+//! friction are continued while friction grows (`continuation`). If that fails too, the machine with frozen coefficients is used, whose
 //! closed form is continued to the machine itself (`frozen`). The stretches are halved until the time converges, and the fastest
 //! motion that satisfies the conditions of Legendre and of Jacobi is the result. All attempts are reported ([`Trial`]), and the
 //! work is limited by counting evaluations (`budget`).
 
 mod budget;
 mod collocation;
+mod continuation;
 mod descent;
-mod followed;
 mod frozen;
 mod hamiltonian;
 mod motion;

@@ -6,7 +6,7 @@ use super::plane::Arc;
 use super::problem::{Frame, Problem, check_list};
 
 /// The number of intervals into which [`Brachistochrone::lapses`] divides the motion to check the guides.
-const LOOKS: u32 = 256;
+const CHECK_POINTS: u32 = 256;
 
 /// The fastest motion from rest at one position to another.
 #[derive(Clone, Debug)]
@@ -252,7 +252,8 @@ impl Brachistochrone {
     /// Guides that slip backwards, or whose reaction becomes negative, at one of 257 moments: there the assumed friction is
     /// not that of Coulomb.
     pub fn lapses(&self) -> Vec<Lapse> {
-        let moments = (0..=LOOKS).map(|k| self.after_part(f64::from(k) / f64::from(LOOKS)));
+        let moments =
+            (0..=CHECK_POINTS).map(|k| self.after_part(f64::from(k) / f64::from(CHECK_POINTS)));
         let guides = &self.problem.guides;
         let names: Vec<String> = guides.iter().map(|guide| guide.name.clone()).collect();
         let slip = |guide: usize, moment: &Moment| dot(&guides[guide].along, &moment.direction);

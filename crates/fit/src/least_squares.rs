@@ -499,8 +499,8 @@ fn step(
             for (r, column) in residuals.iter_mut().zip(at.jacobian.column(j).iter()) {
                 *r += column * step[j];
             }
-            let gone = scale[j] * step[j];
-            left = (left * left - gone * gone).max(0.0).sqrt();
+            let step_part = scale[j] * step[j];
+            left = (left * left - step_part * step_part).max(0.0).sqrt();
         }
         for j in &within {
             step[*j] = 0.0;

@@ -131,7 +131,7 @@ pub struct Fit<'a> {
     /// The number of runs without and with derivatives.
     pub runs: [usize; 2],
     /// Findings about the derivatives of machines with constraints; empty at first.
-    pub held: Held,
+    pub held: ConstraintFindings,
 }
 
 /// Findings about the derivatives of constrained motions.
@@ -140,7 +140,7 @@ pub struct Fit<'a> {
 /// accelerations keep the second derivatives of the constraints 0. So integration errors let them drift, and the drift is
 /// measured at the end.
 #[derive(Clone, Debug, Default)]
-pub struct Held {
+pub struct ConstraintFindings {
     /// Why differences of runs are used instead, if they are.
     pub why: Option<String>,
     /// The largest drift off the constraints of motions or derivatives, relative to the size of their terms.
@@ -148,16 +148,16 @@ pub struct Held {
 }
 
 /// Why there are no integrated derivatives.
-enum Lost {
+enum RunFailure {
     /// There is no motion, or the search was interrupted.
     Trouble(Trouble),
     /// There is a motion, but its derivatives must come from differences; the text says why.
-    Held(String),
+    WithoutDerivatives(String),
 }
 
-impl From<Trouble> for Lost {
-    fn from(trouble: Trouble) -> Lost {
-        Lost::Trouble(trouble)
+impl From<Trouble> for RunFailure {
+    fn from(trouble: Trouble) -> RunFailure {
+        RunFailure::Trouble(trouble)
     }
 }
 
@@ -338,7 +338,7 @@ impl Fit<'_> {
     }
 
     /// Sets in a start the values of the experiment and the fitted numbers.
-    fn put_start(&self, experiment: usize, x: &[f64], q: &mut [f64], v: &mut [f64]) {
+    fn set_start(&self, experiment: usize, x: &[f64], q: &mut [f64], v: &mut [f64]) {
         let given = &self.experiments[experiment].start;
         for (numbers, given) in [(&mut *q, &given[0]), (&mut *v, &given[1])] {
             for (number, given) in numbers.iter_mut().zip(given) {
@@ -360,7 +360,7 @@ impl Fit<'_> {
     /// If no machine exists with these numbers.
     pub fn start(&self, experiment: usize, x: &[f64]) -> Result<State<Named>, Trouble> {
         let mut start = self.machine(experiment, x)?.start();
-        self.put_start(experiment, x, &mut start.q.values, &mut start.v.values);
+        self.set_start(experiment, x, &mut start.q.values, &mut start.v.values);
         Ok(start)
     }
 
@@ -385,7 +385,7 @@ impl Fit<'_> {
         let seen = &mut rows;
         let run = simulation
             .each_step(move |step| {
-                while let Some(t) = due(&own.times, seen.len(), step.span()) {
+                while let Some(t) = next_due_time(&own.times, seen.len(), step.span()) {
                     let State { q, v, .. } = step.state(t)?;
                     let (q, v) = (q.values, v.values);
                     let mut a = vec![0.0; q.len()];
@@ -457,7 +457,7 @@ impl Fit<'_> {
         experiment: usize,
         x: &[f64],
         sought: usize,
-    ) -> Result<starts::Change, Lost> {
+    ) -> Result<starts::Change, RunFailure> {
         let machine = self.machine(experiment, x)?;
         let size = self.sizes()[sought];
         let parameter = match self.sought[sought].subject {
@@ -481,9 +481,9 @@ impl Fit<'_> {
         let change = starts::derivative(&machine, at, width, parameter);
         let change = change.map_err(|why| {
             if (self.running.stop)() {
-                Lost::Trouble(Trouble::Stopped)
+                RunFailure::Trouble(Trouble::Stopped)
             } else {
-                Lost::Held(format!("{}: {why}", self.sought[sought].name))
+                RunFailure::WithoutDerivatives(format!("{}: {why}", self.sought[sought].name))
             }
         })?;
         Ok(change.map(|list| list.into_iter().map(|by| by * size).collect()))
@@ -511,7 +511,11 @@ impl Fit<'_> {
 
     /// The motion with its derivatives, which are exact up to the tolerance; and how far it is off the constraints at its end,
     /// relative to the size of its terms.
-    fn run_with_derivatives(&self, experiment: usize, x: &[f64]) -> Result<(Vec<Row>, f64), Lost> {
+    fn run_with_derivatives(
+        &self,
+        experiment: usize,
+        x: &[f64],
+    ) -> Result<(Vec<Row>, f64), RunFailure> {
         let machine = self.machine(experiment, x)?;
         let own = &self.experiments[experiment];
         let sizes = self.sizes();
@@ -538,7 +542,7 @@ impl Fit<'_> {
         };
         let mut start = varied.start();
         let n = machine.program().dimension();
-        self.put_start(experiment, x, &mut start.q[..n], &mut start.v[..n]);
+        self.set_start(experiment, x, &mut start.q[..n], &mut start.v[..n]);
         for (k, j) in here.iter().enumerate() {
             let (sought, size) = (&self.sought[*j], sizes[*j]);
             let part = (k + 1) * n..(k + 2) * n;
@@ -567,7 +571,7 @@ impl Fit<'_> {
         if is_held {
             let on = self.start_on_constraints(experiment, x)?;
             if let Some(constraint) = starts::dependent_constraint(&machine, &on) {
-                return Err(Lost::Held(format!(
+                return Err(RunFailure::WithoutDerivatives(format!(
                     "the constraint `{constraint}` follows from others"
                 )));
             }
@@ -610,8 +614,8 @@ impl Fit<'_> {
                 most_steps: self.running.most_steps,
             };
             let run = across::run(&wanted, &start).map_err(|why| match why {
-                NoDerivatives::Run(error) => Lost::Trouble(self.trouble(own, error)),
-                broken => Lost::Held(broken.to_string()),
+                NoDerivatives::Run(error) => RunFailure::Trouble(self.trouble(own, error)),
+                broken => RunFailure::WithoutDerivatives(broken.to_string()),
             })?;
             let row = |t: &f64| -> Result<Row, lagrangian::Error> {
                 let State { q, v, .. } = run.at(*t)?;
@@ -638,7 +642,7 @@ impl Fit<'_> {
         let seen = &mut rows;
         let (system, at) = (&system, &at);
         let simulation = simulation.each_step(move |step| {
-            while let Some(t) = due(&own.times, seen.len(), step.span()) {
+            while let Some(t) = next_due_time(&own.times, seen.len(), step.span()) {
                 let State { q, v, .. } = step.state(t)?;
                 let mut a = vec![0.0; q.len()];
                 let mut u = system.default_inputs();
@@ -666,10 +670,10 @@ impl Fit<'_> {
         experiment: usize,
         rows: Vec<Row>,
         off: f64,
-    ) -> Result<(Vec<Row>, f64), Lost> {
+    ) -> Result<(Vec<Row>, f64), RunFailure> {
         // Differences of runs obey the constraints; they are used where they are about as accurate.
         if off.is_nan() || ELSEWHERE * off > self.exact_differences() {
-            return Err(Lost::Held(format!(
+            return Err(RunFailure::WithoutDerivatives(format!(
                 "errors of steps move derivatives by {off:.1e} of their numbers off the constraints"
             )));
         }
@@ -808,7 +812,7 @@ impl Experiment {
 
 /// The next of the times if it is within a step. At the end of a step it is taken only if no step follows: a change
 /// of inputs there has then taken effect.
-fn due(times: &[f64], seen: usize, [_, to]: [f64; 2]) -> Option<f64> {
+fn next_due_time(times: &[f64], seen: usize, [_, to]: [f64; 2]) -> Option<f64> {
     let t = *times.get(seen)?;
     let is_last = times.last().is_some_and(|last| to >= *last);
     (t < to || (is_last && t <= to)).then_some(t)
@@ -838,8 +842,8 @@ impl Problem for Fit<'_> {
                     self.held.off = self.held.off.max(off);
                     rows.push(own);
                 }
-                Err(Lost::Trouble(trouble)) => return Err(trouble),
-                Err(Lost::Held(why)) => {
+                Err(RunFailure::Trouble(trouble)) => return Err(trouble),
+                Err(RunFailure::WithoutDerivatives(why)) => {
                     self.held.why = Some(why);
                     return self.differences(x);
                 }

@@ -25,7 +25,7 @@ pub struct Search {
 
 /// The results of several searches.
 #[derive(Clone, Debug)]
-pub struct Searched {
+pub struct SearchResults {
     /// The lowest minimum.
     pub found: Found,
     /// All searches; their minima are those before standard deviations were estimated.
@@ -55,7 +55,7 @@ const MOST_TURNS: usize = 50;
 ///
 /// # Errors
 /// If there is no minimum.
-pub fn search(fit: &mut Fit<'_>, count: usize, sigmas: Sigmas) -> Result<Searched, Failed> {
+pub fn search(fit: &mut Fit<'_>, count: usize, sigmas: Sigmas) -> Result<SearchResults, Failed> {
     let mut searches = Vec::new();
     for index in 0..count.max(1) {
         let from = spread(&fit.sought, index);
@@ -83,7 +83,7 @@ pub fn search(fit: &mut Fit<'_>, count: usize, sigmas: Sigmas) -> Result<Searche
     let found = fit
         .found(minimum, sigmas == Sigmas::Equal)
         .map_err(Failed::Trouble)?;
-    Ok(Searched {
+    Ok(SearchResults {
         found,
         searches,
         best,

@@ -13,7 +13,7 @@ use crate::least_squares::{Minimum, held};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// It has an estimate and a standard error.
-    Told,
+    Estimated,
     /// It is at a bound.
     Bound,
     /// The residuals do not depend on it.
@@ -64,11 +64,11 @@ impl Statistics {
             .map(|j| match (held[j], effect(j) > exact * greatest) {
                 (true, _) => Standing::Bound,
                 (_, false) => Standing::Ineffective,
-                _ => Standing::Told,
+                _ => Standing::Estimated,
             })
             .collect();
         let open: Vec<usize> = (0..count)
-            .filter(|j| standing[*j] == Standing::Told)
+            .filter(|j| standing[*j] == Standing::Estimated)
             .collect();
         let scaled = DMatrix::from_fn(at.residuals.len(), open.len(), |i, j| {
             at.jacobian[(i, open[j])] / norms[open[j]]
@@ -125,8 +125,8 @@ impl Statistics {
 
     /// The standard error of a number; `None` where the data do not determine it.
     pub fn standard_error(&self, j: usize) -> Option<f64> {
-        let is_told = self.standing[j] == Standing::Told;
-        is_told.then(|| self.covariance[(j, j)].sqrt())
+        let is_estimated = self.standing[j] == Standing::Estimated;
+        is_estimated.then(|| self.covariance[(j, j)].sqrt())
     }
 
     /// The correlation of two numbers; `None` where the data do not determine one of them.

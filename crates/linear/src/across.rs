@@ -254,7 +254,7 @@ pub fn interpreters(
 }
 
 /// An impact of a contact, as the run reported it.
-type Hit = (usize, ContactImpact);
+type ReportedImpact = (usize, ContactImpact);
 
 struct Passing<'w, 'm> {
     wanted: &'w Wanted<'m>,
@@ -271,7 +271,7 @@ struct Change<'a> {
     before: &'a Phase,
     after: &'a mut Phase,
     cause: PhaseCause,
-    hits: &'a [Hit],
+    hits: &'a [ReportedImpact],
     ended: &'a [usize],
     /// How far each gap opened since it was last closed.
     excursions: &'a [f64],
@@ -313,7 +313,7 @@ impl<'m> Passing<'_, 'm> {
                     ended: told.ended,
                     excursions: &excursions,
                 };
-                self.pass(change, &mut state, &here)?;
+                self.cross_change(change, &mut state, &here)?;
                 changes += 1;
             }
             phase = after;
@@ -475,7 +475,7 @@ impl<'m> Passing<'_, 'm> {
         &self,
         state: &State<Vec<f64>>,
         phase: &Phase,
-        hits: &[Hit],
+        hits: &[ReportedImpact],
     ) -> Result<(), NoDerivatives> {
         if let Some((contact, _)) = hits.first() {
             return Err(self.broken(
@@ -493,7 +493,7 @@ impl<'m> Passing<'_, 'm> {
                 let closed = (0..phase.modes.len()).filter(|k| phase.is_closed(*k));
                 let mut rigid = closed.filter(|k| phase.compliances[phase.presses(*k)].is_none());
                 Some(rigid.find(|&k| {
-                    let sticks = phase.modes[k] == ContactMode::Sticks && phase.rubs[k];
+                    let sticks = phase.modes[k] == ContactMode::Sticks && phase.has_friction[k];
                     let is_open = !phase.rolls[k]
                         && (off(place.gaps[k], size) || off(place.rates[2 * k], size));
                     is_open || sticks && off(place.rates[2 * k + 1], size)
@@ -511,7 +511,7 @@ impl<'m> Passing<'_, 'm> {
     }
 
     /// Carries the derivatives across a change. `here` is the state after it.
-    fn pass(
+    fn cross_change(
         &self,
         change: Change<'_>,
         state: &mut State<Vec<f64>>,
@@ -522,7 +522,7 @@ impl<'m> Passing<'_, 'm> {
             return Ok(());
         }
         if change.hits.is_empty() {
-            return self.pass_without_impact(change, state, here);
+            return self.cross_without_impact(change, state, here);
         }
         let before = |k: usize| change.before.modes[k];
         let mut closing: Vec<usize> = (change.hits.iter())
@@ -546,7 +546,7 @@ impl<'m> Passing<'_, 'm> {
             [first, ..] if is_sequence => *first,
             [first, second, ..] => {
                 let apart = (change.hits.len() == closing.len() && change.ended.is_empty())
-                    .then(|| self.meet_apart(&closing, state, change.before))
+                    .then(|| self.are_uncoupled(&closing, state, change.before))
                     .flatten();
                 if apart != Some(true) {
                     return Err(self.broken(
@@ -567,7 +567,7 @@ impl<'m> Passing<'_, 'm> {
         let mut phase = change.before.clone();
         for (round, &contact) in apart.iter().enumerate() {
             let is_last = round + 1 == apart.len();
-            let hits: Vec<Hit> = match apart.len() {
+            let hits: Vec<ReportedImpact> = match apart.len() {
                 1 => change.hits.to_vec(),
                 _ => (change.hits.iter())
                     .filter(|(k, _)| *k == contact)
@@ -581,7 +581,7 @@ impl<'m> Passing<'_, 'm> {
                 next.modes[contact] = change.after.modes[contact];
             }
             let ended: &[usize] = if is_last { change.ended } else { &[] };
-            self.meet(
+            self.cross_impact(
                 contact,
                 (&phase, &mut next),
                 (&hits, ended),
@@ -614,7 +614,7 @@ impl<'m> Passing<'_, 'm> {
     }
 
     /// Whether the impulses of these contacts leave each other's rates unchanged.
-    fn meet_apart(
+    fn are_uncoupled(
         &self,
         contacts: &[usize],
         state: &State<Vec<f64>>,
@@ -646,11 +646,11 @@ impl<'m> Passing<'_, 'm> {
     }
 
     /// Carries the derivatives across an impact that one closing gap triggers.
-    fn meet(
+    fn cross_impact(
         &self,
         contact: usize,
         (before, after): (&Phase, &mut Phase),
-        (hits, ended): (&[Hit], &[usize]),
+        (hits, ended): (&[ReportedImpact], &[usize]),
         excursion: f64,
         state: &mut State<Vec<f64>>,
     ) -> Result<(), NoDerivatives> {
@@ -711,10 +711,10 @@ impl<'m> Passing<'_, 'm> {
         &self,
         place: &mut Place<'_>,
         (before, after): (&Phase, &Phase),
-        (hits, ended): (&[Hit], &[usize]),
+        (hits, ended): (&[ReportedImpact], &[usize]),
     ) -> Result<Vec<Number>, (usize, &'static str)> {
         let is_sequence = hits.len() > 1 && self.laws[hits[0].0].1 == ImpactOrder::Sequence;
-        let rounds: Vec<&[Hit]> = if is_sequence {
+        let rounds: Vec<&[ReportedImpact]> = if is_sequence {
             hits.chunks(1).collect()
         } else {
             vec![hits]
@@ -727,7 +727,7 @@ impl<'m> Passing<'_, 'm> {
             let mut sought = Vec::new();
             for k in (0..after.modes.len()).filter(|k| after.is_closed(*k)) {
                 let rigid = after.compliances[after.presses(k)].is_none();
-                let stuck = before.modes[k] == ContactMode::Sticks && after.rubs[k];
+                let stuck = before.modes[k] == ContactMode::Sticks && after.has_friction[k];
                 for (part, is_held) in [(0, rigid && !after.rolls[k]), (1, rigid && stuck)] {
                     if is_held {
                         let row = place.row(2 * k + part).to_vec();
@@ -739,14 +739,14 @@ impl<'m> Passing<'_, 'm> {
                     }
                 }
             }
-            self.push(place, &sought, &after.modes)
+            self.impulses_for(place, &sought, &after.modes)
                 .ok_or((ended[0], "ends its bounces where several share a load"))?;
         }
         Ok(place.v.clone())
     }
 
     /// Applies the impulses that bring about the sought changes of rates; returns these impulses.
-    fn push(
+    fn impulses_for(
         &self,
         place: &mut Place<'_>,
         sought: &[Sought],
@@ -771,7 +771,7 @@ impl<'m> Passing<'_, 'm> {
         &self,
         place: &mut Place<'_>,
         (before, after): (&Phase, &Phase),
-        hits: &[Hit],
+        hits: &[ReportedImpact],
     ) -> Result<(), (usize, &'static str)> {
         let greatest = hits.iter().fold(0.0_f64, |most, (_, hit)| {
             most.max(hit.impulse[0].abs()).max(hit.impulse[1].abs())
@@ -799,7 +799,7 @@ impl<'m> Passing<'_, 'm> {
                 let Some((_, own)) = impulse_of(j) else {
                     continue;
                 };
-                if after.presses(j) != *k || !after.rubs[j] {
+                if after.presses(j) != *k || !after.has_friction[j] {
                     continue;
                 }
                 if law != ImpactLaw::Newton {
@@ -850,7 +850,7 @@ impl<'m> Passing<'_, 'm> {
             });
             sought.append(&mut tangents);
         }
-        let impulses = self.push(place, &sought, &after.modes).ok_or((
+        let impulses = self.impulses_for(place, &sought, &after.modes).ok_or((
             hits[0].0,
             "shares its impact with others in more than one way",
         ))?;
@@ -870,13 +870,13 @@ impl<'m> Passing<'_, 'm> {
     }
 
     /// Whether a contact is the only one with an impulse.
-    fn is_alone(&self, hits: &[Hit], contact: usize) -> bool {
+    fn is_alone(&self, hits: &[ReportedImpact], contact: usize) -> bool {
         hits.iter()
             .all(|(k, hit)| *k == contact || hit.impulse == [0.0; 2])
     }
 
     /// Carries the derivatives across a change without an impact, in which only accelerations jump.
-    fn pass_without_impact(
+    fn cross_without_impact(
         &self,
         change: Change<'_>,
         state: &mut State<Vec<f64>>,

@@ -154,7 +154,7 @@ impl Chart {
         let mut reduced = Reduced::new(machine, &system, &inputs, &[]);
         reduced.set_time(t);
         let mut q: Vec<DoubleDouble> = moved.as_slice()[..n].iter().map(|x| (*x).into()).collect();
-        reduced.project(&mut q, &|j| choice.tied.contains(&j))?;
+        reduced.project(&mut q, &|j| choice.position_dependent.contains(&j))?;
         let place = Place {
             s: choice
                 .independent

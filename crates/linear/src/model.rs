@@ -256,14 +256,20 @@ pub fn along(
         place: &found.place,
         records: &motion.records,
     };
-    let asked = Asked::new(machine, &system, request, at.choice)?;
-    smooth(&mut reduced, &asked, &at)?;
-    let (mut here, bounds) = settled(&mut reduced, &asked, &at)?;
-    goes_on(&mut reduced, &asked, &at, (&here, &bounds), &motion.v)?;
+    let named_request = NamedRequest::new(machine, &system, request, at.choice)?;
+    smooth(&mut reduced, &named_request, &at)?;
+    let (mut here, bounds) = settled(&mut reduced, &named_request, &at)?;
+    goes_on(
+        &mut reduced,
+        &named_request,
+        &at,
+        (&here, &bounds),
+        &motion.v,
+    )?;
     // x is the deviation from the steady motion, so the rates of that motion are no drift of the coordinates.
     here.drift.rows_mut(0, at.places().len()).fill(0.0);
     let v = motion.v.clone();
-    Ok(asked.model(&at, here, bounds, (q, v, inputs)))
+    Ok(named_request.model(&at, here, bounds, (q, v, inputs)))
 }
 
 /// Checks that the equations of motion can be linearized along a motion, and so that it has modes.
@@ -289,8 +295,8 @@ pub fn check_smooth(machine: &InterpretedMachine, motion: &Motion) -> Result<(),
         inputs: Vec::new(),
         outputs: Vec::new(),
     };
-    let asked = Asked::new(machine, &system, &nothing, at.choice)?;
-    smooth(&mut reduced, &asked, &at)
+    let named_request = NamedRequest::new(machine, &system, &nothing, at.choice)?;
+    smooth(&mut reduced, &named_request, &at)
 }
 
 /// The model about any state, at a time. With constraints the coordinates are first projected onto them.
@@ -321,13 +327,13 @@ pub fn about(
         place: &place,
         records: &records,
     };
-    let asked = Asked::new(machine, &system, request, &choice)?;
-    smooth(&mut reduced, &asked, &at)?;
-    let (here, bounds) = settled(&mut reduced, &asked, &at)?;
+    let named_request = NamedRequest::new(machine, &system, request, &choice)?;
+    smooth(&mut reduced, &named_request, &at)?;
+    let (here, bounds) = settled(&mut reduced, &named_request, &at)?;
     let (wide, s) = (constants(&place.q), constants(&place.s));
     let rates = reduced.evaluate(&choice, &wide, &s)?.rates;
     let v = rates.iter().map(|v| v.value.hi()).collect();
-    Ok(asked.model(&at, here, bounds, (near, v, inputs)))
+    Ok(named_request.model(&at, here, bounds, (near, v, inputs)))
 }
 
 fn constants(values: &[DoubleDouble]) -> Vec<Number> {
@@ -345,7 +351,7 @@ impl At<'_> {
 }
 
 /// A request with the names of its entries.
-struct Asked<'a> {
+struct NamedRequest<'a> {
     request: &'a Request,
     coordinates: Vec<Label>,
     inputs: Vec<Label>,
@@ -374,13 +380,13 @@ fn rate(of: &Label, order: u8) -> Label {
     Label { name, unit }
 }
 
-impl<'a> Asked<'a> {
+impl<'a> NamedRequest<'a> {
     fn new(
         machine: &InterpretedMachine,
         system: &InterpretedSystem,
         request: &'a Request,
         choice: &Choice,
-    ) -> Result<Asked<'a>, NoModel> {
+    ) -> Result<NamedRequest<'a>, NoModel> {
         let coordinates: Vec<Label> = system
             .coordinates()
             .map(|q| Label {
@@ -415,7 +421,7 @@ impl<'a> Asked<'a> {
         }
         let inputs = request.inputs.iter();
         let is_multiplier = |o: &Observed| matches!(o, Observed::Multiplier(_));
-        Ok(Asked {
+        Ok(NamedRequest {
             inputs: inputs.map(|k| slot(&program.inputs[*k])).collect(),
             coordinates,
             outputs,
@@ -488,7 +494,7 @@ struct Response {
 
 fn respond(
     reduced: &mut Reduced<'_>,
-    asked: &Asked<'_>,
+    named_request: &NamedRequest<'_>,
     choice: &Choice,
     q: &[Number],
     s: &[Number],
@@ -523,12 +529,12 @@ fn respond(
         })
         .collect();
     let mut multipliers = Vec::new();
-    if asked.has_multipliers {
+    if named_request.has_multipliers {
         let rows = reduced.constraint_rows(q);
         let dependent: Vec<usize> = choice
-            .tied
+            .position_dependent
             .iter()
-            .chain(&choice.followers)
+            .chain(&choice.rate_dependent)
             .copied()
             .collect();
         let matrix = dependent
@@ -545,7 +551,7 @@ fn respond(
             multipliers[*k] = row[0];
         }
     }
-    let outputs = asked
+    let outputs = named_request
         .request
         .outputs
         .iter()
@@ -567,14 +573,14 @@ fn respond(
 /// All matrices at a state, with their round-off.
 fn matrices(
     reduced: &mut Reduced<'_>,
-    asked: &Asked<'_>,
+    named_request: &NamedRequest<'_>,
     at: &At<'_>,
     place: &Place,
 ) -> Result<Matrices, Fault> {
     let choice = at.choice;
     let (mut q, mut s) = (constants(&place.q), constants(&place.s));
     let tangent = reduced.tangent(choice, &q)?;
-    let here = respond(reduced, asked, choice, &q, &s)?;
+    let here = respond(reduced, named_request, choice, &q, &s)?;
     let places = at.places();
     let integrals = reduced.integrals();
     let (n, moving, kept) = (q.len(), s.len(), places.len());
@@ -585,9 +591,9 @@ fn matrices(
     let outputs = here.outputs.len();
     let mut found = Matrices {
         a: DMatrix::zeros(states, states),
-        b: DMatrix::zeros(states, asked.request.inputs.len()),
+        b: DMatrix::zeros(states, named_request.request.inputs.len()),
         c: DMatrix::zeros(outputs, states),
-        d: DMatrix::zeros(outputs, asked.request.inputs.len()),
+        d: DMatrix::zeros(outputs, named_request.request.inputs.len()),
         basis: DMatrix::zeros(2 * n, states),
         drift: DMatrix::from_iterator(states, 1, drift),
         y: DMatrix::from_iterator(outputs, 1, here.outputs.iter().map(value)),
@@ -607,7 +613,7 @@ fn matrices(
         for (q, d) in q.iter_mut().zip(direction) {
             q.derivative = *d;
         }
-        let there = respond(reduced, asked, choice, &q, &s)?;
+        let there = respond(reduced, named_request, choice, &q, &s)?;
         for (i, x) in rows(&there).into_iter().enumerate() {
             found.a[(i, column)] = x;
         }
@@ -626,7 +632,7 @@ fn matrices(
     q = constants(&place.q);
     for k in 0..moving {
         s[k].derivative = DoubleDouble::ONE;
-        let there = respond(reduced, asked, choice, &q, &s)?;
+        let there = respond(reduced, named_request, choice, &q, &s)?;
         s[k].derivative = DoubleDouble::ZERO;
         let column = kept + k;
         for (i, x) in rows(&there).into_iter().enumerate() {
@@ -639,9 +645,9 @@ fn matrices(
             found.basis[(n + i, column)] = slope(&there.rates[i]);
         }
     }
-    for (column, &input) in asked.request.inputs.iter().enumerate() {
+    for (column, &input) in named_request.request.inputs.iter().enumerate() {
         reduced.inputs_mut()[input].derivative = DoubleDouble::ONE;
-        let there = respond(reduced, asked, choice, &q, &s);
+        let there = respond(reduced, named_request, choice, &q, &s);
         reduced.inputs_mut()[input].derivative = DoubleDouble::ZERO;
         let there = there?;
         for (i, x) in rows(&there).into_iter().enumerate() {
@@ -661,16 +667,16 @@ fn matrices(
 /// The matrices, in which entries within round-off are set to 0, and bounds on the effect of rounding on each entry.
 fn settled(
     reduced: &mut Reduced<'_>,
-    asked: &Asked<'_>,
+    named_request: &NamedRequest<'_>,
     at: &At<'_>,
 ) -> Result<(Matrices, Matrices), Fault> {
-    let mut here = matrices(reduced, asked, at, at.place)?;
+    let mut here = matrices(reduced, named_request, at, at.place)?;
     let mut bounds = here.clone();
     for matrix in bounds.each_mut() {
         matrix.fill(0.0);
     }
     reduced.rounded(at.place, |reduced, other| {
-        let Ok(found) = matrices(reduced, asked, at, other) else {
+        let Ok(found) = matrices(reduced, named_request, at, other) else {
             return;
         };
         let pairs = found.each().into_iter().zip(here.each());
@@ -692,7 +698,7 @@ fn settled(
 /// Checks that inputs and outputs have the same gains everywhere along a steady motion, and at all times.
 fn goes_on(
     reduced: &mut Reduced<'_>,
-    asked: &Asked<'_>,
+    named_request: &NamedRequest<'_>,
     at: &At<'_>,
     (here, bounds): (&Matrices, &Matrices),
     v: &[f64],
@@ -714,19 +720,19 @@ fn goes_on(
                 (0..one.nrows()).flat_map(|row| (0..one.ncols()).map(move |c| (row, c)));
             if let Some((row, column)) = places.find(|(row, column)| is_other(*row, *column)) {
                 return Err(match part {
-                    0 => NoModel::InputTurns(asked.inputs[column].name.clone(), moving),
-                    _ => NoModel::OutputTurns(asked.outputs[row].name.clone(), moving),
+                    0 => NoModel::InputTurns(named_request.inputs[column].name.clone(), moving),
+                    _ => NoModel::OutputTurns(named_request.outputs[row].name.clone(), moving),
                 });
             }
         }
         Ok(())
     };
-    let coordinate = |j: usize| Moving::Coordinate(asked.coordinates[j].name.clone());
+    let coordinate = |j: usize| Moving::Coordinate(named_request.coordinates[j].name.clone());
     let places = at.choice.places();
     for &j in places.iter().filter(|j| v[**j] != 0.0) {
         for there in motion::elsewhere(reduced, at.choice, at.place, j) {
             // Positions at which the equations cannot be evaluated are skipped.
-            if let Ok(there) = matrices(reduced, asked, at, &there) {
+            if let Ok(there) = matrices(reduced, named_request, at, &there) {
                 compare(&there, coordinate(j))?;
             }
         }
@@ -739,17 +745,17 @@ fn goes_on(
         for (q, d) in q.iter_mut().zip(&tangent[column]) {
             q.derivative = *d;
         }
-        let there = respond(reduced, asked, at.choice, &q, &s)?;
+        let there = respond(reduced, named_request, at.choice, &q, &s)?;
         let rounding = motion::SAME * largest(&here.c);
         let mut slopes = there.outputs.iter().map(|y| y.derivative.hi().abs());
         if let Some(k) = slopes.position(|slope| slope > rounding) {
-            let name = asked.outputs[k].name.clone();
+            let name = named_request.outputs[k].name.clone();
             return Err(NoModel::OutputTurns(name, coordinate(j)));
         }
     }
     for time in TIMES {
         reduced.set_time(time);
-        let there = matrices(reduced, asked, at, at.place);
+        let there = matrices(reduced, named_request, at, at.place);
         reduced.set_time(0.0);
         compare(&there?, Moving::Time)?;
     }
@@ -761,9 +767,13 @@ fn goes_on(
 /// All terms of the equations are evaluated on both sides of the state, with their derivatives, at two distances. For a smooth
 /// term the difference of the sides falls with the distance; at a corner it stays. With 32 digits there is no round-off at
 /// these distances.
-fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(), NoModel> {
+fn smooth(
+    reduced: &mut Reduced<'_>,
+    named_request: &NamedRequest<'_>,
+    at: &At<'_>,
+) -> Result<(), NoModel> {
     let (q, s) = (constants(&at.place.q), constants(&at.place.s));
-    let here = respond(reduced, asked, at.choice, &q, &s)?;
+    let here = respond(reduced, named_request, at.choice, &q, &s)?;
     let (n, u) = (q.len(), reduced.inputs_mut().to_vec());
     let time = reduced.time();
     let state = [&q[..], &here.rates, &u, &here.all].concat();
@@ -789,7 +799,7 @@ fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(
             let (inputs, a) = rest.split_at(u.len());
             reduced.inputs_mut().copy_from_slice(inputs);
             let mut numbers = reduced.ingredients(q, v, time).concat();
-            for observed in &asked.request.outputs {
+            for observed in &named_request.request.outputs {
                 if let Observed::Output(k) = *observed {
                     numbers.push(reduced.output(k, (q, v, a)));
                 }
@@ -825,7 +835,11 @@ fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(
         return Ok(());
     };
     let is_output = |pair: &(&Observed, &Label)| matches!(pair.0, Observed::Output(_));
-    let outputs = asked.request.outputs.iter().zip(&asked.outputs);
+    let outputs = named_request
+        .request
+        .outputs
+        .iter()
+        .zip(&named_request.outputs);
     let mut outputs = outputs.filter(is_output).map(|(_, label)| label);
     let equations = numbers_of_equations(n, m);
     if let Some(label) = index
@@ -836,8 +850,8 @@ fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(
     }
     let only = (0..2 * n + u.len()).find(|k| jump(Some(*k)).is_some());
     Err(NoModel::Kink(match only {
-        Some(k) if k < n => Some(asked.coordinates[k].name.clone()),
-        Some(k) if k < 2 * n => Some(rate(&asked.coordinates[k - n], 1).name),
+        Some(k) if k < n => Some(named_request.coordinates[k].name.clone()),
+        Some(k) if k < 2 * n => Some(rate(&named_request.coordinates[k - n], 1).name),
         _ => None,
     }))
 }

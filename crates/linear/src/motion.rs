@@ -86,7 +86,7 @@ pub(crate) fn elsewhere(
         let mut there = place.clone();
         let by = shift * there.q[j].hi().abs().max(1.0);
         there.q[j] = there.q[j] + by.into();
-        let projected = reduced.project(&mut there.q, &|i| choice.tied.contains(&i));
+        let projected = reduced.project(&mut there.q, &|i| choice.position_dependent.contains(&i));
         projected.is_ok().then_some(there)
     });
     moved.collect()
@@ -144,10 +144,14 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
                     because[i] = j;
                 }
             };
-            for (row, &i) in choice.followers.iter().enumerate() {
-                let (by, along) = (&here.followers_by_places, &here.along);
+            for (row, &i) in choice.rate_dependent.iter().enumerate() {
+                let (by, along) = (&here.rate_dependent_by_places, &here.along);
                 let is_same = (0..by.ncols()).all(|k| {
-                    let matrices = [by, &there.followers_by_places, &bounds.followers_by_places];
+                    let matrices = [
+                        by,
+                        &there.rate_dependent_by_places,
+                        &bounds.rate_dependent_by_places,
+                    ];
                     same(matrices, (row, k), largest(by) + fastest)
                 }) && (0..along.ncols())
                     .all(|k| same([along, &there.along, &bounds.along], (i, k), largest(along)));
@@ -155,7 +159,7 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
                     change(i);
                 }
             }
-            for &i in &choice.tied {
+            for &i in &choice.position_dependent {
                 let tangent = [&here.tangent, &there.tangent, &bounds.tangent];
                 let mut row = (0..places.len()).map(|k| (i, k));
                 if !row.all(|place| same(tangent, place, largest(&here.tangent))) {
@@ -168,9 +172,9 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
     for (column, &j) in places.iter().enumerate().filter(|(_, j)| records[**j]) {
         let depends = (0..here.by_places.nrows())
             .any(|i| here.by_places[(i, column)].abs() > bounds.by_places[(i, column)]);
-        let drives = choice.followers.iter().enumerate().any(|(row, i)| {
-            let entry = here.followers_by_places[(row, column)].abs();
-            !records[*i] && entry > bounds.followers_by_places[(row, column)]
+        let drives = choice.rate_dependent.iter().enumerate().any(|(row, i)| {
+            let entry = here.rate_dependent_by_places[(row, column)].abs();
+            !records[*i] && entry > bounds.rate_dependent_by_places[(row, column)]
         });
         if depends || drives {
             return Err(Unsteady::Follows(j, because[j]));
@@ -194,7 +198,7 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
     let places = choice.places();
     let moving = choice.independent.len();
     let kept: Vec<usize> = (0..places.len()).filter(|c| !records[places[*c]]).collect();
-    let followers: Vec<usize> = kept
+    let rate_dependent: Vec<usize> = kept
         .iter()
         .filter(|c| **c >= moving)
         .map(|c| c - moving)
@@ -214,12 +218,12 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
     let c_bounds = &inverse * (&bounds.by_rates + &bounds.mass * c.abs());
     let column = |m: &DMatrix<f64>| DMatrix::from_fn(m.nrows(), kept.len(), |i, j| m[(i, kept[j])]);
     let p = column(&settled(
-        &here.followers_by_places,
-        &bounds.followers_by_places,
+        &here.rate_dependent_by_places,
+        &bounds.rate_dependent_by_places,
     ));
-    let p_bounds = column(&bounds.followers_by_places);
-    let b = DMatrix::from_fn(followers.len(), moving, |i, j| {
-        let row = choice.followers[followers[i]];
+    let p_bounds = column(&bounds.rate_dependent_by_places);
+    let b = DMatrix::from_fn(rate_dependent.len(), moving, |i, j| {
+        let row = choice.rate_dependent[rate_dependent[i]];
         let (x, bound) = (here.along[(row, j)], bounds.along[(row, j)]);
         if x.abs() <= bound { 0.0 } else { x }
     });
@@ -227,13 +231,15 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
     let linear = Linear {
         k: column(&k),
         c,
-        p: DMatrix::from_fn(followers.len(), kept.len(), |i, j| p[(followers[i], j)]),
+        p: DMatrix::from_fn(rate_dependent.len(), kept.len(), |i, j| {
+            p[(rate_dependent[i], j)]
+        }),
         b,
         k_bounds: DMatrix::from_fn(kept.len(), kept.len(), |i, j| {
             if i < moving {
                 k_bounds[(i, j)]
             } else {
-                p_bounds[(followers[i - moving], j)]
+                p_bounds[(rate_dependent[i - moving], j)]
             }
         }),
         c_bounds,

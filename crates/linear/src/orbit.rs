@@ -408,7 +408,7 @@ impl Search<'_> {
                 return Err(closed);
             }
             let sought = Sought {
-                start: self.opened(&x)?.ok_or(closed)?,
+                start: self.find_open_state(&x)?.ok_or(closed)?,
                 ..self.sought.clone()
             };
             let search = Search {
@@ -573,7 +573,7 @@ impl Search<'_> {
     /// A state on the motion from `x` at which no contact is closed, shifted to the time of the start: the middle of the
     /// longest such interval within a period or, where the period is not known, within a limited number of steps. `None`
     /// where there is none.
-    fn opened(&self, x: &DVector<f64>) -> Result<Option<State<Named>>, NoOrbit> {
+    fn find_open_state(&self, x: &DVector<f64>) -> Result<Option<State<Named>>, NoOrbit> {
         let failed = |error: lagrangian::Error| NoOrbit::Run(error.to_string());
         let start = self.named(x);
         let t = start.t;

@@ -63,19 +63,19 @@ pub struct Choice {
     /// I, the independent coordinates.
     pub independent: Vec<usize>,
     /// H, the coordinates determined by constraints of positions.
-    pub tied: Vec<usize>,
+    pub position_dependent: Vec<usize>,
     /// F, the coordinates of which only the rates are determined.
-    pub followers: Vec<usize>,
+    pub rate_dependent: Vec<usize>,
 }
 
 impl Choice {
     /// The coordinates that may be displaced freely, I and F.
     pub fn places(&self) -> Vec<usize> {
-        [self.independent.as_slice(), &self.followers].concat()
+        [self.independent.as_slice(), &self.rate_dependent].concat()
     }
 
     fn dependent(&self) -> Vec<usize> {
-        [self.tied.as_slice(), &self.followers].concat()
+        [self.position_dependent.as_slice(), &self.rate_dependent].concat()
     }
 }
 
@@ -130,7 +130,7 @@ pub struct Linearized {
     /// ∂r/∂s.
     pub by_rates: DMatrix<f64>,
     /// ∂v_F/∂z.
-    pub followers_by_places: DMatrix<f64>,
+    pub rate_dependent_by_places: DMatrix<f64>,
     /// T.
     pub along: DMatrix<f64>,
     /// H.
@@ -148,7 +148,7 @@ macro_rules! matrices {
             $($borrow)+ $of.as_balanced,
             $($borrow)+ $of.covariant,
             $($borrow)+ $of.by_rates,
-            $($borrow)+ $of.followers_by_places,
+            $($borrow)+ $of.rate_dependent_by_places,
             $($borrow)+ $of.along,
             $($borrow)+ $of.tangent,
         ]
@@ -479,14 +479,18 @@ impl<'a> Reduced<'a> {
             follows[j] = Some(i);
             order[usize::from(!self.holonomic[chosen[i].0])].push((chosen[i].0, j));
         }
-        let [tied, followers] = order;
-        let rows = tied.iter().chain(&followers).map(|(k, _)| *k).collect();
+        let [position_dependent, rate_dependent] = order;
+        let rows = position_dependent
+            .iter()
+            .chain(&rate_dependent)
+            .map(|(k, _)| *k)
+            .collect();
         let coordinates = |list: Vec<(usize, usize)>| list.into_iter().map(|(_, j)| j).collect();
         Ok(Choice {
             rows,
             independent: (0..n).filter(|j| follows[*j].is_none()).collect(),
-            tied: coordinates(tied),
-            followers: coordinates(followers),
+            position_dependent: coordinates(position_dependent),
+            rate_dependent: coordinates(rate_dependent),
         })
     }
 
@@ -723,7 +727,7 @@ impl<'a> Reduced<'a> {
         for (column, &j) in tangent.iter_mut().zip(&places) {
             column[j] = DoubleDouble::ONE;
         }
-        let held = choice.tied.len();
+        let held = choice.position_dependent.len();
         if held > 0 {
             let zero = vec![Number::ZERO; n];
             let rows = self.call(Role::ConstraintMatrix, (q, &zero), m * n, self.time);
@@ -731,9 +735,12 @@ impl<'a> Reduced<'a> {
                 let row = |k: &usize| list.iter().map(|j| sign * rows[k * n + j]).collect();
                 choice.rows[..held].iter().map(row).collect()
             };
-            let solved = solve(pick(&choice.tied, Number::ONE), pick(&places, -Number::ONE));
-            let solved = solved.map_err(|_| Fault::Singular(choice.tied[0]))?;
-            for (row, &j) in solved.into_iter().zip(&choice.tied) {
+            let solved = solve(
+                pick(&choice.position_dependent, Number::ONE),
+                pick(&places, -Number::ONE),
+            );
+            let solved = solved.map_err(|_| Fault::Singular(choice.position_dependent[0]))?;
+            for (row, &j) in solved.into_iter().zip(&choice.position_dependent) {
                 for (column, x) in tangent.iter_mut().zip(row) {
                     column[j] = x.value;
                 }
@@ -763,7 +770,7 @@ impl<'a> Reduced<'a> {
             as_balanced: DMatrix::zeros(count, places),
             covariant: DMatrix::zeros(count, places),
             by_rates: DMatrix::zeros(count, count),
-            followers_by_places: DMatrix::zeros(choice.followers.len(), places),
+            rate_dependent_by_places: DMatrix::zeros(choice.rate_dependent.len(), places),
             along,
             tangent: DMatrix::from_fn(n, places, |i, j| tangent[j][i].hi()),
         };
@@ -797,8 +804,8 @@ impl<'a> Reduced<'a> {
             let change = DMatrix::from_fn(n, n, |i, j| slope(&there.mass[i * n + j]));
             bent.set_column(column, &(&change * b.column(0)));
             along_b += change * along_z[column];
-            for (i, &j) in choice.followers.iter().enumerate() {
-                linearized.followers_by_places[(i, column)] = slope(&there.rates[j]);
+            for (i, &j) in choice.rate_dependent.iter().enumerate() {
+                linearized.rate_dependent_by_places[(i, column)] = slope(&there.rates[j]);
             }
         }
         let (along, tangent) = (linearized.along.transpose(), &linearized.tangent);

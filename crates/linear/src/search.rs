@@ -142,7 +142,7 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
         }
         if steps - least_at >= STALLED && stalls < MOST_STALLS {
             for _ in 0..FALLS_AT_ONCE {
-                match here.fallen_by(reduced, &here.scaled, &mut rates, wanted) {
+                match here.displaced_by_forces(reduced, &here.scaled, &mut rates, wanted) {
                     Some(there) => here = there,
                     None => break,
                 }
@@ -150,8 +150,8 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
             (least, least_at, stalls) = (f64::INFINITY, steps, stalls + 1);
         }
         // As for a pendulum held level: the stiffness gives no direction, only the force does.
-        if falls < MOST_FALLS && here.is_stuck() {
-            match here.fallen(reduced, &mut rates, wanted) {
+        if falls < MOST_FALLS && here.is_dominated_by_irreducible_forces() {
+            match here.point_after_fall(reduced, &mut rates, wanted) {
                 Some(there) => {
                     (here, falls) = (there, falls + 1);
                     continue;
@@ -190,11 +190,11 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
         }
         match next {
             Some(next) => (here, rates) = next,
-            None if here.left_over().is_some() => return here.settled(steps),
+            None if here.largest_irreducible_force().is_some() => return here.settled(steps),
             None => return Err(fault.unwrap_or(Lost::NoEnd(steps))),
         }
     }
-    if here.is_stuck() {
+    if here.is_dominated_by_irreducible_forces() {
         here.settled(wanted.steps)
     } else {
         Err(Lost::NoEnd(wanted.steps))
@@ -415,7 +415,7 @@ impl Point {
             *q = *q + DoubleDouble::from(part * x);
         }
         // Coordinates that are given or that stay are not moved by the projection onto the constraints.
-        let gives = |j: usize| displaced[j] != 0.0 || self.choice.tied.contains(&j);
+        let gives = |j: usize| displaced[j] != 0.0 || self.choice.position_dependent.contains(&j);
         let alone = q.clone();
         if reduced.project_near(&mut q, &gives).is_err() {
             q = alone;
@@ -452,19 +452,20 @@ impl Point {
     }
 
     /// Whether forces that no step can remove are most of the remaining forces.
-    fn is_stuck(&self) -> bool {
-        self.left_over().is_some() && self.remaining().norm() >= 0.5 * self.scaled.norm()
+    fn is_dominated_by_irreducible_forces(&self) -> bool {
+        self.largest_irreducible_force().is_some()
+            && self.remaining().norm() >= 0.5 * self.scaled.norm()
     }
 
     /// The point after a fall along the forces that no step can remove, provided that these change there.
-    fn fallen(
+    fn point_after_fall(
         &self,
         reduced: &mut Reduced<'_>,
         rates: &mut [f64],
         wanted: &Wanted,
     ) -> Option<Point> {
-        self.left_over()?;
-        let there = self.fallen_by(reduced, &self.remaining(), rates, wanted)?;
+        self.largest_irreducible_force()?;
+        let there = self.displaced_by_forces(reduced, &self.remaining(), rates, wanted)?;
         let is_other = there.choice != self.choice || {
             let (now, then) = (&self.here.forces, &there.here.forces);
             let bounds = &self.bounds.forces + &there.bounds.forces;
@@ -474,7 +475,7 @@ impl Point {
     }
 
     /// The point to which the forces pull the machine.
-    fn fallen_by(
+    fn displaced_by_forces(
         &self,
         reduced: &mut Reduced<'_>,
         forces: &DVector<f64>,
@@ -509,7 +510,7 @@ impl Point {
     }
 
     /// Of the forces that no step can remove, the one furthest from zero, if any exceeds round-off.
-    fn left_over(&self) -> Option<usize> {
+    fn largest_irreducible_force(&self) -> Option<usize> {
         let left = self.remaining();
         // A force that cancels in one coordinate may leave round-off in another one that is coupled to it.
         let together = self.rounding.norm();
@@ -527,7 +528,7 @@ impl Point {
 
     /// The result at the end of the search, if forces are in balance there.
     fn settled(self, steps: usize) -> Result<Found, Lost> {
-        if let Some(worst) = self.left_over() {
+        if let Some(worst) = self.largest_irreducible_force() {
             let a = self.lower.transpose().solve_upper_triangular(&self.scaled);
             let a = a.unwrap_or_else(|| self.scaled.clone());
             // Through inertia the force may show as the acceleration of another coordinate.

@@ -304,12 +304,12 @@ fn amplitudes(
         return rates;
     }
     let complex = |m: DMatrix<f64>| m.map(|x| Complex::new(x, 0.0));
-    let followers = n - moving;
-    let own = complex(linear.p.columns(moving, followers).into_owned());
+    let rate_dependent = n - moving;
+    let own = complex(linear.p.columns(moving, rate_dependent).into_owned());
     let from_places = complex(linear.p.columns(0, moving).into_owned()) * &rates;
     // The equation multiplied by λ.
     let pull = from_places + complex(linear.b.clone()) * &rates * lambda;
-    let matrix = DMatrix::from_diagonal_element(followers, followers, lambda) - own;
+    let matrix = DMatrix::from_diagonal_element(rate_dependent, rate_dependent, lambda) - own;
     let solved = matrix.lu().solve(&pull);
     match solved.filter(|y| y.iter().all(|y| y.is_finite()) && rates.norm() > 1e-9 * right.norm()) {
         Some(y) => DVector::from_fn(n, |i, _| if i < moving { rates[i] } else { y[i - moving] }),

@@ -153,13 +153,13 @@ impl NoMotion {
         options: Options,
     ) -> String {
         match self {
-            NoMotion::Lost(lost) => why_lost(system, wanted, lost, options),
-            NoMotion::Unsteady(unsteady) => why_unsteady(system, unsteady, options),
+            NoMotion::Lost(lost) => reason_search_failed(system, wanted, lost, options),
+            NoMotion::Unsteady(unsteady) => reason_unsteady(system, unsteady, options),
         }
     }
 }
 
-fn why_unsteady(system: &InterpretedSystem, unsteady: &Unsteady, options: Options) -> String {
+fn reason_unsteady(system: &InterpretedSystem, unsteady: &Unsteady, options: Options) -> String {
     let name = |index: &usize| name(system, *index);
     match unsteady {
         Unsteady::Depends(index) => format!(
@@ -206,7 +206,12 @@ impl Fault {
     }
 }
 
-fn why_lost(system: &InterpretedSystem, wanted: &Wanted, lost: &Lost, options: Options) -> String {
+fn reason_search_failed(
+    system: &InterpretedSystem,
+    wanted: &Wanted,
+    lost: &Lost,
+    options: Options,
+) -> String {
     let Options { start, steady } = options;
     let kind = if wanted.steady.contains(&true) {
         "steady motion"

@@ -482,7 +482,7 @@ impl Sweep {
                     self.outcome(*run, (&solution, error), begun.watched, failed)
                 }
                 Err(error) => {
-                    let error = Some(verdict::said(&error));
+                    let error = Some(verdict::message_of(&error));
                     Some(Outcome { error, ..failed })
                 }
             }
@@ -635,7 +635,7 @@ impl Sweep {
         if *solution.ending() == Ending::Stopped {
             return None;
         }
-        let error = error.as_ref().map(verdict::said);
+        let error = error.as_ref().map(verdict::message_of);
         outcome.error = error.or_else(|| verdict::objection(solution));
         outcome.status = match (&outcome.error, solution.ending()) {
             (Some(_), _) => "failed".to_owned(),

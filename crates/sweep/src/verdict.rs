@@ -9,7 +9,7 @@ use crate::shortest;
 const MOST_MISSING: f64 = 1e-3;
 
 /// The reason why a run ended, in the words of the command.
-pub fn said(error: &Error) -> String {
+pub fn message_of(error: &Error) -> String {
     match error {
         // The library's message names its own method.
         Error::TooManySteps { .. } => error.to_string().replace("`max_steps`", "--max-steps"),

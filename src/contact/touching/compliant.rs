@@ -10,13 +10,13 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::{Here, Margin, Mode, Touching};
+use super::{ContactKinematics, Margin, Mode, UnilateralState};
 use crate::balance::PartOfContact;
 use crate::{Compliance, ContactEnergies, System};
 
 /// The law of a contact that yields, and what it remembers.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Yielding {
+pub(super) struct ComplianceState {
     law: Compliance,
     /// Of a layer: how deep it was pressed at most, in m, and whether it is loaded further now.
     depth: f64,
@@ -25,7 +25,7 @@ pub(super) struct Yielding {
 
 /// A contact that yields at a state.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pressed {
+pub(super) struct CompliantForce {
     /// By its formula, in N; negative where it would pull.
     pub force: f64,
     /// In J.
@@ -42,12 +42,12 @@ pub(crate) struct Clearance {
     /// How fast the gap opens, in m/s.
     pub rate: f64,
     /// Whether `rate` is that of `value`.
-    pub is_of_gap: bool,
+    pub is_rate_of_value: bool,
 }
 
-impl Yielding {
-    pub fn new(law: Compliance) -> Yielding {
-        Yielding {
+impl ComplianceState {
+    pub fn new(law: Compliance) -> ComplianceState {
+        ComplianceState {
             law,
             depth: 0.0,
             is_loaded: false,
@@ -55,15 +55,15 @@ impl Yielding {
     }
 
     /// The thickness of a layer that has been lost.
-    fn lost_thickness(self, [loading, unloading]: [f64; 2]) -> f64 {
+    fn crushed_thickness(self, [loading, unloading]: [f64; 2]) -> f64 {
         self.depth * (1.0 - loading / unloading)
     }
 
-    fn pressed(self, parameters: [f64; 2], [depth, rate]: [f64; 2]) -> Pressed {
+    fn compliant_force(self, parameters: [f64; 2], [depth, rate]: [f64; 2]) -> CompliantForce {
         let [first, second] = parameters;
         let root = depth.abs().sqrt();
         match self.law {
-            Compliance::Linear => Pressed {
+            Compliance::Linear => CompliantForce {
                 force: first * depth + second * rate,
                 stored: 0.5 * first * depth * depth,
                 lost: second * rate * rate,
@@ -71,7 +71,7 @@ impl Yielding {
             Compliance::Hertz | Compliance::HuntCrossley => {
                 // The second parameter of Hertz's law is 0.
                 let force = first * depth * root;
-                Pressed {
+                CompliantForce {
                     force: force * (1.0 + second * rate),
                     stored: 0.4 * force * depth,
                     lost: force * second * rate * rate,
@@ -79,15 +79,15 @@ impl Yielding {
             }
             Compliance::Layer if self.is_loaded => {
                 let force = first * depth;
-                Pressed {
+                CompliantForce {
                     force,
                     stored: 0.5 * force * force / second,
                     lost: force * rate * (1.0 - first / second),
                 }
             }
             Compliance::Layer => {
-                let yielded = depth - self.lost_thickness(parameters);
-                Pressed {
+                let yielded = depth - self.crushed_thickness(parameters);
+                CompliantForce {
                     force: second * yielded,
                     stored: 0.5 * second * yielded * yielded,
                     lost: 0.0,
@@ -100,7 +100,7 @@ impl Yielding {
     fn missing(self, parameters: [f64; 2], [depth, rate]: [f64; 2]) -> f64 {
         let [first, second] = parameters;
         match self.law {
-            Compliance::Layer if !self.is_loaded => self.lost_thickness(parameters) - depth,
+            Compliance::Layer if !self.is_loaded => self.crushed_thickness(parameters) - depth,
             Compliance::Linear if depth > 0.0 => -depth.min(depth + second / first * rate),
             Compliance::HuntCrossley if depth > 0.0 => -depth * (1.0 + second * rate).min(1.0),
             _ => -depth,
@@ -108,49 +108,61 @@ impl Yielding {
     }
 }
 
-impl Touching {
+impl UnilateralState {
     /// Whether a contact yields.
-    pub fn yields(&self, contact: usize) -> bool {
-        self.yielding[contact].is_some()
+    pub fn is_compliant(&self, contact: usize) -> bool {
+        self.compliance[contact].is_some()
     }
 
     /// Whether it is a layer that is crushed.
     pub(in crate::contact) fn is_layer(&self, contact: usize) -> bool {
-        self.yielding[contact].is_some_and(|own| own.law == Compliance::Layer)
+        self.compliance[contact].is_some_and(|own| own.law == Compliance::Layer)
     }
 
     /// Force and energies of a contact that yields and is closed.
-    pub(super) fn pressed(&self, here: &Here, contact: usize) -> Option<Pressed> {
-        let own = self.yielding[contact]?;
+    pub(super) fn compliant_force(
+        &self,
+        here: &ContactKinematics,
+        contact: usize,
+    ) -> Option<CompliantForce> {
+        let own = self.compliance[contact]?;
         let is_closed = self.modes()[contact] != Mode::Open;
-        is_closed.then(|| own.pressed(here.restitution(contact), here.depth(contact)))
+        is_closed.then(|| own.compliant_force(here.restitution(contact), here.depth(contact)))
     }
 
     /// Force and energies of a contact that yields and is about to close.
-    pub(super) fn pressing(&self, here: &Here, contact: usize) -> Option<Pressed> {
-        let own = self.yielding[contact]?;
-        Some(own.pressed(here.restitution(contact), here.depth(contact)))
+    pub(super) fn compliant_force_at_closing(
+        &self,
+        here: &ContactKinematics,
+        contact: usize,
+    ) -> Option<CompliantForce> {
+        let own = self.compliance[contact]?;
+        Some(own.compliant_force(here.restitution(contact), here.depth(contact)))
     }
 
     /// How far a contact is from closing, or how far it is closed.
-    pub(in crate::contact) fn clearance(&self, here: &Here, contact: usize) -> Clearance {
+    pub(in crate::contact) fn clearance(
+        &self,
+        here: &ContactKinematics,
+        contact: usize,
+    ) -> Clearance {
         let gap = here.gaps[contact];
         let rate = match here.on_face(contact) {
             Some(face) if face.beyond > face.height => face.beyond_rate,
             _ => here.rates[2 * contact],
         };
-        let Some(own) = self.yielding[contact] else {
+        let Some(own) = self.compliance[contact] else {
             return Clearance {
                 value: gap,
                 rate,
-                is_of_gap: true,
+                is_rate_of_value: true,
             };
         };
         let value = own.missing(here.restitution(contact), here.depth(contact));
         Clearance {
             value,
             rate,
-            is_of_gap: gap >= -here.gap_rounding(contact) || own.law == Compliance::Layer,
+            is_rate_of_value: gap >= -here.gap_rounding(contact) || own.law == Compliance::Layer,
         }
     }
 
@@ -160,8 +172,8 @@ impl Touching {
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
     ) -> Vec<Clearance> {
-        if !self.any_yields() {
-            let m = self.yielding.len();
+        if !self.any_is_compliant() {
+            let m = self.compliance.len();
             let (mut gaps, mut rates) = (vec![0.0; m], vec![0.0; 2 * m]);
             system.gaps(t, q, &mut gaps);
             system.contact_rates(t, q, v, &mut rates);
@@ -169,7 +181,7 @@ impl Touching {
             let of_gap = |(value, rates): (f64, &[f64])| Clearance {
                 value,
                 rate: rates[0],
-                is_of_gap: true,
+                is_rate_of_value: true,
             };
             let mut all: Vec<Clearance> = pairs.map(of_gap).collect();
             for (own, face) in all.iter_mut().zip(super::faces(system, (t, q, v))) {
@@ -179,15 +191,15 @@ impl Touching {
             }
             return all;
         }
-        let here = Here::of(system, t, q, v);
+        let here = ContactKinematics::of(system, t, q, v);
         (0..here.gaps.len())
             .map(|k| self.clearance(&here, k))
             .collect()
     }
 
     /// Whether any contact yields.
-    pub fn any_yields(&self) -> bool {
-        self.yielding.iter().any(Option::is_some)
+    pub fn any_is_compliant(&self) -> bool {
+        self.compliance.iter().any(Option::is_some)
     }
 
     /// What contacts that yield hold, in J.
@@ -203,20 +215,24 @@ impl Touching {
         q: &S::Vector,
         v: &S::Vector,
     ) -> Vec<f64> {
-        if !self.any_yields() || self.is_free() {
+        if !self.any_is_compliant() || self.is_free() {
             return Vec::new();
         }
-        let here = Here::of(system, t, q, v);
-        let of_each = (0..self.yielding.len()).map(|k| self.pressed(&here, k));
+        let here = ContactKinematics::of(system, t, q, v);
+        let of_each = (0..self.compliance.len()).map(|k| self.compliant_force(&here, k));
         of_each
             .map(|pressed| pressed.map_or(0.0, |pressed| pressed.stored))
             .collect()
     }
 
     /// The work that has crushed the layer of a contact so far, in J; 0 where it has none.
-    pub(in crate::contact) fn crushing_work(&self, here: &Here, contact: usize) -> f64 {
+    pub(in crate::contact) fn crushing_work(
+        &self,
+        here: &ContactKinematics,
+        contact: usize,
+    ) -> f64 {
         let [loading, unloading] = here.restitution(contact);
-        match self.yielding[contact] {
+        match self.compliance[contact] {
             Some(own) if own.law == Compliance::Layer => {
                 let depth = if own.is_loaded {
                     own.depth.max(here.depth(contact)[0])
@@ -243,7 +259,7 @@ impl Touching {
             damping_loss: if self.is_layer(contact) {
                 0.0
             } else {
-                part.yielding
+                part.compliance_loss
             },
             crushing_work,
             work: part.work,
@@ -256,18 +272,22 @@ impl Touching {
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
     ) -> Vec<f64> {
-        if !(0..self.yielding.len()).any(|k| self.is_layer(k)) {
-            return vec![0.0; self.yielding.len()];
+        if !(0..self.compliance.len()).any(|k| self.is_layer(k)) {
+            return vec![0.0; self.compliance.len()];
         }
-        let here = Here::of(system, t, q, v);
-        (0..self.yielding.len())
+        let here = ContactKinematics::of(system, t, q, v);
+        (0..self.compliance.len())
             .map(|k| self.crushing_work(&here, k))
             .collect()
     }
 
     /// Whether it goes on being pressed, and being loaded or unloaded as it is, of a contact that yields.
-    pub(super) fn margins_of_yielding(&self, here: &Here, contact: usize) -> Option<[Margin; 2]> {
-        let own = self.yielding[contact]?;
+    pub(super) fn margins_of_compliance(
+        &self,
+        here: &ContactKinematics,
+        contact: usize,
+    ) -> Option<[Margin; 2]> {
+        let own = self.compliance[contact]?;
         let parameters = here.restitution(contact);
         let (depth, rounding) = (here.depth(contact), here.gap_rounding(contact));
         let rate_rounding = here.rate_rounding(2 * contact);
@@ -297,10 +317,10 @@ impl Touching {
     /// Layers that are penetrated have been loaded to where they are, those that close now are loaded from where they
     /// were left.
     pub fn load_layers<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
-        let here = Here::of(system, t, q, v);
-        for k in 0..self.yielding.len() {
+        let here = ContactKinematics::of(system, t, q, v);
+        for k in 0..self.compliance.len() {
             let is_closed = self.modes()[k] != Mode::Open;
-            let Some(own) = &mut self.yielding[k] else {
+            let Some(own) = &mut self.compliance[k] else {
                 continue;
             };
             let [depth, rate] = here.depth(k);
@@ -319,14 +339,14 @@ impl Touching {
     }
 
     /// A layer is unloaded that was loaded, or the other way round; what it does now.
-    pub fn turn_layer<S: System>(
+    pub fn switch_layer<S: System>(
         &mut self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
         contact: usize,
     ) -> bool {
-        let here = Here::of(system, t, q, v);
-        let Some(own) = &mut self.yielding[contact] else {
+        let here = ContactKinematics::of(system, t, q, v);
+        let Some(own) = &mut self.compliance[contact] else {
             return false;
         };
         if own.is_loaded {
@@ -338,11 +358,11 @@ impl Touching {
 
     /// Which layers are loaded further.
     pub fn loaded(&self) -> impl Iterator<Item = bool> {
-        (self.yielding.iter()).map(|own| own.is_some_and(|own| own.is_loaded))
+        (self.compliance.iter()).map(|own| own.is_some_and(|own| own.is_loaded))
     }
 }
 
-impl Here {
+impl ContactKinematics {
     /// How deep a contact is penetrated, and how fast that grows.
     fn depth(&self, contact: usize) -> [f64; 2] {
         [-self.gaps[contact], -self.rates[2 * contact]]
@@ -363,13 +383,13 @@ mod tests {
             (Compliance::HuntCrossley, [500.0, 0.3]),
             (Compliance::Layer, [200.0, 500.0]),
         ] {
-            let mut own = Yielding::new(law);
+            let mut own = ComplianceState::new(law);
             own.is_loaded = law == Compliance::Layer;
             // d = 0.1 sin t, from 0 to a quarter of a turn.
             let steps = 20_000_u32;
             let at = |i: u32| {
                 let t = core::f64::consts::FRAC_PI_2 * f64::from(i) / f64::from(steps);
-                own.pressed(parameters, [0.1 * t.sin(), 0.1 * t.cos()])
+                own.compliant_force(parameters, [0.1 * t.sin(), 0.1 * t.cos()])
             };
             let by = core::f64::consts::FRAC_PI_2 / f64::from(steps);
             let (mut given, mut lost) = (0.0, 0.0);

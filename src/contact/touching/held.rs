@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::{Mode, Touching, faces};
+use super::{Mode, UnilateralState, faces};
 use crate::forward::forward;
 use crate::{Constraint, System, UnilateralContact, Vector};
 
@@ -16,7 +16,7 @@ pub(crate) struct Held<'a, S> {
 }
 
 impl<'a, S: System> Held<'a, S> {
-    pub fn new(system: &'a S, touching: &'a Touching) -> Self {
+    pub fn new(system: &'a S, touching: &'a UnilateralState) -> Self {
         Held {
             system,
             directions: touching.held(),
@@ -67,15 +67,15 @@ impl<'a, S: System> Held<'a, S> {
     }
 }
 
-impl Touching {
+impl UnilateralState {
     /// Which directions are held: 2k for the normal of the contact k, and 2k + 1 for its tangent.
     pub(super) fn held_directions(&self, modes: &[Mode]) -> Vec<usize> {
         let mut held = Vec::new();
         for (k, mode) in modes.iter().enumerate() {
-            if *mode != Mode::Open && !self.yields(k) && self.leans(k).is_none() {
+            if *mode != Mode::Open && !self.is_compliant(k) && self.carrier(k).is_none() {
                 held.push(2 * k);
             }
-            if *mode == Mode::Sticks && self.rubs(k) {
+            if *mode == Mode::Sticks && self.has_friction(k) {
                 held.push(2 * k + 1);
             }
         }

@@ -167,7 +167,7 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
 
 /// Detects when an iteration has converged to rounding, from the squares of its changes in the metric of inertia.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rounds {
+pub(super) struct ConvergenceTest {
     count: usize,
     before: f64,
 }
@@ -178,7 +178,7 @@ const MOST_ROUNDS: usize = 100;
 /// The iteration may end once the square of a change is below this relative to the rates; it ends when changes no longer decrease.
 const CLOSE: f64 = 1e-22;
 
-impl Rounds {
+impl ConvergenceTest {
     pub const NONE: Self = Self {
         count: 0,
         before: f64::INFINITY,

@@ -11,7 +11,7 @@
 
 use std::vec::Vec;
 
-use super::canonical::{Canonical, Rounds};
+use super::canonical::{Canonical, ConvergenceTest};
 use super::{Fixed, Stepper, add, check_finite};
 use crate::balance::Quadratures;
 use crate::methods::Method;
@@ -94,7 +94,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 *rate += tableau.c[i + 1] * h * a;
             }
         }
-        let mut rounds = Rounds::NONE;
+        let mut rounds = ConvergenceTest::NONE;
         loop {
             for (i, (place, force)) in places.iter_mut().zip(&mut *forces).enumerate() {
                 for j in 0..n {

@@ -28,7 +28,7 @@ const LEFT: f64 = 0.01;
 const ROUNDOFF: f64 = 8.0;
 
 /// An iteration that leaves more than this fraction of the change stagnates.
-const STANDS: f64 = 0.5;
+const STAGNATES: f64 = 0.5;
 
 /// State that the method keeps from step to step.
 #[derive(Clone, Debug)]
@@ -257,7 +257,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             if !size.is_finite() {
                 return Ok(false);
             }
-            let stands = round > 2 && size > STANDS * size_before;
+            let stands = round > 2 && size > STAGNATES * size_before;
             if size <= 1.0 || (stands && LEFT * size <= 1.0) {
                 return Ok(true);
             }

@@ -11,7 +11,7 @@
 
 use std::vec::Vec;
 
-use super::canonical::{Canonical, Rounds};
+use super::canonical::{Canonical, ConvergenceTest};
 use super::gauss::dot;
 use super::{Fixed, Stepper, add};
 use crate::balance::Quadratures;
@@ -188,7 +188,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             *rate += half * a;
         }
         there.clone_from(here);
-        let mut rounds = Rounds::NONE;
+        let mut rounds = ConvergenceTest::NONE;
         loop {
             model.set_inputs(before.t, &before.q, here);
             let system = model.system.get();

@@ -270,7 +270,9 @@ impl<'e> Reader<'_, '_, 'e> {
                 if std::mem::take(number).is_zero() {
                     continue;
                 }
-                let at = self.said(item, name).map_or(element.at, |said| said.at);
+                let at = self
+                    .attribute_of(item, name)
+                    .map_or(element.at, |said| said.at);
                 let message = format!(
                     "`{name}` of {} is that of a {label} joint, which is not read",
                     item.owner
@@ -319,7 +321,7 @@ impl<'e> Reader<'_, '_, 'e> {
 
     /// Whether a range is enforced.
     pub(super) fn is_limited(&mut self, item: &Item<'e>, flag: &str, range: &str) -> bool {
-        let has_range = self.said(item, range).is_some();
+        let has_range = self.attribute_of(item, range).is_some();
         let otherwise = has_range && self.compiler.finds_limits;
         self.flag(item, flag).unwrap_or(otherwise) && has_range
     }
@@ -498,7 +500,7 @@ impl<'e> Reader<'_, '_, 'e> {
         ) {
             return None;
         }
-        if self.said(item, "mesh").is_some() {
+        if self.attribute_of(item, "mesh").is_some() {
             return None;
         }
         let mut size: Vec<f64> = match self.list(item, "size") {

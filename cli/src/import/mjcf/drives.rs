@@ -5,7 +5,7 @@ use super::*;
 impl<'e> Reader<'_, '_, 'e> {
     /// The joint that an attribute names.
     fn named(&mut self, item: &Item<'e>, name: &str) -> Option<usize> {
-        let attribute = self.said(item, name)?;
+        let attribute = self.attribute_of(item, name)?;
         let found = self.joints.get(&attribute.value).copied();
         if found.is_none() {
             let message = format!(
@@ -40,12 +40,12 @@ impl<'e> Reader<'_, '_, 'e> {
             "springlength",
         ];
         for name in acts {
-            if let Some(said) = self.said(&item, name)
+            if let Some(said) = self.attribute_of(&item, name)
                 && said
                     .value
                     .split_whitespace()
                     .any(|number| number.parse() != Ok(0.0))
-                && (name != "springlength" || self.said(&item, "stiffness").is_some())
+                && (name != "springlength" || self.attribute_of(&item, "stiffness").is_some())
             {
                 let message = format!("`{name}` of the tendon {} is not read", item.owner);
                 return self.refuse(element.at, "tendon", &message);
@@ -69,11 +69,11 @@ impl<'e> Reader<'_, '_, 'e> {
         }
         let item = self.item(element, 0);
         self.only(element, &item.owner, kind);
-        let place = match self.said(&item, "joint") {
+        let place = match self.attribute_of(&item, "joint") {
             Some(_) => "joint",
             None => "jointinparent",
         };
-        if self.said(&item, place).is_none() {
+        if self.attribute_of(&item, place).is_none() {
             let message = format!("{} moves no joint, and is not read", item.owner);
             return self.refuse(element.at, kind, &message);
         }
@@ -113,7 +113,7 @@ impl<'e> Reader<'_, '_, 'e> {
 
     /// MuJoCo has a single default for actuators of all kinds, which each kind modifies in turn. If classes set attributes of
     /// several kinds, an actuator must give the attributes of its force itself.
-    fn says_itself(&mut self, item: &Item<'e>, kind: &str, needed: &[&str]) -> bool {
+    fn sets_own_force(&mut self, item: &Item<'e>, kind: &str, needed: &[&str]) -> bool {
         let tags = self.classes.tags(item.class, &DRIVES);
         let is_clear =
             tags.iter().all(|tag| *tag == kind) || tags.iter().all(|tag| *tag == "motor");
@@ -147,7 +147,7 @@ impl<'e> Reader<'_, '_, 'e> {
             "position" => &["kp", "kv"],
             _ => &["gainprm", "biastype", "biasprm"],
         };
-        if !self.says_itself(item, kind, needed) {
+        if !self.sets_own_force(item, kind, needed) {
             return None;
         }
         match kind {
@@ -156,7 +156,7 @@ impl<'e> Reader<'_, '_, 'e> {
                 damping: number(self, "kv", 1.0),
             }),
             "position" => {
-                if let Some(said) = self.said(item, "dampratio")
+                if let Some(said) = self.attribute_of(item, "dampratio")
                     && said.value.parse() != Ok(0.0)
                 {
                     let message = format!("`dampratio` of {} is not read: write `kv`", item.owner);
@@ -178,7 +178,7 @@ impl<'e> Reader<'_, '_, 'e> {
             ("gaintype", &["fixed"]),
             ("biastype", &["none", "affine"]),
         ] {
-            if let Some(said) = self.said(item, name)
+            if let Some(said) = self.attribute_of(item, name)
                 && !fine.contains(&said.value.as_str())
             {
                 let message = format!(
@@ -239,14 +239,14 @@ impl<'e> Reader<'_, '_, 'e> {
         if self.flag(&item, "active") == Some(false) {
             return self.count("inactive `equality` of joint");
         }
-        if self.said(&item, "joint1").is_none() {
+        if self.attribute_of(&item, "joint1").is_none() {
             let message = format!("{} does not say which joint: write `joint1`", item.owner);
             return self.faults.add(element.at, message);
         }
         let Some(follower) = self.named(&item, "joint1") else {
             return;
         };
-        let leader = match self.said(&item, "joint2") {
+        let leader = match self.attribute_of(&item, "joint2") {
             None => None,
             Some(_) => match self.named(&item, "joint2") {
                 None => return,

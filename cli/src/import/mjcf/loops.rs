@@ -42,7 +42,7 @@ impl<'e> Reader<'_, '_, 'e> {
 
     /// The body that an attribute names, or the world.
     fn body_of(&mut self, item: &Item<'e>, name: &str) -> Option<(String, Rest)> {
-        let (body, at) = match self.said(item, name) {
+        let (body, at) = match self.attribute_of(item, name) {
             Some(said) => (said.value.clone(), said.at),
             None => ("world".to_owned(), item.element.at),
         };
@@ -77,7 +77,7 @@ impl<'e> Reader<'_, '_, 'e> {
             return self.count(&format!("inactive `equality` of {kind}"));
         }
         for name in ["site1", "site2"] {
-            if let Some(said) = self.said(&item, name) {
+            if let Some(said) = self.attribute_of(&item, name) {
                 let message = format!(
                     "`{name}` of {} is not read: write `body1`, `body2` and `anchor`",
                     item.owner
@@ -91,7 +91,7 @@ impl<'e> Reader<'_, '_, 'e> {
             &["body1", "anchor"]
         };
         for name in needed {
-            if self.said(&item, name).is_none() {
+            if self.attribute_of(&item, name).is_none() {
                 let message = format!("{} lacks `{name}`", item.owner);
                 return self.faults.add(element.at, message);
             }

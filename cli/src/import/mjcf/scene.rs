@@ -234,8 +234,8 @@ impl<'e> Classes<'e> {
         while let Some(class) = at {
             let class = &self.list[class];
             let of_tag = |element: &&&'e Element| tags.contains(&element.name.as_str());
-            let mut said = class.elements.iter().rev().filter(of_tag);
-            if let Some(found) = said.find_map(|element| element.own(name)) {
+            let mut matching = class.elements.iter().rev().filter(of_tag);
+            if let Some(found) = matching.find_map(|element| element.own(name)) {
                 return Some(found);
             }
             at = class.above;

@@ -14,7 +14,7 @@
 
 use super::Terrain;
 use super::budget::Budget;
-use super::descent::{Walk, Way};
+use super::descent::{Polygon, Traversal};
 use super::hamiltonian::Driven;
 use super::pontryagin::Pontryagin;
 use super::rule::{POINTS, Rule, sloping, through};
@@ -56,7 +56,7 @@ pub struct Stage {
 }
 
 /// A point of a motion for which multipliers are not known yet.
-struct Passed {
+struct PointWithoutMultipliers {
     q: Vec<f64>,
     w: f64,
     z: Vec<f64>,
@@ -166,17 +166,17 @@ impl Path {
     /// For a motion that ends at rest λ is 0 half-way instead. Then p follows from H = 1 and ∂H/∂z = 0.
     pub fn along<T: Terrain>(
         system: &Driven<T>,
-        way: &Way,
-        walk: &Walk,
+        polygon: &Polygon,
+        traversal: &Traversal,
         (stretches, level): (usize, Option<Level>),
     ) -> Option<Path> {
         let (n, m) = (system.n(), system.states());
-        let time = walk.time();
+        let time = traversal.time();
         let mut known: Vec<(f64, Vec<f64>)> = Vec::new();
         let mut t = 0.0;
-        for (place, piece) in way.places[1..].iter().zip(&walk.times) {
+        for (place, piece) in polygon.places[1..].iter().zip(&traversal.times) {
             t += piece;
-            let ahead = place.iter().zip(&way.places[0]);
+            let ahead = place.iter().zip(&polygon.places[0]);
             known.push((t, ahead.map(|(q, from)| (q - from) / (t * t)).collect()));
         }
         let near = |t: f64| -> Vec<(f64, &[f64])> {
@@ -196,11 +196,11 @@ impl Path {
         });
         let moments: Vec<f64> = moments.chain([time]).collect();
         let mut before = 0.0;
-        let mut states: Vec<Passed> = Vec::new();
+        let mut states: Vec<PointWithoutMultipliers> = Vec::new();
         for t in &moments {
             let u = sloping(&near(*t), *t);
             let q: Vec<f64> = (0..n)
-                .map(|i| way.places[0][i] + t * t * u[i].value)
+                .map(|i| polygon.places[0][i] + t * t * u[i].value)
                 .collect();
             // Dividing the rate by t keeps its direction, also at t = 0.
             let v = u.iter().map(|u| 2.0 * u.value + t * u.derivative);
@@ -224,7 +224,7 @@ impl Path {
                 alone[n] = 0.0;
             }
             let (force, slopes) = system.slopes(&y, &alone);
-            states.push(Passed {
+            states.push(PointWithoutMultipliers {
                 q,
                 w,
                 z,
@@ -261,7 +261,7 @@ impl Path {
         }
         let mut found: Vec<Stage> = Vec::new();
         for k in (0..moments.len()).rev() {
-            let Passed { q, w, z, .. } = &states[k];
+            let PointWithoutMultipliers { q, w, z, .. } = &states[k];
             let (p, z) = match (k, found.last()) {
                 // At rest the values are those of the point after it.
                 (0, Some(after)) => (after.y[m..m + n].to_vec(), after.z.clone()),

@@ -45,21 +45,21 @@ const FINE: usize = 4;
 
 /// A polygon in configuration space.
 #[derive(Clone, Debug)]
-pub struct Way {
+pub struct Polygon {
     /// The corners, including both ends.
     pub places: Vec<Vec<f64>>,
 }
 
 /// The motion along a polygon.
 #[derive(Clone, Debug)]
-pub struct Walk {
+pub struct Traversal {
     /// The time of each piece, in s.
     pub times: Vec<f64>,
     /// The kinetic energy at the end of each piece, in J, including the added energy.
     energies: Vec<f64>,
 }
 
-impl Walk {
+impl Traversal {
     /// The objective, in s².
     fn objective(&self) -> f64 {
         self.times.len() as f64 * self.times.iter().map(|t| t * t).sum::<f64>()
@@ -80,26 +80,26 @@ pub enum Stop {
     Spent,
 }
 
-impl Way {
+impl Polygon {
     /// The same polygon with each piece halved.
-    pub fn halved(&self) -> Way {
+    pub fn halved(&self) -> Polygon {
         let mut places = std::vec![self.places[0].clone()];
         for pair in self.places.windows(2) {
             let middle = pair[0].iter().zip(&pair[1]).map(|(a, b)| 0.5 * (a + b));
             places.push(middle.collect());
             places.push(pair[1].clone());
         }
-        Way { places }
+        Polygon { places }
     }
 
-    fn moved(&self, step: &[f64], part: f64) -> Way {
+    fn moved(&self, step: &[f64], part: f64) -> Polygon {
         let n = self.places[0].len();
         let mut places = self.places.clone();
         let last = places.len() - 1;
         for (place, step) in places[1..last].iter_mut().zip(step.chunks(n)) {
             place.iter_mut().zip(step).for_each(|(x, d)| *x += part * d);
         }
-        Way { places }
+        Polygon { places }
     }
 }
 
@@ -212,19 +212,19 @@ impl<'a, T: Terrain> Descent<'a, T> {
     }
 
     /// The motion along a polygon with this energy at the start; `None` where it stops on the way.
-    fn walk(&self, way: &Way, added: f64) -> Option<Walk> {
-        let mut walk = Walk {
+    fn traversal(&self, polygon: &Polygon, added: f64) -> Option<Traversal> {
+        let mut traversal = Traversal {
             times: Vec::new(),
             energies: Vec::new(),
         };
         let mut kinetic = Some(added).filter(|added| *added > 0.0);
-        for (k, pair) in way.places.windows(2).enumerate() {
-            let before = k.checked_sub(1).map(|k| way.places[k].as_slice());
+        for (k, pair) in polygon.places.windows(2).enumerate() {
+            let before = k.checked_sub(1).map(|k| polygon.places[k].as_slice());
             let [mut time, mut after] = self.piece(kinetic, before, &pair[0], &pair[1]);
             // At the end the kinetic energy is 0 by conservation, whatever the approximate sum over the pieces is.
             if self.level
                 && added == 0.0
-                && k + 2 == way.places.len()
+                && k + 2 == polygon.places.len()
                 && let Some(kinetic) = kinetic
             {
                 time = self.stopping(kinetic, &pair[0], &pair[1]);
@@ -233,31 +233,31 @@ impl<'a, T: Terrain> Descent<'a, T> {
             if !(time > 0.0 && time.is_finite() && after > 0.0 && after.is_finite()) {
                 return None;
             }
-            walk.times.push(time);
-            walk.energies.push(after);
+            traversal.times.push(time);
+            traversal.energies.push(after);
             kinetic = Some(after);
         }
-        walk.objective().is_finite().then_some(walk)
+        traversal.objective().is_finite().then_some(traversal)
     }
 
     /// Derivatives of the objective by the inner corners.
-    fn slopes(&self, way: &Way, added: f64, walk: &Walk) -> Vec<f64> {
-        let n = way.places[0].len();
-        let count = walk.times.len();
+    fn slopes(&self, polygon: &Polygon, added: f64, traversal: &Traversal) -> Vec<f64> {
+        let n = polygon.places[0].len();
+        let count = traversal.times.len();
         let mut slopes = std::vec![0.0; (count + 1) * n];
         // The derivative of the objective by the energy at the end of a piece.
         let mut by_energy = 0.0;
         for k in (0..count).rev() {
             let mut numbers: Vec<Dual<f64>> = Vec::new();
             let first = if self.rough { k.saturating_sub(1) } else { k };
-            for place in &way.places[first..=k + 1] {
+            for place in &polygon.places[first..=k + 1] {
                 numbers.extend(place.iter().map(|x| Dual::constant(*x)));
             }
             let (energy, moves) = match k {
                 0 => (added, false),
-                _ => (walk.energies[k - 1], true),
+                _ => (traversal.energies[k - 1], true),
             };
-            let weight = 2.0 * count as f64 * walk.times[k];
+            let weight = 2.0 * count as f64 * traversal.times[k];
             let slope = |numbers: &[Dual<f64>], by: f64| {
                 let kinetic = (energy > 0.0).then_some(Dual {
                     value: energy,
@@ -290,12 +290,12 @@ impl<'a, T: Terrain> Descent<'a, T> {
     }
 
     /// The Hessian for masses and speeds that do not depend on position.
-    fn stiffness(&self, way: &Way, walk: &Walk) -> Option<Cholesky> {
-        let n = way.places[0].len();
-        let count = walk.times.len();
+    fn stiffness(&self, polygon: &Polygon, traversal: &Traversal) -> Option<Cholesky> {
+        let n = polygon.places[0].len();
+        let count = traversal.times.len();
         let size = (count - 1) * n;
         let mut matrix: Matrix = std::vec![std::vec![0.0; size]; size];
-        for (k, pair) in way.places.windows(2).enumerate() {
+        for (k, pair) in polygon.places.windows(2).enumerate() {
             let middle: Vec<f64> = pair[0]
                 .iter()
                 .zip(&pair[1])
@@ -306,7 +306,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
             let mass: f64 = (0..n * n)
                 .map(|e| inertia[e] * along[e / n] * along[e % n])
                 .sum();
-            let weight = 2.0 * count as f64 * walk.times[k] * walk.times[k] / mass;
+            let weight = 2.0 * count as f64 * traversal.times[k] * traversal.times[k] / mass;
             for i in 0..n {
                 for j in 0..n {
                     let entry = 0.5 * weight * (inertia[i * n + j] + inertia[j * n + i]);
@@ -327,14 +327,16 @@ impl<'a, T: Terrain> Descent<'a, T> {
     }
 
     /// The longest displacement of a corner, relative to the length of the polygon.
-    fn reach(&self, way: &Way, step: &[f64]) -> f64 {
-        let n = way.places[0].len();
-        let inertia = self.terrain.inertia(&way.places[way.places.len() / 2]);
+    fn reach(&self, polygon: &Polygon, step: &[f64]) -> f64 {
+        let n = polygon.places[0].len();
+        let inertia = self
+            .terrain
+            .inertia(&polygon.places[polygon.places.len() / 2]);
         let length = |d: &[f64]| -> f64 {
             let square: f64 = (0..n * n).map(|k| inertia[k] * d[k / n] * d[k % n]).sum();
             square.max(0.0).sqrt()
         };
-        let pieces = way.places.windows(2).map(|pair| {
+        let pieces = polygon.places.windows(2).map(|pair| {
             let along: Vec<f64> = pair[0].iter().zip(&pair[1]).map(|(a, b)| b - a).collect();
             length(&along)
         });
@@ -346,35 +348,35 @@ impl<'a, T: Terrain> Descent<'a, T> {
     /// or for this many steps.
     fn improve(
         &self,
-        way: &mut Way,
-        walk: &mut Walk,
+        polygon: &mut Polygon,
+        traversal: &mut Traversal,
         added: f64,
         part: f64,
         steps: usize,
     ) -> Result<(), Stop> {
         let mut history: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
-        if way.places.len() < 3 {
+        if polygon.places.len() < 3 {
             return Ok(());
         }
-        let mut slopes = self.slopes(way, added, walk);
+        let mut slopes = self.slopes(polygon, added, traversal);
         for _ in 0..steps {
             if self.terrain.budget.is_spent() {
                 return Err(Stop::Spent);
             }
-            let Some(stiffness) = self.stiffness(way, walk) else {
+            let Some(stiffness) = self.stiffness(polygon, traversal) else {
                 return Ok(());
             };
             let step = direction(&stiffness, &history, &slopes);
             let gain = -dot(&slopes, &step);
-            if gain.is_nan() || gain <= part * walk.objective() {
+            if gain.is_nan() || gain <= part * traversal.objective() {
                 return Ok(());
             }
-            let mut share = (REACH / self.reach(way, &step)).min(1.0);
+            let mut share = (REACH / self.reach(polygon, &step)).min(1.0);
             let mut found = None;
             for _ in 0..HALVINGS {
-                let next = way.moved(&step, share);
-                let walk_there = self.walk(&next, added);
-                let least = walk.objective() - ENOUGH * share * gain;
+                let next = polygon.moved(&step, share);
+                let walk_there = self.traversal(&next, added);
+                let least = traversal.objective() - ENOUGH * share * gain;
                 if let Some(there) = walk_there.filter(|there| there.objective() <= least) {
                     found = Some((next, there));
                     break;
@@ -388,8 +390,8 @@ impl<'a, T: Terrain> Descent<'a, T> {
                 history.clear();
                 continue;
             };
-            (*way, *walk) = (next, there);
-            let after = self.slopes(way, added, walk);
+            (*polygon, *traversal) = (next, there);
+            let after = self.slopes(polygon, added, traversal);
             let moved: Vec<f64> = step.iter().map(|d| share * d).collect();
             let change: Vec<f64> = after.iter().zip(&slopes).map(|(a, b)| a - b).collect();
             if dot(&moved, &change) > 1e-8 * share * gain {
@@ -404,9 +406,9 @@ impl<'a, T: Terrain> Descent<'a, T> {
     ///
     /// # Errors
     /// If that is not possible, or the budget is exhausted.
-    pub fn released(&self, way: &mut Way) -> Result<Walk, Stop> {
-        let rest = std::vec![0.0; way.places[0].len()];
-        let works = way.places.windows(2).map(|pair| {
+    pub fn made_traversable(&self, polygon: &mut Polygon) -> Result<Traversal, Stop> {
+        let rest = std::vec![0.0; polygon.places[0].len()];
+        let works = polygon.places.windows(2).map(|pair| {
             let middle: Vec<f64> = pair[0]
                 .iter()
                 .zip(&pair[1])
@@ -421,8 +423,8 @@ impl<'a, T: Terrain> Descent<'a, T> {
             return Err(Stop::Lacks(f64::INFINITY));
         }
         let mut added = 0.0;
-        let mut walk = self.walk(way, added);
-        while walk.is_none() {
+        let mut traversal = self.traversal(polygon, added);
+        while traversal.is_none() {
             added = if added == 0.0 {
                 scale / 16.0
             } else {
@@ -431,42 +433,42 @@ impl<'a, T: Terrain> Descent<'a, T> {
             if added > 1e6 * scale {
                 return Err(Stop::Lacks(f64::INFINITY));
             }
-            walk = self.walk(way, added);
+            traversal = self.traversal(polygon, added);
         }
-        let Some(mut walk) = walk else {
+        let Some(mut traversal) = traversal else {
             return Err(Stop::Lacks(added));
         };
         for round in 0..=ROUNDS {
             if added == 0.0 {
-                return Ok(walk);
+                return Ok(traversal);
             }
             if round == ROUNDS {
                 break;
             }
-            self.improve(way, &mut walk, added, 1e-3, 15)?;
-            let bound = WORSE * walk.objective();
+            self.improve(polygon, &mut traversal, added, 1e-3, 15)?;
+            let bound = WORSE * traversal.objective();
             let borne = |part: &f64| {
-                let there = self.walk(way, part * added)?;
+                let there = self.traversal(polygon, part * added)?;
                 (there.objective() < bound).then_some((part * added, there))
             };
             match LESS.iter().find_map(borne) {
-                Some(less) => (added, walk) = less,
+                Some(less) => (added, traversal) = less,
                 None => break,
             }
         }
-        Err(Stop::Lacks(self.lacking(way, added)))
+        Err(Stop::Lacks(self.missing_energy(polygon, added)))
     }
 
     /// An estimate of the energy without which a polygon cannot be traversed. Long pieces skip over obstacles, so it is
     /// computed with short ones.
-    fn lacking(&self, way: &Way, added: f64) -> f64 {
-        let fine = (0..FINE).fold(way.clone(), |way, _| way.halved());
+    fn missing_energy(&self, polygon: &Polygon, added: f64) -> f64 {
+        let fine = (0..FINE).fold(polygon.clone(), |polygon, _| polygon.halved());
         let energies = (0..10).map(|k| added * f64::from(1 << k));
-        let walks = energies.map(|added| (added, self.walk(&fine, added)));
-        for (added, walk) in walks {
-            if let Some(walk) = walk {
+        let walks = energies.map(|added| (added, self.traversal(&fine, added)));
+        for (added, traversal) in walks {
+            if let Some(traversal) = traversal {
                 return added
-                    - walk
+                    - traversal
                         .energies
                         .iter()
                         .fold(f64::INFINITY, |least, k| least.min(*k));
@@ -479,10 +481,10 @@ impl<'a, T: Terrain> Descent<'a, T> {
     ///
     /// # Errors
     /// If it cannot be traversed, or the budget is exhausted.
-    pub fn fastest(&self, way: &mut Way) -> Result<Walk, Stop> {
-        let mut walk = self.walk(way, 0.0).ok_or(Stop::Lacks(0.0))?;
-        self.improve(way, &mut walk, 0.0, 1e-7, 150)?;
-        Ok(walk)
+    pub fn fastest(&self, polygon: &mut Polygon) -> Result<Traversal, Stop> {
+        let mut traversal = self.traversal(polygon, 0.0).ok_or(Stop::Lacks(0.0))?;
+        self.improve(polygon, &mut traversal, 0.0, 1e-7, 150)?;
+        Ok(traversal)
     }
 }
 

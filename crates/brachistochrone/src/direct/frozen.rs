@@ -8,13 +8,13 @@ use crate::linear::{dot, times};
 use crate::problem::Problem;
 
 /// The machine at parameter θ of the homotopy from constant coefficients to those of a machine.
-pub struct Blend<'a, T> {
+pub struct Homotopy<'a, T> {
     terrain: &'a T,
     frozen: &'a Frozen,
     part: f64,
 }
 
-impl<T: Terrain> Terrain for Blend<'_, T> {
+impl<T: Terrain> Terrain for Homotopy<'_, T> {
     fn coordinates(&self) -> usize {
         self.terrain.coordinates()
     }
@@ -38,7 +38,7 @@ impl<T: Terrain> Terrain for Blend<'_, T> {
     }
 }
 
-impl<T> Blend<'_, T> {
+impl<T> Homotopy<'_, T> {
     fn between<N: Scalar>(&self, frozen: &[f64], real: Vec<N>) -> Vec<N> {
         if self.part == 1.0 {
             return real;
@@ -60,8 +60,8 @@ pub struct Frozen {
 
 impl Frozen {
     /// The machine at this parameter of the homotopy to the machine itself.
-    pub fn towards<'a, T>(&'a self, terrain: &'a T, part: f64) -> Blend<'a, T> {
-        Blend {
+    pub fn towards<'a, T>(&'a self, terrain: &'a T, part: f64) -> Homotopy<'a, T> {
+        Homotopy {
             terrain,
             frozen: self,
             part,
@@ -81,11 +81,11 @@ pub fn frozen(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<Frozen> {
     let [one, two, three] = [0.0, 0.5, 1.0].map(at_rest);
     let mean = (0..n).map(|i| (one[i] + 4.0 * two[i] + three[i]) / 6.0);
     let mean: Vec<f64> = mean.collect();
-    let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
-    let momentum = times(&rows(&even, n), &way);
+    let polygon: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
+    let momentum = times(&rows(&even, n), &polygon);
     // The acceleration follows from the work on the straight path, or else is that of gravity.
-    let length = dot(&momentum, &way).max(f64::MIN_POSITIVE);
-    let push = (dot(&mean, &way).abs() / length).max(f64::EPSILON);
+    let length = dot(&momentum, &polygon).max(f64::MIN_POSITIVE);
+    let push = (dot(&mean, &polygon).abs() / length).max(f64::EPSILON);
     let falling = momentum.iter().map(|p| -push * p).collect();
     let candidates = [
         (middle.clone(), two),

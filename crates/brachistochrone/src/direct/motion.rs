@@ -12,7 +12,7 @@ use crate::solution::{Lapse, Moment, lapses};
 use crate::trial::{Outcome, Trial};
 
 /// The number of moments at which guides and sudden turns are checked.
-const LOOKS: u32 = 64;
+const CHECK_POINTS: u32 = 64;
 
 /// The fastest motion of a [`Terrain`] from rest at one position to another.
 #[derive(Clone, Debug)]
@@ -209,7 +209,8 @@ impl<T: Terrain> Sought<T> {
 
     /// Guides that slip backwards, or whose reaction becomes negative.
     pub fn lapses(&self) -> Vec<Lapse> {
-        let looks = (0..=LOOKS).map(|k| self.at(self.time() * f64::from(k) / f64::from(LOOKS)));
+        let looks = (0..=CHECK_POINTS)
+            .map(|k| self.at(self.time() * f64::from(k) / f64::from(CHECK_POINTS)));
         let moments: Vec<Moment> = looks.collect();
         let slip = |guide: usize, moment: &Moment| {
             let terrain = &self.system.terrain;

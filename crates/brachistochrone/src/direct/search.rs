@@ -6,8 +6,8 @@ use lagrangian_scalar::Dual;
 
 use super::budget::{Budget, Counted};
 use super::collocation::{Level, Path};
-use super::descent::{Descent, Stop, Walk, Way};
-use super::followed::followed;
+use super::continuation::continue_path;
+use super::descent::{Descent, Polygon, Stop, Traversal};
 use super::frozen::frozen;
 use super::hamiltonian::Driven;
 use super::motion::Sought;
@@ -59,8 +59,8 @@ impl Default for Search {
 /// The polygon to which a start led.
 struct Candidate {
     trial: usize,
-    way: Way,
-    walk: Walk,
+    polygon: Polygon,
+    traversal: Traversal,
 }
 
 /// A smooth motion, with the last change of its duration.
@@ -126,7 +126,7 @@ impl Search {
         } else {
             None
         };
-        let hunt = Hunt {
+        let hunt = SearchState {
             system: Driven::new(counted.clone(), frame.clone()),
             descent: Descent::new(counted, skew.1 > SKEW, level.is_some()),
             budget: &budget,
@@ -137,21 +137,21 @@ impl Search {
         let mut tried = Vec::new();
         let found = if looks {
             let mut found = hunt.follow(starts, &mut tried);
-            if let Some(smooth) = smooth.filter(|_| leaves_doubts(&found, &tried)) {
+            if let Some(smooth) = smooth.filter(|_| may_be_improved(&found, &tried)) {
                 budget.allow(budget.spent() + self.budget);
                 let smooth = Counted::new(&smooth, &budget);
                 let starts = self.starts(&smooth, from, to);
-                let without = Hunt {
+                let without = SearchState {
                     system: Driven::new(smooth.clone(), frame.clone()),
                     descent: Descent::new(smooth, false, false),
                     level: None,
                     ..hunt
                 };
-                hunt.rub(&without, starts, &mut found, &mut tried);
+                hunt.add_motions_with_friction(&without, starts, &mut found, &mut tried);
             }
             // Closed forms have no finite multipliers if the ends are level.
             if found.is_empty() && hunt.level.is_none() {
-                let (outcome, smooth) = hunt.thawed(tried.len());
+                let (outcome, smooth) = hunt.continued_from_frozen(tried.len());
                 tried.push(Trial {
                     start: Start::Frozen,
                     outcome,
@@ -181,7 +181,7 @@ impl Search {
     }
 
     /// The guesses, the straight path, and paths beside it.
-    fn starts(&self, terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Way)> {
+    fn starts(&self, terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Polygon)> {
         let guesses = self.guesses.iter();
         let guesses = guesses.map(|places| (Start::Guess, guessed(terrain, places, from, to)));
         guesses.chain(ways(terrain, from, to)).collect()
@@ -221,7 +221,7 @@ impl Search {
 }
 
 /// The state of a search.
-struct Hunt<'a, T> {
+struct SearchState<'a, T> {
     system: Driven<Counted<'a, T>>,
     descent: Descent<'a, T>,
     budget: &'a Budget,
@@ -231,9 +231,9 @@ struct Hunt<'a, T> {
     stretches: Option<usize>,
 }
 
-impl<T: Terrain> Hunt<'_, T> {
+impl<T: Terrain> SearchState<'_, T> {
     /// Adds the motions to which these starts lead.
-    fn follow(&self, starts: Vec<(Start, Way)>, tried: &mut Vec<Trial>) -> Vec<Smooth> {
+    fn follow(&self, starts: Vec<(Start, Polygon)>, tried: &mut Vec<Trial>) -> Vec<Smooth> {
         let mut found: Vec<Smooth> = Vec::new();
         for candidate in self.candidates(starts, tried) {
             let trial = candidate.trial;
@@ -245,10 +245,10 @@ impl<T: Terrain> Hunt<'_, T> {
     }
 
     /// Adds the motions found by continuation in friction, from those of the machine without friction.
-    fn rub(
+    fn add_motions_with_friction(
         &self,
         without: &Self,
-        starts: Vec<(Start, Way)>,
+        starts: Vec<(Start, Polygon)>,
         found: &mut Vec<Smooth>,
         tried: &mut Vec<Trial>,
     ) {
@@ -261,7 +261,7 @@ impl<T: Terrain> Hunt<'_, T> {
             none = false;
             let trial = tried.len();
             let time = Some(path.time);
-            let (outcome, smooth) = self.rubbed(trial, path, found);
+            let (outcome, smooth) = self.continued_in_friction(trial, path, found);
             tried.push(Trial {
                 start: Start::Frictionless { time },
                 outcome,
@@ -282,39 +282,50 @@ impl<T: Terrain> Hunt<'_, T> {
     }
 
     /// The motion of the machine itself, continued from one of the machine without friction.
-    fn rubbed(&self, trial: usize, path: Path, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
+    fn continued_in_friction(
+        &self,
+        trial: usize,
+        path: Path,
+        known: &[Smooth],
+    ) -> (Outcome, Option<Smooth>) {
         let [from, to] = self.ends;
         let corrected = |path: Path, share: f64| {
             let machine = self.system.terrain.uncounted().with_friction(share)?;
             let system = self.system.of(Counted::new(&machine, self.budget));
             path.nearly_corrected(&system, from, to, self.budget)
         };
-        let (path, part) = followed(path, corrected, self.budget);
+        let (path, part) = continue_path(path, corrected, self.budget);
         let exact = |path: Path| path.corrected(&self.system, from, to, self.budget);
         match (path.and_then(exact), part) {
-            (Some(path), _) => self.judged(trial, path, known),
+            (Some(path), _) => self.classified(trial, path, known),
             (None, _) if self.budget.is_spent() => (Outcome::Unfinished, None),
             (None, part) => (Outcome::Lost { part }, None),
         }
     }
 
     /// Distinct polygons of locally least time, the fastest first; every start is recorded as a trial.
-    fn candidates(&self, starts: Vec<(Start, Way)>, tried: &mut Vec<Trial>) -> Vec<Candidate> {
+    fn candidates(&self, starts: Vec<(Start, Polygon)>, tried: &mut Vec<Trial>) -> Vec<Candidate> {
         let mut found: Vec<Candidate> = Vec::new();
-        for (start, mut way) in starts {
+        for (start, mut polygon) in starts {
             let trial = tried.len();
-            let released = self.descent.released(&mut way);
-            let gone = released.and_then(|_| self.descent.fastest(&mut way));
-            let outcome = match gone {
-                Ok(walk) => {
+            let made_traversable = self.descent.made_traversable(&mut polygon);
+            let traversed = made_traversable.and_then(|_| self.descent.fastest(&mut polygon));
+            let outcome = match traversed {
+                Ok(traversal) => {
                     let same = found.iter().find(|known| {
-                        let far = distance(&self.system.terrain, &known.way.places, &way.places);
-                        far < SAME[1] && (known.walk.time() / walk.time() - 1.0).abs() < NEAR
+                        let far =
+                            distance(&self.system.terrain, &known.polygon.places, &polygon.places);
+                        far < SAME[1]
+                            && (known.traversal.time() / traversal.time() - 1.0).abs() < NEAR
                     });
                     match same {
                         Some(known) => Outcome::Same { trial: known.trial },
                         None => {
-                            found.push(Candidate { trial, way, walk });
+                            found.push(Candidate {
+                                trial,
+                                polygon,
+                                traversal,
+                            });
                             Outcome::Unfinished
                         }
                     }
@@ -324,14 +335,14 @@ impl<T: Terrain> Hunt<'_, T> {
             };
             tried.push(Trial { start, outcome });
         }
-        found.sort_by(|a, b| a.walk.time().total_cmp(&b.walk.time()));
+        found.sort_by(|a, b| a.traversal.time().total_cmp(&b.traversal.time()));
         found
     }
 
     /// The smooth motion near a polygon.
     fn smoothed(&self, candidate: Candidate, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
         match self.corrected(candidate) {
-            Ok((trial, path)) => self.judged(trial, path, known),
+            Ok((trial, path)) => self.classified(trial, path, known),
             Err(outcome) => (outcome, None),
         }
     }
@@ -340,26 +351,31 @@ impl<T: Terrain> Hunt<'_, T> {
     fn corrected(&self, candidate: Candidate) -> Result<(usize, Path), Outcome> {
         let Candidate {
             trial,
-            mut way,
-            mut walk,
+            mut polygon,
+            mut traversal,
         } = candidate;
         for [pieces, stretches] in LEVELS {
-            while way.places.len() <= pieces {
-                way = way.halved();
+            while polygon.places.len() <= pieces {
+                polygon = polygon.halved();
                 // An obstacle that long pieces skipped may block shorter ones.
-                let released = self.descent.released(&mut way);
-                match released.and_then(|_| self.descent.fastest(&mut way)) {
-                    Ok(finer) => walk = finer,
+                let made_traversable = self.descent.made_traversable(&mut polygon);
+                match made_traversable.and_then(|_| self.descent.fastest(&mut polygon)) {
+                    Ok(finer) => traversal = finer,
                     Err(Stop::Lacks(energy)) => return Err(Outcome::Lacks { energy }),
                     Err(Stop::Spent) => return Err(Outcome::Unfinished),
                 }
             }
             let stretches = self.stretches.unwrap_or(stretches);
             let [from, to] = self.ends;
-            let path = Path::along(&self.system, &way, &walk, (stretches, self.level.clone()));
+            let path = Path::along(
+                &self.system,
+                &polygon,
+                &traversal,
+                (stretches, self.level.clone()),
+            );
             let path = path.and_then(|path| path.corrected(&self.system, from, to, self.budget));
             // Newton's method may have converged to another path.
-            let near = |path: &Path| (path.time / walk.time() - 1.0).abs() < NEAR;
+            let near = |path: &Path| (path.time / traversal.time() - 1.0).abs() < NEAR;
             if let Some(path) = path.filter(near) {
                 return Ok((trial, path));
             }
@@ -367,11 +383,13 @@ impl<T: Terrain> Hunt<'_, T> {
                 return Err(Outcome::Unfinished);
             }
         }
-        Err(Outcome::NotSmooth { time: walk.time() })
+        Err(Outcome::NotSmooth {
+            time: traversal.time(),
+        })
     }
 
     /// The path with converged duration, if it is new and a local minimum.
-    fn judged(&self, trial: usize, path: Path, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
+    fn classified(&self, trial: usize, path: Path, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
         let Some((path, change)) = self.settled(path) else {
             return (Outcome::Unfinished, None);
         };
@@ -428,7 +446,7 @@ impl<T: Terrain> Hunt<'_, T> {
     }
 
     /// A motion from the closed forms of frozen machines.
-    fn thawed(&self, trial: usize) -> (Outcome, Option<Smooth>) {
+    fn continued_from_frozen(&self, trial: usize) -> (Outcome, Option<Smooth>) {
         let [from, to] = self.ends;
         let mut reached = 0.0_f64;
         let terrain = &self.system.terrain;
@@ -445,11 +463,11 @@ impl<T: Terrain> Hunt<'_, T> {
             };
             let corrected =
                 |path: Path, part: f64| path.nearly_corrected(&system(part), from, to, self.budget);
-            let (path, part) = followed(start, corrected, self.budget);
+            let (path, part) = continue_path(start, corrected, self.budget);
             reached = reached.max(part);
             let exact = |path: Path| path.corrected(&self.system, from, to, self.budget);
             if let Some(path) = path.and_then(exact) {
-                return self.judged(trial, path, &[]);
+                return self.classified(trial, path, &[]);
             }
         }
         (Outcome::Lost { part: reached }, None)
@@ -468,7 +486,7 @@ fn fastest(found: Vec<Smooth>) -> Option<Smooth> {
 }
 
 /// Whether nothing was found, or a trial may lead to a faster motion than those found.
-fn leaves_doubts(found: &[Smooth], tried: &[Trial]) -> bool {
+fn may_be_improved(found: &[Smooth], tried: &[Trial]) -> bool {
     let best = found.iter().map(|smooth| smooth.path.time);
     let best = best.fold(f64::INFINITY, f64::min);
     found.is_empty() || tried.iter().any(|trial| trial.doubt(best).is_some())
@@ -548,18 +566,18 @@ fn refuse_loops(n: usize, (coordinates, skew): ([usize; 2], f64)) -> Result<(), 
 }
 
 /// The work against all resistance at rest, in J.
-struct Rise {
+struct ResistanceWork {
     work: f64,
     /// The sum of the absolute values of its terms.
     size: f64,
 }
 
 /// The work along the straight path.
-fn rise(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Rise {
-    let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
+fn rise(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> ResistanceWork {
+    let polygon: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
     let rest = std::vec![0.0; from.len()];
     let steps = 64;
-    let mut rise = Rise {
+    let mut rise = ResistanceWork {
         work: 0.0,
         size: 0.0,
     };
@@ -568,7 +586,7 @@ fn rise(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Rise {
         for z in [-1.0, 1.0] {
             let part = (f64::from(k) + 0.5 + 0.5 * z / 3.0_f64.sqrt()) / f64::from(steps);
             let force = terrain.resistance(&between(from, to, part), &rest);
-            let work = 0.5 * dot(&force, &way) / f64::from(steps);
+            let work = 0.5 * dot(&force, &polygon) / f64::from(steps);
             rise.work += work;
             rise.size += work.abs();
         }
@@ -577,8 +595,10 @@ fn rise(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Rise {
 }
 
 /// How far the lowest of the corners is below the start, in J: the scale by which levels are compared.
-fn drop(terrain: &impl Terrain, ways: &[(Start, Way)]) -> f64 {
-    let ends = ways.iter().flat_map(|(_, way)| way.places.split_first());
+fn drop(terrain: &impl Terrain, ways: &[(Start, Polygon)]) -> f64 {
+    let ends = ways
+        .iter()
+        .flat_map(|(_, polygon)| polygon.places.split_first());
     let depths = ends.flat_map(|(start, others)| {
         let middle = others.get(others.len() / 2);
         middle.map(|place| rise(terrain, start, place).work.abs())
@@ -598,31 +618,31 @@ fn level(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Option<Level> {
 
 /// Whether the machine is conservative along these paths: there is a potential, and in motion
 /// `v·R(q, v) = v·R(q, 0) + ½ v·∂A[v] v` for both directions of v.
-fn conserves(terrain: &impl Terrain, ways: &[(Start, Way)]) -> bool {
-    ways.iter().all(|(_, way)| {
-        let places = way.places.iter().step_by(3);
+fn conserves(terrain: &impl Terrain, ways: &[(Start, Polygon)]) -> bool {
+    ways.iter().all(|(_, polygon)| {
+        let places = polygon.places.iter().step_by(3);
         places
             .into_iter()
-            .all(|q| loses(terrain, q) && !takes(terrain, q))
+            .all(|q| is_passive(terrain, q) && !is_dissipative(terrain, q))
     })
 }
 
 /// Whether motion dissipates energy at a position.
-fn takes(terrain: &impl Terrain, q: &[f64]) -> bool {
-    let gains = gains(terrain, q);
+fn is_dissipative(terrain: &impl Terrain, q: &[f64]) -> bool {
+    let gains = excess_power(terrain, q);
     gains.iter().any(|[gain, size]| *gain < -1e-9 * size)
 }
 
 /// Whether forces at rest have a potential, and velocity-dependent forces supply no energy, everywhere on these paths.
-fn is_potential(terrain: &impl Terrain, ways: &[(Start, Way)]) -> bool {
-    ways.iter().all(|(_, way)| {
-        let places = way.places.iter().step_by(3);
-        places.into_iter().all(|q| loses(terrain, q))
+fn is_potential(terrain: &impl Terrain, ways: &[(Start, Polygon)]) -> bool {
+    ways.iter().all(|(_, polygon)| {
+        let places = polygon.places.iter().step_by(3);
+        places.into_iter().all(|q| is_passive(terrain, q))
     })
 }
 
 /// At one position: the force at rest is free of curl, and in motion `v·R(q, v) ≥ v·R(q, 0) + ½ v·∂A[v] v`.
-fn loses(terrain: &impl Terrain, q: &[f64]) -> bool {
+fn is_passive(terrain: &impl Terrain, q: &[f64]) -> bool {
     let n = q.len();
     let still = std::vec![Dual::constant(0.0); n];
     let unit = |i: usize| {
@@ -644,7 +664,7 @@ fn loses(terrain: &impl Terrain, q: &[f64]) -> bool {
         let [one, other] = [slopes[k / n][k % n], slopes[k % n][k / n]];
         (one - other).abs() > 1e-9 * size
     });
-    let feeds = gains(terrain, q)
+    let feeds = excess_power(terrain, q)
         .iter()
         .any(|[gain, size]| *gain > 1e-9 * size);
     !curls && !feeds
@@ -652,7 +672,7 @@ fn loses(terrain: &impl Terrain, q: &[f64]) -> bool {
 
 /// `v·R(q, 0) + ½ v·∂A[v] v − v·R(q, v)` for velocities along each coordinate in both directions, and the
 /// size of its terms.
-fn gains(terrain: &impl Terrain, q: &[f64]) -> Vec<[f64; 2]> {
+fn excess_power(terrain: &impl Terrain, q: &[f64]) -> Vec<[f64; 2]> {
     let n = q.len();
     let gain = |k: usize| {
         let mut v = std::vec![0.0; n];

@@ -1,7 +1,7 @@
 //! Initial paths of a search.
 
 use super::Terrain;
-use super::descent::Way;
+use super::descent::Polygon;
 use super::{between, symmetric};
 use crate::linear::dot;
 use crate::trial::Start;
@@ -13,7 +13,7 @@ pub const PIECES: usize = 16;
 const ASIDE: [&[f64]; 2] = [&[0.35, 1.0], &[0.5]];
 
 /// The straight path, and paths that deviate to either side of it, orthogonally in the metric of its middle.
-pub fn ways(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Way)> {
+pub fn ways(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Polygon)> {
     let n = from.len();
     let metric = symmetric(terrain.inertia(&between(from, to, 0.5)), n);
     let product =
@@ -40,8 +40,8 @@ pub fn ways(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Way
         for direction in &across[1..] {
             for side in [1.0, -1.0] {
                 let by: Vec<f64> = direction.iter().map(|x| side * part * length * x).collect();
-                let way = bowed(from, to, &by);
-                found.push((Start::Bowed { by }, way));
+                let polygon = bowed(from, to, &by);
+                found.push((Start::Bowed { by }, polygon));
             }
         }
     }
@@ -54,7 +54,7 @@ fn unit(n: usize, i: usize) -> Vec<f64> {
 
 /// The path is at the fraction `τ²` at the fraction τ of the time, as from rest under a constant force, and
 /// deviates by a half sine.
-fn bowed(from: &[f64], to: &[f64], by: &[f64]) -> Way {
+fn bowed(from: &[f64], to: &[f64], by: &[f64]) -> Polygon {
     let place = |k: usize| {
         let part = (k as f64 / PIECES as f64).powi(2);
         let mut place = between(from, to, part);
@@ -66,14 +66,14 @@ fn bowed(from: &[f64], to: &[f64], by: &[f64]) -> Way {
         }
         place
     };
-    Way {
+    Polygon {
         places: (0..=PIECES).map(place).collect(),
     }
 }
 
 /// A path through given places with its ends moved to these; the displacement of places in between is
 /// interpolated by length.
-pub fn guessed(terrain: &impl Terrain, places: &[Vec<f64>], from: &[f64], to: &[f64]) -> Way {
+pub fn guessed(terrain: &impl Terrain, places: &[Vec<f64>], from: &[f64], to: &[f64]) -> Polygon {
     let n = from.len();
     let metric = symmetric(terrain.inertia(&between(from, to, 0.5)), n);
     let mut lengths = std::vec![0.0];
@@ -106,5 +106,5 @@ pub fn guessed(terrain: &impl Terrain, places: &[Vec<f64>], from: &[f64], to: &[
     // The ends must be exact.
     places[0] = from.to_vec();
     places[PIECES] = to.to_vec();
-    Way { places }
+    Polygon { places }
 }

@@ -7,7 +7,7 @@ use lagrangian::Machine;
 use lagrangian::interpreted::{InterpretedMachine, Signals};
 use lagrangian_fit::least_squares::Problem;
 use lagrangian_fit::motion::{
-    Column, Derivatives, Experiment, Fit, Held, Quantity, Running, Sought, Subject,
+    Column, ConstraintFindings, Derivatives, Experiment, Fit, Quantity, Running, Sought, Subject,
 };
 use lagrangian_scalar::{Dual, Scalar};
 use nalgebra::{DMatrix, DVector};
@@ -106,7 +106,7 @@ fn fit(columns: Vec<(Quantity, Vec<f64>)>, sigmas: Vec<f64>) -> Fit<'static> {
         },
         refusal: &|_| None,
         runs: [0, 0],
-        held: Held::default(),
+        held: ConstraintFindings::default(),
     }
 }
 

@@ -139,7 +139,7 @@ fn check(name: &'static str, model: fn(&[D], f64) -> D, starts: &[usize]) {
                 j + 1,
                 found.x[j]
             );
-            assert_eq!(said.standing[j], Standing::Told, "{told}");
+            assert_eq!(said.standing[j], Standing::Estimated, "{told}");
             let error = said.standard_error(j).expect("told");
             assert!(
                 (error - deviation).abs() <= 1e-8 * deviation,

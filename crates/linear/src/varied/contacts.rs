@@ -34,7 +34,7 @@ pub struct Phase {
     /// Whether each contact is the rolling friction of the contact before it.
     pub rolls: Vec<bool>,
     /// Whether each contact has friction.
-    pub rubs: Vec<bool>,
+    pub has_friction: Vec<bool>,
     /// The loading history of each layer.
     pub layers: Vec<Layer>,
     /// How many constraints the machine has.
@@ -62,7 +62,7 @@ impl Phase {
             modes: vec![ContactMode::Open; contacts().len()],
             compliances: contacts().map(|contact| contact.compliance).collect(),
             rolls: contacts().map(|contact| contact.rolls).collect(),
-            rubs: contacts().map(|contact| contact.rubs).collect(),
+            has_friction: contacts().map(|contact| contact.rubs).collect(),
             layers: vec![layer; contacts().len()],
             constraints: system.constraints().len(),
         }
@@ -214,7 +214,7 @@ impl<'i> Place<'i> {
     }
 
     /// The force of a compliant contact.
-    fn pressed(&self, phase: &Phase, contact: usize, direction: usize) -> Option<Number> {
+    fn compliant_force(&self, phase: &Phase, contact: usize, direction: usize) -> Option<Number> {
         let [first, second, ..] = self.coefficients(contact);
         let (depth, rate) = (ZERO - self.gaps[contact], ZERO - self.rates[2 * contact]);
         // d^(3/2), whose slope is 0 at d = 0.
@@ -255,7 +255,7 @@ impl<'i> Place<'i> {
         for k in (0..phase.modes.len()).filter(|k| phase.is_closed(*k)) {
             if !phase.rolls[k] {
                 let along = self.along(phase, k);
-                match self.pressed(phase, k, direction) {
+                match self.compliant_force(phase, k, direction) {
                     Some(force) => {
                         add(&mut known, force, &along);
                         forces[k][0] = force;
@@ -270,7 +270,7 @@ impl<'i> Place<'i> {
                     }
                 }
             }
-            if phase.modes[k] == ContactMode::Sticks && phase.rubs[k] {
+            if phase.modes[k] == ContactMode::Sticks && phase.has_friction[k] {
                 let row = self.row(2 * k + 1).to_vec();
                 sought.push(Sought {
                     along: row.clone(),

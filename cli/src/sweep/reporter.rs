@@ -14,7 +14,7 @@ const BETWEEN: Duration = Duration::from_secs(10);
 const WINDOW: Duration = Duration::from_secs(30);
 
 /// The progress of a sweep, reported while it runs.
-pub struct Spoken {
+pub struct Reporter {
     runs: u64,
     is_silent: bool,
     bar: Option<ProgressBar>,
@@ -24,9 +24,9 @@ pub struct Spoken {
     seen: VecDeque<(Instant, u64)>,
 }
 
-impl Spoken {
+impl Reporter {
     /// Starts reporting for this number of runs.
-    pub fn new(runs: u64, json: bool) -> Spoken {
+    pub fn new(runs: u64, json: bool) -> Reporter {
         let is_terminal = io::stderr().is_terminal();
         let now = Instant::now();
         let bar = is_terminal.then(|| {
@@ -36,7 +36,7 @@ impl Spoken {
             }
             bar
         });
-        Spoken {
+        Reporter {
             runs,
             is_silent: json && !is_terminal,
             bar,
@@ -47,7 +47,7 @@ impl Spoken {
     }
 
     /// Records progress, and prints it when it is time to.
-    pub fn say(&mut self, progress: Progress) {
+    pub fn report(&mut self, progress: Progress) {
         let now = Instant::now();
         self.seen.push_back((now, progress.done));
         while self.seen.len() > 2

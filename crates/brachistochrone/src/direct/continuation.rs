@@ -11,7 +11,7 @@ const LEAST_STEP: f64 = 1.0 / 256.0;
 
 /// Continues a path from parameter 0 to 1; returns the path at the end if it was reached, and how far the continuation came.
 /// `corrected` solves for the path at a parameter, from a linear extrapolation of the last two paths.
-pub fn followed(
+pub fn continue_path(
     start: Path,
     corrected: impl Fn(Path, f64) -> Option<Path>,
     budget: &Budget,

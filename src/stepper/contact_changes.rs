@@ -6,7 +6,7 @@ use std::vec::Vec;
 use super::{Model, Stepper, move_by_rounding};
 use crate::balance::{PartOfContact, Quadratures};
 use crate::constraints::Constraints;
-use crate::contact::{Impact, Jam, Mode, Touching};
+use crate::contact::{Impact, Mode, ParadoxResolution, UnilateralState};
 use crate::inputs::InputLaw;
 use crate::stages::Point;
 use crate::unilateral::ContactTrouble;
@@ -22,7 +22,7 @@ const FLIGHTS: f64 = 8.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cause {
     /// A gap has closed, or it is only known that something changes.
-    Asked,
+    Unspecified,
     /// The force of a contact has vanished.
     Lifts(usize),
     /// A corner of a polygon has come to the end of the face that it was on.
@@ -39,7 +39,7 @@ pub(crate) enum Cause {
 
 /// The changes at an instant.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Happened {
+pub(crate) struct ContactChanges {
     pub impacts: Vec<Impact>,
     /// The states of contacts before, and now.
     pub before: Vec<Mode>,
@@ -56,27 +56,27 @@ pub(crate) struct Happened {
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// The state of the unilateral contacts.
-    pub(crate) fn touching(&self) -> &Option<Touching> {
+    pub(crate) fn touching(&self) -> &Option<UnilateralState> {
         &self.model.touching
     }
 
     /// Lets contacts that touch meet, and continues to `end` with the contacts that are closed then.
-    pub(crate) fn meet(
+    pub(crate) fn resolve_contacts(
         &mut self,
         cause: Cause,
         end: f64,
         step: f64,
-    ) -> Result<Happened, StepError> {
+    ) -> Result<ContactChanges, StepError> {
         let Self { model, now, .. } = self;
-        let mut happened = Happened::default();
+        let mut changes_at_instant = ContactChanges::default();
         let energy = |model: &Model<'_, S, L>, now: &Point<S::Vector>| {
             model.system.kinetic_energy(now.t, &now.q, &now.v)
         };
         let (t, energy_before) = (now.t, energy(model, now));
         let Some(mut touching) = model.touching.clone() else {
-            return Ok(happened);
+            return Ok(changes_at_instant);
         };
-        happened.before = touching.modes().to_vec();
+        changes_at_instant.before = touching.modes().to_vec();
         let stored_before = stored_by_each(model.system.get(), &touching, now);
         let loaded_before: Vec<bool> = touching.loaded().collect();
         model.set_inputs(t, &now.q, &now.v);
@@ -91,7 +91,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                     // to begin beyond the jump.
                     move_by_rounding(&mut now.q, &now.v);
                     model.set_inputs(t, &now.q, &now.v);
-                    Cause::Asked
+                    Cause::Unspecified
                 }
             }
             cause => cause,
@@ -104,7 +104,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 let friction = touching.reaction(model.system.get(), at)?.forces[k][1];
                 Some((k, Mode::Slides(-friction.signum())))
             }
-            Cause::Asked | Cause::Stops(_) | Cause::Presses(_) | Cause::Turns(_) => None,
+            Cause::Unspecified | Cause::Stops(_) | Cause::Presses(_) | Cause::Turns(_) => None,
         };
         let pairs: Vec<usize> = (0..touching.modes().len())
             .map(|k| touching.first(k))
@@ -114,8 +114,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let mut touches = Vec::new();
         for round in 0.. {
             let place = (t, &now.q, &now.v);
-            let (near, closes) =
-                touching.near(model.system.get(), place, happened.impacts.is_empty());
+            let (near, closes) = touching.near(
+                model.system.get(),
+                place,
+                changes_at_instant.impacts.is_empty(),
+            );
             touches = near;
             let Some(contact) = closes.iter().position(|closes| *closes) else {
                 break;
@@ -129,7 +132,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 });
             }
             let takes_part = touching.next(model.system.get(), (t, &now.q, &now.v), &touches);
-            let as_held = happened.impacts.is_empty();
+            let as_held = changes_at_instant.impacts.is_empty();
             let impacts = touching.impact(
                 model.system.get(),
                 t,
@@ -139,47 +142,55 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 as_held,
             )?;
             now.v_low.as_mut_slice().fill(0.0);
-            happened.impacts.extend(impacts);
+            changes_at_instant.impacts.extend(impacts);
         }
         model.set_inputs(t, &now.q, &now.v);
-        let as_held = happened.impacts.is_empty();
+        let as_held = changes_at_instant.impacts.is_empty();
         let mut closed =
-            touching.lasting(model.system.get(), (t, &now.q, &now.v), &touches, as_held);
+            touching.persisting(model.system.get(), (t, &now.q, &now.v), &touches, as_held);
         match cause {
-            Cause::Lifts(k) if touching.yields(k) => closed[k] = false,
+            Cause::Lifts(k) if touching.is_compliant(k) => closed[k] = false,
             Cause::Leaves(k) => closed[k] = false,
             Cause::Presses(k) => closed[k] = true,
             Cause::Turns(k) => {
-                touching.turn_layer(model.system.get(), (t, &now.q, &now.v), k);
+                touching.switch_layer(model.system.get(), (t, &now.q, &now.v), k);
             }
             _ => {}
         }
-        touching.lean(&mut closed);
-        if touching.may_jam() {
+        touching.copy_from_carriers(&mut closed);
+        if touching.may_have_paradox() {
             let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
             for (k, resting) in resting.iter_mut().enumerate() {
                 *resting |= stops(k) || cause == Cause::Lifts(k);
             }
             let at = (t, &now.q, &now.v, &model.inputs);
-            match touching.jam(model.system.get(), at, &closed, &resting)? {
-                Some(Jam::Opens(k)) => closed[k] = false,
-                Some(Jam::Impact { impact, change }) => {
+            match touching.resolve_paradox(model.system.get(), at, &closed, &resting)? {
+                Some(ParadoxResolution::Opens(k)) => closed[k] = false,
+                Some(ParadoxResolution::Impact { impact, change }) => {
                     for (v, by) in now.v.as_mut_slice().iter_mut().zip(change) {
                         *v += by;
                     }
                     now.v_low.as_mut_slice().fill(0.0);
-                    happened.impacts.push(impact);
+                    changes_at_instant.impacts.push(impact);
                     model.set_inputs(t, &now.q, &now.v);
-                    closed =
-                        touching.lasting(model.system.get(), (t, &now.q, &now.v), &touches, false);
+                    closed = touching.persisting(
+                        model.system.get(),
+                        (t, &now.q, &now.v),
+                        &touches,
+                        false,
+                    );
                 }
                 None => {}
             }
         }
-        let told: f64 = happened.impacts.iter().map(|impact| impact.loss).sum();
+        let impact_losses: f64 = changes_at_instant
+            .impacts
+            .iter()
+            .map(|impact| impact.loss)
+            .sum();
         let energy_after = energy(model, now);
         let mut free = now.v.zeros_like();
-        if !happened.impacts.is_empty() {
+        if !changes_at_instant.impacts.is_empty() {
             // The motion with all contacts that were hit open determines the length of the next flight.
             let mut flying = touching.clone();
             let modes = (closed.iter().zip(touching.modes()))
@@ -192,31 +203,48 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 &mut free,
             )?;
         }
-        let mut hit: Vec<usize> = happened.impacts.iter().map(|i| i.contact).collect();
+        let mut hit: Vec<usize> = changes_at_instant
+            .impacts
+            .iter()
+            .map(|i| i.contact)
+            .collect();
         hit.sort_unstable();
         hit.dedup();
-        hit.retain(|k| !closed[*k] && touching.leans(*k).is_none());
+        hit.retain(|k| !closed[*k] && touching.carrier(*k).is_none());
         for contact in hit {
             let place = (t, &now.q, &now.v);
-            let falls = Touching::falls(model.system.get(), place, contact, free.as_slice());
-            if let Some(left) = touching.ends_bouncing(model.system.get(), place, contact, falls) {
+            let gap_acceleration = UnilateralState::gap_acceleration(
+                model.system.get(),
+                place,
+                contact,
+                free.as_slice(),
+            );
+            if let Some(left) =
+                touching.remaining_bounce_time(model.system.get(), place, contact, gap_acceleration)
+            {
                 closed[contact] = true;
-                happened.ended.push((contact, left));
-            } else if falls < 0.0 {
+                changes_at_instant.ended.push((contact, left));
+            } else if gap_acceleration < 0.0 {
                 let rate = touching.openings[contact];
-                let flight = 2.0 * rate / -falls;
-                happened.flight = Some(happened.flight.map_or(flight, |known| known.min(flight)));
+                let flight = 2.0 * rate / -gap_acceleration;
+                changes_at_instant.flight = Some(
+                    changes_at_instant
+                        .flight
+                        .map_or(flight, |known| known.min(flight)),
+                );
             }
         }
 
-        touching.lean(&mut closed);
+        touching.copy_from_carriers(&mut closed);
         // A slip that has stopped is at rest, and so is one at a contact that has just closed.
         let mut held = vec![Mode::Open; closed.len()];
         let rests = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
         for (k, _) in closed.iter().enumerate().filter(|(_, closed)| **closed) {
             // A compliant contact has no impulse that would stop it again after an impact elsewhere has made it slip.
-            let pressed = touching.leans(k).unwrap_or(k);
-            let is_torn = touching.yields(pressed) && !rests[k] && !happened.impacts.is_empty();
+            let pressed = touching.carrier(k).unwrap_or(k);
+            let is_torn = touching.is_compliant(pressed)
+                && !rests[k]
+                && !changes_at_instant.impacts.is_empty();
             held[k] = match touching.modes()[k] {
                 _ if stops(k) => Mode::Sticks,
                 Mode::Open => Mode::Slides(0.0),
@@ -238,30 +266,30 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             known,
         )?;
         touching.set_modes(modes);
-        touching.note_slips(model.system.get(), t, &now.q, &now.v);
-        if !matches!(cause, Cause::Turns(_)) || !happened.impacts.is_empty() {
+        touching.record_slips(model.system.get(), t, &now.q, &now.v);
+        if !matches!(cause, Cause::Turns(_)) || !changes_at_instant.impacts.is_empty() {
             touching.load_layers(model.system.get(), t, &now.q, &now.v);
         }
         let turned = touching.loaded().zip(loaded_before).enumerate();
-        happened.turned = turned
+        changes_at_instant.turned = turned
             .filter(|(_, (is, was))| is != was)
             .map(|(k, (is, _))| (k, is))
             .collect();
         let stored_after = stored_by_each(model.system.get(), &touching, now);
         model.constraints = hold(model.system.get(), &touching, now)?;
-        happened.after = touching.modes().to_vec();
+        changes_at_instant.after = touching.modes().to_vec();
         model.touching = Some(touching);
 
-        if !happened.ended.is_empty() {
-            happened.lost_at_end = energy_after - energy(model, now);
+        if !changes_at_instant.ended.is_empty() {
+            changes_at_instant.lost_at_end = energy_after - energy(model, now);
         }
-        let lost = told + happened.lost_at_end;
+        let lost = impact_losses + changes_at_instant.lost_at_end;
         // The energy that impulses add beyond the losses is work of prescribed motion.
         let gained = energy(model, now) - energy_before;
-        if !happened.impacts.is_empty() {
+        if !changes_at_instant.impacts.is_empty() {
             self.quadratures.add_at_once(gained + lost, lost);
         }
-        for impact in &happened.impacts {
+        for impact in &changes_at_instant.impacts {
             let part = PartOfContact {
                 work: impact.work,
                 ..PartOfContact::default()
@@ -275,14 +303,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 // If a force vanishes before its contact has recovered, the energy still stored is lost.
                 self.quadratures.add_at_once(0.0, released);
                 let part = PartOfContact {
-                    yielding: released,
+                    compliance_loss: released,
                     ..PartOfContact::default()
                 };
                 self.quadratures.share_out_at_once(contact, part);
             }
         }
-        self.begin_again(end, step, happened.flight)?;
-        Ok(happened)
+        self.begin_again(end, step, changes_at_instant.flight)?;
+        Ok(changes_at_instant)
     }
 
     /// Continues with the accelerations of the present state.
@@ -318,7 +346,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     /// Records the beginning of a step.
     pub(super) fn begin_contacts(&mut self, now: &Point<S::Vector>) {
         if let Some(touching) = &mut self.touching {
-            touching.take_headings(self.system.get(), now.t, &now.q, &now.v);
+            touching.record_headings(self.system.get(), now.t, &now.q, &now.v);
         }
     }
 
@@ -339,14 +367,18 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
 }
 
 /// The energy stored in each compliant contact, in J.
-fn stored_by_each<S: System>(system: &S, touching: &Touching, now: &Point<S::Vector>) -> Vec<f64> {
+fn stored_by_each<S: System>(
+    system: &S,
+    touching: &UnilateralState,
+    now: &Point<S::Vector>,
+) -> Vec<f64> {
     touching.stored_by_each(system, now.t, &now.q, &now.v)
 }
 
 /// Projects a state onto the closed contacts and the constraints; returns the state of these constraints.
 pub(super) fn hold<S: System>(
     system: &S,
-    touching: &Touching,
+    touching: &UnilateralState,
     now: &mut Point<S::Vector>,
 ) -> Result<Option<Constraints<S::Vector>>, StepError> {
     let held = touching.machine(system);

@@ -198,7 +198,7 @@ pub fn text(result: &Fitted<'_, '_>) -> String {
             let error = statistics.standard_error(j);
             let (value, shown) = rounded(minimum.x[j], error);
             let note = match (statistics.standing[j], error) {
-                (Standing::Told, Some(error)) => {
+                (Standing::Estimated, Some(error)) => {
                     let share = (error / minimum.x[j]).abs();
                     let share = if share.is_finite() && share > 0.0 {
                         format!("   ({})", percent(share))
@@ -389,7 +389,7 @@ fn residuals(result: &Fitted<'_, '_>) -> String {
 fn correlations(result: &Fitted<'_, '_>) -> String {
     let statistics = &result.found.statistics;
     let told: Vec<usize> = (0..result.fit.sought.len())
-        .filter(|j| statistics.standing[*j] == Standing::Told)
+        .filter(|j| statistics.standing[*j] == Standing::Estimated)
         .collect();
     if told.len() < 2 {
         return String::new();
@@ -424,7 +424,7 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
     let names: Vec<String> = sought.iter().map(|one| one.name.clone()).collect();
     let units: Vec<String> = sought.iter().map(|one| one.unit.clone()).collect();
     let standing = |standing: Standing| match standing {
-        Standing::Told => "told",
+        Standing::Estimated => "told",
         Standing::Bound => "bound",
         Standing::Ineffective => "ineffective",
         Standing::Entangled => "entangled",
