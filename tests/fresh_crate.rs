@@ -115,7 +115,10 @@ fn has_no_code_of_absent_features(program: &str) {
     };
     assert!(has("step_of_fixed_length"), "functions are not named");
     for (name, source) in [
-        ("move_out", include_str!("../src/contact/stepping.rs")),
+        (
+            "resolve_penetration",
+            include_str!("../src/contact/stepping.rs"),
+        ),
         ("look_beside", include_str!("../src/constraints/start.rs")),
     ] {
         assert!(
