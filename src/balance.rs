@@ -409,13 +409,12 @@ pub struct EnergyBalance {
     pub turned_over: f64,
     /// How large the residual may be by tolerance and rounding, in J, with a margin of 20.
     ///
-    /// After the error of a step the motion continues on another trajectory, whose balance closes, so the errors of steps add up
-    /// in the residual and none is amplified. In a step of tolerance `δ` an energy changes by at most
-    /// `√(2n) (|∂T/∂v| δv + |∂(T + V)/∂q| δq)`, which is bounded by kinetic energy, applied forces and accelerations at its end,
-    /// in the metric of inertia; for implicit methods the change of the powers by `δ` over the length of the step is added.
-    /// Rounding contributes some units in the last place of the energies at each step, and the round-off of the potential energy,
-    /// which is measured by moving coordinates by theirs. Infinite for a method with steps of a fixed length, since nothing bounds
-    /// their error.
+    /// After the error of a step the motion continues on another trajectory, whose balance closes, so the errors of steps add up in
+    /// the residual and none is amplified. In a step of tolerance `δ` an energy changes by at most
+    /// `√(2n) (|∂T/∂v| δv + |∂(T + V)/∂q| δq)`, which is bounded by kinetic energy, applied forces and accelerations at its end, in
+    /// the metric of inertia; for implicit methods the change of the powers by `δ` over the length of the step is added. Rounding
+    /// contributes some units in the last place of the energies at each step, and the round-off of the potential energy, which is
+    /// measured by moving coordinates by theirs. Infinite for a method with steps of a fixed length, since nothing bounds their error.
     pub explained: f64,
 }
 

@@ -22,8 +22,7 @@ impl Sum {
     }
 }
 
-/// Returns `a + b` rounded and its exact rounding error; for double-doubles the error is
-/// nearly exact.
+/// Returns `a + b` rounded and its exact rounding error; for double-doubles the error is nearly exact.
 #[inline(always)]
 pub(crate) fn two_sum<N: Copy + Add<Output = N> + Sub<Output = N>>(a: N, b: N) -> (N, N) {
     let sum = a + b;

@@ -233,8 +233,7 @@ fn solve<S: System>(
 /// inverse squares of the shortest part of a row of unit length that is orthogonal to those before it.
 fn conditions(mass: &[f64], inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
     let n = inertia.len();
-    // Some coordinate has no inertia of its own and is held by the constraints; the amplification is not
-    // analysed then.
+    // Some coordinate has no inertia of its own and is held by the constraints; the amplification is not analysed then.
     const UNKNOWN: [f64; 2] = [1e4; 2];
     if inertia.contains(&0.0) {
         return UNKNOWN;

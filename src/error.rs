@@ -831,8 +831,8 @@ pub enum Warning {
         /// The tolerance used.
         used: f64,
     },
-    /// Stability and not accuracy limits the steps: something in the machine is far stiffer, or far more strongly damped, than its
-    /// motion shows.
+    /// Stability and not accuracy limits the steps: something in the machine
+    /// is far stiffer, or far more strongly damped, than its motion shows.
     Stiff {
         /// When it was detected, in s.
         t: f64,
@@ -857,8 +857,8 @@ pub enum Warning {
         /// The number of impacts that created energy.
         impacts: usize,
     },
-    /// Unilateral contacts changed too often for each instant to be located, and the run changed to time stepping, whose error
-    /// nothing bounds.
+    /// Unilateral contacts changed too often for each instant to be located,
+    /// and the run changed to time stepping, whose error nothing bounds.
     HandedOver {
         /// When it first did so, in s.
         t: f64,

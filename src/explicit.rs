@@ -354,8 +354,8 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         (h, is_last)
     }
 
-    /// Tries steps of lengths `h` from `before` to `now`; `now` stays at `before` where a step fails. Returns their errors relative to
-    /// the tolerance.
+    /// Tries steps of lengths `h` from `before` to `now`; `now` stays at `before`
+    /// where a step fails. Returns their errors relative to the tolerance.
     #[inline(always)]
     fn try_steps<R: Scalar<Stored = N>>(
         &mut self,

@@ -554,8 +554,8 @@ impl Contacts {
         ended
     }
 
-    /// Checks that the motion is determined: with these contacts sticking and sliding, no other combination of pressing sides gives
-    /// another motion.
+    /// Checks that the motion is determined: with these contacts sticking and
+    /// sliding, no other combination of pressing sides gives another motion.
     #[cfg(feature = "std")]
     pub fn check<S: System>(
         &self,

@@ -324,8 +324,8 @@ impl InterpretedSystem {
         let _ = self.call(role, arguments, results);
     }
 
-    /// The output with this index among those of [`outputs`](System::outputs). `a` may be empty if the output does not depend
-    /// on accelerations.
+    /// The output with this index among those of [`outputs`](System::outputs).
+    /// `a` may be empty if the output does not depend on accelerations.
     pub fn output(&self, index: usize, t: f64, q: &[f64], v: &[f64], a: &[f64], u: &[f64]) -> f64 {
         self.number(Role::Output(index), Arguments { t, q, v, u, a })
     }

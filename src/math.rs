@@ -17,8 +17,8 @@ const WHOLE: f64 = 4_503_599_627_370_496.0;
 
 /// The binary logarithm of a positive number, to 1e-7, which is more than sufficient for a root of high order.
 ///
-/// This function and [`rough_exp2`] use only sums, products and bit operations, which lanes have as well, and which give the same
-/// bits everywhere.
+/// This function and [`rough_exp2`] use only sums, products and bit operations,
+/// which lanes have as well, and which give the same bits everywhere.
 #[inline(always)]
 pub(crate) fn rough_log2(x: f64) -> f64 {
     // Subnormal numbers are scaled first, since their exponent bits are zero.

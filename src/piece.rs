@@ -8,8 +8,7 @@ pub struct Piece {
     pub from: f64,
     /// Its end, later than its beginning, in s; ∞ if it has none.
     pub to: f64,
-    /// Whether the inputs jump where a run enters it (at its end, if the run goes backward in time); otherwise they are
-    /// continuous there.
+    /// Whether the inputs jump where a run enters it (at its end, if the run goes backward in time); otherwise they are continuous there.
     pub jumps: bool,
 }
 

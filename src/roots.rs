@@ -70,10 +70,10 @@ const EXTREMES: f64 = 1e-10;
 
 /// Finds the least and the greatest value of a function between two fractions.
 ///
-/// On entry `extent` holds the least and the greatest value known so far, each with its place, or `None`; on return also those
-/// of this step, with fractions of it as places. `wanted` says which of the two matter. The coefficients of a Chebyshev interpolant bound the
-/// function between the nodes, so an interval that cannot contain a new extreme is discarded after few values. An interval with a kink
-/// is bisected.
+/// On entry `extent` holds the least and the greatest value known so far, each with its place, or `None`;
+/// on return also those of this step, with fractions of it as places. `wanted` says which of the two
+/// matter. The coefficients of a Chebyshev interpolant bound the function between the nodes, so an interval
+/// that cannot contain a new extreme is discarded after few values. An interval with a kink is bisected.
 ///
 /// # Errors
 /// Those of the function.
@@ -177,8 +177,8 @@ const BESIDE: f64 = 0.01;
 /// that varies by less than this fraction of its size has no root.
 const ROUNDING_OF_VALUES: f64 = 1e-6;
 
-/// Safety factor on the estimated truncation error of the interpolant of degree 4, which also covers the error of the quintic along which the values
-/// are taken.
+/// Safety factor on the estimated truncation error of the interpolant of degree 4,
+/// which also covers the error of the quintic along which the values are taken.
 ///
 /// A motion of frequency `ω` has the coefficients `2 Jₖ(z)` with `z = ωh/2`, which fall by `z/10` or faster after the last one. The error of its
 /// quintic through the ends of a step is `(ωh)⁶/46 080`, which is `(ωh)²/15` times the last one. So the factor suffices for `ωh ≤ 10`, and
@@ -199,9 +199,9 @@ const MOST_BISECTIONS: u32 = 5;
 /// both ends of the step. Returns `None` if they do not decide it, because the function has an extreme too near to zero or is not as smooth
 /// as a motion.
 ///
-/// The interpolant of degree 4 and the decay of its coefficients bound the function. A function that oscillates many times in the step can look smooth
-/// at the nodes (aliasing); that it also has the slopes of the interpolant at the three places beside them happens in less than one step of ten
-/// thousand.
+/// The interpolant of degree 4 and the decay of its coefficients bound the function. A function that
+/// oscillates many times in the step can look smooth at the nodes (aliasing); that it also has the slopes
+/// of the interpolant at the three places beside them happens in less than one step of ten thousand.
 pub(crate) fn sign_changes(values: &[f64; FRACTIONS.len()]) -> Option<usize> {
     let [v0, v1, v2, v3, v4, ref beside @ ..] = *values;
     let (ends, odd_ends) = (0.5 * (v0 + v4), 0.5 * (v4 - v0));

@@ -180,10 +180,9 @@ pub struct Progress {
     pub steps: usize,
     /// Length of the last step, in s.
     pub step: f64,
-    /// When the motion was first detected to be stiff, in s: from then on the stability of the
-    /// method limits the steps, and `radau5` takes longer ones. An explicit method tests every
-    /// thousandth step, and after a positive result every step; it reports stiffness after fifteen
-    /// positive results.
+    /// When the motion was first detected to be stiff, in s: from then on the stability of the method
+    /// limits the steps, and `radau5` takes longer ones. An explicit method tests every thousandth step,
+    /// and after a positive result every step; it reports stiffness after fifteen positive results.
     pub stiff_since: Option<f64>,
 }
 

@@ -352,8 +352,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// Keeps only the end of the run, its samples and its events, and not the steps that [`Solution::at`] needs (10 vectors a step with the
-    /// default method).
+    /// Keeps only the end of the run, its samples and its events, and not the steps
+    /// that [`Solution::at`] needs (10 vectors a step with the default method).
     pub fn forget_steps(mut self) -> Self {
         self.settings.keep_steps = false;
         self

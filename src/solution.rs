@@ -430,8 +430,8 @@ impl<M: Machine, L> Solution<M, L> {
         &self.handovers
     }
 
-    /// The methods that the run used, with times and reasons, in order; empty unless [`automatic`](crate::Simulation::automatic)
-    /// was requested.
+    /// The methods that the run used, with times and reasons, in order; empty
+    /// unless [`automatic`](crate::Simulation::automatic) was requested.
     pub fn choices(&self) -> &[MethodChoice] {
         &self.choices
     }

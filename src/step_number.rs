@@ -56,9 +56,8 @@ pub trait StepNumber:
     fn are_same(self, other: Self) -> Self::Each<bool>;
     /// `self` where `condition` holds, otherwise `other`.
     fn where_true(self, condition: &Self::Each<bool>, other: Self) -> Self;
-    /// For each trajectory the squares of these errors, relative to the tolerance for a number whose values at the two ends
-    /// of a step are `sizes`: `absolute + relative |y|`. For a dual number, the sums of the squares for the value and for
-    /// the derivative.
+    /// For each trajectory the squares of these errors, relative to the tolerance for a number whose values at the two ends of a
+    /// step are `sizes`: `absolute + relative |y|`. For a dual number, the sums of the squares for the value and for the derivative.
     fn squared_errors<const K: usize>(
         errors: [Self; K],
         sizes: [Self; 2],

@@ -357,8 +357,8 @@ pub trait System {
     #[doc(hidden)]
     const MAY_COLLIDE: bool = true;
 
-    /// The bilateral constraints, in the order of the rows below. By default there are none, and then the methods that follow need not
-    /// be implemented.
+    /// The bilateral constraints, in the order of the rows below. By default
+    /// there are none, and then the methods that follow need not be implemented.
     ///
     /// The accelerations of a machine with constraints obey them: `M a = f + Gᵀ λ`, `G a = γ`.
     #[inline(always)]
@@ -371,8 +371,8 @@ pub trait System {
     #[inline(always)]
     fn constraint_positions(&self, _t: f64, _q: &Self::Vector, _residuals: &mut [f64]) {}
 
-    /// Residuals of the constraints at velocity level, `φₖ = Gₖ v + ∂gₖ/∂t`, one for each constraint. All are 0 if the state satisfies
-    /// the constraints.
+    /// Residuals of the constraints at velocity level, `φₖ = Gₖ v + ∂gₖ/∂t`, one
+    /// for each constraint. All are 0 if the state satisfies the constraints.
     #[inline(always)]
     fn constraint_rates(
         &self,
@@ -391,8 +391,8 @@ pub trait System {
     #[inline(always)]
     fn constraint_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
 
-    /// Lagrange's multipliers `λ` of `M a = f + Gᵀ λ`, by the same elimination as the accelerations. An error if the constraints are
-    /// linearly dependent.
+    /// Lagrange's multipliers `λ` of `M a = f + Gᵀ λ`, by the same elimination
+    /// as the accelerations. An error if the constraints are linearly dependent.
     #[inline(always)]
     fn multipliers(
         &self,
@@ -473,8 +473,8 @@ pub trait System {
         Ok(())
     }
 
-    /// The unilateral contacts, whose gaps open and close. By default there are none, and then the methods that follow need not
-    /// be implemented.
+    /// The unilateral contacts, whose gaps open and close. By default there
+    /// are none, and then the methods that follow need not be implemented.
     ///
     /// [`accelerations`](Self::accelerations) are those with all contacts open; a [`Simulation`](crate::Simulation) finds the effect of
     /// the closed ones.
@@ -591,8 +591,8 @@ pub trait System {
     note = "add the line `derivatives {{ coordinates, rates }}` to the description of the machine"
 )]
 pub trait Linearize: System {
-    /// The accelerations `a(t, q, v, u)` and, row after row, their derivatives `∂aᵢ/∂qⱼ` and `∂aᵢ/∂vⱼ`, which are exact to rounding and not
-    /// finite differences.
+    /// The accelerations `a(t, q, v, u)` and, row after row, their derivatives
+    /// `∂aᵢ/∂qⱼ` and `∂aᵢ/∂vⱼ`, which are exact to rounding and not finite differences.
     #[expect(
         clippy::too_many_arguments,
         reason = "a state, and the three things that are asked of it"
@@ -804,8 +804,8 @@ pub enum Pivot {
     Contact(usize),
     /// No row: the machine provides no workspace for its contacts ([`System::with_workspace`]).
     NoWorkspace,
-    /// No row: accelerations that involve the contact with this index are not differentiated, since a sticking contact has
-    /// no linearization.
+    /// No row: accelerations that involve the contact with this index are
+    /// not differentiated, since a sticking contact has no linearization.
     NotDifferentiated(usize),
 }
 

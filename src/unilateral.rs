@@ -56,8 +56,8 @@ pub enum Compliance {
     Linear,
     /// `K d^(3/2)`, with a stiffness in N/m^(3/2).
     Hertz,
-    /// `K d^(3/2) (1 + c ḋ)`, with a stiffness in N/m^(3/2) and a damping in s/m. (K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42
-    /// (1975) 440–445.)
+    /// `K d^(3/2) (1 + c ḋ)`, with a stiffness in N/m^(3/2) and a damping in
+    /// s/m. (K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440–445.)
     HuntCrossley,
     /// `k₁ d` when the layer is pressed for the first time; along `k₂` back and up again to the greatest depth `d*` so far, so that a
     /// thickness of `d* (1 − k₁/k₂)` is lost. (O. R. Walton, R. L. Braun, J. Rheol. 30 (1986) 949–980.)
@@ -69,8 +69,8 @@ pub enum Compliance {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ImpactLaw {
-    /// `0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ⁻ ≥ 0`, `−Λₜ ∈ μ Λₙ Sgn(γₜ⁺ + eₜ γₜ⁻)`; with `eₜ = e` this is Moreau's law. It may create energy if
-    /// these differ.
+    /// `0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ⁻ ≥ 0`, `−Λₜ ∈ μ Λₙ Sgn(γₜ⁺ + eₜ γₜ⁻)`; with
+    /// `eₜ = e` this is Moreau's law. It may create energy if these differ.
     #[default]
     Newton,
     /// Along Routh's path of impulses; the normal impulse of expansion is `e` times that of compression.
@@ -88,8 +88,8 @@ pub enum ImpactLaw {
 pub enum ContactTrouble {
     /// The law of friction permits no motion, or several: P. Painlevé's paradox.
     Paradox,
-    /// No force along its normal holds it shut: its gap hardly depends on the coordinates, or constraints, moving walls or other contacts
-    /// contradict it.
+    /// No force along its normal holds it shut: its gap hardly depends on the
+    /// coordinates, or constraints, moving walls or other contacts contradict it.
     NotHeld,
     /// No forces were found that satisfy the law of friction in space, by a method that converges if there are any.
     Unsolved,

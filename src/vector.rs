@@ -7,8 +7,7 @@ use crate::step_number::StepNumber;
 /// A row of numbers whose length is fixed when the machine is prepared: `[f64; N]` in compiled
 /// machines, `Vec<f64>` in interpreted ones; `[N; D]` for other numbers.
 ///
-/// With `[f64; N]` the compiler knows every length, unrolls and vectorizes loops, and nothing
-/// is allocated.
+/// With `[f64; N]` the compiler knows every length, unrolls and vectorizes loops, and nothing is allocated.
 pub trait Vector<N = f64>: Clone + Debug + PartialEq {
     /// `length` zeros. An array has its own length and ignores `length`.
     fn zeros(length: usize) -> Self;

@@ -16,8 +16,7 @@ pub fn median(mut numbers: Vec<f64>) -> f64 {
     quantile(&numbers, 0.5)
 }
 
-/// The median time of several calls, in s: at least `least` calls, and more until half a second
-/// is spent.
+/// The median time of several calls, in s: at least `least` calls, and more until half a second is spent.
 pub fn median_of<R>(least: usize, mut work: impl FnMut() -> R) -> (f64, R) {
     let (first, mut result) = seconds(&mut work);
     let mut times = vec![first];

@@ -531,8 +531,7 @@ mod tests {
                     .map(|row| along(row, &tall))
                     .collect();
             }
-            // Error weights are the difference to another method of this kind: they vanish for everything that both
-            // integrate exactly.
+            // Error weights are the difference to another method of this kind: they vanish for everything that both integrate exactly.
             for name in ["ERROR_WEIGHTS", "COARSE_ERROR_WEIGHTS"] {
                 let errors = array(text, name).remove(0);
                 for power in 0..3 {

@@ -535,8 +535,7 @@ fn columns(variations: &[Variation], observed: &[Observed]) -> Vec<Column> {
     own.chain(derivatives).collect()
 }
 
-/// The run of a machine with unilateral contacts, with derivatives continued across each impact and each change of
-/// closed contacts.
+/// The run of a machine with unilateral contacts, with derivatives continued across each impact and each change of closed contacts.
 fn across_impacts(
     call: &call::Sensitivities,
     machine: &InterpretedMachine,

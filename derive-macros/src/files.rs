@@ -1,5 +1,4 @@
-//! Files that the macro reads: the spec, and what it extends. Cargo must track them, so that an edit
-//! triggers recompilation.
+//! Files that the macro reads: the spec, and what it extends. Cargo must track them, so that an edit triggers recompilation.
 
 use std::env;
 use std::path::{Path, PathBuf};

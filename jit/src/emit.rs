@@ -667,8 +667,7 @@ impl<'a> Emitter<'a> {
             let held = |id: Id| emitter.register_of[id as usize].is_some();
             let copy = u32::from(!(held(over) && last_use(emitter, over)));
             let load = u32::from(!held(second) && second != over);
-            // Copying a register while another operand is in memory is wasteful: that operand could be loaded and
-            // overwritten instead.
+            // Copying a register while another operand is in memory is wasteful: that operand could be loaded and overwritten instead.
             let waste = u32::from(held(over) && copy == 1 && !held(third));
             2 * (copy + load) + waste
         };

@@ -182,8 +182,7 @@ impl Library {
         self.functions.get(place).map(|entry| entry.role)
     }
 
-    /// Counts a call of the function at an index, and returns its code once enough calls have been made to make
-    /// compiling worthwhile.
+    /// Counts a call of the function at an index, and returns its code once enough calls have been made to make compiling worthwhile.
     #[inline]
     pub(crate) fn code_where_it_pays(&self, place: usize) -> Option<&Code> {
         let entry = self.functions.get(place)?;

@@ -11,8 +11,7 @@ mod render;
 
 /// The largest number of messages that one report keeps.
 ///
-/// Nobody reads more, and a file that is not a spec at all would give one for each of
-/// its characters.
+/// Nobody reads more, and a file that is not a spec at all would give one for each of its characters.
 pub const REPORT_LIMIT: usize = 256;
 
 macro_rules! codes {
@@ -183,8 +182,7 @@ codes! {
     NoInertia => "no-inertia",
     /// A sliding body that its guide does not hold, or that something else holds too.
     NoGuide => "no-guide",
-    /// A body that moves with a guided body without being tied to it by anything that the
-    /// spec names.
+    /// A body that moves with a guided body without being tied to it by anything that the spec names.
     Untied => "untied",
     /// A small coordinate about whose zero an energy has no expansion.
     NoExpansion => "no-expansion",
@@ -363,8 +361,7 @@ fn by_position<'a>(list: impl IntoIterator<Item = &'a Diagnostic>) -> Vec<&'a Di
 /// The candidate that is most similar to `name`, if one is similar enough.
 ///
 /// Similar means equal except for case, or at most one slip in three characters, where a slip is a
-/// missing, extra or wrong letter, or two neighbouring letters exchanged. In case of a tie the
-/// first wins.
+/// missing, extra or wrong letter, or two neighbouring letters exchanged. In case of a tie the first wins.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     /// Longer names are not compared, since the work is the product of the lengths.
     const LONGEST: usize = 64;

@@ -1,5 +1,4 @@
-//! The elements of the language: everything in a machine besides its bodies that contributes to
-//! the equations.
+//! The elements of the language: everything in a machine besides its bodies that contributes to the equations.
 //!
 //! Each element is one file with all knowledge about it: the syntax of its section, units and stages
 //! of its fields, its contributions, its names and drawing, its errors. A new element is one more

@@ -1,5 +1,4 @@
-//! Tests identities, and whether expressions really depend on the symbols in them, at points of a
-//! prime field.
+//! Tests identities, and whether expressions really depend on the symbols in them, at points of a prime field.
 //!
 //! Sines and cosines cancel in ways that no local rule detects: the angle by which a top has spun
 //! about its own axis occurs in the position of each of its particles and in none of its equations.
@@ -26,8 +25,7 @@ const POINTS: usize = 3;
 /// leaves a probability of ½.
 const POINTS_WITH_SIGNS: usize = 64;
 
-/// The number of points that are tried for each one that counts: a square root exists at every
-/// second point.
+/// The number of points that are tried for each one that counts: a square root exists at every second point.
 const TRIALS: usize = 16;
 
 /// The largest [work](evaluation_work) of the tests of one machine: some seconds. Whatever is
@@ -55,8 +53,7 @@ pub fn equal(a: Expr<'_>, b: Expr<'_>) -> Option<bool> {
     None
 }
 
-/// Whether an expression is zero, as far as the prime field can tell; `None` if it has no value at
-/// any point.
+/// Whether an expression is zero, as far as the prime field can tell; `None` if it has no value at any point.
 pub fn is_zero(expression: Expr<'_>) -> Option<bool> {
     if expression.is_zero() {
         Some(true)
@@ -113,9 +110,8 @@ pub fn is_free_of_motion(expression: Expr<'_>) -> bool {
     constants(expression.dag(), &[expression])[0].is_some()
 }
 
-/// A basis of the null space of a matrix, at a point where all entries have a value: one vector
-/// for each dependent column, with 1 in this column. `None` if the entries have no value at any
-/// point tried.
+/// A basis of the null space of a matrix, at a point where all entries have a value: one vector for each
+/// dependent column, with 1 in this column. `None` if the entries have no value at any point tried.
 pub fn null_space<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> Option<Vec<Vec<Residue>>> {
     let all: Vec<Expr<'d>> = rows.iter().flatten().copied().collect();
     let width = rows.first().map_or(0, Vec::len);
@@ -137,9 +133,8 @@ fn subtract(row: &mut [Residue], factor: Residue, other: &[Residue]) {
 
 /// The sign of an expression, if it is the same everywhere: that of a number times a square.
 ///
-/// In the field a sign is the Legendre symbol, and that of `c x²` is that of `c` at every point. It
-/// need not be the sign of the number `c`, which is determined at a point where the expression has a
-/// real value.
+/// In the field a sign is the Legendre symbol, and that of `c x²` is that of `c` at every point. It need
+/// not be the sign of the number `c`, which is determined at a point where the expression has a real value.
 pub fn steady_sign(expression: Expr<'_>) -> Option<bool> {
     let dag = expression.dag();
     let mut signs = Vec::new();
@@ -291,8 +286,7 @@ pub fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
     }
 }
 
-/// For each expression that depends on parameters alone its value at a point; the point is the same
-/// for all.
+/// For each expression that depends on parameters alone its value at a point; the point is the same for all.
 fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
     // One more, since the first has nothing to agree with.
     let needed = needed_points(dag, expressions) + 1;
@@ -340,9 +334,8 @@ fn varying(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<bool> {
     at(1).into_iter().zip(at(2)).map(differ).collect()
 }
 
-/// A number between ½ and 1½ for a symbol: fractional parts of multiples of √2, √3, …, which are
-/// uniformly distributed (H. Weyl, *Über die Gleichverteilung von Zahlen mod. Eins*, Math. Ann. 77
-/// (1916) 313–352).
+/// A number between ½ and 1½ for a symbol: fractional parts of multiples of √2, √3, …, which are uniformly
+/// distributed (H. Weyl, *Über die Gleichverteilung von Zahlen mod. Eins*, Math. Ann. 77 (1916) 313–352).
 pub fn number(point: u32, symbol: Symbol) -> f64 {
     let root = (symbol.index() as f64 + 2.0).sqrt() * std::f64::consts::E;
     0.5 + (f64::from(point + 1) * root).fract()

@@ -75,8 +75,7 @@ pub struct Model<'d> {
     pub derived_parameters: Vec<DerivedParameter<'d>>,
     /// Compile-time constants; their values are already substituted into the expressions.
     pub constants: Vec<Constant<'d>>,
-    /// Generalized coordinates, in the order of `q`: those of the spec, then the time integrals of its
-    /// first-order states.
+    /// Generalized coordinates, in the order of `q`: those of the spec, then the time integrals of its first-order states.
     pub coordinates: Vec<Coordinate<'d>>,
     /// Values that the user sets while the machine runs.
     pub inputs: Vec<Input<'d>>,
@@ -106,8 +105,7 @@ pub struct Model<'d> {
     pub approximations: Vec<Approximation>,
     /// Quantities to observe.
     pub outputs: Vec<Output<'d>>,
-    /// The variables by which the accelerations are to be differentiated, each once, in the order
-    /// of [`Variable`].
+    /// The variables by which the accelerations are to be differentiated, each once, in the order of [`Variable`].
     pub derivatives: Vec<Variable>,
     /// The stages of the accelerations that are to be computed by functions of their own.
     pub stages: Stages,
@@ -116,8 +114,7 @@ pub struct Model<'d> {
     /// The start values, coordinates and rates, that are kept when a start that violates the
     /// constraints is corrected; each once.
     pub kept: Vec<Variable>,
-    /// The end of the fastest motion, in coordinates; may depend on parameters. Empty if the spec
-    /// gives none.
+    /// The end of the fastest motion, in coordinates; may depend on parameters. Empty if the spec gives none.
     pub destination: Vec<Expr<'d>>,
     /// Published equations to compare with.
     pub published: Vec<Published<'d>>,
@@ -496,8 +493,7 @@ pub enum Response<'d> {
         order: ImpactOrder,
         /// What happens if friction leaves no consistent motion (Painlevé's paradox).
         painleve: Painleve,
-        /// Coefficients of restitution along the normal and along the tangent; the latter is 0 if it is
-        /// not given.
+        /// Coefficients of restitution along the normal and along the tangent; the latter is 0 if it is not given.
         restitution: [Expr<'d>; 2],
     },
     /// Compliant: the contact deforms and presses by a force law.

@@ -1,5 +1,4 @@
-//! Resolution, from a [`Spec`] to a [`Model`]: finds names, checks units, unrolls families,
-//! merges variants.
+//! Resolution, from a [`Spec`] to a [`Model`]: finds names, checks units, unrolls families, merges variants.
 //!
 //! Sections stand in any order, and a declaration may be needed before the place where it stands.
 //! So each definition is resolved when it is needed ([`work`]), without recursion from one
@@ -154,8 +153,7 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     pub(crate) dag: &'d Dag,
     pub(crate) space: Space,
     language: Language,
-    /// The values that the caller sets for constants, and for parameters that would otherwise
-    /// be derived.
+    /// The values that the caller sets for constants, and for parameters that would otherwise be derived.
     overrides: &'r [(String, Rational)],
     /// The parameters that the caller will set later.
     given: Vec<String>,
@@ -164,8 +162,7 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     report: &'r mut Report,
     /// What was reported where, since all members of a family make the same error.
     said: FxHashSet<(Span, Code)>,
-    /// Diagnostics of wrong units while a published formula is read; these are not errors of
-    /// the spec.
+    /// Diagnostics of wrong units while a published formula is read; these are not errors of the spec.
     remarks: Option<Vec<Diagnostic>>,
     /// Whether declarations are missing, so that an unknown name need not be reported.
     incomplete: bool,

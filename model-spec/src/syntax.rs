@@ -1,7 +1,6 @@
 //! The syntax tree of a spec, and its parser.
 //!
-//! Nothing is looked up here. Unknown names, conflicting units or huge families are detected by the
-//! next stage.
+//! Nothing is looked up here. Unknown names, conflicting units or huge families are detected by the next stage.
 //!
 //! The tokens are those of Rust (see [`token`](crate::token)), so that a file and the inside of
 //! `machine! { … }` are the same text. In the grammar, `[x]` is optional, `{x}` repeats, and

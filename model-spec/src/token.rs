@@ -11,8 +11,7 @@ use unicode_normalization::{UnicodeNormalization, is_nfc};
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::{SOURCE_LIMIT, SourceId, Span};
 
-/// The longest number, in characters: the digits of the largest floating-point number, and
-/// some more.
+/// The longest number, in characters: the digits of the largest floating-point number, and some more.
 const NUMBER_LIMIT: usize = 400;
 
 /// The three kinds of brackets.
@@ -56,8 +55,7 @@ pub struct Token {
     pub text: Box<str>,
     /// Its place.
     pub span: Span,
-    /// Whether it is punctuation directly followed by more punctuation, with which it may form
-    /// an operator.
+    /// Whether it is punctuation directly followed by more punctuation, with which it may form an operator.
     pub joint: bool,
 }
 
@@ -138,8 +136,7 @@ fn begins_word(c: char) -> bool {
     c == '_' || c.is_alphabetic()
 }
 
-/// Whether a character can continue a word: letters, digits and combining accents (`q̇`), but
-/// not `²`.
+/// Whether a character can continue a word: letters, digits and combining accents (`q̇`), but not `²`.
 fn continues_word(c: char) -> bool {
     begins_word(c) || c.is_ascii_digit() || ('\u{300}'..='\u{36f}').contains(&c)
 }

@@ -37,8 +37,7 @@ pub(crate) struct Scales<V> {
     curvatures: [V; REMEMBERED],
     /// `√Mⱼⱼ`.
     inertia: V,
-    /// The observed round-off of positions and rates, as a length in the metric of inertia, relative to the
-    /// round-off unit.
+    /// The observed round-off of positions and rates, as a length in the metric of inertia, relative to the round-off unit.
     observed_roundoff: [f64; 2],
 }
 

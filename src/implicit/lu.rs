@@ -84,8 +84,7 @@ impl<T: Coefficient> Lu<T> {
         }
     }
 
-    /// Factorizes the matrix of these entries by elimination with partial pivoting; returns whether it
-    /// is invertible.
+    /// Factorizes the matrix of these entries by elimination with partial pivoting; returns whether it is invertible.
     pub fn factor(&mut self, entry: impl Fn(usize, usize) -> T) -> bool {
         let n = self.n;
         for i in 0..n {

@@ -26,8 +26,7 @@ const LEFT_BY_ROUNDING: f64 = 0.1;
 /// of the error.
 const CONTRACTS: f64 = 0.05;
 
-/// An iteration that leaves more than this fraction of the error stagnates, provided that the earlier
-/// ones converged.
+/// An iteration that leaves more than this fraction of the error stagnates, provided that the earlier ones converged.
 const STAGNATES: f64 = 0.3;
 
 /// They converged if the last change is at most this fraction of the first.
@@ -221,8 +220,7 @@ impl Implicit {
         Ok(Solved::Shorter(0.5))
     }
 
-    /// The fraction of the tolerance that Newton's method may leave as its error, which is smaller at
-    /// finer tolerances.
+    /// The fraction of the tolerance that Newton's method may leave as its error, which is smaller at finer tolerances.
     fn share<V>(&self, task: &StepProblem<'_, V>) -> f64 {
         let relative = task.tolerance.relative;
         LEFT.min(sqrt(relative)).max(10.0 * f64::EPSILON / relative)

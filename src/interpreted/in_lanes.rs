@@ -90,8 +90,7 @@ impl Machines<InterpretedMachine> for InLanes {
         let running = system.running.lock();
         match &mut self.several {
             Some(several) => several.put(lane, &running.interpreter),
-            // Lanes without a run have the numbers of the first one, so that they hold a
-            // valid machine.
+            // Lanes without a run have the numbers of the first one, so that they hold a valid machine.
             none => {
                 self.inputs = inputs.values.iter().map(|u| Lanes::splat(*u)).collect();
                 *none = Several::each_from(self.library.clone(), &running.interpreter);

@@ -155,8 +155,7 @@ impl Tree {
         density
     }
 
-    /// `Σᵢ bᵢ Φᵢ` for the stage coefficients `a`, and a bound on its round-off, including that of
-    /// the coefficients.
+    /// `Σᵢ bᵢ Φᵢ` for the stage coefficients `a`, and a bound on its round-off, including that of the coefficients.
     fn weight(&self, a: &[&[f64]], b: &[f64; MAX_STAGES]) -> (f64, f64) {
         // Φ of a vertex is the product over its branches of Σⱼ aᵢⱼ Φⱼ.
         let mut products = [[[1.0; 2]; MAX_STAGES]; MAX_VERTICES];
@@ -384,8 +383,7 @@ fn nodes(tableau: &Tableau) -> Result<(), MethodError> {
     Ok(())
 }
 
-/// Checks `Σ bᵢ Φᵢ = θ^vertices / γ` for every tree with at most `order` vertices, or `= 0`
-/// without `theta`.
+/// Checks `Σ bᵢ Φᵢ = θ^vertices / γ` for every tree with at most `order` vertices, or `= 0` without `theta`.
 fn conditions(
     tableau: &Tableau,
     weights: Weights,

@@ -220,8 +220,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.choosing.since = (self.stepper.t(), self.stepper.work());
     }
 
-    /// Returns to an explicit method if that would have taken fewer evaluations, in steps that are stable and no longer than those of the
-    /// implicit one.
+    /// Returns to an explicit method if that would have taken fewer evaluations,
+    /// in steps that are stable and no longer than those of the implicit one.
     fn leave_implicit(&mut self) -> Result<(), Error> {
         let (since, before) = self.choosing.since;
         let work = self.stepper.work();

@@ -55,8 +55,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         [touching.speed(), touching.pull(model.system.get(), at)]
     }
 
-    /// Whether the forces in the contacts that were closed in the last step of time stepping would be unique if all of these
-    /// were constraints.
+    /// Whether the forces in the contacts that were closed in the last step
+    /// of time stepping would be unique if all of these were constraints.
     pub(crate) fn forces_are_the_only_ones(&mut self) -> bool {
         let Self { model, now, .. } = self;
         model.set_inputs(now.t, &now.q, &now.v);

@@ -54,8 +54,7 @@ pub struct StepperBuilder<S: System> {
 }
 
 impl<S: System> Stepper<'static, S, HeldInputs<S::Inputs>> {
-    /// A builder of a stepper that owns `system`. Defaults: the default method, a tolerance of 10⁻⁹ and the inputs of
-    /// the description.
+    /// A builder of a stepper that owns `system`. Defaults: the default method, a tolerance of 10⁻⁹ and the inputs of the description.
     ///
     /// The stepper allocates nothing while it steps. [`advance_to`](Stepper::advance_to) takes it from one sample of a
     /// controller to the next:

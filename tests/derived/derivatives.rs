@@ -1,5 +1,5 @@
-//! Derivatives in emitted code that a spec requests, tested against closed forms and against dual numbers through the
-//! emitted accelerations.
+//! Derivatives in emitted code that a spec requests, tested against closed
+//! forms and against dual numbers through the emitted accelerations.
 #![cfg(feature = "macros")]
 
 use crate::support::library;

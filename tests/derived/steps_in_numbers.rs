@@ -534,8 +534,8 @@ fn the_motion_within_a_step_is_told_or_refused() {
     );
 }
 
-/// An input law in the numbers of the run gives the bits of the `f64` stepper, and in dual numbers the derivative of machine and
-/// controller together.
+/// An input law in the numbers of the run gives the bits of the `f64` stepper,
+/// and in dual numbers the derivative of machine and controller together.
 #[test]
 fn a_law_sets_the_inputs_in_every_number() {
     fn gains<N: Real>(

@@ -1030,8 +1030,7 @@ fn a_gyroscope_precesses_steadily() {
     let [slow, fast] = roots(0.4, momentum);
     for (beta, rate) in [(0.0, level), (0.4, slow), (0.4, fast)] {
         let relative = spin - f64::sin(beta) * rate;
-        // H times the rate, divided by the inertia about the inner axis, is the size of the terms that the weight and the
-        // gimbals balance.
+        // H times the rate, divided by the inertia about the inner axis, is the size of the terms that the weight and the gimbals balance.
         let size = momentum * rate / gimbals(&gyroscope, beta)[1];
         steady(
             &gyroscope,

@@ -517,8 +517,7 @@ fn a_fall_into_a_pole_ends_when_and_where_it_must() {
     }
 }
 
-/// Dry friction written with a sign function defines no motion once the block comes to rest, so the
-/// steps collapse.
+/// Dry friction written with a sign function defines no motion once the block comes to rest, so the steps collapse.
 #[test]
 fn dry_friction_ends_the_run_when_the_block_comes_to_rest() {
     let block = machine(

@@ -1,5 +1,5 @@
-//! The page in a browser: the test operates its controls, and compares its positions of all bodies with the model's own expressions
-//! in double-double.
+//! The page in a browser: the test operates its controls, and compares its
+//! positions of all bodies with the model's own expressions in double-double.
 //!
 //! Needs Chromium or Chrome: on the path, or named by the environment variable `CHROMIUM`.
 

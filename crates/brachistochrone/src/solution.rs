@@ -203,8 +203,7 @@ impl Brachistochrone {
         let [ahead, aside, time] = self.arc.so_far(u);
         let (sin, cos) = self.first.sin_cos();
         let way = along(cos * ahead - sin * aside, sin * ahead + cos * aside);
-        // Applied one after the other, because the unit of displacement may overflow where the displacement in that
-        // unit underflows.
+        // Applied one after the other, because the unit of displacement may overflow where the displacement in that unit underflows.
         let scaled = |x: &f64| x * self.scale / self.descent * self.scale;
         let q = self
             .start

@@ -60,8 +60,7 @@ pub const MARK: &str = "fields_of_the_description";
 
 /// The fewest steps of a function in which repeated code is written as a loop.
 ///
-/// Shorter functions are short enough for compilers and processors anyway, and in the order of time they contain
-/// few repetitions.
+/// Shorter functions are short enough for compilers and processors anyway, and in the order of time they contain few repetitions.
 pub const SHORTEST_ROLLED: usize = 300;
 
 /// The fewest operations of a function that is written in pairs. A shorter one fits into the processor's cache of

@@ -6,11 +6,10 @@
 //! implementation and theory*, Lecture Notes in Mathematics 630 (1978) 105–116). The linear problem is solved by singular value
 //! decomposition, which detects directions on which the residuals do not depend; steps have no component along them.
 //!
-//! A number at a bound stays there if the sum of squares falls only outward. Where a step would carry a number over its
-//! bound, the number is set to the bound and the step of the others is computed anew; if short enough, such a step
-//! reduces the sum wherever x can move (C. Kanzow, N. Yamashita, M. Fukushima, *Levenberg–Marquardt methods with strong
-//! local convergence properties for solving nonlinear equations with convex constraints*, J. Comput. Appl. Math. 172
-//! (2004) 375–397).
+//! A number at a bound stays there if the sum of squares falls only outward. Where a step would carry a number over its bound,
+//! the number is set to the bound and the step of the others is computed anew; if short enough, such a step reduces the sum
+//! wherever x can move (C. Kanzow, N. Yamashita, M. Fukushima, *Levenberg–Marquardt methods with strong local convergence
+//! properties for solving nonlinear equations with convex constraints*, J. Comput. Appl. Math. 172 (2004) 375–397).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -48,10 +47,9 @@ pub trait Problem {
 /// Stopping criteria of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
-    /// Stop where the part of the residuals that a step could still remove is this fraction of the rest, each per
-    /// degree of freedom. It measures the distance of x from the minimum in standard errors (D. M. Bates, D. G.
-    /// Watts, *A relative offset orthogonality convergence criterion for nonlinear least squares*, Technometrics 23
-    /// (1981) 179–183).
+    /// Stop where the part of the residuals that a step could still remove is this fraction of the rest, each per degree
+    /// of freedom. It measures the distance of x from the minimum in standard errors (D. M. Bates, D. G. Watts, *A
+    /// relative offset orthogonality convergence criterion for nonlinear least squares*, Technometrics 23 (1981) 179–183).
     pub offset: f64,
     /// Stop where a step is this fraction of x, in the norm of D.
     pub step: f64,

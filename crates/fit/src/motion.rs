@@ -176,8 +176,7 @@ pub struct Found {
     pub exact: f64,
 }
 
-/// The relative error of integrated derivatives is this times the tolerance; that of differences is this
-/// times tolerance^(2/3).
+/// The relative error of integrated derivatives is this times the tolerance; that of differences is this times tolerance^(2/3).
 const SHARE: f64 = 100.0;
 
 /// During a search, derivatives may be this many times as far off the constraints as at the states that were measured.
@@ -186,8 +185,7 @@ const ELSEWHERE: f64 = 10.0;
 /// The smallest relative error assumed for derivatives of either kind.
 const MOST_EXACT: f64 = 1e-11;
 
-/// Points far along a null direction have the same residuals if these agree to this fraction of the motion,
-/// plus tolerances.
+/// Points far along a null direction have the same residuals if these agree to this fraction of the motion, plus tolerances.
 const SAME: f64 = 1e-6;
 
 /// One row of a run: the values of all columns and, if these are integrated, their derivatives in all directions.

@@ -764,9 +764,8 @@ fn goes_on(
 
 /// Checks that no term has a corner or a jump at the state, as `abs`, `sign`, `min` and `max` have where their arguments change sides.
 ///
-/// All terms of the equations are evaluated on both sides of the state, with their derivatives, at two distances. For a smooth
-/// term the difference of the sides falls with the distance; at a corner it stays. With 32 digits there is no round-off at
-/// these distances.
+/// All terms of the equations are evaluated on both sides of the state, with their derivatives, at two distances. For a smooth term
+/// the difference of the sides falls with the distance; at a corner it stays. With 32 digits there is no round-off at these distances.
 fn smooth(
     reduced: &mut Reduced<'_>,
     named_request: &NamedRequest<'_>,

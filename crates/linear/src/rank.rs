@@ -32,8 +32,7 @@ pub fn tolerance(n: usize) -> f64 {
     64.0 * n as f64 * f64::EPSILON
 }
 
-/// The singular values of a square matrix whose entries are known up to `bounds`, computed separately for each of its
-/// independent blocks.
+/// The singular values of a square matrix whose entries are known up to `bounds`, computed separately for each of its independent blocks.
 ///
 /// Separate blocks matter because a spring is not soft just because another one, not connected to it, is stiff. `None` where
 /// the iterations do not converge.

@@ -90,8 +90,7 @@ pub struct Equations<'d> {
     pub forces: Vec<Expr<'d>>,
     /// The equations of motion before projection, where no coordinate is approximated.
     pub unprojected: Option<Unprojected<'d>>,
-    /// The bilateral constraints. The accelerations obey them; `M`, `h`, `Q` and `f` do not
-    /// contain them.
+    /// The bilateral constraints. The accelerations obey them; `M`, `h`, `Q` and `f` do not contain them.
     pub constraints: Vec<ConstraintEquation<'d>>,
     /// The guided contacts with friction, which are not contained in `M`, `h`, `Q` and `f` either.
     pub sliding: Vec<SlidingEquation<'d>>,
@@ -187,8 +186,7 @@ pub enum Route {
 }
 
 impl<'d> Equations<'d> {
-    /// Derives the equations of a machine. Returns nothing, and reports each reason, if it
-    /// has none.
+    /// Derives the equations of a machine. Returns nothing, and reports each reason, if it has none.
     pub fn derive(model: &Model<'d>, report: &mut Report) -> Option<Equations<'d>> {
         if refusal::refuse_unsupported(model, report)
             || refusal::refuse_unturned(model, report)
@@ -198,8 +196,7 @@ impl<'d> Equations<'d> {
         {
             return None;
         }
-        // The bound holds for every machine; expressions that it leaves undefined are
-        // refused below.
+        // The bound holds for every machine; expressions that it leaves undefined are refused below.
         model.dag.set_limit(refusal::MOST_SIZE);
         let equations = Equations::within_bounds(model, report);
         model.dag.set_limit(usize::MAX);
@@ -342,8 +339,7 @@ impl<'d> Equations<'d> {
         self.work_rate = dag.sum(all);
     }
 
-    /// Removes coordinates and time from equations that do not depend on them, eqs. (E21)
-    /// and (E22).
+    /// Removes coordinates and time from equations that do not depend on them, eqs. (E21) and (E22).
     fn drop_what_cancels(&mut self, model: &Model<'d>) {
         let x = Variables::of(model);
         let candidates: Vec<Symbol> = x.q.iter().copied().chain([x.t]).collect();
@@ -431,8 +427,7 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
     })
 }
 
-/// The equations of approximated energies, by Lagrange's equations; nothing if they become
-/// too large.
+/// The equations of approximated energies, by Lagrange's equations; nothing if they become too large.
 fn approximate<'d>(
     model: &Model<'d>,
     approximations: &Approximations<'d>,

@@ -11,8 +11,7 @@ use lagrangian_program::quantity::Entry;
 use lagrangian_program::{Program, Role};
 use lagrangian_spec::model::Model;
 
-/// The largest number of numbers, symbols and operations of a formula that is shown. Longer ones can be read in the
-/// printed derivation.
+/// The largest number of numbers, symbols and operations of a formula that is shown. Longer ones can be read in the printed derivation.
 const LONGEST_LINE: u64 = 250;
 
 /// The same limit for the comment of one function.

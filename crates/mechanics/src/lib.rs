@@ -1,5 +1,4 @@
-//! Derives the [`Equations`] of a [`Model`](lagrangian_spec::model::Model), lowers them to a [`Program`], and
-//! proves it.
+//! Derives the [`Equations`] of a [`Model`](lagrangian_spec::model::Model), lowers them to a [`Program`], and proves it.
 //!
 //! ```text
 //! Model ─▶ Equations ─▶ Program ─▶ Proved

@@ -678,8 +678,7 @@ impl Planned {
         Net::of_values(graph, &values, cut)
     }
 
-    /// The function of a net. If the graph is given, values that depend on parameters alone
-    /// are prepared.
+    /// The function of a net. If the graph is given, values that depend on parameters alone are prepared.
     fn draft(
         &self,
         graph: Option<&mut Graph>,
@@ -818,8 +817,7 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Ve
     let has_other = elimination.multiplications <= MOST_MULTIPLICATIONS;
     let mut drafts = Vec::new();
     for basis in [Basis::Along, Basis::Ahead] {
-        // At least one draft is needed; if formulas are nearly all of the work, a second one is
-        // not tried.
+        // At least one draft is needed; if formulas are nearly all of the work, a second one is not tried.
         let machine = source
             .unprojected
             .filter(|machine| !has_other || !is_mostly_formulas(source.model, machine));
@@ -912,8 +910,7 @@ fn embedded<'d>(
     for (&i, &value) in left.iter().zip(&solution.accelerations) {
         accelerations[i] = value;
     }
-    // Values that were lowered earlier, such as outputs, may contain the accelerations
-    // as arguments.
+    // Values that were lowered earlier, such as outputs, may contain the accelerations as arguments.
     let before = lowering.values.clone();
     for (i, value) in accelerations.iter().enumerate() {
         let symbol = lowering.model.coordinates[i].a;
@@ -1019,8 +1016,7 @@ fn multipliers<'d>(
     drafts
 }
 
-/// The accelerations with their derivatives, if any are requested, from the same equations as
-/// the accelerations.
+/// The accelerations with their derivatives, if any are requested, from the same equations as the accelerations.
 fn derivatives<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Origin<'_, 'd>,
@@ -1071,8 +1067,7 @@ fn solved<'d>(
     drafts
 }
 
-/// The accelerations by [`articulated::solve`]; `None` if these are too long and the mass matrix already gives
-/// another draft.
+/// The accelerations by [`articulated::solve`]; `None` if these are too long and the mass matrix already gives another draft.
 fn along_the_machine<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Set<'_, 'd>,

@@ -61,9 +61,8 @@ pub const STATES: usize = 4;
 /// The largest number of states to try.
 const MOST_STATES: u64 = 96;
 
-/// The largest number of points of the field to try. A root needs a point where its argument
-/// is a square, which holds with probability ½; a machine with more than ten roots is compared
-/// at states.
+/// The largest number of points of the field to try. A root needs a point where its argument is a
+/// square, which holds with probability ½; a machine with more than ten roots is compared at states.
 const MOST_POINTS: u64 = 4096;
 
 /// The largest number of expression values that the search for a point may compute.
@@ -77,8 +76,7 @@ const COMPARISONS: u64 = 8;
 /// [`COMPARISONS`] times one that succeeds at once, or a second.
 const MOST_COMPARED: u64 = 40_000_000;
 
-/// A program that was proved to compute what Lagrange's equations of its machine say; see
-/// the [module](self).
+/// A program that was proved to compute what Lagrange's equations of its machine say; see the [module](self).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Proved(Program);
 
@@ -576,8 +574,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             }
         }
         match compared {
-            // Where the assumptions of the spec do not hold, agreement counts and a difference
-            // does not.
+            // Where the assumptions of the spec do not hold, agreement counts and a difference does not.
             Err(Verdict::Wrong(_)) if !are_facts => Err(Verdict::Elsewhere),
             result => result,
         }
@@ -996,8 +993,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.interpreter.start(&mut q, &mut v);
         let found = q.into_iter().chain(v);
         for (i, (found, expected)) in found.zip(machine.values(&starts, at)).enumerate() {
-            // A start that does not exist, such as √(−1) of a parameter, is left to the run
-            // to report.
+            // A start that does not exist, such as √(−1) of a parameter, is left to the run to report.
             if found.is_finite() && expected.is_finite() {
                 self.compare(Role::Start, i, found, expected)?;
             }

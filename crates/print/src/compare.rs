@@ -1,10 +1,9 @@
 //! Published equations, compared with the derived ones.
 //!
-//! Whether a printed formula agrees is decided in the prime field, at enough points to leave no doubt. Only one
-//! that disagrees is expanded term by term, to report which terms to add and which to drop, and which pairs of
-//! these are one term with a misprint. An equation of motion may be multiplied or divided by any factor of
-//! parameters, and a potential energy may differ by a constant: neither changes the motion. Equations (E23), (E24)
-//! of `docs/equations.md`.
+//! Whether a printed formula agrees is decided in the prime field, at enough points to leave no doubt. Only one that
+//! disagrees is expanded term by term, to report which terms to add and which to drop, and which pairs of these are one
+//! term with a misprint. An equation of motion may be multiplied or divided by any factor of parameters, and a potential
+//! energy may differ by a constant: neither changes the motion. Equations (E23), (E24) of `docs/equations.md`.
 
 mod brackets;
 mod changes;

@@ -1,5 +1,4 @@
-//! Measures the accuracy of a program at given states, by comparison with the same program
-//! in double-doubles.
+//! Measures the accuracy of a program at given states, by comparison with the same program in double-doubles.
 //!
 //! An absolute error says little: if a result is a small difference of large terms, the data determine it only to many units in
 //! its last place, whatever the program does. So an error is reported relative to the unavoidable error: half a unit in the last
@@ -59,8 +58,7 @@ pub struct Judge<'p> {
     program: &'p Program,
     near: Interpreter<f64>,
     exact: Interpreter<DoubleDouble>,
-    /// Interpreters with perturbed parameters, each parameter by up to half a unit in its
-    /// last place.
+    /// Interpreters with perturbed parameters, each parameter by up to half a unit in its last place.
     moved: Vec<Interpreter<DoubleDouble>>,
     random: SplitMix,
     /// The number of states that were examined.

@@ -62,8 +62,7 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// Orders two candidates by cost; at equal cost, by the number of operations
-    /// without contraction.
+    /// Orders two candidates by cost; at equal cost, by the number of operations without contraction.
     pub fn compare(&self, other: &Candidate) -> Ordering {
         let ops = |candidate: &Candidate| candidate.counts.ops();
         let by_cost = self.cost.compare(other.cost);
@@ -114,14 +113,12 @@ pub fn best(candidates: &[Candidate]) -> usize {
     ranked(candidates).first().copied().unwrap_or(0)
 }
 
-/// The indices from best to worst: those that are accurate enough, then the others, each by
-/// increasing cost.
+/// The indices from best to worst: those that are accurate enough, then the others, each by increasing cost.
 fn ranked(candidates: &[Candidate]) -> Vec<usize> {
     let least = candidates.iter().filter_map(|c| c.rounding).min();
     let is_rough = |candidate: &Candidate| match (candidate.rounding, least) {
         (Some(rounding), Some(least)) => !rounding.is_within(MOST_ROUNDING, least),
-        // It has no value at these states, for instance because it divides by a length that
-        // is zero.
+        // It has no value at these states, for instance because it divides by a length that is zero.
         (None, Some(_)) => true,
         (_, None) => false,
     };

@@ -56,8 +56,7 @@ impl Counts {
         self.multiplications + self.additions
     }
 
-    /// An estimate of the time of a call, in tenths of a processor cycle, for choosing
-    /// between programs.
+    /// An estimate of the time of a call, in tenths of a processor cycle, for choosing between programs.
     ///
     /// By throughput on a current x86 core: 2.5 multiplications or additions a cycle, 4.5 cycles
     /// for a division, 12 for a group of four sines and cosines. Other functions are counted like a

@@ -29,8 +29,7 @@ const LOOKS: usize = 2_000_000;
 
 /// A term of a sum.
 struct Monomial {
-    /// Its factors by index, repeated for powers; if the term is not a product of its own, the
-    /// term itself.
+    /// Its factors by index, repeated for powers; if the term is not a product of its own, the term itself.
     factors: Vec<Index>,
     negative: bool,
     /// Its item, unless it was changed.
@@ -167,9 +166,8 @@ impl Net {
         terms
     }
 
-    /// The factor that occurs in most products among the terms, if it occurs in two or more: in
-    /// case of a tie, the one known last, then the oldest. None once the limit of counted factors
-    /// is reached.
+    /// The factor that occurs in most products among the terms, if it occurs in two or more: in case of
+    /// a tie, the one known last, then the oldest. None once the limit of counted factors is reached.
     fn most_common(&self, terms: &[Monomial], looks: &mut usize) -> Option<Index> {
         let factors: usize = terms.iter().map(|term| term.factors.len()).sum();
         *looks = looks.checked_sub(factors)?;

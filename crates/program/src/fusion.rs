@@ -1,9 +1,8 @@
 //! Decides which products are contracted into the sums that use them.
 //!
-//! Programs keep multiplications and additions apart; a processor with a fused multiply-add
-//! computes `a·b ± c` in one operation with one rounding. Whether to contract is the choice
-//! of the emitter; which products to contract is decided here, once for the emitters and for
-//! the [cost](super::Cost).
+//! Programs keep multiplications and additions apart; a processor with a fused multiply-add computes
+//! `a·b ± c` in one operation with one rounding. Whether to contract is the choice of the emitter;
+//! which products to contract is decided here, once for the emitters and for the [cost](super::Cost).
 
 use super::latency::latency;
 use super::{Function, Op, Value};

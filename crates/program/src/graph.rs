@@ -1,5 +1,4 @@
-//! The graph of all values of all functions of a machine, each once, with products and sums
-//! still whole.
+//! The graph of all values of all functions of a machine, each once, with products and sums still whole.
 //!
 //! Here the *stages are split*: whatever depends on parameters alone is separated from the rest, so
 //! that it becomes a prepared value. Every value is written `±p·x`, a [`Scaled`]: `p` depends on
@@ -250,8 +249,7 @@ impl Graph {
         self.product(&[(numerator, 1), (denominator, -1)])
     }
 
-    /// The product of nodes; products that are not long are flattened, and constants
-    /// are multiplied.
+    /// The product of nodes; products that are not long are flattened, and constants are multiplied.
     fn product_of(&mut self, list: &[(Id, i32)]) -> Id {
         let mut constant = Rational::ONE;
         let mut factors: Vec<(Id, i32)> = Vec::with_capacity(list.len() + 1);

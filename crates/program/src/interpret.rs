@@ -187,8 +187,7 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         shares.fold(f64::INFINITY, f64::min)
     }
 
-    /// Passes the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the
-    /// next stage.
+    /// Passes the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the next stage.
     ///
     /// # Panics
     /// If `values` is not as long as the results of that role.

@@ -1,9 +1,8 @@
 //! Straight-line arithmetic, the form from which a machine is emitted, compiled or interpreted.
 //!
-//! A [`Program`] knows named values with shapes, not mechanics: it lists the operations, in order,
-//! that turn the arguments of a function into its results. The emitters print it, the
-//! [interpreter](Interpreter) runs it over any type of number, and the proof compares it with
-//! Lagrange's equations.
+//! A [`Program`] knows named values with shapes, not mechanics: it lists the operations, in order, that
+//! turn the arguments of a function into its results. The emitters print it, the [interpreter](Interpreter)
+//! runs it over any type of number, and the proof compares it with Lagrange's equations.
 //!
 //! ```text
 //! parameters ─▶ prepare ─▶ prepared values ─┐
@@ -92,8 +91,7 @@ pub struct Program {
     pub assumptions: Vec<Fact>,
     /// The bilateral constraints; functions about constraints exist only if there are any.
     pub constraints: Vec<Constraint>,
-    /// The names of the guided contacts with friction; functions about them exist only if there
-    /// are any.
+    /// The names of the guided contacts with friction; functions about them exist only if there are any.
     pub contacts: Vec<String>,
     /// The number of components of their normal reactions: one in the plane, along the normal; three in space, along
     /// the ground axes.
@@ -121,8 +119,7 @@ pub struct Program {
     /// For each prepared value its formula in terms of parameters, as a spec would write it;
     /// truncated (`…`) if it is long.
     pub prepared: Vec<String>,
-    /// The coordinates at the start, followed by their rates if any of these is not 0; reads
-    /// parameters only.
+    /// The coordinates at the start, followed by their rates if any of these is not 0; reads parameters only.
     pub start: Function,
     /// All other functions, in the order of [`Role`].
     pub functions: Vec<Function>,
@@ -323,16 +320,14 @@ pub struct Function {
     pub shape: Shape,
     /// The results, [`Shape::len`] of them.
     pub results: Vec<Value>,
-    /// The conditions under which the results are meaningful, in the order in which they are to
-    /// be reported.
+    /// The conditions under which the results are meaningful, in the order in which they are to be reported.
     pub guards: Vec<Guard>,
 }
 
 impl Function {
     /// Whether the results are linear in time, coordinates and velocities, and depend on nothing else that changes.
     fn is_linear(&self) -> bool {
-        // The degree of each operation; 2 stands for higher degrees and for functions that are
-        // no polynomials.
+        // The degree of each operation; 2 stands for higher degrees and for functions that are no polynomials.
         let mut degrees: Vec<u8> = Vec::with_capacity(self.code.len());
         for op in &self.code {
             let most = op.operands().map(|x| degrees[x.index()]).max().unwrap_or(0);
@@ -557,8 +552,7 @@ impl Program {
         there.map(|(_, role)| role).collect()
     }
 
-    /// Whether the derivatives by all coordinates and all rates exist, in this order and
-    /// before others.
+    /// Whether the derivatives by all coordinates and all rates exist, in this order and before others.
     pub fn has_linearization(&self) -> bool {
         self.derivatives
             .starts_with(&Variable::of_state(self.dimension()))

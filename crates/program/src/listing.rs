@@ -1,5 +1,4 @@
-//! The plain-text listing of a program: `derive --as program`, and the file beside generated code
-//! for reviewers.
+//! The plain-text listing of a program: `derive --as program`, and the file beside generated code for reviewers.
 //!
 //! Below the head of a function its form is noted if there was a choice. Each line has one
 //! operation, `_7 = _3 * prepared[2]`, or the sine and cosine of one angle; a result that a line
@@ -230,8 +229,7 @@ impl<'a> Listing<'a> {
         text
     }
 
-    /// The form of the function, if there were several; for the accelerations, the rejected
-    /// forms too.
+    /// The form of the function, if there were several; for the accelerations, the rejected forms too.
     fn choice(&self) -> String {
         let mut text = String::new();
         let Some(choice) = self.program.choice(self.function.role) else {

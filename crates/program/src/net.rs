@@ -12,9 +12,8 @@ use super::graph::{Graph, Id, Node, Scaled};
 use super::{Op, Source};
 use lagrangian_units::Stages;
 
-/// Powers up to this are written out as repeated factors, so that x² in x²·y and in x²·z is found
-/// as a common pair; higher powers are computed by repeated squaring, since parts of x¹⁷ are hardly
-/// ever shared.
+/// Powers up to this are written out as repeated factors, so that x² in x²·y and in x²·z is found as a
+/// common pair; higher powers are computed by repeated squaring, since parts of x¹⁷ are hardly ever shared.
 const WRITTEN_OUT_POWER: u32 = 8;
 
 /// An index into [`Net::items`].
@@ -74,8 +73,7 @@ pub struct Net {
 }
 
 impl Net {
-    /// The items that the roots need. With `cut`, values that depend on parameters alone
-    /// are arguments.
+    /// The items that the roots need. With `cut`, values that depend on parameters alone are arguments.
     pub fn new(graph: &Graph, roots: &[(Id, bool)], cut: bool) -> Net {
         let mut net = Net {
             items: Vec::new(),
@@ -200,8 +198,7 @@ impl Net {
         Index::try_from(self.items.len() - 1).expect("memory ends before 2^32 items")
     }
 
-    /// Gives a divisor that several products share one reciprocal; a single division stays
-    /// a division.
+    /// Gives a divisor that several products share one reciprocal; a single division stays a division.
     fn share_divisions(&mut self) {
         // Divisors that always occur together are treated as one divisor.
         let mut groups: FxHashMap<Vec<Index>, Vec<usize>> = FxHashMap::default();
@@ -256,8 +253,7 @@ impl Net {
     }
 }
 
-/// The nodes that the roots need, operands first; operands of nodes that are cut off are
-/// not needed.
+/// The nodes that the roots need, operands first; operands of nodes that are cut off are not needed.
 fn needed(graph: &Graph, roots: &[(Id, bool)], cut: bool) -> Vec<Id> {
     let mut seen = vec![false; graph.size()];
     let mut found: Vec<Id> = Vec::new();

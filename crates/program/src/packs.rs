@@ -23,16 +23,14 @@ use super::{Contracted, Contractions, Function, Op, Source, Value};
 /// The distance that colors cover.
 const DISTANCE: usize = 8;
 
-/// The distances at which seeds are searched: large ones first, since agreement over a large distance is
-/// more reliable.
+/// The distances at which seeds are searched: large ones first, since agreement over a large distance is more reliable.
 const OF_SEEDS: [usize; 4] = [8, 6, 5, 4];
 
 /// The largest number of operations of one color, and of users of one value, that are compared with each other. Larger
 /// sets are skipped: they are not distinctive, and comparing all of their pairs would take too long.
 const MOST_ALIKE: usize = 64;
 
-/// Pairs must save at least one in this many operations. Smaller savings come from operations that look alike
-/// by chance.
+/// Pairs must save at least one in this many operations. Smaller savings come from operations that look alike by chance.
 const LEAST_SHARE: usize = 8;
 
 /// A statement of the emitted code.
@@ -166,8 +164,7 @@ impl<'a> Finder<'a> {
         both.take_while(|(a, b)| a == b).count()
     }
 
-    /// How well two operands go together, 0 for not at all. With `is_strict`, operations must already be
-    /// a pair.
+    /// How well two operands go together, 0 for not at all. With `is_strict`, operations must already be a pair.
     fn fit(&self, a: Value, b: Value, is_strict: bool) -> u32 {
         if a == b {
             return 1;
@@ -501,8 +498,7 @@ fn colors(nodes: &[Node]) -> Vec<[u64; DISTANCE]> {
             let mut users: Vec<(u64, u64)> = Vec::with_capacity(node.users.len());
             for user in &node.users {
                 let user = (&nodes[user.index()], above[user.index()]);
-                // The slots in which the value stands; for commuting slots only how often
-                // it occurs.
+                // The slots in which the value stands; for commuting slots only how often it occurs.
                 let commutes = user.0.what.is_some_and(What::commutes);
                 for (slot, operand) in user.0.operands.iter().enumerate() {
                     if operand.index() == index {
@@ -528,8 +524,7 @@ mod tests {
     use super::super::{Role, Shape};
     use super::*;
 
-    /// Two limbs on one body: each has values of its own, one sum uses both, and results depend
-    /// on it.
+    /// Two limbs on one body: each has values of its own, one sum uses both, and results depend on it.
     fn limbs(last: fn(Value, Value) -> Op) -> Function {
         let mut code = Vec::new();
         let mut op = |op: Op| {

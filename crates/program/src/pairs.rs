@@ -50,8 +50,7 @@ struct Member {
     count: u32,
 }
 
-/// Two different members, the smaller index first, or one member twice; and whether their
-/// signs differ.
+/// Two different members, the smaller index first, or one member twice; and whether their signs differ.
 type Pair = (Index, Index, bool);
 
 /// A product or a sum, without the members that occur nowhere else.
@@ -83,8 +82,7 @@ struct Uses {
     bags: Vec<u32>,
 }
 
-/// The number of occurrences of a pair, its stage, and the pair itself: the order in which pairs
-/// are taken.
+/// The number of occurrences of a pair, its stage, and the pair itself: the order in which pairs are taken.
 type Rank = (u32, Reverse<Stage>, Reverse<Pair>);
 
 struct Bags {
@@ -191,8 +189,7 @@ impl Bags {
         users.sort_unstable();
         users.dedup();
         users.retain(|&bag| occurrences(&self.bags[bag as usize], pair) > 0);
-        // A bag that consists of this pair alone becomes the item; the first one, if there
-        // are several.
+        // A bag that consists of this pair alone becomes the item; the first one, if there are several.
         let (first, second, opposite) = pair;
         let definition = users.iter().copied().find(|&bag| {
             let bag = &self.bags[bag as usize];

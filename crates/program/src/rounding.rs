@@ -217,8 +217,7 @@ struct Linear<'f> {
     rounds: Vec<bool>,
     /// The results, each once: the index of the operation, and how often it is a result.
     results: Vec<(usize, f64)>,
-    /// The products and sums whose errors the function computes: their indices, and those of
-    /// the errors.
+    /// The products and sums whose errors the function computes: their indices, and those of the errors.
     corrected: Vec<(usize, usize)>,
 }
 

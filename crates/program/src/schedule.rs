@@ -310,8 +310,7 @@ impl Builder<'_> {
             TIME => self.error(value),
             _ => None,
         };
-        // An unused sine or cosine costs nothing, because operations that no result needs
-        // are dropped.
+        // An unused sine or cosine costs nothing, because operations that no result needs are dropped.
         let (sin, cos) = (self.op(sin), self.op(cos));
         let Some(error) = error else {
             return (sin, cos);
@@ -621,8 +620,7 @@ impl Rows {
         rows
     }
 
-    /// The time from the start of each operation to the end of the longest chain that depends
-    /// on it.
+    /// The time from the start of each operation to the end of the longest chain that depends on it.
     fn heights(&self) -> Vec<u64> {
         let mut heights = vec![0; self.takes.len()];
         for index in (0..heights.len()).rev() {
@@ -690,8 +688,7 @@ impl Rows {
     }
 }
 
-/// Writes operations in a given order, each preceded by those of its operands that are not
-/// yet written.
+/// Writes operations in a given order, each preceded by those of its operands that are not yet written.
 struct InOrder<'a> {
     function: &'a Function,
     /// The sines and cosines, by angle.

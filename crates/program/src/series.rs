@@ -38,8 +38,7 @@ impl RowId {
     }
 }
 
-/// A quantity along the motion. Operands are earlier rows, except for the partner of a pair, which
-/// may follow.
+/// A quantity along the motion. Operands are earlier rows, except for the partner of a pair, which may follow.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Row {
     /// A rational number.
@@ -58,8 +57,7 @@ pub enum Row {
     Coordinate(u32),
     /// The rate of a coordinate.
     Rate(u32),
-    /// An unknown: the acceleration of a coordinate; indices beyond the coordinates are the multipliers
-    /// of constraints.
+    /// An unknown: the acceleration of a coordinate; indices beyond the coordinates are the multipliers of constraints.
     Acceleration(u32),
     /// The derivative with respect to time of a row of positions.
     First(RowId),
@@ -120,8 +118,7 @@ pub struct Series {
     /// For each row the unknowns that change it at its own level: coordinates for positions, accelerations for rows
     /// that depend on these.
     pub depends: Vec<Vec<u32>>,
-    /// For each row whether it is the time or a sum that grows with it, so that its rounding error
-    /// is tracked.
+    /// For each row whether it is the time or a sum that grows with it, so that its rounding error is tracked.
     pub exact: Vec<bool>,
     /// The rows of the residuals, one for each coordinate and one for each constraint, in the order of the unknowns.
     pub residuals: Vec<RowId>,
@@ -175,8 +172,7 @@ impl Series {
         found.map(|row| &self.rows[row.index()])
     }
 
-    /// The number of products of series at one order: a square counts half, a sine with its
-    /// cosine two.
+    /// The number of products of series at one order: a square counts half, a sine with its cosine two.
     pub fn products(&self) -> f64 {
         let of_row = |row: &Row| match row {
             Row::Product(a, b) | Row::Quotient(a, b) => {
@@ -199,8 +195,7 @@ impl Series {
 /// Why the motion of a machine has no Taylor series here.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoSeries {
-    /// A function that has no recurrence, or whose recurrence does not hold on both sides of
-    /// a kink.
+    /// A function that has no recurrence, or whose recurrence does not hold on both sides of a kink.
     Function(Call),
     /// Coordinates that are approximated.
     Approximations,

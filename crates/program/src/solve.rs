@@ -1,5 +1,4 @@
-//! Solves `M a = f` for the accelerations, specialised to the zero, constant and varying entries
-//! of M.
+//! Solves `M a = f` for the accelerations, specialised to the zero, constant and varying entries of M.
 //!
 //! M = L D Lᵀ without row exchanges, in an order determined here. M is symmetric and positive
 //! definite wherever the coordinates describe the machine, and for such a matrix every order is

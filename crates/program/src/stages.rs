@@ -212,8 +212,7 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// The value of the whole function in this part; operands that this part computes are
-    /// already there.
+    /// The value of the whole function in this part; operands that this part computes are already there.
     fn value(&mut self, value: Value) -> Value {
         if let Some(&known) = self.values.get(&value) {
             return known;

@@ -447,8 +447,7 @@ impl<'p> Lift<'p> {
         }
     }
 
-    /// The guards of a function; the indices of constraints are moved by `further`
-    /// additional coordinates.
+    /// The guards of a function; the indices of constraints are moved by `further` additional coordinates.
     fn guards(&self, function: &Function, values: &[Scaled], further: usize) -> Vec<Pivot> {
         let n = self.program.dimension();
         let guards = function.guards.iter().map(|guard| Pivot {

@@ -1,5 +1,4 @@
-//! Checks the invariants of a program that its module lists. A program that fails reveals a bug of
-//! the compiler.
+//! Checks the invariants of a program that its module lists. A program that fails reveals a bug of the compiler.
 
 use rustc_hash::FxHashSet;
 

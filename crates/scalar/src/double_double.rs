@@ -40,8 +40,7 @@ const HALF_PI: [f64; 6] = [
     8.724931080676243e-84,
 ];
 
-/// ln 2; the first two parts have 40 bits, so that their products with integers up to 2¹³
-/// are exact.
+/// ln 2; the first two parts have 40 bits, so that their products with integers up to 2¹³ are exact.
 const LN_2: (f64, f64, DoubleDouble) = (
     0.6931471805592082,
     7.371002565161996e-13,

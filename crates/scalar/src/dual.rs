@@ -9,8 +9,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Scalar;
 
-/// A value and its derivative with respect to one variable. It can be nested: `Dual<Dual<f64>>` has
-/// second derivatives.
+/// A value and its derivative with respect to one variable. It can be nested: `Dual<Dual<f64>>` has second derivatives.
 ///
 /// ```
 /// use lagrangian_scalar::{Dual, Scalar};

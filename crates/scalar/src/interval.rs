@@ -10,8 +10,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use crate::Scalar;
 use crate::exact::{two_product, two_sum};
 
-/// All numbers from `lo` to `hi`, both finite; nothing is known if [`is_finite`](Scalar::is_finite)
-/// is false.
+/// All numbers from `lo` to `hi`, both finite; nothing is known if [`is_finite`](Scalar::is_finite) is false.
 ///
 /// ```
 /// use lagrangian_scalar::{Interval, Scalar};
@@ -34,8 +33,7 @@ const SIMPLE: u32 = 2;
 /// errors are below 2.
 const COMPOSED: u32 = 4;
 
-/// Below this magnitude the rounding error of a product or quotient may not be representable as a
-/// floating-point number.
+/// Below this magnitude the rounding error of a product or quotient may not be representable as a floating-point number.
 const SMALL: f64 = 1e-280;
 
 impl Interval {
@@ -45,8 +43,7 @@ impl Interval {
         hi: f64::INFINITY,
     };
 
-    /// All numbers from `lo` to `hi`; [`UNKNOWN`](Self::UNKNOWN) unless `lo` ≤ `hi` and both
-    /// are finite.
+    /// All numbers from `lo` to `hi`; [`UNKNOWN`](Self::UNKNOWN) unless `lo` ≤ `hi` and both are finite.
     pub fn new(lo: f64, hi: f64) -> Self {
         if lo.is_finite() && hi.is_finite() && lo <= hi {
             Interval { lo, hi }

@@ -1,5 +1,4 @@
-//! Pieces of generated code as values, so that the caller that knows the processor decides how
-//! they run.
+//! Pieces of generated code as values, so that the caller that knows the processor decides how they run.
 //!
 //! A Rust function uses newer instructions only if it declares so, or if it is inlined into a function that does. So
 //! generated arithmetic is always inlined, and is passed as a value to a function that declares the instructions.

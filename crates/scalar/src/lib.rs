@@ -145,8 +145,7 @@ pub trait Scalar:
 
     /// Sine and cosine together, at half the cost of computing both separately.
     fn sin_cos(self) -> (Self, Self);
-    /// Sines and cosines of several angles; on a processor with vector instructions they cost little more than those
-    /// of one.
+    /// Sines and cosines of several angles; on a processor with vector instructions they cost little more than those of one.
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
         angles.map(Self::sin_cos)

@@ -11,10 +11,9 @@
 //!
 //! # Sine and cosine
 //!
-//! The angle x and the point (cos x, sin x) are algebraically independent, but the point must
-//! rotate with the angle: the map x ↦ e^{ix} = cos x + i sin x takes sums to products. So a
-//! [`Residue`] carries two images of a number, under two ring homomorphisms that agree only on
-//! the rationals:
+//! The angle x and the point (cos x, sin x) are algebraically independent, but the point must rotate
+//! with the angle: the map x ↦ e^{ix} = cos x + i sin x takes sums to products. So a [`Residue`]
+//! carries two images of a number, under two ring homomorphisms that agree only on the rationals:
 //!
 //! * its image in GF(p), or GF(p²) = GF(p)\[i\] if roots need it: this is compared;
 //! * its image among the 2-adic numbers, as 128 bits: angles are made from this.
@@ -83,8 +82,7 @@ use field::{Field, P};
 use ratio::Ratio;
 use two_adic::TwoAdic;
 
-/// The number of halvings of an angle beyond which its sine becomes opaque: e^{ix} =
-/// g^(2^HALVINGS x).
+/// The number of halvings of an angle beyond which its sine becomes opaque: e^{ix} = g^(2^HALVINGS x).
 const HALVINGS: i32 = 12;
 
 /// log₂ of the order of the circle group.
@@ -117,8 +115,7 @@ pub struct Residue {
     rational: Option<Ratio>,
     /// b of a value that is known to be x + bπ.
     turn: Ratio,
-    /// Whether it is made from constants only, so that another choice of the symbols would not
-    /// change it.
+    /// Whether it is made from constants only, so that another choice of the symbols would not change it.
     constant: bool,
     /// False if something undefined went into it.
     defined: bool,
@@ -401,8 +398,7 @@ impl Scalar for Residue {
             return Residue::UNDEFINED;
         }
         let square = x.field * x.field + y.field * y.field;
-        // With √(−a) = i√a the same formula gives a direction that scales correctly, though not on
-        // the circle.
+        // With √(−a) = i√a the same formula gives a direction that scales correctly, though not on the circle.
         let scale = square.root().and_then(|root| {
             let on_circle = root.im == 0;
             Some((root.inverse()?, on_circle))

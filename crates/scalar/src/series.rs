@@ -43,8 +43,7 @@ pub fn sweep<N: Scalar, const P: usize, const L: usize>(
     sums
 }
 
-/// Stores the coefficients of an order for [`sweep`]: `numbers` has one for each of `L` pairs, which is stored at the index of
-/// its list.
+/// Stores the coefficients of an order for [`sweep`]: `numbers` has one for each of `L` pairs, which is stored at the index of its list.
 #[inline(always)]
 pub fn keep<N: Scalar, const P: usize, const L: usize>(
     rows: &mut [[N::Stored; P]],
@@ -233,8 +232,7 @@ fn invert<N: Scalar>(n: usize, m: &mut [N::Stored]) {
     }
 }
 
-/// Solves for `x`, which initially holds the right-hand side, with the result of [`factor`]; `scratch` has the
-/// same length.
+/// Solves for `x`, which initially holds the right-hand side, with the result of [`factor`]; `scratch` has the same length.
 #[inline(always)]
 pub fn solve<N: Scalar>(
     n: usize,

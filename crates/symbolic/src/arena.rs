@@ -13,8 +13,7 @@ pub(crate) struct Arena {
     entries: Vec<Entry>,
     /// The total number of operands of the nodes.
     operands: usize,
-    /// The largest number of nodes and operands; beyond it every new sum, product and function
-    /// is undefined.
+    /// The largest number of nodes and operands; beyond it every new sum, product and function is undefined.
     limit: usize,
     /// Whether a node was requested beyond the limit.
     pub(crate) exhausted: bool,
@@ -80,8 +79,7 @@ impl Arena {
         self.entries.len()
     }
 
-    /// The number of nodes and operands, to which memory and the work of one pass over the graph
-    /// are proportional.
+    /// The number of nodes and operands, to which memory and the work of one pass over the graph are proportional.
     pub(crate) fn size(&self) -> usize {
         self.entries.len() + self.operands
     }

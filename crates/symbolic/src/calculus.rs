@@ -1,7 +1,6 @@
 //! Derivatives and substitution, in one pass over the graph that visits each node once.
 //!
-//! No function here recurses into children: a chain of a hundred thousand nodes takes memory,
-//! not stack.
+//! No function here recurses into children: a chain of a hundred thousand nodes takes memory, not stack.
 
 use crate::arena::{Arena, BitSet};
 use crate::dag::{Dag, Expr};
@@ -30,8 +29,7 @@ pub struct Tangent<'d> {
 }
 
 impl<'d> Tangent<'d> {
-    /// The direction in which each listed symbol changes at the given rate, and every other symbol
-    /// stays constant.
+    /// The direction in which each listed symbol changes at the given rate, and every other symbol stays constant.
     pub fn new(dag: &'d Dag, rates: &[(Symbol, Expr<'d>)]) -> Tangent<'d> {
         let arena = dag.arena.borrow();
         let mut tangent = Tangent {
@@ -290,8 +288,7 @@ fn partial_product(arena: &mut Arena, factors: &[Factor], position: usize, weigh
     }
 }
 
-/// The term of `xᵢ′ xⱼ′` in `(Π xⁿ)″`, if it exists, for the factors at two positions, equal
-/// or not.
+/// The term of `xᵢ′ xⱼ′` in `(Π xⁿ)″`, if it exists, for the factors at two positions, equal or not.
 fn mixed_product(
     arena: &mut Arena,
     factors: &[Factor],
@@ -423,8 +420,7 @@ fn partial_function(
     }
 }
 
-/// The expressions with all symbols replaced simultaneously: replacements are not substituted
-/// into again.
+/// The expressions with all symbols replaced simultaneously: replacements are not substituted into again.
 ///
 /// The results are in normal form; nodes in which nothing is replaced stay the same.
 pub fn substitute<'d>(

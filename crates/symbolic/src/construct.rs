@@ -237,8 +237,7 @@ impl Arena {
         Ok(())
     }
 
-    /// `(Σ cᵢ pᵢ)·X` for terms `cᵢ·pᵢ·X` of one X; common factors of the cᵢ and of the pᵢ
-    /// stay outside.
+    /// `(Σ cᵢ pᵢ)·X` for terms `cᵢ·pᵢ·X` of one X; common factors of the cᵢ and of the pᵢ stay outside.
     fn collect_group(&mut self, terms: &[Term], group: &[Id]) -> Result<Term, Undefined> {
         let mut parts: Vec<(Vec<Factor>, Rational)> = Vec::with_capacity(group.len());
         let mut factors = Vec::new();
@@ -286,8 +285,7 @@ impl Arena {
             .eq(self.factors(b).iter().filter(rest))
     }
 
-    /// The factors of a product; for any other node the node itself, which the caller passes
-    /// as `alone`.
+    /// The factors of a product; for any other node the node itself, which the caller passes as `alone`.
     fn factors<'a>(&'a self, alone: &'a [Factor; 1]) -> &'a [Factor] {
         match self.node(alone[0].0) {
             Node::Product(factors) => factors,
@@ -529,8 +527,7 @@ impl Arena {
                 let (sign, x) = self.split_sign(x);
                 let (scale, x) = self.split_multiple(x);
                 let value = match self.as_constant(x) {
-                    // Only 0 and 1 are not multiples of something else; both equal their own sign
-                    // and magnitude.
+                    // Only 0 and 1 are not multiples of something else; both equal their own sign and magnitude.
                     Some(_) => x,
                     None if x == Arena::PI && function == Sign => Arena::ONE,
                     None if x == Arena::PI => Arena::PI,
@@ -591,8 +588,7 @@ impl Arena {
             Some(base) if base.is_one() => x,
             Some(base) if base.is_zero() && exponent.is_negative() => Arena::UNDEFINED,
             Some(base) if base.is_zero() => x,
-            // A negative number to a fractional power; an integer power this large is not
-            // representable either.
+            // A negative number to a fractional power; an integer power this large is not representable either.
             Some(base) if base.is_negative() || exponent.is_integer() => Arena::UNDEFINED,
             _ => self.function_node(Function::Pow, &[x, y]),
         }
@@ -797,8 +793,7 @@ mod tests {
         pub(super) static LOOKED_AT: Cell<usize> = const { Cell::new(0) };
     }
 
-    /// `Σ aₖ sin²xₖ + aₖ cos²xₖ`, with the terms in an order that differs from that of
-    /// their construction.
+    /// `Σ aₖ sin²xₖ + aₖ cos²xₖ`, with the terms in an order that differs from that of their construction.
     fn sum_of_squares(dag: &Dag, pairs: usize) -> (Expr<'_>, Expr<'_>) {
         let symbol = |name: &str, k: usize, stage| dag.symbol(&format!("{name}{k}"), stage);
         let mut terms = Vec::new();

@@ -88,8 +88,7 @@ impl Dag {
         self.expr(Arena::UNDEFINED)
     }
 
-    /// The sum; like terms are merged among these terms. Prefer it to a sequence of `+`,
-    /// which nests.
+    /// The sum; like terms are merged among these terms. Prefer it to a sequence of `+`, which nests.
     pub fn sum<'d>(&'d self, terms: impl IntoIterator<Item = Expr<'d>>) -> Expr<'d> {
         let terms: Vec<_> = terms
             .into_iter()

@@ -5,8 +5,7 @@ use lagrangian_scalar::{DoubleDouble, Scalar};
 use crate::dag::{Dag, Expr};
 use crate::node::{Function, Id, Node, Symbol};
 
-/// The values of expressions, over any type of number; `value` is called once for each symbol
-/// that occurs.
+/// The values of expressions, over any type of number; `value` is called once for each symbol that occurs.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, Stage, evaluate};
@@ -23,8 +22,7 @@ pub fn evaluate<S: Scalar>(
     Evaluation::new(dag, roots).values(value)
 }
 
-/// Expressions that are evaluated repeatedly: the nodes that they are built from are found
-/// only once.
+/// Expressions that are evaluated repeatedly: the nodes that they are built from are found only once.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, Evaluation, Stage};

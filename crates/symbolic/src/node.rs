@@ -28,8 +28,7 @@ impl Symbol {
 
 /// When a value becomes known. The stage of an expression is the latest stage of its parts.
 ///
-/// The algebra gives meaning to two stages only; the meaning of later ones is up to the user of
-/// the crate.
+/// The algebra gives meaning to two stages only; the meaning of later ones is up to the user of the crate.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Stage(pub u8);
 
@@ -146,13 +145,11 @@ pub enum Node {
     Pi,
     /// A symbol.
     Symbol(Symbol),
-    /// `Σ coefficient·term`, ordered by id, with nonzero coefficients; the constant term is
-    /// a multiple of the node `1`. A single term with a coefficient other than 1 is a
-    /// rational multiple.
+    /// `Σ coefficient·term`, ordered by id, with nonzero coefficients; the constant term is a multiple
+    /// of the node `1`. A single term with a coefficient other than 1 is a rational multiple.
     Sum(Rc<[(Id, Rational)]>),
-    /// `Π factor^power`, ordered by id, with nonzero powers and no constants among the factors;
-    /// quotients are negative powers. The only product with a constant in it is `0^-1`, the
-    /// undefined value.
+    /// `Π factor^power`, ordered by id, with nonzero powers and no constants among the factors; quotients
+    /// are negative powers. The only product with a constant in it is `0^-1`, the undefined value.
     Product(Rc<[(Id, i32)]>),
     /// A function of its arguments.
     Function(Function, Rc<[Id]>),

@@ -33,8 +33,7 @@ use polynomial::{Monomial, Polynomial};
 /// The budget of [`readable`] in [`latex`](crate::latex()): nobody reads more terms than this.
 pub const READABLE_BUDGET: usize = 500;
 
-/// Expressions of a larger [`size`](Expr::size) are not made [`readable`], since nobody reads
-/// them either.
+/// Expressions of a larger [`size`](Expr::size) are not made [`readable`], since nobody reads them either.
 const READABLE_SIZE: u64 = 5000;
 
 /// An expanded expression.
@@ -258,8 +257,7 @@ pub fn difference<'d>(
     })
 }
 
-/// The shorter of the original and the result of expanding and folding, as a whole or for some of
-/// its terms.
+/// The shorter of the original and the result of expanding and folding, as a whole or for some of its terms.
 ///
 /// The value is the same. Beyond the budget the expression stays as it is.
 pub fn readable(expression: Expr<'_>, budget: usize) -> Expr<'_> {
@@ -274,8 +272,7 @@ pub fn readable(expression: Expr<'_>, budget: usize) -> Expr<'_> {
             best = dag.expr(candidate.id());
         }
     };
-    // Terms that are shorter in their original form, such as ½ k (x − y)², are separated from
-    // the others.
+    // Terms that are shorter in their original form, such as ½ k (x − y)², are separated from the others.
     let terms = flat_terms(&dag.arena.borrow(), expression.id(), budget);
     let Some(terms) = terms else {
         return expression;

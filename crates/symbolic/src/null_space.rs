@@ -1,5 +1,4 @@
-//! Linear algebra over the prime field, where nothing is rounded and rank does not depend on
-//! a tolerance.
+//! Linear algebra over the prime field, where nothing is rounded and rank does not depend on a tolerance.
 
 use lagrangian_scalar::{Residue, Scalar};
 

@@ -9,9 +9,8 @@
 //! in them, higher powers first, in the order in which the symbols were declared; a positive term
 //! comes first if there is one.
 //!
-//! Shared parts of the graph are written out every time they occur, so a long chain gives a
-//! very long text; [`Expr::size`] tells its length beforehand. No function here is recursive in
-//! the children.
+//! Shared parts of the graph are written out every time they occur, so a long chain gives a very long
+//! text; [`Expr::size`] tells its length beforehand. No function here is recursive in the children.
 
 mod latex;
 mod layout;

@@ -19,8 +19,7 @@ pub const MAX_BITS: u64 = 4096;
 
 /// An exact rational number, in lowest terms.
 ///
-/// Sixteen bytes: numerator and denominator if both fit 64 bits, otherwise a pointer to
-/// big integers.
+/// Sixteen bytes: numerator and denominator if both fit 64 bits, otherwise a pointer to big integers.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Rational(Repr);
 
@@ -29,8 +28,7 @@ pub struct Rational(Repr);
 enum Repr {
     /// Numerator (never `i64::MIN`, so that it can be negated) and denominator (positive).
     Small(i64, NonZeroI64),
-    /// `Arc` instead of `Box`, so that big coefficients are cheap to clone, and numbers can be sent
-    /// across threads.
+    /// `Arc` instead of `Box`, so that big coefficients are cheap to clone, and numbers can be sent across threads.
     Big(Arc<Big>),
 }
 
@@ -240,8 +238,7 @@ impl Rational {
         Rational::from_big(numerator.pow(exponent), denominator.pow(exponent)).within_limits()
     }
 
-    /// The largest rational of which both are integer multiples, with the sign of `self`; 0 for 0
-    /// and 0.
+    /// The largest rational of which both are integer multiples, with the sign of `self`; 0 for 0 and 0.
     pub(crate) fn gcd(&self, other: &Rational) -> Rational {
         let sign = if self.is_negative() { -1 } else { 1 };
         match (&self.0, &other.0) {
@@ -312,8 +309,7 @@ impl Rational {
         }
     }
 
-    /// The number of machine words that it takes on the heap; none if numerator and denominator fit
-    /// one each.
+    /// The number of machine words that it takes on the heap; none if numerator and denominator fit one each.
     pub(crate) fn words(&self) -> usize {
         match &self.0 {
             Repr::Small(..) => 0,
@@ -330,8 +326,7 @@ impl Rational {
         match &self.0 {
             Repr::Small(numerator, denominator) => S::from_ratio(*numerator, denominator.get()),
             Repr::Big(big) => {
-                // 0.nnn…/0.ddd… in base 2³², times the power of the base, so that no
-                // part overflows.
+                // 0.nnn…/0.ddd… in base 2³², times the power of the base, so that no part overflows.
                 let base = S::from_ratio(1 << 32, 1);
                 let (top, top_digits) = fraction::<S>(big.numerator.magnitude(), base);
                 let (bottom, bottom_digits) = fraction::<S>(big.denominator.magnitude(), base);
@@ -427,8 +422,7 @@ fn parse_exponent(text: &str) -> Option<i64> {
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
         return None;
     }
-    // An exponent with more digits than i64 counts as infinite, and is refused unless the mantissa
-    // is 0.
+    // An exponent with more digits than i64 counts as infinite, and is refused unless the mantissa is 0.
     Some(sign * digits.parse::<i64>().unwrap_or(i64::MAX))
 }
 

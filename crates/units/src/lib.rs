@@ -5,9 +5,8 @@
 //! that messages say `rad/s` instead of `1/s`; two units that differ in nothing else are equal.
 //!
 //! A cycle is not a radian: Hz, which is cycle/s, and rad/s differ by 2π, and confusing them gives
-//! results that are wrong by that factor. So the cycle is a base unit like metre and second, and a
-//! factor `pi` cancels it: `2*pi*f` is in rad/s if `f` is in Hz, and `w/(2*pi)` is in Hz if `w` is
-//! in rad/s.
+//! results that are wrong by that factor. So the cycle is a base unit like metre and second, and a factor
+//! `pi` cancels it: `2*pi*f` is in rad/s if `f` is in Hz, and `w/(2*pi)` is in Hz if `w` is in rad/s.
 //!
 //! A [`Measure`] is a unit as it is written, with its size in SI units: `km/h`, `deg`.
 
@@ -44,8 +43,7 @@ pub struct Unit {
     radian: i8,
     /// The number of factors `pi` beside it that have not yet turned a cycle into radians.
     pi: i8,
-    /// Whether part of it was not given in SI units, so that its number is not the one that
-    /// was written.
+    /// Whether part of it was not given in SI units, so that its number is not the one that was written.
     scaled: bool,
 }
 
@@ -284,8 +282,7 @@ impl fmt::Display for Unit {
             ("ohm", Unit::electric(1, 2, -3, -2)),
             ("H", Unit::electric(1, 2, -2, -2)),
             ("F", Unit::electric(-1, -2, 4, 2)),
-            // The constants of a motor: torque per current, and voltage per angular velocity. Also
-            // the weber.
+            // The constants of a motor: torque per current, and voltage per angular velocity. Also the weber.
             ("N*m/A", Unit::electric(1, 2, -2, -1)),
             ("T", Unit::electric(1, 0, -2, -1)),
             ("C", Unit::electric(0, 0, 1, 1)),

@@ -1,5 +1,4 @@
-//! Names of the parts of a machine, and the variables and options that its equations refer to
-//! by name.
+//! Names of the parts of a machine, and the variables and options that its equations refer to by name.
 
 use std::fmt;
 
@@ -43,8 +42,7 @@ fn integrand(name: &str) -> Option<(&str, &str)> {
     is_index.then_some((base, index))
 }
 
-/// The first-order state whose time integral a coordinate is, if it is one: no spec can give a coordinate the
-/// name `integral(i)`.
+/// The first-order state whose time integral a coordinate is, if it is one: no spec can give a coordinate the name `integral(i)`.
 ///
 /// ```
 /// use lagrangian_units::state_of;
@@ -104,8 +102,7 @@ impl Variable {
     }
 }
 
-/// The arguments that may stay constant while others change, so that their work need not
-/// be repeated.
+/// The arguments that may stay constant while others change, so that their work need not be repeated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stages {
     /// Time.
@@ -130,8 +127,7 @@ pub enum Compliance {
     Hertz,
     /// `K d^(3/2) (1 + c ḋ)`.
     HuntCrossley,
-    /// `k₁ d` when it is pressed for the first time, and `k₂` for unloading and reloading below the
-    /// previous maximum.
+    /// `k₁ d` when it is pressed for the first time, and `k₂` for unloading and reloading below the previous maximum.
     Layer,
 }
 
@@ -217,13 +213,11 @@ pub enum ImpactLaw {
     /// `0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ⁻ ≥ 0`.
     #[default]
     Newton,
-    /// The impulse of expansion is `e` times that of compression, along Routh's path; one contact at
-    /// a time.
+    /// The impulse of expansion is `e` times that of compression, along Routh's path; one contact at a time.
     Poisson,
     /// Poisson's hypothesis for several contacts at once, in two complementarity problems.
     PoissonGlocker,
-    /// The work of expansion is `−e²` times that of compression, along Routh's path; one contact at
-    /// a time.
+    /// The work of expansion is `−e²` times that of compression, along Routh's path; one contact at a time.
     Stronge,
 }
 

@@ -1,13 +1,11 @@
-//! Renders messages as text: in a short form for other programs, and in a form with underlined
-//! source text.
+//! Renders messages as text: in a short form for other programs, and in a form with underlined source text.
 
 use std::fmt::Write as _; // writing to a String cannot fail
 
 use super::{Diagnostic, Report};
 use crate::source::{Sources, Span};
 
-/// The largest number of characters of a line that are shown, since a spec may be written on
-/// one line.
+/// The largest number of characters of a line that are shown, since a spec may be written on one line.
 const WIDTH: usize = 140;
 
 /// The width of a tab.
@@ -69,8 +67,7 @@ impl Report {
         self.lines(|diagnostic| diagnostic.render_short(sources))
     }
 
-    /// Every error and warning with underlined source text, by position, each followed by an
-    /// empty line.
+    /// Every error and warning with underlined source text, by position, each followed by an empty line.
     pub fn render(&self, sources: &Sources) -> String {
         self.lines(|diagnostic| diagnostic.render(sources) + "\n")
     }

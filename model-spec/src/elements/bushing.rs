@@ -1,5 +1,4 @@
-//! Bushings: elastic joints between two frames in the plane, with three stiffnesses, three dampings and
-//! a preload.
+//! Bushings: elastic joints between two frames in the plane, with three stiffnesses, three dampings and a preload.
 //!
 //! The deformation is the pose of the second frame relative to the first: the displacement (x, y) of
 //! its origin in the axes of the first, and the relative angle φ.
@@ -228,8 +227,7 @@ fn measures<'d>(resolver: &Resolver<'_, 'd, '_>, from: PoseId, to: PoseId) -> [E
 struct Shift<'d> {
     angle: Expr<'d>,
     by: Vec<Expr<'d>>,
-    /// Whether it lies between `from` and the common base of both frames, and counts with the
-    /// opposite sign.
+    /// Whether it lies between `from` and the common base of both frames, and counts with the opposite sign.
     is_back: bool,
 }
 
@@ -259,8 +257,7 @@ fn shifts_between<'d>(
             shifts.sort_by_key(|shift: &Shift<'d>| shift.angle.id());
             return Some(shifts);
         }
-        // A frame is made after its parent, so the later of the two is not an ancestor of
-        // the other.
+        // A frame is made after its parent, so the later of the two is not an ancestor of the other.
         if near.0 > far.0 {
             std::mem::swap(&mut near, &mut far);
         }

@@ -1,5 +1,4 @@
-//! Losses: power that leaves the machine by other means than dampers, such as the heat of
-//! a resistor.
+//! Losses: power that leaves the machine by other means than dampers, such as the heat of a resistor.
 //!
 //! They enter only the energy balance, and no force follows from them.
 

@@ -7,9 +7,8 @@
 //! The length may vary, as on a winch. The rope pulls with the negative multiplier; it is assumed to be
 //! tight at all times.
 //!
-//! Pulleys in the plane may have radii: s, positive where the rope turns left around the pulley and negative where
-//! it turns right. The part from one pulley to the next, with D from centre to centre and h = s' − s, is straight
-//! along e,
+//! Pulleys in the plane may have radii: s, positive where the rope turns left around the pulley and negative where it
+//! turns right. The part from one pulley to the next, with D from centre to centre and h = s' − s, is straight along e,
 //!
 //! ```text
 //! ℓ = √(D² − h²),    e = (ℓ D − h D⊥)/D²,    D⊥ = (−D_y, D_x),
@@ -331,8 +330,7 @@ fn part<'d>(resolver: &Resolver<'_, 'd, '_>, from: &Stop<'d>, to: &Stop<'d>) -> 
     }
 }
 
-/// The arc on the pulley at a point of the path, and the fact that the rope lies on it; nothing if there is
-/// no pulley.
+/// The arc on the pulley at a point of the path, and the fact that the rope lies on it; nothing if there is no pulley.
 fn arc<'d>(
     resolver: &mut Resolver<'_, 'd, '_>,
     member: MemberId,
@@ -346,8 +344,7 @@ fn arc<'d>(
     let (before, behind) = (&parts[k - 1], &parts[k]);
     let [u, v] = [&before.along, &behind.along];
     let (across, along) = (u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]);
-    // 1 − cos w ± sin w, times a positive factor: 0 at w = 0 and at three quarters of a turn, positive
-    // in between.
+    // 1 − cos w ± sin w, times a positive factor: 0 at w = 0 and at three quarters of a turn, positive in between.
     let excess = radius.abs() * (before.norm * behind.norm - along) + radius * across;
     let text = format!(
         "the rope `{}` lies on pulley {k}, by less than 3/4 of a turn",

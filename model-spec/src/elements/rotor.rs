@@ -1,5 +1,4 @@
-//! Rotors: inertia that turns with an angle at any position, such as a motor behind its gear, or
-//! a flywheel.
+//! Rotors: inertia that turns with an angle at any position, such as a motor behind its gear, or a flywheel.
 //!
 //! ```text
 //! T = ½ J φ̇²

@@ -23,8 +23,7 @@ pub struct Bound<'d> {
 /// The kind of a bounded number.
 #[derive(Clone, Copy, Debug)]
 pub enum BoundKind<'d> {
-    /// A mass, which is positive; one that depends on parameters may vanish, for a part that a
-    /// variant lacks.
+    /// A mass, which is positive; one that depends on parameters may vanish, for a part that a variant lacks.
     Mass,
     /// A moment of inertia, which is not negative.
     Moment,

@@ -129,9 +129,8 @@ pub fn touch<'d>(
     }
 }
 
-/// The contact of a circle with the first axis `e` of a frame, from the side of the second axis,
-/// `n`. With `c` from the frame's origin to the centre, radius `r`, and the angular velocity `ω` of
-/// the circle:
+/// The contact of a circle with the first axis `e` of a frame, from the side of the second axis, `n`. With
+/// `c` from the frame's origin to the centre, radius `r`, and the angular velocity `ω` of the circle:
 ///
 /// ```text
 /// gap = c·n − r,    slip = ċ·e + r ω

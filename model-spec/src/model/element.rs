@@ -91,11 +91,9 @@ pub enum Load<'d> {
         /// The generalized force.
         value: Expr<'d>,
     },
-    /// A force along a length, or a torque about an angle: its work is the force times the change of
-    /// that measure.
+    /// A force along a length, or a torque about an angle: its work is the force times the change of that measure.
     Along {
-        /// The length or angle that grows if the force is positive, a function of positions
-        /// and time.
+        /// The length or angle that grows if the force is positive, a function of positions and time.
         measure: Expr<'d>,
         /// The force.
         force: Expr<'d>,
@@ -151,8 +149,7 @@ pub struct Sliding<'d> {
     pub direction: Vec<Expr<'d>>,
     /// The side on which the body is, as given; the direction turned left if none is given. For a surface its normal, as given.
     pub normal: Option<Vec<Expr<'d>>>,
-    /// Which of the two tangents of a surface the direction is, in space; none for a line or
-    /// a curve.
+    /// Which of the two tangents of a surface the direction is, in space; none for a line or a curve.
     pub tangent: Option<Tangent>,
     /// The coefficient of friction.
     pub friction: Expr<'d>,

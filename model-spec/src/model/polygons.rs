@@ -1,9 +1,8 @@
 //! Convex polygons in the plane: contact of the corners of one with the faces of another.
 //!
-//! Two convex polygons are disjoint if and only if one of their faces separates them: all corners of the other polygon are outside
-//! its line. (S. Gottschalk, M. C. Lin, D. Manocha, *OBBTree*, Proc. SIGGRAPH 1996, 171–180.) If they touch, a corner of one of
-//! them lies on the other. So contact is described corner by corner; if a face lies on a face, two corners touch, the ends of the
-//! common part.
+//! Two convex polygons are disjoint if and only if one of their faces separates them: all corners of the other polygon are outside its
+//! line. (S. Gottschalk, M. C. Lin, D. Manocha, *OBBTree*, Proc. SIGGRAPH 1996, 171–180.) If they touch, a corner of one of them lies
+//! on the other. So contact is described corner by corner; if a face lies on a face, two corners touch, the ends of the common part.
 //!
 //! The distance of a corner `p` from the line of face `k` of the other polygon is `dₖ(p)`, positive outside. The corner is
 //! outside the polygon if it is outside any face, and its gap is `maxₖ dₖ(p)`: whichever feature is nearest, the gap is
@@ -53,8 +52,7 @@ pub struct Corner<'d> {
 pub struct Contact<'d> {
     /// The distance of the corner outside the polygon, in m.
     pub gap: Expr<'d>,
-    /// The distance of the corner outside the face that it touches, in m; equal to the gap if
-    /// it touches.
+    /// The distance of the corner outside the face that it touches, in m; equal to the gap if it touches.
     pub height: Expr<'d>,
     /// The rate of that distance.
     pub rate: Expr<'d>,
@@ -72,8 +70,7 @@ struct Faces<'d> {
 }
 
 impl<'d> Polygon<'d> {
-    /// The distance of each corner to the left of each face that it is not on, times the length of
-    /// that face.
+    /// The distance of each corner to the left of each face that it is not on, times the length of that face.
     pub fn turns(&self) -> Vec<Expr<'d>> {
         let count = self.corners.len();
         let mut turns = Vec::new();

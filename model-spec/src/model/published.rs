@@ -21,8 +21,7 @@ pub struct Published<'d> {
 pub struct PublishedItem<'d> {
     /// The quantity that the formula gives.
     pub quantity: PublishedQuantity,
-    /// The printed value, or the components of a vector. An equation is its left side minus its
-    /// right side.
+    /// The printed value, or the components of a vector. An equation is its left side minus its right side.
     pub printed: Vec<Expr<'d>>,
     /// The terms of each, as printed; none for a vector that is not printed by its components.
     pub terms: Vec<Vec<PrintedTerm<'d>>>,

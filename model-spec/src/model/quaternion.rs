@@ -17,9 +17,8 @@
 //! κ ü = −κ (2 ρ u̇ + (ρ² + ė·ė/s) (s − 1)/(s + 1))
 //! ```
 //!
-//! so that the length returns to 1 from any start and after any integration error: critically damped with the rate ρ at rest,
-//! and by a spring as fast as e itself while the frame turns, so that it adds no stiffness to the system. Every κ gives the
-//! same motion.
+//! so that the length returns to 1 from any start and after any integration error: critically damped with the rate ρ at rest, and by
+//! a spring as fast as e itself while the frame turns, so that it adds no stiffness to the system. Every κ gives the same motion.
 
 use lagrangian_symbolic::Expr;
 

@@ -11,8 +11,7 @@ use super::{Circle, Model, Place, PoseId, Rotation, Surface};
 pub struct Contact<'d> {
     /// The distance between them, in m: 0 if they touch.
     pub gap: Expr<'d>,
-    /// The velocity of the nearest point of the sphere relative to the nearest point of the other body, along
-    /// both tangents.
+    /// The velocity of the nearest point of the sphere relative to the nearest point of the other body, along both tangents.
     pub slip: [Expr<'d>; 2],
 }
 

@@ -19,8 +19,7 @@ impl<'d> Resolver<'_, 'd, '_> {
         }
     }
 
-    /// Reports numbers beyond their bounds at the defaults of the parameters, and returns
-    /// all bounds.
+    /// Reports numbers beyond their bounds at the defaults of the parameters, and returns all bounds.
     pub fn check_bounds(
         &mut self,
         assumptions: &[Assumption<'d>],
@@ -39,8 +38,7 @@ impl<'d> Resolver<'_, 'd, '_> {
         let value = |symbol| values.get(&symbol).copied().unwrap_or(f64::NAN);
         for (place, code, message) in broken(self.dag, &bounds, value) {
             let Bound { kind, value, said } = bounds[place];
-            // Blame the default if the number is that parameter alone, and not a formula
-            // of several.
+            // Blame the default if the number is that parameter alone, and not a formula of several.
             let mut parameters = parameters.iter();
             let alone = parameters.find(|(_, parameter)| parameter.symbol == value);
             let default =

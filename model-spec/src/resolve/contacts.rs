@@ -387,8 +387,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(Rc::new(polygon))
     }
 
-    /// The contact of `point`, fixed to the place named by `on`, with `inside`, `outside`
-    /// or `along`.
+    /// The contact of `point`, fixed to the place named by `on`, with `inside`, `outside` or `along`.
     fn touching_point(
         &mut self,
         member: MemberId,

@@ -1,9 +1,8 @@
 //! Parameters that follow from others: `J: kg*m^2 = m*r^2/2`.
 //!
 //! Such a parameter is replaced by its formula wherever it occurs. So whatever is computed from it depends on the parameters in the
-//! formula, and derivatives by these pass through it by the chain rule. It is not a parameter of the model. If the program that
-//! reads the spec gives it a value ([`Spec::given`](crate::syntax::Spec::given), or as constants are given), it is a parameter like
-//! any other.
+//! formula, and derivatives by these pass through it by the chain rule. It is not a parameter of the model. If the program that reads
+//! the spec gives it a value ([`Spec::given`](crate::syntax::Spec::given), or as constants are given), it is a parameter like any other.
 
 use lagrangian_symbolic::Expr;
 use rustc_hash::FxHashMap;
@@ -20,8 +19,7 @@ use crate::syntax::{Expression, ExpressionKind, Index, Quantity, SectionKind};
 use crate::unit::Unit;
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// Finds the parameters whose values refer to other parameters, directly or
-    /// through definitions.
+    /// Finds the parameters whose values refer to other parameters, directly or through definitions.
     pub fn find_derived(&mut self) {
         let mut naming: FxHashMap<&str, Vec<usize>> = FxHashMap::default();
         let mut open: Vec<&str> = Vec::new();
@@ -49,8 +47,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 }
             }
         }
-        // Whatever refers to a parameter depends on parameters, and so does whatever refers to such
-        // a definition.
+        // Whatever refers to a parameter depends on parameters, and so does whatever refers to such a definition.
         while let Some(name) = open.pop() {
             for place in naming.remove(name).unwrap_or_default() {
                 let declaration = &self.declarations[place];
@@ -68,8 +65,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.derived.contains(&self.members[member].declaration)
     }
 
-    /// Whether a member is a parameter that follows from others: it has a formula, and the caller gives it
-    /// no value.
+    /// Whether a member is a parameter that follows from others: it has a formula, and the caller gives it no value.
     pub fn is_derived(&self, member: MemberId) -> bool {
         if !self.has_formula(member) {
             return false;
@@ -81,8 +77,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         !given.any(|given| *given == name || given == base)
     }
 
-    /// The value that the caller gives to a parameter that would otherwise be derived, in its
-    /// declared unit.
+    /// The value that the caller gives to a parameter that would otherwise be derived, in its declared unit.
     pub fn given_value(&self, member: MemberId) -> Option<Expr<'d>> {
         let name = self.name(member);
         let full = name.to_string();

@@ -656,8 +656,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         power_span: Span,
     ) -> Option<Unit> {
         let Some(unit) = base.unit else {
-            // A bare number to a power that is a quantity of the machine is a pure number, not a
-            // bare one.
+            // A bare number to a power that is a quantity of the machine is a pure number, not a bare one.
             return power.unit;
         };
         if unit.is_one() {

@@ -295,8 +295,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The distance between two points: √(u·u), or an expression with that square that is assumed to
-    /// be nonnegative.
+    /// The distance between two points: √(u·u), or an expression with that square that is assumed to be nonnegative.
     pub fn distance(&self, line: &[Expr<'d>]) -> Expr<'d> {
         circles::distance(line, &self.facts)
     }

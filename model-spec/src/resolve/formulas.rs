@@ -12,8 +12,7 @@ pub struct Formula<'a> {
     pub name: &'a str,
     /// The name of the text in messages.
     pub said: &'a str,
-    /// An expression in anything that an output may depend on, and in the outputs of the spec, which are in
-    /// SI units.
+    /// An expression in anything that an output may depend on, and in the outputs of the spec, which are in SI units.
     pub text: &'a str,
     /// The required unit; if none is given, the formula's own unit in SI.
     pub unit: Option<&'a str>,

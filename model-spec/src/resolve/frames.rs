@@ -399,8 +399,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    /// The scope of the arguments that make a frame: in any context, a frame is placed
-    /// by positions.
+    /// The scope of the arguments that make a frame: in any context, a frame is placed by positions.
     fn placing(scope: Scope<'a>) -> Scope<'a> {
         if scope.limit.stage > stage::POSITION {
             scope.within(&limits::FRAME)

@@ -51,8 +51,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         scalar.unit = unit.or(scalar.unit);
     }
 
-    /// A value in the unit declared for it: bare numbers are in that unit already, anything else
-    /// is converted.
+    /// A value in the unit declared for it: bare numbers are in that unit already, anything else is converted.
     pub fn quantity_value(
         &mut self,
         value: &'a Expression,

@@ -10,8 +10,7 @@ use crate::syntax::{Ident, SectionKind, coordinate_of_rate};
 impl Resolver<'_, '_, '_> {
     /// The coordinates or rates that an item of `keep` refers to: one, or those of a family.
     ///
-    /// If a variant removes a coordinate, the `keep` of its base for that coordinate is
-    /// dropped too.
+    /// If a variant removes a coordinate, the `keep` of its base for that coordinate is dropped too.
     pub fn kept(&mut self, member: MemberId) -> Vec<Variable> {
         let declaration = self.declaration(member);
         let (name, is_inherited) = (declaration.name, declaration.layer + 1 < self.layer_count);

@@ -323,8 +323,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.group_of.get(&(namespace, base)).copied()
     }
 
-    /// The members that a name with this index refers to: one, or all of a family if there is
-    /// no index.
+    /// The members that a name with this index refers to: one, or all of a family if there is no index.
     pub fn members_under(&self, group: usize, index: Option<i64>) -> Vec<MemberId> {
         let members = self.groups[group].members.iter();
         members

@@ -67,8 +67,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .collect()
     }
 
-    /// The contacts of the corners of the outline of the body named by `on`, with `inside`, `outside`
-    /// or `along`.
+    /// The contacts of the corners of the outline of the body named by `on`, with `inside`, `outside` or `along`.
     pub fn outline_on(
         &mut self,
         member: MemberId,

@@ -21,11 +21,9 @@ pub(super) struct Guide<'d> {
     span: Span,
     /// The frame that moves off, with everything built on it.
     frame: Option<PoseId>,
-    /// The index of the body whose mass centre moves off by itself, because it is not built on
-    /// that frame.
+    /// The index of the body whose mass centre moves off by itself, because it is not built on that frame.
     body: Option<usize>,
-    /// The displacement in ground axes: symbols of each component, of its rate, and of
-    /// its acceleration.
+    /// The displacement in ground axes: symbols of each component, of its rate, and of its acceleration.
     pub by: Vec<[Expr<'d>; 3]>,
 }
 

@@ -1,8 +1,7 @@
 //! First-order states: `i: A = 0`, with `der(i) = (U - R*i)/L`.
 //!
-//! A state is treated as the rate of a coordinate on which nothing depends, its time integral.
-//! So the equations, their proof and every method treat it like any rate, with a start, an error
-//! and derivatives.
+//! A state is treated as the rate of a coordinate on which nothing depends, its time integral. So the
+//! equations, their proof and every method treat it like any rate, with a start, an error and derivatives.
 
 use lagrangian_symbolic::Expr;
 use rustc_hash::FxHashMap;

@@ -1,5 +1,4 @@
-//! The values that expressions of a spec can have, and the requirements of the places where
-//! they stand.
+//! The values that expressions of a spec can have, and the requirements of the places where they stand.
 
 use lagrangian_symbolic::{Expr, Stage};
 

@@ -1,5 +1,4 @@
-//! Warnings about specs that are valid but perhaps unintended: names that nothing uses, and bodies
-//! without weight.
+//! Warnings about specs that are valid but perhaps unintended: names that nothing uses, and bodies without weight.
 
 use lagrangian_symbolic::{Expr, evaluate};
 

@@ -494,8 +494,7 @@ pub struct ElementItem {
     pub item: Item<ElementContent>,
 }
 
-/// The content of an item of a section of elements, by the [`Form`](crate::syntax::Form) of
-/// the section.
+/// The content of an item of a section of elements, by the [`Form`](crate::syntax::Form) of the section.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ElementContent {
     /// `{ field: value, … }`

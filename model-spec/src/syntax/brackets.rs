@@ -107,8 +107,7 @@ impl<'t> Balance<'t> {
         });
     }
 
-    /// The bracket at `at` closes the last one of its kind; brackets opened inside that were
-    /// never closed.
+    /// The bracket at `at` closes the last one of its kind; brackets opened inside that were never closed.
     fn close(&mut self, at: usize, delimiter: Delimiter, report: &mut Report) {
         let token = &self.tokens[at];
         let ends_machine_early = self.mending

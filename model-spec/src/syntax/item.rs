@@ -33,8 +33,7 @@ impl Parser<'_> {
         });
     }
 
-    /// Parses each item of a section, after its documentation; `None` is an item that cannot
-    /// be parsed.
+    /// Parses each item of a section, after its documentation; `None` is an item that cannot be parsed.
     fn each_item(
         &mut self,
         kind: SectionKind,
@@ -68,8 +67,7 @@ impl Parser<'_> {
         self.enter(Delimiter::Brace)
     }
 
-    /// Whether an item begins here: documentation, or `name:`, `name =`, `name {`,
-    /// `name[…]`, `der(…)`.
+    /// Whether an item begins here: documentation, or `name:`, `name =`, `name {`, `name[…]`, `der(…)`.
     fn begins_item(&self) -> bool {
         let follows = |kind| {
             matches!(

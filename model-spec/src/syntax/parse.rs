@@ -12,8 +12,7 @@ use crate::syntax::brackets::{Word, balance, opening};
 use crate::token::{Delimiter, Token, TokenKind, shown};
 
 impl Spec {
-    /// Parses the tokens of `source` in a language with these `sections`. All errors are reported
-    /// at once.
+    /// Parses the tokens of `source` in a language with these `sections`. All errors are reported at once.
     pub(crate) fn read(
         tokens: &[Token],
         source: SourceId,
@@ -29,8 +28,7 @@ impl Spec {
 }
 
 impl Quantity {
-    /// Parses the value of a quantity, and its unit, from two texts that contain nothing else. Errors
-    /// are reported.
+    /// Parses the value of a quantity, and its unit, from two texts that contain nothing else. Errors are reported.
     pub(crate) fn parse([unit, value]: [(SourceId, &[Token]); 2], report: &mut Report) -> Quantity {
         let mut parser = Parser::new(unit.1, unit.0, &[], report);
         let unit = parser.unit();
@@ -53,8 +51,7 @@ pub(super) struct Parser<'t> {
     pub(super) end: Span,
     /// The nesting depth of the current expression.
     pub(super) depth: usize,
-    /// Whether an error occurred and the rest of its list element is not yet skipped: nothing
-    /// is reported.
+    /// Whether an error occurred and the rest of its list element is not yet skipped: nothing is reported.
     pub(super) failed: bool,
     /// The number of brackets without partners around the next word: nothing inside is reported.
     pub(super) quiet: usize,
@@ -249,8 +246,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Expects a mark for which another one is often written; in that case reports it
-    /// and continues.
+    /// Expects a mark for which another one is often written; in that case reports it and continues.
     pub(super) fn expect_mark_not(&mut self, mark: char, other: char, help: &str) {
         if self.is_mark(other) && !self.is_pair(other, other) {
             let message = format!("expected `{mark}`, found `{other}`");
@@ -327,8 +323,7 @@ impl<'t> Parser<'t> {
 
     /// Parses the elements of a list up to the end of the group, separated by commas.
     ///
-    /// `begins` tells where another element begins, so that a missing comma causes no
-    /// further errors.
+    /// `begins` tells where another element begins, so that a missing comma causes no further errors.
     pub(super) fn list(
         &mut self,
         group: Group,

@@ -45,8 +45,7 @@ impl Parser<'_> {
             if !halves {
                 continue;
             }
-            // The square root of a non-SI unit has no rational size, and quarters of powers are
-            // not supported.
+            // The square root of a non-SI unit has no rational size, and quarters of powers are not supported.
             let measure = Measure::named(&factor.name.text);
             if factor.halved || measure.is_some_and(|measure| !measure.is_si()) {
                 let name = &factor.name.text;

@@ -92,8 +92,8 @@ fn a_puck_that_is_held_from_both_sides_goes_as_one_that_lies_on_the_slope() {
     }
 }
 
-/// Springs written in coordinates act along the surface and do not press on it: a puck on springs moves like one on a table that it
-/// may leave.
+/// Springs written in coordinates act along the surface and do not press
+/// on it: a puck on springs moves like one on a table that it may leave.
 #[test]
 fn springs_along_a_surface_do_not_press_on_it() {
     let common = "parameters { m: kg = 1, k: N/m = 40, mu: 1 = 0.05, g: m/s^2 = 9.81 }

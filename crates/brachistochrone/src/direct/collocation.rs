@@ -24,8 +24,7 @@ use crate::solution::Brachistochrone;
 /// The most Newton iterations; a good guess needs five.
 const MOST: usize = 30;
 
-/// The iteration ends with a step this small, relative to the greatest value of each quantity: its square is
-/// below round-off.
+/// The iteration ends with a step this small, relative to the greatest value of each quantity: its square is below round-off.
 const LAST: f64 = 1e-10;
 
 /// Limits for continuation from one machine to another: a step that needs more iterations than this is too long, and this

@@ -150,8 +150,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// Writes a struct of named numbers: its fields, and a row for each number. `empty` is the field of a struct
-    /// without numbers.
+    /// Writes a struct of named numbers: its fields, and a row for each number. `empty` is the field of a struct without numbers.
     fn group(
         &mut self,
         head: &str,

@@ -329,8 +329,7 @@ struct Pair {
     role: Role,
     with: String,
     without: String,
-    /// The multiplications, additions and divisions of the textbook's formula, and its sines: an upper
-    /// bound for what is left.
+    /// The multiplications, additions and divisions of the textbook's formula, and its sines: an upper bound on those of the program.
     by_hand: Option<([usize; 4], &'static str)>,
 }
 

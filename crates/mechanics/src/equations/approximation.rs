@@ -41,8 +41,7 @@ impl<'d> Approximations<'d> {
         self.frozen.is_empty() && self.small.is_empty()
     }
 
-    /// Frozen coordinates, eq. (E16): `sin θ → 0` and `cos θ → 1` in velocities,
-    /// after differentiating.
+    /// Frozen coordinates, eq. (E16): `sin θ → 0` and `cos θ → 1` in velocities, after differentiating.
     ///
     /// In angles like `θ + φ` this is `θ → 0`, by the addition theorems. Elsewhere `θ` stays.
     pub fn motion(&self, motion: &Motion<'d>) -> Motion<'d> {
@@ -59,8 +58,7 @@ impl<'d> Approximations<'d> {
     /// Small coordinates, eq. (E17): energies to second order in coordinates and rates together,
     /// `f(εθ, εθ̇) = f₀ + ε f₁ + ½ ε² f₂ + …` at `ε = 1`.
     ///
-    /// Undefined if an energy has no such expansion: a distance that vanishes at `θ = 0` is not
-    /// differentiable there.
+    /// Undefined if an energy has no such expansion: a distance that vanishes at `θ = 0` is not differentiable there.
     pub fn energies(&self, energies: &[Expr<'d>]) -> Vec<Expr<'d>> {
         if self.small.is_empty() {
             return energies.to_vec();

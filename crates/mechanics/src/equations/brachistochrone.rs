@@ -103,8 +103,7 @@ impl<'d> Brachistochronic<'d> {
         Self::within(model, equations, [Reach::Parameters; 2])
     }
 
-    /// The problem with masses and friction that depend on coordinates, and forces and loads that depend on
-    /// velocities too.
+    /// The problem with masses and friction that depend on coordinates, and forces and loads that depend on velocities too.
     ///
     /// # Errors
     /// As for [`of`](Self::of): constraints, explicit time, inputs, and friction that depends
@@ -228,8 +227,7 @@ enum Reach {
     Rates,
 }
 
-/// The coefficient, if it depends only on what its reach allows; otherwise the violation
-/// is recorded.
+/// The coefficient, if it depends only on what its reach allows; otherwise the violation is recorded.
 fn checked<'d>(
     model: &Model<'d>,
     value: Expr<'d>,

@@ -61,8 +61,7 @@ const WORK_OF_BLAME: usize = 100_000_000;
 /// the prime field only if that has no values.
 const CLEAR: f64 = 1e-9;
 
-/// The bodies that the guides of a machine carry, and the bodies on which forces on its
-/// coordinates act.
+/// The bodies that the guides of a machine carry, and the bodies on which forces on its coordinates act.
 ///
 /// All lists are of indices, ascending: bodies as in [`Model::bodies`], guides as in [`Model::sliding`], where a
 /// surface occurs twice, once for each tangent, coordinates as in [`Model::coordinates`].
@@ -105,8 +104,7 @@ pub(super) fn refuse_untied(model: &Model<'_>, report: &mut Report) -> bool {
     let mut looked_at = Vec::new();
     let mut found = Motion::<Residue>::of(model)
         .map_or_else(Vec::new, |motion| motion.refused(model, &mut looked_at));
-    // Ordinary numbers are used if the prime field has no values for the motion, or for some of
-    // the forces.
+    // Ordinary numbers are used if the prime field has no values for the motion, or for some of the forces.
     if found.is_empty() && (looked_at.is_empty() || looked_at.contains(&false)) {
         found = Motion::<f64>::of(model)
             .map_or_else(Vec::new, |motion| motion.refused(model, &mut looked_at));
@@ -186,8 +184,7 @@ struct Motion<T> {
     point: u64,
 }
 
-/// A displacement along a guide as a motion of the machine: the coefficient of each column, minus the
-/// displacement itself.
+/// A displacement along a guide as a motion of the machine: the coefficient of each column, minus the displacement itself.
 struct Along<T>(Vec<T>);
 
 impl<T: Scalar> Along<T> {
@@ -335,8 +332,7 @@ impl<T: Number> Motion<T> {
         })
     }
 
-    /// The columns of the displacements of a guide, which are the same for both tangents of
-    /// a surface.
+    /// The columns of the displacements of a guide, which are the same for both tangents of a surface.
     fn own(&self, guide: usize) -> Vec<usize> {
         let first = self.coordinates + self.dimension * self.numbers[guide];
         (first..first + self.dimension).collect()
@@ -491,10 +487,9 @@ impl<T: Number> Motion<T> {
     }
 
     /// Whether forces on the coordinates push what a guide carries along it, with an undetermined pull
-    /// across the guide; `along` gives the coordinates by which it moves. This is so if such a
-    /// coordinate moves nothing that is carried, or if it moves other bodies too and the forces are
-    /// not equivalent to forces on the carried bodies alone, so that an unknown part of them acts on
-    /// the others.
+    /// across the guide; `along` gives the coordinates by which it moves. This is so if such a coordinate
+    /// moves nothing that is carried, or if it moves other bodies too and the forces are not equivalent
+    /// to forces on the carried bodies alone, so that an unknown part of them acts on the others.
     fn is_unsaid(&self, guide: usize, along: &Along<T>, forces: &[T]) -> bool {
         let carried = self.bodies_moved_by(&self.own(guide));
         let is_carried = |body: &usize| carried.contains(body);
@@ -859,9 +854,8 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         })
     }
 
-    /// The first guide along which the force of an expression does not change as the bodies do
-    /// and acts across it on what is carried, or for which `unsaid` holds of its change along
-    /// the guide.
+    /// The first guide along which the force of an expression does not change as the bodies do and
+    /// acts across it on what is carried, or for which `unsaid` holds of its change along the guide.
     fn first_unsaid(
         &self,
         expression: Expr<'d>,
@@ -942,11 +936,10 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         Some(across.map(|guide| self.diagnostic(guide, span, what, help)))
     }
 
-    /// Tests a force that is the derivative of an expression: an energy, a dissipation by its rates,
-    /// or a coordinate on which a force acts. Written in coordinates it acts along the guides, and
-    /// must act on what the guide carries directly, not through something else. A force between a body
-    /// and a place in coordinates pulls on that place too, and what holds the place across the guide
-    /// is unknown.
+    /// Tests a force that is the derivative of an expression: an energy, a dissipation by its rates, or a
+    /// coordinate on which a force acts. Written in coordinates it acts along the guides, and must act on
+    /// what the guide carries directly, not through something else. A force between a body and a place in
+    /// coordinates pulls on that place too, and what holds the place across the guide is unknown.
     fn acting(&self, (expression, by): (Expr<'d>, &[Symbol]), what: &str, span: Span) -> Looked {
         let unsaid = self.first_unsaid(expression, by, |slopes, guide, _| {
             let along = self.alongs.iter().find(|(k, _)| *k == guide);

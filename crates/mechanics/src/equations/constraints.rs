@@ -7,9 +7,8 @@
 //!                M a = f + Gᵀ λ                                         (E31)
 //! ```
 //!
-//! `D` is the total time derivative (E8), so explicit time is in `φ` and in `γ`. Circles that roll
-//! on each other give one constraint of each kind: they touch, and the touching points have the
-//! same velocity.
+//! `D` is the total time derivative (E8), so explicit time is in `φ` and in `γ`. Circles that roll on each
+//! other give one constraint of each kind: they touch, and the touching points have the same velocity.
 
 use lagrangian_symbolic::{Expr, normal, substitute};
 

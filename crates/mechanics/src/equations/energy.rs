@@ -55,8 +55,7 @@ pub(super) fn weights<'d>(model: &Model<'d>) -> impl Iterator<Item = Expr<'d>> {
     })
 }
 
-/// Rayleigh's dissipation function, eq. (E3): `D = Σ ½ b ṡ² + Σ R`, over damped deformations and
-/// given functions.
+/// Rayleigh's dissipation function, eq. (E3): `D = Σ ½ b ṡ² + Σ R`, over damped deformations and given functions.
 ///
 /// `rate` is the total derivative.
 pub(super) fn dissipation<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> Expr<'d> {

@@ -61,8 +61,7 @@ pub struct Independent {
 }
 
 impl Freedom {
-    /// The degrees of freedom: coordinates minus independent constraints and minus the lengths
-    /// of quaternions.
+    /// The degrees of freedom: coordinates minus independent constraints and minus the lengths of quaternions.
     pub fn degrees(&self) -> Option<usize> {
         let coordinates = self.coordinates - self.lengths;
         match (self.constraints, self.independent) {
@@ -165,8 +164,7 @@ impl<'m, 'd> Places<'m, 'd> {
         let at_start = self.rank(&place)?;
         let mut generic = at_start;
         for _ in 0..PLACES {
-            // Take a shorter step if a longer one leads to where the constraints cannot
-            // be satisfied.
+            // Take a shorter step if a longer one leads to where the constraints cannot be satisfied.
             let found = [0.3, 0.03, 0.003].into_iter().find_map(|length| {
                 let step: Row = place
                     .iter()
@@ -195,8 +193,7 @@ impl<'m, 'd> Places<'m, 'd> {
         values
     }
 
-    /// The residuals of the constraints at a place, and the rows of `G`; none if they have
-    /// no value.
+    /// The residuals of the constraints at a place, and the rows of `G`; none if they have no value.
     fn at(&self, place: &[DoubleDouble]) -> Option<(Row, Vec<Row>)> {
         let values = self.known_at(place);
         let zero = DoubleDouble::from_f64(0.0);
@@ -310,8 +307,7 @@ fn least_step(rows: &[Row], residuals: &[DoubleDouble]) -> Row {
     let zero = DoubleDouble::from_f64(0.0);
     let width = rows.first().map_or(0, Vec::len);
     let mut step = vec![zero; width];
-    // Along each new direction in turn: its row has no component along later ones, so it
-    // stays satisfied.
+    // Along each new direction in turn: its row has no component along later ones, so it stays satisfied.
     for (place, direction) in pivoted(rows) {
         let missing = residuals[place] - dot(&rows[place], &step);
         let gain = dot(&rows[place], &direction);

@@ -18,8 +18,7 @@ use lagrangian_spec::model::element::{Contribution, Energy};
 /// The largest number of terms of a velocity term that is multiplied out to find the rates in it.
 const VELOCITY_TERMS: usize = 1000;
 
-/// One contribution of one element: the energy that it stores, the dissipation, or the force that
-/// it applies.
+/// One contribution of one element: the energy that it stores, the dissipation, or the force that it applies.
 #[derive(Clone, Debug)]
 pub struct Share<'d> {
     /// The element, by its index in [`Model::elements`].

@@ -104,8 +104,7 @@ pub(super) fn base<'m, 'd>(
     (origin, turning)
 }
 
-/// The angular velocity of a frame in space, in ground axes: the sum over all turns that lead to it, each rate about its
-/// own axis.
+/// The angular velocity of a frame in space, in ground axes: the sum over all turns that lead to it, each rate about its own axis.
 fn turning<'d>(model: &Model<'d>, mut pose: PoseId, rate: &mut Tangent<'d>) -> Vec<Expr<'d>> {
     let mut terms = vec![Vec::new(); 3];
     while pose != PoseId::GROUND {
@@ -139,8 +138,7 @@ pub(super) fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
             // The given normal is this multiple of the direction turned left, so the roots of their
             // lengths need not be compared.
             let times = dot(given, &[-y, x]) / model.dag.sum([x.square(), y.square()]);
-            // The direction turned left has the same components and is shorter to write than the
-            // given normal.
+            // The direction turned left has the same components and is shorter to write than the given normal.
             match identity::steady_sign(times) {
                 Some(true) => left,
                 Some(false) => left.into_iter().map(|x| -x).collect(),

@@ -146,8 +146,7 @@ fn is_autonomous(model: &Model<'_>, equations: &Equations<'_>) -> bool {
     sources.all(|source| is_zero(explicit.of(source)))
 }
 
-/// Coordinates that are connected by entries of the mass matrix; each list and the list of lists are in
-/// ascending order.
+/// Coordinates that are connected by entries of the mass matrix; each list and the list of lists are in ascending order.
 fn blocks(model: &Model<'_>, equations: &Equations<'_>) -> Vec<Vec<usize>> {
     let n = equations.mass_matrix.dimension();
     let mut block: Vec<usize> = (0..n).collect();

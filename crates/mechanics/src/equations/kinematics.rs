@@ -53,8 +53,7 @@ impl<'d> Variables<'d> {
         Tangent::new(model.dag, &self.kinematic(model).collect::<Vec<_>>())
     }
 
-    /// The total time derivative of an expression in coordinates, first-order states and time; states change at their
-    /// given rates.
+    /// The total time derivative of an expression in coordinates, first-order states and time; states change at their given rates.
     pub fn along_states(&self, model: &Model<'d>) -> Tangent<'d> {
         let states = self.v.iter().zip(&model.coordinates);
         let states = states.filter_map(|(&v, c)| Some((v, c.rate?)));
@@ -115,9 +114,8 @@ pub(super) struct Motion<'d> {
     pub angular: Vec<Expr<'d>>,
 }
 
-/// The motion of every body if coordinates and time change at the given `rate`, directly from
-/// positions and axes: the mass centre in ground axes, the angular velocity by (E9) in the body's
-/// own axes.
+/// The motion of every body if coordinates and time change at the given `rate`, directly from positions
+/// and axes: the mass centre in ground axes, the angular velocity by (E9) in the body's own axes.
 pub(super) fn literal_motion<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> Vec<Motion<'d>> {
     let motion = |body: &Body<'d>| {
         let linear = body.at.iter().map(|&x| rate.of(x)).collect();
@@ -211,8 +209,7 @@ pub(super) fn apply_tensor<'d>(tensor: &[Expr<'d>; 6], w: &Vector<'d>) -> Vector
     ]
 }
 
-/// The velocity of the origin of a frame in space and its angular velocity, in the frame's
-/// own axes.
+/// The velocity of the origin of a frame in space and its angular velocity, in the frame's own axes.
 #[derive(Clone, Debug)]
 pub(super) struct Twist<'d> {
     pub linear: Vector<'d>,
@@ -258,8 +255,7 @@ impl Chains {
         }
     }
 
-    /// Velocities of frames in their own axes, eq. (E10), if coordinates and time change at the
-    /// given `rate`.
+    /// Velocities of frames in their own axes, eq. (E10), if coordinates and time change at the given `rate`.
     ///
     /// From parent to child, with the shift `r` and the axis `e` and angle `φ` of the turn:
     ///
@@ -308,8 +304,7 @@ impl Chains {
         twists
     }
 
-    /// Accelerations of frames in their own axes, eq. (E11), given their velocities at the
-    /// same `rate`.
+    /// Accelerations of frames in their own axes, eq. (E11), given their velocities at the same `rate`.
     ///
     /// ```text
     /// shift:  α' = α                        a' = a + α×r + ω×(ω×r + 2 ṙ) + r̈

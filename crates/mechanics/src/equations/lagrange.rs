@@ -65,11 +65,9 @@ pub struct OracleSliding<'d> {
     pub drift: Expr<'d>,
     /// `dw/dt` with the accelerations in it.
     pub slip_rate: Expr<'d>,
-    /// In space the unit vector that determines the pressing part of the reaction: the normal of a surface, or the tangent of
-    /// a curve.
+    /// In space the unit vector that determines the pressing part of the reaction: the normal of a surface, or the tangent of a curve.
     pub telling: Vec<Expr<'d>>,
-    /// For each component of the reaction the equation of the displacement that opens the guide in
-    /// that direction.
+    /// For each component of the reaction the equation of the displacement that opens the guide in that direction.
     pub reactions: Vec<OracleReaction<'d>>,
     /// `μ` and `μ₀`.
     pub coefficients: [Expr<'d>; 2],

@@ -91,8 +91,7 @@ pub(crate) struct Literal<R> {
 pub(crate) struct LiteralUnilateral<R> {
     /// The distance by which it is open.
     pub open: LiteralConstraint<R>,
-    /// The gap, as a constraint of positions that would hold it at 0; for a polygon the gap to the face
-    /// that touches.
+    /// The gap, as a constraint of positions that would hold it at 0; for a polygon the gap to the face that touches.
     pub gap: LiteralConstraint<R>,
     /// For a polygon, the distance of the corner outside the face, its distance beyond the ends of the face, and
     /// the rate of the latter.
@@ -114,8 +113,7 @@ pub(crate) struct LiteralConstraint<R> {
     pub acceleration: R,
     /// `w·∂φ/∂v`.
     pub along: R,
-    /// The derivative of `g` along `w` with respect to the rates, which is 0 if it really
-    /// constrains positions.
+    /// The derivative of `g` along `w` with respect to the rates, which is 0 if it really constrains positions.
     pub by_rates: R,
 }
 
@@ -137,8 +135,7 @@ pub(crate) struct LiteralSliding<R> {
     pub side: R,
     /// `μ` and `μ₀`.
     pub coefficients: [R; 2],
-    /// In space the unit vector that determines the pressing part of the reaction: the normal of a surface, or the tangent of
-    /// a curve.
+    /// In space the unit vector that determines the pressing part of the reaction: the normal of a surface, or the tangent of a curve.
     pub telling: Vec<R>,
 }
 
@@ -836,8 +833,7 @@ fn lengths<'d, R: Scalar>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> Moving<R>)
         let growing = sum((0..4).map(|k| e[k] * e_rate[k])) / square;
         let inertia = x(four.inertia).value;
         let energy = half * inertia * growing * growing;
-        // The change of half the logarithm of the square along w: q contains w with the
-        // coefficient −τε.
+        // The change of half the logarithm of the square along w: q contains w with the coefficient −τε.
         let s = square.value.value;
         let moved = -(square.derivative.derivative / (two * s));
         let rate = R::from_ratio(quaternion::RATE, 1);
@@ -1120,8 +1116,7 @@ struct OnPolygon<R> {
     height: Moving<R>,
     /// Its distance beyond the ends of that face.
     beyond: Moving<R>,
-    /// Its slip velocity along the face, in the direction that points outwards if it is
-    /// turned left.
+    /// Its slip velocity along the face, in the direction that points outwards if it is turned left.
     slip: Varied<R>,
 }
 
@@ -1201,8 +1196,7 @@ fn on_polygon<'d, R: Scalar>(
         found.height = found.height + weight * distance(k, place);
         found.beyond =
             found.beyond + weight * fold(others.map(|j| distance(j, place)).collect(), Moving::max);
-        // The polygon's own point under the corner moves with the end of the face, and turns
-        // about it.
+        // The polygon's own point under the corner moves with the end of the face, and turns about it.
         let arm = [0, 1].map(|i| (place[i] - ends[k][i]).value);
         let carried = [-(turning * arm[1]), turning * arm[0]];
         let along = [0, 1].map(|i| {

@@ -31,8 +31,7 @@ fn state_power<'d>(model: &Model<'d>, x: &Variables<'d>) -> Expr<'d> {
     model.dag.sum(stored.into_iter().chain(model.losses()))
 }
 
-/// Power of applied forces and torques along the virtual motion: `Σ Fᵢ vᵢ`, without dampers
-/// and potentials.
+/// Power of applied forces and torques along the virtual motion: `Σ Fᵢ vᵢ`, without dampers and potentials.
 pub(super) fn force_power<'d>(projection: &Projection<'_, 'd>) -> Expr<'d> {
     let mut loads = Loads::default();
     projection.add_forces(&mut loads);

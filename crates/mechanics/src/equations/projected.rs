@@ -55,8 +55,7 @@ pub(super) struct Projection<'a, 'd> {
 struct Carrier<'d> {
     /// Scalar positions with their weights: `T = ½ Σ w (Dp)²`.
     points: Vec<Weighted<'d>>,
-    /// Mass, and the mass centre in the axes of a frame in space; such a centre is not among
-    /// the points.
+    /// Mass, and the mass centre in the axes of a frame in space; such a centre is not among the points.
     centre: Option<(Expr<'d>, PoseId, Vector<'d>)>,
     /// Inertia in the axes of a frame in space.
     tensor: Option<([Expr<'d>; 6], PoseId)>,
@@ -204,9 +203,8 @@ impl<'a, 'd> Projection<'a, 'd> {
 
     /// Adds the applied loads without gravity, eq. (E14): `Qᵢ = Σ F·∂x/∂qᵢ`, which is (E6).
     ///
-    /// A spring pulls with `−c s` along its deformation, a damper with `−b ṡ`; forces and torques act
-    /// at their points and bodies. A coefficient that depends on coordinates or rates gives a term of
-    /// its own.
+    /// A spring pulls with `−c s` along its deformation, a damper with `−b ṡ`; forces and torques act at
+    /// their points and bodies. A coefficient that depends on coordinates or rates gives a term of its own.
     pub fn add_applied(&self, loads: &mut Loads<'d>) {
         let (model, rate) = (self.model, &mut self.x.coasting(self.model));
         for energy in model.stored() {
@@ -234,8 +232,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         self.add_lengths(loads);
     }
 
-    /// Adds the load that restores the lengths of quaternions, eq. (E75). It acts on the lengths alone, and has
-    /// no power.
+    /// Adds the load that restores the lengths of quaternions, eq. (E75). It acts on the lengths alone, and has no power.
     pub fn add_lengths(&self, loads: &mut Loads<'d>) {
         let rate = &mut self.x.coasting(self.model);
         for four in &self.model.quaternions {
@@ -315,8 +312,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         }
     }
 
-    /// Adds `M·∂ω/∂vᵢ` of a torque. `twists` are the velocities of all frames in space, once they have
-    /// been needed.
+    /// Adds `M·∂ω/∂vᵢ` of a torque. `twists` are the velocities of all frames in space, once they have been needed.
     fn add_torque(
         &self,
         on: Place,
@@ -477,9 +473,8 @@ impl<'a, 'd> Projection<'a, 'd> {
             .collect()
     }
 
-    /// Power of everything that is driven by explicit time, eq. (E19): `Σ w (D²p) ∂p/∂t`,
-    /// the inertia force of what is driven times the velocity at which it is driven. It
-    /// contains accelerations.
+    /// Power of everything that is driven by explicit time, eq. (E19): `Σ w (D²p) ∂p/∂t`, the inertia
+    /// force of what is driven times the velocity at which it is driven. It contains accelerations.
     pub fn drive_power(&self) -> Expr<'d> {
         let driven = self.velocities(&mut self.x.explicit(self.model));
         if driven.iter().all(Carried::is_at_rest) {
@@ -525,8 +520,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         }
     }
 
-    /// The velocities of frames in space at a rate, and their accelerations; with `gravity` the ground accelerates
-    /// by `−g`.
+    /// The velocities of frames in space at a rate, and their accelerations; with `gravity` the ground accelerates by `−g`.
     fn motion(&self, rate: &mut Tangent<'d>, gravity: bool) -> (Vec<Twist<'d>>, Vec<Twist<'d>>) {
         let model = self.model;
         let gravity = model.gravity().filter(|_| gravity);

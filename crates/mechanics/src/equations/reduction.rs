@@ -57,15 +57,13 @@ pub struct Dependent<'d> {
     pub constraint: usize,
     /// Its coefficient in the constraint: ∂g/∂q or ∂φ/∂v with respect to it, of parameters alone.
     pub coefficient: Expr<'d>,
-    /// Its position, as a function of the other coordinates and perhaps of the symbol of
-    /// its `offset`.
+    /// Its position, as a function of the other coordinates and perhaps of the symbol of its `offset`.
     pub position: Expr<'d>,
     /// Its rate, as a function of the others and their rates.
     pub rate: Expr<'d>,
     /// Its acceleration.
     pub acceleration: Expr<'d>,
-    /// For a constraint of rates: a symbol for the constant that the start determines, and
-    /// its meaning.
+    /// For a constraint of rates: a symbol for the constant that the start determines, and its meaning.
     pub offset: Option<[Expr<'d>; 2]>,
 }
 
@@ -176,9 +174,8 @@ fn dependent<'d>(
     })
 }
 
-/// Whether a coefficient may be divided by, that is, is not 0. If it is 0 for the parameters in
-/// the spec, another coordinate or none is the better choice, even though this one would do for
-/// other parameters.
+/// Whether a coefficient may be divided by, that is, is not 0. If it is 0 for the parameters in the spec,
+/// another coordinate or none is the better choice, even though this one would do for other parameters.
 fn is_usable(model: &Model<'_>, coefficient: Expr<'_>) -> bool {
     if identity::is_zero(coefficient) != Some(false) {
         return false;

@@ -26,8 +26,7 @@ pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool
     refuse_sliding(model, report) || refused
 }
 
-/// Refuses what is not yet supported together with unilateral contacts. Returns true if anything
-/// is refused.
+/// Refuses what is not yet supported together with unilateral contacts. Returns true if anything is refused.
 fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
     let Some(first) = model.contacts.first() else {
         return false;
@@ -201,8 +200,7 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     refused
 }
 
-/// Refuses bodies that roll or rub without a given orientation. Returns true if anything
-/// is refused.
+/// Refuses bodies that roll or rub without a given orientation. Returns true if anything is refused.
 pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
     let mut refused = false;
     let mut refuse = |circle: &Circle<'_>, surface: Surface, span: Span| {
@@ -244,8 +242,7 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
             {
                 refuse(&model.circles[*circle], *surface, contact.span);
             }
-            // The position of a point of a body depends on its orientation, with or
-            // without friction.
+            // The position of a point of a body depends on its orientation, with or without friction.
             ContactGeometry::Point { point, surface } => refuse(point, *surface, contact.span),
             ContactGeometry::Circles(_)
             | ContactGeometry::Corner(_)
@@ -255,8 +252,7 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
     refuse_unturned_polygons(model, report) || refused
 }
 
-/// Refuses polygons on bodies without a given orientation, once for each pair. Returns true if anything
-/// is refused.
+/// Refuses polygons on bodies without a given orientation, once for each pair. Returns true if anything is refused.
 fn refuse_unturned_polygons(model: &Model<'_>, report: &mut Report) -> bool {
     let mut refused = false;
     for contact in &model.contacts {

@@ -138,8 +138,7 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             face: of_face.map(|(_, face)| face),
         };
         if let (true, Some(across)) = (rubs, across) {
-            // It shares the gap and the normal of the preceding contact; only the other component of the slip is
-            // its own.
+            // It shares the gap and the normal of the preceding contact; only the other component of the slip is its own.
             let [normal, _] = own.directions.clone();
             let second = UnilateralEquation {
                 name: format!("{}.across", contact.name),
@@ -156,8 +155,7 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
         else {
             return vec![own];
         };
-        // It shares the gap and the normal of the preceding contact; only an angular velocity is
-        // its own.
+        // It shares the gap and the normal of the preceding contact; only an angular velocity is its own.
         let rate = plain(circles::rolling(model, touching, &mut x.coasting(model)));
         let rolling = UnilateralEquation {
             name: format!("{}.rolling", contact.name),

@@ -42,16 +42,14 @@ use crate::{InertialPair, Unprojected};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
 
-/// The largest number of terms that may enter the form. Beyond it, elimination of the mass matrix
-/// is better.
+/// The largest number of terms that may enter the form. Beyond it, elimination of the mass matrix is better.
 const BUDGET: usize = 40_000;
 
 /// The largest number of nodes and operands that may be created on the way. A machine that needs
 /// more is coupled too densely to be eliminated along its structure.
 const MOST_GROWTH: usize = 4_000_000;
 
-/// The largest total number: the graph keeps what was tried and discarded, and this is half
-/// a gigabyte.
+/// The largest total number: the graph keeps what was tried and discarded, and this is half a gigabyte.
 const MOST_SIZE: usize = 10_000_000;
 
 /// The largest number of nodes between the velocity of a point on a bar and those of its joint and of the
@@ -59,8 +57,7 @@ const MOST_SIZE: usize = 10_000_000;
 /// of these to its end would take too long.
 const LONGEST_ARM: usize = 64;
 
-/// Accelerations in the order of the coordinates, and pivots with their coordinates in the order
-/// of elimination.
+/// Accelerations in the order of the coordinates, and pivots with their coordinates in the order of elimination.
 pub(super) struct Solution<'d> {
     pub(super) accelerations: Vec<Expr<'d>>,
     pub(super) pivots: Vec<(usize, Expr<'d>)>,
@@ -72,8 +69,7 @@ pub(super) struct Solution<'d> {
     pub(super) coordinates: BTreeMap<Id, usize>,
 }
 
-/// Solves for the accelerations; `None` if that takes too much work, or if a coordinate has
-/// no inertia.
+/// Solves for the accelerations; `None` if that takes too much work, or if a coordinate has no inertia.
 pub(super) fn solve<'d>(
     model: &Model<'d>,
     machine: &Unprojected<'d>,
@@ -217,10 +213,9 @@ struct Place<'d> {
 pub(super) enum Order {
     /// One elimination after the other, with the fewest operations.
     Short,
-    /// Computations that do not depend on the last division first: while an update `− w wᵀ/d` is
-    /// pending, `Cᵀ G C` is computed from the old G, and `w` becomes `Cᵀ w`, so that the next pivot
-    /// waits for only one multiplication and one subtraction. This is the same elimination, with
-    /// more operations.
+    /// Computations that do not depend on the last division first: while an update `− w wᵀ/d` is pending,
+    /// `Cᵀ G C` is computed from the old G, and `w` becomes `Cᵀ w`, so that the next pivot waits for only
+    /// one multiplication and one subtraction. This is the same elimination, with more operations.
     Ahead,
 }
 
@@ -516,8 +511,7 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// Adds loads to velocities; those on nodes that are not linear in velocities go to
-    /// the coordinates.
+    /// Adds loads to velocities; those on nodes that are not linear in velocities go to the coordinates.
     fn add_loads(&mut self, loads: &[(Expr<'d>, Expr<'d>)], model: &Model<'d>) {
         let velocities: Vec<Symbol> = model
             .coordinates
@@ -715,8 +709,7 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// Makes all pending updates that involve a row taken from the form; `own` and `row` receive
-    /// its share.
+    /// Makes all pending updates that involve a row taken from the form; `own` and `row` receive its share.
     fn catch_up(&mut self, id: Id, own: &mut Expr<'d>, row: &mut Vec<(Id, Expr<'d>)>) {
         let (due, others) = std::mem::take(&mut self.late)
             .into_iter()
@@ -907,9 +900,8 @@ impl<'d> Front<'d> {
         (0..group.len()).any(|k| (0..k).any(|l| couples((k, l))))
     }
 
-    /// Gives names to coefficients such as `l cos φ`, so that they are computed once and stay together:
-    /// if `l` were taken out of sums and `cos φ` left inside, every use would have a multiplication of
-    /// its own.
+    /// Gives names to coefficients such as `l cos φ`, so that they are computed once and stay together: if
+    /// `l` were taken out of sums and `cos φ` left inside, every use would have a multiplication of its own.
     fn name_coefficients(&mut self, group: &mut [(Id, Composition<'d>)], drifts: &mut [Expr<'d>]) {
         let first = self.names.len();
         for (_, composition) in group.iter() {
@@ -1417,8 +1409,7 @@ fn terms_of(e: Expr<'_>) -> Vec<Expr<'_>> {
     }
 }
 
-/// The number of multiplications and additions at the top of an expression, not counting those of
-/// its parts.
+/// The number of multiplications and additions at the top of an expression, not counting those of its parts.
 fn work(e: Expr<'_>) -> usize {
     if e.stage() <= Stage::PARAMETER {
         return 0;

@@ -186,8 +186,7 @@ fn bar<'d>(
     None
 }
 
-/// Whether a quotient of lengths is known to be in [0, 1]: it is `c/l`, and `c > 0` and `c <= l`
-/// are assumed.
+/// Whether a quotient of lengths is known to be in [0, 1]: it is `c/l`, and `c > 0` and `c <= l` are assumed.
 fn is_share(share: Expr<'_>, assumptions: &[Assumption<'_>]) -> bool {
     if let Node::Constant(share) = share.node() {
         return (Rational::ZERO..=Rational::ONE).contains(&share);

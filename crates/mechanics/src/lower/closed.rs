@@ -1,6 +1,5 @@
-//! The accelerations of a closed-loop mechanism along its structure: the loops are cut open, the
-//! machine is eliminated from its tips like a tree, and the constraint forces pass through the
-//! same steps.
+//! The accelerations of a closed-loop mechanism along its structure: the loops are cut open, the machine
+//! is eliminated from its tips like a tree, and the constraint forces pass through the same steps.
 //!
 //! ```text
 //! a = a₀ + Y λ,   Y = M⁻¹ Gᵀ,   G Y λ = γ − G a₀

@@ -1,5 +1,4 @@
-//! The accelerations with their derivatives: `M ∂a/∂x = ∂r/∂x`, eq. (E26), a column for
-//! each variable.
+//! The accelerations with their derivatives: `M ∂a/∂x = ∂r/∂x`, eq. (E26), a column for each variable.
 //!
 //! The elimination that gives the accelerations is one list of [`Step`]s, whether it runs along the
 //! machine or over the mass matrix. A right-hand side passes through it forwards, and its solution
@@ -65,8 +64,7 @@ pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_,
         .unprojected
         .and_then(|machine| along_the_machine(lowering, lowering.model, asked.system, machine));
     let mut candidates = functions(lowering, asked, along.as_ref());
-    // A certainly longer function is not even written down: each column passes through the
-    // matrix too.
+    // A certainly longer function is not even written down: each column passes through the matrix too.
     let is_shorter = |draft: &Draft| {
         elimination.multiplications * asked.columns() <= draft.function.counts().ops()
     };
@@ -80,8 +78,7 @@ pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_,
         .expect("the mass matrix always leads to one")
 }
 
-/// The functions that give the same numbers by one elimination, one for each form of the
-/// right-hand sides.
+/// The functions that give the same numbers by one elimination, one for each form of the right-hand sides.
 fn functions<'d>(
     lowering: &mut Lowering<'_, 'd>,
     asked: &Asked<'_, 'd>,
@@ -113,8 +110,7 @@ fn by_matrix(graph: &mut Graph, asked: &Asked<'_, '_>, elimination: Elimination)
 pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solved {
     let step = |(pivot, column): (&Pivot, &solve::Column)| Step {
         of: pivot.coordinate,
-        // Pivots of constraints are guarded as positive numbers; a row without a pivot depends
-        // on others.
+        // Pivots of constraints are guarded as positive numbers; a row without a pivot depends on others.
         pivot: (!pivot.pivot.is_zero()).then(|| {
             if pivot.coordinate < system.coordinates {
                 pivot.pivot
@@ -249,8 +245,7 @@ fn right_hand_sides<'d>(
     asked: &Asked<'_, 'd>,
     solved: &Solved,
 ) -> Vec<Vec<Scaled>> {
-    // Values that were lowered earlier, such as outputs, may contain the accelerations
-    // as arguments.
+    // Values that were lowered earlier, such as outputs, may contain the accelerations as arguments.
     let before = std::mem::take(&mut lowering.values);
     for (coordinate, value) in lowering.model.coordinates.iter().zip(&solved.accelerations) {
         lowering.values.insert(coordinate.a.id(), *value);
@@ -288,8 +283,7 @@ pub(super) fn inverses(graph: &mut Graph, solved: &Solved) -> Vec<Scaled> {
     solved.steps.iter().map(inverse).collect()
 }
 
-/// Solves `M x = r` by the steps that gave the accelerations; for rows of constraints the solution
-/// is `−λ`.
+/// Solves `M x = r` by the steps that gave the accelerations; for rows of constraints the solution is `−λ`.
 pub(super) fn respond(
     graph: &mut Graph,
     solved: &Solved,

@@ -1,5 +1,4 @@
-//! The accelerations in stages, from the elimination that leaves the least work to the
-//! repeated stage.
+//! The accelerations in stages, from the elimination that leaves the least work to the repeated stage.
 
 use crate::lower::{Candidate, Choice, Draft, Lowering, Origin, Planned, roundings};
 use crate::lower::{articulated, turned};
@@ -28,8 +27,7 @@ impl Staged {
     }
 }
 
-/// The requested stages. The form with the lowest cost of the last stage, the one that is repeated,
-/// is chosen.
+/// The requested stages. The form with the lowest cost of the last stage, the one that is repeated, is chosen.
 pub(super) fn staged<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Origin<'_, 'd>,

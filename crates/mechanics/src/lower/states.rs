@@ -51,8 +51,7 @@ pub fn around_start(model: &Model<'_>, seed: u64, count: usize) -> States {
             is_angle.iter().map(rate).collect()
         };
         let (mut v, a) = (rates(), rates());
-        // A state may be restricted to one sign, which its nonzero start shows: vary it around
-        // the start.
+        // A state may be restricted to one sign, which its nonzero start shows: vary it around the start.
         for (i, v) in v.iter_mut().enumerate() {
             if model.coordinates[i].rate.is_some() {
                 *v = starts[n + i] + *v * (1.0 + starts[n + i].abs());

@@ -66,8 +66,7 @@ pub(super) fn solve<'d>(
     })
 }
 
-/// The machine in the velocities of its turns; `None` if it has no quaternion, or if something depends on the rates of one in
-/// another way.
+/// The machine in the velocities of its turns; `None` if it has no quaternion, or if something depends on the rates of one in another way.
 fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>> {
     if model.quaternions.is_empty() || machine.drifts {
         return None;
@@ -174,8 +173,7 @@ fn rewritten<'d>(
 }
 
 impl<'d> Turned<'d> {
-    /// The accelerations of the coordinates of the machine from those of its turns, without the part that remains if
-    /// neither accelerates.
+    /// The accelerations of the coordinates of the machine from those of its turns, without the part that remains if neither accelerates.
     fn accelerations(&self, model: &Model<'d>, mut of: Vec<Expr<'d>>) -> Vec<Expr<'d>> {
         let dag = model.dag;
         for four in &model.quaternions {

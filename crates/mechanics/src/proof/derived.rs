@@ -19,8 +19,7 @@ use crate::POINTS;
 use crate::equations::literal::{Lagrange, State};
 
 impl Proved {
-    /// The changes of accelerations and outputs under changes of their arguments,
-    /// as [`Program::tangent`].
+    /// The changes of accelerations and outputs under changes of their arguments, as [`Program::tangent`].
     ///
     /// # Errors
     /// If the comparison fails, or if there are no values at any point.

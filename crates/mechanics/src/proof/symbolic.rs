@@ -1,5 +1,4 @@
-//! Compares a program with the equations it came from, and with Lagrange's equations in
-//! symbolic form.
+//! Compares a program with the equations it came from, and with Lagrange's equations in symbolic form.
 //!
 //! Both sides are evaluated at random points of a prime field ([`Residue`]), where nothing is
 //! rounded: a program with a wrong sign, factor or operand gives another value, except with a
@@ -154,9 +153,8 @@ impl std::error::Error for Disagreement {}
 /// Proves that the program computes what Lagrange's equations say: energies, M, h, Q, f = Q − h,
 /// accelerations that obey them, the derivatives of these, and the same accelerations in stages.
 ///
-/// Derivatives are not compared with other formulas. The accelerations, once proved, are run
-/// over dual numbers of the prime field, where `ε² = 0` holds exactly: the coefficient of ε is
-/// the derivative.
+/// Derivatives are not compared with other formulas. The accelerations, once proved, are run over dual
+/// numbers of the prime field, where `ε² = 0` holds exactly: the coefficient of ε is the derivative.
 pub fn prove(
     program: &Program,
     model: &Model<'_>,
@@ -321,9 +319,8 @@ impl<'a, 'd> Point<'a, 'd> {
         }
     }
 
-    /// Sets the coordinates that constraints determine, and their rates, to the values that they
-    /// determine, since a program may not read them. Constants of the start keep their values at
-    /// this point.
+    /// Sets the coordinates that constraints determine, and their rates, to the values that they determine,
+    /// since a program may not read them. Constants of the start keep their values at this point.
     fn follow(&mut self, dependents: &[Dependent<'d>]) {
         self.settled = dependents.iter().map(|d| d.coordinate).collect();
         let offsets = dependents.iter().filter_map(|d| d.offset);
@@ -415,8 +412,7 @@ impl<'a, 'd> Point<'a, 'd> {
         Ok(())
     }
 
-    /// Checks that the accelerations and multipliers satisfy the equations of motion and of
-    /// the constraints.
+    /// Checks that the accelerations and multipliers satisfy the equations of motion and of the constraints.
     fn check_motion(&mut self, oracle: &Oracle<'d>) -> Result<(), Verdict> {
         if !oracle.sliding.is_empty() {
             return self.check_friction(oracle);
@@ -753,9 +749,8 @@ impl<'a, 'd> Point<'a, 'd> {
     }
 }
 
-/// A copy of a program in which the accelerations return the pivots and their scales instead,
-/// in the order of the guards, beginning with those of `prepare`; stages return theirs after
-/// their results.
+/// A copy of a program in which the accelerations return the pivots and their scales instead, in the
+/// order of the guards, beginning with those of `prepare`; stages return theirs after their results.
 pub(super) fn with_guarded_values(program: &Program) -> Program {
     let mut probe = program
         .with_functions(|role| role == program.solving() || program.staged_roles().contains(&role));

@@ -148,8 +148,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         self.add_row(sum, coefficient, row)
     }
 
-    /// Adds `coefficient·row` to a sum; if the row is a multiple of another, or a sum, its terms
-    /// are added.
+    /// Adds `coefficient·row` to a sum; if the row is a multiple of another, or a sum, its terms are added.
     fn add_row(
         &mut self,
         sum: &mut Vec<(Option<RowId>, RowId)>,
@@ -333,8 +332,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         first: fn(RowId, RowId) -> Row,
         second: fn(RowId, RowId) -> Row,
     ) -> Result<[RowId; 2], NoSeries> {
-        // The first row of a pair is identified by its argument, with the row after it as
-        // its partner.
+        // The first row of a pair is identified by its argument, with the row after it as its partner.
         let next = self.rows.len() as u32;
         let places = [RowId(next), RowId(next + 1)];
         let key = first(a, a);

@@ -157,8 +157,8 @@ fn closed(joints: usize) -> String {
     )
 }
 
-/// In a loop, too, a rotation has three columns of velocities, not four. Eliminated in the rates of the four numbers, the accelerations of this one took
-/// 7870 operations.
+/// In a loop, too, a rotation has three columns of velocities, not four. Eliminated in
+/// the rates of the four numbers, the accelerations of this one took 7870 operations.
 #[test]
 fn loops_are_eliminated_in_the_velocities_of_turns() {
     let text = closed(4);

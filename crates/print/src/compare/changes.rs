@@ -161,9 +161,8 @@ fn without_index(name: &str) -> &str {
 /// Assigns to each row a different column such that the sum of costs is minimal; there must be at least as many
 /// columns as rows.
 ///
-/// H. W. Kuhn, *The Hungarian method for the assignment problem*, Naval Res. Logist. Quart. 2 (1955) 83–97, in
-/// the form that adds rows one by one along shortest augmenting paths (R. Jonker, A. Volgenant, Computing 38
-/// (1987) 325–340).
+/// H. W. Kuhn, *The Hungarian method for the assignment problem*, Naval Res. Logist. Quart. 2 (1955) 83–97, in the form
+/// that adds rows one by one along shortest augmenting paths (R. Jonker, A. Volgenant, Computing 38 (1987) 325–340).
 fn assignment(rows: usize, columns: usize, cost: impl Fn(usize, usize) -> u64) -> Vec<usize> {
     let cost = |row: usize, column: usize| i64::try_from(cost(row, column)).unwrap_or(i64::MAX / 4);
     // Dual variables: no pair costs less than the sum of both, and an assigned pair costs exactly that.

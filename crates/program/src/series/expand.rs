@@ -16,8 +16,7 @@ use super::{Along, Arithmetic, Coefficient, Level, Order, Row, RowId, Series};
 use crate::Singular;
 use crate::interpret::{binary, unary};
 
-/// A series ready to be expanded over numbers that are stored as `T`. Nothing is allocated
-/// after [`Expander::new`].
+/// A series ready to be expanded over numbers that are stored as `T`. Nothing is allocated after [`Expander::new`].
 #[derive(Clone, Debug)]
 pub struct Expander<T> {
     series: Arc<Series>,

@@ -21,8 +21,7 @@ pub struct Stream {
 /// The terms of the orders 0 and m are not included: each recurrence adds them in its own way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Convolution {
-    /// The factors; if they are added up [by force](Along::Force), the one that depends on accelerations
-    /// comes first.
+    /// The factors; if they are added up [by force](Along::Force), the one that depends on accelerations comes first.
     pub factors: [Stream; 2],
     /// The order in which the terms are added.
     pub along: Along,
@@ -75,8 +74,7 @@ pub trait Arithmetic {
     fn derivative(&mut self, row: RowId) -> Self::X;
     /// Coefficient `m + 2` of a row of positions, which was just computed, times `(m + 1)(m + 2)`.
     fn second_derivative(&mut self, row: RowId) -> Self::X;
-    /// The second derivative as two factors: one that depends on the order alone, and one that was
-    /// just computed.
+    /// The second derivative as two factors: one that depends on the order alone, and one that was just computed.
     fn second_factors(&mut self, row: RowId) -> [Self::X; 2];
     /// One of the sums of this row.
     fn convolution(&mut self, row: RowId, number: usize) -> Self::X;
@@ -179,8 +177,7 @@ impl Series {
         self.level(row) > Level::Constant
     }
 
-    /// The constant rate of a row that grows with time alone: `ω` for `ω t`, the inner `None` standing for 1, the rate of the
-    /// time itself.
+    /// The constant rate of a row that grows with time alone: `ω` for `ω t`, the inner `None` standing for 1, the rate of the time itself.
     pub fn phase(&self, row: RowId) -> Option<Option<RowId>> {
         match &self.rows[row.index()] {
             Row::Time => Some(None),

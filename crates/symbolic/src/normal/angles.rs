@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use crate::normal::polynomial::Monomial;
 use crate::rational::Rational;
 
-/// Sines of higher multiples are not expanded: sin 50ωt is a sine and not a polynomial of
-/// degree 50.
+/// Sines of higher multiples are not expanded: sin 50ωt is a sine and not a polynomial of degree 50.
 const HIGHEST_MULTIPLE: i64 = 16;
 
 /// The base angle of every monomial that occurs in angles.

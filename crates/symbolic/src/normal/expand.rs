@@ -254,8 +254,7 @@ impl<'a> Expander<'a> {
         Some(power)
     }
 
-    /// 1/(c·X·S) = c⁻¹·X⁻¹·S⁻¹: the coefficient and common factors are taken out, and the rest is
-    /// one atom.
+    /// 1/(c·X·S) = c⁻¹·X⁻¹·S⁻¹: the coefficient and common factors are taken out, and the rest is one atom.
     fn reciprocal(&mut self, base: &Polynomial) -> Option<Polynomial> {
         let mut common: Option<Monomial> = None;
         for (monomial, _) in base.iter() {
@@ -340,8 +339,7 @@ impl<'a> Expander<'a> {
     }
 }
 
-/// The common factors of two monomials: the lower power of every atom, where an absent atom has
-/// power 0.
+/// The common factors of two monomials: the lower power of every atom, where an absent atom has power 0.
 fn meet(a: &[Factor], b: &[Factor]) -> Monomial {
     let power_in = |monomial: &[Factor], id: Id| {
         monomial

@@ -251,8 +251,7 @@ impl Math {
     }
 }
 
-/// `self + right`; if the right side begins with a sign, only that sign is written: a + −b is a
-/// − b.
+/// `self + right`; if the right side begins with a sign, only that sign is written: a + −b is a − b.
 impl std::ops::Add for Math {
     type Output = Math;
     fn add(self, mut right: Math) -> Math {

@@ -5,8 +5,7 @@
 use crate::print::math::{Form, Mark, Math, Sign};
 
 impl Math {
-    /// In presentation MathML, restricted to the part that browsers draw: an element `math` for a line
-    /// of text.
+    /// In presentation MathML, restricted to the part that browsers draw: an element `math` for a line of text.
     pub fn mathml(&self) -> String {
         format!("<math>{}</math>", self.mathml_row())
     }
@@ -262,8 +261,7 @@ fn function(name: &'static str) -> &'static str {
     }
 }
 
-/// The bold letter from Unicode's mathematical alphabets, slanted for Greek: the attribute is not part of
-/// MathML Core.
+/// The bold letter from Unicode's mathematical alphabets, slanted for Greek: the attribute is not part of MathML Core.
 fn bold(letter: char) -> char {
     let shifted = |from: char, to: u32| char::from_u32(to + (letter as u32 - from as u32));
     match letter {

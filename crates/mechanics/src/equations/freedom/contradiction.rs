@@ -21,13 +21,11 @@ const STEPS: usize = 300;
 /// Numbers of a spec are rounded at 2e-16.
 const APART: f64 = 1e-11;
 
-/// The residuals cannot be decreased if `Gᵀ r` is at most this fraction of them. At places that satisfy the
-/// constraints, even tangentially like two touching circles, it decreases no faster than the square root of
-/// the residuals.
+/// The residuals cannot be decreased if `Gᵀ r` is at most this fraction of them. At places that satisfy the constraints,
+/// even tangentially like two touching circles, it decreases no faster than the square root of the residuals.
 const STATIONARY: f64 = 1e-8;
 
-/// A constraint takes part in a contradiction if its residual is at least this fraction of the
-/// largest one.
+/// A constraint takes part in a contradiction if its residual is at least this fraction of the largest one.
 const TAKES_PART: f64 = 1e-4;
 
 /// Warns if constraints contradict each other at the start, with the default parameters. Machines with a
