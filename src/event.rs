@@ -347,7 +347,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         };
         let mut places = Places::All;
         let known = watch.latest.take();
-        if !is_series {
+        if !is_series && !is_long {
             let states = match &sampled {
                 Some(states) => states,
                 None => {
@@ -363,12 +363,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                 };
             }
             watch.latest = Some(values[4]);
-            let of_step = if is_long {
-                Some(Places::All)
-            } else {
-                watch.places(&values)
-            };
-            match of_step {
+            match watch.places(&values) {
                 None => continue,
                 Some(of_step) => places = of_step,
             }

@@ -57,6 +57,8 @@ pub(crate) struct Implicit {
     factored: f64,
     in_real: Vec<f64>,
     in_complex: Vec<Vec<Complex>>,
+    /// The number of multiplications in all factorizations and solutions so far.
+    multiplications: f64,
     /// The residuals of the stages, later their changes.
     change: Vec<Vec<f64>>,
     /// Memory for Jacobians at each stage, once they were needed, and the number of steps for which they remain in use.
@@ -126,6 +128,7 @@ impl Implicit {
             factored: 0.0,
             in_real: zeros(),
             in_complex: std::vec![std::vec![Complex::default(); n]; pairs],
+            multiplications: 0.0,
             change: std::vec![zeros(); stages],
             apart: None,
             steps_apart: 0,
@@ -145,6 +148,11 @@ impl Implicit {
     /// The fastest rate of the motion, in 1/s, according to the Jacobian that is kept.
     pub fn fastest_rate(&self) -> f64 {
         self.jacobian.fastest_rate()
+    }
+
+    /// The number of multiplications of real numbers in all factorizations and solutions so far.
+    pub fn multiplications(&self) -> f64 {
+        self.multiplications
     }
 
     /// Forgets the previous steps, since the accelerations have jumped.
@@ -214,6 +222,11 @@ impl Implicit {
         ROUNDS + ROUNDS_OF_PAIR * (self.spectrum.pairs.len() - 1)
     }
 
+    /// The systems of all eigenvalues, of which a complex one counts as four: so many multiplications take the place of one.
+    fn systems_at_once(&self) -> f64 {
+        1.0 + 4.0 * self.complex.len() as f64
+    }
+
     /// Factorizes all matrices for a step of length `h`.
     fn factor(&mut self, h: f64) -> bool {
         if self.factored == h {
@@ -221,6 +234,7 @@ impl Implicit {
         }
         self.factored = 0.0;
         let n = self.n;
+        self.multiplications += lu::factorization(n) * self.systems_at_once();
         let Jacobian {
             by_coordinates,
             by_rates,
@@ -316,6 +330,7 @@ impl Implicit {
             *rate += step * by;
         }
         self.real.solve(rates);
+        self.multiplications += 2.0 * lu::solution(self.n);
         for (position, rate) in positions.iter_mut().zip(rates) {
             *position += step * *rate;
         }

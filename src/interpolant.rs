@@ -197,6 +197,7 @@ impl<N: Real, V: Vector<N>> Interpolant<V, N> {
     }
 
     /// [`state_at`](Self::state_at) into existing vectors.
+    #[cfg(feature = "std")]
     pub(crate) fn state_into(&self, theta: N, [q, v]: [&mut V; 2]) {
         match &self.curve {
             Curve::Stages(stages) => stages.state_at(theta, q, v),

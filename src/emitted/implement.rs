@@ -15,6 +15,7 @@
 //! singular singular                               the field that says whether the parameters are singular, where they can be
 //! accelerations { (p, t, q, v, u) Accelerations { p, q } }    a call as a value; or `none`, or `friction`
 //! system {
+//!     costs series_cost(p) = [6.4, 9.6];              with a series, the costs of its steps
 //!     number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);   a method of `System`: what it gives, what it is
 //!     vector bias(p, t, q, v);                                    given, and the call; zeros where there is no call
 //! }
@@ -511,10 +512,6 @@ macro_rules! implement_method {
             ::core::result::Result::Ok(())
         }
 
-        fn series_cost(&self) -> ::core::option::Option<[::core::primitive::f64; 2]> {
-            ::core::option::Option::Some($crate::emitted::series::cost($n))
-        }
-
         fn $method(
             &self,
             $t: [::core::primitive::f64; 2],
@@ -529,6 +526,13 @@ macro_rules! implement_method {
                 *row = [::core::primitive::f64::NAN; $n];
             }
             <::core::primitive::f64 as $crate::emitted::Number>::run($value)
+        }
+    };
+
+    // The costs of a step by the series, in evaluations of the accelerations.
+    ($types:tt costs $method:ident($p:ident) = $value:expr) => {
+        fn $method(&self) -> ::core::option::Option<[::core::primitive::f64; 2]> {
+            ::core::option::Option::Some($value)
         }
     };
 

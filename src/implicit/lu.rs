@@ -64,6 +64,18 @@ impl Coefficient for Complex {
     }
 }
 
+/// The number of multiplications that [`Lu::factor`] takes for `n` unknowns.
+pub(crate) fn factorization(n: usize) -> f64 {
+    let n = n as f64;
+    n * n * n / 3.0
+}
+
+/// The number of multiplications that [`Lu::solve`] takes for `n` unknowns.
+pub(crate) fn solution(n: usize) -> f64 {
+    let n = n as f64;
+    n * n
+}
+
 /// A matrix and its factorization, in memory that is reused.
 #[derive(Clone, Debug)]
 pub(crate) struct Lu<T> {

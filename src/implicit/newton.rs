@@ -1,7 +1,7 @@
 //! Newton's method for the stages of a step.
 
 use super::jacobian::Jacobian;
-use super::lu::{Complex, Lu};
+use super::lu::{self, Complex, Lu};
 use super::{Implicit, Solved, StepProblem};
 use crate::math::{rough_power, sqrt};
 use crate::methods::MAX_STAGES;
@@ -171,6 +171,7 @@ impl Implicit {
                 0 => {
                     self.residuals(task, k, [q, v], accelerations)?;
                     self.solve_by_eigenvectors();
+                    self.multiplications += lu::solution(self.n) * self.systems_at_once();
                     true
                 }
                 _ => self.solve_apart(task, k, [q, v], anew, accelerations)?,
@@ -273,12 +274,14 @@ impl Implicit {
                 subtract(here, &k[stage], &mut self.change[stage - 1]);
                 Ok(())
             });
+            self.multiplications += lu::factorization(self.n * self.change.len());
             found.map(|()| apart.factor(task))
         } else {
             self.residuals(task, k, [q, v], accelerations)
                 .map(|()| true)
         };
         if solved == Ok(true) {
+            self.multiplications += lu::solution(self.n * self.change.len());
             apart.solve(&mut self.change);
         }
         self.apart = Some(apart);

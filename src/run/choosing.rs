@@ -6,7 +6,8 @@
 //! * At the start the costs decide: of a step by Taylor series, and of the steps of `dop853` that cover it.
 //! * If stability limits explicit steps, the run changes to a Radau method. The test of DOP853 detects this, and in series the fastest
 //!   rate of the machine does.
-//! * It changes from a Radau method back to `dop853` if its steps have taken more evaluations than stable explicit ones would.
+//! * It changes from a Radau method back to `dop853` if its steps have cost more than stable explicit ones would: evaluations, and the
+//!   solution of linear equations, in evaluations.
 
 use super::Run;
 use crate::balance::Quadratures;
@@ -45,6 +46,10 @@ const REACH_OF_SERIES: [f64; 2] = [5.0, 7.6];
 /// Where the stability region of `dop853` ends, in the same units.
 const REACH: f64 = 6.1;
 
+/// An evaluation takes about as long as this many multiplications of linear equations for each coordinate: the crusher's 200 cycles, for
+/// nine coordinates, and half a cycle for a multiplication.
+const MULTIPLICATIONS: f64 = 50.0;
+
 /// Number of implicit steps that are evaluated together.
 const WINDOW: usize = 8;
 
@@ -56,8 +61,8 @@ const WINDOWS: usize = 2;
 pub(super) struct Choosing {
     is_free: bool,
     pub choices: Vec<MethodChoice>,
-    /// Time and work at the beginning of the window.
-    since: (f64, Work),
+    /// Time, work and multiplications at the beginning of the window.
+    since: (f64, Work, f64),
     /// The number of consecutive windows in which explicit steps would have cost less, and the number required.
     paying: usize,
     needed: usize,
@@ -69,7 +74,7 @@ impl Choosing {
         Self {
             is_free: false,
             choices: Vec::new(),
-            since: (0.0, Work::default()),
+            since: (0.0, Work::default(), 0.0),
             paying: 0,
             needed: WINDOWS,
         }
@@ -217,13 +222,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     fn begin_window(&mut self) {
-        self.choosing.since = (self.stepper.t(), self.stepper.work());
+        let stepper = &self.stepper;
+        self.choosing.since = (stepper.t(), stepper.work(), stepper.multiplications());
     }
 
-    /// Returns to an explicit method if that would have taken fewer evaluations,
-    /// in steps that are stable and no longer than those of the implicit one.
+    /// Returns to an explicit method if that would have cost less, in steps that are stable and no longer than those of the implicit one.
     fn leave_implicit(&mut self) -> Result<(), Error> {
-        let (since, before) = self.choosing.since;
+        let (since, before, multiplications) = self.choosing.since;
         let work = self.stepper.work();
         let steps = work.steps - before.steps;
         if steps < WINDOW {
@@ -234,8 +239,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         };
         let stable = rate * (self.stepper.t() - since).abs() / REACH;
         let explicit = EVALUATIONS * stable.max(steps as f64);
-        let evaluations = (work.evaluations - before.evaluations) as f64;
-        self.choosing.paying = if explicit < evaluations {
+        let multiplications = self.stepper.multiplications() - multiplications;
+        let coordinates = self.stepper.q().as_slice().len().max(1);
+        let implicit = (work.evaluations - before.evaluations) as f64
+            + multiplications / (MULTIPLICATIONS * coordinates as f64);
+        self.choosing.paying = if explicit < implicit {
             self.choosing.paying + 1
         } else {
             0

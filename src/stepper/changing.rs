@@ -42,6 +42,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         Some(taylor.length(&self.tolerance))
     }
 
+    /// The number of multiplications that the present method has taken to solve linear equations; 0 for explicit methods.
+    pub(crate) fn multiplications(&self) -> f64 {
+        let implicit = self.implicit.as_ref();
+        implicit.map_or(0.0, |implicit| implicit.multiplications())
+    }
+
     /// The fastest rate of the motion at the present state, in 1/s: the spectral radius of the derivatives of `(q', v')` with
     /// respect to `(q, v)`. Implicit methods use the derivatives that they keep; otherwise one evaluation and two for each
     /// coordinate are needed.

@@ -24,6 +24,8 @@ use std::fmt;
 
 use lagrangian_symbolic::{Function as Call, Rational};
 
+use crate::Cost;
+
 pub use expand::Expander;
 pub use recurrence::{Along, Arithmetic, Coefficient, Convolution, Order, Stream};
 
@@ -190,7 +192,30 @@ impl Series {
         let varying = varying.filter(|(_, level)| **level > Level::Constant);
         varying.map(|(row, _)| of_row(row)).sum()
     }
+
+    /// The cost of a step by this series, in evaluations of the accelerations in a step of `dop853`, with 12 and with 20 coefficients of
+    /// the accelerations, if the accelerations have this cost.
+    ///
+    /// A product of series with 20 coefficients takes some 200 multiplications, and a row about as many operations as it has coefficients.
+    /// An evaluation comes with the sums of a stage of the method, which take 8 cycles for each coordinate. With 12 coefficients the cost is
+    /// two thirds. Measured costs (`docs/benchmarks.md`, Taylor series) are within a factor of 2.
+    pub fn cost(&self, accelerations: Cost) -> [f64; 2] {
+        let varying = self.levels.iter();
+        let varying = varying.filter(|level| **level > Level::Constant).count();
+        let step = CYCLES_PER_OPERATION
+            * COEFFICIENTS
+            * (0.5 * COEFFICIENTS * self.products() + varying as f64);
+        let evaluation = accelerations.alone() as f64 / 10.0 + 8.0 * self.coordinates as f64;
+        let fine = step / evaluation;
+        [2.0 / 3.0 * fine, fine]
+    }
 }
+
+/// The number of coefficients of a step at fine tolerances.
+const COEFFICIENTS: f64 = 20.0;
+
+/// The time of an operation of a series, fitted to measured steps.
+const CYCLES_PER_OPERATION: f64 = 0.45;
 
 /// Why the motion of a machine has no Taylor series here.
 #[derive(Clone, Debug, PartialEq, Eq)]

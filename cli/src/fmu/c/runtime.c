@@ -1294,7 +1294,9 @@ static int lookAlong(Unit *unit, double h, int *is_near) {
     const int is_of_method = END < STAGES, is_long = turnsFar(unit, h) || !(now->tolerance <= LOOSEST);
     if (is_of_method) curveOfMethod(unit, h);
     else curveThroughEnds(unit, h);
-    for (int place = 0; place < SAMPLES; ++place) watchAlong(unit, h, sampleAt(place), seen[place]);
+    /* The zeros of a long step are isolated in any case, for which its ends suffice. */
+    for (int place = 0; place < SAMPLES; ++place)
+        if (!is_long || place == 0 || place == COARSE) watchAlong(unit, h, sampleAt(place), seen[place]);
     for (int k = 0; k < WATCHED; ++k) {
         const double start = seen[COARSE][k], end = seen[0][k];
         if (k < EVENTS && end != end) {
@@ -1305,8 +1307,11 @@ static int lookAlong(Unit *unit, double h, int *is_near) {
            not another change. */
         const int side = sideOf(unit, k), is_before = k < EVENTS ? side * start < 0.0 : (side > 0) != holds(k - EVENTS, start);
         if (is_before && 2.0 * sizeOf(start) > now->leave[k]) now->leave[k] = 2.0 * sizeOf(start);
-        for (int place = 0; place < SAMPLES; ++place) values[place] = seen[place][k];
-        const int changes = is_long ? -1 : signChanges(values);
+        int changes = -1;
+        if (!is_long) {
+            for (int place = 0; place < SAMPLES; ++place) values[place] = seen[place][k];
+            changes = signChanges(values);
+        }
         is_near[k] = !(side && isBehind(k, side, start) && changes == !isBehind(k, side, end));
         is_any_near |= is_near[k];
     }

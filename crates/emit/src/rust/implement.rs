@@ -254,6 +254,7 @@ impl Emitter<'_> {
         if let Some(call) = self.call_of_series(&lists) {
             let arguments = ["p", "t", "q", "v", "u", "coefficients"];
             self.row("series", "series", &arguments, Some(call));
+            self.row_of_costs();
             if !self.program.assumptions.is_empty() && self.program.has_linear_assumptions() {
                 let yes = Layout::Atom("true".into());
                 self.row("boolean", "has_linear_assumptions", &["p"], Some(yes));
@@ -272,6 +273,18 @@ impl Emitter<'_> {
         self.rows_of_contacts();
         self.row_of_unilateral_contacts();
         self.row_of_workspace();
+    }
+
+    /// Writes the costs of a step by the series, by which a run chooses its method. One decimal is more than they are known to.
+    fn row_of_costs(&mut self) {
+        let series = self.options.series.as_ref();
+        let accelerations = self.program.function(Role::Accelerations);
+        let (Some(series), Some(accelerations)) = (series, accelerations) else {
+            return;
+        };
+        let [coarse, fine] = series.series().cost(accelerations.cost());
+        let costs = Layout::Atom(format!("[{coarse:.1}, {fine:.1}]"));
+        self.row("costs", "series_cost", &["p"], Some(costs));
     }
 
     /// Writes a method for each quantity of this machine that requires no solution of equations.
