@@ -35,7 +35,7 @@ def main(wheel: Path, arguments: list[str]) -> int:
         timed("installing", python, "-m", "pip", "install", "-q", wanted).check_returncode()
         said = subprocess.run([python, "-c", IMPORT], cwd=folder, check=True, capture_output=True, text=True).stdout
         if str(python.parents[1].resolve()) not in said:
-            raise SystemExit(f"the package that was imported is not that of the wheel: {said}")
+            raise SystemExit(f"the imported package is not the one from the wheel: {said}")
         times.append(f"import {said.split(' s')[0]} s")
         status = timed("tests", python, "-m", "pytest", "-q", "-p", "no:cacheprovider", TESTS, *arguments).returncode
     print("; ".join(times))

@@ -346,7 +346,7 @@ def main():
         "**lagrangian**, dop853 1e-9, interpreted": lambda *a: own_run(command, TOLERANCE, *a),
         "**lagrangian**, dop853 1e-14, interpreted": lambda *a: own_run(command, 1e-14, *a),
     }
-    print("| machine | who | open joint [m] | energy [J] | error [rad] | time [s] |")
+    print("| machine | program | open joint [m] | energy [J] | error [rad] | time [s] |")
     print("| --- | --- | --: | --: | --: | --: |")
     for loop in (four_bar(), five_links()):
         few = numpy.linspace(0.0, loop.compared, 11)
@@ -359,7 +359,7 @@ def main():
                 seconds, rows = run(loop, until, samples)
             except Exception as error:
                 print(f"{loop.name}, {name}: {error}", file=sys.stderr)
-                print(f"| {loop.name} | {name} | – | – | – | gives up |", flush=True)
+                print(f"| {loop.name} | {name} | – | – | – | gave up |", flush=True)
                 continue
             gap, change, end = loop.read(rows)
             error = numpy.abs(end - truth[0]).max()

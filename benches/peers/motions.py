@@ -141,7 +141,7 @@ def race(name, system, start, until, end, scales, compact):
 
 def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    words.add_argument("--references", action="store_true", help="print where the chains end, and time nothing")
+    words.add_argument("--references", action="store_true", help="print where the chains end, without timing")
     words.add_argument("--only", default="pendulum,crusher,chain8", help="what to time")
     call = words.parse_args()
     if call.references:

@@ -194,7 +194,7 @@ def compile_pinocchio(folder):
         include = [f"-I{prefix}/include", f"-I{prefix}/include/eigen3", f"-I{prefix}/include/urdfdom_headers", f"-I{casadi}/include"]
         library = next(casadi.glob("libcasadi.so.*"))
         link = [library, f"-L{prefix}/lib", "-lpinocchio_default", "-lpinocchio_parsers", f"-Wl,-rpath,{casadi}:{prefix}/lib"]
-        print("compiling Pinocchio over CasADi (some three minutes, once) …", file=sys.stderr)
+        print("compiling Pinocchio with CasADi (about three minutes, once) …", file=sys.stderr)
         shell(["g++", "-std=c++17", "-O0", "-w", *boost, *include, source, "-o", program, *link])
     return program
 

@@ -411,10 +411,10 @@ def main():
     words.add_argument("--only", help="names of runs")
     words.add_argument("--rounds", type=int, default=3)
     words.add_argument("--svg", help="a file for the diagrams")
-    words.add_argument("--json", help="a file for all settings; if it is there, its runs are drawn and shown too")
+    words.add_argument("--json", help="a file for all settings; if it exists, its runs are drawn and shown too")
     words.add_argument("--ours", help="a program that `cargo bench --bench time_against_error` has built")
     words.add_argument("--peers", default="heyoka,sundials,scipy,mujoco")
-    words.add_argument("--methods", help="methods of ours, by semicolons: 'taylor;taylor, 4 lanes;dop853'")
+    words.add_argument("--methods", help="our methods, separated by semicolons: 'taylor;taylor, 4 lanes;dop853'")
     call = words.parse_args()
     program = [call.ours] if call.ours else ["cargo", "bench", "--bench", "time_against_error", "--"]
     if call.methods:

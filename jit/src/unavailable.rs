@@ -18,10 +18,10 @@ impl fmt::Display for Unavailable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Unavailable::Processor => f.write_str(
-                "machine code is made for x86-64 with AVX2 and FMA, in builds without strict-libm",
+                "machine code is generated only for x86-64 with AVX2 and FMA, in builds without strict-libm",
             ),
             Unavailable::Pages(error) => {
-                write!(f, "the system gives no pages for machine code: {error}")
+                write!(f, "the operating system provides no pages for machine code: {error}")
             }
             Unavailable::Encoding(error) => write!(f, "an instruction has no encoding: {error}"),
         }

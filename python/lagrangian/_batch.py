@@ -15,7 +15,7 @@ def number_array(given: Any, what: str) -> np.ndarray:
     """An array of float64, or a TypeError that says what it is instead."""
     array = np.asarray(given)
     if array.dtype.kind not in "fiub":
-        raise TypeError(f"{what} is an array of {array.dtype}, wanted numbers")
+        raise TypeError(f"{what} is an array of {array.dtype}, expected numbers")
     return np.asarray(array, dtype=np.float64)
 
 
@@ -42,7 +42,7 @@ def vectors(given: Any, names: Tuple[str, ...], default: Any, what: str, kind: s
     array = number_array(given, what)
     if array.ndim == 0 or array.shape[-1] != n:
         wanted = f"({n},)" if array.ndim < 2 else f"(…, {n})"
-        raise ValueError(f"{what} has shape {array.shape}, wanted {wanted}")
+        raise ValueError(f"{what} has shape {array.shape}, expected {wanted}")
     return array
 
 
@@ -54,8 +54,8 @@ def of_name(name: str, names: Tuple[str, ...]) -> List[int]:
 
 
 def start_of(machine: Any, start: Any, rate: Any) -> Tuple[np.ndarray, np.ndarray]:
-    """Coordinates and rates of a start, (n,) each: as the spec has them where nothing is said. ``start`` says states of first order
-    too, under their names; or it is said by arrays, or by mappings."""
+    """Coordinates and rates of a start, (n,) each; those not given are as in the spec. ``start`` may give first-order states, too, by
+    their names; start and rates are arrays or mappings."""
     names, default = machine.coordinates, machine.start
     of_states: Mapping[str, Any] = {}
     if isinstance(start, Mapping) and machine.states:
@@ -67,7 +67,7 @@ def start_of(machine: Any, start: Any, rate: Any) -> Tuple[np.ndarray, np.ndarra
         v = vectors(of_states, rate_names(names), v, "start", "state")
     for what, given in (("start", q), ("rate", v)):
         if given.shape != (len(names),):
-            raise ValueError(f"{what} has shape {given.shape}, wanted ({len(names)},)")
+            raise ValueError(f"{what} has shape {given.shape}, expected ({len(names)},)")
         if not np.isfinite(given).all():
             raise ValueError(f"{what} is not finite: {given!r}")
     return q, v
@@ -106,7 +106,7 @@ class Arguments:
                 f"{name} {shape}"
                 for name, shape in zip(["q", "v", "u", "t", *varied], shapes)
             )
-            raise ValueError(f"the shapes of the states do not go together: {told}") from None
+            raise ValueError(f"the shapes of the states cannot be broadcast together: {told}") from None
         count = int(np.prod(self.shape, dtype=int))
 
         def rows(array: np.ndarray) -> np.ndarray:
@@ -160,7 +160,7 @@ def accelerations(
     else:
         if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape:
             found = getattr(out, "shape", type(out).__name__)
-            raise ValueError(f"out has shape {found}, wanted float64 {shape}")
+            raise ValueError(f"out has shape {found}, expected float64 {shape}")
         result = out
         in_place = out.flags.c_contiguous and out.flags.writeable
         rows = out.reshape(given.count, n) if in_place else np.empty((given.count, n))

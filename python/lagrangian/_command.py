@@ -38,7 +38,7 @@ def answer(machine: Any, command: str, options: Sequence[str], wrong: Sequence[i
 
 
 def told_of_file(command: str, path: str, options: Sequence[str]) -> str:
-    """What a command prints about a file that holds no spec; ValueError where that, or the call, is at fault."""
+    """What a command prints about a file that holds no spec; ValueError if the file or the call is wrong."""
     status, out, err = _native.answer_of_file(command, path, list(options))
     if status != 0:
         try:
@@ -62,7 +62,7 @@ def settings(machine: Any) -> List[str]:
 
 
 class Published(NamedTuple):
-    """A printed formula, held against the derived one."""
+    """A printed formula, compared with the derived one."""
 
     block: str
     """What the spec calls the print."""
@@ -72,16 +72,16 @@ class Published(NamedTuple):
     add: List[str]
     """Terms that the print lacks."""
     drop: List[str]
-    """Terms that it has too much."""
+    """Terms that it must not have."""
 
 
 class Accuracy(NamedTuple):
-    """How exact the program of a machine is in one quantity, held against numbers of 30 digits at many states."""
+    """How accurate the program of a machine is in one quantity, compared with numbers of 30 digits at many states."""
 
     quantity: str
     states: int
     median: float
-    """Of the error over what rounding of the arguments alone may make, over the states."""
+    """The median over the states of the error, relative to the error that rounding of the arguments alone may cause."""
     worst: float
     """The greatest of these."""
     ulps: float
@@ -105,11 +105,11 @@ class Check:
     """How many constraints are independent of each other; None where that is not known."""
     degrees_of_freedom: Optional[int]
     published: List[Published]
-    """Printed formulas that the spec holds against the derived ones."""
+    """Printed formulas of the spec, compared with the derived ones."""
     diagnostics: List[Diagnostic]
     """Warnings, and contradictions of constraints."""
     accuracy: Dict[str, Accuracy]
-    """By quantity; empty where it was not asked for."""
+    """By quantity; empty if it was not requested."""
 
     def __init__(self, document: Mapping[str, Any]) -> None:
         freedom = document["freedom"] or {}
@@ -125,7 +125,7 @@ class Check:
 
     @property
     def ok(self) -> bool:
-        """Whether nothing is to be said: no warning, no printed formula that differs."""
+        """Whether there is nothing to report: no warning, and no printed formula that differs."""
         return not self.diagnostics and all(formula.agrees for formula in self.published)
 
     def __repr__(self) -> str:
@@ -138,8 +138,8 @@ class Check:
 
 
 def check(self: Any, *, accuracy: bool = False) -> Check:
-    """Degrees of freedom, warnings, and printed equations against the derived ones, as ``lagrangian check``; with ``accuracy`` how exact
-    the derived program is as well, as ``--accuracy``."""
+    """Degrees of freedom, warnings, and printed equations against the derived ones, as ``lagrangian check``; with ``accuracy`` also how
+    accurate the derived program is, as ``--accuracy``."""
     return Check(answer(self, "check", ["--accuracy"] if accuracy else [], wrong=()))
 
 
@@ -203,7 +203,7 @@ def fmu(
     """Writes a functional mock-up unit, ``.fmu``, with the parameters and inputs of this machine as defaults, as ``lagrangian fmu``.
 
     A C compiler makes its libraries, unless ``sources_only``. ``kind``: ``"me"``, model exchange, and ``"cs"``, co-simulation, by
-    ``method`` to ``tolerance``. ``outputs`` are names, ``events`` formulas whose changes of sign are told, by name.
+    ``method`` to ``tolerance``. ``outputs`` are names, ``events`` formulas whose changes of sign are reported, by name.
     """
     options = [f"--out={os.fspath(out)}", f"--fmi={fmi}", f"--kind={','.join([kind] if isinstance(kind, str) else kind)}"]
     options += [f"--method={method}", f"--tolerance={float(tolerance)!r}"]
@@ -237,7 +237,7 @@ class Brachistochrone:
     time: float
     """How long it takes, in s."""
     is_motion: bool
-    """Whether the machine moves so: guides only press, and it arrives when it is simulated under the control forces."""
+    """Whether the machine can move in this way: guides only press, and a simulation under the control forces arrives at the end."""
     t: np.ndarray
     """(k,), in s."""
     q: Named
@@ -288,7 +288,7 @@ class Brachistochrone:
         answer(self._machine, "brachistochrone", [*self._options, f"{kinds[ending]}={path}"], wrong=())
 
     def __repr__(self) -> str:
-        claim = "" if self.is_motion else ", but the machine does not move so"
+        claim = "" if self.is_motion else ", but the machine does not move in this way"
         return f"<Brachistochrone of {self._machine.name}: {self.time:.6g} s, {self.method}{claim}>"
 
 
@@ -308,7 +308,7 @@ def _places(machine: Any, option: str, given: Any) -> List[str]:
         return [f"{option}={name}={float(x)!r}" for name, x in said.items()]
     values = _batch.number_array(given, option.strip("-"))
     if values.shape != (len(names),):
-        raise ValueError(f"{option.strip('-')} has shape {values.shape}, wanted ({len(names)},)")
+        raise ValueError(f"{option.strip('-')} has shape {values.shape}, expected ({len(names)},)")
     return [f"{option}={name}={float(x)!r}" for name, x in zip(names, values)]
 
 
@@ -320,10 +320,10 @@ def brachistochrone(
     natural: bool = False,
     guess: Optional[Union[str, "os.PathLike[str]"]] = None,
 ) -> Brachistochrone:
-    """The fastest motion from rest at ``start`` to rest or not at ``to``, as ``lagrangian brachistochrone``.
+    """The fastest motion from rest at ``start`` to ``to``, at rest there or not, as ``lagrangian brachistochrone``.
 
     Both are mappings from coordinates to numbers, arrays (n,), or what the spec says; with ``natural`` they are in normal
-    coordinates. ``guess`` is a table of a way to look near, where there is no closed form.
+    coordinates. ``guess`` is a table of a path near which to search, if there is no closed form.
     """
     options = [*settings(self), *_places(self, "--from", start), *_places(self, "--to", to)]
     if natural:
@@ -342,7 +342,7 @@ class Campbell:
     values: np.ndarray
     """(k,)"""
     eigenvalues: np.ndarray
-    """Complex (k, modes), in 1/s, that above the axis of each conjugate pair; NaN where a mode is not there."""
+    """Complex (k, modes), in 1/s, of each conjugate pair the one above the real axis; NaN where a mode does not exist."""
 
     def __init__(self, values: np.ndarray, document: Mapping[str, Any]) -> None:
         self.name, self.unit = document["along"]["name"], document["along"]["unit"]
@@ -405,7 +405,7 @@ def campbell(
     values = np.array(_batch.number_array(values, "values")).ravel()
     even = len(values) >= 2 and np.ptp(np.diff(values)) <= 1e-9 * abs(values[-1] - values[0])
     if not even or values[0] == values[-1]:
-        raise ValueError("values of a Campbell diagram are two or more and equally spaced: (a, b, k)")
+        raise ValueError("the values of a Campbell diagram must be two or more, equally spaced: (a, b, k)")
     options = settings(self)
     varied = {name for name in (parameter,) if name in {**self.parameters, **self.inputs}}
     options = [option for option in options if option.split("=")[1] not in varied]

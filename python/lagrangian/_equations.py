@@ -61,7 +61,7 @@ class Program:
 
     @property
     def cycles(self) -> Mapping[str, float]:
-        """For each function that could be made in several ways, about how many cycles of a processor it takes among others."""
+        """For each function that could be computed in several ways, an estimate of the processor cycles of a call among others."""
         choices = self._told["choices"]
         return MappingProxyType({name: ways[0]["cycles_among_others"] for name, ways in choices.items()})
 

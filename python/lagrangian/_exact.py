@@ -15,11 +15,11 @@ class GlobalError(NamedTuple):
     kind: str
     """``"estimate"`` or ``"bound"``."""
     by: str
-    """What the run was held against."""
+    """What the run was compared with."""
     errors: Dict[str, float]
     """Of coordinates and rates ``der(x)`` by name, in their units."""
     greatest: float
-    """The greatest of them, each in relation to its scale."""
+    """The greatest of them, each relative to its scale."""
     is_rounding: bool
     """Whether no tolerance would make it smaller: it is rounding."""
 
@@ -63,8 +63,8 @@ def global_error(
     method: Optional[str] = None,
     max_steps: Optional[int] = None,
 ) -> GlobalError:
-    """How exact the end of ``simulate(until, …)`` is, as ``lagrangian simulate --global-error``: held against a run in double-double
-    where the machine has one, else against a finer one. ``method`` and ``tolerance`` are those of the run that is judged."""
+    """How accurate the end of ``simulate(until, …)`` is, as ``lagrangian simulate --global-error``: compared with a run in
+    double-double where the machine has one, else with a finer one. ``method`` and ``tolerance`` are those of the run that is judged."""
     numbers = {"tolerance": tolerance, "method": method or "dop853", "max_steps": max_steps}
     found = _end(self, ["--global-error"], until, start, rate, keep, numbers)["global_error"]
     return GlobalError(**{name: found[name] for name in GlobalError._fields})
@@ -80,8 +80,8 @@ def precise(
     method: Optional[str] = None,
     max_steps: Optional[int] = None,
 ) -> Precise:
-    """The end of a run in double-double, as ``lagrangian simulate --precision dd``, for references. A machine that has none, one with
-    constraints or contacts, is an error that says so."""
+    """The end of a run in double-double, as ``lagrangian simulate --precision dd``, for references. Machines with constraints or
+    contacts, which have none, raise an error."""
     numbers = {"tolerance": tolerance, "method": method, "max_steps": max_steps}
     found = _end(self, ["--precision=dd"], until, start, rate, (), numbers)
     q, v = ({name: Decimal(text) for name, text in found[kind].items()} for kind in ("q", "v"))
@@ -99,7 +99,7 @@ def validated(
     max_steps: Optional[int] = None,
 ) -> Enclosure:
     """Bounds that are proved to contain the motion at ``until``, as ``lagrangian simulate --validated``, for short motions of machines
-    with a Taylor series and without constraints and contacts; others are an error that says so."""
+    with a Taylor series and without constraints and contacts; others raise an error."""
     numbers = {"tolerance": tolerance, "max_steps": max_steps}
     found = _end(self, ["--validated"], until, start, rate, (), numbers)
     bounds = {kind: {name: (low, high) for name, (low, high) in found[kind].items()} for kind in ("q", "v")}

@@ -15,7 +15,7 @@ _Data = Union[str, "os.PathLike[str]", Mapping[str, Any], Any]
 
 
 class Combination(NamedTuple):
-    """What measurements tell of numbers that they cannot tell apart."""
+    """What measurements determine of numbers that they cannot tell apart."""
 
     formula: str
     """``k/m``, ``m1 + m2``"""
@@ -34,16 +34,16 @@ class Fit:
     values: Dict[str, float]
     """In the units of the spec."""
     standard_errors: Dict[str, float]
-    """NaN for what is not told."""
+    """NaN for numbers that the measurements do not determine."""
     standing: Dict[str, str]
-    """``told``; ``bound``, at a bound beyond which the sum of squares falls; ``ineffective``, nothing depends on it;
-    ``entangled``, others do what it does."""
+    """``told``, determined; ``bound``, at a bound beyond which the sum of squares falls; ``ineffective``, nothing depends on it;
+    ``entangled``, others have the same effect."""
     covariance: np.ndarray
-    """(p, p), NaN for what is not told."""
+    """(p, p), NaN for numbers that are not determined."""
     correlation: np.ndarray
     """(p, p)"""
     combinations: List[Combination]
-    """What is told of what is entangled."""
+    """What is determined of entangled numbers."""
     chi_squared: float
     """The sum of squares of residuals over standard deviations."""
     degrees_of_freedom: int
@@ -57,7 +57,7 @@ class Fit:
     residuals: Dict[str, np.ndarray]
     """Measured less computed, by name, (rows,); NaN where this was not measured."""
     computed: Dict[str, np.ndarray]
-    """The same of what is computed."""
+    """The computed values, in the same form."""
     converged: bool
     derivatives: str
     """``integrated`` with the motion, or ``differences`` of runs."""
@@ -123,17 +123,17 @@ def _columns(data: Any) -> Mapping[str, Any]:
         return {"t": data.t, **{name: data[name] for name in names}}
     if getattr(data.index, "name", None) == "t":
         return {"t": data.index, **{name: data[name] for name in names}}
-    raise ValueError("measured data have a column `t`")
+    raise ValueError("measured data must have a column `t`")
 
 
 def _write(data: Mapping[str, Any], path: str) -> None:
     columns = {name: np.asarray(values, dtype=np.float64) for name, values in data.items()}
     if "t" not in columns:
-        raise ValueError("measured data have a column `t`")
+        raise ValueError("measured data must have a column `t`")
     shape = columns["t"].shape
     for name, values in columns.items():
         if values.shape != shape or len(shape) != 1:
-            raise ValueError(f"column {name!r} has shape {values.shape}, and t {shape}: both are (rows,)")
+            raise ValueError(f"column {name!r} has shape {values.shape}, and t {shape}: both must be (rows,)")
     order = ["t", *(name for name in columns if name != "t")]
     with open(path, "w", encoding="utf-8") as file:
         file.write(",".join(f'"{name}"' for name in order) + "\n")
@@ -166,12 +166,12 @@ def fit(
     tolerance: float = 1e-9,
     method: str = "dop853",
 ) -> Fit:
-    """Finds parameters, ``start(x)`` and ``rate(x)`` with which the machine moves as it was measured, as ``lagrangian fit``.
+    """Finds parameters, ``start(x)`` and ``rate(x)`` with which the machine moves as measured, as ``lagrangian fit``.
 
     ``data`` is a mapping from ``t`` in s and the names of coordinates, rates ``der(x)`` and outputs to arrays (rows,) in the units of the
     spec, NaN where nothing was measured; a data frame, a run, or the path of a table; or a list of these, experiments with starts of
-    their own. ``settings`` has for each what is special to it, ``{"start(x)": 0.3, "m": 2}``. ``sigma`` are standard deviations by
-    name, or ``"auto"``; without them columns must have one unit and count alike. ``inputs`` are numbers, formulas, or tables
+    their own. ``settings`` gives for each the values of its own, ``{"start(x)": 0.3, "m": 2}``. ``sigma`` are standard deviations by
+    name, or ``"auto"``; without them columns must have the same unit, and have equal weights. ``inputs`` are numbers, formulas, or tables
     in files. Raises ``LagrangianError`` where no minimum is found.
     """
     if isinstance(data, (str, os.PathLike, Mapping)) or hasattr(data, "columns"):
@@ -179,7 +179,7 @@ def fit(
     several: List[Any] = list(data)
     special: List[Mapping[str, Any]] = list(settings) if settings is not None else [{} for _ in several]
     if len(special) != len(several):
-        raise ValueError(f"settings are {len(special)}, and experiments {len(several)}")
+        raise ValueError(f"settings for {len(special)} experiments are given, but the number of experiments is {len(several)}")
     names = [sought] if isinstance(sought, str) else list(sought)
     driven = dict(inputs or {})
     options = [option for option in _command.settings(self) if option.split("=")[1] not in driven]

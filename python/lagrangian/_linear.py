@@ -47,7 +47,7 @@ class Modes:
     error: np.ndarray
     """Bounds on the eigenvalues, in 1/s: (j,)."""
     equilibrium: State
-    """Where; with the rates of what moves steadily."""
+    """The equilibrium, or a state of the steady motion."""
 
     def __init__(self, machine: Any, found: Mapping[str, Any]) -> None:
         n = len(machine.coordinates)
@@ -106,7 +106,7 @@ class Linear:
     basis: np.ndarray
     """(2n, r): takes x to the changes of all coordinates, then of all rates."""
     left_out: Tuple[str, ...]
-    """Coordinates that only record where a steady motion has come, and are no states."""
+    """Coordinates that only record the progress of a steady motion, and are not states."""
 
     def __init__(self, machine: Any, t: float, found: Mapping[str, Any]) -> None:
         self.units = {name: unit for kind in ("states", "inputs", "outputs") for name, unit in found[kind]}
@@ -150,13 +150,13 @@ class Linear:
 
     def _plotted(self, omega: Any) -> Tuple[np.ndarray, np.ndarray]:
         if not self.inputs or not self.outputs:
-            raise ValueError("a frequency response is from an input to an output, and the model lacks one of them")
+            raise ValueError("a frequency response is from an input to an output, and the model does not have both")
         omega = self._frequencies() if omega is None else np.ravel(_batch.number_array(omega, "omega"))
         return omega, self.response(omega)
 
     def bode(self, omega: Any = None) -> Any:
-        """A matplotlib figure of gain, in dB, and phase from each input to each output over angular frequencies in rad/s (k,), those
-        about the poles and zeros where left out; ``lagrangian linearize --bode`` draws the same."""
+        """A matplotlib figure of gain, in dB, and phase from each input to each output over angular frequencies in rad/s (k,), by
+        default those about the poles and zeros; ``lagrangian linearize --bode`` draws the same."""
         import matplotlib.pyplot as plt
 
         omega, response = self._plotted(omega)
@@ -199,7 +199,7 @@ class Linear:
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the model: ``.json``, ``.npz``, ``.mat`` (with SciPy), or ``.csv``, a file for each matrix: NAME.A.csv and so
-        on. Each is written beside its place and renamed when it is complete."""
+        on. Each is written under a temporary name and renamed when it is complete."""
         path = os.fspath(path)
         stem, ending = os.path.splitext(path)
         arrays = {name: getattr(self, name) for name in ("A", "B", "C", "D", "drift", "basis")}
@@ -299,7 +299,7 @@ def _start(machine: Any, start: Any, rate: Any, t: float) -> Tuple[float, List[f
 def _inputs(machine: Any, u: Any) -> List[float]:
     given = _batch.vectors(u, tuple(machine.inputs), list(machine.inputs.values()), "u", "input")
     if given.shape != (len(machine.inputs),):
-        raise ValueError(f"u has shape {given.shape}, wanted ({len(machine.inputs)},)")
+        raise ValueError(f"u has shape {given.shape}, expected ({len(machine.inputs)},)")
     return [float(x) for x in given]
 
 
@@ -320,7 +320,7 @@ def _steady(machine: Any, steady: Optional[Steady], v: List[float]) -> Tuple[Lis
                 sought[place] = True
             elif value is not None:
                 if isinstance(value, (str, bytes)) or np.ndim(value) != 0:
-                    raise TypeError(f"steady[{name!r}] is {value!r}, wanted a number, None or 'solve'")
+                    raise TypeError(f"steady[{name!r}] is {value!r}, expected a number, None or 'solve'")
                 v[place] = float(value)
     return moves, sought
 
@@ -374,10 +374,10 @@ def linearize(
 
     * ``start``, ``rate``: mappings from names to numbers, in place of the spec's, or arrays (n,); or ``start`` is a State. With
       constraints it is moved onto them, as a run would.
-    * ``steady``: about the steady motion near the start instead, ``{"phi": 150}`` in rad/s; ``{}`` is the equilibrium, None as a
-      rate that of the start, and ``"solve"`` one that is sought.
+    * ``steady``: about the steady motion near the start instead, ``{"phi": 150}`` in rad/s; ``{}`` means the equilibrium, the rate
+      None that of the start, and the rate ``"solve"`` one to be found.
     * ``u``: values of inputs there, a mapping or (m,). ``inputs``, ``outputs``: which of them the model has; outputs are those of
-      the spec, coordinates, ``der(x)``, ``der(x,2)``, ``multiplier(rod)``.
+      the spec, coordinates, ``der(x)``, ``der(x,2)`` and ``multiplier(rod)``.
     """
     given = _start(self, start, rate, t)
     names = tuple(self.inputs)

@@ -22,9 +22,9 @@ class Line(NamedTuple):
     frequency: float
     """In Hz, between those of the spectrum."""
     amplitude: float
-    """That of a sine, in the unit of the quantity."""
+    """The amplitude of the sine, in the unit of the quantity."""
     phase: float
-    """Of its cosine at the first sample, in rad."""
+    """The phase of its cosine at the first sample, in rad."""
 
 
 class Spectrum:
@@ -37,9 +37,9 @@ class Spectrum:
     mean: Dict[str, float]
     lines: Dict[str, List[Line]]
     resolution: float
-    """How far frequencies are apart, in Hz."""
+    """The spacing of the frequencies, in Hz."""
     step: float
-    """How far samples are apart, in s."""
+    """The spacing of the samples, in s."""
     samples: int
 
     def __init__(self, document: Mapping[str, Any], table: Mapping[str, np.ndarray]) -> None:
@@ -129,13 +129,13 @@ class Difference(NamedTuple):
     largest: float
     """In the unit of the quantity."""
     at: float
-    """When it is largest, in s."""
+    """The time at which it is largest, in s."""
     rms: float
     """The root of its mean square over time."""
     range: float
     """Greatest minus least value in the first run, or its value where that is constant."""
     relative: Optional[float]
-    """``largest`` as a share of ``range``; None where the range is 0 and the difference is not."""
+    """``largest`` relative to ``range``; None where the range is 0 and the difference is not."""
 
 
 class Comparison:
@@ -212,9 +212,9 @@ def spectrum(
     method: Optional[str] = None,
     max_steps: Optional[int] = None,
 ) -> Spectrum:
-    """Which frequencies are in a run, as ``lagrangian spectrum`` with its options.
+    """The frequencies of a run, as ``lagrangian spectrum`` with its options.
 
-    ``of`` names quantities, the coordinates where left out; ``every`` says how far samples are apart, in s; ``after`` from when on.
+    ``of`` names quantities, by default the coordinates; ``every`` is the spacing of samples, in s; ``after`` the time of the first.
     ``window`` is ``"hann"``, ``"none"`` for whole periods, or ``"blackman-harris"``.
     """
     options = _run(self, until, of, start, rate, keep, {
@@ -299,10 +299,10 @@ def compare(
     method_second: Optional[str] = None,
     max_steps: Optional[int] = None,
 ) -> Comparison:
-    """How far a run of this machine and another are apart, as ``lagrangian compare`` tells it.
+    """How far a run of this machine and another are apart, as in ``lagrangian compare``.
 
-    ``second`` is the same machine with other parameters, ``machine.with_parameters(k=10)``, or the path of a table, at whose rows both
-    are looked at.
+    ``second`` is the same machine with other parameters, ``machine.with_parameters(k=10)``, or the path of a table, at whose rows the
+    two are compared.
     """
     options = _run(self, until, of, start, rate, keep, {
         "every": every, "interpolation": interpolation, "tolerance": tolerance, "tolerance_second": tolerance_second,
@@ -311,6 +311,6 @@ def compare(
     if isinstance(second, (str, os.PathLike)):
         return Comparison(answer(self, "compare", [os.fspath(second), *options]))
     if getattr(second, "_program", None) is None or second._program.state() != self._program.state():
-        raise ValueError("the second run is one of the same machine with other parameters, or the path of a table")
+        raise ValueError("the second run must be of the same machine with other parameters, or the path of a table")
     options += [f"--set-second={option.split('=', 1)[1]}" for option in settings(second)]
     return Comparison(answer(self, "compare", [self._program.file, *options]))

@@ -21,7 +21,7 @@ _T = TypeVar("_T")
 
 
 def load(path: Union[str, "os.PathLike[str]"], *, constants: Optional[Mapping[str, Any]] = None, **parameters: Number) -> "Machine":
-    """The machine of a spec in a file; what it extends is read beside that.
+    """The machine of a spec in a file; specs that it extends are read from the same folder.
 
     >>> m = load("machines/double_pendulum.machine", l2=0.5)
     >>> m.parameters["l2"]
@@ -42,10 +42,10 @@ def loads(
 ) -> "Machine":
     """The machine of a spec in a string.
 
-    ``name`` is what messages call it. What it extends is looked up in ``files``, or read from ``folder``.
+    ``name`` is its name in messages. Specs that it extends are looked up in ``files``, or read from ``folder``.
     """
     if folder is not None and files is not None:
-        raise ValueError("bases come from `files` or from `folder`, not from both")
+        raise ValueError("the specs that it extends come from `files` or from `folder`, not from both")
     if folder is not None:
         name = os.path.join(os.fspath(folder), name)
     given = None if files is None else list(files.items())
@@ -72,7 +72,7 @@ def from_urdf(
     ``"stop"``; ``drop_massless`` leaves out joints that move no mass; ``ignore`` names elements and
     attributes that are left out.
 
-    What was left out is told as warnings of Python. A file at fault is a ValueError that gives the line.
+    What was left out is reported by warnings of Python. A faulty file raises a ValueError that gives the line.
     """
     return _imported(path, [f"--base={base}"], ball, friction, limits, drop_massless, ignore, constants, parameters)
 
@@ -91,11 +91,11 @@ def from_mjcf(
     """The machine of a robot in a file of MJCF, with the ending ``.xml`` or ``.mjcf``, whose spec ``machine.text`` is: what
     ``lagrangian import`` writes. The file itself says by ``freejoint`` which bodies float.
 
-    The keywords are the command's options, as of :func:`from_urdf`. What was left out is told as warnings of Python. A file at
-    fault is a ValueError that gives the line.
+    The keywords are the command's options, as of :func:`from_urdf`. What was left out is reported by warnings of Python. A
+    faulty file raises a ValueError that gives the line.
     """
     if os.fspath(path).lower().endswith(".urdf"):
-        raise ValueError(f"{os.fspath(path)}: this is a file of URDF, which from_urdf reads")
+        raise ValueError(f"{os.fspath(path)}: this is a URDF file, which from_urdf reads")
     return _imported(path, [], ball, friction, limits, drop_massless, ignore, constants, parameters)
 
 
@@ -132,18 +132,18 @@ def _constants(constants: Optional[Mapping[str, Any]]) -> List[Tuple[str, str]]:
 def _exactly(name: str, value: Any) -> str:
     """A constant as text: a float as the decimal that Python prints."""
     if isinstance(value, bool):
-        raise TypeError(f"the constant {name} is {value!r}, wanted a number")
+        raise TypeError(f"the constant {name} is {value!r}, expected a number")
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, Fraction):
         return f"{value.numerator}/{value.denominator}"
     if isinstance(value, (float, np.floating)):
         if not math.isfinite(value):
-            raise ValueError(f"the constant {name} is {value!r}, wanted a finite number")
+            raise ValueError(f"the constant {name} is {value!r}, expected a finite number")
         return format(Fraction(repr(float(value))), "") if float(value) else "0"
     if isinstance(value, str):
         return value
-    raise TypeError(f"the constant {name} is of type {type(value).__name__}, wanted a number")
+    raise TypeError(f"the constant {name} is of type {type(value).__name__}, expected a number")
 
 
 class Evaluation:
@@ -175,7 +175,7 @@ class Evaluation:
     ok: np.ndarray
     """Which states have accelerations; the numbers of others are NaN."""
     columns: Mapping[str, np.ndarray] = MappingProxyType({})
-    """Of :meth:`Run.observe`: the columns of the run at the times that were asked for, S each."""
+    """Of :meth:`Run.observe`: the columns of the run at the requested times, S each."""
 
     def __init__(self, **numbers: Any) -> None:
         self.__dict__.update(numbers)
@@ -234,7 +234,7 @@ class Machine(_native.Machine):
                 if ("[" in name) is not is_member:
                     continue
                 if isinstance(value, (str, bytes)) or np.ndim(value) != 0:
-                    raise TypeError(f"{name} is {value!r}, wanted a number")
+                    raise TypeError(f"{name} is {value!r}, expected a number")
                 number = float(value)
                 own, others = _batch.of_name(name, names), _batch.of_name(name, inputs)
                 if not own and not others:
@@ -253,13 +253,13 @@ class Machine(_native.Machine):
     def with_parameters(self, values: Optional[Mapping[str, Number]] = None, /, **parameters: Number) -> "Machine":
         """The same program with other values of parameters and inputs: nothing is derived again.
 
-        A family's name sets all its members; what is no identifier goes through the mapping: ``{"k[3]": 2.0}``. A parameter that the
-        spec has a formula for no longer follows it, and stands among :attr:`parameters`; for that the machine is derived again.
+        A family's name sets all its members; names that are not identifiers are given in the mapping: ``{"k[3]": 2.0}``. A parameter
+        for which the spec has a formula no longer follows it, and is among :attr:`parameters`; this derives the machine again.
         """
         return self._set({**(values or {}), **parameters})
 
     def with_constants(self, values: Optional[Mapping[str, Any]] = None, /, **constants: Any) -> "Machine":
-        """The machine with other values of constants, derived again. Parameters keep their values where they are still there."""
+        """The machine with other values of constants, derived again. Parameters that still exist keep their values."""
         every = dict(self._program.constants)
         every.update(_constants({**(values or {}), **constants}))
         program = self._program.with_constants(sorted(every.items()))
@@ -287,7 +287,7 @@ class Machine(_native.Machine):
 
     @property
     def docs(self) -> str:
-        """What the spec says of it."""
+        """Its documentation in the spec."""
         return str(self._program.docs)
 
     @property
@@ -312,7 +312,7 @@ class Machine(_native.Machine):
 
     @property
     def states(self) -> Tuple[str, ...]:
-        """The names of states of first order: currents, temperatures, what a controller has summed up. They are rates, ``v["i"]``, of
+        """The names of states of first order: currents, temperatures, integrals of controllers. They are rates, ``v["i"]``, of
         the last coordinates, their integrals over time."""
 
         def make() -> Tuple[str, ...]:
@@ -334,7 +334,7 @@ class Machine(_native.Machine):
 
     @property
     def constraints(self) -> Tuple[str, ...]:
-        """Their names, in the order of the spec; one that binds several numbers is several."""
+        """Their names, in the order of the spec; one that constrains several numbers counts as several."""
         return self._once("constraints", lambda: tuple(n for n, _ in self._program.constraints))
 
     @property
@@ -354,7 +354,7 @@ class Machine(_native.Machine):
 
     @property
     def inputs(self) -> Mapping[str, float]:
-        """Their values where nobody sets them."""
+        """Their default values."""
 
         def make() -> Mapping[str, float]:
             names = (n for n, *_ in self._program.inputs)
@@ -386,8 +386,8 @@ class Machine(_native.Machine):
 
     @property
     def docs_of(self) -> Mapping[str, str]:
-        """What the spec says of every name of :attr:`units`, of constraints and of contacts; empty where it says nothing. A rate
-        ``der(x)`` has what is said of x, a multiplier what is said of its constraint."""
+        """The documentation of every name of :attr:`units`, of constraints and of contacts in the spec; empty where there is none.
+        A rate ``der(x)`` has that of x, a multiplier that of its constraint."""
 
         def make() -> Mapping[str, str]:
             program = self._program
@@ -420,7 +420,7 @@ class Machine(_native.Machine):
 
     @property
     def warnings(self) -> List[Diagnostic]:
-        """What is to be said of the spec although it is right."""
+        """Warnings about a spec that is otherwise valid."""
         return [Diagnostic(*told) for told in self._program.warnings]
 
     @property
@@ -493,14 +493,14 @@ class Machine(_native.Machine):
         return Evaluation(**columns, contacts=MappingProxyType(contacts), ok=ok)
 
     def rhs(self, u: Any = None, parameters: Optional[Mapping[str, Number]] = None) -> Callable[[Any, Any], np.ndarray]:
-        """``f(t, y)`` for ``solve_ivp`` and its kin: y is (2n,) or (2n, k), coordinates then rates."""
+        """``f(t, y)`` for ``solve_ivp`` and similar functions: y is (2n,) or (2n, k), coordinates then rates."""
         machine = self._set(dict(parameters or {})) if parameters else self
         n = len(self.coordinates)
 
         def f(t: Any, y: Any) -> np.ndarray:
             y = np.asarray(y)
             if y.shape[:1] != (2 * n,):
-                raise ValueError(f"y has shape {y.shape}, wanted ({2 * n},) or ({2 * n}, k)")
+                raise ValueError(f"y has shape {y.shape}, expected ({2 * n},) or ({2 * n}, k)")
             if y.ndim == 1:
                 a = machine.accelerations(y[:n], y[n:], float(t), u=u)
                 return np.concatenate([y[n:], a])
@@ -518,7 +518,7 @@ class Machine(_native.Machine):
         def f(t: float, y: Any) -> np.ndarray:
             y = _batch.number_array(y, "y")
             if y.shape != (2 * n,):
-                raise ValueError(f"y has shape {y.shape}, wanted ({2 * n},)")
+                raise ValueError(f"y has shape {y.shape}, expected ({2 * n},)")
             by_q, by_v = _native.linearize(machine, float(t), y[:n].tolist(), y[n:].tolist(), inputs.tolist())
             jacobian = np.zeros((2 * n, 2 * n))
             jacobian[:n, n:] = np.eye(n)

@@ -18,24 +18,24 @@ class Orbit:
     start: State
     """A state of the orbit."""
     advance: Mapping[str, float]
-    """By how much coordinates go on in a period: what was given, and of those on which nothing depends what was found."""
+    """By how much coordinates advance in a period: as given, or as found for those on which nothing depends."""
     monodromy: np.ndarray
-    """How the state a period later changes with the state, (k, k): the numbers that ``states`` names."""
+    """How the state one period later changes with the state, (k, k): the numbers that ``states`` names."""
     states: Tuple[str, ...]
-    """The numbers of a state that constraints leave independent, all of them where there are none, but for coordinates on which nothing
-    depends and that go on: coordinates, then rates ``der(x)`` and states of first order."""
+    """The numbers of a state that constraints leave independent, all of them where there are none, except for coordinates on which nothing
+    depends and that advance: coordinates, then rates ``der(x)`` and states of first order."""
     multipliers: np.ndarray
-    """Floquet's multipliers, complex (k,): that of the motion itself first, where there is one, then the greatest."""
+    """Floquet multipliers, complex (k,): that of the motion itself first, where there is one, then in descending size."""
     errors: np.ndarray
-    """Each multiplier is known up to this, (k,)."""
+    """The uncertainty of each multiplier, (k,)."""
     trivial: np.ndarray
-    """Whether a multiplier is 1 because the same motion a little later is a motion, too, (k,)."""
+    """Whether a multiplier is 1 because the same motion shifted in time is a motion, too, (k,)."""
     stability: str
     """``"stable"``, ``"unstable"``, or ``"undecided"`` where no multiplier is outside the unit circle and some are on it."""
     autonomous: bool
     """Whether nothing drives the machine."""
     family: int
-    """By how many numbers orbits near this one differ, as by their energy; their phase aside."""
+    """By how many numbers orbits near this one differ, such as their energy, not counting their phase."""
     residual: float
     """The largest number by which the motion does not close, over ``max(1, abs(x))``."""
 
@@ -62,7 +62,7 @@ class Orbit:
         self._machine = machine
 
     def simulate(self, periods: float = 1.0, **options: Any) -> Any:
-        """The motion for so many periods, as ``simulate``."""
+        """The motion over this many periods, as ``simulate`` returns it."""
         until = self.start.t + periods * self.period
         return self._machine.simulate(until, start=self.start, **options)
 
@@ -85,11 +85,11 @@ def orbit(
 ) -> Orbit:
     """The periodic motion near a start.
 
-    ``period`` in s, or a formula of parameters, ``"2*pi/omega"``, is that of what drives the machine or a multiple of it; of a machine
-    that nothing drives it may be left out, or ``near`` says about how long it is. ``start`` and ``rate`` are mappings from
-    coordinates to numbers or arrays (n,). ``keep`` names what of the start stays, ``"theta"`` or ``"der(theta)"``; ``advance`` by what
-    coordinates go on in a period; ``shift`` which go on as far as they do, since nothing depends on them: all of these where neither is
-    given; ``settle`` for how many seconds the motion runs before.
+    ``period`` in s, or a formula of parameters, ``"2*pi/omega"``, is that of the drive or a multiple of it; for a machine
+    that nothing drives it may be left out, or ``near`` gives an estimate of it. ``start`` and ``rate`` are mappings from
+    coordinates to numbers or arrays (n,). ``keep`` names the numbers of the start that stay, ``"theta"`` or ``"der(theta)"``;
+    ``advance`` gives by how much coordinates advance in a period; ``shift`` names those that may advance by any amount, since nothing
+    depends on them: all of these where neither is given; ``settle`` is for how many seconds the motion runs before the search.
     """
     options: List[str] = [*settings(self), *_places(self, "--start", start), *_places(self, "--rate", rate)]
     if isinstance(start, State) and rate is None:

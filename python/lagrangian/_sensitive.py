@@ -15,7 +15,7 @@ from .errors import unknown
 
 
 class Sensitivities:
-    """A motion at k instants, with its derivatives by s variables; exact derivatives of the equations, not differences."""
+    """A motion at k instants, with its derivatives with respect to s variables, from exact derivatives of the equations."""
 
     t: np.ndarray
     """(k,), in s."""
@@ -71,13 +71,13 @@ def sensitivities(
 ) -> Sensitivities:
     """The motion from t0 until a time, with its derivatives by parameters, inputs, and numbers of the start.
 
-    ``by``: names of parameters and inputs, ``start(x)``, ``rate(x)``. Everything else is as :meth:`simulate` has it; inputs are
-    held. Numbers of the start do not follow from parameters here: where the spec computes one from a parameter, that part is not in
-    the derivative by it.
+    ``by``: names of parameters and inputs, ``start(x)``, ``rate(x)``. Everything else is as in :meth:`simulate`; inputs are
+    constant. Numbers of the start do not follow from parameters here: where the spec computes one from a parameter, the derivative by the
+    parameter does not include that dependence.
 
-    A start that constraints hold changes with what it depends on as a run would move it onto them, with the numbers of ``keep`` or of
-    the spec kept, and its derivatives obey the constraints from there on. Nothing is projected on the way: where errors of steps move
-    the motion or its derivatives off the constraints by more than 1e-5 of their numbers that is a ``ValueError``, as it is of
+    A start on constraints changes with the variables as a run would move it onto the constraints, with the numbers of ``keep`` or of
+    the spec kept, and its derivatives obey the constraints from there on. Nothing is projected on the way: if errors of steps move
+    the motion or its derivatives off the constraints by more than 1e-5 of their values, a ``ValueError`` is raised, as it is for
     constraints that follow from others.
     """
     from ._linear import _start
@@ -100,7 +100,7 @@ def sensitivities(
         if kind == "set":
             varied.append(inner)
     if not by or len(set(by)) < len(by):
-        raise ValueError("by names at least one variable, and each once")
+        raise ValueError("by must name at least one variable, and each once")
     machine = type(self)._with(_native.rebuild(_variant(self, varied)), *self._values)
     given = _start(self, start, rate, t0)
     until = float(until)

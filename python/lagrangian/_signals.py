@@ -12,11 +12,11 @@ from . import _batch, _native
 
 
 class Table:
-    """Values at instants, which an input follows; a step of the run ends wherever it is not smooth enough.
+    """Values at instants, which an input follows; a step of the run ends wherever they are not smooth enough.
 
     ``kind`` is ``"hold"`` (a value holds until the next), ``"linear"`` or ``"cubic"`` (a spline with two continuous
-    derivatives); ``beyond``, what is before the first instant and behind the last, ``"hold"``, ``"error"`` or ``"repeat"``. Times, (k,),
-    in s, grow; values, (k,), are in the unit of the input.
+    derivatives); ``beyond``, for times before the first instant and after the last, is ``"hold"``, ``"error"`` or ``"repeat"``. Times,
+    (k,), in s, increase; values, (k,), are in the unit of the input.
     """
 
     def __init__(self, t: Any, values: Any, kind: str = "linear", beyond: str = "hold") -> None:
@@ -41,11 +41,11 @@ class Table:
 
 
 class Sampled:
-    """A controller that looks at the machine at the start and every so many seconds after it; what it sets acts ``delay`` seconds
-    later and holds until it is set again.
+    """A controller that samples the machine at the start and every ``every`` seconds after it; the value that it sets acts ``delay``
+    seconds later and holds until it is set again.
 
-    ``what`` is a formula of the spec's language or a function ``f(t, q, v)``, which is called once for each look, in the order of
-    time, and so may remember.
+    ``what`` is a formula of the spec's language or a function ``f(t, q, v)``, which is called once for each sample, in the order of
+    time, and so may keep a memory.
     """
 
     def __init__(self, what: Union[str, Callable[..., float]], every: float, delay: float = 0.0) -> None:
@@ -54,7 +54,7 @@ class Sampled:
         if not delay >= 0 or not np.isfinite(delay):
             raise ValueError(f"delay={delay!r}: must not be negative")
         if not isinstance(what, str) and not callable(what):
-            raise TypeError(f"a sampled controller is a formula or a function, not {what!r}")
+            raise TypeError(f"a sampled controller must be a formula or a function, not {what!r}")
         self.what = what
         self.every = float(every)
         self.delay = float(delay)
@@ -73,12 +73,12 @@ Driven = Tuple[
 
 
 def law_of(what: Any, name: str, unit: str) -> Optional[Dict[str, Any]]:
-    """What drives an input, as a plan of a sweep holds it; None if it is no signal but a number or a function."""
+    """What drives an input, as a plan of a sweep holds it; None if it is a number or a function."""
     if isinstance(what, (str, os.PathLike)):
         text = os.fspath(what)
         law: Dict[str, Any] = json.loads(_native.written(text, name, unit))
         if not isinstance(what, str) and "table" not in law:
-            raise ValueError(f"input {name}: {text} is no table `.csv` or `.parquet`")
+            raise ValueError(f"input {name}: {text} is not a table `.csv` or `.parquet`")
         return law
     if isinstance(what, Sampled) and isinstance(what.what, str):
         return {"sampled": {"formula": what.what, "every": what.every, "delay": what.delay}}

@@ -58,7 +58,7 @@ class Energy(NamedTuple):
     """The balance of energy of a run, in J."""
 
     residual: float
-    """end − start − work + dissipated: what rounding and the tolerance have left open."""
+    """end − start − work + dissipated: the error left by rounding and the tolerance."""
     work: float
     """Work of drives, applied forces and inputs."""
     dissipated: float
@@ -77,7 +77,7 @@ class Run:
     def __init__(self, machine: Any, native: _native.Run, keywords: Dict[str, Any], error: Optional[str]) -> None:
         self.machine = machine
         self.error = error
-        """What ended it early; None if nothing did."""
+        """The error that ended it early; None if there was none."""
         self._native = native
         self._keywords = keywords
         names = machine.coordinates
@@ -164,7 +164,7 @@ class Run:
         return self._state((found[back], q.reshape(-1, n)[back], v.reshape(-1, n)[back]), times.shape)
 
     def observe(self, t: Any) -> Any:
-        """Everything at times of any shape S and order, as :meth:`Machine.evaluate` has it, with the inputs of the run.
+        """Everything at times of any shape S and order, as :meth:`Machine.evaluate` returns it, with the inputs of the run.
 
         ``observe(t)[name]`` is a column of the run at these times, S: there a contact sticks or slides as it did in the run.
         """
@@ -209,7 +209,7 @@ class Run:
 
     @property
     def events(self) -> List[Happened]:
-        """What happened, in order."""
+        """The events, in order."""
         names, _, (t, q, v) = self._native.events()
         of = self.machine.coordinates
         q, v = q.reshape(len(t), len(of)), v.reshape(len(t), len(of))
@@ -251,12 +251,12 @@ class Run:
 
     @property
     def warnings(self) -> List[str]:
-        """What is to be known although the run ended well."""
+        """Warnings about a run, even if it ended well."""
         return list(self._native.warnings)
 
     @property
     def choices(self) -> List[Tuple[float, str, str]]:
-        """Which methods a run with ``method="auto"`` took: since when, in s, which, and why; of other runs none."""
+        """The methods that a run with ``method="auto"`` used: from when, in s, which, and why; empty for other runs."""
         return list(self._native.choices)
 
     def to_numpy(self, names: Optional[Sequence[str]] = None) -> np.ndarray:
@@ -286,7 +286,7 @@ class Run:
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes t and all columns: ``.csv``, ``.npz``, ``.parquet`` or ``.mat``; or the page, ``.html``. The file is written
-        beside its place and renamed when it is complete."""
+        under a temporary name and renamed when it is complete."""
         path = os.fspath(path)
         ending = os.path.splitext(path)[1].lower()
         headers = {name: name if self.units[name] == "1" else f"{name} [{self.units[name]}]" for name in self.columns}
@@ -312,7 +312,7 @@ class Run:
             # Names in MATLAB consist of letters, digits and underscores.
             names = {name: _identifier(name) for name in data}
             if len(set(names.values())) < len(names):
-                raise ValueError("two columns would have one name in MATLAB")
+                raise ValueError("two columns would have the same name in MATLAB")
             scipy.io.savemat(file, {names[name]: values for name, values in data.items()})
 
         def html(file: Any) -> None:
@@ -353,7 +353,7 @@ class Run:
         steps = np.diff(self.t)
         even = len(steps) >= 2 and np.ptp(np.abs(steps[:-1])) <= 1e-9 * abs(steps[0])
         if not even or abs(steps[-1]) > (1 + 1e-9) * abs(steps[0]):
-            raise ValueError("a spectrum needs instants that are equally spaced: every=…")
+            raise ValueError("a spectrum needs equally spaced instants: every=…")
         if window not in ("hann", "none"):
             raise ValueError(f"window={window!r}: must be 'hann' or 'none'")
         values = self[name]
@@ -368,13 +368,13 @@ class Run:
         return np.fft.rfftfreq(count, abs(float(steps[0]))), amplitudes
 
     def report(self) -> "Report":
-        """The page that shows the machine move, beside curves, parameters and equations; in a notebook the page itself."""
+        """The page that shows the machine in motion, with curves, parameters and equations; in a notebook the page itself."""
         if not self._keywords["dense"]:
             raise ValueError("the steps of this run were forgotten, and its page needs them: dense=False")
         return Report(self)
 
     def _repr_html_(self) -> Optional[str]:
-        """The page in a notebook, in a frame that can reach nothing around it; a run without steps is told in words."""
+        """The page in a notebook, in a frame that can reach nothing around it; a run without steps is described in words."""
         return self.report()._repr_html_() if self._keywords["dense"] else None
 
     def _page(self) -> str:
@@ -430,7 +430,7 @@ class Report:
         return self._made
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes it, ``.html``; beside its place, and renamed when it is complete."""
+        """Writes it, ``.html``, under a temporary name, and renames it when it is complete."""
         path = os.fspath(path)
         if os.path.splitext(path)[1].lower() not in (".html", ".htm"):
             raise ValueError(f"{path}: the ending must be .html")
@@ -547,23 +547,23 @@ def simulate(
     * ``start``, ``rate``: mappings from names to numbers, in place of the spec's, or arrays (n,); or ``start`` is a State, as
       ``run.end``.
     * ``inputs``: a mapping from names to what drives each: a number, a formula of the spec's language (``"30*N*theta +
-      5*N*s*der(theta)"``), a function ``f(t, q, v)``, a :class:`Table` or its arrays ``(t, values)``, a table in a file as the command
-      has it (``"run.csv:push,hold"``, or a path), or a :class:`Sampled` controller; or one function of all inputs, which returns an
-      array (m,) or a mapping. Functions must depend on their arguments alone, since they are called out of order in time, but of
-      sampled ones.
-    * ``events``: a mapping from names to formulas, functions ``f(t, q, v)``, or :class:`Event`. Each change of sign is found to
-      the rounding of time. A callable's attributes ``terminal`` and ``direction`` count as in SciPy.
+      5*N*s*der(theta)"``), a function ``f(t, q, v)``, a :class:`Table` or its arrays ``(t, values)``, a table in a file as for the command
+      (``"run.csv:push,hold"``, or a path), or a :class:`Sampled` controller; or one function of all inputs, which returns an
+      array (m,) or a mapping. Functions must depend on their arguments alone, since they are called out of order in time, except
+      those of sampled controllers.
+    * ``events``: a mapping from names to formulas, functions ``f(t, q, v)``, or :class:`Event`. Each change of sign is located to
+      within the rounding of time. A callable's attributes ``terminal`` and ``direction`` count as in SciPy.
     * ``stop``: a formula that is greater than 0, or a function that is true, at the end of the step where the run ends.
-    * What is kept: every so many seconds, or the instants ``at``; 1000 intervals if nothing is said. ``dense=False`` forgets the
-      steps, which ``run.at`` needs.
+    * What is kept: instants ``every`` so many seconds, or the instants ``at``; by default 1000 intervals. ``dense=False`` forgets
+      the steps, which ``run.at`` needs.
     * ``tolerance`` is ``relative`` and ``absolute`` at once; ``absolute`` may be a mapping from names to numbers.
     * ``method``: ``dop853``, ``dopri5``, ``bs32``, ``radau5``, ``radau9`` and ``radau13`` for stiff machines, ``taylor``; ``auto``
-      goes on by ``radau`` where the machine is stiff and by time stepping where contacts crowd, and ``run.choices`` tells;
+      continues with ``radau`` where the machine is stiff and with time stepping where contacts accumulate, see ``run.choices``;
       with steps of ``longest_step`` ``rk4``, ``semi-implicit-euler``, ``gauss4``, ``gauss6``, ``gauss8``, ``rattle``, ``generalized-alpha``, ``moreau``.
     * ``keep``: numbers of the start that constraints do not move, ``"theta"`` or ``"der(theta)"``.
     * ``progress``: ``"auto"`` (a line on a terminal after 2 s), False, or ``f(fraction, t, steps)``.
 
-    A run that an error ends raises :class:`RunError`, with what there is of it; ``on_error="return"`` returns that.
+    A run that ends with an error raises :class:`RunError`, with the part that was computed; ``on_error="return"`` returns that part.
     """
     given = dict(locals())
     del given["machine"], given["until"]
@@ -580,7 +580,7 @@ def simulate(
     until, t0 = float(until), float(t0)
     q, v = _batch.start_of(machine, start, rate)
     if not (math.isfinite(until) and math.isfinite(t0)):
-        raise ValueError(f"a run goes from one finite time to another, not from {t0} s to {until} s")
+        raise ValueError(f"a run must go from one finite time to another, not from {t0} s to {until} s")
     if every is not None and at is not None:
         raise ValueError("instants are kept by `every` or by `at`, not by both")
     instants = None
@@ -630,7 +630,7 @@ def simulate(
     event_names: List[str] = []
     if not isinstance(events, Mapping):
         if events and not isinstance(events, (list, tuple)):
-            raise TypeError("events is a mapping from names to formulas or functions")
+            raise TypeError("events must be a mapping from names to formulas or functions")
         events = {getattr(e, "__name__", f"event {i}"): e for i, e in enumerate(events)}
     for name, asked in events.items():
         event = asked
@@ -646,13 +646,13 @@ def simulate(
         elif callable(event.what):
             watched.append((name, None, _named_arguments(event.what, names), way, ends))
         else:
-            raise TypeError(f"event {name} is {event.what!r}, wanted a formula or a function")
+            raise TypeError(f"event {name} is {event.what!r}, expected a formula or a function")
     if isinstance(stop, str):
         stops = (formula("stop", "stop", stop, None), None)
     elif callable(stop):
         stops = (None, _named_arguments(stop, names))
     elif stop is not None:
-        raise TypeError(f"stop is {stop!r}, wanted a formula or a function")
+        raise TypeError(f"stop is {stop!r}, expected a formula or a function")
     runs = machine
     if formulas:
         program = machine._program.with_formulas(formulas)

@@ -35,7 +35,7 @@ class _Distribution:
 
 
 class Uniform(_Distribution):
-    """Evenly between a and b."""
+    """Uniformly between a and b."""
 
     _kind = "uniform"
 
@@ -46,14 +46,14 @@ class Uniform(_Distribution):
 
 
 class LogUniform(_Distribution):
-    """With a logarithm that is evenly distributed, between a and b of the same sign."""
+    """With a uniformly distributed logarithm, between a and b of the same sign."""
 
     _kind = "log_uniform"
 
     def __init__(self, a: float, b: float) -> None:
         super().__init__(a, b)
         if not (a < b and a * b > 0):
-            raise ValueError(f"{self!r}: both ends must have one sign, the first be the lower one")
+            raise ValueError(f"{self!r}: both ends must have the same sign, and the first must be the lower one")
 
 
 class Normal(_Distribution):
@@ -83,7 +83,7 @@ _Column = Tuple[str, Optional[str], Any]
 
 
 class Sweep:
-    """The rows of a sweep, a row a run. Immutable."""
+    """The rows of a sweep, one for each run. Immutable."""
 
     def __init__(self, machine: Any, plan: str, columns: List[_Column], samples: Optional[List[_Column]], keywords: Dict[str, Any]) -> None:
         self.machine = machine
@@ -127,7 +127,7 @@ class Sweep:
         return self[name].reshape(self._keywords["shape"])
 
     def run(self, i: int, **settings: Any) -> Any:
-        """Run i, made again with all its steps; settings as ``simulate`` has them."""
+        """Run i, repeated with all its steps; settings as for ``simulate``."""
         i = range(len(self))[i]
         values = {name: float(self[name][i]) for name in self._keywords["varied"]}
         start, rate = dict(self._keywords["start"]), dict(self._keywords["rate"])
@@ -185,9 +185,9 @@ class Sweep:
         samples: bool = False,
     ) -> None:
         """Draws columns over what was varied, as ``lagrangian map``: curves over one parameter, colours over two, into an ``.svg``, or a
-        page ``.html`` that tells the numbers under the pointer.
+        page ``.html`` that shows the numbers under the pointer.
 
-        ``over``: over which of the parameters that were varied, all of them where nothing is said. ``only`` leaves out rows with
+        ``over``: over which of the varied parameters, by default all of them. ``only`` leaves out rows with
         other values. ``samples`` draws :attr:`samples`, a dot for each: a bifurcation diagram where they were recorded at events.
         """
         from ._command import told_of_file
@@ -258,11 +258,11 @@ def _factor(name: str, what: Any) -> Tuple[Dict[str, Any], int]:
     if isinstance(what, tuple) and len(what) == 3 and isinstance(what[2], int) and not isinstance(what[2], bool):
         a, b, k = what
         if k < 1:
-            raise ValueError(f"{name}: {k} values are none")
+            raise ValueError(f"{name}: the number of values must be at least 1, not {k}")
         return {"grid": {"name": name, "from": float(a), "to": float(b), "count": k, "log": False}}, k
     values = np.atleast_1d(_batch.number_array(what, f"vary[{name!r}]"))
     if values.ndim != 1 or not len(values):
-        raise ValueError(f"vary[{name!r}] has shape {values.shape}, wanted (k,)")
+        raise ValueError(f"vary[{name!r}] has shape {values.shape}, expected (k,)")
     return {"list": {"names": [name], "rows": values[:, None].tolist()}}, len(values)
 
 
@@ -272,14 +272,14 @@ def _design(
     """The factors of a design, the shape of its grid, and the varied names, in order."""
     if not isinstance(vary, Mapping):
         if not hasattr(vary, "columns"):
-            raise TypeError("vary is a mapping from names to values, or a DataFrame with a row a run")
+            raise TypeError("vary must be a mapping from names to values, or a DataFrame with one row for each run")
         names = [str(name) for name in vary.columns]
         rows = np.asarray(vary, dtype=np.float64)
         return [{"list": {"names": names, "rows": rows.tolist()}}], [len(rows)], names
     drawn = [(n, {w._kind: w._numbers}) for n, w in vary.items() if isinstance(w, _Distribution)]
     fixed = {name: what for name, what in vary.items() if not isinstance(what, _Distribution)}
     if drawn and samples is None:
-        raise ValueError(f"{drawn[0][0]} is to be drawn from a distribution: say how often, samples=…")
+        raise ValueError(f"{drawn[0][0]} is drawn from a distribution: give the number of samples, samples=…")
     if samples is not None and not drawn:
         raise ValueError("samples are drawn from distributions, and none is given")
     if design not in ("random", "latin", "sobol"):
@@ -298,7 +298,7 @@ def _design(
             parts = [_factor(other, fixed[other]) for other in together]
             counts = {count for _, count in parts}
             if len(counts) != 1:
-                raise ValueError(f"together={together}: these have {sorted(counts)} values, and need as many each")
+                raise ValueError(f"together={together}: these have {sorted(counts)} values, but must have the same number")
             factors.append({"together": [part for part, _ in parts]})
             shape.append(counts.pop())
             names.extend(together)
@@ -326,7 +326,7 @@ def _reduction(name: str, text: str, events: Iterable[str]) -> Dict[str, str]:
     function, bracket, rest = text.strip().partition("(")
     function, rest = function.strip(), rest.strip()
     if not bracket or not rest.endswith(")"):
-        raise ValueError(f"reduce[{name!r}]: {text!r} is no reduction: write max(abs(x))")
+        raise ValueError(f"reduce[{name!r}]: {text!r} is not a reduction: write max(abs(x))")
     if function not in _FUNCTIONS:
         raise unknown("reduction", function, _FUNCTIONS)
     of = rest[:-1].strip()
@@ -360,22 +360,22 @@ def sweep(
     threads: Optional[int] = None,
     progress: Any = "auto",
 ) -> Sweep:
-    """Runs the machine for many values: a row a run, in the order of the names, the last one fastest.
+    """Runs the machine for many values: one row for each run, in the order of the names, the last one fastest.
 
     * ``vary``: a mapping from a parameter, an input, a family, ``start(q)`` or ``rate(q)`` to ``(a, b, k)``, which are k values
       from a to b, to an array, or to a distribution (:class:`Uniform`, :class:`LogUniform`, :class:`Normal`,
-      :class:`Triangular`), of which ``samples`` are drawn by ``design`` (``random``, ``latin``, ``sobol``); or a DataFrame, a
-      row a run. Names in ``together`` go side by side and are not crossed.
+      :class:`Triangular`), of which ``samples`` are drawn by ``design`` (``random``, ``latin``, ``sobol``); or a DataFrame, one
+      row for each run. Names in ``together`` are varied together and are not crossed.
     * ``record``: ``"end"``, ``"at=0.5,1"``, ``"every=0.01"``, or several of these; ``"event=NAME,…"`` has samples at every event
       of these names, from ``after`` on.
     * ``reduce``: a mapping from names to reductions, ``"max(abs(x))"``: ``max``, ``min``, ``range``, ``mean``, ``rms``,
       ``integral``, ``first``, ``last``, ``when_max``, ``when_min`` of an expression, ``count``, ``first``, ``last`` of an event;
       from ``after`` on, in s.
-    * ``inputs``, ``events``: numbers, formulas, tables and sampled formulas, as ``simulate`` has them. Functions in Python are
-      refused: they are not portable.
-    * ``out``: a ``.csv``, a ``.parquet``, or a folder, to which the rows go as they come: what interrupts the sweep, Ctrl-C, a full
-      disk, a power cut, costs no more than the chunks under way, and the same call goes on. ``fresh`` begins again. Without
-      ``out`` rows are in memory alone.
+    * ``inputs``, ``events``: numbers, formulas, tables and sampled formulas, as for ``simulate``. Functions in Python are
+      rejected, since they are not portable.
+    * ``out``: a ``.csv``, a ``.parquet``, or a folder, to which the rows go as they are computed: an interruption, by Ctrl-C, a full
+      disk or a power cut, costs no more than the chunks in progress, and the same call continues. ``fresh`` begins again. Without
+      ``out`` rows are only in memory.
     * ``engine``: None for the cores of this machine, ``"ray"``, ``"dask"``, or a client of ``dask.distributed``. All give the same
       bits.
 
@@ -410,7 +410,7 @@ def sweep(
         if not isinstance(formula, str):
             raise TypeError(f"event {name} is a function in Python, which a sweep cannot repeat elsewhere: write a formula")
         if getattr(what, "crossing", "any") != "any" or getattr(what, "terminal", 0) > 1:
-            raise ValueError(f"event {name}: in a sweep events count either way, and the first one ends a run or none does")
+            raise ValueError(f"event {name}: in a sweep, events count in both directions, and either the first one ends a run or none does")
         watches.append({"name": name, "formula": formula, "ends": bool(getattr(what, "terminal", False))})
     at: List[float] = []
     every: Optional[float] = None

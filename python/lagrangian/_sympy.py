@@ -39,7 +39,7 @@ class Symbolic:
     dissipation: Any
     """Rayleigh's function D in W."""
     constraints: Mapping[str, Any]
-    """What is 0, by name: of positions, or of rates where it does not follow from one of positions."""
+    """The constraints, expressions that are 0, by name: of positions, or of rates where they do not follow from positions."""
     constraint_jacobian: Any
     """G(q, t): a Matrix (c, n); accelerations obey G a = γ."""
     constraint_bias: Any
@@ -52,7 +52,7 @@ class Symbolic:
 
     def dynamicsymbols(self) -> "Symbolic":
         """The same with functions of time in place of coordinates, and their derivatives in place of rates and accelerations, as
-        ``sympy.physics`` has them."""
+        in ``sympy.physics``."""
         from sympy.physics.mechanics import dynamicsymbols
 
         time = dynamicsymbols._t

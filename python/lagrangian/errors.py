@@ -1,4 +1,4 @@
-"""What can go wrong, each with what it tells as attributes."""
+"""The exceptions of this package, with their details as attributes."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Diagnostic(NamedTuple):
 class LagrangianError(Exception):
     """The base of all exceptions of this package.
 
-    They pickle: an exception is made again from the arguments it was made from.
+    They can be pickled: an exception is made again from the arguments that it was made from.
     """
 
     def __reduce__(self) -> Any:
@@ -44,7 +44,7 @@ class SpecError(LagrangianError, ValueError):
 
 
 class UnknownName(LagrangianError, LookupError):
-    """Nothing has this name; the near one is told."""
+    """Nothing has this name; the message suggests a similar one."""
 
     def __init__(
         self, what: str, name: str, known: Sequence[str], nearest: Optional[str] = None
@@ -69,7 +69,7 @@ class MissingParameters(LagrangianError, ValueError):
     """Parameters without a default have no value."""
 
     def __init__(self, text: str, names: Sequence[str]) -> None:
-        super().__init__(f"{text}; give them: with_parameters({', '.join(f'{name}=…' for name in names)})")
+        super().__init__(f"{text}; set them: with_parameters({', '.join(f'{name}=…' for name in names)})")
         self.names = list(names)
         self._arguments = (text, list(names))
 
@@ -99,12 +99,12 @@ class RunError(LagrangianError, RuntimeError):
         self.t = t
         """When, in s; None where the run could not begin."""
         self.run = run
-        """What there is of it."""
+        """The part of the run before the error, if there is one."""
         self._arguments = (text, t, run)
 
 
 class ExportError(LagrangianError, RuntimeError):
-    """Something could not be written in another form."""
+    """A machine could not be exported."""
 
     def __init__(self, reason: str, output: str = "") -> None:
         super().__init__(reason)
@@ -114,7 +114,7 @@ class ExportError(LagrangianError, RuntimeError):
 
 
 def unknown(what: str, name: str, known: Sequence[str]) -> UnknownName:
-    """The error that nothing has this name, with the near one."""
+    """The error that nothing has this name, with a similar name."""
     import difflib
 
     lower = {k.lower(): k for k in reversed(list(known))}

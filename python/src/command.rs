@@ -60,7 +60,7 @@ pub fn answer(
             };
             let thread = thread::Builder::new().stack_size(STACK);
             thread.spawn_scoped(scope, work).map_err(|error| {
-                PyRuntimeError::new_err(format!("no thread to work in: {error}"))
+                PyRuntimeError::new_err(format!("cannot start a thread: {error}"))
             })?;
             loop {
                 match told.recv_timeout(BETWEEN) {

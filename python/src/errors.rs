@@ -83,7 +83,7 @@ pub fn of_singular<S: System>(
             "the mass matrix is singular here, at the coordinate `{name}`: {}",
             remains("M")
         ),
-        _ => format!("the accelerations have no value here, at `{name}`"),
+        _ => format!("the accelerations are undefined here, at `{name}`"),
     };
     raise(py, "SingularError", (message, name, singular.ratio, place))
 }

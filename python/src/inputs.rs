@@ -56,7 +56,7 @@ pub fn driven(
             Some(own) => {
                 if *sampling.get_or_insert(own) != own {
                     return Err(PyValueError::new_err(format!(
-                        "input {name}: all inputs that are sampled have one period and one delay"
+                        "input {name}: all sampled inputs must have the same period and the same delay"
                     )));
                 }
                 sampled.push((place, signal));
@@ -177,7 +177,7 @@ pub fn number(
             .name()
             .map_or_else(|_| "?".into(), |name| name.to_string());
         PyValueError::new_err(format!(
-            "{name}: the function is to return a number, not {kind}"
+            "{name}: the function must return a number, not {kind}"
         ))
     })
 }

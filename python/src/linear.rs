@@ -40,11 +40,11 @@ impl Machine {
         for (count, what) in [
             (
                 system.contacts().len(),
-                "what sticks has no linearization: a machine with `sliding`",
+                "sticking friction cannot be linearized: a machine with `sliding`",
             ),
             (
                 system.unilateral_contacts().len(),
-                "what collides has no linearization: a machine with `contacts`",
+                "collisions cannot be linearized: a machine with `contacts`",
             ),
         ] {
             if count > 0 {

@@ -174,7 +174,9 @@ impl Derived {
         match made.map(thread::JoinHandle::join) {
             Ok(Ok(derived)) => derived,
             Ok(Err(panic)) => std::panic::resume_unwind(panic),
-            Err(error) => Err(Trouble::System(format!("no thread to derive in: {error}"))),
+            Err(error) => Err(Trouble::System(format!(
+                "cannot start a thread for the derivation: {error}"
+            ))),
         }
     }
 
@@ -278,7 +280,9 @@ impl Derived {
         match made {
             Ok(Ok(done)) => done,
             Ok(Err(panic)) => std::panic::resume_unwind(panic),
-            Err(error) => Err(Trouble::System(format!("no thread to derive in: {error}"))),
+            Err(error) => Err(Trouble::System(format!(
+                "cannot start a thread for the derivation: {error}"
+            ))),
         }
     }
 
@@ -378,7 +382,7 @@ fn made(py: Python<'_>, text: SpecText, bases: Bases, formulas: Vec<Asked>) -> P
 #[pyfunction]
 pub fn rebuild(py: Python<'_>, state: &str) -> PyResult<Program> {
     let text: SpecText = serde_json::from_str(state)
-        .map_err(|error| PyValueError::new_err(format!("this is no machine: {error}")))?;
+        .map_err(|error| PyValueError::new_err(format!("this is not a machine: {error}")))?;
     made(py, text, Bases::Kept, Vec::new())
 }
 
@@ -550,6 +554,8 @@ impl Program {
             })
         });
         let text = text.map_err(|trouble| trouble.raise(py))?;
-        text.ok_or_else(|| PyRuntimeError::new_err("it was derived before, and is not now"))
+        text.ok_or_else(|| {
+            PyRuntimeError::new_err("the machine was derived before, but cannot be derived again")
+        })
     }
 }

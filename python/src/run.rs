@@ -107,15 +107,17 @@ impl Run {
         let duration = end.t - start.t;
         let dimension = start.q.values.len();
         let parts = if duration == 0.0 {
-0
-} else {
-1000 * u64::from(finer(dimension, duration, duration / 1000.0, false))
-};
-        let time = |k: u64| if k == parts {
-end.t
-} else {
-start.t + duration * (k as f64 / parts as f64)
-};
+            0
+        } else {
+            1000 * u64::from(finer(dimension, duration, duration / 1000.0, false))
+        };
+        let time = |k: u64| {
+            if k == parts {
+                end.t
+            } else {
+                start.t + duration * (k as f64 / parts as f64)
+            }
+        };
         let states = self.states_at(py, (0..=parts).map(time).collect())?;
         let method = Method::named(method).unwrap_or_default();
         let (file, tolerance, inputs) = asked;
@@ -145,7 +147,9 @@ start.t + duration * (k as f64 / parts as f64)
             })
         });
         let page = made.map_err(|trouble| trouble.raise(py))?;
-        page.ok_or_else(|| PyRuntimeError::new_err("it was derived before, and is not now"))
+        page.ok_or_else(|| {
+            PyRuntimeError::new_err("the machine was derived before, but cannot be derived again")
+        })
     }
 
     /// The inputs at times and states.

@@ -200,8 +200,8 @@ fn check_drift(
     match starts::drifted(machine, &at, changes) {
         None => Ok(()),
         Some((k, off)) => Err(Lost::Held(format!(
-            "errors of steps have moved the motion and its derivative by {} off the constraints, by {off:.1e} of its numbers: a \
-             smaller tolerance holds them closer",
+            "errors of steps have moved the motion and its derivative by {} off the constraints, by {off:.1e} of their values: a \
+             smaller tolerance keeps them closer",
             by[k].1
         ))),
     }

@@ -31,7 +31,7 @@ static KNOWN: Mutex<VecDeque<(String, Arc<Sweep>)>> = Mutex::new(VecDeque::new()
 
 fn read(text: &str) -> PyResult<Plan> {
     Plan::from_json(text)
-        .map_err(|error| PyValueError::new_err(format!("this is no plan: {error}")))
+        .map_err(|error| PyValueError::new_err(format!("this is not a plan: {error}")))
 }
 
 fn made(py: Python<'_>, text: &str) -> PyResult<Arc<Sweep>> {
@@ -105,12 +105,12 @@ pub struct Kept {
 fn trouble(trouble: Trouble) -> PyErr {
     match trouble {
         Trouble::File(path, error) => PyOSError::new_err(format!(
-            "cannot write {}: {error}; what is there stays, and the same call goes on",
+            "cannot write {}: {error}; finished chunks are kept, and the same call continues",
             path.display()
         )),
         Trouble::Taken(_) => PyRuntimeError::new_err(trouble.to_string()),
         Trouble::OtherPlan(differences) => PyValueError::new_err(format!(
-            "another sweep is kept there: {}; fresh=True begins again",
+            "the folder holds another sweep: {}; fresh=True begins again",
             differences.join("; ")
         )),
     }

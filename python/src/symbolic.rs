@@ -24,7 +24,9 @@ pub fn symbolic(py: Python<'_>, program: &Program) -> PyResult<(Vec<Shown>, Vec<
         })
     });
     let made = made.map_err(|trouble| trouble.raise(py))?;
-    made.ok_or_else(|| PyRuntimeError::new_err("it was derived before, and is not now"))
+    made.ok_or_else(|| {
+        PyRuntimeError::new_err("the machine was derived before, but cannot be derived again")
+    })
 }
 
 fn shown<'d>(model: &Model<'d>, equations: &Equations<'d>) -> (Vec<Shown>, Vec<Quantity>) {

@@ -57,11 +57,11 @@ def test_values_that_no_machine_has_are_refused(oscillator):
 
 
 def test_shapes_and_kinds_are_told(double):
-    with pytest.raises(ValueError, match=r"q has shape \(3, 8\), wanted \(…, 2\)"):
+    with pytest.raises(ValueError, match=r"q has shape \(3, 8\), expected \(…, 2\)"):
         double.accelerations(np.zeros((3, 8)))
-    with pytest.raises(ValueError, match=r"q has shape \(3,\), wanted \(2,\)"):
+    with pytest.raises(ValueError, match=r"q has shape \(3,\), expected \(2,\)"):
         double.accelerations(np.zeros(3), np.zeros(2))
-    with pytest.raises(ValueError, match="do not go together"):
+    with pytest.raises(ValueError, match="cannot be broadcast together"):
         double.accelerations(np.zeros((3, 2)), np.zeros((4, 2)))
     for wrong in (np.zeros(2, complex), np.array(["a", "b"]), np.array([None, None])):
         with pytest.raises(TypeError, match="q is an array of"):
@@ -112,7 +112,7 @@ def test_an_exception_of_a_function_is_raised_as_it_is(oscillator):
         with pytest.raises(Mine, match="no more") as error:
             oscillator.simulate(10, **settings)
         assert any(frame.name == "broken" for frame in error.traceback)
-    with pytest.raises(ValueError, match="input force: the function is to return a number"):
+    with pytest.raises(ValueError, match="input force: the function must return a number"):
         oscillator.simulate(1, inputs={"force": lambda t, q, v: "much"})
     with pytest.raises(ValueError, match="returned 2 numbers"):
         oscillator.simulate(1, inputs=lambda t, q, v: [1.0, 2.0])

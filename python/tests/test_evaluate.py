@@ -133,7 +133,7 @@ def test_the_jacobian_is_that_of_the_right_hand_side(double):
         np.testing.assert_allclose(jacobian(0, y), differences, atol=1e-7)
     many = random.uniform(-1, 1, (4, 7))
     np.testing.assert_array_equal(f(0, many), np.stack([f(0, y) for y in many.T.copy()], axis=1))
-    with pytest.raises(ValueError, match=r"wanted \(4,\)"):
+    with pytest.raises(ValueError, match=r"expected \(4,\)"):
         f(0, np.zeros(3))
 
 

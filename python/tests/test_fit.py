@@ -78,5 +78,5 @@ def test_what_is_wrong_is_raised():
         machine.fit({"x": x}, "k")
     with pytest.raises(ValueError, match="shape"):
         machine.fit({"t": t, "x": x[:-1]}, "k")
-    with pytest.raises(ValueError, match="experiments 1"):
+    with pytest.raises(ValueError, match="number of experiments is 1"):
         machine.fit({"t": t, "x": x}, "k", settings=[{}, {}])

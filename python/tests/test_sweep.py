@@ -229,7 +229,7 @@ def test_a_full_disk_is_told_and_the_sweep_goes_on(tmp_path):
     path = tmp_path / "rows.csv"
     call = [sys.executable, "-c", limited + KEPT, str(path), "2"]
     said = subprocess.run(call, cwd=ROOT, capture_output=True, text=True)
-    assert said.returncode != 0 and "OSError: cannot write" in said.stderr and "the same call goes on" in said.stderr
+    assert said.returncode != 0 and "OSError: cannot write" in said.stderr and "the same call continues" in said.stderr
     assert not path.exists()
     subprocess.run([sys.executable, "-c", KEPT, str(path), "2"], cwd=ROOT, check=True)
     assert len(path.read_text().splitlines()) == 101

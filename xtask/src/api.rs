@@ -598,7 +598,7 @@ mod tests {
             let new: Vec<&String> = now.iter().filter(|line| !known.contains(line)).collect();
             assert!(
                 lost.is_empty() && new.is_empty(),
-                "{path} is written by `cargo xtask api`; what is removed or changed there breaks programs and goes into \
+                "{path} is written by `cargo xtask api`; removals and changes there break programs and are listed in \
                  CHANGELOG.md.\nremoved or changed: {lost:#?}\nnew: {new:#?}"
             );
         }

@@ -55,14 +55,14 @@ fn write(root: &Path, files: &[Generated]) -> Result<String, String> {
 fn check(root: &Path, files: &[Generated]) -> Result<String, String> {
     let stale = xtask::stale(root, files)?;
     if stale.is_empty() {
-        return Ok(format!("{} files, all fresh", files.len()));
+        return Ok(format!("{} files, all up to date", files.len()));
     }
     let list: Vec<String> = stale
         .iter()
         .map(|path| format!("  {}", path.display()))
         .collect();
     Err(format!(
-        "not what `cargo xtask generate` writes:\n{}",
+        "these files differ from what `cargo xtask generate` writes:\n{}",
         list.join("\n")
     ))
 }

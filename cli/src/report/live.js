@@ -228,7 +228,7 @@ class Constraints {
       if (!matrices || kept) matrices = this.prepare(t, y, kept);
       this.newton(t, y, level, matrices, kept, y.subarray(from, from + n));
     }
-    if (!(this.off(t, y) <= 1e-10)) throw new Error(`no state that obeys the constraints was found at t = ${t} s`);
+    if (!(this.off(t, y) <= 1e-10)) throw new Error(`no state that satisfies the constraints was found at t = ${t} s`);
   }
 }
 
@@ -311,7 +311,7 @@ class Live {
         const v = state.subarray(n);
         const a = machine.accelerations(p, t, state, v, u);
         for (let i = 0; i < n; i++) {
-          if (!Number.isFinite(a[i])) throw new Error(`the acceleration of ${machine.coordinates[i]} is no number at t = ${t} s`);
+          if (!Number.isFinite(a[i])) throw new Error(`the acceleration of ${machine.coordinates[i]} is not a number at t = ${t} s`);
           slopes[i] = v[i];
           slopes[n + i] = a[i];
         }
@@ -328,10 +328,10 @@ class Live {
       player.drawing.weigh();
       const took = performance.now() - before;
       status.textContent = `Run again in this page: ${integrator.steps} steps in ${took.toFixed(0)} ms. `
-        + 'The tables below are those of the command.';
+        + 'The tables below are from the run of the command.';
       status.className = '';
     } catch (reason) {
-      status.textContent = `It does not run with these values: ${reason.message}. What is shown is the run before.`;
+      status.textContent = `The run failed with these values: ${reason.message}. The previous run is shown.`;
       status.className = 'alert';
     }
     player.layOut();

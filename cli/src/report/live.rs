@@ -24,9 +24,9 @@ pub const SECTION: &str = r#"<section id="live" aria-labelledby="live-title">
 @media print { #live { display: none; } }
 </style>
 <h2 id="live-title">Run it again</h2>
-<p class="note">The machine is in this page: a slider, or a number beside it, runs it again from the start, by the same method and tolerance. Start values that nobody has moved follow the parameters.</p>
+<p class="note">This page contains the machine: moving a slider, or editing the number beside it, runs it again from the start, with the same method and tolerance. Start values that have not been changed follow the parameters.</p>
 <div id="sliders"></div>
-<div><button type="button" id="again">As it was</button> <span id="live-status" role="status"></span></div>
+<div><button type="button" id="again">Reset</button> <span id="live-status" role="status"></span></div>
 </section>
 "#;
 
@@ -40,27 +40,27 @@ pub fn reason_not_live(
     is_driven: bool,
     kept: &[String],
 ) -> Option<String> {
-    let without = "leave out --live, and the page shows the run of the command; of other values, by --set, another";
+    let without = "leave out --live, and the page shows the run of the command; for other values, run it again with --set";
     let what = if let Some(contact) = program.contacts.first() {
         format!(
-            "`{contact}` of `sliding` sticks or slides, which the page does not decide: {without}"
+            "the page does not determine whether `{contact}` of `sliding` sticks or slides: {without}"
         )
     } else if let Some(contact) = program.unilateral.first() {
         format!(
-            "whether `{}` of `contacts` is closed is nothing that the page decides: {without}",
+            "the page does not determine whether `{}` of `contacts` is closed: {without}",
             contact.name
         )
     } else if let Some(name) = kept.first() {
         format!(
-            "the page keeps start values that the spec keeps: write `keep {{ {name} }}` in place of --keep"
+            "the page keeps only the start values that the spec keeps: write `keep {{ {name} }}` in place of --keep"
         )
     } else if is_driven {
-        "the page holds inputs at constant values, which it has sliders for: leave out --input, or leave out --live, and the page shows \
+        "the page holds inputs constant, at the values of its sliders: leave out --input, or leave out --live, and the page shows \
          the run with these inputs"
             .to_owned()
     } else if !EXPLICIT.contains(&method.tableau.name) {
         format!(
-            "the page has explicit methods with control of the step, and `{}` is none: --method dop853",
+            "the page supports only explicit methods with step-size control, and `{}` is not one: use --method dop853",
             method.tableau.name
         )
     } else {

@@ -212,7 +212,7 @@ fn alert(report: &Report<'_, '_>, samples: &Samples) -> String {
     if samples.error > COARSE {
         notes.push(format!(
             "<strong>The run is long for one page:</strong> between the {} states that it holds, \
-             coordinates are interpolated to {:.0} % of what those of their unit span.",
+             coordinates are interpolated to within {:.0} % of the range of those with the same unit.",
             samples.count,
             (100.0 * samples.error).ceil()
         ));
@@ -230,7 +230,7 @@ fn omitted(names: &[String]) -> String {
         return String::new();
     }
     format!(
-        "<p class=\"note\">Not drawn, since the spec gives no place for them: {}.</p>\n",
+        "<p class=\"note\">Not drawn, since the spec gives no position for them: {}.</p>\n",
         safe(&names.join(", "))
     )
 }
@@ -281,7 +281,7 @@ fn parameters(report: &Report<'_, '_>) -> String {
         })
         .collect();
     if !derived.is_empty() {
-        html.push_str(&html::table("Parameters that follow", &head, &derived));
+        html.push_str(&html::table("Derived parameters", &head, &derived));
     }
     let constants: Vec<Vec<Cell>> = compiled
         .model
@@ -405,11 +405,11 @@ fn energy(report: &Report<'_, '_>) -> String {
             joules(balance.end),
         ),
         row(
-            "residual: what is wrong with the run",
+            "residual: the error of the balance",
             joules(balance.residual()),
         ),
         row(
-            "residual, as a part of the energy turned over",
+            "residual, as a fraction of the energy turned over",
             Cell::Figure(share),
         ),
     ];
@@ -527,7 +527,7 @@ fn events(report: &Report<'_, '_>) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    html::table("Events", &["t [s]", "what happened"], &rows)
+    html::table("Events", &["t [s]", "event"], &rows)
 }
 
 /// The friction that rolling contacts needed, and from when on rolling was impossible.
@@ -588,12 +588,12 @@ fn statistics(report: &Report<'_, '_>, samples: &Samples) -> String {
             statistics.evaluations.to_string(),
         ),
         row(
-            "time of the run on the clock",
+            "wall-clock time of the run",
             format!("{:.3} s", statistics.seconds),
         ),
         row("states on this page", samples.count.to_string()),
         row(
-            "interpolation between them, greatest error as a part of what a coordinate spans",
+            "interpolation between them, greatest error as a fraction of the range of a coordinate",
             format!("{:.0e}", samples.error).replace('-', "−"),
         ),
         row(

@@ -593,12 +593,12 @@ fn pages_that_compute_are_of_machines_that_they_can_run() {
         (
             "machines/double_pendulum.machine",
             &["--report", "x.html", "--live", "--method", "radau5"],
-            "the page has explicit methods",
+            "the page supports only explicit methods",
         ),
         (
             "machines/cart_pole.machine",
             &["--report", "x.html", "--live", "--input", "push=1*N"],
-            "which it has sliders for: leave out --input",
+            "at the values of its sliders: leave out --input",
         ),
         (
             "machines/contacts/bouncing_ball.machine",

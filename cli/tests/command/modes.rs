@@ -157,7 +157,7 @@ fn damping_is_a_share_of_the_critical_one() {
     // Without a spring the mass falls; there is no equilibrium.
     let (fine, _, error) = said(&[spec.path(), "--set", "k=0"]);
     assert!(
-        !fine && error.contains("nothing takes the acceleration 9.810e0 of `x` away"),
+        !fine && error.contains("nothing balances the acceleration 9.810e0 of `x`"),
         "{error}"
     );
 }

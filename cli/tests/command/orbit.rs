@@ -512,7 +512,7 @@ fn a_circuit_on_a_sine_has_its_phase_and_forgets_by_its_time_constant() {
     }
     // A time that is not a period is reported with the state that does not come back.
     let (_, said) = refused(&[spec.path(), "--period", "3/Omega"]);
-    assert!(said.contains("the rate of `u` is another one"), "{said}");
+    assert!(said.contains("the rate of `u` is different"), "{said}");
 }
 
 #[test]

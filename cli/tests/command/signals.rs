@@ -371,7 +371,7 @@ fn what_cannot_drive_an_input_is_refused() {
     assert_eq!(said.status, 0);
     assert!(
         said.error
-            .contains("no Taylor series: input `push` changes all the time"),
+            .contains("no Taylor series: input `push` changes continuously"),
         "{}",
         said.error
     );

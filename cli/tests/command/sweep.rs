@@ -599,7 +599,7 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
                 "--record",
                 "every=0.1",
             ],
-            "samples are of one kind",
+            "all samples must be drawn in one way",
         ),
         (
             &["--vary", "k=1,2", "--record", "event=low,low"],
@@ -621,7 +621,7 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
         ),
         (
             &["--vary", "k=1,2", "--set", "k=3"],
-            "one value for all runs too",
+            "also has one value for all runs",
         ),
         (
             &["--vary", "k=1..2:1000000", "--vary", "m=1..2:10000000"],

@@ -102,7 +102,7 @@ impl Display for Unsolved {
             Self::NoInertia { coordinate, ratio } => write!(
                 f,
                 "the mass matrix is not positive definite: coordinate {coordinate}, counted from 0, has {ratio:.1e} of its \
-                 inertia left beside the others"
+                 inertia left after elimination of the others"
             ),
             Self::FrictionOutweighsInertia { coordinate, ratio } => write!(
                 f,

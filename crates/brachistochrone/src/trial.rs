@@ -92,9 +92,9 @@ impl Display for Start {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Guess => write!(f, "the guess"),
-            Self::Straight => write!(f, "the straight way"),
+            Self::Straight => write!(f, "the straight path"),
             Self::Bowed { by } => {
-                write!(f, "a way that is aside by (")?;
+                write!(f, "a path displaced by (")?;
                 for (i, x) in by.iter().enumerate() {
                     let comma = if i == 0 { "" } else { ", " };
                     write!(f, "{comma}{}", short(*x))?;
@@ -124,21 +124,21 @@ impl Display for Outcome {
             ),
             Self::NotSmooth { time } => write!(
                 f,
-                "about {time:.6} s by straight pieces, at which no smooth motion was found"
+                "about {time:.6} s along straight pieces, near which no smooth motion was found"
             ),
             Self::Lacks { energy } if energy.is_finite() => write!(
                 f,
-                "cannot be gone from rest, nor can what is near: {} J are lacking",
+                "cannot be travelled from rest, and neither can paths near it: {} J are lacking",
                 short(*energy)
             ),
-            Self::Lacks { .. } => write!(f, "cannot be gone at any speed"),
+            Self::Lacks { .. } => write!(f, "cannot be travelled at any speed"),
             Self::Lost { part } => write!(
                 f,
                 "lost at {:.1} % of the way to the machine itself",
                 100.0 * part
             ),
             Self::Nothing => write!(f, "no motion was found from any of these starts"),
-            Self::Unfinished => write!(f, "not finished: the search had done what it may"),
+            Self::Unfinished => write!(f, "not finished: the budget of the search was used up"),
         }
     }
 }

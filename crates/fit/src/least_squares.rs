@@ -104,11 +104,11 @@ impl Ending {
     /// The reason as the end of a sentence whose subject is the search.
     pub fn words(self) -> &'static str {
         match self {
-            Ending::Offset => "ended where no step takes anything away from the residuals",
-            Ending::Step => "ended where steps no longer change what is fitted",
+            Ending::Offset => "ended where no step reduces the residuals",
+            Ending::Step => "ended where steps no longer change the fitted values",
             Ending::Reduction => "ended where steps no longer change the sum of squares",
-            Ending::Zero => "ended where the residuals are zero to rounding",
-            Ending::Bounds => "ended where everything that is fitted is at a bound",
+            Ending::Zero => "ended where the residuals are zero to within rounding",
+            Ending::Bounds => "ended where all fitted values are at bounds",
             Ending::TooManySteps => "did not converge",
         }
     }

@@ -204,7 +204,7 @@ impl Fit<'_> {
             }
             let mut driven = experiment.signals.driven();
             if driven.any(|(_, signal)| matches!(signal, Signal::Function(_))) {
-                return Some("an input is a function that says nothing of its derivatives");
+                return Some("an input is a function that does not give its derivatives");
             }
             (!program.contacts.is_empty()).then_some("the machine has sliding friction")
         });
@@ -672,7 +672,7 @@ impl Fit<'_> {
         // Differences of runs obey the constraints; they are used where they are about as accurate.
         if off.is_nan() || ELSEWHERE * off > self.exact_differences() {
             return Err(RunFailure::WithoutDerivatives(format!(
-                "errors of steps move derivatives by {off:.1e} of their numbers off the constraints"
+                "errors of steps move derivatives off the constraints by {off:.1e} of their values"
             )));
         }
         Ok((self.whole(&self.experiments[experiment], rows)?, off))

@@ -195,14 +195,14 @@ pub fn run<'m>(wanted: &Wanted<'m>, start: &State<Vec<f64>>) -> Result<Across<'m
         return Err(NoDerivatives::Broken {
             t: start.t,
             contact: contact.name.to_owned(),
-            why: "slips in two directions, and how that changes with the start is not known across changes of contacts",
+            why: "slips in two directions, for which there are no derivatives across changes of contacts",
         });
     }
     if let Some(contact) = system.unilateral_contacts().find(|contact| contact.faced) {
         return Err(NoDerivatives::Broken {
             t: start.t,
             contact: contact.name.to_owned(),
-            why: "is of two polygons, and how that changes with the start is not known where a corner comes to the end of a face",
+            why: "is between two polygons, for which there are no derivatives where a corner reaches the end of a face",
         });
     }
     let n = system.coordinates().len();
@@ -466,7 +466,7 @@ impl<'m> Passing<'_, 'm> {
         Err(self.broken(
             state.t,
             closed.unwrap_or(0),
-            "shares its load with others in more than one way",
+            "shares its load with others, and the shares are not unique",
         ))
     }
 
@@ -481,7 +481,7 @@ impl<'m> Passing<'_, 'm> {
             return Err(self.broken(
                 state.t,
                 *contact,
-                "has an impact at the start itself, before which there is no motion; start a little before it, or after it",
+                "has an impact at the start itself, before which there is no motion; start a little before or after it",
             ));
         }
         for direction in 0..self.directions {
@@ -503,7 +503,7 @@ impl<'m> Passing<'_, 'm> {
                 return Err(self.broken(
                     state.t,
                     contact,
-                    "touches at the start, and what is varied would open it, penetrate it or let it slip; start with it open",
+                    "touches at the start, and the variation would open it, penetrate it or let it slip; start with it open",
                 ));
             }
         }
@@ -552,7 +552,7 @@ impl<'m> Passing<'_, 'm> {
                     return Err(self.broken(
                         change.t,
                         *second,
-                        "meets at the same instant as another, and which of both comes first matters",
+                        "has an impact at the same instant as another, and it matters which of the two comes first",
                     ));
                 }
                 *first
@@ -605,7 +605,7 @@ impl<'m> Passing<'_, 'm> {
                 return Err(self.broken(
                     change.t,
                     first,
-                    "meets others in several rounds at one instant",
+                    "takes part in several rounds of impacts at one instant",
                 ));
             }
         }
@@ -656,7 +656,12 @@ impl<'m> Passing<'_, 'm> {
     ) -> Result<(), NoDerivatives> {
         let t = state.t;
         let broken = |contact: usize, why| self.broken(t, contact, why);
-        let no_forces = || broken(contact, "shares its load with others in more than one way");
+        let no_forces = || {
+            broken(
+                contact,
+                "shares its load with others, and the shares are not unique",
+            )
+        };
         let a_before = self.accelerations(state, before).ok_or_else(no_forces)?;
         let (mut moved, mut shifts) = (Vec::new(), Vec::new());
         for direction in 0..self.directions {
@@ -673,7 +678,7 @@ impl<'m> Passing<'_, 'm> {
             if rate.value >= 0.0 || depth < GRAZES * self.wanted.tolerance * excursion {
                 return Err(broken(
                     contact,
-                    "is grazed: whether it is touched at all changes with what is varied",
+                    "is grazed: whether it touches at all depends on the variation",
                 ));
             }
             let by = -gap.derivative / rate.value;
@@ -693,9 +698,12 @@ impl<'m> Passing<'_, 'm> {
         }
         let places: Vec<Vec<Number>> = moved.iter().map(|(there, _)| there.clone()).collect();
         self.load_layers(after, &places);
-        let a_after = self
-            .accelerations(state, after)
-            .ok_or_else(|| broken(contact, "shares its load with others in more than one way"))?;
+        let a_after = self.accelerations(state, after).ok_or_else(|| {
+            broken(
+                contact,
+                "shares its load with others, and the shares are not unique",
+            )
+        })?;
         for (direction, ((there, v), by)) in moved.into_iter().zip(shifts).enumerate() {
             let part = (direction + 1) * n;
             for i in 0..n {
@@ -739,8 +747,10 @@ impl<'m> Passing<'_, 'm> {
                     }
                 }
             }
-            self.impulses_for(place, &sought, &after.modes)
-                .ok_or((ended[0], "ends its bounces where several share a load"))?;
+            self.impulses_for(place, &sought, &after.modes).ok_or((
+                ended[0],
+                "stops bouncing where several contacts share a load",
+            ))?;
         }
         Ok(place.v.clone())
     }
@@ -805,7 +815,7 @@ impl<'m> Passing<'_, 'm> {
                 if law != ImpactLaw::Newton {
                     return Err((
                         *k,
-                        "bounces with friction by another law than `newton`, which has no derivatives here",
+                        "has impacts with friction by a law other than `newton`, for which there are no derivatives",
                     ));
                 }
                 let [_, tangential, friction, _] = place.coefficients(j);
@@ -832,7 +842,10 @@ impl<'m> Passing<'_, 'm> {
                     let left = own.slip[1] + tangential.value * own.slip[0];
                     let size = own.slip[0].abs() + own.slip[1].abs();
                     if !is_idle && most > 0.0 && left.abs() <= ROUNDING * size {
-                        return Err((*k, "is just between slipping and sticking in its impact"));
+                        return Err((
+                            *k,
+                            "is on the boundary between slipping and sticking in its impact",
+                        ));
                     }
                     crate::varied::add(&mut along, Dual::constant(sign) * friction, &row);
                 }
@@ -840,7 +853,7 @@ impl<'m> Passing<'_, 'm> {
             if law != ImpactLaw::Newton && hits.len() > 1 && !self.is_alone(hits, *k) {
                 return Err((
                     *k,
-                    "meets others by another law than `newton`, which has no derivatives here",
+                    "has an impact together with others by a law other than `newton`, for which there are no derivatives",
                 ));
             }
             sought.push(Sought {
@@ -852,7 +865,7 @@ impl<'m> Passing<'_, 'm> {
         }
         let impulses = self.impulses_for(place, &sought, &after.modes).ok_or((
             hits[0].0,
-            "shares its impact with others in more than one way",
+            "shares its impact with others, and the shares are not unique",
         ))?;
         let size = impulses
             .iter()
@@ -862,7 +875,7 @@ impl<'m> Passing<'_, 'm> {
             if impulses[index].derivative.abs() > ROUNDING * size {
                 return Err((
                     contact,
-                    "touches without an impulse while others meet, and would have one, or open, as what is varied changes",
+                    "touches without an impulse while others have impacts, and would have one, or open, under the variation",
                 ));
             }
         }
@@ -900,7 +913,7 @@ impl<'m> Passing<'_, 'm> {
             PhaseCause::Stepped => {
                 return Err(broken(
                     first.unwrap_or(0),
-                    "went on by time stepping, which finds no instants",
+                    "was continued by time stepping, which does not locate instants",
                 ));
             }
             _ => match first {
@@ -915,9 +928,14 @@ impl<'m> Passing<'_, 'm> {
             && after.is_closed(contact)
             && after.compliances[after.presses(contact)].is_none();
         if grazes {
-            return Err(broken(contact, "closes without a speed"));
+            return Err(broken(contact, "closes with zero speed"));
         }
-        let shared = || broken(contact, "shares its load with others in more than one way");
+        let shared = || {
+            broken(
+                contact,
+                "shares its load with others, and the shares are not unique",
+            )
+        };
         let a_before = self.accelerations(state, before).ok_or_else(shared)?;
         self.put_values(state, here);
         // Where a layer begins to unload by itself its depth is at a maximum, so a shift of the instant does not
@@ -935,7 +953,7 @@ impl<'m> Passing<'_, 'm> {
         if cause == PhaseCause::Asked {
             return Err(broken(
                 contact,
-                "changes where forces jump, for no cause that is known",
+                "changes where forces jump, from an unknown cause",
             ));
         }
         // Several slips that stop at the same instant count as one event only if they always stop together.
@@ -953,7 +971,7 @@ impl<'m> Passing<'_, 'm> {
         {
             return Err(broken(
                 contact,
-                "changes where forces jump, by a force that a driven input has a part in",
+                "changes where forces jump, by a force that depends on a driven input",
             ));
         }
         let mut shifts = Vec::new();
@@ -973,7 +991,7 @@ impl<'m> Passing<'_, 'm> {
             let by = moves(contact).filter(|by| by.is_finite()).ok_or_else(|| {
                 broken(
                     contact,
-                    "changes at an instant that what is varied moves beyond all bounds",
+                    "changes at an instant whose derivative is infinite",
                 )
             })?;
             for &other in &others {
@@ -983,7 +1001,7 @@ impl<'m> Passing<'_, 'm> {
                 if !together {
                     return Err(broken(
                         other,
-                        "stops slipping at the same instant as another by chance",
+                        "happens to stop slipping at the same instant as another",
                     ));
                 }
             }

@@ -127,8 +127,8 @@ impl NoModel {
                 Moving::Time => "with time".to_owned(),
             };
             format!(
-                "the {what} `{name}` has another part in the model {when}, so that this would not have constant coefficients; leave \
-                 it out, or linearize about the start alone"
+                "the part of the {what} `{name}` in the model changes {when}, so that the model would not have constant coefficients; \
+                 leave it out, or linearize about the start alone"
             )
         };
         let coordinate = |j: usize| {
@@ -150,7 +150,7 @@ impl NoModel {
                 let name = system.constraints().nth(*k);
                 let name = name.map_or_else(|| "?".to_owned(), |c| c.name.to_owned());
                 format!(
-                    "`multiplier({name})` has no value of its own: some constraints follow from others here"
+                    "`multiplier({name})` is not unique: some constraints follow from others here"
                 )
             }
             NoModel::Kink(name) => {
@@ -158,12 +158,12 @@ impl NoModel {
                     .as_ref()
                     .map_or_else(String::new, |name| format!(" in `{name}`"));
                 format!(
-                    "the equations of motion have a corner or a jump{place} there, as friction has where it changes sides (`abs`, \
-                     `sign`, `min` or `max`), and so no linearization; make it smooth, or choose another state with {start}"
+                    "the equations of motion have a corner or a jump{place} there, as friction has where it changes sign (`abs`, \
+                     `sign`, `min` or `max`), and so have no linearization; make them smooth, or choose another state with {start}"
                 )
             }
             NoModel::OutputKink(name) => format!(
-                "the output `{name}` has a corner or a jump there (`abs`, `sign`, `min` or `max`), and so no linearization; leave it out"
+                "the output `{name}` has a corner or a jump there (`abs`, `sign`, `min` or `max`), and so has no linearization; leave it out"
             ),
             NoModel::InputTurns(name, moving) => turns("input", name, moving),
             NoModel::OutputTurns(name, moving) => turns("output", name, moving),

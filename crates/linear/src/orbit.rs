@@ -251,47 +251,47 @@ impl fmt::Display for NoOrbit {
         match self {
             NoOrbit::Refused(why) | NoOrbit::Start(why) => write!(f, "{why}"),
             NoOrbit::Constraints => f.write_str(
-                "the constraints do not say how the start may move: what is kept of it depends on other numbers, or the machine is in \
-                 a singular pose",
+                "the constraints do not determine how the start may change: the numbers of it that are kept depend on others, or the \
+                 machine is in a singular pose",
             ),
             NoOrbit::Driven(names) => {
-                write!(f, "the equations change with time: a period is to be given, that of the drive or a multiple of it")?;
+                write!(f, "the equations change with time: give a period, that of the drive or a multiple of it")?;
                 match names.as_slice() {
                     [] => Ok(()),
-                    names => write!(f, "; they do not with {} = 0", names.join(" = 0, or ")),
+                    names => write!(f, "; they do not change if {} = 0", names.join(" = 0, or ")),
                 }
             }
             NoOrbit::OtherPeriod(what, period) => write!(
                 f,
-                "the equations change with time, and not with the period {period} s: a period later {what} is another one"
+                "the equations change with time, but not with the period {period} s: a period later, {what} is different"
             ),
             NoOrbit::OtherPlace(what) => write!(
                 f,
-                "a machine that has gone on so far is another one: {what} differs there"
+                "a machine that has advanced by this much is not the same: {what} differs there"
             ),
             NoOrbit::Depends(name) => write!(
                 f,
-                "the equations depend on `{name}`, so how far it goes on in a period cannot be left open"
+                "the equations depend on `{name}`, so its advance in a period cannot be left open"
             ),
             NoOrbit::NoPeriod(period) => {
-                write!(f, "{period} s is no period: it is to be greater than 0")
+                write!(f, "{period} s is not a period: it must be greater than 0")
             }
             NoOrbit::NoReturn => f.write_str(
-                "the motion from the start does not come back near it; start nearer to the orbit, or give about how long its period is",
+                "the motion from the start does not come back near it; start nearer to the orbit, or give an estimate of its period",
             ),
             NoOrbit::Rest => f.write_str(
-                "the search came to a state at rest, an equilibrium, or to one that moves steadily, which has no period of its own; \
+                "the search ended at a state at rest, an equilibrium, or at one that moves steadily, which has no period of its own; \
                  start further away from it, or keep a number of the start",
             ),
             NoOrbit::Run(why) => f.write_str(why),
             NoOrbit::Lost(residual, rounds) => write!(
                 f,
-                "no orbit is found near the start: after {rounds} rounds the motion comes back up to {residual:.1e} only; start nearer \
-                 to it, or let the motion settle first if the orbit attracts"
+                "no orbit was found near the start: after {rounds} iterations the motion returns only to within {residual:.1e}; start \
+                 nearer to it, or let the motion settle first if the orbit attracts"
             ),
             NoOrbit::Jump(said, found) => write!(
                 f,
-                "the variational equations do not say how runs differ ({said:.3e} in place of {found:.3e}), as where a force jumps; \
+                "the variational equations do not describe how runs differ ({said:.3e} in place of {found:.3e}), as where a force jumps; \
                  make it smooth"
             ),
             NoOrbit::Eigenvalues => f.write_str("the multipliers cannot be found"),

@@ -183,23 +183,23 @@ impl Fault {
         let Options { start, steady } = options;
         match self {
             Fault::Singular(index) => format!(
-                "the mass matrix is singular in `{}` on the way to an equilibrium; {start} sets another place to look from",
+                "the mass matrix is singular in `{}` during the search for an equilibrium; {start} sets another start of the search",
                 name(index)
             ),
             Fault::NotFinite(index) => format!(
-                "the acceleration of `{}`, or a derivative of it, is not finite on the way to an equilibrium; {start} sets another \
-                 place to look from",
+                "the acceleration of `{}`, or a derivative of it, is not finite during the search for an equilibrium; {start} sets \
+                 another start of the search",
                 name(index)
             ),
             Fault::Follows(index) => format!(
-                "{steady} {0}: by the constraints the rate of `{0}` follows from the others; leave it out, or one of those",
+                "{steady} {0}: by the constraints, the rate of `{0}` follows from the others; leave it or one of those out",
                 name(index)
             ),
             Fault::Unmet(index) => {
                 let constraint = system.constraints().nth(*index);
                 let name = constraint.map_or_else(|| "?".to_owned(), |c| c.name.to_owned());
                 format!(
-                    "the constraint `{name}` cannot be met near the start; {start} sets another place to look from"
+                    "the constraint `{name}` cannot be met near the start; {start} sets another start of the search"
                 )
             }
         }
@@ -219,14 +219,14 @@ fn reason_search_failed(
         "equilibrium"
     };
     let place = if wanted.steady.contains(&true) {
-        format!("{start} sets another place to look from, {steady} other rates")
+        format!("{start} sets another start of the search, {steady} other rates")
     } else {
-        format!("{start} sets another place to look from")
+        format!("{start} sets another start of the search")
     };
     match lost {
         Lost::Fault(fault) => fault.in_words(system, options),
         Lost::Accelerates(index, left) => format!(
-            "there is no {kind} near the start: nothing takes the acceleration {left:.3e} of `{}` away; {place}",
+            "there is no {kind} near the start: nothing balances the acceleration {left:.3e} of `{}`; {place}",
             name(system, *index)
         ),
         Lost::NoEnd(steps) => {

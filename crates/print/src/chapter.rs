@@ -67,10 +67,7 @@ fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
         ("Friction", chapter.contacts()),
         ("Contacts", chapter.unilateral()),
         ("Mass matrix", chapter.mass_matrix()),
-        (
-            "What is conserved, and what is not there",
-            chapter.conserved(),
-        ),
+        ("Conserved quantities and absent terms", chapter.conserved()),
         ("Published equations", chapter.published()),
         ("The code", chapter.program()),
     ];

@@ -37,7 +37,7 @@ impl fmt::Display for Trouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Trouble::File(path, error) => write!(f, "{}: {error}", path.display()),
-            Trouble::Taken(by) => write!(f, "another sweep is at work there ({by})"),
+            Trouble::Taken(by) => write!(f, "another sweep is using the folder ({by})"),
             Trouble::OtherPlan(differences) => {
                 write!(f, "{}; --fresh begins again", differences.join("; "))
             }

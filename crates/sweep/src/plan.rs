@@ -283,9 +283,7 @@ impl Plan {
             serde_json::from_str(text).map_err(|error| error.to_string())?;
         let version = value.get("version").and_then(serde_json::Value::as_u64);
         if version.is_some_and(|version| version != u64::from(VERSION)) {
-            return Err(format!(
-                "it is of another version of the format than {VERSION}"
-            ));
+            return Err(format!("the version of its format is not {VERSION}"));
         }
         let plan: Plan = serde_json::from_value(value).map_err(|error| error.to_string())?;
         match plan.chunk {
@@ -310,8 +308,8 @@ impl Plan {
             let before = was.get(name).cloned().unwrap_or_default();
             let [value, before] = [value, &before].map(ToString::to_string);
             match name.as_str() {
-                "spec" => "the spec is another one".to_owned(),
-                _ if value.len() + before.len() > 200 => format!("{name} is another one"),
+                "spec" => "the spec is different".to_owned(),
+                _ if value.len() + before.len() > 200 => format!("{name} is different"),
                 _ => format!("{name}: {value}, was {before}"),
             }
         });

@@ -55,7 +55,7 @@ pub fn written(text: &str) -> Result<Written, String> {
         Some(rest) => {
             let column = parts(rest).first().copied().unwrap_or_default();
             if column.trim().is_empty() {
-                return Err("expected the name of a column behind `:`".into());
+                return Err("expected the name of a column after `:`".into());
             }
             (Some(column.trim().to_owned()), &rest[column.len()..])
         }
@@ -74,14 +74,16 @@ pub fn written(text: &str) -> Result<Written, String> {
                 let near = nearest(option, FILE_OPTIONS.iter().copied());
                 let near = near.map(|near| format!("; did you mean `{near}`?"));
                 return Err(format!(
-                    "`{option}` is no option of a table: {}{}",
+                    "`{option}` is not an option of a table: {}{}",
                     FILE_OPTIONS.join(", "),
                     near.unwrap_or_default()
                 ));
             }
         };
         if said {
-            return Err(format!("`{option}` is said beside another one of its kind"));
+            return Err(format!(
+                "`{option}` is given beside another option of its kind"
+            ));
         }
     }
     Ok(Written::File {
@@ -145,8 +147,8 @@ fn formula(text: &str) -> Result<Written, String> {
             let said: Vec<String> = said.map(|wrong| wrong.message.clone()).collect();
             match time {
                 Some(time) if time.is_finite() && time >= least => Ok(time),
-                Some(_) if least == 0.0 => Err(format!("`{option}`: a delay is not negative")),
-                Some(_) => Err(format!("`{option}`: a period is greater than 0")),
+                Some(_) if least == 0.0 => Err(format!("`{option}`: a delay must not be negative")),
+                Some(_) => Err(format!("`{option}`: a period must be greater than 0")),
                 None => Err(format!("`{option}`: {}", said.join("; "))),
             }
         };
@@ -155,12 +157,12 @@ fn formula(text: &str) -> Result<Written, String> {
             "delay" => delay.replace(time(0.0)?).is_some(),
             _ => {
                 return Err(format!(
-                    "`{option}` stands behind a formula, where `every=TIME` and `delay=TIME` may"
+                    "`{option}` follows a formula, after which only `every=TIME` and `delay=TIME` may stand"
                 ));
             }
         };
         if said {
-            return Err(format!("`{name}` is said twice"));
+            return Err(format!("`{name}` is given twice"));
         }
     }
     match (every, delay) {
@@ -171,7 +173,7 @@ fn formula(text: &str) -> Result<Written, String> {
             delay: delay.unwrap_or(0.0),
         }),
         (None, Some(_)) => {
-            Err("a formula acts with a delay where it is sampled: `every=TIME`".into())
+            Err("a formula can have a delay only where it is sampled: add `every=TIME`".into())
         }
     }
 }
@@ -349,7 +351,7 @@ pub fn signals(
                 let own = [*every, *delay];
                 if *sampling.get_or_insert(own) != own {
                     return Err(format!(
-                        "--input {name}: all inputs that are sampled have one period and one delay"
+                        "--input {name}: all sampled inputs must have the same period and the same delay"
                     ));
                 }
                 sampled.push((place, signal));
@@ -372,7 +374,7 @@ pub fn without_series(signals: &Signals, machine: &InterpretedMachine) -> Option
     let input = signals.first_varying()?;
     let name = machine.program().inputs.get(input)?.name.to_string();
     Some(format!(
-        "input `{name}` changes all the time, and not at instants only"
+        "input `{name}` changes continuously, and not only at instants"
     ))
 }
 
@@ -426,13 +428,13 @@ mod tests {
         for (text, why) in [
             ("", "expected a formula"),
             ("a.csv,holds", "did you mean `hold`?"),
-            ("a.csv,hold,linear", "beside another one"),
+            ("a.csv,hold,linear", "beside another option"),
             ("a.csv:,hold", "the name of a column"),
-            ("x,every=0", "a period is greater than 0"),
+            ("x,every=0", "a period must be greater than 0"),
             ("x,every=1*m", "expected s, found m"),
             ("x,delay=1*ms", "where it is sampled"),
-            ("x,every=1,delay=-1", "a delay is not negative"),
-            ("x,every=1,every=1", "said twice"),
+            ("x,every=1,delay=-1", "a delay must not be negative"),
+            ("x,every=1,every=1", "given twice"),
             ("x,often", "`every=TIME`"),
         ] {
             let said = written(text).expect_err(text);

@@ -243,8 +243,9 @@ impl Sweep {
         };
         if method.has_fixed_steps() {
             let name = method.tableau.name;
-            let message =
-                format!("the method `{name}` takes steps of a fixed length, which a plan has not");
+            let message = format!(
+                "the method `{name}` takes steps of a fixed length, which a plan does not have"
+            );
             return Err(Wrong::Plan(message));
         }
         let mut warning = None;
@@ -936,13 +937,13 @@ fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<
 fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
     let wrong = |message: String| Err(Wrong::Plan(message));
     if design::runs(&plan.design).is_none() {
-        return wrong("these are more than 2^40 runs".into());
+        return wrong("there are more than 2^40 runs".into());
     }
     if plan.runs() == 0 {
-        return wrong("these are no runs: a factor of the design has no values".into());
+        return wrong("there are no runs: a factor of the design has no values".into());
     }
     if !(plan.until.is_finite() && plan.until != 0.0) {
-        return wrong("a sweep runs for some time: --until must be a number other than 0".into());
+        return wrong("a sweep needs a duration: --until must be a number other than 0".into());
     }
     let is_within = |t: f64| t * plan.until.signum() >= 0.0 && t.abs() <= plan.until.abs();
     if let Some(t) = plan.at.iter().find(|t| !is_within(**t)) {
@@ -970,7 +971,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
     }
     if plan.every.is_some() && !plan.at_events.is_empty() {
         return wrong(
-            "--record every and --record event: samples are of one kind, and so are what they are drawn by".into(),
+            "--record every and --record event: all samples must be drawn in one way".into(),
         );
     }
     let of_contacts = contact_events(model);
@@ -985,7 +986,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
     {
         let help = match nearest(name, known()) {
             Some(near) => format!("did you mean `{near}`?"),
-            None => format!("`--event {name}=FORMULA` says what it is"),
+            None => format!("`--event {name}=FORMULA` defines it"),
         };
         return wrong(format!(
             "--record event={name}: there is no such event; {help}"
@@ -1005,7 +1006,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
         }
         if set.contains(name) || both.iter().any(|given| given == name) {
             return wrong(format!(
-                "`{name}` is varied, and has one value for all runs too"
+                "`{name}` is varied, but also has one value for all runs"
             ));
         }
     }

@@ -47,20 +47,20 @@ pub fn read_csv(path: &Path, like: &Rows, has_names: bool) -> io::Result<Rows> {
     if has_names {
         let names = like.columns.iter().map(|column| &column.name);
         if !cells.next().unwrap_or_default().iter().eq(names) {
-            return Err(wrong("it has other columns"));
+            return Err(wrong("it has different columns"));
         }
     }
     let mut rows = Rows::new(like.columns.clone());
     for row in cells {
         if row.len() != like.columns.len() {
-            return Err(wrong("a row has another number of cells"));
+            return Err(wrong("a row has the wrong number of cells"));
         }
         let is_there = |cell: &String| !cell.is_empty();
         for (values, cell) in rows.values.iter_mut().zip(row) {
-            let number = |cell: &str| cell.parse().map_err(|_| wrong("a cell is no number"));
+            let number = |cell: &str| cell.parse().map_err(|_| wrong("a cell is not a number"));
             match values {
                 Values::Count(values) => {
-                    values.push(cell.parse().map_err(|_| wrong("a cell is no number"))?);
+                    values.push(cell.parse().map_err(|_| wrong("a cell is not a number"))?);
                 }
                 Values::Number(values) => {
                     let cell = Some(cell).filter(is_there);
@@ -332,7 +332,7 @@ mod with_parquet {
             .to_vec();
         let names = fields.iter().map(|field| field.name());
         if !names.eq(like.columns.iter().map(|column| column.name.as_str())) {
-            return Err(io::Error::other("it has other columns"));
+            return Err(io::Error::other("it has different columns"));
         }
         let mut rows = Rows::new(like.columns.clone());
         for group in 0..reader.num_row_groups() {
@@ -376,7 +376,7 @@ mod with_parquet {
                     });
                 }
             }
-            _ => return Err(io::Error::other("a column is of another type")),
+            _ => return Err(io::Error::other("a column has a different type")),
         }
         Ok(())
     }
@@ -409,7 +409,7 @@ mod with_parquet {
                 Field::UInt(x) => Ok(f64::from(*x)),
                 Field::ULong(x) => Ok(*x as f64),
                 _ => Err(io::Error::other(format!(
-                    "row {}: column `{name}` holds what is no number",
+                    "row {}: column `{name}` holds a value that is not a number",
                     rows.len()
                 ))),
             });

@@ -56,6 +56,6 @@ fn overflow(energies: &[Energies]) -> Option<String> {
     let (name, value) = named.into_iter().find(|(_, value)| !value.is_finite())?;
     let t = shortest(*t);
     Some(format!(
-        "the {name} is not finite at t = {t} s ({value} J), so there is no balance of energy that could vouch for the run"
+        "the {name} is not finite at t = {t} s ({value} J), so the energy balance cannot confirm the run"
     ))
 }

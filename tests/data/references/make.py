@@ -324,7 +324,7 @@ def write(name, spec, settings, start, until, ends, scales, how):
     differences = [abs(a - b) / (1 + abs(b)) for a, b in zip(*ends)]
     worst = max(differences)
     if worst > 1e-30:
-        raise SystemExit(f"{name}: the two results agree to {float(worst):.1e} only")
+        raise SystemExit(f"{name}: the two results agree only to {float(worst):.1e}")
     lines = [
         f"# {how}",
         f"# two resolutions differ by {float(worst):.1e} of 1 + |y|",

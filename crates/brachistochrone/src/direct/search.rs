@@ -189,7 +189,7 @@ impl Search {
 
     fn refuse_lists(&self, n: usize, from: &[f64], to: &[f64]) -> Result<(), Unsolved> {
         let places = self.guesses.iter().flatten().map(|place| place.as_slice());
-        let places = places.map(|place| ("a place of the guess", place));
+        let places = places.map(|place| ("a position of the guess", place));
         let ends = [("the start", from), ("the end", to)];
         for (what, list) in ends.into_iter().chain(places) {
             let found = list.len();

@@ -368,7 +368,7 @@ fn what_has_no_derivative_is_refused_by_name() {
         2.0,
     );
     assert!(
-        said.contains("grazed") || said.contains("without a speed"),
+        said.contains("grazed") || said.contains("with zero speed"),
         "{said}"
     );
 }

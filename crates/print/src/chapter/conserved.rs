@@ -24,7 +24,9 @@ impl<'d> Chapter<'_, 'd> {
         }
         let absent = self.absent();
         if !absent.is_empty() {
-            blocks.push(Block::Paragraph(words!["What is not there costs nothing:"]));
+            blocks.push(Block::Paragraph(words![
+                "What is absent costs nothing to compute:"
+            ]));
             blocks.push(Block::List(absent));
         }
         blocks
@@ -45,11 +47,12 @@ impl<'d> Chapter<'_, 'd> {
             Energy::Conserved => {
                 if let Some(touching) = self.touching() {
                     let text = format!(
-                        "Energy is changed by {touching} alone: nothing else drives the machine, nothing else damps it."
+                        "Energy is changed by {touching} alone: nothing else drives or damps the machine."
                     );
                     return vec![Block::Paragraph(words![text])];
                 }
-                let text = "Energy is conserved: nothing drives the machine, nothing damps it. Along every motion";
+                let text =
+                    "Energy is conserved: nothing drives or damps the machine. Along every motion";
                 let constant = sum().equals(Math::text("constant"));
                 vec![Block::Paragraph(words![text]), Block::formula(&constant)]
             }
@@ -59,8 +62,8 @@ impl<'d> Chapter<'_, 'd> {
                     Some(touching) => format!("changed by {touching} alone"),
                 };
                 let text = format!(
-                    "Energy is not conserved, since something is driven; but the energies do not show explicit time, and Jacobi's \
-                     integral is {conserved}:"
+                    "Energy is not conserved, since the machine is driven; but the energies do not depend explicitly on time, and \
+                     Jacobi's integral is {conserved}:"
                 );
                 let rows = self.equality(Math::letter('E'), *integral, "");
                 vec![Block::Paragraph(words![text]), Block::Formula(rows)]
@@ -73,11 +76,11 @@ impl<'d> Chapter<'_, 'd> {
                     rows.extend(self.equality(Math::letter(letter), value, note));
                 };
                 if stores {
-                    explain('E', equations.state_energy, "stored by states");
+                    explain('E', equations.state_energy, "stored in states");
                 }
                 if !equations.work_rate.is_zero() {
                     right = Math::letter('P');
-                    explain('P', equations.work_rate, "put in");
+                    explain('P', equations.work_rate, "power supplied");
                 }
                 if !equations.dissipation_rate.is_zero() {
                     let damped = Math::letter('R');
@@ -86,7 +89,7 @@ impl<'d> Chapter<'_, 'd> {
                     } else {
                         right - damped
                     };
-                    explain('R', equations.dissipation_rate, "taken out");
+                    explain('R', equations.dissipation_rate, "power dissipated");
                 }
                 let balance = (rate * sum().in_parentheses()).equals(right);
                 let mut lines = Row::lines(&balance, 0, "");
@@ -95,7 +98,7 @@ impl<'d> Chapter<'_, 'd> {
                     None => "Energy is not conserved. Along every motion".to_owned(),
                     Some(touching) => {
                         format!(
-                            "Energy is not conserved. Beside what {touching} does, along every motion"
+                            "Energy is not conserved. Apart from the effect of {touching}, along every motion"
                         )
                     }
                 };
@@ -121,16 +124,16 @@ impl<'d> Chapter<'_, 'd> {
             }
             (false, Some(touching)) => {
                 words![format!(
-                    ". Beside what {touching} does, its momentum is changed as:"
+                    ". Apart from the effect of {touching}, its momentum changes as follows:"
                 )]
             }
             (true, None) => words![", and nothing else acts on it. Its momentum is conserved:"],
             (false, None) if self.compiled.equations.constraints.is_empty() => {
-                words![". Its momentum is changed by what is applied and damped alone:"]
+                words![". Its momentum is changed by applied forces and damping alone:"]
             }
             (false, None) => {
                 words![
-                    ". Its momentum is changed by what is applied, damped and constrained alone:"
+                    ". Its momentum is changed by applied forces, damping and constraints alone:"
                 ]
             }
         });
@@ -240,7 +243,7 @@ impl<'d> Chapter<'_, 'd> {
             let verb = if zeros == 1 { "is" } else { "are" };
             let entries = capital(&counted(zeros, "entry"));
             items.push(words![format!(
-                "{entries} of the mass matrix, of {} on and below the diagonal, {verb} zero.",
+                "{entries} of the mass matrix, out of {} on and below the diagonal, {verb} zero.",
                 matrix.len()
             )]);
         }
@@ -249,7 +252,7 @@ impl<'d> Chapter<'_, 'd> {
         }
         if equations.bias.iter().all(|h| h.is_zero()) {
             items.push(words![
-                "No terms of velocities: the inertia forces are linear in the accelerations."
+                "No velocity terms: the inertia forces are linear in the accelerations."
             ]);
         } else {
             let free: Vec<usize> = (0..equations.bias.len())
@@ -257,7 +260,7 @@ impl<'d> Chapter<'_, 'd> {
                 .filter(|&i| equations.bias[i].is_zero())
                 .collect();
             if !free.is_empty() {
-                let mut words = words!["No terms of velocities in the inertia of "];
+                let mut words = words!["No velocity terms in the inertia forces of "];
                 words.extend(self.coordinates(&free));
                 words.extend(words!["."]);
                 items.push(words);
@@ -265,17 +268,17 @@ impl<'d> Chapter<'_, 'd> {
         }
         if self.facts.autonomous {
             items.push(words![
-                "Explicit time: neither energies nor forces depend on it."
+                "No explicit time: neither energies nor forces depend on it."
             ]);
         }
         if equations.potential_energy.is_zero() {
-            items.push(words!["Potential energy: there is none."]);
+            items.push(words!["No potential energy."]);
         }
         if equations.dissipation.is_zero() {
-            items.push(words!["Dissipation: there is none."]);
+            items.push(words!["No dissipation."]);
         }
         if model.loads().next().is_none() {
-            items.push(words!["Applied forces and torques: there are none."]);
+            items.push(words!["No applied forces or torques."]);
         }
         let particles = particles(&model.bodies);
         if !particles.is_empty() {
@@ -283,7 +286,7 @@ impl<'d> Chapter<'_, 'd> {
                 .iter()
                 .take(LONGEST_LIST)
                 .map(|body| words![code(&body.name)]);
-            let mut words = words!["Inertia against turning: "];
+            let mut words = words!["No rotational inertia: "];
             words.extend(listed(names));
             let more = particles.len().saturating_sub(LONGEST_LIST);
             words.extend(words![match (more, particles.len(), model.space) {
@@ -304,26 +307,25 @@ impl<'d> Chapter<'_, 'd> {
         for block in together {
             let mut words = words!["the accelerations of "];
             words.extend(self.coordinates(block));
-            words.extend(words![" occur together"]);
+            words.extend(words![" are coupled"]);
             sentences.push(words);
         }
         if !alone.is_empty() {
             let alone: Vec<usize> = alone.into_iter().flatten().copied().collect();
-            let verb = if alone.len() == 1 {
-                " stands alone"
+            let (begin, verb) = if alone.len() == 1 {
+                ("the acceleration of ", " is decoupled from all others")
             } else {
-                " stand alone, each by itself"
+                (
+                    "the accelerations of ",
+                    " are each decoupled from all others",
+                )
             };
-            let mut words = words![if alone.len() == 1 {
-                "that of "
-            } else {
-                "those of "
-            }];
+            let mut words = words![begin];
             words.extend(self.coordinates(&alone));
             words.extend(words![verb]);
             sentences.push(words);
         }
-        let mut words = words!["Coupling by inertia: "];
+        let mut words = words!["Inertial coupling: "];
         words.extend(listed(sentences));
         words.extend(words!["."]);
         words

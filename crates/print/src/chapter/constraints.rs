@@ -25,16 +25,17 @@ impl<'d> Chapter<'_, 'd> {
         formulas.extend(Row::lines(&second, 0, ""));
         let mut blocks = vec![
             Block::Paragraph(words![
-                "What the constraints do stands on the right of the equations above, and is as large as the accelerations \
-                 ask for (Lagrange's equations of the first kind):",
+                "The reactions of the constraints are on the right-hand side of the equations above, and are as large as the \
+                 conditions on the accelerations require (Lagrange's equations of the first kind):",
             ]),
             Block::Formula(formulas),
             Block::Paragraph(words![
                 "where a row of ",
                 matrix(),
-                " is a constraint's derivative by the coordinates, or by the rates where it is one of rates, and ",
+                " is the derivative of a constraint with respect to the coordinates, or to the rates for a constraint on rates, \
+                 and ",
                 bold('γ'),
-                " keeps its rate as it is.",
+                " keeps the rate of the constraint unchanged.",
             ]),
         ];
         for constraint in constraints.iter().take(MOST) {
@@ -63,7 +64,7 @@ impl<'d> Chapter<'_, 'd> {
         let heading = Block::Heading(words!["Constraint ", constraint.name.clone()]);
         let mut rows = match constraint.position {
             Some(position) => self.equality(Math::letter('g'), position, "0 throughout"),
-            None => self.equality(Math::letter('φ'), constraint.rate, "0 throughout, of rates"),
+            None => self.equality(Math::letter('φ'), constraint.rate, "0 throughout, on rates"),
         };
         for (coordinate, &entry) in self.model.coordinates.iter().zip(&constraint.row) {
             if !entry.is_zero() {

@@ -30,12 +30,12 @@ impl<'d> Chapter<'_, 'd> {
             ]),
             Block::Formula(Row::lines(&slides, 0, "")),
             Block::Paragraph(words![
-                "and of one that sticks whatever holds it, up to ",
+                "and that of a contact that sticks is whatever holds it, up to ",
                 letter('μ').with_index(Math::number(0)) * size(letter('N')),
                 ". The normal reaction ",
                 letter('N'),
-                " is what keeps the guide shut: the equation of a displacement along its normal. It depends on the \
-                 accelerations, and so friction changes the matrix in front of them.",
+                " is the force that keeps the guide closed: it follows from the equation of a displacement along its normal. It \
+                 depends on the accelerations, and so friction changes the matrix that multiplies them.",
             ]),
         ];
         if contacts.iter().any(|contact| contact.is_second()) {
@@ -50,7 +50,7 @@ impl<'d> Chapter<'_, 'd> {
                 letter('F'),
                 " have a component along each of two tangents, ",
                 letter('F').equals(on_surface),
-                ", and what sticks is held by both together.",
+                ", and a contact that sticks is held by both together.",
             ]));
         }
         for (number, contact) in contacts.iter().enumerate() {
@@ -93,7 +93,7 @@ impl<'d> Chapter<'_, 'd> {
                 } else {
                     self.math(entry) * letter('F')
                 };
-                rows.extend(Row::lines(&force.equals(entry), 0, "its part of the force"));
+                rows.extend(Row::lines(&force.equals(entry), 0, "its generalized force"));
             }
         }
         let mut blocks = vec![heading, Block::Formula(rows)];
@@ -103,7 +103,7 @@ impl<'d> Chapter<'_, 'd> {
         };
         if contact.reactions.iter().any(by_others) {
             blocks.push(Block::Paragraph(words![
-                "The friction forces of other contacts press on this guide as well; that is left out of ",
+                "The friction forces of other contacts also press on this guide; their effect is left out of ",
                 letter('N'),
                 " here.",
             ]));

@@ -60,7 +60,7 @@ impl<'d> Chapter<'_, 'd> {
         );
         let general = letter('T').equals(sum * (linear + angular).in_parentheses());
         let mut blocks = vec![
-            Block::Paragraph(words!["Kinetic energy, over all bodies:"]),
+            Block::Paragraph(words!["Kinetic energy, summed over all bodies:"]),
             Block::formula(&general),
         ];
         let of_body = |name: &Name| letter('T').with_index(label(name));
@@ -122,10 +122,10 @@ impl<'d> Chapter<'_, 'd> {
         }
         if parts.len() > 1 && total.size() <= LONGEST_SUM {
             let total = Math::letter(letter).equals(self.math(total));
-            rows.extend(Row::lines(&total, 0, "together"));
+            rows.extend(Row::lines(&total, 0, "total"));
         }
         vec![
-            Block::Paragraph(words![format!("{title}, by what it comes from:")]),
+            Block::Paragraph(words![format!("{title}, by source:")]),
             Block::Formula(rows),
         ]
     }
@@ -163,8 +163,8 @@ impl<'d> Chapter<'_, 'd> {
                 }
             }
         }
-        let text = "What applied forces and torques contribute to the generalized forces, by their virtual work; what is \
-                    not listed is zero:";
+        let text = "Contributions of applied forces and torques to the generalized forces, from their virtual work; those not \
+                    listed are zero:";
         let mut blocks = vec![Block::Paragraph(words![text]), Block::Formula(rows)];
         if !idle.is_empty() {
             blocks.push(paragraph([

@@ -12,14 +12,14 @@ impl<'d> Chapter<'_, 'd> {
         let mut blocks = Vec::new();
         if !self.model.frames.is_empty() {
             blocks.push(Block::Paragraph(words![
-                "Frames of reference, each by how it comes from another:"
+                "Frames of reference, each by the steps from another to it:"
             ]));
             let frames = &self.model.frames;
             let item = |shown| match shown {
                 Shown::Item(index) => self.frame(&frames[index]),
                 Shown::LeftOut(from, count) => {
                     words![format!(
-                        "… and {count} more of {}, made in the same way",
+                        "… and {count} more of {}, built in the same way",
                         frames[from].name.base
                     )]
                 }
@@ -44,7 +44,7 @@ impl<'d> Chapter<'_, 'd> {
         let exact = if self.model.approximations.is_empty() {
             ""
         } else {
-            "; all of these are exact, approximations begin with the energies"
+            "; all of these are exact, and approximations begin with the energies"
         };
         blocks.push(Block::Paragraph(words![format!(
             "The bodies: {turning}{exact}."
@@ -62,7 +62,7 @@ impl<'d> Chapter<'_, 'd> {
                     let words = words![
                         text,
                         code("derive --as program"),
-                        " has what is computed for each."
+                        " shows what is computed for each."
                     ];
                     blocks.push(Block::Paragraph(words));
                 }
@@ -161,7 +161,9 @@ impl<'d> Chapter<'_, 'd> {
     fn inertia(&self, body: &Body<'d>) -> Words {
         let mut words = words!["Mass ", self.math(body.mass)];
         match &body.inertia {
-            Inertia::Particle => words.extend(words!["; a particle: turning it takes no energy."]),
+            Inertia::Particle => {
+                words.extend(words!["; a particle, whose rotation has no energy."])
+            }
             Inertia::Planar(inertia) => {
                 words.extend(words![", moment of inertia ", self.math(*inertia), "."]);
             }
@@ -172,11 +174,10 @@ impl<'d> Chapter<'_, 'd> {
                 words.extend(words![", moments of inertia "]);
                 words.extend(list(&tensor[..3]));
                 if tensor[3..].iter().any(|product| !product.is_zero()) {
-                    words.extend(words![", entries "]);
+                    words.extend(words![", off-diagonal entries of the tensor (xy, xz, yz) "]);
                     words.extend(list(&tensor[3..]));
-                    words.extend(words![" of the tensor off its diagonal (xy, xz, yz)"]);
                 }
-                words.extend(words![", about its mass centre along its own axes."]);
+                words.extend(words![", about its mass centre and along its own axes."]);
             }
         }
         words

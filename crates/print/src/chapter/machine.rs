@@ -48,9 +48,9 @@ impl<'d> Chapter<'_, 'd> {
         };
         blocks.push(paragraph([words![text]]));
         if freedom.lengths > 0 {
-            let text = "Of four numbers that turn a frame only the ratios mean anything. How long they are is no freedom: an equation of its \
-                        own, (E74) and (E75), brings that back to 1, whose inertia and load are in the mass matrix, the bias and the forces, \
-                        and in no energy.";
+            let text = "Only the ratios of the four numbers of a quaternion that turns a frame have a meaning. Its length is not a degree of \
+                        freedom: an equation of its own, (E74) and (E75), returns it to 1; the inertia and the load of that equation are in \
+                        the mass matrix, the bias and the forces, and in no energy.";
             blocks.push(paragraph([words![text]]));
         }
         blocks.push(self.table(
@@ -249,22 +249,22 @@ impl<'d> Chapter<'_, 'd> {
         let frozen = of_kind(ApproximationKind::Frozen);
         if !frozen.is_empty() {
             blocks.push(paragraph([
-                words!["Approximated: in the velocities of the bodies the sine of "],
+                words!["Approximation: in the velocities of the bodies, the sine of "],
                 listed(frozen),
                 words![
-                    " is taken as 0 and its cosine as 1, after differentiating. This neglects that the directions of \
-                     velocities turn with the angle. Positions, potentials and forces stay exact."
+                    " is taken as 0 and its cosine as 1, after differentiation. This neglects that the directions of \
+                     velocities turn with the angle. Positions, potentials and forces remain exact."
                 ],
             ]));
         }
         let small = of_kind(ApproximationKind::Small);
         if !small.is_empty() {
             blocks.push(paragraph([
-                words!["Approximated: "],
+                words!["Approximation: "],
                 listed(small),
                 words![
-                    " and rates are small. Energies and dissipation are kept to second order in them together, the \
-                     equations of motion to first order; what is neglected falls with the cube of the angle in the energies."
+                    " and rates are small. Energies and dissipation are kept to second order in both together, and the \
+                     equations of motion to first order; the neglected terms of the energies fall with the cube of the angle."
                 ],
             ]));
         }
@@ -276,7 +276,7 @@ impl<'d> Chapter<'_, 'd> {
         if outputs.is_empty() {
             return Vec::new();
         }
-        let mut blocks = vec![Block::Paragraph(words!["Quantities to observe:"])];
+        let mut blocks = vec![Block::Paragraph(words!["Outputs:"])];
         let mut rows: Vec<Row> = Vec::new();
         let mut items = Vec::new();
         for shown in shown(outputs.iter().map(|output| &output.name)) {
@@ -313,7 +313,7 @@ fn constrained(freedom: Freedom) -> String {
     let constraints = counted(freedom.constraints, "constraint");
     let Some(Independent { generic, at_start }) = freedom.independent else {
         return format!(
-            "It has {coordinates} and {constraints}, of which it is not known how many are independent."
+            "It has {coordinates} and {constraints}; it is not known how many of these are independent."
         );
     };
     let left = counted(freedom.coordinates.saturating_sub(generic), "degree");
@@ -324,7 +324,7 @@ fn constrained(freedom: Freedom) -> String {
     text.push_str(&format!(": {left} of freedom."));
     if at_start < generic {
         text.push_str(&format!(
-            " At the start {} independent, and motions may fork there.",
+            " At the start only {} independent, and motions may fork there.",
             of_all(at_start)
         ));
     }

@@ -41,14 +41,14 @@ impl<'d> Chapter<'_, 'd> {
             ]),
             Block::formula(&self.lagrange()),
             Block::Paragraph(words![
-                "give one equation for each coordinate; notes say what its terms come from. Where an equation is too \
+                "give one equation for each coordinate; notes name the sources of its terms. Where an equation is too \
                  long to be read, ",
                 entry_name(0, 1),
                 " stands for an entry of the mass matrix and ",
                 Math::letter('h').with_index(Math::number(1)),
-                " for all terms of the velocities and of explicit time; ",
+                " for all terms in the velocities and in explicit time; ",
                 code("derive --as program"),
-                " has how they are computed.",
+                " shows how they are computed.",
             ]),
         ];
         for shown in shown(model.coordinates.iter().map(|coordinate| &coordinate.name)) {
@@ -62,7 +62,7 @@ impl<'d> Chapter<'_, 'd> {
                     let words = words![
                         text,
                         code("derive --as program"),
-                        " has all that is computed."
+                        " shows everything that is computed."
                     ];
                     blocks.push(Block::Paragraph(words));
                 }
@@ -240,7 +240,7 @@ impl<'d> Chapter<'_, 'd> {
         let order = self.model.coordinates.iter().map(|c| self.name(c.q));
         let order = Math::joined(order, Sign::Comma);
         let intro = words![
-            "The coefficients of the accelerations, rows and columns in the order of ",
+            "The coefficients of the accelerations, with rows and columns in the order ",
             order,
             ":"
         ];

@@ -34,18 +34,18 @@ impl Chapter<'_, '_> {
         ]);
         let route = match self.compiled.equations.route {
             Route::Projected => {
-                "The code differentiates no energy: it projects accelerations on the directions in which coordinates move, \
-                 which takes fewer operations and gives the same equations."
+                "The code does not differentiate energies: it projects accelerations onto the directions in which the coordinates \
+                 move, which takes fewer operations and gives the same equations."
             }
             Route::Lagrange => {
-                "The code is made from Lagrange's equations of the approximated energies."
+                "The code is generated from Lagrange's equations of the approximated energies."
             }
         };
         let words = words![
             route,
-            " What one call of each function costs; ",
+            " The operations of one call of each function; ",
             code("prepare"),
-            " is called once for a set of parameters:",
+            " is called once for each set of parameters:",
         ];
         let mut blocks = vec![Block::Paragraph(words), Block::Table(head, rows.collect())];
         blocks.extend(self.ways_to_accelerations());
@@ -59,12 +59,12 @@ impl Chapter<'_, '_> {
             return Vec::new();
         };
         let words = words![
-            "The accelerations were made in ",
+            "The accelerations were generated in ",
             counted(choice.candidates.len(), "form"),
-            ". The first of the following was taken: of those that rounding spoils at most twice as much as the one that it \
-             spoils least, it has the least sum of the cycles that a processor is estimated to take for a call alone and for \
-             one among others that run side by side. The last column is the usual error of the result at states around the \
-             start, as a share of it; 1 is the most that rounding does to a single number:",
+            ". The first of the following was chosen: among those whose rounding error is at most twice the smallest, it has \
+             the least sum of the cycles that a processor is estimated to take for a call alone and for one among others \
+             that run side by side. The last column is the typical relative error of the result at states around the start; \
+             1 is the largest relative error of rounding a single number:",
         ];
         let head = head(&["", "mul", "add", "div", "alone", "among others", "rounding"]);
         let row = |candidate: &Candidate| {

@@ -16,9 +16,10 @@ impl<'d> Chapter<'_, 'd> {
             let (right, wrong): (Vec<_>, Vec<_>) = of_block.partition(|c| c.agrees);
             blocks.push(Block::Heading(words![block.title.clone()]));
             let text = format!(
-                "{} held against the derivation, of which {} to be changed.",
+                "{} compared with the derivation, of which {} to be changed.",
                 capital(&counted(block.items.len(), "formula")),
                 match wrong.len() {
+                    0 => "none has".to_owned(),
                     1 => "one has".to_owned(),
                     n => format!("{} have", counted(n, "").trim_end_matches(['s', ' '])),
                 }

@@ -15,9 +15,9 @@ impl Chapter<'_, '_> {
             return Vec::new();
         }
         let mut blocks = vec![Block::Paragraph(words![
-            "All that stands above and below is said of the machine while these contacts are open. Gaps are never negative; \
-             where one closes there is an impact, and while it stays closed it presses and rubs. What energy and momentum \
-             impacts and friction take is not what is said to be conserved.",
+            "Everything above and below holds for the machine while these contacts are open. Gaps are never negative; where \
+             one closes there is an impact, and while it stays closed the contact has a normal force and friction. \
+             Statements on conserved energy and momentum exclude what impacts and friction take.",
         ])];
         for (k, contact) in contacts.iter().enumerate().take(MOST) {
             // The second tangent of a contact is described with the first.
@@ -27,20 +27,20 @@ impl Chapter<'_, '_> {
             if contact.face.is_some() {
                 blocks.push(Block::Heading(words!["Contact ", contact.name.clone()]));
                 blocks.push(Block::Paragraph(words![
-                    "A corner of a polygon and another polygon: which face it touches depends on where both are, (E77).",
+                    "A corner of a polygon against another polygon: which face it touches depends on the positions of both, (E77).",
                 ]));
                 continue;
             }
             let [normal, tangent] = &contact.directions;
             let rate = |index: &'static str| Math::letter('γ').with_index(Math::text(index));
             let mut rows = self.equality(Math::letter('g'), contact.gap, "gap");
-            rows.extend(self.equality(rate("n"), normal.rate, "at which it opens"));
+            rows.extend(self.equality(rate("n"), normal.rate, "rate of opening"));
             if contact.rubs {
-                rows.extend(self.equality(rate("t"), tangent.rate, "at which it slips"));
+                rows.extend(self.equality(rate("t"), tangent.rate, "rate of slip"));
             }
             if let Some(second) = contacts.get(k + 1).filter(|next| next.across) {
                 let [_, tangent] = &second.directions;
-                rows.extend(self.equality(rate("s"), tangent.rate, "along a second tangent"));
+                rows.extend(self.equality(rate("s"), tangent.rate, "slip along a second tangent"));
             }
             blocks.push(Block::Heading(words!["Contact ", contact.name.clone()]));
             blocks.push(Block::Formula(rows));

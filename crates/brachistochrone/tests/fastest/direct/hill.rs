@@ -289,7 +289,7 @@ fn a_guess_is_a_start_and_its_ends_are_moved() {
     assert!((time - both.others()[0]).abs() < 1e-10 && time > both.time());
     for (guess, what) in [
         (vec![vec![-1.0, 0.0]], "the guess"),
-        (vec![vec![-1.0, 0.0], vec![1.0]], "a place of the guess"),
+        (vec![vec![-1.0, 0.0], vec![1.0]], "a position of the guess"),
     ] {
         let error = Search::new().guess(guess).solve(HILL, &FROM, &to).err();
         assert!(matches!(error, Some(Unsolved::Size { what: found, .. }) if found == what));
@@ -319,7 +319,7 @@ fn a_search_ends_with_its_budget() {
     assert_eq!(tried[tried.len() - 1].start, Start::Frozen);
     let text = Unsolved::NotFound { tried }.to_string();
     assert!(
-        text.contains("the straight way: cannot be gone from rest"),
+        text.contains("the straight path: cannot be travelled from rest"),
         "{text}"
     );
     let cut = Search::new().budget(1000).solve(HILL, &FROM, &[1.0, 0.3]);
