@@ -41,7 +41,7 @@ use crate::{
 /// # Ok::<(), lagrangian::Error>(())
 /// ```
 #[derive(Clone, Copy)]
-#[must_use = "it is a machine: a simulation runs it"]
+#[must_use = "this is a machine: run it in a simulation"]
 pub struct Adapted<M, F> {
     machine: M,
     force: F,
@@ -62,8 +62,8 @@ impl fmt::Display for HasFriction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "a machine with friction at guides takes no further force: the reactions of its guides are derived from the forces \
-             of its description; write the force there"
+            "no further force can act on a machine with friction at guides: the reactions of its guides are derived from the \
+             forces of its description; write the force there"
         )
     }
 }
@@ -350,6 +350,6 @@ where
     }
 
     fn check_series(&self) -> Result<(), &str> {
-        Err("a further force acts on it, which is not part of its description")
+        Err("a further force acts on it that is not part of its description")
     }
 }

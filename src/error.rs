@@ -368,7 +368,7 @@ impl Error {
                 t,
             },
             StepError::NoSeries { inputs: true, .. } => Self::NoSeries {
-                reason: "its inputs are functions, which a series does not follow".into(),
+                reason: "its inputs are functions, which a series cannot represent".into(),
             },
             StepError::NoSeries { inputs: false, .. } => Self::NoSeries {
                 reason: match system.check_series() {
@@ -483,12 +483,15 @@ impl Display for Error {
             Self::HasFriction(error) => write!(f, "{error}"),
             Self::EnergiesUnknown { t } => write!(
                 f,
-                "no balance of energy can be kept: the system does not say what its kinetic and potential energies are at t = {t} \
-                 s; leave out `energy_balance(true)`, or give it both",
+                "no energy balance can be computed: the system does not give its kinetic and potential energies at t = {t} s; leave \
+                 out `energy_balance(true)`, or provide both energies",
                 t = Short(*t)
             ),
             Self::NoEnd => {
-                write!(f, "the simulation has no end: say `until(…)`, in seconds")
+                write!(
+                    f,
+                    "the simulation has no end time: set it with `until(…)`, in seconds"
+                )
             }
             Self::InvalidSetting {
                 setting,
@@ -504,25 +507,25 @@ impl Display for Error {
             Self::UnknownCoordinate { name } => write!(f, "no coordinate is named `{name}`"),
             Self::UnknownVariable { name, known } => {
                 let known = if known.is_empty() {
-                    "nothing but the state".into()
+                    "only the state".into()
                 } else {
                     known.join(", ")
                 };
                 write!(
                     f,
-                    "accelerations are not differentiated by `{name}`, which has to be in the description's `derivatives`; \
-                     there is: {known}"
+                    "accelerations are not differentiated with respect to `{name}`, which must be in the description's \
+                     `derivatives`; available: {known}"
                 )
             }
             Self::ConstrainedSensitivity { constraint } => write!(
                 f,
-                "the motion is held by the constraint `{constraint}`, and derivatives of its start on the constraints are not known: \
-                 take differences of runs, or coordinates that need no constraint"
+                "the motion is subject to the constraint `{constraint}`, and derivatives of a start that satisfies the constraints \
+                 are not known: use differences of runs, or coordinates that need no constraint"
             ),
             Self::CollidingSensitivity { contact } => write!(
                 f,
-                "the motion meets the contact `{contact}`, where derivatives jump: `lagrangian sensitivities` takes them across, and \
-                 `lagrangian_linear::across` in programs"
+                "the motion reaches the contact `{contact}`, where derivatives jump: use `lagrangian sensitivities`, or \
+                 `lagrangian_linear::across` in programs, to carry them across"
             ),
             Self::UnknownMethod { name } => {
                 write!(f, "no method of integration is named `{name}`; there are")?;
@@ -538,7 +541,7 @@ impl Display for Error {
             }
             Self::NoSeries { reason } => write!(
                 f,
-                "the motion has no Taylor series here: {reason}; take another method, such as `dop853`"
+                "the motion has no Taylor series here: {reason}; use another method, such as `dop853`"
             ),
             Self::Contact {
                 contact,
@@ -585,7 +588,7 @@ impl Display for Error {
             }
             Self::NotFinite { coordinate, t } => write!(
                 f,
-                "`{coordinate}`, its rate or its acceleration has no finite value at t = {t} s, and shorter steps do not avoid it",
+                "`{coordinate}`, its rate or its acceleration has no finite value at t = {t} s, and shorter steps do not help",
                 t = Short(*t)
             ),
             Self::SingularMassMatrix {
@@ -601,13 +604,13 @@ impl Display for Error {
                 v,
             } => {
                 let count = if *several {
-                    "several motions may have"
+                    "several motions may satisfy"
                 } else {
-                    "no motion has"
+                    "no motion satisfies"
                 };
                 write!(
                     f,
-                    "{count} the friction of `{contact}` at t = {t} s",
+                    "{count} the friction law of `{contact}` at t = {t} s",
                     t = Short(*t)
                 )?;
                 if !q.is_empty() {
@@ -615,7 +618,7 @@ impl Display for Error {
                 }
                 write!(
                     f,
-                    ": the law of Coulomb with rigid bodies does not say what happens (Painlevé)"
+                    ": Coulomb's law with rigid bodies does not determine what happens (Painlevé's paradox)"
                 )
             }
             Self::DependentConstraint {
@@ -624,9 +627,9 @@ impl Display for Error {
                 t,
             } => write!(
                 f,
-                "the constraint `{constraint}` comes to depend on others at t = {t} s, and shorter steps do not avoid it (elimination \
-                 leaves {ratio:.1e} of its element on the diagonal of G M⁻¹ Gᵀ): the reactions have no single value there. Leave out a \
-                 constraint that follows from others, or keep away from the pose, by other start values or other parameters",
+                "the constraint `{constraint}` becomes dependent on others at t = {t} s, and shorter steps do not help (elimination \
+                 leaves {ratio:.1e} of its element on the diagonal of G M⁻¹ Gᵀ): the reactions are not unique there. Leave out a constraint \
+                 that follows from others, or avoid the pose with other start values or other parameters",
                 t = Short(*t)
             ),
             Self::InconsistentConstraints {
@@ -657,42 +660,42 @@ impl Display for Error {
                 t,
             } => write!(
                 f,
-                "branches of the motion meet near t = {t} s: the constraint `{constraint}` comes to depend on the others (across \
-                 them it has {left:.1e} of the length that it had at the start), and neither the motion nor inertia says on which branch \
-                 the machine goes on. Start it beside that pose, or with rates along one of the branches",
+                "branches of the motion meet near t = {t} s: the constraint `{constraint}` becomes dependent on the others (the \
+                 part of its gradient that is independent of them has {left:.1e} of its length at the start), and neither the motion nor \
+                 inertia determines on which branch the machine continues. Start it slightly away from that pose, or with rates along one of the branches",
                 t = Short(*t)
             ),
             Self::KeptStart { contradictions, t } => {
                 let are = if contradictions.len() == 1 { "" } else { "s" };
                 write!(
                     f,
-                    "what is kept of the start contradicts the constraint{are} at t = {} s. However the other numbers are moved, ",
+                    "the start values that are kept contradict the constraint{are} at t = {} s. However the other values are changed, ",
                     Short(*t)
                 )?;
                 for (i, contradiction) in contradictions.iter().enumerate() {
                     write!(f, "{}{contradiction}", if i == 0 { "" } else { "; " })?;
                 }
-                write!(f, ". Keep fewer numbers, or give values that agree")
+                write!(f, ". Keep fewer values, or give values that are consistent")
             }
             Self::NoWorkspaceForConstraints { t } => write!(
                 f,
-                "the machine gives no workspace for the work on its constraints at t = {t} s",
+                "the machine provides no workspace for its constraints at t = {t} s",
                 t = Short(*t)
             ),
             Self::NoWorkspaceForContacts { t } => write!(
                 f,
-                "the machine gives no workspace for the work on its contacts at t = {t} s",
+                "the machine provides no workspace for its contacts at t = {t} s",
                 t = Short(*t)
             ),
             Self::ContactsNotDifferentiated { contact, t } => write!(
                 f,
-                "the accelerations are not differentiated at t = {t} s: `{contact}` may stick or slide, and what sticks has no \
-                 linearization",
+                "the accelerations cannot be differentiated at t = {t} s: `{contact}` may stick or slide, and a sticking contact \
+                 has no linearization",
                 t = Short(*t)
             ),
             Self::InputsChanged { t } => write!(
                 f,
-                "the motion before t = {t} s is to be looked at before the inputs are changed there",
+                "the motion before t = {t} s must be read before the inputs are changed there",
                 t = Short(*t)
             ),
             Self::StepTooSmall {
@@ -701,20 +704,20 @@ impl Display for Error {
                 t,
             } => write!(
                 f,
-                "the step shrank to {step:e} s at t = {t} s, and the error of `{coordinate}` is still too great: the \
+                "the step shrank to {step:e} s at t = {t} s, and the error of `{coordinate}` is still too large: the \
                  motion has a jump, a kink or a pole there, or the tolerance is too small",
                 t = Short(*t)
             ),
             Self::TooManySteps { steps, t, until } => write!(
                 f,
-                "{steps} steps reach t = {t} s only, of {until} s: allow more by `max_steps`, or raise the tolerance",
+                "{steps} steps reach only t = {t} s of {until} s: allow more with `max_steps`, or raise the tolerance",
                 t = Short(*t),
                 until = Short(*until)
             ),
             Self::AssumptionEnded { assumption, t } => {
                 write!(
                     f,
-                    "the machine assumes `{assumption}`, which ends at t = {t} s",
+                    "the machine assumes `{assumption}`, which no longer holds at t = {t} s",
                     t = Short(*t)
                 )
             }
@@ -732,9 +735,9 @@ impl Display for Error {
                 };
                 write!(
                     f,
-                    "the accelerations do not obey the equations of motion to rounding at t = {t} s: in the row of {of} \
-                     `{row}`, {equation} is {residual:e} beside terms of {terms:e}; that is a mistake of the program and not \
-                     of the machine, and nothing that follows from it can be trusted: please report it",
+                    "the accelerations do not satisfy the equations of motion to within rounding at t = {t} s: in the row of {of} \
+                     `{row}`, {equation} is {residual:e} compared with terms of {terms:e}; this is an error of the program \
+                     and not of the machine, and nothing that follows from it can be trusted: please report it",
                     t = Short(*t)
                 )
             }
@@ -757,7 +760,7 @@ impl Display for Error {
             Self::NoEnergyBalance => {
                 write!(
                     f,
-                    "no balance of energy was kept; say `energy_balance(true)`"
+                    "no energy balance was computed; set `energy_balance(true)`"
                 )
             }
             Self::StepsForgotten => {
@@ -780,7 +783,7 @@ fn no_inertia(f: &mut fmt::Formatter<'_>, coordinate: &str, ratio: f64, t: f64) 
         return write!(
             f,
             "the mass matrix is not positive definite at t = {t} s: a motion that changes the coordinate `{coordinate}` has negative \
-             kinetic energy. Look at the masses and the moments of inertia of what it moves"
+             kinetic energy. Check the masses and the moments of inertia of what it moves"
         );
     }
     write!(
@@ -790,17 +793,17 @@ fn no_inertia(f: &mut fmt::Formatter<'_>, coordinate: &str, ratio: f64, t: f64) 
     if ratio == 0.0 || !ratio.is_finite() {
         write!(
             f,
-            "(nothing of its element on the diagonal remains after elimination)"
+            "(nothing of its diagonal element remains after elimination)"
         )?;
     } else {
         write!(
             f,
-            "({ratio:.1e} of its element on the diagonal remains after elimination, which is rounding)"
+            "({ratio:.1e} of its diagonal element remains after elimination, which is rounding error)"
         )?;
     }
     write!(
         f,
-        ". Give what it moves a mass or a moment of inertia; where the coordinate has no meaning at that pose, as the angle of polar \
+        ". Give a mass or a moment of inertia to what it moves; if the coordinate has no meaning at that pose, like the angle of polar \
          coordinates at a radius of 0, start elsewhere or choose other coordinates"
     )
 }
@@ -896,7 +899,7 @@ impl Display for Warning {
         match self {
             Self::ToleranceRaised { asked, used } => write!(
                 f,
-                "a relative tolerance of {asked:e} asks for more digits than there are; {used:e} was used"
+                "a relative tolerance of {asked:e} asks for more digits than the numbers have; {used:e} was used"
             ),
             Self::EnergyUnexplained {
                 residual,
@@ -904,9 +907,9 @@ impl Display for Warning {
                 relative,
             } => write!(
                 f,
-                "the energies do not balance: the residual is {residual:.1e} J, {relative:.1e} of what was turned over, \
-                 where tolerance and rounding explain {explained:.1e} J; the motion is less exact than was asked for, or \
-                 its equations and its energies do not belong together"
+                "the energies do not balance: the residual is {residual:.1e} J, {relative:.1e} of the energy turned over, \
+                 while tolerance and rounding explain {explained:.1e} J; the motion is less accurate than requested, or \
+                 its equations and its energies are inconsistent"
             ),
             Self::ImpactGains {
                 contact,
@@ -915,8 +918,8 @@ impl Display for Warning {
                 impacts,
             } => write!(
                 f,
-                "impacts created energy, {impacts} of them, the most {gain:.2e} J at t = {t} s where `{contact}` closed: \
-                 Newton's law may with friction; `law: stronge` never does",
+                "impacts created energy, {impacts} of them, the most {gain:.2e} J at t = {t} s when `{contact}` closed: \
+                 Newton's law with friction can do so; `law: stronge` never does",
                 t = Short(*t)
             ),
             Self::HandedOver {
@@ -935,8 +938,8 @@ impl Display for Warning {
                 }
                 write!(
                     f,
-                    " up to t = {t} s: from there the run went on by time stepping in steps of {step:.1e} s, whose error nothing bounds; \
-                     a shorter longest step shows how great it is",
+                    " up to t = {t} s: from there the run continued with time stepping in steps of {step:.1e} s, whose error is not \
+                     controlled; a shorter longest step shows how large it is",
                     t = Short(*t)
                 )?;
                 if *times > 1 {
@@ -945,7 +948,7 @@ impl Display for Warning {
                 match back_at {
                     Some(t) => write!(
                         f,
-                        "; from t = {t} s it found every event again",
+                        "; from t = {t} s it located every event again",
                         t = Short(*t)
                     ),
                     None => Ok(()),
@@ -953,11 +956,11 @@ impl Display for Warning {
             }
             Self::RedundantConstraint { constraint, with } if with.is_empty() => write!(
                 f,
-                "the constraint `{constraint}` holds nothing at the start"
+                "the constraint `{constraint}` restricts nothing at the start"
             ),
             Self::RedundantConstraint { constraint, with } => write!(
                 f,
-                "the constraint `{constraint}` is redundant beside {}: the motion is determined, the multipliers are those \
+                "the constraint `{constraint}` is redundant given {}: the motion is unique, and the multipliers are those \
                  of least norm",
                 quoted(with)
             ),
@@ -969,8 +972,8 @@ impl Display for Warning {
             ),
             Self::Stiff { t } => write!(
                 f,
-                "the machine is stiff from t = {t} s: steps are held short by stability, not by accuracy; the method `radau5` takes \
-                 longer ones",
+                "the machine is stiff from t = {t} s: the step size is limited by stability, not by accuracy; the method `radau5` \
+                 takes longer steps",
                 t = Short(*t)
             ),
         }

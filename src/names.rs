@@ -52,7 +52,7 @@ impl Display for UnknownName {
         match &self.near {
             Some(near) => write!(f, "did you mean `{near}`?"),
             None if self.known.is_empty() => write!(f, "nothing can be set by name"),
-            None => write!(f, "there is: {}", self.known.join(", ")),
+            None => write!(f, "available: {}", self.known.join(", ")),
         }
     }
 }

@@ -74,7 +74,7 @@ use crate::{
 /// # Ok::<(), lagrangian::Error>(())
 /// ```
 #[derive(Debug)]
-#[must_use = "it is a machine: a simulation runs it"]
+#[must_use = "this is a machine: run it in a simulation"]
 pub struct Sensitive<'m, M> {
     machine: &'m M,
     variables: Vec<Variable>,

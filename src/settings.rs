@@ -207,7 +207,7 @@ impl<M: Machine> Sampled<'_, M> {
         };
         let tick = 16.0 * f64::EPSILON * start.abs().max(until.abs());
         if !(self.period > tick && self.period.is_finite()) {
-            let needed = "greater than 0, and than what the times of the run can tell apart";
+            let needed = "greater than 0, and than the smallest difference between times that the run can resolve";
             return wrong("sampled", self.period, needed);
         }
         if !(self.delay >= 0.0 && self.delay.is_finite()) {
@@ -226,7 +226,7 @@ impl<M: Machine> Sampled<'_, M> {
             wrong(
                 "sampled",
                 self.period,
-                "without `inputs`, which would set the same",
+                "used without `inputs`, which would set the same inputs",
             )
         }
     }

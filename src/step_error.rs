@@ -140,9 +140,9 @@ impl Display for StepError {
         match *self {
             Self::NoLength { t } => write!(
                 f,
-                "the method takes steps of a fixed length, and none is set at t = {t:e} s: `set_longest_step`"
+                "the method takes steps of a fixed length, and none is set at t = {t:e} s: call `set_longest_step`"
             ),
-            Self::NoTime { t } => write!(f, "{t} is no time to go to"),
+            Self::NoTime { t } => write!(f, "{t} is not a valid end time"),
             Self::OutsideStep { t, from, to } => write!(
                 f,
                 "t = {t:e} s is outside of the last step, which goes from {from:e} s to {to:e} s"
@@ -176,7 +176,7 @@ impl Display for StepError {
             ),
             Self::Changed { t } => write!(
                 f,
-                "the motion before t = {t:e} s is to be looked at before the inputs are changed there"
+                "the motion before t = {t:e} s must be read before the inputs are changed there"
             ),
             Self::Contact {
                 contact,
@@ -190,7 +190,7 @@ impl Display for StepError {
             ),
             Self::Unsuited { reason, t } => write!(
                 f,
-                "the method cannot follow this machine at t = {t:e} s: {reason}"
+                "the method does not support this machine at t = {t:e} s: {reason}"
             ),
             Self::NotSolved { t, step } => write!(
                 f,
@@ -199,19 +199,19 @@ impl Display for StepError {
             ),
             Self::NotExplicit { t } => write!(
                 f,
-                "the method is not explicit, as this stepper needs it, at t = {t:e} s"
+                "the method is not explicit, as this stepper requires, at t = {t:e} s"
             ),
             Self::FewDigits { t } => write!(
                 f,
-                "the coefficients of the method are known to the digits of f64 only, and the numbers have more, at \
+                "the coefficients of the method are known only to the precision of f64, and the numbers have more digits, at \
                  t = {t:e} s"
             ),
             Self::NotFree { t } => write!(
                 f,
-                "the machine has constraints or contacts, which this stepper does not keep, at t = {t:e} s"
+                "the machine has constraints or contacts, which this stepper does not support, at t = {t:e} s"
             ),
             Self::TooManySteps { steps, t } => {
-                write!(f, "{steps} steps lead to t = {t:e} s only")
+                write!(f, "{steps} steps reach only t = {t:e} s")
             }
             Self::StepTooSmall {
                 coordinate,
@@ -220,7 +220,7 @@ impl Display for StepError {
             } => write!(
                 f,
                 "the step shrank to {step:e} s at t = {t:e} s, and the error of coordinate number {} is still too \
-                 great",
+                 large",
                 coordinate + 1
             ),
         }

@@ -530,7 +530,7 @@ pub trait System {
     /// The reason why it has none, as the end of a sentence whose subject is the machine: `it has constraints`.
     #[inline(always)]
     fn check_series(&self) -> Result<(), &str> {
-        Err("its spec does not ask for one by `methods { taylor }`")
+        Err("its spec does not request one with `methods { taylor }`")
     }
 
     /// Computes the Taylor series of the motion through a state: row `j` of `coefficients` becomes `q⁽ʲ⁾/j!`, in SI units. There are at
@@ -586,7 +586,7 @@ pub trait System {
 /// Implemented by the code of a description with `derivatives { coordinates, rates }`, and by the
 /// interpreter for every machine.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` does not know how its accelerations change with the state",
+    message = "`{Self}` does not provide the derivatives of its accelerations with respect to the state",
     label = "needs the derivatives of the accelerations",
     note = "add the line `derivatives {{ coordinates, rates }}` to the description of the machine"
 )]
@@ -690,10 +690,10 @@ pub trait Staged: System {
 ///
 /// Implemented by the code of a description with `derivatives { coordinates, rates, … }`, and by the interpreter.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` does not know how its accelerations change with the state, parameters and inputs",
+    message = "`{Self}` does not provide the derivatives of its accelerations with respect to the state, parameters and inputs",
     label = "needs the derivatives of the accelerations",
     note = "add the line `derivatives {{ coordinates, rates }}` to the description of the machine, with the names of the parameters and \
-            with `inputs`, where it is to be differentiated by these"
+            with `inputs`, where it is to be differentiated with respect to these"
 )]
 pub trait Differentiate: Linearize {
     /// Names and units of the inputs and parameters with respect to which the accelerations are differentiated, in the order of the
@@ -867,17 +867,14 @@ impl Display for Singular {
                 };
                 write!(
                     f,
-                    "{count} motion has the friction of contact number {}",
+                    "{count} motion satisfies the friction law of contact number {}",
                     index + 1
                 )
             }
-            Pivot::NoWorkspace => write!(
-                f,
-                "the machine gives no workspace for the work on its contacts"
-            ),
+            Pivot::NoWorkspace => write!(f, "the machine provides no workspace for its contacts"),
             Pivot::NotDifferentiated(index) => write!(
                 f,
-                "the accelerations are not differentiated, as contact number {} may stick or slide",
+                "the accelerations cannot be differentiated, because contact number {} may stick or slide",
                 index + 1
             ),
         }

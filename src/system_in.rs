@@ -38,7 +38,7 @@ use crate::{Quantity, Real, Singular, State, Vector};
 /// # Ok::<(), StepError>(())
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no machine in the numbers `{N}`",
+    message = "`{Self}` is not a machine in the numbers `{N}`",
     note = "a machine that `machine!` derives is one in f32, f64, double-doubles and dual numbers, where it has no constraints and \
             no contacts; `machine.map(…)` takes it to other numbers"
 )]

@@ -102,20 +102,22 @@ pub enum TableError {
 impl Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Empty => write!(f, "a table has at least one row"),
+            Self::Empty => write!(f, "a table must have at least one row"),
             Self::Lengths { times, values } => {
                 write!(f, "there are {times} times and {values} values")
             }
-            Self::NotFinite { row } => write!(f, "row {row} holds what is no finite number"),
+            Self::NotFinite { row } => {
+                write!(f, "row {row} contains a value that is not a finite number")
+            }
             Self::NotLater { row } => {
                 write!(f, "the time of row {row} is not later than the one before")
             }
-            Self::NoPeriod => write!(f, "a table that repeats has at least two rows"),
+            Self::NoPeriod => write!(f, "a table that repeats must have at least two rows"),
             Self::NotPeriodic => write!(
                 f,
-                "a cubic that repeats ends with the value with which it begins"
+                "a cubic spline that repeats must end with the value with which it begins"
             ),
-            Self::TooSteep => write!(f, "its slopes are greater than any number"),
+            Self::TooSteep => write!(f, "its slopes are too large for floating-point numbers"),
         }
     }
 }
@@ -629,8 +631,11 @@ impl NoPiece<'_> {
     /// The error of a run that reaches `t`.
     pub(crate) fn error(self, t: f64) -> Error {
         let (input, why) = match self {
-            NoPiece::Ended(name) => (name, "ends, and the run goes on: there is no value beyond"),
-            NoPiece::TooFine(name) => (name, "changes more often than times can tell apart at"),
+            NoPiece::Ended(name) => (
+                name,
+                "ends, but the run continues: there is no value beyond",
+            ),
+            NoPiece::TooFine(name) => (name, "changes more often than times can resolve at"),
         };
         Error::InputEnded {
             input: input.into(),

@@ -110,23 +110,23 @@ impl ContactTrouble {
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Paradox => {
-                "its friction leaves no motion, or more than one (a paradox of P. Painlevé)"
+                "its friction law admits no motion, or more than one (Painlevé's paradox)"
             }
             Self::NotHeld => {
-                "no force along its normal holds it shut here: its gap hardly changes with the coordinates, or constraints, walls that move or \
+                "no force along its normal keeps it closed here: its gap hardly changes with the coordinates, or constraints, moving walls or \
                  other contacts contradict it"
             }
             Self::Unsolved => {
                 "no forces were found that obey the law of friction in space: there may be none"
             }
-            Self::Penetrates => "it is not open but penetrated",
+            Self::Penetrates => "its gap is negative, which is penetration",
             Self::SeveralAtOnce => {
-                "it meets in one impact with others, and its law is for one contact at a time; the law `poisson_glocker` \
+                "it takes part in one impact with others, and its law is for one contact at a time; the law `poisson_glocker` \
                  is for several"
             }
-            Self::Unsettled => "what it does changes again and again at this instant",
+            Self::Unsettled => "its state changes again and again at this instant",
             Self::NotStepped => {
-                "the method `moreau` knows contacts with the law `newton`, all at once, without `compliance`, and with `static_friction` equal to \
+                "the method `moreau` supports contacts with the law `newton`, all at once, without `compliance`, and with `static_friction` equal to \
                  `friction`"
             }
             Self::NotFollowed => "impacts are found by a `Simulation`, not by a stepper alone",

@@ -364,19 +364,19 @@ fn a_missing_ability_names_the_line_to_add_to_the_spec() {
     assert!(!output.status.success(), "it compiles");
     let said = String::from_utf8_lossy(&output.stderr);
     for part in [
-        "does not know how its accelerations change with the state",
+        "does not provide the derivatives of its accelerations with respect to the state",
         "add the line `derivatives { coordinates, rates }` to the description of the machine",
-        "does not know how its accelerations change with the state, parameters and inputs",
+        "does not provide the derivatives of its accelerations with respect to the state, parameters and inputs",
         "are not evaluated in stages",
         "add the line `stages { time, coordinates }` to the description of the machine",
-        "is no machine in the numbers `f32`",
+        "is not a machine in the numbers `f32`",
         "where it has no constraints and no contacts",
     ] {
         assert!(said.contains(part), "`{part}` is not in:\n{said}");
     }
     // The machine without constraints can be used with these numbers.
     assert_eq!(
-        said.matches("is no machine in the numbers").count(),
+        said.matches("is not a machine in the numbers").count(),
         1,
         "{said}"
     );

@@ -127,7 +127,7 @@ fn path(input: ParseStream<'_>) -> Result<String> {
 
 /// A number, possibly negative.
 fn number(input: ParseStream<'_>, constant: &str) -> Result<Rational> {
-    let expected = || format!("a constant gets a number: `{constant} = 64`");
+    let expected = || format!("a constant needs a number: `{constant} = 64`");
     let mut text = String::new();
     loop {
         match input

@@ -149,9 +149,8 @@ fn expand(arguments: Arguments) -> TokenStream {
             opened(rust, &attributes, &fields.collect())
         }
         Err(error) => {
-            let message = format!(
-                "the compiler of machines wrote what is no Rust ({error}); please report it"
-            );
+            let message =
+                format!("the machine compiler produced invalid Rust ({error}); please report it");
             errors::compile_error(Span::call_site(), Span::call_site(), &message)
         }
     };
@@ -252,7 +251,7 @@ fn on_a_large_stack<T: Send + 'static>(
             .map(String::as_str)
             .or(panic.downcast_ref::<&str>().copied());
         Err(format!(
-            "the compiler of machines has failed ({}); please report it",
+            "the machine compiler has failed ({}); please report it",
             text.unwrap_or("no message")
         ))
     })

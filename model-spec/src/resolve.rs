@@ -454,9 +454,9 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let mut before: Option<syntax::Spanned<syntax::Space>> = None;
         for space in layers.iter().filter_map(|spec| spec.space) {
             if let Some(before) = before.filter(|before| before.value != space.value) {
-                let message = "a variant moves where its base moves";
+                let message = "a variant must move in the plane or in space, as its base does";
                 let diagnostic = Diagnostic::new(Code::SpaceChanged, space.span, message);
-                self.push(diagnostic.note(before.span, "the base says it here"));
+                self.push(diagnostic.note(before.span, "the base declares it here"));
             }
             before = before.or(Some(space));
         }
@@ -484,7 +484,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             if constants.contains(&base) || derived.contains(&base) {
                 continue;
             }
-            let message = format!("the machine has no constant `{name}` to be set");
+            let message = format!("the machine has no constant `{name}` to set");
             let diagnostic = Diagnostic::new(Code::UnknownName, machine.name.span, message);
             let help = match nearest(base, constants.iter().copied()) {
                 Some(near) => Some(format!("did you mean `{near}`?")),
@@ -549,7 +549,8 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             self.exhausted = true;
             let message = "the formulas of this machine are too large";
             let diagnostic = Diagnostic::new(Code::TooLarge, span, message);
-            let help = format!("with every family unrolled they may have {NODE_LIMIT} terms");
+            let help =
+                format!("with every family unrolled they may have at most {NODE_LIMIT} terms");
             self.push(diagnostic.help(help));
         }
         !self.exhausted

@@ -100,7 +100,7 @@ pub fn literal(text: &str, span: Span, report: &mut Report) -> Token {
         Some('"') => (TokenKind::Text, quoted(text, span, report)),
         Some('r') => (TokenKind::Text, raw(text, span, report)),
         _ => {
-            let message = format!("{} means nothing in a spec", shown(text));
+            let message = format!("{} has no meaning in a spec", shown(text));
             report.push(Diagnostic::new(Code::UnexpectedToken, span, message));
             (TokenKind::Unknown, text.to_owned())
         }
@@ -329,7 +329,7 @@ impl<'a> Lexer<'a> {
     /// `x'`, which does not denote a derivative here.
     fn prime(&mut self, start: usize) {
         let name = self.tokens.last().map_or("x", |token| &token.text);
-        let message = "a prime means nothing in a spec";
+        let message = "a prime has no meaning in a spec";
         let help = format!("the time derivative is `der({name})`");
         let span = self.span(start);
         self.report
@@ -503,7 +503,7 @@ fn number(text: &str, span: Span, report: &mut Report) -> String {
         .is_ok_and(|exponent| exponent.unsigned_abs() as usize <= NUMBER_LIMIT);
     let vanishes = value == 0.0 && mantissa.contains(|c| ('1'..='9').contains(&c));
     if digits.len() > NUMBER_LIMIT || !moderate || !value.is_finite() || vanishes {
-        let message = "no floating-point number is as large, as small or as long as this";
+        let message = "this number is too large, too small or too long";
         report.push(
             Diagnostic::new(Code::NumberOutOfRange, span, message).help(format!(
                 "numbers lie between {:.1e} and {:.1e}, in at most {NUMBER_LIMIT} characters",
@@ -531,7 +531,7 @@ fn quoted(text: &str, span: Span, report: &mut Report) -> String {
                 Some(Some(c)) => content.push(c),
                 Some(None) => {}
                 None => {
-                    let message = "this string holds an escape that does not exist";
+                    let message = "this string contains an escape that does not exist";
                     let help = r#"escapes are \n \r \t \\ \" \' \0 \x41 \u{3b8}"#;
                     report.push(Diagnostic::new(Code::MalformedText, span, message).help(help));
                     return content;

@@ -48,9 +48,9 @@ def test_unknown_names_are_told_with_the_near_one(oscillator):
 
 
 def test_values_that_no_machine_has_are_refused(oscillator):
-    with pytest.raises(ValueError, match="mass is positive"):
+    with pytest.raises(ValueError, match="mass must be positive"):
         oscillator.with_parameters(m=-1)
-    with pytest.raises(ValueError, match="mass is positive"):
+    with pytest.raises(ValueError, match="mass must be positive"):
         oscillator.accelerations(parameters={"m": [1.0, -1.0]})
     with pytest.raises(TypeError):
         oscillator.with_parameters(m="1")

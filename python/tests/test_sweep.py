@@ -88,7 +88,7 @@ def test_what_a_sweep_refuses(oscillator):
 def test_runs_that_fail_are_rows(oscillator):
     sweep = oscillator.sweep({"m": [1.0, -1.0, 2.0]}, until=0.1)
     assert sweep.failed.tolist() == [1]
-    assert "mass is positive" in sweep["error"][1] and sweep["error"][0] is None
+    assert "mass must be positive" in sweep["error"][1] and sweep["error"][0] is None
 
 
 def test_inputs_and_samples(oscillator):

@@ -53,7 +53,7 @@ pub struct ExplicitStepper<S: SystemIn<N>, N: Real, L = HeldInputs<<S as SystemI
 
 /// Builds a stepper: [`ExplicitStepper::builder`] creates it and [`start`](Self::start) returns the stepper.
 #[derive(Clone, Debug)]
-#[must_use = "a stepper comes of it by `start(state)`"]
+#[must_use = "call `start(state)` to obtain a stepper"]
 pub struct ExplicitStepperBuilder<
     S: SystemIn<N>,
     N: Real,

@@ -138,21 +138,21 @@ impl fmt::Display for NotEnclosed {
         match self {
             Self::NoBox { t } => write!(
                 f,
-                "the motion is enclosed up to t = {t} s, and no step from there, however short, was shown to be one"
+                "the motion is enclosed up to t = {t} s, and from there no step, however short, could be verified"
             ),
             Self::TooWide { t } => write!(
                 f,
-                "the motion is enclosed up to t = {t} s, where the bounds have become too wide to go on"
+                "the motion is enclosed up to t = {t} s, where the bounds have become too wide to continue"
             ),
             Self::Assumption { assumption, t } => write!(
                 f,
-                "the motion is enclosed up to t = {t} s; that the machine's assumption `{assumption}` holds beyond could not be shown"
+                "the motion is enclosed up to t = {t} s; the machine's assumption `{assumption}` could not be shown to hold beyond that"
             ),
             Self::TooManySteps { t } => write!(
                 f,
-                "the motion is enclosed up to t = {t} s; more steps would be needed than may be taken"
+                "the motion is enclosed up to t = {t} s; more steps would be needed than are allowed"
             ),
-            Self::NoTime => f.write_str("the time to go to is no finite number"),
+            Self::NoTime => f.write_str("the end time is not a finite number"),
         }
     }
 }

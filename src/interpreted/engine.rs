@@ -124,7 +124,7 @@ impl MachineCode {
     pub(super) fn new(engine: Engine, _: &Arc<Program>) -> Result<MachineCode, NoMachineCode> {
         match engine {
             Engine::Jit => Err(NoMachineCode {
-                why: "this build has no machine code: it is without the feature jit".into(),
+                why: "this build has no machine code: it was built without the feature jit".into(),
             }),
             Engine::Interpreter | Engine::Auto => Ok(MachineCode {}),
         }

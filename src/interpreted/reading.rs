@@ -23,7 +23,7 @@ const STACK: usize = 64 << 20;
 
 /// A spec to be read, with its settings; created by [`InterpretedMachine::from_text`] and [`InterpretedMachine::read`].
 #[derive(Clone, Debug)]
-#[must_use = "a machine comes of it by `build()`"]
+#[must_use = "call `build()` to obtain a machine"]
 pub struct Reading {
     spec: Spec,
     constants: Vec<(String, f64)>,
@@ -147,7 +147,7 @@ impl Reading {
             Ok(Err(panic)) => std::panic::resume_unwind(panic),
             Err(error) => Err(unreadable(
                 "",
-                format!("no thread to derive it in: {error}"),
+                format!("no thread could be started to derive it: {error}"),
             )),
         }
     }
@@ -165,7 +165,7 @@ impl Reading {
         for (constant, value) in self.constants {
             let Some(value) = Rational::parse_decimal(&value.to_string()) else {
                 let message =
-                    format!("the constant `{constant}` is to be {value}, which is no number");
+                    format!("the constant `{constant}` is set to {value}, which is not a number");
                 return Err(refused(&name, Code::NumberOutOfRange, message));
             };
             constants.push((constant, value));

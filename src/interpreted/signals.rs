@@ -99,7 +99,7 @@ pub enum SignalError {
 impl Display for SignalError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoSuch(number) => write!(f, "there is no input or no output of number {number}"),
+            Self::NoSuch(number) => write!(f, "there is no input or output number {number}"),
             Self::Twice(input) => write!(f, "input `{input}` is driven more than once"),
             Self::Accelerations(input) => write!(
                 f,

@@ -110,7 +110,7 @@ impl TableFile {
             }
         }
         if file.header.is_empty() {
-            Err(file.wrong(None, "it is empty; its first line is to name its columns"))
+            Err(file.wrong(None, "it is empty; its first line must name its columns"))
         } else {
             Ok(file)
         }
@@ -131,7 +131,7 @@ impl TableFile {
                 Err(TableFileError {
                     file: name.into(),
                     place: Some((line, Some(since.chars().count() + 1))),
-                    message: "this is no UTF-8: save the table as text in UTF-8".into(),
+                    message: "this is not UTF-8: save the table as text in UTF-8".into(),
                 })
             }
         }
@@ -304,7 +304,7 @@ impl TableFile {
                 } else {
                     ""
                 };
-                let message = format!("`{text}` in `{name}` is no finite number{help}");
+                let message = format!("`{text}` in `{name}` is not a finite number{help}");
                 Err(self.wrong(Some(cell.place), message))
             }
         }

@@ -253,7 +253,7 @@ fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
     field(
         has_new_point,
         "a",
-        "at least `stages` + 1 rows: that of the new point stands behind the stages",
+        "at least `stages` + 1 rows: the row of the new point follows those of the stages",
     )?;
     field(tableau.c.len() == rows, "c", "as long as `a` has rows")?;
     let is_finite = tableau.c.iter().all(|c| c.is_finite());
@@ -279,7 +279,7 @@ fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
     field(
         order <= most.min(MAX_VERTICES as u32),
         "order",
-        "at most 16, the number of stages, and twice that of those that depend on each other",
+        "at most 16 and at most the number of stages, or in an implicit method twice the number of those that depend on each other",
     )?;
     field(tableau.error_power >= 1, "error_power", "at least 1")?;
     let is_good = (1..=MAX_VERTICES as u32).contains(&tableau.dense_order);
@@ -314,12 +314,12 @@ fn sizes(tableau: &Tableau) -> Result<(), MethodError> {
                 && reals.iter().all(|vector| vector.len() == dependent)
                 && lengths.all(|length| length == dependent),
             "stages",
-            "in an implicit method the beginning and as many as the spectrum has eigenvalues, at most 13",
+            "in an implicit method one for the beginning and as many as the spectrum has eigenvalues, at most 13",
         )?;
         field(
             tableau.a[stages] == tableau.a[stages - 1],
             "a",
-            "the row of the last stage, once more, as that of the new point of an implicit method",
+            "the row of the last stage repeated, which is that of the new point of an implicit method",
         )?;
     }
     Ok(())
@@ -566,7 +566,7 @@ impl Display for MethodError {
             ),
             Self::ErrorPower { found, stated } => write!(
                 f,
-                "the estimates of the error fall as h^{found}, and `error_power` is {stated}"
+                "the error estimates decrease as h^{found}, and `error_power` is {stated}"
             ),
             Self::Spectrum { condition } => write!(
                 f,

@@ -57,23 +57,23 @@ impl Display for MethodReason {
         match self {
             Self::SeriesPays { cost, saved } => write!(
                 f,
-                "a step by series costs {cost:.0} evaluations, and as much time {saved:.0} in steps of dop853"
+                "a step by series costs {cost:.0} evaluations, and the same time interval {saved:.0} in steps of dop853"
             ),
             Self::SeriesCosts { cost, saved } => write!(
                 f,
-                "a step by series would cost {cost:.0} evaluations, where as much time takes {saved:.0}"
+                "a step by series would cost {cost:.0} evaluations, where the same time interval takes {saved:.0}"
             ),
             Self::Explicit => f.write_str("nothing is known to be stiff"),
             Self::Stiff { rate } if *rate > 0.0 => write!(
                 f,
-                "steps were held short by stability and not by accuracy; the fastest rate is {rate:.1e}/s"
+                "the step size was limited by stability and not by accuracy; the fastest rate is {rate:.1e}/s"
             ),
             Self::Stiff { .. } => {
-                f.write_str("steps were held short by stability and not by accuracy")
+                f.write_str("the step size was limited by stability and not by accuracy")
             }
             Self::NotStiff { rate } => write!(
                 f,
-                "the fastest rate is {rate:.1e}/s, and explicit steps take less work again"
+                "the fastest rate is {rate:.1e}/s, and explicit steps are cheaper again"
             ),
             Self::NoSeries => f.write_str("the series has no value there"),
         }

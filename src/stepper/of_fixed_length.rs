@@ -60,7 +60,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             Rule::Gauss => {
                 if system.constraints().len() != 0 {
                     return Err(StepError::Unsuited {
-                        reason: "it has constraints, which `rattle` keeps",
+                        reason: "it has constraints, which `rattle` enforces",
                         t: now.t,
                     });
                 }

@@ -42,7 +42,7 @@ pub type ControlledStepper<S> = Stepper<'static, S, HeldInputs<<S as System>::In
 
 /// Builds a stepper: [`Stepper::builder`] creates it and [`start`](Self::start) returns the stepper.
 #[derive(Clone, Debug)]
-#[must_use = "a stepper comes of it by `start(state)`"]
+#[must_use = "call `start(state)` to obtain a stepper"]
 pub struct StepperBuilder<S: System> {
     system: S,
     inputs: S::Inputs,

@@ -223,7 +223,7 @@ fn what_may_stick_is_not_linearized_and_named() {
     assert_eq!(singular.name(&system), "floor");
     let error = Error::of_step(StepError::Singular { singular, t: 0.5 }, &system).to_string();
     let expected =
-        "the accelerations are not differentiated at t = 0.5 s: `floor` may stick or slide";
+        "the accelerations cannot be differentiated at t = 0.5 s: `floor` may stick or slide";
     assert!(error.starts_with(expected), "{error}");
 }
 

@@ -300,7 +300,7 @@ fn what_is_not_known_is_refused_by_name() {
         }
     );
     assert!(
-        refused.to_string().ends_with("there is: m2, l1"),
+        refused.to_string().ends_with("available: m2, l1"),
         "{refused}"
     );
     let refused = Sensitive::new(&rods).by_start("theta3").map(|_| ());

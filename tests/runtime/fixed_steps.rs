@@ -436,7 +436,7 @@ fn what_a_method_of_fixed_steps_cannot_follow_is_refused() {
         .longest_step(1e-2)
         .until(1.0);
     let said = run.run(sleigh.start()).unwrap_err().to_string();
-    assert!(said.contains("constraints of rates"), "{said}");
+    assert!(said.contains("constraints on rates"), "{said}");
 
     // A system by hand that does not provide its mass matrix.
     let toy = oscillator();

@@ -218,11 +218,14 @@ fn singular_equations_are_told_with_what_to_do() {
         ),
         (
             dependent,
-            ["`rod` comes to depend on others", "Leave out a constraint"],
+            [
+                "`rod` becomes dependent on others",
+                "Leave out a constraint",
+            ],
         ),
         (
             fork,
-            ["`rod` comes to depend on the others", "with rates along"],
+            ["`rod` becomes dependent on the others", "with rates along"],
         ),
         (
             contradicting,
@@ -727,7 +730,7 @@ fn machines_whose_functions_contradict_each_other_are_not_run() {
     assert!(
         error
             .to_string()
-            .contains("do not obey the equations of motion to rounding")
+            .contains("do not satisfy the equations of motion to within rounding")
     );
 }
 
@@ -800,7 +803,7 @@ fn contacts_without_room_are_told_so() {
         let singular = singular.unwrap_err();
         assert_eq!((singular.at, singular.ratio), (Pivot::NoWorkspace, 0.0));
         assert!(
-            singular.to_string().contains("gives no workspace"),
+            singular.to_string().contains("provides no workspace"),
             "{singular}"
         );
         let refused = Simulation::new(&tight).until(1.0).run(start);
@@ -810,9 +813,6 @@ fn contacts_without_room_are_told_so() {
             "{error}"
         );
         let text = error.to_string();
-        assert!(
-            text.contains("no workspace for the work on its contacts"),
-            "{text}"
-        );
+        assert!(text.contains("no workspace for its contacts"), "{text}");
     }
 }

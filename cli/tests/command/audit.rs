@@ -224,7 +224,7 @@ fn a_contact_that_nothing_holds_shut_is_named() {
     for said in vanishing.chain([driven]) {
         assert!(said.contains("the contact `floor` at t = "), "{said}");
         assert!(
-            said.contains("no force along its normal holds it shut here"),
+            said.contains("no force along its normal keeps it closed here"),
             "{said}"
         );
         assert!(!said.contains("friction") && !said.contains('?'), "{said}");

@@ -626,7 +626,7 @@ fn pages_that_compute_are_of_machines_that_they_can_run() {
     let output = crate::support::lagrangian(&call);
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(said.contains("is redundant beside"), "{said}");
+    assert!(said.contains("is redundant given"), "{said}");
     let help = "`machine BricardPage extends \"bricard.machine\" { remove constraints.";
     assert!(said.contains(help), "{said}");
     assert_eq!(std::fs::read_to_string(&at.0).expect("a file"), "older");

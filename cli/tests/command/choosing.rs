@@ -143,7 +143,7 @@ fn the_summary_says_what_was_chosen_and_why() {
     );
     assert!(text.contains("radau9 from t = 0.0"), "{text}");
     assert!(
-        text.contains("held short by stability and not by accuracy; the fastest rate is 2.0e4/s"),
+        text.contains("limited by stability and not by accuracy; the fastest rate is 2.0e4/s"),
         "{text}"
     );
     // There is no warning.

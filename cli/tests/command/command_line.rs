@@ -797,16 +797,16 @@ fn what_a_spec_may_not_say_may_not_be_set() {
     let spec = Scratch::new("block.machine", text);
     assert_eq!(status(&lagrangian(&["evaluate", spec.path()])), 0);
     for (set, default, words) in [
-        ("m=-2", "m: kg = 2", "a mass is positive, found -2"),
+        ("m=-2", "m: kg = 2", "a mass must be positive, found -2"),
         (
             "mu=-0.1",
             "mu: 1 = 0.3",
-            "a coefficient of friction is not negative, found -0.1",
+            "a coefficient of friction must not be negative, found -0.1",
         ),
         (
             "hold=0.2",
             "hold: 1 = 0.4",
-            "what sticks is held by no less friction than what slides, found 0.2 below 0.3",
+            "the coefficient of static friction must not be less than that of sliding friction, found 0.2 below 0.3",
         ),
     ] {
         let (name, value) = set.split_once('=').expect("an assignment");
@@ -826,7 +826,9 @@ fn what_a_spec_may_not_say_may_not_be_set() {
     }
     let output = lagrangian(&["evaluate", spec.path(), "--set", "k=-5"]);
     assert_eq!(status(&output), 0);
-    assert!(err(&output).contains("warning: a spring of negative stiffness pushes away, found -5"));
+    assert!(err(&output).contains(
+        "warning: a spring with negative stiffness pushes away from its rest position, found -5"
+    ));
     let output = lagrangian(&["evaluate", spec.path(), "--set", "x=1"]);
     assert_eq!(status(&output), 2);
     assert!(err(&output).contains("--start"), "{}", err(&output));
@@ -906,7 +908,7 @@ fn names_and_values_from_outside_are_read_as_those_of_a_spec() {
     for (arguments, words) in [
         (
             ["--set", "speed=3*m"],
-            "--set speed=3*m: expected rad/s, found m; as its declaration says",
+            "--set speed=3*m: expected rad/s, found m; the expected unit is that of the declaration",
         ),
         (
             ["--set", "speed=50*Hz"],

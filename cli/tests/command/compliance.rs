@@ -232,9 +232,9 @@ fn mistakes_in_laws_of_force_are_told() {
     for (field, said) in [
         (
             "compliance: spring(k, b)",
-            "no law of force is called `spring`",
+            "no force law is called `spring`",
         ),
-        ("compliance: k", "a law of force is expected here"),
+        ("compliance: k", "a force law is expected here"),
         (
             "compliance: linear(k)",
             "`linear` takes two arguments, found 1",
@@ -242,19 +242,19 @@ fn mistakes_in_laws_of_force_are_told() {
         ("compliance: hertz(k)", "N/m^(3/2)"),
         (
             "compliance: hertz(K), restitution: 0.5",
-            "`restitution` does not go with `compliance`",
+            "`restitution` cannot be combined with `compliance`",
         ),
         (
             "compliance: linear(-k, b)",
-            "the stiffness of a contact is positive",
+            "the stiffness of a contact must be positive",
         ),
         (
             "compliance: layer(k, k/2)",
-            "a layer is unloaded no less stiffly than it is loaded",
+            "the unloading stiffness of a layer must not be less than its loading stiffness",
         ),
         (
             "compliance: linear(k*x/(1*m), b)",
-            "a law of force cannot depend on coordinates",
+            "a force law cannot depend on coordinates",
         ),
     ] {
         let spec = Scratch::new(

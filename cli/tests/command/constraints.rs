@@ -75,7 +75,7 @@ fn redundant_constraints_are_named_and_change_no_motion() {
     let warnings = document["warnings"].as_array().expect("a list");
     assert_eq!(warnings.len(), 1);
     let text = warnings[0].as_str().expect("text");
-    assert!(text.contains("`again` is redundant beside `rod`"), "{text}");
+    assert!(text.contains("`again` is redundant given `rod`"), "{text}");
 }
 
 #[test]

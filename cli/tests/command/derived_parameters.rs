@@ -206,12 +206,12 @@ fn what_cannot_be_is_told() {
     // m = -1 makes J negative, r = 1e200 makes it infinite.
     let said = refused(&[&run[..], &["--set", "m=-1"]].concat());
     assert!(
-        said.contains("not negative") || said.contains("positive"),
+        said.contains("not be negative") || said.contains("positive"),
         "{said}"
     );
     let said = refused(&[&run[..], &["--set", "r=1e200"]].concat());
     assert!(
-        said.contains("a derived parameter is a finite number"),
+        said.contains("a derived parameter must be a finite number"),
         "{said}"
     );
     // A sensitivity by J itself needs a value of J.

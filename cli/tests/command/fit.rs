@@ -879,7 +879,7 @@ fn what_is_wrong_is_said() {
         (
             "text.csv",
             "t,x\n0,0.1\n1,much\n",
-            "line 3, column 3: `much` in `x` is no finite number",
+            "line 3, column 3: `much` in `x` is not a finite number",
         ),
         (
             "none.csv",

@@ -464,7 +464,7 @@ fn what_is_not_known_in_space_is_refused() {
         ),
         (
             "rolling_resistance: 1e-3*m",
-            "`rolling_resistance` does not go with `sphere`",
+            "`rolling_resistance` cannot be combined with `sphere`",
         ),
     ] {
         let text = std::fs::read_to_string(

@@ -1412,7 +1412,7 @@ fn what_cannot_be_varied_is_told_at_the_word() {
         &[coin, "--vary", "m=1..2:5", "--set", "m=3"],
         "both give `m` a value",
     );
-    refused(&[coin, "--vary", "m=1..-2:5"], "a mass is positive");
+    refused(&[coin, "--vary", "m=1..-2:5"], "a mass must be positive");
     refused(&[coin, "--vary", "m=1..2:5", "--out", "a.txt"], "`.csv`");
 }
 

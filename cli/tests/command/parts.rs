@@ -422,7 +422,7 @@ fn a_rope_that_leaves_its_pulley_ends_the_run() {
     let tied =
         format!("path: ((-1, -0.2), (0, 0), load.at), radii: (0, -r, 0), length: {length:?}");
     for (rope, ending) in [
-        (wound, "lies on pulley 1"),
+        (wound, "wraps around pulley 1"),
         (&tied, "the motion has a jump"),
     ] {
         let spec = hung.replace("ROPE", rope);

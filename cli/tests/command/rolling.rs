@@ -197,14 +197,14 @@ fn what_resists_no_rolling_is_refused() {
     refused(
         "friction: mu,",
         "friction: mu, law: stronge,",
-        "`law: stronge` knows no `rolling_resistance`",
+        "`law: stronge` does not support `rolling_resistance`",
     );
     refused(
         "friction: mu,",
         "friction: mu, painleve: impact,",
-        "`painleve: impact` knows no `rolling_resistance`",
+        "`painleve: impact` does not support `rolling_resistance`",
     );
-    refused("rho: m = 0.004", "rho: m = -0.004", "is not negative");
+    refused("rho: m = 0.004", "rho: m = -0.004", "must not be negative");
     refused(
         "rolling_resistance: rho",
         "rolling_resistance: mu",

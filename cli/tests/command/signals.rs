@@ -256,7 +256,7 @@ fn what_cannot_drive_an_input_is_refused() {
         (
             "comma.csv",
             "t;push\n0;1,5\n",
-            "comma.csv, line 2, column 3: `1,5` in `push` is no finite number; the decimal mark",
+            "comma.csv, line 2, column 3: `1,5` in `push` is not a finite number; the decimal mark",
         ),
         (
             "back.csv",
@@ -284,7 +284,7 @@ fn what_cannot_drive_an_input_is_refused() {
         (
             "nan.csv",
             "t,push\n0,nan\n",
-            "`nan` in `push` is no finite number",
+            "`nan` in `push` is not a finite number",
         ),
     ];
     for (name, text, why) in tables {
@@ -331,17 +331,17 @@ fn what_cannot_drive_an_input_is_refused() {
         (
             &["--input", &latin],
             2,
-            "latin.csv, line 2, column 7: this is no UTF-8",
+            "latin.csv, line 2, column 7: this is not UTF-8",
         ),
         (
             &["--input", &ring],
             2,
-            "ends with the value with which it begins",
+            "must end with the value with which it begins",
         ),
         (
             &["--input", &error],
             1,
-            "the table of input push ends, and the run goes on",
+            "the table of input push ends, but the run continues",
         ),
         (&["--input", "push=1,every=1e-300"], 2, "greater than 0"),
         (

@@ -415,10 +415,10 @@ fn what_a_state_cannot_do_is_said_at_the_word() {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(0), "{said}");
     for (extra, rate, word) in [
-        ("", "", "nothing says how the state `s` changes"),
+        ("", "", "the rate of the state `s` is not given"),
         ("", "der(s) = der(der(x))", "accelerations"),
         ("", "der(s) = x", "m/s^2"),
-        ("", "der(s) = s/tau, der(s) = -s/tau", "said twice"),
+        ("", "der(s) = s/tau, der(s) = -s/tau", "given twice"),
         ("", "der(s) = s/tau, der(x) = s", "a state is expected here"),
         ("", "der(s) = s/tau, der(r) = s", "no state is named `r`"),
         ("constraints { c: der(x) = s }", rate, "the state `s`"),

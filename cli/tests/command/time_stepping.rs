@@ -219,7 +219,7 @@ fn what_time_stepping_does_not_know_is_refused() {
         "1e-3",
     ]);
     assert!(
-        yields.contains("`moreau` knows contacts with the law `newton`"),
+        yields.contains("`moreau` supports contacts with the law `newton`"),
         "{yields}"
     );
     let rows = std::env::temp_dir().join("stepped_rows.csv");
@@ -288,7 +288,7 @@ fn a_run_hands_over_where_discs_pile_up() {
         .filter(|said| said.contains("time stepping in steps of"))
         .collect();
     assert!(
-        said.len() == 1 && said[0].contains("nothing bounds"),
+        said.len() == 1 && said[0].contains("is not controlled"),
         "{warnings:?}"
     );
     for (name, rate) in run["v"].as_object().expect("rates") {

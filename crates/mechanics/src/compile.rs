@@ -90,12 +90,12 @@ fn emitted_series(model: &Model<'_>) -> Result<ProvedSeries, String> {
     }
     let series = ProvedSeries::derive(model).map_err(|reason| reason.to_string())?;
     if series.unwritten().is_some() {
-        let reason = "emitted code multiplies positions, their sines and forces only; the interpreter has it";
+        let reason = "emitted code supports only products of positions, their sines and forces; the interpreter supports this series";
         return Err(reason.into());
     }
     if series.is_short() {
         Ok(series)
     } else {
-        Err("it is too long to be written down".into())
+        Err("it is too long for emitted code".into())
     }
 }

@@ -173,7 +173,7 @@ impl Unproved {
                 model.span,
                 format!("this machine could not be proved: {comparisons} states were compared, and too few of them have accelerations"),
             )
-            .help("as many are compared as the size of its equations allows; where it is singular at most states, say what holds it, or make it smaller"),
+            .help("the size of its equations limits the number of states that are compared; if it is singular at most states, state what holds it, or make it smaller"),
             _ => Diagnostic::new(Code::Internal, model.span, self.to_string()).help(
                 "this is a defect of lagrangian, not of the spec: nothing was emitted; please report it together with the spec",
             ),
@@ -201,7 +201,7 @@ impl fmt::Display for Unproved {
         };
         write!(
             f,
-            "the program of this machine was made wrong: {} what Lagrange's equations say{seed}",
+            "the program generated for this machine is wrong: {} what Lagrange's equations say{seed}",
             self.what
         )
     }
@@ -252,12 +252,12 @@ fn told(disagreement: &Disagreement, program: &Program) -> String {
             format!("`{}`{of} is not", role.name())
         }
         Disagreement::Motion { coordinate: i, .. } => format!(
-            "`{}` breaks the equation of motion of {}, against",
+            "`{}` violates the equation of motion of {}, contrary to",
             program.solving().name(),
             coordinate(i)
         ),
         Disagreement::Constraint { constraint: k, .. } => format!(
-            "`{}` breaks {}, against",
+            "`{}` violates {}, contrary to",
             program.solving().name(),
             constraint(k)
         ),
@@ -273,12 +273,12 @@ fn told(disagreement: &Disagreement, program: &Program) -> String {
             constraint(k),
             coordinate(i)
         ),
-        Disagreement::Pivots { .. } => "what guards the elimination is not".into(),
+        Disagreement::Pivots { .. } => "the guard of the elimination is not".into(),
         Disagreement::Singular(singular) => format!(
-            "the elimination stops at {}, against",
+            "the elimination stops at {}, contrary to",
             coordinate(singular.coordinate)
         ),
-        Disagreement::Unseen { role } => format!("nothing holds `{}` against", role.name()),
+        Disagreement::Unseen { role } => format!("nothing compares `{}` with", role.name()),
         Disagreement::Undefined | Disagreement::Exhausted { .. } => {
             "no state was found to compare it with".into()
         }

@@ -36,7 +36,7 @@ const SECTION: Section = Section {
 static AXIS: Limit = limit(
     stage::POSITION,
     "an axis",
-    "only coordinates, parameters and `t` can stand here",
+    "only coordinates, parameters and `t` are allowed here",
 );
 
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
@@ -93,7 +93,10 @@ fn between_points<'a, 'd>(
 fn same_ends(resolver: &mut Resolver<'_, '_, '_>, span: Span) {
     let message = "both ends of this actuator are the same";
     let diagnostic = Diagnostic::new(Code::ConflictingFields, span, message);
-    resolver.push(diagnostic.help("an actuator acts between what moves against each other"));
+    resolver
+        .push(diagnostic.help(
+            "an actuator acts between two points or frames that move relative to each other",
+        ));
 }
 
 fn between_frames<'a, 'd>(
@@ -151,7 +154,7 @@ fn axis<'a, 'd>(
         return None;
     };
     if resolver.space == Space::Plane {
-        let message = "in the plane a torque acts about the normal alone";
+        let message = "in the plane a torque acts only about the normal";
         let diagnostic = Diagnostic::new(Code::WrongSpace, said.name.span, message);
         resolver.push(diagnostic.help("leave the axis out"));
         return None;

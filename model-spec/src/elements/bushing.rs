@@ -42,7 +42,7 @@ const SECTION: Section = Section {
 static PRELOAD: Limit = limit(
     stage::TIME,
     "a preload",
-    "what depends on coordinates or velocities stands under `forces` or `potentials`",
+    "what depends on coordinates or velocities belongs under `forces` or `potentials`",
 );
 
 /// The values of a field: two along the axes, and one about them.
@@ -99,7 +99,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         return None;
     };
     if from == to {
-        let message = "a bushing joins two frames, and both ends are the same one";
+        let message = "a bushing joins two frames, but both of its ends are the same frame";
         resolver.error(Code::ConflictingFields, span, message);
         return None;
     }
@@ -157,7 +157,7 @@ fn three<'a, 'd>(
     };
     let [x, y, angle] = parts else {
         let message = format!(
-            "expected three values, along both axes and about them, found {}",
+            "expected three values, two along the axes and one for the rotation, found {}",
             parts.len()
         );
         let diagnostic = Diagnostic::new(Code::WrongDimension, said.span, message);

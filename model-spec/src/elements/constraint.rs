@@ -24,7 +24,7 @@ const SECTION: Section = Section {
 static CONSTRAINT: Limit = limit(
     stage::VELOCITY,
     "a constraint",
-    "only coordinates, velocities, parameters and `t` can stand here",
+    "only coordinates, velocities, parameters and `t` are allowed here",
 );
 
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
@@ -34,7 +34,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let expression = left - right;
     let span = equation.left.span.to(equation.right.span);
     let states =
-        "constraints hold coordinates and velocities; how a state changes is said by `der(…)`";
+        "constraints restrict coordinates and velocities; the rate of a state is given by `der(…)`";
     if resolver.refuse_states(expression, span, "a constraint", states) {
         return None;
     }

@@ -28,7 +28,7 @@ const SECTION: Section = Section {
 pub(super) static DAMPING: Limit = limit(
     stage::TIME,
     "a damping coefficient",
-    "a damper that is not linear is a function under `dissipations`",
+    "write a nonlinear damper as a function under `dissipations`",
 );
 
 const DAMPER: Elastic = Elastic {

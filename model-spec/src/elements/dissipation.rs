@@ -24,7 +24,7 @@ const SECTION: Section = Section {
 static DISSIPATION: Limit = limit(
     stage::VELOCITY,
     "a dissipation",
-    "only velocities, coordinates, parameters and `t` can stand here",
+    "only velocities, coordinates, parameters and `t` are allowed here",
 );
 
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
@@ -32,7 +32,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let scope = resolver.scope(member, &DISSIPATION);
     let why = "a dissipation function is in W: 1/2*b*der(x)^2";
     let function = resolver.scalar_in(value, Unit::WATT, why, scope)?;
-    let help = "its derivative by a velocity is a force: write that under `forces` or `torques`";
+    let help = "its derivative with respect to a velocity is a force: write that under `forces` or `torques`";
     if resolver.refuse_states(function.expr, value.span, "a dissipation function", help) {
         return None;
     }

@@ -41,7 +41,7 @@ const SECTION: Section = Section {
 static FACTOR: Limit = limit(
     stage::INPUT,
     "a drag",
-    "only velocities, coordinates, inputs, parameters and `t` can stand here",
+    "only velocities, coordinates, inputs, parameters and `t` are allowed here",
 );
 
 /// A factor of the force: its field, its unit, and the reason for messages.

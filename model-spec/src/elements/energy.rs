@@ -26,14 +26,14 @@ const SECTION: Section = Section {
 static ENERGY: Limit = limit(
     stage::VELOCITY,
     "an energy of states",
-    "only states, coordinates, parameters and `t` can stand here",
+    "only states, coordinates, parameters and `t` are allowed here",
 );
 
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
     let value = resolver.expression(member)?;
     let scope = resolver.scope(member, &ENERGY);
     let energy = resolver.scalar_in(value, Unit::JOULE, "an energy is in J", scope)?;
-    let help = "the kinetic energy of bodies is counted already";
+    let help = "the kinetic energy of bodies is already included";
     if resolver.refuse_rates(energy.expr, value.span, "an energy of states", help) {
         return None;
     }

@@ -26,7 +26,7 @@ const SECTION: Section = Section {
 pub(super) static FORCE: Limit = limit(
     stage::INPUT,
     "a force",
-    "what is proportional to accelerations is a mass: give it as a body",
+    "a force proportional to accelerations acts as a mass: declare it as a body",
 );
 
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {

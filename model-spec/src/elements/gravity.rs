@@ -24,7 +24,7 @@ const SECTION: Section = Section {
 static GRAVITY: Limit = limit(
     stage::TIME,
     "gravity",
-    "it is uniform; a field that depends on the place is a potential",
+    "it is uniform; write a field that depends on position as a potential",
 );
 
 fn resolve<'a, 'd>(

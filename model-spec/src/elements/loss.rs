@@ -26,7 +26,7 @@ const SECTION: Section = Section {
 static LOSS: Limit = limit(
     stage::INPUT,
     "a loss",
-    "only states, velocities, coordinates, inputs, parameters and `t` can stand here",
+    "only states, velocities, coordinates, inputs, parameters and `t` are allowed here",
 );
 
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {

@@ -24,7 +24,7 @@ const SECTION: Section = Section {
 static POTENTIAL: Limit = limit(
     stage::POSITION,
     "a potential",
-    "only coordinates, parameters and `t` can stand here; what depends on velocities is a force or a \
+    "only coordinates, parameters and `t` are allowed here; what depends on velocities is a force or a \
      dissipation",
 );
 

@@ -22,8 +22,8 @@ const SECTION: Section = Section {
 
 static FRICTION: Limit = limit(
     stage::PARAMETER,
-    "the friction that rolling may need",
-    "only parameters can stand here",
+    "the friction of a rolling contact",
+    "only parameters are allowed here",
 );
 
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {

@@ -63,13 +63,13 @@ const SECTION: Section = Section {
 static LENGTH: Limit = limit(
     stage::POSITION,
     "the length of a rope",
-    "only coordinates, parameters and `t` can stand here",
+    "only coordinates, parameters and `t` are allowed here",
 );
 
 static RADIUS: Limit = limit(
     stage::PARAMETER,
     "the radius of a pulley",
-    "only parameters can stand here",
+    "only parameters are allowed here",
 );
 
 static TURN: Limit = limit(stage::POSITION, "the turn of a pulley", POSITIONS);
@@ -130,7 +130,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         stops.first().is_some_and(Stop::has_size) || stops.last().is_some_and(Stop::has_size);
     if has_drum {
         if let Some((_, span)) = length {
-            let message = "a rope on a drum is as long as it is at the start";
+            let message = "a rope on a drum keeps the length that it has at the start";
             let diagnostic = Diagnostic::new(Code::ConflictingFields, span, message);
             resolver.push(diagnostic.help("leave `length` out"));
             return None;
@@ -162,9 +162,9 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     }
     let mut all = constraints.iter();
     if all.any(|(_, expression, _)| expression.stage() < stage::POSITION) {
-        let message = "this rope holds nothing: no point of its path moves";
+        let message = "this rope constrains nothing: no point of its path moves";
         let diagnostic = Diagnostic::new(Code::NoCoordinates, path.span, message);
-        resolver.push(diagnostic.help("an end of it is a point of a body, as `load.at`"));
+        resolver.push(diagnostic.help("one end must be a point of a body, such as `load.at`"));
         return None;
     }
     let (own, span) = (resolver.name(member), resolver.span(member));
@@ -214,7 +214,7 @@ fn stops<'a, 'd>(
     let radii = match record.get("radii") {
         None => vec![(zero, None); points.len()],
         Some(said) if resolver.space == Space::Space => {
-            let message = "ropes go around pulleys with radii only in the plane";
+            let message = "ropes around pulleys with radii exist only in the plane";
             let diagnostic = Diagnostic::new(Code::WrongSpace, said.span, message);
             resolver.push(
                 diagnostic.help("in space a rope goes from point to point: leave `radii` out"),
@@ -258,13 +258,13 @@ fn stops<'a, 'd>(
     for (k, ((at, (radius, span)), turn)) in points.into_iter().zip(radii).zip(turns).enumerate() {
         match (turn, span) {
             (Some((_, span)), _) if radius.is_zero() => {
-                let message = "what has no radius does not turn with the rope";
+                let message = "a point without a radius does not turn with the rope";
                 let diagnostic = Diagnostic::new(Code::ConflictingFields, span, message);
                 resolver.push(diagnostic.help("give its radius in `radii`, or 0 here"));
                 return None;
             }
             (None, Some(span)) if (k == 0 || k == last) && !radius.is_zero() => {
-                let message = "a rope ends on a drum that is turned by an angle";
+                let message = "a rope that ends on a drum needs the angle of the drum";
                 let diagnostic = Diagnostic::new(Code::MissingField, span, message);
                 resolver.push(
                     diagnostic.help(
@@ -296,7 +296,7 @@ fn list<'a>(
         ExpressionKind::Tuple(parts) if parts.len() == count => Some(parts),
         _ => {
             let message = format!(
-                "`{field}` has one for each of the {count} points of `path`, 0 where there is none"
+                "`{field}` needs one value for each of the {count} points of `path`, 0 where there is none"
             );
             resolver.error(Code::WrongDimension, said.span, message);
             None
@@ -347,7 +347,7 @@ fn arc<'d>(
     // 1 − cos w ± sin w, times a positive factor: 0 at w = 0 and at three quarters of a turn, positive in between.
     let excess = radius.abs() * (before.norm * behind.norm - along) + radius * across;
     let text = format!(
-        "the rope `{}` lies on pulley {k}, by less than 3/4 of a turn",
+        "the rope `{}` wraps around pulley {k}, by less than 3/4 of a turn",
         resolver.name(member)
     );
     resolver.add_fact(Assumption {

@@ -46,9 +46,11 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         Some(inertia.expr)
     })?;
     if angle.expr.stage() < stage::TIME {
-        let message = "this never turns, so it has no inertia";
+        let message = "this never turns, so its inertia has no effect";
         let diagnostic = Diagnostic::new(Code::NoCoordinates, span, message);
-        resolver.push(diagnostic.help("give a coordinate, or what depends on coordinates"));
+        resolver.push(
+            diagnostic.help("give a coordinate, or an expression that depends on coordinates"),
+        );
         return None;
     }
     let zero = resolver.dag.zero();

@@ -28,7 +28,7 @@ const SECTION: Section = Section {
 pub(super) static STIFFNESS: Limit = limit(
     stage::TIME,
     "a stiffness",
-    "a spring that is not linear is an energy under `potentials`",
+    "write a nonlinear spring as an energy under `potentials`",
 );
 
 const SPRING: Elastic = Elastic {

@@ -41,7 +41,7 @@ const SECTION: Section = Section {
 static DAMPING: Limit = limit(
     stage::TIME,
     "the damping of a stop",
-    "a law of another kind is a function under `dissipations`",
+    "write any other law as a function under `dissipations`",
 );
 
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
@@ -59,9 +59,11 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let (travel, span) = travel?;
     let unit = travel.unit.unwrap_or(Unit::METRE);
     if travel.expr.stage() < stage::POSITION {
-        let message = "this never moves, so nothing stops it";
+        let message = "this never moves, so the stop has no effect";
         let diagnostic = Diagnostic::new(Code::NoCoordinates, span, message);
-        resolver.push(diagnostic.help("give a coordinate, or what depends on coordinates"));
+        resolver.push(
+            diagnostic.help("give a coordinate, or an expression that depends on coordinates"),
+        );
         return None;
     }
     let bounds = ["above", "below"].map(|field| {

@@ -37,7 +37,7 @@ const SECTION: Section = Section {
 static TURN: Limit = limit(
     stage::VELOCITY,
     "a turn",
-    "only coordinates, velocities, parameters and `t` can stand here",
+    "only coordinates, velocities, parameters and `t` are allowed here",
 );
 
 static RATIO: Limit = limit(
@@ -72,7 +72,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let (mut first, mut second) = (first.expr, second.expr);
     if let Some(carrier) = carrier {
         let field = record.get("carrier")?;
-        let why = "wheels and what carries them turn in one unit";
+        let why = "wheels and their carrier turn in the same unit";
         resolver.demand(
             Some(unit),
             carrier.unit.unwrap_or(Unit::ONE),
@@ -116,15 +116,16 @@ fn check<'d>(resolver: &mut Resolver<'_, 'd, '_>, joined: Expr<'d>, span: Span) 
         resolver.error(Code::NoCoordinates, span, "this constrains no coordinate");
         return None;
     }
-    let help = "a transmission holds coordinates and their rates";
+    let help = "a transmission relates coordinates or their rates";
     if resolver.refuse_states(joined, span, "a transmission", help) {
         return None;
     }
     if joined.stage() == stage::VELOCITY && !is_linear(joined) {
         let message = "this is not linear in the velocities";
         let diagnostic = Diagnostic::new(Code::NotLinear, span, message);
-        resolver
-            .push(diagnostic.help("a rate of turning is `dot(frame.spin, axis)`, or `der(angle)`"));
+        resolver.push(
+            diagnostic.help("an angular velocity is `dot(frame.spin, axis)`, or `der(angle)`"),
+        );
         return None;
     }
     Some(())
@@ -171,7 +172,7 @@ pub(super) fn turn_of<'a, 'd>(
             })
         }
         Value::Frame(_) | Value::Body(_) => {
-            let message = "in space a frame is not turned by one angle";
+            let message = "in space one angle does not determine the orientation of a frame";
             let diagnostic = Diagnostic::new(Code::WrongSpace, said.span, message);
             let help = "give the angle itself, or the rate about an axis: `dot(wheel.spin, axis)`";
             resolver.push(diagnostic.help(help));
@@ -195,7 +196,7 @@ fn ratio<'a, 'd>(
     if let Some(ratio) = record.get("ratio") {
         resolver.conflict(record, "teeth", "ratio");
         resolver.conflict(record, "belt", "ratio");
-        let why = "a ratio is the unit of the first turn over that of the second";
+        let why = "a ratio has the unit of the first turn over that of the second";
         let scalar = resolver.scalar_in(ratio, first.over(second), why, scope)?;
         if scalar.expr.is_zero() {
             let message = "a ratio of 0 transmits nothing";
@@ -217,7 +218,7 @@ fn ratio<'a, 'd>(
         resolver.missing_field(member, message);
         return None;
     };
-    let why_angles = "wheels turn by angles, in one unit";
+    let why_angles = "both wheels turn by angles, in the same unit";
     resolver.demand(Some(second), first, record.get("turns")?.span, why_angles);
     let [z1, z2] = pair(resolver, said, "two of them")?.map(|part| {
         let scalar = resolver.scalar_in(part, unit, why, scope)?;

@@ -43,7 +43,7 @@ const SECTION: Section = Section {
 static RADIUS: Limit = limit(
     stage::PARAMETER,
     "the radius of a wheel",
-    "only parameters can stand here",
+    "only parameters are allowed here",
 );
 
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
@@ -51,7 +51,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     if resolver.space == Space::Plane {
         let message = "wheels roll on planes only in space";
         let diagnostic = Diagnostic::new(Code::WrongSpace, resolver.span(member), message);
-        resolver.push(diagnostic.help("in the plane circles roll, under `rolling`"));
+        resolver.push(diagnostic.help("in the plane use circles, under `rolling`"));
         return None;
     }
     let said = resolver.field(member, record, "wheel");
@@ -91,8 +91,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
             let message =
                 "this wheel does not touch what it rolls on, and no coordinate changes that";
             let diagnostic = Diagnostic::new(Code::NoCoordinates, own, message);
-            let help =
-                "the origin of its frame is to be its radius above the first two axes of `on`";
+            let help = "the origin of its frame must be one radius above the plane of the first two axes of `on`";
             resolver.push(diagnostic.help(help));
             return None;
         }

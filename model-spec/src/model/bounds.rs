@@ -65,71 +65,71 @@ impl BoundKind<'_> {
     /// The error in a value; none if the value is unknown, which is NaN.
     fn complaint(self, value: f64, other: f64) -> Option<(Code, String)> {
         let (is_wrong, code, words) = match self {
-            BoundKind::Mass => (value <= 0.0, Code::NotPositive, "a mass is positive"),
+            BoundKind::Mass => (value <= 0.0, Code::NotPositive, "a mass must be positive"),
             BoundKind::Moment => (
                 value < 0.0,
                 Code::NotPositive,
-                "a moment of inertia is not negative",
+                "a moment of inertia must not be negative",
             ),
-            BoundKind::Radius => (value <= 0.0, Code::NotPositive, "a radius is positive"),
+            BoundKind::Radius => (value <= 0.0, Code::NotPositive, "a radius must be positive"),
             BoundKind::Convex => {
-                let message = "these are not the corners of a convex polygon, listed so that it lies to the left of every face";
+                let message = "these are not the corners of a convex polygon, listed counterclockwise, so that it lies to the left of every face";
                 return (value <= 0.0).then(|| (Code::OutsideDomain, message.to_owned()));
             }
             BoundKind::Friction => (
                 value < 0.0,
                 Code::NotPositive,
-                "a coefficient of friction is not negative",
+                "a coefficient of friction must not be negative",
             ),
             BoundKind::RollingResistance => (
                 value < 0.0,
                 Code::NotPositive,
-                "a coefficient of rolling resistance is not negative",
+                "a coefficient of rolling resistance must not be negative",
             ),
             BoundKind::StaticFriction(_) => {
-                let words = "what sticks is held by no less friction than what slides";
+                let words = "the coefficient of static friction must not be less than that of sliding friction";
                 let message = format!("{words}, found {value} below {other}");
                 return (value < other).then_some((Code::OutsideDomain, message));
             }
             BoundKind::Restitution => (
                 !(0.0..=1.0).contains(&value),
                 Code::OutsideDomain,
-                "a coefficient of restitution lies between 0 and 1",
+                "a coefficient of restitution must lie between 0 and 1",
             ),
             BoundKind::ContactStiffness => (
                 value <= 0.0,
                 Code::NotPositive,
-                "the stiffness of a contact is positive",
+                "the stiffness of a contact must be positive",
             ),
             BoundKind::ContactDamping => (
                 value < 0.0,
                 Code::NotPositive,
-                "the damping of a contact is not negative",
+                "the damping of a contact must not be negative",
             ),
             BoundKind::Unloading(_) => {
-                let words = "a layer is unloaded no less stiffly than it is loaded";
+                let words = "the unloading stiffness of a layer must not be less than its loading stiffness";
                 let message = format!("{words}, found {value} below {other}");
                 return (value < other).then_some((Code::OutsideDomain, message));
             }
             BoundKind::Stiffness => (
                 value < 0.0,
                 Code::NegativeCoefficient,
-                "a spring of negative stiffness pushes away",
+                "a spring with negative stiffness pushes away from its rest position",
             ),
             BoundKind::Drag => (
                 value < 0.0,
                 Code::NotPositive,
-                "a drag holds back: its coefficient, area and density are not negative",
+                "drag opposes motion: its coefficient, area and density must not be negative",
             ),
             BoundKind::Derived => (
                 !value.is_finite(),
                 Code::OutsideDomain,
-                "a derived parameter is a finite number",
+                "a derived parameter must be a finite number",
             ),
             BoundKind::Damping => (
                 value < 0.0,
                 Code::NegativeCoefficient,
-                "a damper of negative damping drives",
+                "a damper with negative damping adds energy",
             ),
         };
         is_wrong.then(|| (code, format!("{words}, found {value}")))
@@ -196,7 +196,8 @@ impl<'d> Model<'d> {
 }
 
 /// The help text for a negative coefficient that is intended.
-pub(crate) const MEANT: &str = "if it is meant, say so: `assume { c < 0 }`, with a name for it";
+pub(crate) const MEANT: &str =
+    "if this is intended, name the coefficient and declare it: `assume { c < 0 }`";
 
 impl Bound<'_> {
     /// Whether it depends on parameters alone.

@@ -53,9 +53,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         {
             let shown = missing[..missing.len().min(LISTED)].join(", ");
             let more = if missing.len() > LISTED { ", …" } else { "" };
-            let message = format!("nothing says where {shown}{more} ends");
+            let message = format!("no end value is given for {shown}{more}");
             let incomplete = Diagnostic::new(Code::MissingValue, heading, message);
-            let help = "the fastest motion ends at one place: give every coordinate a value";
+            let help = "the fastest motion ends at one position: give every coordinate a value";
             self.push(incomplete.help(help));
         }
         ends.into_iter().collect::<Option<_>>().unwrap_or_default()

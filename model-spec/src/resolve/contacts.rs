@@ -74,10 +74,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         };
         for (foreign, here) in [(other, one), (other_family, family)] {
             if let Some(field) = record.field(foreign) {
-                let message = format!("`{foreign}` says nothing here");
+                let message = format!("`{foreign}` has no meaning here");
                 let diagnostic = Diagnostic::new(Code::WrongSpace, field.name.span, message);
                 self.push(diagnostic.help(format!(
-                    "it is `{here}`: circles exist in the plane, spheres in space"
+                    "use `{here}`: circles exist in the plane, spheres in space"
                 )));
                 return None;
             }
@@ -145,7 +145,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         for field in ["tangential_restitution", "static_friction"] {
             if let (None, Some(field)) = (&friction, record.field(field)) {
                 let name = &field.name.text;
-                let message = format!("`{name}` says nothing where there is no `friction`");
+                let message = format!("`{name}` has no effect without `friction`");
                 let diagnostic = Diagnostic::new(Code::MissingField, field.name.span, message);
                 self.push(diagnostic.help("add `friction`, or leave it out"));
             }
@@ -219,7 +219,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if count > MOST_UNILATERAL {
             let message = format!("{} {family} make {count} pairs", circles.len());
             let diagnostic = Diagnostic::new(Code::TooLarge, said.span, message);
-            let help = format!("a machine may have {MOST_UNILATERAL} contacts");
+            let help = format!("a machine may have at most {MOST_UNILATERAL} contacts");
             self.push(diagnostic.help(help));
             return None;
         }
@@ -365,18 +365,18 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         };
         if corners.len() < 3 {
             let message = format!(
-                "a polygon has three corners at least, found {}",
+                "a polygon has at least three corners, found {}",
                 corners.len()
             );
             let diagnostic = Diagnostic::new(Code::WrongKind, said.span, message);
-            self.push(diagnostic.help("what is fixed to a body may touch as a `point` too"));
+            self.push(diagnostic.help("a single point of a body can be in contact as a `point`"));
             return None;
         }
         if corners.len() > MOST_CORNERS {
             let message = format!("a polygon with {} corners is too large", corners.len());
             let diagnostic = Diagnostic::new(Code::TooLarge, said.span, message);
             self.push(diagnostic.help(format!(
-                "it may have {MOST_CORNERS}: what is rounder is a circle"
+                "it may have at most {MOST_CORNERS}: use a circle for rounder shapes"
             )));
             return None;
         }
@@ -513,7 +513,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             None => Some(ImpactOrder::default()),
         };
         let painleve = match record.get("painleve") {
-            Some(said) => self.one_of(said, "way out of a paradox", &Painleve::ALL, Painleve::name),
+            Some(said) => self.one_of(
+                said,
+                "treatment of paradoxes",
+                &Painleve::ALL,
+                Painleve::name,
+            ),
             None => Some(Painleve::default()),
         };
         Some(Response::Rigid {
@@ -541,10 +546,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     let name = &call.function.text;
                     (
                         call.function.span,
-                        format!("no law of force is called `{name}`"),
+                        format!("no force law is called `{name}`"),
                     )
                 }
-                None => (said.span, "a law of force is expected here".to_owned()),
+                None => (said.span, "a force law is expected here".to_owned()),
             };
             let forms = Compliance::ALL.map(|law| format!("`{}`", form(law)));
             let diagnostic = Diagnostic::new(Code::UnknownName, span, message);

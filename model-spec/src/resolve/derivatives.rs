@@ -75,7 +75,9 @@ impl Resolver<'_, '_, '_> {
                     "`coordinates` and `rates` stand for all coordinates and their rates"
                 }
                 SectionKind::Inputs => "`inputs` stands for all inputs",
-                _ => "what accelerations are differentiated by is declared under `parameters`",
+                _ => {
+                    "accelerations can be differentiated with respect to what is declared under `parameters`"
+                }
             };
             self.push(Diagnostic::new(Code::WrongKind, name.span, message).help(help));
         }

@@ -133,11 +133,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// Refuses derivatives by a parameter that follows from others.
     pub fn derivative_by_derived(&mut self, member: MemberId, said: Span) {
         let name = self.name(member).to_string();
-        let message = format!("`{name}` follows from other parameters and does not vary by itself");
+        let message =
+            format!("`{name}` follows from other parameters and cannot vary independently");
         let diagnostic = Diagnostic::new(Code::WrongKind, said, message);
         let diagnostic = diagnostic.note(self.span(member), "by this formula");
         self.push(diagnostic.help(
-            "name those in its formula: derivatives by them go through it by the chain rule",
+            "name the parameters in its formula: derivatives with respect to them include it by the chain rule",
         ));
     }
 }

@@ -45,7 +45,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             ExpressionKind::Chain(chain) => self.chain(chain, span, scope.hinting(None)),
             ExpressionKind::Tuple(components) => self.tuple(components, span, scope),
             ExpressionKind::Text(_) => {
-                let message = "a file stands only in `table(\"…\", x)`";
+                let message = "a file name is allowed only in `table(\"…\", x)`";
                 self.error(Code::WrongKind, span, message);
                 Value::Unknown
             }
@@ -297,7 +297,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 .iter()
                 .map(|(value, term)| (value.unit(), term.value.span)),
             scope.hint,
-            "what is added or subtracted has one unit",
+            "terms that are added or subtracted must have the same unit",
         );
         let parts = values.iter();
         self.no_bare_number(
@@ -410,12 +410,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return;
         };
         for (_, span) in parts.filter(|(bare, _)| *bare) {
-            let message = "this number needs a unit beside what is not in SI units";
+            let message = "this number needs a unit next to a quantity that is not in SI units";
             let diagnostic = Diagnostic::new(Code::MissingUnit, span, message);
             let unit = unit.to_string();
             let help = match unit.as_str() {
                 "1" => "write `2*rad` or `2*deg`, whichever it is".to_owned(),
-                unit => format!("write what it is measured in: `2*{unit}`"),
+                unit => format!("write its unit: `2*{unit}`"),
             };
             self.push(diagnostic.help(help));
         }
@@ -432,12 +432,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let number = bare.number.unwrap_or(0.0);
             let message = format!("this is an angle of {number} rad, and looks like degrees");
             let diagnostic = Diagnostic::new(Code::LooksLikeDegrees, span, message);
-            let help = format!("write `{number}*deg`, or `{number}*rad` if it is meant");
+            let help = format!("write `{number}*deg`, or `{number}*rad` if that is intended");
             self.push(diagnostic.help(help));
         } else if unit.is_scaled() && power_of_pi(bare.expr) != 0 {
-            let message = "this is an angle in radians by its looks, where the unit is another";
+            let message = "this looks like an angle in radians, but the unit here is different";
             let diagnostic = Diagnostic::new(Code::LooksLikeDegrees, span, message);
-            self.push(diagnostic.help("write the number of them, or `…*rad`"));
+            self.push(diagnostic.help("write the value in that unit, or `…*rad`"));
         }
     }
 
@@ -489,7 +489,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let message = format!("nothing is named `{}`", name.text);
         let diagnostic = Diagnostic::new(Code::UnknownName, name.span, message);
         self.push(diagnostic.help(format!(
-            "`{}` is a unit behind a number and other units only, and `{declared}` is declared here, so that it is no unit: write the number alone, in SI units",
+            "`{}` is a unit only after a number or another unit, and `{declared}` is declared here and therefore is not a unit: write only the number, in SI units",
             name.text
         )));
     }
@@ -668,13 +668,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if found.is_none() {
             let diagnostic = match parts {
                 Some(_) => {
-                    let message = format!("this power of {} is no unit", unit_text(unit));
+                    let message = format!("this power of {} is not a unit", unit_text(unit));
                     Diagnostic::new(Code::UnitOfPower, power_span, message)
-                        .help("a quantity can be raised to a whole number or to halves")
+                        .help("a quantity can be raised only to an integer or half-integer power")
                 }
                 None => {
                     let message = format!(
-                        "expected a pure number, found {}: the exponent is no constant",
+                        "expected a pure number, found {}: the exponent is not constant",
                         unit_text(unit)
                     );
                     Diagnostic::new(Code::UnitOfPower, base_span, message)
@@ -704,7 +704,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let unit = self.common_unit(
             parts.map(|(value, part)| (value.and_then(|value| value.unit), part.span)),
             scope.hint,
-            "the components of a vector have one unit",
+            "the components of a vector must have the same unit",
         );
         let parts = values.iter().zip(components);
         let is_bare = |value: &Option<Scalar<'d>>| value.is_some_and(|value| value.is_bare());
@@ -768,7 +768,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     fn unknown_function(&mut self, name: &'a Ident) {
         if self.find_group(Namespace::Values, &name.text).is_some() {
-            let message = format!("`{}` is no function", name.text);
+            let message = format!("`{}` is not a function", name.text);
             let diagnostic = Diagnostic::new(Code::UnknownFunction, name.span, message);
             let help = format!("a product is written with a star: `{}*(…)`", name.text);
             return self.push(diagnostic.help(help));
@@ -781,7 +781,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             "pow" => Some("a power is written `x^n`".to_owned()),
             "diff" | "dot_t" | "ddt" => Some("the time derivative is `der(x)`".to_owned()),
             "turn" | "shift" | "point" => Some(format!(
-                "this is done to a frame: `ground.{}(…)`",
+                "this is an operation on a frame: `ground.{}(…)`",
                 name.text
             )),
             word => suggestion(word, known),
@@ -837,7 +837,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let unit = unit?;
         let root = unit.power(1, 2);
         if root.is_none() {
-            let message = format!("the root of {} is no unit", unit_text(unit));
+            let message = format!("the root of {} is not a unit", unit_text(unit));
             self.error(Code::UnitOfPower, span, message);
         }
         root
@@ -863,7 +863,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let (Some(x), Some(y)) = (x, y) else {
             return Value::Unknown;
         };
-        let why = format!("both arguments of `{}` have one unit", function.name());
+        let why = format!(
+            "both arguments of `{}` must have the same unit",
+            function.name()
+        );
         let parts = [(x.unit, first.span), (y.unit, second.span)];
         let common = self.common_unit(parts.into_iter(), None, &why);
         let parts = [(x.is_bare(), first.span), (y.is_bare(), second.span)];
@@ -895,9 +898,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let of = dependence(found);
             let message = format!("the time derivative of {of} is not known");
             let help = if found == stage::INPUT {
-                "an input changes as its user likes"
+                "an input is an arbitrary function of time"
             } else {
-                "the equations of motion give accelerations, and no more"
+                "the equations of motion give accelerations, but not their derivatives"
             };
             let diagnostic = Diagnostic::new(Code::CannotDifferentiate, argument.span, message);
             self.push(diagnostic.help(help));
@@ -1189,7 +1192,9 @@ fn with_factors(why: &str, found: Unit, expected: Unit) -> String {
         return help;
     }
     if found.to_string() == "1" {
-        format!("{why}; a bare number as a factor has none: declare it, `constants {{ l: m = 2 }}`")
+        format!(
+            "{why}; a bare number as a factor has no unit: declare it, `constants {{ l: m = 2 }}`"
+        )
     } else {
         why.to_owned()
     }

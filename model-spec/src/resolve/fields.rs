@@ -105,9 +105,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// Reports a field that conflicts with another.
     pub fn conflict(&mut self, record: &'a Record, field: &str, with: &str) {
         if let Some(field) = record.field(field) {
-            let message = format!("`{}` does not go with `{with}`", field.name.text);
+            let message = format!("`{}` cannot be combined with `{with}`", field.name.text);
             let diagnostic = Diagnostic::new(Code::ConflictingFields, field.name.span, message);
-            self.push(diagnostic.help("give one of them"));
+            self.push(diagnostic.help("give only one of them"));
         }
     }
 
@@ -151,7 +151,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     name.text
                 );
                 let diagnostic = Diagnostic::new(Code::WrongKind, name.span, message);
-                self.push(diagnostic.help("a torque on a body stands under `torques`"));
+                self.push(diagnostic.help("a torque on a body belongs under `torques`"));
             } else {
                 self.unknown_coordinate(name);
             }
@@ -216,7 +216,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         });
         if !turns {
             let name = self.name(body);
-            let message = format!("nothing says how the body `{name}` turns");
+            let message = format!("the rotation of the body `{name}` is not given");
             let diagnostic = Diagnostic::new(Code::MissingRotation, on.span, message);
             self.push(diagnostic.help("give it an `angle` or a `frame`"));
         }
@@ -332,7 +332,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let second = self.scalar(right, scope.hinting(hint));
         let (first, second) = (first?, second?);
         if let Some(unit) = first.unit {
-            self.demand(second.unit, unit, right.span, "both sides have one unit");
+            self.demand(
+                second.unit,
+                unit,
+                right.span,
+                "both sides must have the same unit",
+            );
         }
         let scaled = [first, second].into_iter().filter_map(|side| side.unit);
         let scaled = scaled.into_iter().find(|unit| unit.is_scaled());

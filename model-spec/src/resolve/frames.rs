@@ -223,7 +223,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let Some(group) = group else {
             let declared = self.find_group(Namespace::Values, &name.text);
             if declared.is_some() || scope.index.is_some_and(|(word, _)| word == name.text) {
-                let message = format!("`{}` is no frame and no body", name.text);
+                let message = format!("`{}` is neither a frame nor a body", name.text);
                 self.error(Code::WrongKind, name.span, message);
             } else {
                 let namespaces = [Namespace::FRAMES, Namespace::BODIES];
@@ -456,7 +456,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             None => self.common_unit(
                 units.into_iter(),
                 None,
-                "the components of a vector have one unit",
+                "the components of a vector must have the same unit",
             ),
         };
         let components = components.into_iter().collect::<Option<Vec<_>>>()?;
@@ -470,7 +470,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             (Space::Plane, [angle]) => (Some(2), angle),
             (Space::Space, [axis, angle]) => (self.axis(axis), angle),
             (Space::Plane, [axis, _]) if is_axis(axis) => {
-                let message = "in the plane a frame turns about the normal alone";
+                let message = "in the plane a frame turns only about the normal";
                 let diagnostic = Diagnostic::new(Code::WrongSpace, link.span, message);
                 self.push(diagnostic.help("write `turn(angle)`"));
                 return None;
@@ -509,7 +509,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         scope: Scope<'a>,
     ) -> Option<[Expr<'d>; 4]> {
         if self.space == Space::Plane {
-            let message = "in the plane a frame turns about the normal alone";
+            let message = "in the plane a frame turns only about the normal";
             let diagnostic = Diagnostic::new(Code::WrongSpace, link.span, message);
             self.push(diagnostic.help("write `turn(angle)`"));
             return None;
@@ -525,9 +525,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let is_coordinate =
                 scalar.expr.as_symbol().is_some() && scalar.expr.stage() == stage::POSITION;
             let message = match is_coordinate {
-                false => "the four numbers that turn a frame are coordinates, here is none",
+                false => {
+                    "the four numbers that turn a frame must be coordinates, and this is not one"
+                }
                 true if e.contains(&scalar.expr) => {
-                    "the four numbers that turn a frame are four different coordinates"
+                    "the four numbers that turn a frame must be four different coordinates"
                 }
                 true => {
                     e.push(scalar.expr);
@@ -547,11 +549,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             None => self.quaternions.push((e, link.span)),
             Some((other, _)) if *other == e => {}
             Some(&(_, span)) => {
-                let message =
-                    "one of these four coordinates turns a frame elsewhere, beside other ones";
+                let message = "one of these four coordinates also turns another frame, together with other coordinates";
                 let diagnostic = Diagnostic::new(Code::WrongArguments, link.span, message);
                 let help = "give each turn four coordinates of its own, or the same four in the same order";
-                self.push(diagnostic.note(span, "that is here").help(help));
+                self.push(
+                    diagnostic
+                        .note(span, "the other frame is turned here")
+                        .help(help),
+                );
                 return None;
             }
         }
@@ -571,11 +576,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             let Some(first) = four[0] else { continue };
             let name = &first.name;
-            let message =
-                "the four numbers that turn this frame all start at 0, and turn nothing there";
+            let message = "the four numbers that turn this frame all start at 0, where they define no rotation";
             let diagnostic = Diagnostic::new(Code::DivisionByZero, *span, message);
             let diagnostic = diagnostic.note(first.span, "the first of them");
-            self.push(diagnostic.help(format!("`{name}: 1 = 1` starts it unturned")));
+            self.push(diagnostic.help(format!("`{name}: 1 = 1` starts it without rotation")));
         }
         let zero = self.dag.zero();
         let four = |(e, span)| Quaternion {
@@ -593,7 +597,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         {
             return Some(axis);
         }
-        let message = "an axis is `x`, `y` or `z` here, one of the frame itself";
+        let message = "an axis is `x`, `y` or `z` here, an axis of the frame itself";
         self.error(Code::WrongKind, expression.span, message);
         None
     }

@@ -63,7 +63,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         };
         let unit = measure.unit;
         let mut scalar = self.scalar(value, scope.hinting(unit))?;
-        self.demand(scalar.unit, unit, value.span, "as its declaration says");
+        self.demand(
+            scalar.unit,
+            unit,
+            value.span,
+            "the expected unit is that of the declaration",
+        );
         if scalar.unit.is_none() {
             self.notice_angle(&scalar, unit, value.span);
         } else if !measure.is_si() {
@@ -87,7 +92,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             && (nearest(value.expr) - measure.to_f64()).abs() <= 1e-15 * measure.to_f64();
         if alike && !is_same {
             let unit = name.text.as_str();
-            let message = format!("`{unit}` is a unit of the same kind as what is declared here");
+            let message = format!(
+                "`{unit}` is also the name of a unit of the same kind as the quantity declared here"
+            );
             let diagnostic = Diagnostic::new(Code::ReservedName, name.span, message);
             let help = format!("`2*{unit}` could be either: give it another name");
             self.push(diagnostic.help(help));
@@ -250,7 +257,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return true;
         }
         let base = unit.as_written(false);
-        let message = format!("a coordinate and its rate are in SI units, here {base}");
+        let message = format!("a coordinate and its rate must be in SI units, here {base}");
         let diagnostic = Diagnostic::new(Code::UnitOfState, written.span, message);
         let number = match quantity.value.as_ref().map(|value| &value.kind) {
             Some(ExpressionKind::Number(number)) => number.as_str(),
@@ -327,7 +334,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let rotation = self.rotation(member, record);
         let has_inertia = record.field("inertia");
         if let (Some(inertia), Some(Rotation::Unspecified)) = (has_inertia, &rotation) {
-            let message = "this body has an inertia, and nothing says how it turns";
+            let message = "this body has an inertia, but its rotation is not given";
             let diagnostic = Diagnostic::new(Code::MissingRotation, inertia.name.span, message);
             self.push(diagnostic.help(match self.space {
                 Space::Plane => "give it an `angle` or a `frame`; without inertia it is a particle",
@@ -336,7 +343,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         let outline = self.outline(member, record);
         if let (Some(outline), Some(Rotation::Unspecified)) = (record.field("outline"), &rotation) {
-            let message = "this body has an outline, and nothing says how it turns";
+            let message = "this body has an outline, but its rotation is not given";
             let diagnostic = Diagnostic::new(Code::MissingRotation, outline.name.span, message);
             self.push(diagnostic.help("give it an `angle` or a `frame`"));
         }
@@ -487,7 +494,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return Some(Rotation::Unspecified);
         };
         if self.space == Space::Space {
-            let message = "in space a body is not turned by one angle";
+            let message = "in space one angle does not determine the orientation of a body";
             let diagnostic = Diagnostic::new(Code::WrongSpace, angle.name.span, message);
             self.push(diagnostic.help("give it a frame: `frame: ground.turn(z, angle)`"));
             return None;
@@ -568,7 +575,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let mut found = Vec::new();
         for coordinate in self.coordinates_named(member) {
             if kind == ApproximationKind::Frozen {
-                let why = "`frozen` puts sin θ → 0 and cos θ → 1, which is about angles";
+                let why =
+                    "`frozen` replaces sin θ by 0 and cos θ by 1, so it applies only to angles";
                 self.demand(self.unit_of(coordinate), Unit::RADIAN, span, why);
             }
             found.extend(self.ordinal(coordinate).map(|coordinate| Approximation {

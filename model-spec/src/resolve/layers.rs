@@ -60,7 +60,7 @@ impl Layers {
 fn cannot_read(span: Span, path: &str, reason: &str) -> Diagnostic {
     let message = format!("cannot read `{path}`: {reason}");
     Diagnostic::new(Code::UnreadableFile, span, message)
-        .help("the path is relative to the file that says it")
+        .help("the path is relative to the file that contains it")
 }
 
 fn extends_itself(span: Span, names: &[String], name: &str) -> Diagnostic {

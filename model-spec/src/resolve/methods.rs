@@ -17,7 +17,7 @@ impl Resolver<'_, '_, '_> {
         let word = name.base.text.as_str();
         if !WORDS.contains(&word) {
             if !self.incomplete && !word.is_empty() {
-                let message = format!("no method that asks for more code is named `{word}`");
+                let message = format!("no method that needs additional code is named `{word}`");
                 let unknown = Diagnostic::new(Code::UnknownName, name.base.span, message);
                 let help = suggestion(word, WORDS);
                 self.push(with_help(unknown, help));

@@ -60,7 +60,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             Some(Rotation::Angle(angle)) => angle,
             Some(_) => {
                 let name = self.name(body);
-                let message = format!("nothing says how the body `{name}` turns");
+                let message = format!("the rotation of the body `{name}` is not given");
                 let diagnostic = Diagnostic::new(Code::MissingRotation, span, message);
                 let help = format!(
                     "give it an `angle` or a `frame`; its mass centre moves at `der({name}.at)`"

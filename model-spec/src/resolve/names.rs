@@ -668,7 +668,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             _ => Diagnostic::new(
                 Code::UnknownName,
                 name.span,
-                format!("`{base}` has no members, or none that is left"),
+                format!("`{base}` has no members, or none that remain"),
             ),
         };
         self.push(diagnostic);
@@ -774,10 +774,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 let near = nearest(word, candidates.iter().copied());
                 match (unit, near) {
                     (Some(_), Some(near)) => Some(format!(
-                        "did you mean `{near}`? `{word}` is a unit too: it stands behind a number, `2*{word}`"
+                        "did you mean `{near}`? `{word}` is a unit too: it is written after a number, `2*{word}`"
                     )),
                     (Some(_), None) => Some(format!(
-                        "`{word}` is a unit: it stands behind a number, `2*{word}`"
+                        "`{word}` is a unit: it is written after a number, `2*{word}`"
                     )),
                     (None, _) if is_value => with_unit(word, suggestion(word, candidates)),
                     (None, _) => suggestion(word, candidates),
@@ -873,11 +873,11 @@ fn with_unit(word: &str, help: Option<String>) -> Option<String> {
     };
     match (unit, help) {
         (Some(unit), Some(help)) => Some(format!(
-            "{}, or the unit `{unit}`? A unit stands behind a number: `2*{unit}`",
+            "{}, or the unit `{unit}`? A unit is written after a number: `2*{unit}`",
             help.trim_end_matches('?')
         )),
         (Some(unit), None) => Some(format!(
-            "did you mean the unit `{unit}`? It stands behind a number: `2*{unit}`"
+            "did you mean the unit `{unit}`? It is written after a number: `2*{unit}`"
         )),
         (None, help) => help,
     }

@@ -91,7 +91,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             [Some(outline), None] => (Some(outline.corners.clone()), String::new(), ""),
             [None, _] => (
                 None,
-                format!("what `{field}` names is no body with an `outline`"),
+                format!("`{field}` does not name a body with an `outline`"),
                 "give the body `outline: ((0, 0), (b, 0), (0, h))`, or write the corners here",
             ),
             _ => (

@@ -332,7 +332,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         .or_else(|| {
             if of.is_none() {
-                let message = format!("`{}` needs the name of what it is of", kind.as_str());
+                let message = format!("`{}` needs the name of a coordinate or body", kind.as_str());
                 self.push(Diagnostic::new(Code::MissingField, span, message));
             }
             None

@@ -101,7 +101,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 self.demand(unit, rate, written.span, why);
             }
             let value = item.content.value.as_ref()?;
-            let why = "as its declaration says";
+            let why = "the expected unit is that of the declaration";
             let value = self.scalar_in(value, rate, why, scope)?.expr;
             rates.extend(self.ordinal(member).map(|coordinate| (coordinate, value)));
         }
@@ -113,8 +113,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     fn said_twice(&mut self, item: &Item<Quantity>, first: Span) {
-        let message = format!("the rate of `{}` is said twice", item.name.base.text);
+        let message = format!("the rate of `{}` is given twice", item.name.base.text);
         let diagnostic = Diagnostic::new(Code::SaidTwice, item.name.span, message);
-        self.push(diagnostic.note(first, "it is said here"));
+        self.push(diagnostic.note(first, "it is given here"));
     }
 }

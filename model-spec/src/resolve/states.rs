@@ -65,7 +65,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             state.rate = rates.get(member).copied();
             if state.rate.is_none() && !failed {
                 let name = self.name(*member);
-                let message = format!("nothing says how the state `{name}` changes");
+                let message = format!("the rate of the state `{name}` is not given");
                 let missing = Diagnostic::new(Code::MissingValue, state.span, message);
                 self.push(missing.help(format!("write `der({name}) = …` among the states")));
             }
@@ -146,8 +146,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 let wrong = Diagnostic::new(Code::WrongKind, name.span, message);
                 self.push(match section {
                     SectionKind::Coordinates => wrong.help(
-                        "the equations of motion say how a rate changes; where it starts stands \
-                         under `coordinates`",
+                        "the equations of motion determine how a rate changes; its start value \
+                         is given under `coordinates`",
                     ),
                     _ => wrong,
                 });
@@ -160,7 +160,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 self.demand(unit, rate, written.span, why);
             }
             let value = item.content.value.as_ref()?;
-            let why = "a state and its rate agree in units";
+            let why = "the units of a state and its rate must agree";
             rates.push((member, self.scalar_in(value, rate, why, scope)?.expr));
         }
         Some(rates)
@@ -184,9 +184,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     fn state_rate_said_twice(&mut self, item: &Item<Quantity>, first: Span) {
-        let message = format!("the rate of `{}` is said twice", item.name.base.text);
+        let message = format!("the rate of `{}` is given twice", item.name.base.text);
         let diagnostic = Diagnostic::new(Code::SaidTwice, item.name.span, message);
-        self.push(diagnostic.note(first, "it is said here"));
+        self.push(diagnostic.note(first, "it is given here"));
     }
 
     /// Refuses an expression that contains the rate of a coordinate where states are allowed; returns true

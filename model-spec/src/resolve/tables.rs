@@ -34,7 +34,7 @@ const LONGEST_NUMBER: usize = 40;
 
 /// The syntax of tables, for messages.
 const HELP: &str = "a table is `table(\"torque.csv\", x)`, or with its column `table(\"motor.csv:torque\", x)`, and \
-                    with `hold` behind it keeps its first and last value beyond its ends";
+                    with `hold` after it keeps its first and last value beyond its ends";
 
 /// The tables of a spec and its bases, by the source and path that name their files.
 pub(super) struct Tables(FxHashMap<(SourceId, String), Result<Table, String>>);
@@ -126,7 +126,7 @@ impl Table {
                 let Some(value) = number_in(cell) else {
                     let name = &column.name;
                     return Err(format!(
-                        "line {number}, column `{name}`: `{cell}` is no number"
+                        "line {number}, column `{name}`: `{cell}` is not a number"
                     ));
                 };
                 column.values.push(value);
@@ -137,7 +137,7 @@ impl Table {
             {
                 let name = &first.name;
                 return Err(format!(
-                    "line {number}, column `{name}`: each row is to be larger than the one before"
+                    "line {number}, column `{name}`: each row must be larger than the one before"
                 ));
             }
         }
@@ -166,7 +166,7 @@ impl Table {
             .iter()
             .find(|column| column.name == asked)
             .ok_or_else(|| {
-                let message = format!("this table has no column `{asked}` behind its first");
+                let message = format!("this table has no column `{asked}` after its first");
                 let help = match nearest(asked, names()) {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => format!(
@@ -186,7 +186,7 @@ impl Column {
             None => (header, None),
             Some((name, rest)) => {
                 let unit = rest.strip_suffix(']').map(str::trim);
-                let unknown = || format!("line {line}: `{header}` has no unit as `[N*m]`");
+                let unknown = || format!("line {line}: `{header}` has no unit such as `[N*m]`");
                 let unit = unit.ok_or_else(unknown)?;
                 (
                     name.trim(),
@@ -343,7 +343,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let is_hold = matches!(&hold.kind, ExpressionKind::Name(name)
                 if name.index.is_none() && name.base.text == "hold");
             if !is_hold {
-                let message = "beyond its ends a table is refused, or else `hold` stands here";
+                let message =
+                    "only `hold` is allowed here: without it a table has no values beyond its ends";
                 let diagnostic = Diagnostic::new(Code::WrongArguments, hold.span, message);
                 self.push(diagnostic.help(HELP));
                 return Value::Unknown;
@@ -356,11 +357,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             Some(Ok(table)) => table,
             Some(Err(message)) => {
                 let diagnostic = Diagnostic::new(Code::UnreadableFile, file.span, message.clone());
-                self.push(diagnostic.help("the path is relative to the file that says it"));
+                self.push(diagnostic.help("the path is relative to the file that contains it"));
                 return Value::Unknown;
             }
             None => {
-                let message = "a table is read only where a spec says it";
+                let message = "a table is read only if a spec names it";
                 let diagnostic = Diagnostic::new(Code::UnreadableFile, file.span, message);
                 self.push(diagnostic.help("name it there: `define { characteristic = table(…) }`"));
                 return Value::Unknown;
@@ -415,9 +416,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> bool {
         if at.stage() > stage::VELOCITY {
             let of = dependence(at.stage());
-            let message = format!("no run checks that {of} stay between the ends of a table");
+            let message = format!("a run cannot check that {of} stay between the ends of a table");
             let diagnostic = Diagnostic::new(Code::ForbiddenDependence, argument.span, message);
-            self.push(diagnostic.help("say what holds beyond them: `table(\"…\", x, hold)`"));
+            self.push(diagnostic.help("state what holds beyond them: `table(\"…\", x, hold)`"));
             return false;
         }
         let [begin, .., end] = &first.values[..] else {
@@ -517,7 +518,9 @@ mod tests {
         assert!(wrong("x, y [furlong]\n").contains("line 1: `y [furlong]` has no unit"));
         assert!(wrong("x, y\n1, 2\n").contains("two rows"));
         assert!(wrong("x, y\n1, 2\n1, 3\n").contains("line 3, column `x`: each row"));
-        assert!(wrong("x, y\n1, 2\n2, two\n").contains("line 3, column `y`: `two` is no number"));
+        assert!(
+            wrong("x, y\n1, 2\n2, two\n").contains("line 3, column `y`: `two` is not a number")
+        );
         assert!(wrong("x, y\n1, 2\n2\n").contains("line 3: expected 2 columns, found 1"));
         let many: String = (0..=ROW_LIMIT).map(|k| format!("{k},0\n")).collect();
         assert!(wrong(&format!("x,y\n{many}")).contains("more than 500 rows"));

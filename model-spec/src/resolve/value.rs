@@ -145,12 +145,12 @@ const fn constant_mass(what: &'static str) -> Limit {
         what,
         code: Code::VariableMass,
         help: "the equations hold for bodies of constant mass and inertia; what flows in or out \
-               would carry momentum that they do not count",
+               would carry momentum that they do not include",
     }
 }
 
 /// The help for places where only positions are allowed.
-pub(crate) const POSITIONS: &str = "only coordinates, parameters and `t` can stand here";
+pub(crate) const POSITIONS: &str = "only coordinates, parameters and `t` are allowed here";
 
 /// The limits of places in several sections, and of everything that is not an element.
 pub(crate) mod limits {
@@ -185,10 +185,10 @@ pub(crate) mod limits {
     pub static ASSUMPTION: Limit = limit(
         stage::VELOCITY,
         "an assumption",
-        "it is about the state of the machine: coordinates, velocities, parameters and `t`",
+        "it concerns the state of the machine: coordinates, velocities, parameters and `t`",
     );
-    pub static FRAME: Limit = limit(stage::POSITION, "the place of a frame", POSITIONS);
-    pub static POSITION: Limit = limit(stage::POSITION, "the place of a body", POSITIONS);
+    pub static FRAME: Limit = limit(stage::POSITION, "the pose of a frame", POSITIONS);
+    pub static POSITION: Limit = limit(stage::POSITION, "the position of a body", POSITIONS);
     pub static ROTATION: Limit = limit(stage::POSITION, "the angle of a body", POSITIONS);
     pub static POINT: Limit = limit(stage::POSITION, "a point", POSITIONS);
     pub static MASS: Limit = constant_mass("a mass");
@@ -196,33 +196,33 @@ pub(crate) mod limits {
     pub static FRICTION: Limit = limit(
         stage::VELOCITY,
         "a coefficient of friction",
-        "only velocities, coordinates, parameters and `t` can stand here",
+        "only velocities, coordinates, parameters and `t` are allowed here",
     );
     pub static RESTITUTION: Limit = limit(
         stage::PARAMETER,
         "a coefficient of restitution",
-        "only parameters can stand here",
+        "only parameters are allowed here",
     );
     pub static COMPLIANCE: Limit = limit(
         stage::PARAMETER,
-        "a law of force",
-        "only parameters can stand here",
+        "a force law",
+        "only parameters are allowed here",
     );
     pub static RADIUS: Limit = limit(
         stage::TIME,
         "a circle",
-        "it has the same shape on its body throughout",
+        "its shape on its body must not change",
     );
     pub static OUTLINE: Limit = limit(
         stage::PARAMETER,
         "an outline",
-        "it has the same shape on its body throughout",
+        "its shape on its body must not change",
     );
     pub static GAP: Limit = limit(stage::POSITION, "a gap", POSITIONS);
     pub static SLIP: Limit = limit(
         stage::VELOCITY,
         "a slip",
-        "only velocities, coordinates, parameters and `t` can stand here",
+        "only velocities, coordinates, parameters and `t` are allowed here",
     );
     pub static OUTPUT: Limit = limit(stage::ACCELERATION, "an output", "");
     pub static PUBLISHED: Limit = limit(stage::ACCELERATION, "a published formula", "");

@@ -52,9 +52,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.push(diagnostic.help(if is_acceleration && !has_gravity {
                 format!("is it gravity? write `gravity (0, -{base});`")
             } else if declaration.layer + 1 < self.layer_count {
-                format!("take it away with `remove {section}.{base};`")
+                format!("remove it with `remove {section}.{base};`")
             } else {
-                format!("if it is meant, call it `_{base}`")
+                format!("if this is intended, call it `_{base}`")
             }));
         }
     }
@@ -84,7 +84,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             Space::Plane => "gravity (0, -9.81);",
             Space::Space => "gravity (0, 0, -9.81);",
         };
-        self.push(diagnostic.help(format!("write `{down}`, or `gravity none;` if it is meant")));
+        self.push(diagnostic.help(format!(
+            "write `{down}`, or `gravity none;` if that is intended"
+        )));
     }
 }
 

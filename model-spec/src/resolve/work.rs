@@ -118,7 +118,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let names: Vec<String> = path[begin..].iter().map(|&need| self.title(need)).collect();
         let first = self.title(need);
         let message = match names.as_slice() {
-            [] | [_] => format!("`{first}` is defined by itself"),
+            [] | [_] => format!("`{first}` is defined in terms of itself"),
             names => {
                 let shown = names.iter().take(LISTED).cloned().collect::<Vec<_>>();
                 let more = if names.len() > LISTED {
@@ -127,7 +127,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     "` needs `"
                 };
                 let circle = shown.join("` needs `");
-                format!("a circle of definitions: `{circle}{more}{first}`")
+                format!("a circular definition: `{circle}{more}{first}`")
             }
         };
         if let Need::Group(group) = need {

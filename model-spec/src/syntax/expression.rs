@@ -219,7 +219,7 @@ impl Parser<'_> {
             };
             index = Some(Box::new(self.expression()));
             if !self.failed && self.is_pair('.', '.') {
-                let message = "a range stands only where a family is declared";
+                let message = "a range is allowed only where a family is declared";
                 let range = Diagnostic::new(Code::MisplacedIndex, self.here_all(), message);
                 self.fail(range.help("name one member: `q[1]`, or `q[i]` in a family"));
             }

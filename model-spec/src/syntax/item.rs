@@ -153,7 +153,7 @@ impl Parser<'_> {
     fn range_above(&mut self, variable: Option<Ident>, start: Span, low: Expression) -> Range {
         self.at += 2;
         if self.is_mark('=') || self.is_mark('.') {
-            let message = "a range is written `1..N`, and both ends belong to it";
+            let message = "a range is written `1..N` and includes both ends";
             let wrong = Diagnostic::new(Code::UnexpectedToken, self.here(), message);
             self.complain(wrong.help("write `1..N`"));
             self.at += 1;
@@ -462,7 +462,7 @@ impl Parser<'_> {
             let start = parser.here();
             let name = parser.kept_start()?;
             if parser.is_mark('=') || parser.is_mark(':') {
-                let help = "start values stand under `coordinates`: `theta: rad = 0.3`, \
+                let help = "start values belong under `coordinates`: `theta: rad = 0.3`, \
                             `der(theta): rad/s = 2`";
                 parser.unexpected_because("`,` or `}`", Some(help.to_owned()));
                 return None;
@@ -570,7 +570,7 @@ impl Parser<'_> {
             title.value = word.text.to_owned();
             title.span = word.span;
         } else {
-            let help = "say where it was printed: `published \"Part I\" { … }`".to_owned();
+            let help = "state where it was published: `published \"Part I\" { … }`".to_owned();
             self.unexpected_because("a title in quotes", Some(help));
             // Continue without a title, but with the equations.
             self.failed = !self.is_open(Delimiter::Brace);

@@ -20,11 +20,13 @@ impl Parser<'_> {
         let spec = self.machine(docs);
         self.docs();
         if self.is_word("machine") {
-            let message = "there is a second machine here";
+            let message = "this is a second machine";
             let second = Diagnostic::new(Code::SecondMachine, self.here(), message);
-            self.complain(second.help("one text holds one machine: move it to a file of its own"));
+            self.complain(
+                second.help("a spec contains only one machine: move this one to a file of its own"),
+            );
         } else if self.peek().is_some() {
-            let help = "the machine ended at the brace before; sections stand inside its braces";
+            let help = "the machine ended at the previous brace; sections belong inside its braces";
             self.unexpected_because("the end", Some(help.to_owned()));
         }
         spec
@@ -85,7 +87,7 @@ impl Parser<'_> {
         }
         let heading_failed = std::mem::take(&mut self.failed);
         if spec.space.is_none() && spec.extends.is_none() && !heading_failed {
-            let message = "this machine does not say where it moves";
+            let message = "this machine does not state whether it moves in the plane or in space";
             let missing = Diagnostic::new(Code::MissingSpace, spec.name.span, message);
             let help = format!(
                 "write `machine {} in plane {{ … }}`, or `in space`",
@@ -123,7 +125,9 @@ impl Parser<'_> {
             };
             let span = start.to(self.before());
             match spec.space {
-                Some(first) => self.complain_twice(span, "where it moves", first.span),
+                Some(first) => {
+                    self.complain_twice(span, "the choice between plane and space", first.span)
+                }
                 None => spec.space = Some(Spanned { value, span }),
             }
             return true;
@@ -137,7 +141,7 @@ impl Parser<'_> {
             self.at += 1;
             let (value, span) = (word.text.to_owned(), word.span);
             match &spec.extends {
-                Some(first) => self.complain_twice(span, "what it extends", first.span),
+                Some(first) => self.complain_twice(span, "the base", first.span),
                 None => spec.extends = Some(Spanned { value, span }),
             }
             return true;
@@ -172,7 +176,7 @@ impl Parser<'_> {
             return self.complain_of_docs();
         }
         if self.is_mark(',') || self.is_mark(';') {
-            let help = "nothing stands between sections".to_owned();
+            let help = "nothing is allowed between sections".to_owned();
             self.unexpected_because("a section", Some(help));
             self.failed = false;
             self.at += 1;
@@ -185,9 +189,9 @@ impl Parser<'_> {
             return self.remove(spec, heading.span, close);
         }
         if heading.text == "machine" {
-            let message = "a machine cannot stand inside another";
+            let message = "a machine cannot be inside another";
             let inner = Diagnostic::new(Code::SecondMachine, heading.span, message);
-            self.fail(inner.help("one text holds one machine; a variant `extends` a file"));
+            self.fail(inner.help("a spec contains only one machine; a variant `extends` a file"));
             return self.skip_to_heading(close);
         }
         match SectionKind::named_among(self.sections, &heading.text)
@@ -319,7 +323,7 @@ impl Parser<'_> {
     fn remove(&mut self, spec: &mut Spec, start: Span, close: usize) {
         let help = "write `remove springs.x_left;`";
         if spec.extends.is_none() {
-            let message = "this machine extends nothing from which to remove";
+            let message = "this machine extends nothing from which anything could be removed";
             let wrong = Diagnostic::new(Code::NothingToRemove, start, message);
             self.complain(
                 wrong.help("`machine Variant extends \"base.machine\" { … }` has a base"),
@@ -341,7 +345,7 @@ impl Parser<'_> {
                 ..
             })) => {}
             Some(kind @ (SectionKind::Assume | SectionKind::Published)) => {
-                let message = format!("what stands in `{kind}` has no names, and stays");
+                let message = format!("the items of `{kind}` have no names and cannot be removed");
                 self.fail(Diagnostic::new(
                     Code::NothingToRemove,
                     self.before(),

@@ -177,7 +177,7 @@ impl<'t> Parser<'t> {
 
     /// Reports a duplicate where only one is allowed.
     pub(super) fn complain_twice(&mut self, span: Span, what: &str, first: Span) {
-        let again = Diagnostic::new(Code::SaidTwice, span, format!("{what} is said twice"));
+        let again = Diagnostic::new(Code::SaidTwice, span, format!("{what} is given twice"));
         self.complain(again.help("keep one of them").note(first, "the first"));
     }
 
@@ -345,7 +345,7 @@ impl<'t> Parser<'t> {
                 if self.is_mark(';') {
                     let message = "expected `,`, found `;`";
                     let wrong = Diagnostic::new(Code::UnexpectedToken, self.here(), message);
-                    self.complain(wrong.help("commas stand between the elements of a list"));
+                    self.complain(wrong.help("the elements of a list are separated by commas"));
                 } else {
                     self.unexpected_between();
                 }
@@ -389,7 +389,7 @@ impl<'t> Parser<'t> {
                 Some(NO_BRANCHES.to_owned())
             }
             (Some(_), _) if self.is_pair('.', '.') => {
-                Some("a range stands only in the index of a declaration: `q[1..N]`".to_owned())
+                Some("a range is allowed only in the index of a declaration: `q[1..N]`".to_owned())
             }
             _ => None,
         }
@@ -467,7 +467,7 @@ impl<'t> Parser<'t> {
     pub(super) fn complain_of_docs(&mut self) {
         let message = "this documents nothing";
         let lost = Diagnostic::new(Code::UnexpectedToken, self.before(), message);
-        self.complain(lost.help("documentation stands before an item; a comment begins with `//`"));
+        self.complain(lost.help("documentation goes before an item; a comment begins with `//`"));
     }
 }
 

@@ -49,9 +49,9 @@ impl Parser<'_> {
             let measure = Measure::named(&factor.name.text);
             if factor.halved || measure.is_some_and(|measure| !measure.is_si()) {
                 let name = &factor.name.text;
-                let message = format!("{} has no such power here", shown(name));
+                let message = format!("{} cannot have this power here", shown(name));
                 let unknown = Diagnostic::new(Code::UnknownUnit, factor.name.span, message);
-                let help = "only SI units have halves as powers: `N/m^(3/2)`";
+                let help = "only SI units can have half-integer powers: `N/m^(3/2)`";
                 self.complain(unknown.help(help));
                 return false;
             }
@@ -124,7 +124,7 @@ impl Parser<'_> {
                 if two {
                     self.at += 1
                 } else {
-                    self.unexpected("`2`: powers of units are whole or halves")
+                    self.unexpected("`2`: powers of units are integers or half-integers")
                 }
                 halves = two;
             }

@@ -192,7 +192,7 @@ fn constants_from_outside() {
     };
     assert_eq!(text("N"), "");
     assert!(
-        text("n").contains("the machine has no constant `n` to be set"),
+        text("n").contains("the machine has no constant `n` to set"),
         "{}",
         text("n")
     );
@@ -345,11 +345,11 @@ fn values_for_which_a_derived_parameter_is_no_number_are_refused() {
     assert_eq!(refused(&[2.0, 1.0]), Vec::<String>::new());
     assert_eq!(
         refused(&[1.0, 1.0]),
-        ["a derived parameter is a finite number, found inf"]
+        ["a derived parameter must be a finite number, found inf"]
     );
     assert_eq!(
         refused(&[1.0, -1.0]),
-        ["a derived parameter is a finite number, found NaN"]
+        ["a derived parameter must be a finite number, found NaN"]
     );
     // Unknown values cause no message.
     assert_eq!(refused(&[f64::NAN, 1.0]), Vec::<String>::new());
@@ -446,7 +446,11 @@ fn variants() {
         nowhere,
     );
     let space = r#"machine Test «in space» extends "base.machine" { gravity (0, 0); }"#;
-    says(SpaceChanged, "a variant moves where its base moves", space);
+    says(
+        SpaceChanged,
+        "a variant must move in the plane or in space, as its base does",
+        space,
+    );
     // Mistakes of a base are reported in the base.
     let broken = errors(r#"machine Test extends "broken.machine" { gravity (0, 0); }"#);
     assert!(broken.starts_with("broken.machine:1:"), "{broken}");

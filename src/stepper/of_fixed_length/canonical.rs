@@ -47,10 +47,10 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
         let n = q.as_slice().len();
         let unsuited = |reason| Err(StepError::Unsuited { reason, t });
         if system.contacts().len() + system.unilateral_contacts().len() != 0 {
-            return unsuited("it has contacts, which `dop853` and `radau5` follow");
+            return unsuited("it has contacts, which `dop853` and `radau5` support");
         }
         if system.equations() != n {
-            return unsuited("its mass matrix is not that of all its coordinates");
+            return unsuited("its mass matrix does not cover all its coordinates");
         }
         let first = |unit: &str| system.coordinates().position(|other| other.unit == unit);
         let units = system.coordinates().enumerate();

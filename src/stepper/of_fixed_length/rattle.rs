@@ -55,7 +55,7 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
     ) -> Result<Self, StepError> {
         let unsuited = |reason| Err(StepError::Unsuited { reason, t: now.t });
         if !system.constraints().all(|constraint| constraint.holonomic) {
-            return unsuited("it has constraints of rates, which are no constraints of positions");
+            return unsuited("it has constraints on rates that are not constraints on positions");
         }
         if redundant {
             return unsuited("it has constraints that depend on each other");

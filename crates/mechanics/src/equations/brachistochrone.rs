@@ -77,17 +77,17 @@ impl fmt::Display for Unmet {
             Self::Varies { what, with } => write!(f, "{what} depends on `{with}`"),
             Self::Presses { guide } => write!(
                 f,
-                "friction of the guide `{guide}` goes with the size of a vector, and not with a force along one normal"
+                "friction of the guide `{guide}` is proportional to the magnitude of a vector, and not to a force along one normal"
             ),
             Self::Constrained => {
                 write!(
                     f,
-                    "the machine has constraints, so that its coordinates are not free"
+                    "the machine has constraints, so its coordinates are not independent"
                 )
             }
             Self::Turned => write!(
                 f,
-                "a frame is turned by four numbers, whose length is no part of the motion: turn it by angles"
+                "a frame is turned by four numbers, whose norm is not part of the motion: turn it by angles"
             ),
             Self::Empty => write!(f, "the machine has no coordinates"),
         }

@@ -535,11 +535,11 @@ impl<T: Number> Motion<T> {
                 Some(along) => alongs.push((guide, along)),
                 None if self.work() > WORK => {
                     let message = format!(
-                        "what the guide `{}` carries cannot be found out: there are too many bodies",
+                        "what the guide `{}` carries cannot be determined: there are too many bodies",
                         sliding.said()
                     );
                     found.push(Diagnostic::new(Code::TooLarge, sliding.span, message).help(
-                        "it can where what moves with the guided body is built on its frame",
+                        "it can be determined if everything that moves with the guided body is built on its frame",
                     ));
                 }
                 // For a surface it was reported with the first tangent.
@@ -685,9 +685,9 @@ impl<T: Number> Motion<T> {
             return found;
         }
         let message = format!(
-            "something moves with `{body}`, and nothing says what ties them: what the guide `{name}` carries is not determined"
+            "something moves with `{body}`, but the spec does not state what connects them: what the guide `{name}` carries is not determined"
         );
-        let help = "build what it carries on its frame; or give that coordinates of its own and tie it by `constraints`";
+        let help = "build what it carries on its frame; or give that coordinates of its own and connect it by `constraints`";
         vec![Diagnostic::new(Code::Untied, sliding.span, message).help(help)]
     }
 }
@@ -698,7 +698,7 @@ fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
     let (body, name) = (&model.bodies[sliding.body].name, sliding.said());
     let message = |what: &str| {
         format!(
-            "{what} moves with `{body}`, and nothing says what ties them: what the guide `{name}` carries is not determined"
+            "{what} moves with `{body}`, but the spec does not state what connects them: what the guide `{name}` carries is not determined"
         )
     };
     let diagnostic = match what {
@@ -706,15 +706,15 @@ fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
             let other = &model.bodies[other];
             let message = message(&format!("`{}`", other.name));
             Diagnostic::new(Code::Untied, other.place, message).help(format!(
-                "build `{}` on the frame of `{body}`, so that the guide carries it; or give it coordinates of its own, and tie it by `constraints`",
+                "build `{}` on the frame of `{body}`, so that the guide carries it; or give it coordinates of its own, and connect it by `constraints`",
                 other.name
             ))
         }
         What::Base(other) => {
             let other = model.sliding()[other];
-            let message = message(&format!("what `{}` is on", other.said()));
+            let message = message(&format!("what `{}` slides on", other.said()));
             Diagnostic::new(Code::Untied, other.span, message).help(format!(
-                "say `on: {body}`, or build that frame on the frame of `{body}`"
+                "write `on: {body}`, or build that frame on the frame of `{body}`"
             ))
         }
     };
@@ -894,7 +894,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         let sliding = self.model.sliding()[guide];
         let body = &self.model.bodies[sliding.body].name;
         let message = format!(
-            "{what} moves with `{body}` and is not said by where `{body}` is: how it pulls across the guide `{}` is not determined",
+            "{what} moves with `{body}` but is not expressed by the position of `{body}`: its force across the guide `{}` is not determined",
             sliding.said()
         );
         let diagnostic = Diagnostic::new(Code::Untied, span, message);
@@ -921,7 +921,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             return Some(None);
         }
         let what = format!("the constraint `{}`", equation.name);
-        let help = "write it by positions of bodies, as `norm(a.at - b.at) = l`";
+        let help = "express it by positions of bodies, such as `norm(a.at - b.at) = l`";
         Some(Some(self.diagnostic(guide, span, &what, help)))
     }
 
@@ -932,7 +932,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             let e = &self.motion.directions[guide];
             !self.is_zero(amiss * amiss - dot(e, e))
         })?;
-        let help = "give it `from` and `to`, points of bodies; or, if it acts along the guide alone, say its energy under `potentials`";
+        let help = "give it `from` and `to`, points of bodies; or, if it acts only along the guide, give its energy under `potentials`";
         Some(across.map(|guide| self.diagnostic(guide, span, what, help)))
     }
 
@@ -946,7 +946,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             let forces = &slopes[..self.motion.coordinates];
             along.is_some_and(|(_, along)| self.motion.is_unsaid(guide, along, forces))
         })?;
-        let help = "say it by positions of bodies; or build the one body on the frame of the other, so that what acts between them is carried by the guide";
+        let help = "express it by positions of bodies; or build one body on the frame of the other, so that the guide carries what acts between them";
         Some(unsaid.map(|guide| self.diagnostic(guide, span, what, help)))
     }
 
@@ -970,7 +970,8 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             moves && self.motion.is_across(*guide, &value)
         });
         let what = format!("the point of {what}");
-        let help = "write it by where the body is, as `body.at`, or by a point of its frame";
+        let help =
+            "express it by the position of the body, such as `body.at`, or by a point of its frame";
         Some(across.map(|(guide, _)| self.diagnostic(*guide, span, &what, help)))
     }
 }

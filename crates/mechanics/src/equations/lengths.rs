@@ -27,8 +27,7 @@ pub(super) fn refuse(model: &Model<'_>, report: &mut Report) -> bool {
         let span = model
             .section(SectionKind::Approximations)
             .unwrap_or(first.span);
-        let message =
-            "`approximations` of a machine with a turn by four numbers cannot be derived yet";
+        let message = "`approximations` of a machine with a frame turned by four numbers cannot be derived yet";
         let help = "turn the frame by angles, which may be small, or leave `approximations` out";
         report.push(Diagnostic::new(Code::NotSupported, span, message).help(help));
         refused = true;
@@ -47,8 +46,8 @@ pub(super) fn refuse(model: &Model<'_>, report: &mut Report) -> bool {
         let name = &model.coordinates[places[0]].name;
         for (what, span) in longer.found(model, &places) {
             let message =
-                format!("{what} depends on how long the four numbers from `{name}` on are");
-            let help = "they turn a frame, and only their ratios mean anything: say it by the frame, its `point`, `vector` or `spin`";
+                format!("{what} depends on the norm of the four numbers that begin with `{name}`");
+            let help = "they turn a frame, and only their ratios have a meaning: express it by the frame, its `point`, `vector` or `spin`";
             let diagnostic = Diagnostic::new(Code::ForbiddenDependence, span, message);
             let note = "the frame is turned by them here";
             report.push(diagnostic.note(four.span, note).help(help));
@@ -103,7 +102,7 @@ impl<'d> Longer<'d> {
                 Rotation::Frame(_) | Rotation::Unspecified => false,
             };
             if turns || body.at.iter().any(|&x| self.moves(x)) {
-                found.push((format!("where the body `{}` is", body.name), body.place));
+                found.push((format!("the pose of the body `{}`", body.name), body.place));
             }
         }
         for (element, contribution) in model.contributions() {
@@ -114,7 +113,7 @@ impl<'d> Longer<'d> {
         }
         for circle in &model.circles {
             if circle.center.iter().any(|&x| self.moves(x)) {
-                found.push((format!("where `{}` is", circle.name), circle.span));
+                found.push((format!("the position of `{}`", circle.name), circle.span));
             }
         }
         for contact in &model.contacts {

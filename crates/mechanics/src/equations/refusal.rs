@@ -60,7 +60,7 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
         let law = contact.response.impact_law();
         if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
             let message = format!("`law: {}` with friction is for the plane only", law.name());
-            let help = "Routh's path along two tangents has no closed form: the laws `newton` and `poisson_glocker` know them"
+            let help = "Routh's path along two tangents has no closed form: the laws `newton` and `poisson_glocker` support them"
                 .to_owned();
             refuse(Code::NotSupported, contact.span, message, help);
         }
@@ -68,7 +68,7 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
             let message =
                 "`painleve: impact` is for contacts with one direction of slip".to_owned();
             let help =
-                "leave it out: where friction leaves no motion the run then ends with an error"
+                "leave it out: the run then ends with an error where friction admits no motion"
                     .to_owned();
             refuse(Code::NotSupported, contact.span, message, help);
         }
@@ -80,13 +80,16 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
     for contact in rolling() {
         let law = contact.response.impact_law();
         if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
-            let message = format!("`law: {}` knows no `rolling_resistance`", law.name());
-            let help = "Routh's path is that of one point, which slips: the laws `newton` and `poisson_glocker` know it".to_owned();
+            let message = format!(
+                "`law: {}` does not support `rolling_resistance`",
+                law.name()
+            );
+            let help = "Routh's path is that of one point, which slips: the laws `newton` and `poisson_glocker` support it".to_owned();
             refuse(Code::NotSupported, contact.span, message, help);
         }
         if contact.response.painleve() == Painleve::Impact {
-            let message = "`painleve: impact` knows no `rolling_resistance`".to_owned();
-            let help = "leave one of both out".to_owned();
+            let message = "`painleve: impact` does not support `rolling_resistance`".to_owned();
+            let help = "leave out one of the two".to_owned();
             refuse(Code::NotSupported, contact.span, message, help);
         }
         if let ContactGeometry::Circles(touching) = &contact.geometry {
@@ -111,7 +114,7 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
     if let Some(contact) = model.contacts.get(most) {
         let count = model.contacts.len() + leaning;
         let message = format!("{count} unilateral contacts are too many");
-        let help = format!("a machine may have {MOST_UNILATERAL} of them");
+        let help = format!("a machine may have at most {MOST_UNILATERAL} of them");
         refuse(Code::TooLarge, contact.span, message, help);
     }
     let mut bouncing = (model.contacts.iter())
@@ -120,13 +123,14 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
         && let Some((other, of_other)) = bouncing.find(|(_, of_other)| *of_other != law)
     {
         let message = format!(
-            "`{}` bounces by `{}` and `{}` by `{}`",
+            "`{}` has the law `{}` and `{}` the law `{}`",
             first.name,
             law.name(),
             other.name,
             of_other.name()
         );
-        let help = "contacts that may meet in one impact have one `law`".to_owned();
+        let help =
+            "contacts that may take part in the same impact must have the same `law`".to_owned();
         refuse(Code::ConflictingFields, other.span, message, help);
     }
     let mut bouncing =
@@ -138,7 +142,8 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
             "`{}` and `{}` take part in impacts in different orders",
             first.name, other.name
         );
-        let help = "contacts that may meet in one impact have one `order`".to_owned();
+        let help =
+            "contacts that may take part in the same impact must have the same `order`".to_owned();
         refuse(Code::ConflictingFields, other.span, message, help);
     }
     refused
@@ -159,7 +164,7 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
         .iter()
         .filter(|s| model.space == Space::Space && s.normal.is_some() && s.tangent.is_none())
     {
-        let message = "in space a guide has no side, so no normal".to_owned();
+        let message = "in space a guide has no sides, and therefore no normal".to_owned();
         let help = "leave `normal` out: along a curve the reaction is a vector, in any direction across; or leave `direction` out: then the body \
              slides on a surface"
             .to_owned();
@@ -180,16 +185,17 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
         let count = sliding.len();
         let message = format!("{count} contacts that stick or slide are too many");
         let help = if sliding.iter().any(|s| s.is_second()) {
-            format!("a machine may have {MOST_CONTACTS} of them, and a surface counts as two")
+            format!(
+                "a machine may have at most {MOST_CONTACTS} of them, and a surface counts as two"
+            )
         } else {
-            format!("a machine may have {MOST_CONTACTS} of them")
+            format!("a machine may have at most {MOST_CONTACTS} of them")
         };
         refuse(Code::TooLarge, contact.span, message, help);
     }
     if model.relaxed.is_none() {
         let message = "the equations of this machine with its guides relaxed are too large";
-        let help =
-            "it is read a second time, with a coordinate more for each component of a displacement";
+        let help = "they are derived a second time, with one more coordinate for each component of a displacement";
         refuse(
             Code::TooLarge,
             first.span,
@@ -217,7 +223,7 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
             // In space an angle turns a rotor, about an axis that contacts do not know.
             let is_rotor = in_space && matches!(body.rotation, Rotation::Angle(_));
             if matches!(body.rotation, Rotation::Unspecified) || is_rotor {
-                let message = format!("nothing says how the body `{}` turns", body.name);
+                let message = format!("the rotation of the body `{}` is not given", body.name);
                 let help = if in_space {
                     format!("`{}` is on it: give it a `frame`", circle.name)
                 } else {
@@ -265,7 +271,7 @@ fn refuse_unturned_polygons(model: &Model<'_>, report: &mut Report) -> bool {
         };
         let body = &model.bodies[body];
         if matches!(body.rotation, Rotation::Unspecified) {
-            let message = format!("nothing says how the body `{}` turns", body.name);
+            let message = format!("the rotation of the body `{}` is not given", body.name);
             let help = "corners are on it: give it an `angle` or a `frame`";
             report.push(Diagnostic::new(Code::MissingRotation, contact.span, message).help(help));
             refused = true;
@@ -290,7 +296,7 @@ pub(super) fn refuse_many_coordinates(model: &Model<'_>, report: &mut Report) ->
     };
     let count = model.coordinates.len();
     let message = format!("equations of {count} coordinates are too large to be derived");
-    let help = format!("a machine may have {MOST_COORDINATES} coordinates");
+    let help = format!("a machine may have at most {MOST_COORDINATES} coordinates");
     report.push(Diagnostic::new(Code::TooLarge, coordinate.span, message).help(help));
     true
 }
@@ -305,8 +311,8 @@ pub(super) fn refuse_many_constraints(model: &Model<'_>, report: &mut Report) ->
     let Some(&span) = spans.get(MOST_CONSTRAINTS) else {
         return false;
     };
-    let message = format!("{} equations of constraints are too many", spans.len());
-    let help = format!("a machine may have {MOST_CONSTRAINTS} of them");
+    let message = format!("{} constraint equations are too many", spans.len());
+    let help = format!("a machine may have at most {MOST_CONSTRAINTS} of them");
     report.push(Diagnostic::new(Code::TooLarge, span, message).help(help));
     true
 }
@@ -314,7 +320,7 @@ pub(super) fn refuse_many_constraints(model: &Model<'_>, report: &mut Report) ->
 /// Reports that the equations are too large.
 pub(crate) fn refuse_large(model: &Model<'_>, report: &mut Report) {
     let message = "the equations of this machine are too large to be derived";
-    let help = format!("written out they may have {MOST_SIZE} terms and factors");
+    let help = format!("written out they may have at most {MOST_SIZE} terms and factors");
     report.push(Diagnostic::new(Code::TooLarge, model.span, message).help(help));
 }
 
@@ -388,7 +394,7 @@ pub(super) fn refuse_massless<'d>(
                     all.join(", ")
                 ),
                 format!(
-                    "leave {name} out, or give a body a mass that it moves otherwise than these do"
+                    "leave {name} out, or give a mass to a body that it moves differently from how these move it together"
                 ),
             ),
         };

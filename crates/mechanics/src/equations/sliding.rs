@@ -180,8 +180,8 @@ pub(super) fn sliding<'d>(
         let message = format!("what each of {names} carries is not determined");
         let diagnostic = Diagnostic::new(Code::NoGuide, all[0].span, message);
         report.push(diagnostic.help(match model.space {
-            Space::Plane => "guides that hold a body in the same direction share its load in unknown parts: say it of one of them",
-            Space::Space => "in space a body has one guide, a curve or a surface: give what slides at several places a body at each, and tie these by `constraints`",
+            Space::Plane => "guides that hold a body in the same direction share its load in unknown proportions: declare only one of them",
+            Space::Space => "in space a body has one guide, a curve or a surface: for something that slides at several places declare a body at each, and connect them by `constraints`",
         }));
         return None;
     };
@@ -267,7 +267,7 @@ fn what_is_wrong<'d>(
     {
         return error(
             format!("the normal of `{name}` is not at a right angle to its direction"),
-            "it only says on which side of the guide the body is",
+            "it only determines on which side of the guide the body is",
         );
     }
     let mut coasting = Variables::of(model).coasting(model);
@@ -276,7 +276,7 @@ fn what_is_wrong<'d>(
     if !off.into_iter().all(is_zero) {
         return error(
             format!("the coordinates let the body of `{name}` leave its guide"),
-            "the origin of its frame, or the mass centre of a body without one, may move only along the direction, seen from what it slides on",
+            "the origin of its frame, or the mass centre of a body without one, may move only along the direction, relative to what it slides on",
         );
     }
     if is_zero(slip) {
@@ -284,7 +284,7 @@ fn what_is_wrong<'d>(
             format!(
                 "the body of `{name}` does not slide: no coordinate moves it along the direction"
             ),
-            "friction acts where something moves, or could",
+            "friction acts only where something moves or could move",
         );
     }
     if is_alone(model, sliding) && follows(model, sliding, slip, &mut coasting) {
@@ -296,7 +296,7 @@ fn what_is_wrong<'d>(
     None
 }
 
-const HELD_BY_MORE: &str = "where it is on the guide follows from how the guide moves: say under `sliding` what else it slides in, with `friction: 0` where that is smooth";
+const HELD_BY_MORE: &str = "its position on the guide follows from the motion of the guide: declare under `sliding` the other guides in which it slides, with `friction: 0` where they are smooth";
 
 /// Whether this is the only guide of its body.
 fn is_alone(model: &Model<'_>, sliding: &Sliding<'_>) -> bool {
@@ -326,8 +326,8 @@ fn what_is_wrong_on_surface<'d>(
     if !is_zero(dot(normal, &velocity)) {
         return error(
             format!("the coordinates let the body of `{name}` leave its surface"),
-            "the origin of its frame, or the mass centre of a body without one, may move only at right angles to the normal, seen from what it \
-             slides on: write it by two coordinates on the surface, or let it touch the surface by `contacts`",
+            "the origin of its frame, or the mass centre of a body without one, may move only at right angles to the normal, relative to what \
+             it slides on: describe it by two coordinates on the surface, or let it touch the surface through `contacts`",
         );
     }
     let rows: Vec<Vec<Expr<'d>>> = (velocity.iter())
@@ -343,8 +343,8 @@ fn what_is_wrong_on_surface<'d>(
     let n = x.v.len();
     if (0..n).all(|i| (0..i).all(|j| cross(i, j))) {
         return error(
-            format!("the body of `{name}` can move along a line of its surface at most"),
-            "something else holds it, of which nothing is known: along a curve it slides by `direction` in place of `normal`",
+            format!("the body of `{name}` can move at most along a line of its surface"),
+            "something else holds it that the spec does not describe: for sliding along a curve give `direction` in place of `normal`",
         );
     }
     if is_alone(model, sliding)

@@ -84,7 +84,7 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
         ),
         _ => (
             format!(
-                "the constraint {} contradicts {} near the start: its residual is {miss} where all are met best",
+                "the constraint {} contradicts {} near the start: its residual is {miss} where all constraints are best satisfied",
                 name(last),
                 others.join(", ")
             ),
