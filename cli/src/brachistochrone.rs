@@ -53,7 +53,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     let mut states = compiled.model.coordinates.iter();
     if let Some(state) = states.find(|c| c.rate.is_some()) {
         return Err(Failure::Run(format!(
-            "the machine has the state `{}`, whose value at the end nothing says: without `states` there is a fastest motion",
+            "the machine has the state `{}`, whose value at the end is not prescribed: fastest motions are found only for machines without `states`",
             rate_name(&state.name.to_string(), "")
         )));
     }
@@ -80,11 +80,11 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
         .collect();
     let guess = call.guess.as_deref();
     let guess = guess.map(|path| guess::read(path, &names)).transpose()?;
-    progress::now("looking for the fastest motion");
+    progress::now("searching for the fastest motion");
     let clock = Instant::now();
     let (motion, because) = match form {
         Form::Constant(_) if guess.is_some() => {
-            let why = "the motion has a closed form, and is not looked for: leave out `--guess`";
+            let why = "the motion has a closed form and needs no search: leave out `--guess`";
             return Err(Failure::Call(why.to_owned()));
         }
         Form::Constant(problem) => {
@@ -178,7 +178,7 @@ fn ends(
     let said = problem::at_parameters(compiled, machine, &compiled.model.destination);
     if said.is_empty() && call.to.is_empty() {
         return Err(Failure::Call(
-            "nothing says where the motion ends: give `--to`, or the spec a section `brachistochrone { … }`".to_owned(),
+            "it is not specified where the motion ends: give `--to`, or add a section `brachistochrone { … }` to the spec".to_owned(),
         ));
     }
     let to = if said.is_empty() { from.clone() } else { said };

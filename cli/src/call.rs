@@ -17,7 +17,7 @@ use lagrangian_symbolic::Rational;
 pub use orbit::{Orbit, Sensitivities};
 pub use runs::{Compare, Direction, Interpolation, Part, Peaks, Runs, Section, Spectrum, Windows};
 
-/// Machines written down as specs: their equations, their numbers, their motion.
+/// Derives, evaluates and simulates the equations of motion of machines described by specs.
 #[derive(Debug, Parser)]
 #[command(name = "lagrangian", version, disable_help_subcommand = true)]
 pub struct Call {
@@ -29,43 +29,43 @@ pub struct Call {
 /// One command for each question.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Say everything that is wrong with a spec; hold published equations against the derived ones.
+    /// Report everything that is wrong with a spec, and compare published equations with the derived ones.
     Check(Check),
     /// Print the derived equations, or the code, with operation counts.
     Derive(Derive),
-    /// Make a shared library that C, Python and others can call.
+    /// Build a shared library that C, Python and others can call.
     Library(Library),
-    /// Make a functional mock-up unit, for whatever imports FMI 3.0 or 2.0.
+    /// Build a functional mock-up unit for tools that import FMI 3.0 or 2.0.
     Fmu(Fmu),
-    /// Print numbers at given states, as JSON.
+    /// Compute numbers at given states, as JSON.
     Evaluate(Evaluate),
     /// Integrate the equations of motion.
     Simulate(Simulate),
-    /// Integrate many times: over parameters, inputs and starts; a row a run.
+    /// Integrate many times, over parameters, inputs and start values, with one row for each run.
     Sweep(Box<Sweep>),
-    /// Draw a sweep: curves over one parameter, colours over two.
+    /// Plot a sweep: curves over one parameter, a colour map over two.
     Map(Map),
     /// Find an equilibrium, and print eigenfrequencies, damping ratios and mode shapes about it.
     Modes(Modes),
-    /// Make the linear model about an equilibrium, a steady motion or any state: A, B, C, D; poles, zeros, frequency response.
+    /// Compute the linear model about an equilibrium, a steady motion or any state: A, B, C, D; poles, zeros, frequency response.
     Linearize(Box<Linearize>),
-    /// Find a periodic motion: its period, its monodromy matrix, Floquet's multipliers, whether it attracts.
+    /// Find a periodic motion: its period, monodromy matrix and Floquet multipliers, and whether it is stable.
     Orbit(Box<Orbit>),
-    /// Integrate how a motion changes with parameters, inputs and starts.
+    /// Compute the derivatives of a motion with respect to parameters, inputs and start values.
     Sensitivities(Box<Sensitivities>),
-    /// Tell how far two runs are apart, tables or specs.
+    /// Report how far two runs, given as tables or specs, are apart.
     Compare(Box<Compare>),
-    /// Tell which frequencies are in a run.
+    /// Find the frequencies in a run, with their amplitudes.
     Spectrum(Box<Spectrum>),
     /// Find the maxima and minima of a run, with period and decrement.
     Peaks(Box<Peaks>),
-    /// Look at a run once a period, or where something passes a value: a Poincaré section.
+    /// Sample a run once in each period, or where a quantity passes a value: a Poincaré section.
     Section(Box<Section>),
-    /// Find parameters and starts from measured motions, with standard errors and what cannot be told apart.
+    /// Estimate parameters and start values from measured motions, with standard errors and the parameters that cannot be told apart.
     Fit(Box<Fit>),
-    /// Find the fastest motion from rest at one place to another, under control forces that do no work.
+    /// Find the fastest motion from rest at one position to another, under control forces that do no work.
     Brachistochrone(Brachistochrone),
-    /// Write the spec of a robot from its file of URDF or MJCF.
+    /// Convert a URDF or MJCF file of a robot to a spec.
     Import(Import),
 }
 
@@ -287,13 +287,13 @@ impl Call {
         named.sort_unstable();
         let twice = named.windows(2).find(|pair| pair[0] == pair[1]);
         if let Some(&[(option, name), _]) = twice {
-            return Err(format!("{option} gives `{name}` a value more than once"));
+            return Err(format!("{option} sets `{name}` more than once"));
         }
         let driven = named.iter().filter(|(option, _)| *option == "--input");
         let mut driven = driven.filter(|(_, name)| named.contains(&("--set", name)));
         if let Some((_, name)) = driven.next() {
             return Err(format!(
-                "`{name}` is driven by --input, and has one value by --set too"
+                "`{name}` is driven by --input and also set to a constant by --set"
             ));
         }
         if let Command::Library(call) = &self.command {
@@ -334,7 +334,7 @@ pub struct Start {
     /// Set a coordinate at the start, as in `--start phi=30*deg`; the name of a family sets every member.
     #[arg(long = "start", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub coordinates: Vec<Assignment>,
-    /// Set the velocity of a coordinate at the start; 0 where left out.
+    /// Set the velocity of a coordinate at the start; 0 if not given.
     #[arg(long = "rate", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub rates: Vec<Assignment>,
     #[command(flatten)]
@@ -344,7 +344,7 @@ pub struct Start {
 /// How it is run.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Running {
-    /// What runs the equations; the results are the same to the last bit.
+    /// How the equations are evaluated; the results are the same to the last bit.
     #[arg(long, value_enum, default_value_t = Engine::Auto)]
     pub engine: Engine,
 }
@@ -352,7 +352,7 @@ pub struct Running {
 /// What runs the equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Engine {
-    /// The interpreter, until machine code pays; and where there is none.
+    /// The interpreter until machine code is worth compiling, or throughout where machine code is not available.
     Auto,
     /// The interpreter.
     Interpreter,
@@ -363,17 +363,17 @@ pub enum Engine {
 /// The numbers that a run is made in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Precision {
-    /// Of 53 bits.
+    /// Double precision, with 53 bits.
     F64,
-    /// Sums of two of them, some 106 bits: 32 digits.
+    /// Double-double: sums of two such numbers, with about 106 bits or 32 digits.
     Dd,
 }
 
 /// Which numbers of a start stay as they are.
 #[derive(Debug, Args)]
 pub struct Keep {
-    /// Keep numbers of a start that does not obey the constraints, as in `--keep theta,der(phi)`, and move the others: these
-    /// in place of those that the spec keeps, or `none`.
+    /// If the start does not satisfy the constraints, keep these values, as in `--keep theta,der(phi)`, and correct the others: in
+    /// place of those that the spec keeps; `none` keeps no value.
     #[arg(long = "keep", value_name = "NAME,…", value_delimiter = ',', value_parser = kept)]
     pub names: Vec<String>,
 }
@@ -390,13 +390,13 @@ fn kept(text: &str) -> Result<String, String> {
 pub struct Check {
     #[command(flatten)]
     pub spec: Spec,
-    /// Exit with status 1 where there are warnings.
+    /// Exit with status 1 if there are warnings.
     #[arg(long)]
     pub deny_warnings: bool,
-    /// Exit with status 1 where a published formula differs from the derived one.
+    /// Exit with status 1 if a published formula differs from the derived one.
     #[arg(long)]
     pub strict: bool,
-    /// Say how exact the program of the machine is, held against numbers of 30 digits.
+    /// Measure the accuracy of the machine's program by comparison with arithmetic of 30 digits.
     #[arg(long)]
     pub accuracy: bool,
 }
@@ -406,7 +406,7 @@ pub struct Check {
 pub struct Derive {
     #[command(flatten)]
     pub spec: Spec,
-    /// In which form.
+    /// The form of the output.
     #[arg(long = "as", value_enum, default_value_t = Form::Markdown)]
     pub form: Form,
     /// Write it to a file instead of standard output.
@@ -425,11 +425,11 @@ pub enum Form {
     Html,
     /// The code that `machine!` emits.
     Rust,
-    /// The operations, one a line, with their counts.
+    /// The operations, one on each line, with their counts.
     Program,
     /// The code as C99.
     C,
-    /// The operations as Python over SymPy, for numbers and symbols.
+    /// The operations as Python for SymPy, for numbers and symbols.
     Sympy,
     /// The operations as MATLAB, for Octave too.
     Matlab,
@@ -448,16 +448,17 @@ pub struct Library {
     /// Where to write the library; its C header is written beside it.
     #[arg(long, value_name = "FILE.so")]
     pub out: PathBuf,
-    /// For how many states at once there are functions besides `eval`: 2, 4, 8, or several of them, as in `--lanes 4,8`.
+    /// The numbers of states that further functions besides `eval` evaluate at once: 2, 4, 8, or several of them, as in
+    /// `--lanes 4,8`.
     #[arg(long, value_name = "N", value_delimiter = ',', default_value = "4", value_parser = lanes)]
     pub lanes: Vec<u8>,
-    /// The processor that it is for, as rustc names it: x86-64-v3 for any with AVX2.
+    /// The processor to compile for, as rustc names it: x86-64-v3 for any processor with AVX2.
     #[arg(long, value_name = "NAME", default_value = "native")]
     pub target_cpu: String,
-    /// Write the one file of Rust from which it is compiled as well.
+    /// Also write the single Rust file from which it is compiled.
     #[arg(long, value_name = "FILE.rs")]
     pub source: Option<PathBuf>,
-    /// Write out what repeats itself, which is otherwise a loop: the same bits, from longer code.
+    /// Write repeated parts out instead of as loops: longer code with bitwise the same results.
     #[arg(long)]
     pub straight: bool,
 }
@@ -473,18 +474,18 @@ pub struct Fmu {
     /// Which version of the interface: 3 or 2.
     #[arg(long, value_name = "VERSION", default_value = "3", value_parser = clap::value_parser!(u8).range(2..=3))]
     pub fmi: u8,
-    /// For which importers: those that integrate by themselves (`me`), those that let the unit integrate (`cs`), or both.
+    /// The kind of importer: one that integrates itself (`me`), one that lets the unit integrate (`cs`), or both.
     #[arg(long, value_name = "KIND,…", value_enum, value_delimiter = ',', default_values_t = [UnitKind::ModelExchange, UnitKind::CoSimulation])]
     pub kind: Vec<UnitKind>,
-    /// Which variables are outputs, as in `--outputs theta1,energy.kinetic`: in place of those of the spec, or of the coordinates.
+    /// The variables that are outputs, as in `--outputs theta1,energy.kinetic`, in place of the outputs of the spec or the coordinates.
     #[arg(long, value_name = "NAME,…", value_parser = names)]
     pub outputs: Option<Names>,
-    /// Watch for changes of sign of a formula, as in `--event low=theta1`: an event indicator for importers that integrate, and an output
+    /// Watch for sign changes of a formula, as in `--event low=theta1`: an event indicator for importers that integrate, and an output
     /// `event.low` that counts them.
     #[arg(long = "event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]
     pub events: Vec<Assignment>,
-    /// By which method the unit integrates in co-simulation: `dop853` of order 8, or `dopri5` of order 5, whose steps are cheaper, for
-    /// points of communication that are close together.
+    /// The integration method of the unit in co-simulation: `dop853` of order 8, or `dopri5` of order 5, whose steps are cheaper, for
+    /// communication points that are close together.
     #[arg(long, value_enum, default_value_t = UnitMethod::Dop853)]
     pub method: UnitMethod,
     /// Relative and absolute tolerance of co-simulation, unless the importer gives one.
@@ -493,17 +494,17 @@ pub struct Fmu {
     /// Change the default of a parameter or an input, as in `--set omega=120`.
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub parameters: Vec<Assignment>,
-    /// Change the start of a coordinate.
+    /// Change the start value of a coordinate.
     #[arg(long = "start", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub coordinates: Vec<Assignment>,
     /// Change the velocity of a coordinate at the start.
     #[arg(long = "rate", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub rates: Vec<Assignment>,
-    /// The C compiler, in place of `cc` or what the variable CC names.
+    /// The C compiler, in place of `cc` or the one that the variable CC names.
     #[arg(long, value_name = "COMMAND")]
     pub cc: Option<String>,
-    /// Libraries for these platforms in place of this one, as in `--target x86_64-linux-gnu,x86_64-windows-gnu`: the compiler is called
-    /// with `--target=TRIPLE`, as Clang takes it, or with the triple for `{}` in --cc, as in `--cc '{}-gcc'`.
+    /// Build libraries for these platforms instead of this one, as in `--target x86_64-linux-gnu,x86_64-windows-gnu`: the compiler is
+    /// called with `--target=TRIPLE`, as Clang expects it, or with the triple in place of `{}` in --cc, as in `--cc '{}-gcc'`.
     #[arg(
         long,
         value_name = "TRIPLE,…",
@@ -511,7 +512,7 @@ pub struct Fmu {
         conflicts_with = "sources_only"
     )]
     pub target: Vec<String>,
-    /// Leave out the library: for importers that compile.
+    /// Include no library, for importers that compile the sources.
     #[arg(long, conflicts_with = "cc")]
     pub sources_only: bool,
 }
@@ -584,7 +585,8 @@ pub struct Evaluate {
     pub start: Start,
     #[command(flatten)]
     pub keep: Keep,
-    /// A JSON list of points {"t", "q", "v", "states", "parameters", "inputs"}, or `-` for standard input; without it, the start.
+    /// A JSON list of points {"t", "q", "v", "states", "parameters", "inputs"}, or `-` for standard input; without it, the only point is
+    /// the start.
     #[arg(long, value_name = "POINTS.json")]
     pub at: Option<PathBuf>,
 }
@@ -594,37 +596,37 @@ pub struct Evaluate {
 pub enum UnitMethod {
     /// Dormand and Prince's method of order 8.
     Dop853,
-    /// Theirs of order 5.
+    /// Dormand and Prince's method of order 5.
     Dopri5,
 }
 
 /// Arguments of `import`.
 #[derive(Debug, Args)]
 pub struct Import {
-    /// The robot, a file of URDF with the ending `.urdf`, or a model of MuJoCo with the ending `.xml` or `.mjcf`.
+    /// The robot: a URDF file with the ending `.urdf`, or a MuJoCo model with the ending `.xml` or `.mjcf`.
     #[arg(value_name = "ROBOT")]
     pub path: PathBuf,
     /// Write the spec to a file instead of standard output.
     #[arg(long, value_name = "FILE.machine")]
     pub out: Option<PathBuf>,
-    /// Whether the link that hangs on no other stands on the ground, or moves with six coordinates.
+    /// Whether the root link is fixed to the ground or moves with six coordinates.
     #[arg(long, value_enum, default_value_t = Base::Fixed)]
     pub base: Base,
-    /// The angles of spherical and floating joints, by the axes about which they turn, or a quaternion, which is singular nowhere; xyz
-    /// and zyx where left out.
+    /// The angles of spherical and floating joints, named after their rotation axes, or a quaternion, which is singular nowhere; by
+    /// default xyz for spherical joints and zyx for floating ones.
     #[arg(long, value_enum)]
     pub ball: Option<Ball>,
-    /// What becomes of Coulomb friction, which is refused where left out: `none` leaves it out, `smooth=1e-3` makes it smooth
-    /// below that rate, in rad/s or m/s.
+    /// The treatment of Coulomb friction, which is rejected if this option is not given: `none` leaves it out, `smooth=1e-3` makes it
+    /// smooth below that rate, in rad/s or m/s.
     #[arg(long, value_name = "none|smooth=RATE", value_parser = friction)]
     pub friction: Option<Friction>,
-    /// What becomes of the limits of joints: they stand in comments, a run says when it leaves them, or they stop the joint.
+    /// The treatment of joint limits: they are written as comments, a run reports when it leaves them, or they stop the joint.
     #[arg(long, value_enum, default_value_t = Limits::None)]
     pub limits: Limits,
-    /// Leave out joints that move no mass, with what hangs on them.
+    /// Leave out joints that move no mass, together with everything attached to them.
     #[arg(long)]
     pub drop_massless: bool,
-    /// Leave out elements and attributes that are not known, or may change the motion, by name.
+    /// Leave out these elements and attributes, which are unknown or may change the motion.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub ignore: Vec<String>,
     /// Print the result as one JSON document on standard output, and nothing else there.
@@ -635,7 +637,7 @@ pub struct Import {
 /// What the root of a robot does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Base {
-    /// It stands on the ground.
+    /// It is fixed to the ground.
     Fixed,
     /// It moves with six coordinates.
     Floating,
@@ -675,9 +677,9 @@ fn friction(text: &str) -> Result<Friction, String> {
 /// What becomes of the limits of joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Limits {
-    /// They stand in comments.
+    /// They are written as comments.
     None,
-    /// A run says when it leaves them.
+    /// A run reports when it leaves them.
     Assume,
     /// Stops: unilateral contacts at both ends.
     Stop,
@@ -701,28 +703,30 @@ pub struct Simulate {
     /// Integrate to this time, in s; before 0 backward in time.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub until: f64,
-    /// Relative and absolute tolerance of each step; 1e-9 if left out, and in double-double what its digits allow.
+    /// Relative and absolute tolerance of each step; by default 1e-9, and in double-double what its digits allow.
     #[arg(long, value_parser = wide_tolerance, allow_hyphen_values = true)]
     pub tolerance: Option<f64>,
-    /// The numbers to run in; in double-double the end is printed in 30 digits, of machines without constraints and contacts.
+    /// The arithmetic of the run; in double-double the end is printed with 30 digits, for machines without constraints and contacts.
     #[arg(long, value_enum, value_name = "NUMBERS", default_value_t = Precision::F64)]
     pub precision: Precision,
-    /// Enclose the motion: print bounds that are proved to contain it, of machines with a Taylor series and without constraints and contacts.
+    /// Enclose the motion: print bounds that are proved to contain it, for machines with a Taylor series and without constraints
+    /// and contacts.
     #[arg(long, conflicts_with = "precision")]
     pub validated: bool,
-    /// Estimate how exact the end of the run is, by a run in double-double where the machine has one, else by a finer one.
+    /// Estimate the error at the end of the run, from a run in double-double where the machine allows one, otherwise from a run at a
+    /// finer tolerance.
     #[arg(long)]
     pub global_error: bool,
-    /// The integration method: auto, which begins by dop853, goes on by radau5, radau9 or radau13 where the machine is stiff, and by moreau
-    /// where contacts meet too often for each instant to be found; dop853, dopri5,
-    /// bs32, radau5, radau9 and radau13 for stiff machines, taylor for smooth ones; with steps of --longest-step moreau for many contacts that
-    /// open and close, rk4, semi-implicit-euler, gauss4, gauss6, gauss8, rattle or generalized-alpha.
+    /// The integration method: auto, which begins with dop853, continues with radau5, radau9 or radau13 where the machine is stiff, and
+    /// with moreau where contacts meet too often for each instant to be found; dop853, dopri5, bs32; radau5, radau9 and radau13 for stiff
+    /// machines; taylor for smooth ones; or, in steps of --longest-step, moreau for many contacts that open and close, rk4,
+    /// semi-implicit-euler, gauss4, gauss6, gauss8, rattle or generalized-alpha.
     #[arg(long, value_name = "NAME", default_value = "auto")]
     pub method: String,
     /// The longest step, in s; the length of all steps of methods that have no tolerance.
     #[arg(long, value_name = "SECONDS", value_parser = interval, allow_hyphen_values = true)]
     pub longest_step: Option<f64>,
-    /// How many steps the run may take.
+    /// The maximum number of steps of the run.
     #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = steps, allow_hyphen_values = true)]
     pub max_steps: usize,
     /// Record the motion at this interval, in s; without it, 1000 times.
@@ -731,13 +735,13 @@ pub struct Simulate {
     /// Write the motion to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draw the motion as SVG: coordinates, outputs, energies, and the residual of their balance.
+    /// Draw the motion as SVG: coordinates, outputs, energies, and the residual of the energy balance.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
-    /// Write a page that shows the machine move, beside its curves, parameters and equations; one file, for any browser.
+    /// Write a page with an animation of the machine, its curves, parameters and equations; one file, for any browser.
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
-    /// Put the machine into the page of --report: sliders for parameters, inputs and the start run it again there.
+    /// Embed the machine in the page of --report, where sliders for parameters, inputs and start values run it again.
     #[arg(long, requires = "report")]
     pub live: bool,
 }
@@ -760,27 +764,27 @@ pub struct Sweep {
     /// The integration method: dop853, dopri5, bs32, radau5 for stiff machines, or taylor for smooth ones.
     #[arg(long, value_name = "NAME", default_value = "dop853")]
     pub method: String,
-    /// How many steps each run may take.
+    /// The maximum number of steps of each run.
     #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = steps, allow_hyphen_values = true)]
     pub max_steps: usize,
-    /// Vary a parameter, an input, `start(q)` or `rate(q)`: `omega=50..150:101` (101 values, `:log` behind for equal quotients),
-    /// `omega=50,60,90`, or to be sampled `omega=50..150`, `omega~normal(100,5)`, `~uniform(a,b)`, `~loguniform(a,b)`,
-    /// `~triangular(a,b,peak)`. Several are crossed, the last one fastest.
+    /// Vary a parameter, an input, `start(q)` or `rate(q)`: `omega=50..150:101` (101 values; append `:log` for a geometric grid),
+    /// `omega=50,60,90`, or, to be sampled, `omega=50..150`, `omega~normal(100,5)`, `~uniform(a,b)`, `~loguniform(a,b)`,
+    /// `~triangular(a,b,peak)`. Several are combined as a full grid, in which the last one changes fastest.
     #[arg(long, value_name = "NAME=VALUES", allow_hyphen_values = true)]
     pub vary: Vec<String>,
-    /// How many sets of values are sampled of what is given by distributions.
+    /// The number of sets of values to sample from the given ranges and distributions.
     #[arg(long, value_name = "N", value_parser = count)]
     pub samples: Option<u64>,
-    /// How they are sampled.
+    /// How values are sampled.
     #[arg(long, value_enum, default_value_t = Design::Sobol)]
     pub design: Design,
-    /// Which of the many designs of this kind; the Sobol sequence itself with 0.
+    /// The seed of the sampling; 0 gives the Sobol sequence itself.
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
-    /// Take values of these side by side, not crossed, as in `--together m,omega`.
+    /// Take the values of these together, the first with the first and so on, instead of crossing them, as in `--together m,omega`.
     #[arg(long, value_name = "NAME,…")]
     pub together: Vec<String>,
-    /// Take the runs from a table `.csv` or `.parquet`: a row a run, columns under the names that are varied.
+    /// Take the runs from a table `.csv` or `.parquet`: one row for each run, with columns named after what is varied.
     #[arg(long, value_name = "FILE")]
     pub table: Option<PathBuf>,
     /// Drive an input while the machine runs: by a formula in time, coordinates, rates, parameters, other inputs and outputs,
@@ -789,42 +793,42 @@ pub struct Sweep {
     /// `--input u=table.csv[:COLUMN][,hold|linear|cubic][,end=hold|error|repeat]`.
     #[arg(long = "input", value_name = "NAME=FORMULA|FILE", value_parser = assignment, allow_hyphen_values = true)]
     pub inputs: Vec<Assignment>,
-    /// Watch for changes of sign of a formula, as in `--event top=theta-pi`.
+    /// Watch for sign changes of a formula, as in `--event top=theta-pi`.
     #[arg(long = "event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]
     pub events: Vec<Assignment>,
-    /// Find the instants at which a formula changes its sign, and end the run at the first.
+    /// End the run at the first instant at which a formula changes sign.
     #[arg(long = "until-event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]
     pub ends: Vec<Assignment>,
-    /// What of the motion is recorded beside its end: `at=0.5,1` states at these times; `every=0.01` samples in a second file, or
-    /// `event=NAME` a sample at every event of that name.
+    /// What is recorded of the motion besides its end: `at=0.5,1` records the states at these times; `every=0.01` writes samples to a
+    /// second file, and `event=NAME` a sample at every event of that name.
     #[arg(long, value_name = "end|at=T,…|every=T|event=NAME,…")]
     pub record: Vec<String>,
-    /// Make a number of each motion, as in `--reduce 'peak = max(abs(x))'`: max, min, range, mean, rms, integral, first, last,
+    /// Reduce each motion to a number, as in `--reduce 'peak = max(abs(x))'`: max, min, range, mean, rms, integral, first, last,
     /// when_max, when_min of a formula; count, first, last of an event.
     #[arg(long = "reduce", value_name = "NAME=F(FORMULA)", value_parser = assignment, allow_hyphen_values = true)]
     pub reductions: Vec<Assignment>,
-    /// Leave out of these what is before this time, in s.
+    /// Ignore the motion before this time, in s, in these reductions.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub after: Option<f64>,
-    /// Where the rows go: a table `.csv` or `.parquet`, or a folder, in which chunks stay. What was interrupted goes on.
+    /// Where the rows are written: a table `.csv` or `.parquet`, or a folder, in which the chunks remain. An interrupted sweep is resumed.
     #[arg(long, value_name = "FILE|FOLDER")]
     pub out: Option<PathBuf>,
-    /// Begin again, whatever is there of the sweep.
+    /// Start over, even if part of the sweep already exists.
     #[arg(long)]
     pub fresh: bool,
-    /// How many threads run it; all cores where left out.
+    /// The number of threads; by default one for each core.
     #[arg(long, value_name = "N", value_parser = count)]
     pub threads: Option<u64>,
-    /// Stop after so many runs, rounded up to chunks; the same command goes on.
+    /// Stop after this many runs, rounded up to whole chunks; the same command resumes the sweep.
     #[arg(long, value_name = "RUNS", value_parser = count)]
     pub limit: Option<u64>,
-    /// Write the plan and run nothing. `lagrangian sweep PLAN.json` then runs it.
+    /// Write the plan without running it. `lagrangian sweep PLAN.json` then runs it.
     #[arg(long, value_name = "FILE.json")]
     pub plan: Option<PathBuf>,
-    /// Run this chunk of a plan alone, for arrays of jobs: `lagrangian sweep PLAN.json --chunk 17 --out FOLDER`.
+    /// Run only this chunk of a plan, for job arrays: `lagrangian sweep PLAN.json --chunk 17 --out FOLDER`.
     #[arg(long, value_name = "K")]
     pub chunk: Option<u64>,
-    /// Exit with status 1 where a run failed.
+    /// Exit with status 1 if a run failed.
     #[arg(long)]
     pub strict: bool,
 }
@@ -835,22 +839,22 @@ pub struct Map {
     /// The rows of a sweep, `.csv` or `.parquet`.
     #[arg(value_name = "TABLE")]
     pub table: PathBuf,
-    /// What is drawn: columns of the table, as in `--of peak,effort`.
+    /// The columns of the table to plot, as in `--of peak,effort`.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', required = true)]
     pub of: Vec<String>,
-    /// Over which of the parameters that are varied: curves over one, colours over two; all of them where left out.
+    /// The varied parameters to plot over: curves over one, colours over two; all of them if not given.
     #[arg(long, value_name = "NAME[,NAME]", value_delimiter = ',')]
     pub over: Vec<String>,
-    /// Leave out all rows with another value, as in `--only m2=0.5`.
+    /// Plot only the rows with this value, as in `--only m2=0.5`.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub only: Vec<Assignment>,
-    /// Draw the samples beside the table, a dot for each: a bifurcation diagram where they were recorded at events.
+    /// Plot the samples that belong to the table, one dot each: a bifurcation diagram if they were recorded at events.
     #[arg(long)]
     pub samples: bool,
     /// The drawing.
     #[arg(long, value_name = "FILE.svg", required_unless_present = "report")]
     pub plot: Option<PathBuf>,
-    /// A page that tells the numbers under the pointer, and shows parts of the drawing larger.
+    /// A page that shows the numbers under the pointer and can enlarge parts of the drawing.
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
 }
@@ -858,11 +862,11 @@ pub struct Map {
 /// How values are sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Design {
-    /// Each set by itself.
+    /// Independent random samples.
     Random,
-    /// One value of each variable in each of as many strata as there are sets.
+    /// A Latin hypercube: as many strata of each variable as there are sets, with one value in each.
     Latin,
-    /// The Sobol sequence, which fills evenly.
+    /// The Sobol sequence, which fills the range evenly.
     Sobol,
 }
 
@@ -873,8 +877,8 @@ pub struct Search {
     pub start: Start,
     #[command(flatten)]
     pub keep: Keep,
-    /// Let a coordinate turn at a constant rate, as in `--steady phi=150`; without a number at the rate with which it starts,
-    /// with `phi=solve` at one that is to be found.
+    /// Let a coordinate turn at a constant rate, as in `--steady phi=150`; without a number, at its rate at the start; with
+    /// `phi=solve`, at a rate that is to be found.
     #[arg(long = "steady", value_name = "NAME[=RATE]", value_parser = steady, allow_hyphen_values = true)]
     pub steady: Vec<Steady>,
 }
@@ -901,14 +905,14 @@ pub struct Modes {
     pub spec: Spec,
     #[command(flatten)]
     pub search: Search,
-    /// Follow the motion along values of a parameter, an input, or the rate of a coordinate, as in `--vary roll=0..10:101`, and name
-    /// those at which modes change their kind.
+    /// Follow the motion along a range of a parameter, an input, or the rate of a coordinate, as in `--vary roll=0..10:101`, and report
+    /// the values at which modes change their kind.
     #[arg(long, value_name = "NAME=FROM..TO:COUNT", value_parser = vary, allow_hyphen_values = true)]
     pub vary: Option<Vary>,
     /// Write the motions along `--vary` to a table, `.csv` or `.parquet`, with a row for each mode.
     #[arg(long, value_name = "FILE", requires = "vary")]
     pub out: Option<PathBuf>,
-    /// Draw as SVG frequencies and growth along `--vary`, and the root locus.
+    /// Draw frequencies and growth rates along `--vary`, and the root locus, as SVG.
     #[arg(long, value_name = "FILE.svg", requires = "vary")]
     pub plot: Option<PathBuf>,
 }
@@ -920,27 +924,27 @@ pub struct Linearize {
     pub spec: Spec,
     #[command(flatten)]
     pub search: Search,
-    /// Linearize about the start as it is, with the rates that it has, whether it stays there or not.
+    /// Linearize about the start as it is, with its rates, whether or not the machine stays there.
     #[arg(long, conflicts_with_all = ["steady", "along"])]
     pub here: bool,
-    /// Which inputs of the machine the model has; all where left out.
+    /// The inputs of the model; all inputs of the machine if not given.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = observed)]
     pub inputs: Vec<String>,
-    /// What the model has as outputs: outputs of the spec, coordinates, `der(x)`, `der(x,2)`, `multiplier(rod)`; where left out
-    /// the outputs of the spec, or, if it has none, its coordinates.
+    /// The outputs of the model: outputs of the spec, coordinates, `der(x)`, `der(x,2)`, `multiplier(rod)`; by default the outputs of the
+    /// spec or, if it has none, its coordinates.
     #[arg(long, value_name = "NAME,…")]
     pub outputs: Vec<String>,
     /// Write the model: `.json`, `.npz` for NumPy, `.mat` for MATLAB, or `.csv`, a file for each matrix, NAME.A.csv and so on.
-    /// Along a range, a table `.csv` or `.parquet` with a row for each eigenvalue.
+    /// With `--along`, a table `.csv` or `.parquet` with a row for each eigenvalue.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draw as SVG gain and phase over the frequency, from each input to each output.
+    /// Draw gain and phase over the frequency, from each input to each output, as SVG.
     #[arg(long, value_name = "FILE.svg", conflicts_with = "along")]
     pub bode: Option<PathBuf>,
-    /// Draw as SVG the frequency response in the complex plane, from each input to each output.
+    /// Draw the frequency response in the complex plane, from each input to each output, as SVG.
     #[arg(long, value_name = "FILE.svg", conflicts_with = "along")]
     pub nyquist: Option<PathBuf>,
-    /// Follow the eigenvalues along values of a parameter, an input, or the rate of a coordinate, as in
+    /// Follow the eigenvalues along a range of a parameter, an input, or the rate of a coordinate, as in
     /// `--along omega=10..300:200`.
     #[arg(long, value_name = "NAME=FROM..TO:COUNT", value_parser = vary, allow_hyphen_values = true, requires = "out",
         conflicts_with_all = ["inputs", "outputs"])]
@@ -983,29 +987,30 @@ pub struct Fit {
     pub start: Start,
     #[command(flatten)]
     pub keep: Keep,
-    /// A measured motion: a table `.csv` or `.parquet` with `t` and columns named as those of a run, where an empty cell is no
-    /// measurement; once for each. Behind it what is special to this one: `--data
+    /// A measured motion: a table `.csv` or `.parquet` with `t` and columns named like those of a run, in which an empty cell means no
+    /// measurement; repeat the option for each experiment. Values that apply to this experiment alone may follow: `--data
     /// 'run.csv,start(phi)=30*deg,load=2,torque=run.csv:u'`.
     #[arg(long, value_name = "FILE[,NAME=VALUE…]", required = true)]
     pub data: Vec<String>,
-    /// What is fitted: parameters, starts of coordinates as `start(phi)` and of rates as `rate(phi)`, in each experiment its own.
+    /// What is fitted: parameters, and start values of coordinates as `start(phi)` and of rates as `rate(phi)`, separately for
+    /// each experiment.
     #[arg(long = "fit", value_name = "NAME,…", required = true)]
     pub sought: Vec<String>,
-    /// Between which values something may be, as in `--bounds k=100..1e4`; one of the two may be left out, `k=0..`.
+    /// The range within which a fitted number is sought, as in `--bounds k=100..1e4`; one end may be omitted, as in `k=0..`.
     #[arg(long, value_name = "NAME=LEAST..GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub bounds: Vec<Bounds>,
-    /// The standard deviation of what is measured, as in `--sigma phi=0.5*deg`; or `--sigma auto`, which estimates those of all
+    /// The standard deviation of a measured column, as in `--sigma phi=0.5*deg`; or `--sigma auto`, which estimates those of all
     /// columns from their residuals.
     #[arg(long = "sigma", value_name = "NAME=VALUE|auto", value_parser = sigma)]
     pub sigmas: Vec<SigmaOption>,
-    /// To which columns is fitted; to all that are coordinates, rates or outputs where left out.
+    /// The columns to fit to; by default all that are coordinates, rates or outputs.
     #[arg(long, value_name = "NAME,…")]
     pub columns: Vec<String>,
     /// Drive an input in all experiments, as in `simulate`: by a formula, a controller or a table.
     #[arg(long = "input", value_name = "NAME=FORMULA|FILE", value_parser = assignment, allow_hyphen_values = true)]
     pub inputs: Vec<Assignment>,
-    /// Search so many times: first from the values of the spec and the call, then from others between the bounds, or within a factor
-    /// of 3; the best is told.
+    /// The number of searches: the first from the values of the spec and the call, the others from values between the bounds, or within
+    /// a factor of 3; the best result is reported.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = count)]
     pub starts: u64,
     /// Relative and absolute tolerance of each step.
@@ -1014,16 +1019,16 @@ pub struct Fit {
     /// The integration method: dop853, dopri5, bs32, or radau5 for stiff machines.
     #[arg(long, value_name = "NAME", default_value = "dop853")]
     pub method: String,
-    /// How many steps each run may take.
+    /// The maximum number of steps of each run.
     #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = steps, allow_hyphen_values = true)]
     pub max_steps: usize,
-    /// Write a variant of the spec with what was fitted.
+    /// Write a variant of the spec with the fitted values.
     #[arg(long, value_name = "FILE.machine")]
     pub out: Option<PathBuf>,
-    /// Write measured, computed and residual to a table, `.csv` or `.parquet`.
+    /// Write measured and computed values and their residuals to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
     pub table: Option<PathBuf>,
-    /// Draw as SVG measured against computed, and the residuals.
+    /// Draw measured and computed values, and the residuals, as SVG.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
 }
@@ -1085,27 +1090,27 @@ pub struct Brachistochrone {
     /// Set a parameter, as in `--set mu1=0.1`, or an input.
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub parameters: Vec<Assignment>,
-    /// Where it starts, as in `--from q1=0,q2=0`; the spec's start values where left out.
+    /// Where the motion starts, as in `--from q1=0,q2=0`; by default at the spec's start values.
     #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = assignment, allow_hyphen_values = true)]
     pub from: Vec<Assignment>,
-    /// Where it ends, as in `--to q1=8,q2=4.75`; where left out, as the spec says in `brachistochrone { … }`, or else where it
-    /// starts.
+    /// Where the motion ends, as in `--to q1=8,q2=4.75`; coordinates that are not given take their values from `brachistochrone { … }`
+    /// in the spec or, without that section, from the start.
     #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = assignment, allow_hyphen_values = true)]
     pub to: Vec<Assignment>,
     /// Take the values of `--from` and `--to` as normal coordinates, in the order of the coordinates.
     #[arg(long)]
     pub natural: bool,
-    /// Look near this way too: a table `.csv` with a column for each coordinate and a row for each place, as `--out` writes it
-    /// here and in `simulate`. Its ends are moved to those that are asked for.
+    /// Also search near this path: a table `.csv` with a column for each coordinate and a row for each position, as written by `--out`
+    /// here and in `simulate`. Its ends are moved to the requested ones.
     #[arg(long, value_name = "FILE.csv")]
     pub guess: Option<PathBuf>,
     /// Write the motion to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draw as SVG the way, the power of friction, and the control forces.
+    /// Draw the path, the power of friction, and the control forces as SVG.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
-    /// Write the motion as a page, beside that of the machine left to itself.
+    /// Write a page that shows the motion beside that of the machine without control forces.
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
     #[command(flatten)]
@@ -1137,7 +1142,7 @@ fn vary(text: &str) -> Result<Vary, String> {
     let values = number(count)?;
     if !(2.0..=MOST_VALUES).contains(&values) || values.fract() != 0.0 {
         return Err(format!(
-            "`{}` is no number of values: expected a whole number from 2 to {MOST_VALUES}",
+            "`{}` is not a valid number of values: expected a whole number from 2 to {MOST_VALUES}",
             count.trim()
         ));
     }
@@ -1237,7 +1242,7 @@ pub fn assignment(text: &str) -> Result<Assignment, String> {
         return Err("expected a name before `=`".into());
     }
     if value.trim().is_empty() {
-        return Err("expected a value behind `=`".into());
+        return Err("expected a value after `=`".into());
     }
     Ok(Assignment {
         name: normalized(name).into_owned(),
@@ -1277,11 +1282,11 @@ fn tolerance(text: &str) -> Result<f64, String> {
     let tolerance = number(text)?;
     let least = LEAST_RELATIVE_TOLERANCE;
     match tolerance {
-        _ if tolerance <= 0.0 => Err("a tolerance is greater than 0".into()),
+        _ if tolerance <= 0.0 => Err("a tolerance must be greater than 0".into()),
         _ if tolerance < least => Err(format!(
-            "numbers have no more digits than a tolerance of {least:.1e} asks for"
+            "the least tolerance is {least:.1e}, which is the limit of round-off"
         )),
-        _ if tolerance >= 1.0 => Err("a tolerance is less than 1".into()),
+        _ if tolerance >= 1.0 => Err("a tolerance must be less than 1".into()),
         _ => Ok(tolerance),
     }
 }
@@ -1290,7 +1295,7 @@ fn tolerance(text: &str) -> Result<f64, String> {
 fn wide_tolerance(text: &str) -> Result<f64, String> {
     match number(text)? {
         least if least > 0.0 && least < LEAST_WIDE_TOLERANCE => Err(format!(
-            "numbers in double-double have no more digits than a tolerance of {LEAST_WIDE_TOLERANCE:.1e} asks for"
+            "the least tolerance in double-double is {LEAST_WIDE_TOLERANCE:.1e}, which is the limit of round-off"
         )),
         wide if wide > 0.0 && wide < LEAST_RELATIVE_TOLERANCE => Ok(wide),
         _ => tolerance(text),
@@ -1306,7 +1311,7 @@ fn interval(text: &str) -> Result<f64, String> {
     if interval > 0.0 {
         Ok(interval)
     } else {
-        Err("an interval is greater than 0".into())
+        Err("an interval must be greater than 0".into())
     }
 }
 

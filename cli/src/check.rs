@@ -282,7 +282,7 @@ fn conclude(block: &[Published]) {
     let wrong = block.iter().filter(|formula| !formula.agrees).count();
     let all = counted(block.len(), "formula", "formulas");
     match wrong {
-        0 => output::line(format_args!("{title}: {all}, nothing to mend")),
+        0 => output::line(format_args!("{title}: {all}, nothing to correct")),
         1 => output::line(format_args!("{title}: 1 of {all} differs")),
         _ => output::line(format_args!("{title}: {wrong} of {all} differ")),
     }

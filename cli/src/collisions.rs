@@ -101,7 +101,7 @@ pub fn taken(system: &InterpretedSystem, energies: &[ContactEnergies]) -> Vec<(S
         ]
         .into_iter()
         .filter(|(.., has)| *has)
-        .map(|(how, taken, _)| (format!("taken by `{}`, {how}", contact.name), taken))
+        .map(|(how, taken, _)| (format!("dissipated by `{}`, {how}", contact.name), taken))
         .collect::<Vec<_>>()
     };
     contacts.iter().flat_map(of_contact).collect()
@@ -140,19 +140,28 @@ pub fn lines(run: &Run) -> Vec<String> {
         let loss = energies.impact_loss;
         let mut line = match impacts {
             _ if is_layer => format!("{name}: crushed by {:.6e} J", energies.crushing_work),
-            _ if is_compliant => format!("{name}: yields"),
-            _ if rolls => format!("{name}: impacts took {loss:.6e} J"),
-            1 => format!("{name}: 1 impact, which took {loss:.6e} J"),
-            _ => format!("{name}: {impacts} impacts, which took {loss:.6e} J"),
+            _ if is_compliant => format!("{name}: compliant"),
+            _ if rolls => format!("{name}: impacts dissipated {loss:.6e} J"),
+            1 => format!("{name}: 1 impact, which dissipated {loss:.6e} J"),
+            _ => format!("{name}: {impacts} impacts, which dissipated {loss:.6e} J"),
         };
         if has_balance && (has_friction || rolls) {
-            line.push_str(&format!("; friction took {:.6e} J", energies.friction_loss));
+            line.push_str(&format!(
+                "; friction dissipated {:.6e} J",
+                energies.friction_loss
+            ));
         }
         if has_balance && is_compliant && !is_layer {
-            line.push_str(&format!("; damping took {:.6e} J", energies.damping_loss));
+            line.push_str(&format!(
+                "; damping dissipated {:.6e} J",
+                energies.damping_loss
+            ));
         }
         if energies.work.abs() > rounding {
-            line.push_str(&format!("; what moves did {:.6e} J", energies.work));
+            line.push_str(&format!(
+                "; moving walls did {:.6e} J of work",
+                energies.work
+            ));
         }
         if rolls {
             return line;

@@ -91,7 +91,7 @@ pub fn run(call: &call::Compare) -> Result<(), Failure> {
                 .map(|one| match one.difference.relative() {
                     Some(share) => format!("{} ({})", one.name, number(share)),
                     None => format!(
-                        "{} ({} of nothing)",
+                        "{} ({}, of a range of 0)",
                         one.name,
                         number(one.difference.largest)
                     ),
@@ -101,7 +101,7 @@ pub fn run(call: &call::Compare) -> Result<(), Failure> {
                 call.floor,
                 beyond.iter().any(|one| one.difference.range < 1e-9),
             ) {
-                (None, true) => "; --floor lets pass what is small in its unit",
+                (None, true) => "; --floor accepts differences that are small in absolute terms",
                 _ => "",
             };
             Err(Failure::Run(format!(
@@ -130,7 +130,7 @@ fn both(call: &call::Compare, files: &[&Destination]) -> Result<[Columns; 2], Fa
         ];
         if let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) {
             return Err(Failure::Call(format!(
-                "{option} says how the second run is made, and it is a table"
+                "{option} applies to a second run made from a spec, but the second run is a table"
             )));
         }
     }
@@ -283,7 +283,7 @@ fn text(
     let whose = match (first.is_spec, second.is_spec) {
         (true, true) => "at which both specs are recorded",
         (false, false) => "the rows of both tables",
-        _ => "the rows of the table, at which the spec is looked at",
+        _ => "the rows of the table, at which the spec is recorded",
     };
     let mut text = format!(
         "{} instants from {} s to {} s, {whose}\n",
@@ -363,7 +363,7 @@ fn text(
             let name = &one.name;
             let _ = writeln!(
                 text,
-                "{name}: at {count} of these instants both have a value"
+                "{name}: both have a value at {count} of these instants"
             );
         }
     }
@@ -382,7 +382,7 @@ fn text(
         if let Some((one, (_, error))) = worst {
             let _ = writeln!(
                 text,
-                "between the rows of the {which}: {}; that may make up to {} of {}",
+                "between the rows of the {which}: {}, which may cause an error of up to {} in {}",
                 names.join(", "),
                 number(*error),
                 header(&one.name, one.unit.as_deref())

@@ -357,7 +357,7 @@ impl Found {
             (None, Some((demand, t))) => {
                 format!("presses, and needs friction of {demand:.3} at t = {t:.4} s")
             }
-            (None, None) => "carries nothing".into(),
+            (None, None) => "carries no load".into(),
         };
         format!("{}: {needs}", self.name)
     }

@@ -65,7 +65,7 @@ fn destination(call: &call::Derive) -> Result<Option<Destination>, Failure> {
     if let Some(other) = others.into_iter().find(of) {
         let ending = path.extension().unwrap_or_default().to_string_lossy();
         return Err(Failure::Call(format!(
-            "--out {}: `.{ending}` is for `--as {}`, and this is `--as {}`",
+            "--out {}: the ending `.{ending}` belongs to `--as {}`, but the form is `--as {}`",
             path.display(),
             name(*other),
             name(call.form)

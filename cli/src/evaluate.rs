@@ -102,7 +102,7 @@ fn at(
         for (name, value) in named(name, entry) {
             machine
                 .set(&name, value)
-                .map_err(|unknown| format!("no parameter or input: {unknown}"))?;
+                .map_err(|unknown| format!("not a parameter or an input: {unknown}"))?;
         }
     }
     machine
@@ -113,7 +113,7 @@ fn at(
     }
     // The start may depend on parameters, including those of the point.
     let mut state = machine.start();
-    set_start(&mut state, &call.start).map_err(|_| "no such coordinate")?;
+    set_start(&mut state, &call.start).map_err(|_| "there is no such coordinate")?;
     state.t = point.t.unwrap_or(0.0);
     let integrals = integrals(&state.q);
     fill(&mut state.q, point.q, ("q", false))?;
@@ -192,7 +192,7 @@ fn fill(
                     if is_states {
                         format!("no state is named `{name}`")
                     } else {
-                        format!("no coordinate: {unknown}")
+                        format!("not a coordinate: {unknown}")
                     }
                 })?;
             }

@@ -18,7 +18,7 @@ impl Failure {
                     let entries = diagnostics::entries(&report, &sources);
                     output::line(format_args!(
                         "{:#}",
-                        json!({ "error": "the spec is wrong", "diagnostics": entries })
+                        json!({ "error": "the spec is invalid", "diagnostics": entries })
                     ));
                 }
                 diagnostics::print(&report, &sources);

@@ -35,7 +35,7 @@ impl Failure {
             Failure::Run(message) | Failure::Call(message) | Failure::Detailed(message, _) => {
                 message
             }
-            Failure::Spec(_) => "the spec is wrong".to_owned(),
+            Failure::Spec(_) => "the spec is invalid".to_owned(),
             Failure::AlreadyReported | Failure::Interrupted => String::new(),
         }
     }

@@ -96,7 +96,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let method = methods::named(&call.method)?;
     if std::ptr::eq(method, &lagrangian::methods::TAYLOR) {
         return Err(Failure::Call(
-            "--method taylor: a fit runs the motion with its derivatives, which have no series; take dop853".into(),
+            "--method taylor: a fit integrates the motion with its derivatives, which have no Taylor series; use dop853".into(),
         ));
     }
     let mut given = data::given(call)?;
@@ -160,7 +160,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let measured = data::count(&fit.experiments);
     if measured < fit.sought.len() {
         return Err(Failure::Call(format!(
-            "{} measurements cannot tell {} numbers",
+            "{} measurements cannot determine {} numbers",
             measured,
             fit.sought.len()
         )));
@@ -173,7 +173,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
             Failure::Run(format!("there is no motion where the search begins: {why}"))
         }
         Failed::Unsettled => {
-            Failure::Run("the standard deviations do not settle: give them by --sigma".to_owned())
+            Failure::Run("the standard deviations do not converge: give them by --sigma".to_owned())
         }
         Failed::Trouble(trouble) => stopped(trouble),
     })?;
@@ -195,7 +195,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
         Err(failure) => Some(failure.message()),
         Ok(()) if result.found.minimum.ending.is_minimum() => None,
         Ok(()) => Some(format!(
-            "the search {} in {} evaluations; begin it nearer by --set and --start, bound it by --bounds, or try several by --starts",
+            "the search {} in {} evaluations; start it closer to the solution by --set and --start, bound it by --bounds, or try several starts by --starts",
             result.found.minimum.ending.words(),
             result.found.minimum.evaluations
         )),
@@ -351,7 +351,7 @@ fn sought(
     }
     if let Some(place) = bounds.iter().position(|used| !used) {
         return Err(Failure::Call(format!(
-            "--bounds {}: nothing of this name is fitted",
+            "--bounds {}: nothing with this name is fitted",
             call.bounds[place].name
         )));
     }
@@ -359,7 +359,7 @@ fn sought(
         let [low, high] = one.bounds;
         if one.from < low || one.from > high {
             return Err(Failure::Call(format!(
-                "the search for `{}` would begin at {}, outside its bounds {low} to {high}; set where it begins by {}",
+                "the search for `{}` would begin at {}, outside its bounds {low} to {high}; set another initial value by {}",
                 one.name,
                 one.from,
                 match one.subject {
@@ -378,7 +378,7 @@ fn sought(
             });
             if is_sought {
                 return Err(Failure::Call(format!(
-                    "`{}` is fitted, and has one value by --data {}",
+                    "`{}` is fitted, but --data {} gives it a fixed value",
                     set.name, experiment.name
                 )));
             }
@@ -412,13 +412,14 @@ fn of_parameters(
             .strip_prefix("der(")
             .and_then(|rest| rest.strip_suffix(')'));
         let help = if is_input {
-            "it is an input, which may be driven by a formula in a parameter that is fitted: --input".to_owned()
+            "it is an input; it can be driven through --input by a formula with a fitted parameter"
+                .to_owned()
         } else if !places(coordinates, name).is_empty() {
-            format!("it is a coordinate, whose start is fitted as start({name})")
+            format!("it is a coordinate, whose start value is fitted as start({name})")
         } else if let Some(rate) = rate.filter(|rate| !places(coordinates, rate).is_empty()) {
-            format!("the rate with which it starts is fitted as rate({rate})")
+            format!("the initial rate is fitted as rate({rate})")
         } else if let Some(coordinate) = name.strip_suffix("(start)") {
-            format!("the start of a coordinate is fitted as start({coordinate})")
+            format!("the start value of a coordinate is fitted as start({coordinate})")
         } else {
             return Err(unknown(name, "parameter", name, &parameters));
         };
@@ -516,7 +517,7 @@ fn ends(bounds: &Bounds, unit: &str) -> Result<[f64; 2], Failure> {
         Ok([low, high])
     } else {
         Err(Failure::Call(format!(
-            "--bounds {}: from {low} to {high} there is nothing between",
+            "--bounds {}: there is no value between {low} and {high}",
             bounds.name
         )))
     }
@@ -541,7 +542,7 @@ fn check_values(machine: &InterpretedMachine, sought: &[Sought]) -> Result<(), F
         .iter()
         .any(|name| sought.iter().any(|s| s.name == *name));
     let why = if is_sought {
-        "; of what is fitted, where the search begins"
+        "; for what is fitted, this is where the search begins"
     } else {
         ""
     };
@@ -560,8 +561,7 @@ fn sigmas(
     let is_auto = call.sigmas.contains(&SigmaOption::Estimated);
     if is_auto && call.sigmas.len() > 1 {
         return Err(Failure::Call(
-            "--sigma auto estimates all standard deviations: no other --sigma stands beside it"
-                .into(),
+            "--sigma auto estimates all standard deviations: it excludes any other --sigma".into(),
         ));
     }
     if is_auto {
@@ -578,7 +578,7 @@ fn sigmas(
             .map(|c| format!("{} [{}]", c.name, c.unit))
             .collect();
         return Err(Failure::Call(format!(
-            "{} have different units, so how much each counts is not known: give their standard deviations, as in --sigma {}=…, or have \
+            "{} have different units, so their relative weights are unknown: give their standard deviations, as in --sigma {}=…, or have \
              them estimated from the residuals by --sigma auto",
             names.join(", "),
             classes[0].name
@@ -592,7 +592,7 @@ fn sigmas(
         let Some(place) = classes.iter().position(|class| class.name == set.name) else {
             let known: Vec<&str> = classes.iter().map(|class| class.name.as_str()).collect();
             return Err(Failure::Call(format!(
-                "--sigma {}: nothing of this name is measured; there are: {}",
+                "--sigma {}: nothing with this name is measured; there are: {}",
                 set.name,
                 known.join(", ")
             )));
@@ -602,7 +602,7 @@ fn sigmas(
             .map_err(Failure::Call)?;
         if !(value > 0.0 && value.is_finite()) {
             return Err(Failure::Call(format!(
-                "--sigma {}={}: a standard deviation is greater than 0",
+                "--sigma {}={}: a standard deviation must be greater than 0",
                 set.name, set.value
             )));
         }
@@ -618,7 +618,7 @@ fn sigmas(
         Ok((Sigmas::Given, values))
     } else {
         Err(Failure::Call(format!(
-            "--sigma says nothing of {}, which is measured as well; --columns chooses what is fitted to",
+            "--sigma gives no standard deviation of {}, which is measured as well; --columns selects the columns to fit to",
             missing.join(", ")
         )))
     }

@@ -281,18 +281,18 @@ fn count(n: usize, what: &str) -> String {
 fn check_sections(program: &Program) -> Result<(), Failure> {
     let why = if let Some(contact) = program.contacts.first() {
         format!(
-            "`{contact}` of `sliding` sticks or slides, which is a state of the run and no number of a unit"
+            "`{contact}` of `sliding` sticks or slides, which is a state of the run that a unit cannot have"
         )
     } else if let Some(contact) = program.unilateral.first() {
         format!(
-            "whether `{}` of `contacts` is closed is a state of the run and no number of a unit",
+            "whether `{}` of `contacts` is closed is a state of the run that a unit cannot have",
             contact.name
         )
     } else {
         return Ok(());
     };
     Err(Failure::run(format!(
-        "there is no unit of this machine: {why}"
+        "no unit can be built of this machine: {why}"
     )))
 }
 
@@ -304,7 +304,7 @@ fn check_name(name: &str) -> Result<(), Failure> {
         Ok(())
     } else {
         Err(Failure::Call(format!(
-            "--event {name}: the name of an event is made of the letters a to z, digits and `_`, since a variable is called by it: \
+            "--event {name}: the name of an event consists of the letters a to z, digits and `_`, since it is part of the name of a variable: \
              event.NAME"
         )))
     }
@@ -335,7 +335,7 @@ fn check_defaults(program: &Program, machine: &InterpretedMachine) -> Result<(),
     match missing.next() {
         None => Ok(()),
         Some((slot, _)) => Err(Failure::Call(format!(
-            "`{0}` has no default, which a unit needs: give it by --set {0}=VALUE",
+            "`{0}` has no default value, and a unit needs one: give it by --set {0}=VALUE",
             slot.name
         ))),
     }
@@ -366,8 +366,8 @@ fn check_constraints(
     };
     let file = spec.file_name().unwrap_or_default().to_string_lossy();
     Err(Failure::run(format!(
-        "there is no unit of this machine: {warning}; a unit solves for the multipliers of all constraints, so where the others imply it everywhere, leave it out in a variant: \
-         `machine {}Unit extends \"{file}\" {{ remove constraints.{constraint}; }}`",
+        "no unit can be built of this machine: {warning}; a unit solves for the multipliers of all constraints, so if \
+         the others imply it everywhere, leave it out in a variant: `machine {}Unit extends \"{file}\" {{ remove constraints.{constraint}; }}`",
         machine.name()
     )))
 }
@@ -413,8 +413,9 @@ fn derivatives(compiled: &Compiled<'_>) -> Result<Option<Derivatives>, Failure> 
         return Ok(None);
     }
     progress::now("proving derivatives");
-    let to_failure =
-        |unproved: Unproved| Failure::run(format!("there is no unit of this machine: {unproved}"));
+    let to_failure = |unproved: Unproved| {
+        Failure::run(format!("no unit can be built of this machine: {unproved}"))
+    };
     Ok(Some(Derivatives {
         tangent: program.tangent(model).map_err(to_failure)?,
         adjoint: program.adjoint(model).map_err(to_failure)?,

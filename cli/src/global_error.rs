@@ -86,20 +86,20 @@ pub fn estimate(
     }
     if has_fixed_steps {
         return Err(
-            "--global-error: the method has no tolerance, and the machine no run in double-double; halve --longest-step and compare"
+            "--global-error: the method has no tolerance, and the machine cannot be run in double-double; halve --longest-step and compare"
                 .into(),
         );
     }
     let finer = (FINER * tolerance).max(LEAST_RELATIVE_TOLERANCE);
     if finer > 0.5 * tolerance {
         return Err(format!(
-            "--global-error: no run is finer than one at {}, and the machine has none in double-double",
+            "--global-error: a tolerance of {} is too fine for a comparison with a finer run, and the machine cannot be run in double-double",
             shortest(tolerance)
         ));
     }
     let Some(exact) = again(finer, start.clone()) else {
         return Err(format!(
-            "--global-error: the run at a tolerance of {} did not come to the end",
+            "--global-error: the run at a tolerance of {} did not reach the end",
             shortest(finer)
         ));
     };
@@ -157,9 +157,9 @@ fn names(end: &State<Named>) -> Vec<Option<String>> {
 impl Estimate {
     fn how(&self) -> String {
         match self.how {
-            Reference::Wide => "an estimate, by a run in double-double".into(),
+            Reference::Wide => "estimated from a run in double-double".into(),
             Reference::Finer(tolerance) => format!(
-                "an estimate, by a run at a tolerance of {}",
+                "estimated from a run at a tolerance of {}",
                 shortest(tolerance)
             ),
         }
@@ -188,7 +188,7 @@ impl Estimate {
             told.filter_map(|(name, error)| Some(format!("  {} {error:.1e}", name.as_ref()?)));
         let most = format!("  the greatest is {greatest:.1e} (1 + |y|)");
         let rounding = self.is_rounding(at).then(|| {
-            "  a start moved by a rounding ends as far away: the limit of rounding is reached, and a finer tolerance gains little".to_owned()
+            "  a start perturbed by a rounding error ends as far away: the limit of round-off is reached, and a finer tolerance gains little".to_owned()
         });
         iter::once(head)
             .chain(told)

@@ -66,7 +66,7 @@ pub fn run(call: &call::Import) -> Result<(), Failure> {
         (&robot, call.base, ending_is_one_of(&call.path, URDF))
     {
         let message =
-            "--base floating: a file of MJCF says itself which bodies float, by `freejoint`";
+            "--base floating: an MJCF file itself specifies which bodies float, by `freejoint`";
         return Err(Failure::Call(message.to_owned()));
     }
     let machine = robot.and_then(|robot| machine::written(&robot, &file, call, &mut faults));
@@ -89,7 +89,7 @@ fn read(path: &Path) -> Result<String, Failure> {
     let shown = path.display();
     if !ending_is_one_of(path, ROBOT) {
         return Err(Failure::Call(format!(
-            "{shown}: what is read are robots of URDF, with the ending `.urdf`, and of MJCF, with the ending `.xml` or `.mjcf`"
+            "{shown}: expected a robot in URDF, with the ending `.urdf`, or in MJCF, with the ending `.xml` or `.mjcf`"
         )));
     }
     text_of(path)
@@ -117,7 +117,7 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
         .map_err(|error| cannot(&error))?;
     if bytes.len() as u64 > LARGEST {
         let message = format!(
-            "{shown} has more than {} MiB, which no robot has",
+            "{shown} is larger than {} MiB, the maximum for a robot",
             LARGEST >> 20
         );
         return Err(Failure::Run(message));

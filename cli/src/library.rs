@@ -42,7 +42,8 @@ fn warn_of_constraints(program: &Proved) {
     if let Some(constraint) = dependent_constraint(&machine, &start) {
         output::print_error(format_args!(
             "warning: the constraint `{constraint}` follows from others at the start, and the library, which solves for the multipliers of \
-             all of them, has no accelerations there: where it does so everywhere, leave it out in a variant, `remove constraints.{constraint};`"
+             all of them, has no accelerations there: if it follows from them everywhere, leave it out in a \
+             variant, `remove constraints.{constraint};`"
         ));
     }
 }
@@ -65,15 +66,16 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     let program = reading.compile_beside(&dag, files())?.program;
     if !program.contacts.is_empty() {
         return Err(Failure::run(
-            "what sticks and slides has a state that a function of q and v alone does not know: a library of a machine with \
-             `sliding` cannot be made; take a variant with a constraint in the place of each guide, or run it by `lagrangian simulate` or the crate",
+            "whether a contact sticks or slides is not a function of q and v alone: a library of a machine with \
+             `sliding` cannot be made; use a variant with a constraint in place of each guide, or run it with `lagrangian simulate` or the \
+             crate",
         ));
     }
     warn_of_constraints(&program);
     if !program.unilateral.is_empty() {
         output::print_error(
-            "warning: whether contacts are closed is no function of q and v alone: `eval` has the accelerations with all of them open, and \
-             which of them press, and how they bounce, is for its caller to find out, from what `eval_contacts` and `eval_inertia` say",
+            "warning: whether contacts are closed is not a function of q and v alone: `eval` gives the accelerations with all of them open, and \
+             its caller has to determine which of them are closed, and how they bounce, from `eval_contacts` and `eval_inertia`",
         );
     }
     let mut lanes = call.lanes.clone();
@@ -291,7 +293,7 @@ fn check_processor(call: &call::Library) -> Result<(), Failure> {
         None => String::new(),
     };
     Err(Failure::Call(format!(
-        "--target-cpu {asked}: rustc knows no processor of this name; {help}`rustc --print target-cpus` lists all, such as {}",
+        "--target-cpu {asked}: rustc knows no processor with this name; {help}`rustc --print target-cpus` lists all, such as {}",
         examples(&known).join(", ")
     )))
 }
@@ -315,7 +317,7 @@ fn examples<'a>(known: &[&'a str]) -> Vec<&'a str> {
 /// Calls the compiler; returns the bytes of the library.
 fn compile(source: &str, is_in_pairs: bool, call: &call::Library) -> Result<Vec<u8>, Failure> {
     let unkept =
-        |error: io::Error| Failure::run(format!("cannot keep the library for a while: {error}"));
+        |error: io::Error| Failure::run(format!("cannot store the library temporarily: {error}"));
     let folder = tempfile::tempdir().map_err(unkept)?;
     // Compiled under its final name, because some systems store that name in it.
     let library = folder.path().join(file_name(&call.out));
@@ -357,7 +359,7 @@ fn compile(source: &str, is_in_pairs: bool, call: &call::Library) -> Result<Vec<
     }
     let stderr = String::from_utf8_lossy(&output.stderr);
     Err(Failure::run(format!(
-        "rustc does not compile the library:\n{}",
+        "rustc failed to compile the library:\n{}",
         stderr.trim_end()
     )))
 }
@@ -395,9 +397,9 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
         .iter()
         .map(|n| {
             format!(
-                "/* The same of {n} states. Component i of state k stands at `y[{n}*i + k]`, and so do the accelerations; `t[k]` \
-                 is its\n * time. Inputs are common to all. A state at which the mass matrix is singular leaves the others \
-                 alone. */\n\
+                "/* The same of {n} states. Component i of state k is at `y[{n}*i + k]`, and so for the accelerations; `t[k]` \
+                 is its\n * time. Inputs are common to all. A state at which the mass matrix is singular does not affect the \
+                 others. */\n\
                  void eval{n}(const double *y, const double *t, const double *p, double *qdd);\n\n"
             )
         })
@@ -426,7 +428,7 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
     let (n, p, u) = (coordinates.len(), parameters.len(), inputs.len());
     let of_inputs = match u {
         0 => String::new(),
-        _ => format!("\n *\n * Inputs, behind the parameters:{}", list(inputs)),
+        _ => format!("\n *\n * Inputs, after the parameters:{}", list(inputs)),
     };
     format!(
         "/* The machine {name}: its accelerations. Made from {spec} by `lagrangian library`.\n \

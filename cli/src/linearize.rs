@@ -215,7 +215,7 @@ fn request(call: &call::Linearize, machine: &InterpretedMachine) -> Result<Reque
     let mut seen = outputs.iter().enumerate();
     if seen.any(|(i, output)| outputs[..i].contains(output)) {
         return Err(Failure::Call(
-            "--outputs names something more than once".to_owned(),
+            "--outputs names a quantity more than once".to_owned(),
         ));
     }
     Ok(Request { inputs, outputs })
@@ -356,7 +356,7 @@ fn text(result: &Linearization) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "left out, since nothing depends on where they are: {}",
+            "left out, since nothing depends on their positions: {}",
             model.records.join(", ")
         );
     }

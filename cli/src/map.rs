@@ -95,7 +95,7 @@ pub fn run(call: &call::Map) -> Result<(), Failure> {
         rows.keep_only(&only.name, &only.value)?;
     }
     if rows.rows.is_empty() {
-        return Err(Failure::Call("no row is left to be drawn".into()));
+        return Err(Failure::Call("no row is left to plot".into()));
     }
     let over: Vec<String> = if call.over.is_empty() {
         rows.names[1..=rows.varied].to_vec()
@@ -111,7 +111,7 @@ pub fn run(call: &call::Map) -> Result<(), Failure> {
         [x] => Picture::Curves(Curves::new(&rows, x, &quantities, call.samples)?),
         [x, y] if call.samples => {
             return Err(Failure::Call(format!(
-                "samples are drawn over one parameter, --over {x} or --over {y}: many are at one place"
+                "samples are plotted over one parameter, --over {x} or --over {y}: over two, many would coincide"
             )));
         }
         [x, y] => {
@@ -124,7 +124,7 @@ pub fn run(call: &call::Map) -> Result<(), Failure> {
         }
         _ => {
             return Err(Failure::Call(format!(
-                "a map is drawn over one or two parameters, as in --over {}; varied are {}",
+                "a map is plotted over one or two parameters, as in --over {}; the varied parameters are {}",
                 rows.names.get(1).map_or("NAME", String::as_str),
                 rows.names[1..=rows.varied].join(", ")
             )));
@@ -184,13 +184,13 @@ impl Rows {
         let varied = varied.filter(|_| names.first().is_some_and(|name| name == "run"));
         let Some(varied) = varied else {
             return Err(wrong(
-                "it is no table of a sweep: it has no columns `run` and `status`".into(),
+                "it is not the table of a sweep: it has no columns `run` and `status`".into(),
             ));
         };
         let rows: Vec<Vec<String>> = all.collect();
         if let Some(row) = rows.iter().position(|row| row.len() != names.len()) {
             return Err(wrong(format!(
-                "row {row} has another number of cells than there are columns"
+                "row {row} does not have as many cells as there are columns"
             )));
         }
         Ok(Rows {
@@ -208,7 +208,7 @@ impl Rows {
                 failure
             } else {
                 Failure::Call(format!(
-                    "there are no samples beside the table, {}: a sweep writes them with --record every=T or --record event=NAME",
+                    "the table has no file of samples, {}: a sweep writes one with --record every=T or --record event=NAME",
                     path.display()
                 ))
             }
@@ -217,7 +217,7 @@ impl Rows {
         let names = all.next().unwrap_or_default();
         if names.first().is_none_or(|name| name != "run") {
             return Err(wrong(
-                "these are no samples of a sweep: the first column is not `run`",
+                "these are not the samples of a sweep: the first column is not `run`",
             ));
         }
         let of_run: std::collections::HashMap<&str, &[String]> = self
@@ -227,13 +227,13 @@ impl Rows {
             .collect();
         let joined = all.map(|sample| {
             let varied = sample.first().and_then(|run| of_run.get(run.as_str()));
-            let varied =
-                varied.ok_or_else(|| wrong("a sample is of a run that the table does not have"))?;
+            let varied = varied
+                .ok_or_else(|| wrong("a sample belongs to a run that is not in the table"))?;
             if sample.len() == names.len() {
                 Ok([&sample[..1], varied, &sample[1..]].concat())
             } else {
                 Err(wrong(
-                    "a row has another number of cells than there are columns",
+                    "a row does not have as many cells as there are columns",
                 ))
             }
         });
@@ -264,7 +264,9 @@ impl Rows {
         if numbers.iter().any(|number| number.is_finite()) {
             Ok(numbers)
         } else {
-            Err(Failure::Call(format!("column `{name}` holds no numbers")))
+            Err(Failure::Call(format!(
+                "column `{name}` does not contain numbers"
+            )))
         }
     }
 
@@ -320,7 +322,7 @@ impl<'a> Curves<'a> {
         let along = rows.numbers(x)?;
         if along.len() * quantities.len() > MOST_DOTS[1] {
             return Err(Failure::Call(format!(
-                "more than {} values are to be drawn: choose some by --only NAME=VALUE",
+                "more than {} values would be plotted: select some by --only NAME=VALUE",
                 MOST_DOTS[1]
             )));
         }
@@ -338,7 +340,7 @@ impl<'a> Curves<'a> {
                 let names = others.iter().map(|place| rows.names[*place].as_str());
                 let names: Vec<&str> = names.collect();
                 return Err(Failure::Call(format!(
-                    "more than {MOST_CURVES} curves over {x}, one for each value of {}: choose some by --only {}=VALUE",
+                    "more than {MOST_CURVES} curves over {x}, one for each value of {}: select some by --only {}=VALUE",
                     names.join(", "),
                     names[0]
                 )));
@@ -385,7 +387,7 @@ impl<'a> Curves<'a> {
         } = self;
         if along.len() * quantities.len() > MOST_DOTS[0] {
             return Err(Failure::Call(format!(
-                "more than {} dots no viewer of drawings opens: --report FILE.html shows them",
+                "there are more than {} dots, too many for viewers of drawings: --report FILE.html shows them",
                 MOST_DOTS[0]
             )));
         }
@@ -460,14 +462,14 @@ impl<'a> Heat<'a> {
         let [columns, lines] = [&across, &up].map(|values| distinct(values));
         if columns.len().saturating_mul(lines.len()) > MOST_CELLS {
             return Err(Failure::Call(format!(
-                "{} times {} cells are more than {MOST_CELLS}",
+                "{} times {} cells are more than the maximum of {MOST_CELLS}",
                 columns.len(),
                 lines.len()
             )));
         }
         if let Some(place) = rows.others(&[x, y]).first() {
             return Err(Failure::Call(format!(
-                "several runs are at one place, with other values of {}: choose one by --only {}=VALUE",
+                "several runs are at the same place, with different values of {}: select one by --only {}=VALUE",
                 rows.names[*place], rows.names[*place]
             )));
         }

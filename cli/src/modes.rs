@@ -156,11 +156,11 @@ pub fn compiled<'d, 'a>(
     what: &str,
 ) -> Result<Compiled<'d>, Failure> {
     let with_sliding = format!(
-        "friction holds a machine that is at rest wherever it stands within a range, and what slides has no linearization there: a \
-         machine with `sliding` has no {what}; take a variant without friction, with a constraint in the place of each guide"
+        "friction can hold a machine at rest anywhere within a range, and sliding friction has no linearization at rest: a \
+         machine with `sliding` has no {what}; use a variant without friction, with a constraint in place of each guide"
     );
     let with_contacts = format!(
-        "what collides has no linearization: a machine with `contacts` has no {what}; say it without them"
+        "collisions have no linearization: a machine with `contacts` has no {what}; use a variant without them"
     );
     let refused = (with_sliding, Some(with_contacts));
     compile(Reading::open(spec)?, dag, files, refused, |_| Ok(()))
@@ -175,8 +175,8 @@ pub fn compiled_with<'d, 'a>(
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
 ) -> Result<Compiled<'d>, Failure> {
     let with_sliding = format!(
-        "the {what} of a machine with `sliding` would be found by derivatives of its motion, and there are none where it begins to \
-         stick or to slide; take a variant without friction, with a constraint in the place of each guide"
+        "finding the {what} of a machine with `sliding` requires derivatives of its motion, which do not exist where it begins to stick or to \
+         slide; use a variant without friction, with a constraint in place of each guide"
     );
     // Derivatives can be continued across impacts.
     compile(reading, dag, files, (with_sliding, None), change)
@@ -269,12 +269,12 @@ fn refuse_drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Re
         "give the drive a parameter that stops it, or a coordinate of its own".to_owned()
     } else {
         format!(
-            "it stands still with --set {}=0",
+            "it comes to rest with --set {}=0",
             names.join("=0, or --set ")
         )
     };
     Err(Failure::Run(format!(
-        "the machine is driven: its equations change with time, so that it is at rest nowhere; {help}"
+        "the machine is driven: its equations change with time, so it has no equilibrium; {help}"
     )))
 }
 
@@ -481,12 +481,12 @@ fn text_of_trace(trace: &Trace) -> String {
                 .filter(|mode| mode.lambda.re > 0.0)
                 .count();
             match growing {
-                0 => "none grows".to_owned(),
-                1 => "1 motion grows".to_owned(),
-                count => format!("{count} motions grow"),
+                0 => "no mode grows".to_owned(),
+                1 => "1 mode grows".to_owned(),
+                count => format!("{count} modes grow"),
             }
         }
-        Err(why) => format!("nothing is found: {why}"),
+        Err(why) => format!("no solution is found: {why}"),
     };
     let mut index = 0;
     while let Some(point) = trace.points.get(index) {
@@ -502,7 +502,7 @@ fn text_of_trace(trace: &Trace) -> String {
             _ => format!("{} to {}", number(point.value), number(end.value)),
         };
         let jump = match (point.motion.is_ok(), point.continues, index) {
-            (true, false, 1..) => " (another motion than before)",
+            (true, false, 1..) => " (a different motion from before)",
             _ => "",
         };
         let _ = writeln!(text, "  {range}{unit}: {said}{jump}");
@@ -523,16 +523,17 @@ fn text_of_trace(trace: &Trace) -> String {
             number(*value)
         );
         let count = |list: &[usize; 2], verb: [&str; 2]| {
-            let word = |n: usize| match n {
+            let before = match list[0] {
+                0 => "no mode".to_owned(),
+                1 => "1 mode".to_owned(),
+                n => format!("{n} modes"),
+            };
+            let after = match list[1] {
                 0 => "none".to_owned(),
                 n => n.to_string(),
             };
             let verb = verb[usize::from(list[0] > 1)];
-            format!(
-                "{} {verb} before it, {} after it",
-                word(list[0]),
-                word(list[1])
-            )
+            format!("{before} {verb} before it, {after} after it")
         };
         let mut parts = Vec::new();
         if growing[0] != growing[1] {
@@ -572,7 +573,11 @@ pub fn text_of_place(
         "equilibrium"
     };
     // Writing to a String cannot fail.
-    let _ = writeln!(text, "{what}, {} {times} from the start:", found.steps);
+    let _ = writeln!(
+        text,
+        "{what}, found in {} {times} from the start:",
+        found.steps
+    );
     for (k, (name, q)) in names.iter().zip(found.place.q()).enumerate() {
         if let Some(state) = state_of(name) {
             let unit = match unit_of_rate(name, units[k]).as_str() {
@@ -596,7 +601,7 @@ pub fn text_of_place(
             let verb = if unit == " rad" { "turning" } else { "moving" };
             let _ = write!(text, ", {verb} at {}{unit}/s", number(motion.v[k]));
             if wanted.solved[k] {
-                text.push_str(" as found");
+                text.push_str(" (found)");
             }
         }
         if moved != 0.0 {
@@ -614,18 +619,18 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
     let modes = &motion.modes;
     text.push_str(&text_of_place(names, units, start, wanted, motion));
     if modes.free > 0 {
-        let ways = if modes.free == 1 { "way" } else { "ways" };
+        let directions = directions(modes.free);
         let _ = writeln!(
             text,
-            "it may stand elsewhere as well, in {} {ways}",
+            "its position is not unique: it can change in {} independent {directions}",
             modes.free
         );
     }
     if moves(names, motion) && modes.drifts > 0 {
-        let ways = if modes.drifts == 1 { "way" } else { "ways" };
+        let directions = directions(modes.drifts);
         let _ = writeln!(
             text,
-            "it may move steadily at other rates, in {} {ways}",
+            "its rates are not unique: they can change in {} independent {directions}",
             modes.drifts
         );
     }
@@ -634,19 +639,26 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
         let _ = write!(text, "\nmode {}: ", index + 1);
         let _ = match (mode.kind(), damping(mode.lambda)) {
             ("free", _) => {
-                let _ = write!(text, "free, nothing brings it back");
                 if mode.error > 0.0 {
-                    writeln!(text, " faster than {} rad/s", number(mode.error))
+                    writeln!(text, "free, or slower than {} rad/s", number(mode.error))
                 } else {
-                    writeln!(text)
+                    writeln!(text, "free, without a restoring force")
                 }
             }
-            ("growing", _) => writeln!(text, "unstable, grows by e in {} s", number(1.0 / re)),
-            ("decaying", _) => writeln!(text, "decays by e in {} s", number(-1.0 / re)),
+            ("growing", _) => writeln!(
+                text,
+                "unstable, grows by a factor of e in {} s",
+                number(1.0 / re)
+            ),
+            ("decaying", _) => writeln!(text, "decays by a factor of e in {} s", number(-1.0 / re)),
             (_, Some(ratio)) => {
                 let _ = write!(text, "{} Hz, {} rad/s, ", number(im / TAU), number(im));
                 if re > 0.0 {
-                    let _ = write!(text, "unstable, grows by e in {} s, ", number(1.0 / re));
+                    let _ = write!(
+                        text,
+                        "unstable, grows by a factor of e in {} s, ",
+                        number(1.0 / re)
+                    );
                 }
                 writeln!(text, "damping ratio {}", number(ratio))
             }
@@ -655,7 +667,7 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
         // All six printed digits must be correct.
         if mode.error > 0.5e-6 * mode.lambda.norm() && mode.kind() != "free" {
             let error = number(mode.error);
-            let _ = writeln!(text, "  known no better than to {error} rad/s");
+            let _ = writeln!(text, "  accurate only to {error} rad/s");
         }
         for (name, x) in names.iter().zip(&mode.shape) {
             // Amplitudes that are negligible beside 1, in rad or m, are not printed; `--json` includes them.
@@ -677,10 +689,18 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
         let below = number(*lost_below);
         let _ = writeln!(
             text,
-            "\n{lost} more {motions} {are} slower than {below} rad/s, too slow beside the others to be told from rest"
+            "\n{lost} more {motions} {are} slower than {below} rad/s, too slow compared with the others to be distinguished from rest"
         );
     }
     text
+}
+
+fn directions(count: usize) -> &'static str {
+    if count == 1 {
+        "direction"
+    } else {
+        "directions"
+    }
 }
 
 /// A number with six digits, or fewer if exact.

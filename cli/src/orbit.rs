@@ -58,7 +58,7 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
     let dag = Dag::new();
     let ready = ready(call, &dag, &all)?;
     let sought = sought(call, &ready)?;
-    progress::now("looking for the orbit");
+    progress::now("searching for the orbit");
     if let Some(vary) = &call.along {
         return along(call, &ready, &sought, vary, &files);
     }
@@ -99,7 +99,9 @@ fn no_orbit_failure(none: &NoOrbit, call: &call::Orbit, left_in: &[String]) -> F
         NoOrbit::Constraints => " (--keep, --start)",
         NoOrbit::Lost(..) => " (--start, --rate, --settle)",
         NoOrbit::Rest => " (--start, --keep)",
-        NoOrbit::OtherPlace(_) => "; --advance is to be whole turns of what the machine depends on",
+        NoOrbit::OtherPlace(_) => {
+            "; --advance must be whole turns of the angles on which the machine depends"
+        }
         NoOrbit::Depends(_) => "; --advance gives it",
         _ => "",
     };
@@ -108,7 +110,7 @@ fn no_orbit_failure(none: &NoOrbit, call: &call::Orbit, left_in: &[String]) -> F
             if !left_in.is_empty() =>
         {
             format!(
-                "; nothing depends on `{}`: with --shift {} it need not come back",
+                "; nothing depends on `{}`: with --shift {} it need not return",
                 left_in.join("`, `"),
                 left_in.join(",")
             )
@@ -149,7 +151,7 @@ fn ready<'d>(
                 && output.value.stage() > stage::PARAMETER
             {
                 return Err(Failure::Call(format!(
-                    "--period {period}: a period is made of numbers and parameters"
+                    "--period {period}: a period can depend only on numbers and parameters"
                 )));
             }
             differentiate(
@@ -208,7 +210,7 @@ fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
         if !places(&start.q, &integral_name(&set.name)).is_empty() || state_of(&set.name).is_some()
         {
             return Err(Failure::Call(format!(
-                "--advance {}: a state of first order comes back to its value; what goes on are coordinates",
+                "--advance {}: a state of first order returns to its value; only coordinates can advance",
                 set.name
             )));
         }
@@ -273,7 +275,7 @@ fn shifts(
         }
         if call.advance.iter().any(|set| set.name == *name) {
             return Err(Failure::Call(format!(
-                "--shift {name}: --advance says how far it goes on"
+                "--shift {name}: --advance already specifies how far it advances"
             )));
         }
         for place in places(q, name) {
@@ -407,10 +409,10 @@ fn as_json(machine: &InterpretedMachine, orbit: &Orbit) -> Value {
 
 fn verdict(orbit: &Orbit) -> &'static str {
     match orbit.stability() {
-        Stability::Attracting => "stable: what is beside it comes back to it",
-        Stability::Unstable => "unstable: what is beside it goes away",
+        Stability::Attracting => "stable: neighbouring motions converge to it",
+        Stability::Unstable => "unstable: neighbouring motions diverge from it",
         Stability::Undecided => {
-            "undecided: of what is beside it some neither comes back nor goes away, as far as multipliers tell"
+            "undecided: some neighbouring motions neither converge nor diverge, as far as the multipliers show"
         }
     }
 }
@@ -458,28 +460,28 @@ fn text(orbit: &Orbit) -> String {
         };
         let _ = writeln!(
             text,
-            "nothing depends on {name}, which goes on by {}{unit} in a period",
+            "nothing depends on {name}, which advances by {}{unit} in a period",
             number(orbit.advance[k])
         );
     }
     let rounds = match orbit.rounds {
-        1 => "1 round".to_owned(),
-        rounds => format!("{rounds} rounds"),
+        1 => "1 iteration".to_owned(),
+        rounds => format!("{rounds} iterations"),
     };
     let _ = writeln!(
         text,
-        "it closes up to {:.1e}, after {rounds}",
+        "it closes to within {:.1e}, after {rounds}",
         orbit.residual
     );
     match orbit.family {
         0 => {}
         1 => text.push_str(
-            "it is one of a family, as of many energies: that which is nearest to the start; --keep, --start or --period choose another\n",
+            "it is one of a family, for example of different energies: the one nearest to the start; --keep, --start or --period select another\n",
         ),
         family => {
             let _ = writeln!(
                 text,
-                "it is one of a family of {family} numbers: that which is nearest to the start; --keep, --start or --period choose another"
+                "it is one of a family with {family} parameters: the one nearest to the start; --keep, --start or --period select another"
             );
         }
     }
@@ -491,7 +493,7 @@ fn text(orbit: &Orbit) -> String {
             (true, _) => format!("{re} ± {im}i, modulus {}", number(one.value.norm())),
             (false, _) => re,
         };
-        let _ = writeln!(text, "  {value}, known up to {:.1e}", one.error);
+        let _ = writeln!(text, "  {value}, accurate to {:.1e}", one.error);
     }
     let _ = writeln!(text, "{}", verdict(orbit));
     text
@@ -520,7 +522,7 @@ fn along(
     let (from, to) = (end(&vary.ends[0])?, end(&vary.ends[1])?);
     if from == to {
         return Err(Failure::Call(format!(
-            "--along {}: from {from} to {to} there is nothing to vary",
+            "--along {}: the range from {from} to {to} is empty",
             vary.name
         )));
     }

@@ -57,12 +57,12 @@ fn ready(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
     ];
     if let Some((other, _)) = files.iter().find(|(_, is_there)| *is_there) {
         return Err(Failure::Call(format!(
-            "{option} tells the end of a run and has no part for {other}"
+            "{option} computes only the end of a run and cannot be used with {other}"
         )));
     }
     if !call.inputs.is_empty() {
         return Err(Failure::Call(format!(
-            "{option}: inputs keep their values, which --set gives; there is no --input"
+            "{option}: inputs keep the values given by --set; --input is not supported"
         )));
     }
     let dag = Dag::new();
@@ -145,14 +145,14 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
         && (method.tableau.spectrum.is_some() || method.has_fixed_steps())
     {
         return Err(Failure::Call(format!(
-            "--precision dd: no steps of `{}` in it; there are taylor, dop853, dopri5 and bs32",
+            "--precision dd: the method `{}` is not available; there are taylor, dop853, dopri5 and bs32",
             method.tableau.name
         )));
     }
     let Ready { machine, start } = ready(call, "--precision dd")?;
     machine.prepare_in::<DoubleDouble>().map_err(|none| {
         Failure::Run(format!(
-            "--precision dd: of machines without constraints and contacts; {none}; `--global-error` estimates the error of an ordinary run"
+            "--precision dd: only for machines without constraints and contacts; {none}; `--global-error` estimates the error of an ordinary run"
         ))
     })?;
     let has_series = SeriesStepper::<DoubleDouble>::new(&machine, TOLERANCE);
@@ -160,7 +160,9 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
         (None, Ok(_)) => &TAYLOR,
         (None, Err(_)) => <&Method>::default(),
         (Some(method), Err(none)) if std::ptr::eq(method, &TAYLOR) => {
-            return Err(Failure::Run(format!("--method taylor: no series: {none}")));
+            return Err(Failure::Run(format!(
+                "--method taylor: no Taylor series: {none}"
+            )));
         }
         (Some(method), _) => method,
     };
@@ -170,7 +172,7 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
         EXPLICIT_TOLERANCE
     };
     let tolerance = call.tolerance.unwrap_or(least);
-    progress::now("running in double-double");
+    progress::now("integrating in double-double");
     let to = (&start, call.until);
     let end = run_to(&machine, to, method, (tolerance, call.max_steps))?;
     let beside = (COARSER * tolerance, call.max_steps);
@@ -299,7 +301,7 @@ fn printed_quantities(names: &[&str]) -> Vec<(String, usize, (usize, usize))> {
 pub fn validated(call: &call::Simulate) -> Result<(), Failure> {
     if call.method != AUTO && call.method != TAYLOR.tableau.name {
         return Err(Failure::Call(format!(
-            "--validated takes steps by Taylor series, not by `{}`",
+            "--validated integrates by Taylor series, not by `{}`",
             call.method
         )));
     }
@@ -316,8 +318,8 @@ pub fn validated(call: &call::Simulate) -> Result<(), Failure> {
     let enclosure = Enclosure::from_states(&machine, start.t, [&q, &v]);
     let mut enclosure = enclosure.map_err(|none| {
         Failure::Run(format!(
-            "--validated: of machines with a Taylor series and without constraints and contacts; {none}; `--global-error` estimates the error of \
-             an ordinary run"
+            "--validated: only for machines with a Taylor series and without constraints and contacts; {none}; `--global-error` \
+             estimates the error of an ordinary run"
         ))
     })?;
     enclosure.set_max_steps(call.max_steps);

@@ -231,7 +231,7 @@ pub fn machine(
     };
     machine.set_engine(engine).map_err(|none| {
         Failure::Call(format!(
-            "--engine jit: {none}; without it the machine is interpreted, to the same bits"
+            "--engine jit: {none}; without it the machine is interpreted, with bitwise the same results"
         ))
     })?;
     for set in families_first(&start.parameters) {

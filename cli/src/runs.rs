@@ -220,7 +220,7 @@ pub fn is_spec(path: &Path) -> Result<bool, Failure> {
         (true, _) => Ok(true),
         (_, true) => Ok(false),
         _ => Err(Failure::Call(format!(
-            "{}: a run is a table, `.csv` or `.parquet`, or a spec, `.machine`",
+            "{}: expected a table, `.csv` or `.parquet`, or a spec, `.machine`",
             path.display()
         ))),
     }
@@ -246,7 +246,7 @@ pub fn refuse_without_spec(runs: &call::Runs) -> Result<(), Failure> {
     ];
     match given.iter().find(|(_, is_given)| *is_given) {
         Some((option, _)) => Err(Failure::Call(format!(
-            "{option} says how a spec is run, and there is none: a table is taken as it is"
+            "{option} applies to runs of a spec, and there is none: a table is used as it is"
         ))),
         None => Ok(()),
     }
@@ -292,7 +292,7 @@ impl<'a> Options<'a> {
         let until = runs.until.or(end).ok_or_else(|| {
             let path = path.display();
             Failure::Call(format!(
-                "{path} is a spec: --until says for how long it is run"
+                "{path} is a spec: --until must say how long to run it"
             ))
         })?;
         Ok(Options {
@@ -339,7 +339,7 @@ fn made(
     let method = methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
     if std::ptr::eq(method, &TAYLOR) {
         return Err(Failure::Call(
-            "--method taylor: `simulate --out` writes a table of such a run, which is taken here"
+            "--method taylor: `simulate --out` writes a table of such a run, which is accepted here"
                 .into(),
         ));
     }
@@ -423,7 +423,7 @@ fn made(
             let stage = compiled.model.outputs[asked].value.stage();
             if stage > stage::PARAMETER {
                 return Err(Failure::Call(format!(
-                    "--every-period {formula}: a period is made of numbers and parameters"
+                    "--every-period {formula}: a period can depend only on numbers and parameters"
                 )));
             }
             Some(period_of(
@@ -501,7 +501,7 @@ pub fn period_of(
         Ok(period)
     } else {
         Err(Failure::Call(format!(
-            "{option} {formula}: {period} s is no period; expected a time greater than 0"
+            "{option} {formula}: {period} s is not a period; expected a time greater than 0"
         )))
     }
 }

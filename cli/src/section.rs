@@ -39,7 +39,7 @@ pub fn run(call: &call::Section) -> Result<(), Failure> {
     if let Some(file) = &files[1] {
         let [across, upwards, ..] = shown.as_slice() else {
             return Err(Failure::Call(
-                "--plot draws one quantity over another: --of names two".into(),
+                "--plot draws one quantity over another: name two by --of".into(),
             ));
         };
         let both = across
@@ -85,13 +85,12 @@ fn shown<'a>(call: &call::Section, points: &'a Columns) -> Result<Vec<&'a Quanti
 /// All quantities of a run at the points of its section.
 fn points(call: &call::Section, files: &[&Destination]) -> Result<Columns, Failure> {
     let part = &call.part;
-    let neither =
-        || Failure::Call("--every-period says how often to look, or --crossing where".into());
+    let neither = || Failure::Call("give --every-period, or --crossing".into());
     let found = if runs::is_spec(&part.run)? {
         keep_apart(files.iter().copied(), &[(part.run.as_path(), "the run")])?;
         if part.runs.every.is_some() {
             return Err(Failure::Call(
-                "--every has no part in a section of a spec's run".into(),
+                "--every does not apply to a section of a spec's run".into(),
             ));
         }
         let options = Options::of(&part.run, &part.runs, None)?;

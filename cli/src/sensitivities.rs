@@ -399,7 +399,7 @@ fn made(
     let method = methods::named(&call.method)?;
     if std::ptr::eq(method, &TAYLOR) {
         return Err(Failure::Call(
-            "--method taylor: derivatives of a motion have no series".into(),
+            "--method taylor: derivatives of a motion have no Taylor series".into(),
         ));
     }
     let coordinates: Vec<String> = machine
@@ -427,7 +427,7 @@ fn made(
         let start = start_on_constraints(call, machine, start.clone())?;
         if let Some(constraint) = starts::dependent_constraint(machine, &start) {
             return Err(Failure::Run(format!(
-                "the constraint `{constraint}` follows from others, and accelerations have no derivatives then: leave it out"
+                "the constraint `{constraint}` follows from others, so that accelerations have no derivatives: leave it out"
             )));
         }
         start
@@ -589,7 +589,7 @@ fn across_impacts(
         NoDerivatives::Run(error) => failed(error),
         // The run itself may continue where its derivatives do not.
         broken => Failure::Run(format!(
-            "{broken}; take differences of runs instead, by `lagrangian compare` with `--set-second`, or by `lagrangian sweep`"
+            "{broken}; use differences of runs instead, by `lagrangian compare` with `--set-second`, or by `lagrangian sweep`"
         )),
     })?;
     let n = machine.program().dimension();
@@ -716,8 +716,8 @@ fn check_drift(
     match starts::drifted(machine, &at, changes) {
         None => Ok(()),
         Some((k, off)) => Err(Failure::Run(format!(
-            "errors of steps have moved the motion and its derivative by {} off the constraints, by {off:.1e} of its numbers: a \
-             smaller --tolerance holds them closer",
+            "integration errors have moved the motion and its derivative by {} off the constraints, by a relative amount of {off:.1e}: a \
+             smaller --tolerance keeps them closer",
             variations[k].name
         ))),
     }

@@ -114,8 +114,8 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let tolerance = call.tolerance.unwrap_or(TOLERANCE);
     if tolerance < LEAST_RELATIVE_TOLERANCE {
         return Err(Failure::Call(format!(
-            "--tolerance {}: numbers have no more digits than a tolerance of {LEAST_RELATIVE_TOLERANCE:.1e} asks for; \
-             --precision dd has",
+            "--tolerance {}: the least tolerance is {LEAST_RELATIVE_TOLERANCE:.1e}, which is the limit of round-off; \
+             --precision dd allows finer ones",
             shortest(tolerance)
         )));
     }
@@ -373,7 +373,8 @@ fn cause(error: Error) -> Failure {
             value: f64::INFINITY,
             ..
         } => Failure::Call(
-            "the method takes steps of a fixed length: give it, as in --longest-step 1e-3".into(),
+            "the method takes steps of a fixed length: give this length, as in --longest-step 1e-3"
+                .into(),
         ),
         // Settings that the parser of options accepted.
         Error::InvalidSetting {
@@ -553,14 +554,14 @@ fn print_summary(
             balance.work, balance.dissipated
         ));
         output::line(format_args!(
-            "    residual {:.3e}, {:.1e} of what was turned over",
+            "    residual {:.3e}, {:.1e} of the energy turned over",
             balance.residual(),
             balance.relative()
         ));
     }
     if run.system().constraints().len() > 0 {
         output::line(format_args!(
-            "  constraints: residual {:.1e} of their terms",
+            "  constraints: residual {:.1e}, relative to their terms",
             statistics.constraint_residual
         ));
     }

@@ -44,7 +44,7 @@ pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
         let values = samples.values(&columns, quantity);
         let spectrum = Spectrum::new(&values, samples.step, window).ok_or_else(|| {
             Failure::Run(format!(
-                "`{}` has instants without a value, and so no spectrum; --after looks at what lies behind them",
+                "`{}` has instants without a value, so it has no spectrum; --after excludes an early part of the run",
                 quantity.name
             ))
         })?;
@@ -108,7 +108,7 @@ impl Samples {
         let times = &columns.times;
         let too_few = || {
             Failure::Run(format!(
-                "a spectrum takes {LEAST} instants at least, and there are {}",
+                "a spectrum needs at least {LEAST} instants, and there are {}",
                 times.len()
             ))
         };
@@ -165,7 +165,9 @@ fn text(samples: &Samples, resolution: f64, window: Window, found: &[Found]) -> 
         number(0.5 / samples.step)
     );
     if samples.is_resampled {
-        text.push_str("the rows are not evenly spaced: samples are those of cubics between them\n");
+        text.push_str(
+            "the rows are not evenly spaced: samples are interpolated by cubics between them\n",
+        );
     }
     for one in found {
         let unit = one.quantity.unit.as_deref().filter(|unit| *unit != "1");

@@ -59,7 +59,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
     };
     if call.chunk.is_some() && !is_plan {
         return Err(Failure::Call(
-            "--chunk runs a part of a plan: write one by --plan PLAN.json, then `lagrangian sweep PLAN.json --chunk K`".into(),
+            "--chunk runs a part of a plan: write a plan by --plan PLAN.json, then `lagrangian sweep PLAN.json --chunk K`".into(),
         ));
     }
     let engine = match call.start.running.engine {
@@ -139,10 +139,10 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
     let watch = &mut |now| reporter.report(now);
     let made = run_all(sweep, &folder, (threads, call.limit), &stop, watch);
     reporter.end();
-    let going_on = "the same command goes on";
+    let going_on = "the same command resumes the sweep";
     let now = made.map_err(|trouble| {
         Failure::Run(format!(
-            "cannot write {trouble}; what is there stays, and {going_on}"
+            "cannot write {trouble}; what has been computed is kept, and {going_on}"
         ))
     })?;
     let seconds = began.elapsed().as_secs_f64();
@@ -172,7 +172,7 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
         let joined = folder.join(sweep, file);
         joined.map_err(|trouble| {
             Failure::Run(format!(
-                "cannot write {trouble}; what is there stays, and {going_on}"
+                "cannot write {trouble}; what has been computed is kept, and {going_on}"
             ))
         })?;
         folder.remove().map_err(refused)?;
@@ -208,7 +208,7 @@ fn print_summary(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u6
     }
     let speed = now as f64 / seconds.max(1e-9);
     output::line(format_args!(
-        "{runs} runs, {failed} failed, {seconds:.1} s ({speed:.0} runs a second), {shown}"
+        "{runs} runs, {failed} failed, {seconds:.1} s ({speed:.0} runs per second), {shown}"
     ));
     for (run, error) in first_errors {
         output::line(format_args!("  run {run}: {error}"));
@@ -250,7 +250,7 @@ impl Out {
     fn of(call: &call::Sweep, plan: &Plan) -> Result<Out, Failure> {
         let Some(path) = &call.out else {
             return Err(Failure::Call(
-                "where do the rows go? --out FILE.csv, FILE.parquet or FOLDER".into(),
+                "give the destination of the rows: --out FILE.csv, FILE.parquet or FOLDER".into(),
             ));
         };
         let is_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/") || path.is_dir();
@@ -281,7 +281,7 @@ impl Out {
         keep_from(call, plan, [&to].into_iter().chain(&samples))?;
         let Some(file) = to.file() else {
             return Err(Failure::Call(format!(
-                "--out {}: rows are joined from chunks beside the file, which a device has no place for",
+                "--out {}: rows are joined from chunks beside the file, which is impossible for a device",
                 path.display()
             )));
         };
@@ -359,20 +359,20 @@ fn written_plan(call: &call::Sweep) -> Result<Plan, Failure> {
         || call.plan.is_some();
     if is_said {
         return Err(Failure::Call(format!(
-            "{shown} is a plan, which says by itself what is run: beside it stand --out, --chunk, --limit, --threads, --fresh, --engine, \
-             --strict and --json"
+            "{shown} is a plan, which itself specifies what is run: only --out, --chunk, --limit, --threads, --fresh, --engine, --strict and \
+             --json can be used with it"
         )));
     }
     let text = std::fs::read_to_string(path)
         .map_err(|error| Failure::Call(format!("cannot read {shown}: {error}")))?;
-    Plan::from_json(&text).map_err(|why| Failure::Call(format!("{shown} is no plan: {why}")))
+    Plan::from_json(&text).map_err(|why| Failure::Call(format!("{shown} is not a plan: {why}")))
 }
 
 /// The plan that a call describes.
 fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     let Some(until) = call.until else {
         return Err(Failure::Call(
-            "how long does each run last? --until SECONDS".into(),
+            "give the end of each run: --until SECONDS".into(),
         ));
     };
     methods::named(&call.method)?;

@@ -96,7 +96,7 @@ fn parquet(columns: &[(String, &[f64])], to: &mut (dyn Write + Send)) -> io::Res
 fn parquet(_: &[(String, &[f64])], _: &mut (dyn Write + Send)) -> io::Result<()> {
     Err(io::Error::new(
         io::ErrorKind::Unsupported,
-        "this build of the command has no feature `parquet`",
+        "this build of the command lacks the feature `parquet`",
     ))
 }
 
@@ -127,7 +127,7 @@ pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
                 let row = number + 1;
                 value.ok_or_else(|| {
                     format!(
-                        "line {row}: `{cell}` in column `{}` is no finite number",
+                        "line {row}: `{cell}` in column `{}` is not a finite number",
                         columns[*place]
                     )
                 })
@@ -194,10 +194,13 @@ mod tests {
         for (text, why) in [
             ("", "no column is named `s1`"),
             ("s1 [m],s1\n1,2\n", "more than one column is named `s1`"),
-            ("t,s1\n0\n", "line 2: `` in column `s1` is no finite number"),
+            (
+                "t,s1\n0\n",
+                "line 2: `` in column `s1` is not a finite number",
+            ),
             (
                 "s1\n1\ninf\n",
-                "line 3: `inf` in column `s1` is no finite number",
+                "line 3: `inf` in column `s1` is not a finite number",
             ),
         ] {
             assert_eq!(rows(text, &names), Err(why.to_owned()), "{text}");

@@ -48,7 +48,7 @@ pub fn arrival(
         .inputs(|t, _: &Named, _: &Named, u: &mut Named| u.values.clone_from(&forces.at(t)))
         .until(motion.time())
         .run_interpreted(state)
-        .map_err(|error| format!("the machine does not arrive: {error}"))?;
+        .map_err(|error| format!("the machine does not arrive at the end: {error}"))?;
     let pairs = run.end().q.values.iter().zip(to);
     let far = pairs.map(|(q, to)| (q - to).abs()).fold(0.0, f64::max);
     let way = from.iter().zip(to).map(|(from, to)| (to - from).abs());
@@ -58,7 +58,7 @@ pub fn arrival(
         Ok(Arrival { off })
     } else {
         Err(format!(
-            "the machine ends beside the end by {off:.1e} of the way"
+            "the machine misses the end by {off:.1e} of the distance"
         ))
     }
 }

@@ -193,20 +193,20 @@ impl<'a, 'd> Found<'a, 'd> {
         }
         for (guide, name) in self.guides.iter().enumerate() {
             let (least, _) = self.least_reaction(guide);
-            add(format!("normal reaction of {name}, at least [N]"), least);
+            add(format!("least normal reaction of {name} [N]"), least);
         }
         let friction = self.moments.iter().map(|moment| moment.friction_power);
         add(
-            "power of friction, at least [W]".into(),
+            "least power of friction [W]".into(),
             friction.fold(0.0, f64::min),
         );
         add(
-            "power of the control forces, at most [W]".into(),
+            "greatest power of the control forces [W]".into(),
             self.power(),
         );
         if let Ok(arrival) = &self.arrival {
             add(
-                "simulated, it ends beside the end by [of the way]".into(),
+                "simulated, it misses the end by [of the distance]".into(),
                 arrival.off,
             );
         }
@@ -230,7 +230,7 @@ impl<'a, 'd> Found<'a, 'd> {
                 )
             } else {
                 format!(
-                    "the normal reaction of `{}` is negative from t = {} s, {:.6} N at least: it would have to pull",
+                    "the normal reaction of `{}` is negative from t = {} s, with a minimum of {:.6} N: it would have to pull",
                     lapse.guide,
                     shortest(lapse.time),
                     lapse.least
@@ -408,7 +408,7 @@ impl<'a, 'd> Found<'a, 'd> {
             }
             true => output::line(format_args!("{machine}: {time} s is the least time")),
             false => output::line(format_args!(
-                "{machine}: no least time is claimed; the equations give {time} s, but the machine does not move so"
+                "{machine}: no least time is claimed; the equations give {time} s, but the machine does not move that way"
             )),
         }
         output::line(format_args!("  found in {:.1} µs", 1e6 * self.seconds));
@@ -418,7 +418,7 @@ impl<'a, 'd> Found<'a, 'd> {
                 self.because.join("; ")
             ));
             output::line(format_args!(
-                "  on {} stretches; halving them changed the time by {:.1e} s",
+                "  on {} intervals; halving them changed the time by {:.1e} s",
                 direct.stretches(),
                 direct.change()
             ));
@@ -459,30 +459,30 @@ impl<'a, 'd> Found<'a, 'd> {
         for (i, guide) in self.guides.iter().enumerate() {
             let (reaction, time) = self.least_reaction(i);
             output::line(format_args!(
-                "  normal reaction of {guide}: {reaction:.6} N at least, at t = {time:.6} s"
+                "  least normal reaction of {guide}: {reaction:.6} N, at t = {time:.6} s"
             ));
         }
         let friction = self.moments.iter().map(|moment| moment.friction_power);
         if !self.guides.is_empty() {
             output::line(format_args!(
-                "  power of friction: {:.6} W at most",
+                "  greatest power of friction: {:.6} W",
                 -friction.fold(0.0, f64::min)
             ));
         }
         output::line(format_args!(
-            "  power of the control forces, rounding: {:.1e} W at most",
+            "  greatest power of the control forces, by round-off: {:.1e} W",
             self.power()
         ));
         if let Ok(arrival) = &self.arrival {
             output::line(format_args!(
-                "  simulated under the control forces, the machine ends beside the end by {:.1e} of the way",
+                "  simulated under the control forces, the machine misses the end by {:.1e} of the distance",
                 arrival.off
             ));
         }
         let [less, more] = self.best_among_turns;
         if less > -PI || more < PI {
             output::line(format_args!(
-                "  better than with sudden turns between {:.1}° and {:.1}°; beyond, friction saved in turning would pay",
+                "  faster than with sudden turns between {:.1}° and {:.1}°; beyond this range, a turn could save more friction than it costs",
                 less.to_degrees(),
                 more.to_degrees()
             ));
@@ -502,10 +502,12 @@ fn compared<T: Terrain>(motion: &Sought<T>) -> String {
     };
     let others: Vec<String> = motion.others().into_iter().map(shortest).collect();
     if others.is_empty() {
-        format!("the one motion found from {starts}; that none far from it is faster is not shown")
+        format!(
+            "the only motion found from {starts}; it is not proved that no motion far from it is faster"
+        )
     } else {
         format!(
-            "the fastest found from {starts}, others take {} s; that none far from them is faster is not shown",
+            "the fastest found from {starts}; others take {} s; it is not proved that no motion far from these is faster",
             others.join(", ")
         )
     }

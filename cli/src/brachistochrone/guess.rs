@@ -15,7 +15,7 @@ pub fn read(path: &Path, names: &[String]) -> Result<Vec<Vec<f64>>, Failure> {
     let places = table::rows(&text, names).map_err(wrong)?;
     if places.len() < 2 {
         return Err(wrong(format!(
-            "a way needs two rows of places at least, and here are {}",
+            "a path needs at least two rows of positions, and the table has {}",
             places.len()
         )));
     }

@@ -82,7 +82,7 @@ fn left_to_itself(
         .forget_steps()
         .run_interpreted_as_far_as_possible(start);
     let broken =
-        |error| format!("without control forces it cannot be followed to the end: {error}");
+        |error| format!("without control forces the motion cannot be followed to the end: {error}");
     match run {
         Ok((run, error)) => (Some(record(&run)), error.map(broken)),
         Err(error) => (None, Some(broken(error))),
@@ -111,7 +111,7 @@ fn panels(fastest: &Recording, free: Option<&Recording>) -> Vec<Value> {
             let beside = |column| {
                 curve(
                     column,
-                    format!("{}, left to itself", column.name),
+                    format!("{}, without control forces", column.name),
                     &free.times,
                 )
             };

@@ -36,7 +36,7 @@ pub fn form<'a, 'd>(
     let form = Brachistochronic::anywhere(model, equations).map_err(|unmet| {
         let list: Vec<String> = unmet.iter().map(|unmet| format!("\n  {unmet}")).collect();
         Failure::Run(format!(
-            "the fastest motion is known for machines that change by their motion alone:{}",
+            "the fastest motion can be found only for machines that change by their motion alone:{}",
             list.concat()
         ))
     })?;
@@ -106,7 +106,7 @@ fn guides<'d>(
     });
     let reactions = coupling.lu().solve(&loads).ok_or_else(|| {
         Failure::run(
-            "the normal reactions of the guides are not determined: friction makes them jam",
+            "the normal reactions of the guides are not determined: the guides jam by friction",
         )
     })?;
     let guide = |(i, guide): (usize, &Guided<'d>)| Guide {
@@ -125,7 +125,7 @@ pub fn explained(unsolved: &Unsolved, names: &[String]) -> String {
     match unsolved {
         Unsolved::NoInertia { coordinate, .. } => {
             format!(
-                "the mass matrix is not positive definite: `{}` meets no inertia",
+                "the mass matrix is not positive definite: `{}` has no inertia",
                 name(*coordinate)
             )
         }
@@ -137,7 +137,7 @@ pub fn explained(unsolved: &Unsolved, names: &[String]) -> String {
             coordinates: [one, other],
             skew,
         } => format!(
-            "no motion is the fastest: a small loop of directions in `{}` and `{}` multiplies the speed in no time (the friction \
+            "there is no fastest motion: a small loop of directions in `{}` and `{}` multiplies the speed in no time (the friction \
              matrix is not symmetric, by {skew:.3e} of the inertia); with constraints that leave two coordinates there may be one",
             name(*one),
             name(*other)

@@ -15,7 +15,7 @@ pub fn failure(unsolved: &Unsolved, names: &[String]) -> Failure {
     let lines = tried.iter().enumerate();
     let lines = lines.map(|(number, trial)| format!("\n  {}. {}", number + 1, line(trial, names)));
     let message = format!(
-        "no fastest motion was found from {} starts; the end may be out of reach, or a `--guess` help:{}",
+        "no fastest motion was found from {} starts; the end may be out of reach, or a `--guess` may help:{}",
         tried.len(),
         lines.collect::<String>()
     );
@@ -31,7 +31,11 @@ pub fn line(trial: &Trial, names: &[String]) -> String {
             let parts: Vec<String> = parts
                 .map(|(name, by)| format!("{name} by {by:.3}"))
                 .collect();
-            format!("a way aside in {}: {}", parts.join(", "), trial.outcome)
+            format!(
+                "a path displaced in {}: {}",
+                parts.join(", "),
+                trial.outcome
+            )
         }
         _ => trial.to_string(),
     }

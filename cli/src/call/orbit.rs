@@ -18,8 +18,8 @@ pub struct Orbit {
     pub start: Start,
     #[command(flatten)]
     pub keep: Keep,
-    /// The period, an expression of numbers, units and parameters, as in `--period 2*pi/omega`: that of what drives the machine or a
-    /// multiple of it; or, of a machine that nothing drives, that which the motion is to have.
+    /// The period, an expression of numbers, units and parameters, as in `--period 2*pi/omega`: that of the drive or a multiple of it
+    /// or, for a machine that nothing drives, the period that the motion is to have.
     #[arg(
         long,
         value_name = "TIME",
@@ -27,32 +27,32 @@ pub struct Orbit {
         conflicts_with = "near"
     )]
     pub period: Option<String>,
-    /// About how long the period is, in s, of a machine that nothing drives; where left out, as long as the motion takes from the
-    /// start to where it comes nearest to it.
+    /// The approximate period, in s, for a machine that nothing drives; by default the time that the motion takes from the start until
+    /// it comes closest to it again.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub near: Option<f64>,
-    /// What a coordinate goes on by in a period, as in `--advance phi=2*pi`; nothing where left out.
+    /// How far a coordinate advances in a period, as in `--advance phi=2*pi`; by default it does not advance.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub advance: Vec<Assignment>,
-    /// Coordinates on which nothing depends and that go on in a period as far as they do, as in `--shift y`; where neither this nor
-    /// `--advance` is given all of them.
+    /// Coordinates on which nothing depends and that may advance by any amount in a period, as in `--shift y`; if neither this nor
+    /// `--advance` is given, all of them.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = super::observed)]
     pub shift: Vec<String>,
-    /// Let the motion run for this long first, in s, so that an orbit that attracts is near; with `--period` for as many whole periods
-    /// as that takes.
+    /// First let the motion run for this long, in s, so that it approaches an attracting orbit; with `--period`, for as many whole
+    /// periods as this takes.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub settle: Option<f64>,
     /// Relative and absolute tolerance of each step.
     #[arg(long, default_value_t = 1e-11, value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
-    /// Follow the orbit along values of a parameter or an input, as in `--along omega=10..300:200`.
+    /// Follow the orbit along a range of a parameter or an input, as in `--along omega=10..300:200`.
     #[arg(long, value_name = "NAME=FROM..TO:COUNT", value_parser = vary, allow_hyphen_values = true)]
     pub along: Option<Vary>,
-    /// Write the orbit: `.json`, `.npz` for NumPy, `.mat` for MATLAB; `.csv` or `.parquet` for the motion over one period. Along a range a
-    /// table `.csv` or `.parquet` with a row for each multiplier.
+    /// Write the orbit: `.json`, `.npz` for NumPy, `.mat` for MATLAB; `.csv` or `.parquet` for the motion over one period. With `--along`,
+    /// a table `.csv` or `.parquet` with a row for each multiplier.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draw the motion over one period as SVG; along a range the moduli of the multipliers.
+    /// Draw the motion over one period as SVG or, with `--along`, the moduli of the multipliers.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
 }
@@ -66,10 +66,10 @@ pub struct Sensitivities {
     pub start: Start,
     #[command(flatten)]
     pub keep: Keep,
-    /// By what: parameters, inputs, `start(x)`, `rate(x)`; the name of a family stands for all its members.
+    /// What to differentiate with respect to: parameters, inputs, `start(x)`, `rate(x)`; the name of a family stands for all its members.
     #[arg(long, value_name = "NAME,…", required = true)]
     pub by: Vec<String>,
-    /// Of what: coordinates, `der(x)`, outputs; where left out the outputs of the spec, or, if it has none, its coordinates.
+    /// What to differentiate: coordinates, `der(x)`, outputs; by default the outputs of the spec or, if it has none, its coordinates.
     #[arg(long, value_name = "NAME,…")]
     pub of: Vec<String>,
     /// Integrate to this time, in s; before 0 backward in time.
@@ -81,7 +81,7 @@ pub struct Sensitivities {
     /// The integration method: dop853, dopri5, bs32, or radau5 for stiff machines.
     #[arg(long, value_name = "NAME", default_value = "dop853")]
     pub method: String,
-    /// How many steps the run may take.
+    /// The maximum number of steps of the run.
     #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = steps, allow_hyphen_values = true)]
     pub max_steps: usize,
     /// Record at this interval, in s; without it, 1000 times.

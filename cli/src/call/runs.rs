@@ -18,19 +18,19 @@ pub struct Runs {
     /// Derive a spec with another value of a constant, as in `--const N=8`.
     #[arg(long = "const", value_name = "NAME=VALUE", value_parser = constant)]
     pub constants: Vec<(String, Rational)>,
-    /// Run a spec to this time, in s; with a table beside it, to the end of the table where left out.
+    /// Run a spec to this time, in s; if it is compared with a table, by default to the end of the table.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub until: Option<f64>,
-    /// Record a spec's motion at this interval, in s; without it, 1000 times, or at the rows of the table beside it.
+    /// Record a spec's motion at this interval, in s; without it, 1000 times, or at the rows of the table it is compared with.
     #[arg(long, value_name = "SECONDS", value_parser = interval, allow_hyphen_values = true)]
     pub every: Option<f64>,
-    /// Relative and absolute tolerance of each step of a spec's run; 1e-9 where left out.
+    /// Relative and absolute tolerance of each step of a spec's run; by default 1e-9.
     #[arg(long, value_name = "TOLERANCE", value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: Option<f64>,
-    /// The integration method of a spec's run: dop853, which is taken where left out, dopri5, bs32, or radau5 for stiff machines.
+    /// The integration method of a spec's run: dop853, the default, dopri5, bs32, or radau5 for stiff machines.
     #[arg(long, value_name = "NAME")]
     pub method: Option<String>,
-    /// How many steps a spec's run may take; ten million where left out.
+    /// The maximum number of steps of a spec's run; by default ten million.
     #[arg(long, value_name = "N", value_parser = steps, allow_hyphen_values = true)]
     pub max_steps: Option<usize>,
     /// Drive an input while a spec runs, as in `simulate`.
@@ -45,7 +45,7 @@ pub struct Runs {
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct Compare {
-    /// The first run, by whose range differences are measured: a table `.csv` or `.parquet`, or a spec.
+    /// The first run, relative to whose range differences are reported: a table `.csv` or `.parquet`, or a spec.
     #[arg(value_name = "FIRST")]
     pub first: PathBuf,
     /// The second run.
@@ -53,7 +53,7 @@ pub struct Compare {
     pub second: PathBuf,
     #[command(flatten)]
     pub runs: Runs,
-    /// Set a parameter or an input of the second run, a spec, in place of what `--set` says of it.
+    /// Set a parameter or an input of the second run, if that is a spec, in place of the value from `--set`.
     #[arg(long = "set-second", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub second_parameters: Vec<Assignment>,
     /// Set a coordinate at the start of the second run.
@@ -68,16 +68,16 @@ pub struct Compare {
     /// The integration method of the second run.
     #[arg(long = "method-second", value_name = "NAME")]
     pub second_method: Option<String>,
-    /// Which quantities are compared; where left out all that both runs have, but for the residual of the energy balance.
+    /// The quantities to compare; by default all that both runs have, except the residual of the energy balance.
     #[arg(long, value_name = "NAME,…")]
     pub of: Vec<String>,
-    /// How values between rows are found: `cubic`, with the rates of a coordinate where the table has them, or `linear`.
+    /// How values between rows are interpolated: `cubic`, with the rates of a coordinate where the table has them, or `linear`.
     #[arg(long, value_enum, default_value_t = Interpolation::Cubic)]
     pub interpolation: Interpolation,
-    /// End with exit status 1 where a quantity differs by more than this share of its range, as in `--within 1e-6`.
+    /// Exit with status 1 if a quantity differs by more than this fraction of its range, as in `--within 1e-6`.
     #[arg(long, value_name = "SHARE", value_parser = positive)]
     pub within: Option<f64>,
-    /// What `--within` lets pass whatever the range is: differences of so much in the unit of the quantity.
+    /// Differences that `--within` accepts whatever the range is, in the unit of the quantity.
     #[arg(long, value_name = "NUMBER", value_parser = positive, requires = "within")]
     pub floor: Option<f64>,
     /// Write the differences to a table, `.csv` or `.parquet`.
@@ -105,10 +105,10 @@ pub struct Part {
     pub run: PathBuf,
     #[command(flatten)]
     pub runs: Runs,
-    /// Look at these quantities; at the coordinates where left out, and of a table at every column that has one of rates.
+    /// The quantities to analyse; by default the coordinates, which in a table are the columns that have a column of rates.
     #[arg(long, value_name = "NAME,…")]
     pub of: Vec<String>,
-    /// Look at the run from this time on, in s.
+    /// Analyse the run from this time on, in s.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub after: Option<f64>,
 }
@@ -118,13 +118,13 @@ pub struct Part {
 pub struct Spectrum {
     #[command(flatten)]
     pub part: Part,
-    /// By what values are multiplied before they are transformed.
+    /// The window by which values are multiplied before they are transformed.
     #[arg(long, value_enum, default_value_t = Windows::Hann)]
     pub window: Windows,
-    /// How many lines are told at most.
+    /// The maximum number of lines to report.
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub lines: usize,
-    /// Lines below this share of the greatest are not told.
+    /// Leave out lines below this fraction of the greatest one.
     #[arg(long, value_name = "SHARE", default_value_t = 1e-3, value_parser = positive)]
     pub least: f64,
     /// Write the amplitudes to a table, `.csv` or `.parquet`.
@@ -138,11 +138,11 @@ pub struct Spectrum {
 /// Windows of spectra.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Windows {
-    /// Hann's: for most.
+    /// The Hann window, for most purposes.
     Hann,
-    /// None: for whole periods.
+    /// No window, for whole periods.
     None,
-    /// Blackman's and Harris's: for lines a ten-thousandth of others.
+    /// The Blackman–Harris window, for lines that are a ten-thousandth of others.
     BlackmanHarris,
 }
 
@@ -151,8 +151,8 @@ pub enum Windows {
 pub struct Peaks {
     #[command(flatten)]
     pub part: Part,
-    /// Leave out ripples: maxima and minima from which the curve goes to one side by no more than this, in the unit of the quantity;
-    /// where left out, an estimate of the error of one step.
+    /// Leave out ripples: maxima and minima from which the curve departs to one side by no more than this, in the unit of the quantity;
+    /// by default an estimate of the error of one step.
     #[arg(long, value_name = "NUMBER", value_parser = positive)]
     pub ripple: Option<f64>,
     /// Write all maxima and minima to a table, `.csv` or `.parquet`.
@@ -165,7 +165,7 @@ pub struct Peaks {
 pub struct Section {
     #[command(flatten)]
     pub part: Part,
-    /// Look once every so often, as in `--every-period 2*pi/omega`: of a spec an expression of parameters, of a table a number in s.
+    /// Sample once in each period, as in `--every-period 2*pi/omega`: for a spec an expression of parameters, for a table a number in s.
     #[arg(
         long = "every-period",
         value_name = "TIME",
@@ -173,16 +173,16 @@ pub struct Section {
         conflicts_with = "crossing"
     )]
     pub period: Option<String>,
-    /// Look where something passes 0, or with `NAME=VALUE` this value: of a spec any formula of its language, of a table a column.
+    /// Sample where a quantity passes 0 or, with `NAME=VALUE`, this value: for a spec any formula of its language, for a table a column.
     #[arg(long, value_name = "FORMULA|NAME=VALUE", allow_hyphen_values = true)]
     pub crossing: Option<String>,
-    /// In which direction it passes.
+    /// The direction in which it passes.
     #[arg(long, value_enum, default_value_t = Direction::Up)]
     pub direction: Direction,
     /// Write the points to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draw the points as SVG: the second quantity of `--of` over the first; where left out the rate of the first coordinate over it.
+    /// Draw the points as SVG: the second quantity of `--of` over the first; by default the rate of the first coordinate over it.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
 }
@@ -190,10 +190,10 @@ pub struct Section {
 /// In which direction something passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Direction {
-    /// From less to greater.
+    /// Upward, from less to greater.
     Up,
-    /// From greater to less.
+    /// Downward, from greater to less.
     Down,
-    /// In both.
+    /// In both directions.
     Both,
 }

@@ -105,13 +105,13 @@ impl<'a> Reader<'a> {
         let text = error.to_string();
         let said = text.split(" at line ").next().unwrap_or(&text);
         let what = match said {
-            _ if error.is_eof() && self.text.trim().is_empty() => "there is nothing in it",
+            _ if error.is_eof() && self.text.trim().is_empty() => "it is empty",
             _ if error.is_eof() => "the text ends before a bracket or a quotation mark is closed",
             "expected value" | "expected ident" => {
                 "expected a number, a name in quotation marks, `[` or `{`; JSON has no NaN and no infinity"
             }
-            "invalid number" => "this is no number of JSON, which are written 0.5, -2 or 1e-3",
-            "number out of range" => "this number is greater than any that can be computed with",
+            "invalid number" => "this is not a JSON number, which is written like 0.5, -2 or 1e-3",
+            "number out of range" => "this number is beyond the range of floating-point numbers",
             "key must be a string" if !after.starts_with('}') => {
                 "expected a name in quotation marks"
             }
@@ -120,9 +120,9 @@ impl<'a> Reader<'a> {
             }
             "trailing characters" => "the list ends before this",
             "control character (\\u0000-\\u001F) found while parsing a string" => {
-                "a name in quotation marks must end in its line"
+                "a name in quotation marks must end on the line on which it begins"
             }
-            "recursion limit exceeded" => "brackets are nested too deep",
+            "recursion limit exceeded" => "brackets are nested too deeply",
             said => said, // such as `expected `:``
         };
         self.placed(error.line().max(1), before.chars().count() + 1, what)
@@ -136,8 +136,8 @@ impl<'a> Reader<'a> {
     fn expected(&self, value: &RawValue, what: &str) -> ReadError {
         let text = value.get();
         let found = match text.as_bytes().first() {
-            Some(b'"') => "a text",
-            Some(b'{') => "names with values",
+            Some(b'"') => "a string",
+            Some(b'{') => "an object",
             Some(b'[') => "a list",
             Some(b't' | b'f') => "true or false",
             Some(b'n') => "null",
@@ -202,7 +202,7 @@ impl<'a> Reader<'a> {
         match number {
             Ok(number) if number.is_finite() => Ok(number),
             _ if is_number => {
-                let what = "this number is greater than any that can be computed with";
+                let what = "this number is beyond the range of floating-point numbers";
                 Err((self.place(value.get()), what.to_owned()))
             }
             _ => Err(self.expected(value, "a number")),
@@ -219,12 +219,12 @@ impl<'a> Reader<'a> {
         match value.get().as_bytes().first() {
             Some(b'[') => self.list(value).map(Numbers::List),
             Some(b'{') => self.entries(value).map(Numbers::ByName),
-            _ => Err(self.expected(value, "a list of numbers, or names with numbers")),
+            _ => Err(self.expected(value, "a list of numbers, or an object of numbers")),
         }
     }
 
     fn entries(&self, value: &'a RawValue) -> Result<Vec<(String, Entry)>, ReadError> {
-        let pairs = self.pairs(value, "names with numbers, `{\"name\": 1}`")?;
+        let pairs = self.pairs(value, "an object of numbers, `{\"name\": 1}`")?;
         let entry = |(name, value): (String, &'a RawValue)| {
             let entry = match value.get().as_bytes().first() {
                 Some(b'[') => self.list(value).map(Entry::Family),
@@ -250,7 +250,7 @@ impl<'de> Deserialize<'de> for Pairs<'de> {
             type Value = Pairs<'de>;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("names with values")
+                f.write_str("an object")
             }
 
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Pairs<'de>, A::Error> {
@@ -302,7 +302,7 @@ mod tests {
             (
                 "[{\"q\": [0, \"x\"]}]",
                 (1, 12),
-                "point 1: \"q\": expected a number, found a text",
+                "point 1: \"q\": expected a number, found a string",
             ),
             (
                 "[\n {\"v\": {\"ü\": null}}]",
@@ -317,7 +317,7 @@ mod tests {
             (
                 "[{\"q\": 3}]",
                 (1, 8),
-                "expected a list of numbers, or names with numbers, found a number",
+                "expected a list of numbers, or an object of numbers, found a number",
             ),
             ("[{\"nonsense\": 1}]", (1, 15), "no \"nonsense\""),
             (
@@ -343,14 +343,14 @@ mod tests {
             ),
             ("[7]", (1, 2), "point 1: expected a point"),
             ("\n {}", (2, 2), "expected a list of points"),
-            ("", (1, 1), "there is nothing in it"),
+            ("", (1, 1), "it is empty"),
             ("[{\"q\": [0, 1}]", (1, 13), "expected `,` or `]`"),
             ("[{\"q\": [0,\n", (2, 1), "ends before"),
             ("[{\"q\": [NaN]}]", (1, 9), "JSON has no NaN"),
             ("[{\"ü\": 1,}]", (1, 10), "comma"),
             ("[{q: 1}]", (1, 3), "in quotation marks"),
             ("[{}] x", (1, 6), "ends before this"),
-            ("[{\"t\": 1e999}]", (1, 8), "greater than any"),
+            ("[{\"t\": 1e999}]", (1, 8), "beyond the range"),
         ] {
             let wrong = match read("points.json", text) {
                 Err(wrong) => wrong,

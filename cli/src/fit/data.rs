@@ -66,7 +66,7 @@ pub fn given(call: &call::Fit) -> Result<Vec<Given>, Failure> {
 /// Reads `FILE[,NAME=VALUE…]`.
 fn read(text: &str) -> Result<Given, String> {
     let wanted =
-        "expected a table `.csv` or `.parquet`, and behind it NAME=VALUE with commas between";
+        "expected a table `.csv` or `.parquet`, followed by NAME=VALUE separated by commas";
     let lower = text.to_ascii_lowercase();
     let ends = [".csv", ".parquet"].iter().flat_map(|ending| {
         let found = lower.match_indices(ending);
@@ -115,7 +115,7 @@ fn read(text: &str) -> Result<Given, String> {
     for text in &said {
         let set = call::assignment(text)?;
         if !names.insert(set.name.clone()) {
-            return Err(format!("`{}` has a value more than once", set.name));
+            return Err(format!("`{}` is set more than once", set.name));
         }
         let inside = |word: &str| {
             let rest = set.name.strip_prefix(word)?.strip_prefix('(')?;
@@ -133,7 +133,7 @@ fn read(text: &str) -> Result<Given, String> {
                 }
                 Ok(Written::Sampled { .. }) => {
                     return Err(format!(
-                        "`{}`: a controller is the same in all experiments: --input",
+                        "`{}`: a controller is the same in all experiments: give it by --input",
                         set.name
                     ));
                 }
@@ -165,7 +165,7 @@ impl Given {
                     machine.parameters().map(|(of, _)| of.name.into()).collect();
                 let help = match nearest(&set.name, known.iter().map(String::as_str)) {
                     Some(near) => format!("did you mean `{near}`?"),
-                    None => "starts are start(NAME) and rate(NAME)".into(),
+                    None => "start values are given as start(NAME) and rate(NAME)".into(),
                 };
                 let why = format!("no parameter or input named `{}`; {help}", set.name);
                 return Err(wrong(why));
@@ -341,7 +341,7 @@ pub fn measure(
                 Some(format!("; did you mean `{near}` by `{name}`?"))
             });
             notes.push(format!(
-                "{}: nothing is fitted to {}, which the machine has as neither coordinate, rate nor output{}",
+                "{}: nothing is fitted to {}, which is not a coordinate, a rate or an output of the machine{}",
                 one.label,
                 unused.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
                 near.unwrap_or_default()
@@ -379,7 +379,7 @@ fn check_times(
             .take(12)
             .collect();
         return Err(Failure::Call(format!(
-            "--data {label}: none of its columns {} has measurements of what the machine has: {}",
+            "--data {label}: none of its columns {} contains measurements of a quantity of the machine: {}",
             names.join(", "),
             shown.join(", ")
         )));
@@ -401,7 +401,7 @@ fn check_times(
     let last = experiment.times.last().copied().unwrap_or(0.0);
     if first < 0.0 {
         return Err(Failure::Call(format!(
-            "--data {label}: it begins at t = {first} s, and the machine at 0: shift the times"
+            "--data {label}: it begins at t = {first} s, but the machine starts at 0: shift the times"
         )));
     }
     if last > 0.0 {

@@ -56,7 +56,7 @@ pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
             .map(|combination| combination.formula(&all))
             .collect();
         let told = if told.is_empty() {
-            "nothing of them is".to_owned()
+            "no combination of them is".to_owned()
         } else {
             format!(
                 "only {} {}",
@@ -65,14 +65,14 @@ pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
             )
         };
         warnings.push(format!(
-            "{} cannot be told apart: {told} told by these measurements",
+            "{} cannot be told apart: {told} determined by these measurements",
             entangled.join(", ")
         ));
     }
     let bound = list(Standing::Bound);
     if !bound.is_empty() {
         warnings.push(format!(
-            "{} stayed at a bound, beyond which the sum of squares falls",
+            "{} stayed at a bound, beyond which the sum of squares decreases",
             bound.join(", ")
         ));
     }
@@ -81,7 +81,7 @@ pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
             let strong = statistics.correlation(j, k);
             if let Some(rho) = strong.filter(|rho| rho.abs() > STRONG) {
                 warnings.push(format!(
-                    "`{first}` and `{second}` are hardly told apart: their correlation is {rho:.4}"
+                    "`{first}` and `{second}` can hardly be told apart: their correlation is {rho:.4}"
                 ));
             }
         }
@@ -93,7 +93,7 @@ pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
         && off.abs() > IMPROBABLE * (2.0 * freedom).sqrt()
     {
         warnings.push(format!(
-            "residuals are {:.3} times what --sigma says: the standard errors follow --sigma, and hold only if that does",
+            "residuals are {:.3} times what --sigma implies: the standard errors are based on --sigma, and are valid only if it is",
             statistics.variance.sqrt()
         ));
     }
@@ -172,7 +172,7 @@ pub fn text(result: &Fitted<'_, '_>) -> String {
         (Derivatives::Integrated, _) => "derivatives integrated with the motion".to_owned(),
         (Derivatives::Differences, why) => {
             format!(
-                "derivatives by differences of runs, since {}",
+                "derivatives by finite differences of runs, since {}",
                 why.unwrap_or_default()
             )
         }
@@ -212,8 +212,8 @@ pub fn text(result: &Fitted<'_, '_>) -> String {
                     }
                 }
                 (Standing::Bound, _) => "at its bound".to_owned(),
-                (Standing::Ineffective, _) => "changes nothing".to_owned(),
-                _ => "not told by itself".to_owned(),
+                (Standing::Ineffective, _) => "has no effect".to_owned(),
+                _ => "not determined separately".to_owned(),
             };
             (one.name.clone(), in_unit(&value, &one.unit), note)
         })
@@ -269,7 +269,7 @@ fn percent(share: f64) -> String {
             let digits = (1 - percent.log10().floor() as i32).clamp(0, 4) as usize;
             format!("{percent:.digits$} %")
         }
-        _ => format!("{share:.0e} of it"),
+        _ => format!("{share:.0e} of the value"),
     }
 }
 
@@ -299,7 +299,7 @@ fn searches(result: &Fitted<'_, '_>) -> String {
         String::new()
     };
     format!(
-        "  of {count} searches {} ended in a minimum, {same} of these in this one{next}\n",
+        "  {} of {count} searches ended in a minimum, {same} of them in this one{next}\n",
         ends.len()
     )
 }
@@ -309,7 +309,7 @@ fn combinations(result: &Fitted<'_, '_>) -> String {
     let names: Vec<String> = sought.iter().map(|one| one.name.clone()).collect();
     let units: Vec<String> = sought.iter().map(|one| one.unit.clone()).collect();
     let x = &result.found.minimum.x;
-    let mut text = String::from("  told of what cannot be told apart\n");
+    let mut text = String::from("  combinations that are determined\n");
     for combination in &result.found.combinations {
         let error = result
             .found
@@ -351,7 +351,7 @@ fn roots(result: &Fitted<'_, '_>) -> Vec<f64> {
 
 fn residuals(result: &Fitted<'_, '_>) -> String {
     let statistics = &result.found.statistics;
-    let mut text = String::from("  residuals, root of the mean square\n");
+    let mut text = String::from("  residuals, root mean square\n");
     for (place, (class, root)) in result.classes.iter().zip(roots(result)).enumerate() {
         let sigma = match result.sigmas {
             Sigmas::Equal => String::new(),
@@ -371,7 +371,7 @@ fn residuals(result: &Fitted<'_, '_>) -> String {
     let _ = match result.sigmas {
         Sigmas::Equal => writeln!(
             text,
-            "    standard deviation {} over {freedom} degrees of freedom, from which the standard errors are",
+            "    standard deviation {} over {freedom} degrees of freedom, on which the standard errors are based",
             in_unit(
                 &format!("{:.3e}", statistics.variance.sqrt()),
                 &result.classes[0].unit

@@ -25,7 +25,7 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
     for (j, (one, x)) in result.fit.sought.iter().zip(&minimum.x).enumerate() {
         let error = match result.found.statistics.standard_error(j) {
             Some(error) => format!("Fitted, with a standard error of {}.", shortest(error)),
-            None => "Not told by the measurements.".to_owned(),
+            None => "Not determined by the measurements.".to_owned(),
         };
         let value = shortest(*x);
         // Writing to a String cannot fail.
@@ -80,7 +80,7 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
     if !left.is_empty() {
         let _ = writeln!(
             text,
-            "/// Each experiment starts elsewhere: {} are not part of it.",
+            "/// Each experiment has its own start: {} are not part of this variant.",
             left.join(", ")
         );
     }
@@ -120,7 +120,7 @@ pub fn check(sought: &[Sought], experiments: usize) -> Result<(), Failure> {
     match said.find(|one| one.name.contains('[')) {
         None => Ok(()),
         Some(one) => Err(Failure::Call(format!(
-            "--out: `{}` is a member of a family, which no variant of a spec gives a value of its own; --json has it",
+            "--out: `{}` is a member of a family, and a variant of a spec cannot set it separately; --json prints its value",
             one.name
         ))),
     }

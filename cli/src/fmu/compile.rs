@@ -82,7 +82,7 @@ pub fn libraries(
     if targets.is_empty() {
         let platform = platform(unit.version, &format!("{ARCH}-{OS}")).ok_or_else(|| {
             Failure::run(format!(
-                "units have no folder for {ARCH} on {OS}: --sources-only makes one without a library"
+                "a unit has no folder for {ARCH} on {OS}: --sources-only builds one without a library"
             ))
         })?;
         return Ok(vec![library(unit, sources, named, None, platform)?]);
@@ -91,7 +91,7 @@ pub fn libraries(
     for target in targets {
         let platform = platform(unit.version, target).ok_or_else(|| {
             Failure::Call(format!(
-                "--target {target}: units have folders for x86_64 and aarch64 on Linux and macOS and for x86_64 on Windows, as in \
+                "--target {target}: a unit has folders for x86_64 and aarch64 on Linux and macOS and for x86_64 on Windows, as in \
                  x86_64-linux-gnu"
             ))
         })?;
@@ -100,7 +100,7 @@ pub fn libraries(
             .any(|(other, _)| other.folder == platform.folder)
         {
             return Err(Failure::Call(format!(
-                "--target {target}: there is a library in binaries/{} already",
+                "--target {target}: there is already a library in binaries/{}",
                 platform.folder
             )));
         }
@@ -130,7 +130,7 @@ fn library(
         .next()
         .ok_or_else(|| Failure::Call("--cc names no compiler".into()))?;
     let unkept =
-        |error: io::Error| Failure::run(format!("cannot keep the unit for a while: {error}"));
+        |error: io::Error| Failure::run(format!("cannot store the unit temporarily: {error}"));
     let folder = tempfile::tempdir().map_err(unkept)?;
     for (name, text) in sources {
         std::fs::write(folder.path().join(name), text).map_err(unkept)?;
@@ -147,13 +147,13 @@ fn library(
     command.stdin(Stdio::null()).stdout(Stdio::null());
     let output = command.output().map_err(|error| {
         Failure::run(format!(
-            "cannot run the C compiler {program}: {error}; --cc names another, --sources-only makes a unit without a library"
+            "cannot run the C compiler {program}: {error}; --cc names another one, --sources-only builds a unit without a library"
         ))
     })?;
     if !output.status.success() {
         let stderr = String::from_utf8_lossy(&output.stderr);
         return Err(Failure::run(format!(
-            "{compiler} does not compile the unit:\n{}",
+            "{compiler} failed to compile the unit:\n{}",
             stderr.trim_end()
         )));
     }

@@ -244,7 +244,7 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
         Kind::Multiplier(i) => {
             let constraint = &program.constraints[i];
             let unit = &constraint.multiplier_unit;
-            let docs = format!("Lagrange's multiplier of {}, in {unit}", constraint.name);
+            let docs = format!("Lagrange multiplier of {}, in {unit}", constraint.name);
             calculated(String::new(), docs)
         }
         Kind::KineticEnergy => calculated(units.of(PhysicalUnit::JOULE), "Kinetic energy".into()),
@@ -258,7 +258,7 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
         Kind::Event(i) => {
             let slot = &program.outputs[program.outputs.len() - unit.events.len() + i];
             let Assignment { name, value } = &unit.events[i];
-            let docs = format!("Changes its sign at the event {name}: {}", words(value));
+            let docs = format!("Changes sign at the event {name}: {}", words(value));
             calculated(units.of_slot(slot), docs)
         }
         Kind::Count(i) => Row {

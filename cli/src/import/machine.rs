@@ -59,7 +59,7 @@ pub fn written(robot: &Robot, file: &str, call: &Import, faults: &mut Faults) ->
     if faults.is_empty() && writer.text.count("coordinates") == 0 {
         faults.add(
             0,
-            "nothing moves: no joint of the robot has a link with mass behind it",
+            "nothing moves: no joint of the robot moves a link with mass",
         );
     }
     faults.is_empty().then(|| writer.finish(file))
@@ -148,16 +148,16 @@ impl<'a> Writer<'a> {
             let name = quoted(&robot.joints[joint].name);
             if self.call.drop_massless {
                 self.is_dropped[joint] = true;
-                let hangs = quoted(&robot.links[tree.child[joint]].name);
+                let attached = quoted(&robot.links[tree.child[joint]].name);
                 self.warnings.push(format!(
-                    "joint {name} moves no mass: it is left out, with link {hangs} and all that hangs on it"
+                    "joint {name} moves no mass: it is left out, with link {attached} and everything attached to it"
                 ));
             } else if tree.leader[joint].is_none() {
                 let link = quoted(&robot.links[tree.child[joint]].name);
                 faults.add(
                     robot.joints[joint].at,
                     format!(
-                        "joint {name} moves no mass, so nothing says how it accelerates: give link {link} an `inertial`, make the \
+                        "joint {name} moves no mass, so its acceleration is not determined: give link {link} an `inertial`, make the \
                          joint `fixed`, or leave it out with --drop-massless"
                     ),
                 );
@@ -175,7 +175,7 @@ impl<'a> Writer<'a> {
             {
                 let (follower, leader) = (quoted(&joint.name), quoted(&mimic.joint));
                 let message = format!(
-                    "joint {follower} mimics {leader}, which hangs on a joint that moves no mass and is left out"
+                    "joint {follower} mimics {leader}, which is attached to a joint that moves no mass and is left out"
                 );
                 faults.add(mimic.at, message);
             }
@@ -201,7 +201,7 @@ impl<'a> Writer<'a> {
                 faults.add(
                     joint.at,
                     format!(
-                        "joint {name} has friction, and no normal force is known from which it would follow when it sticks: `--friction \
+                        "joint {name} has friction, but there is no normal force from which to determine whether it sticks: `--friction \
                          none` leaves it out, `--friction smooth=1e-3` makes it f·q̇/√(q̇² + ε²)"
                     ),
                 );
@@ -239,7 +239,7 @@ impl<'a> Writer<'a> {
         if self.call.base == Base::Floating {
             let link = &self.robot.links[self.tree.root].name;
             let part = capital(self.robot.part);
-            let comment = format!("{part} {}, which hangs on nothing.", quoted(link));
+            let comment = format!("{part} {}, which is attached to nothing.", quoted(link));
             self.root_motion = self.floating(link, comment, "link", None);
         }
         for (index, joint) in self.joints() {
@@ -353,10 +353,10 @@ impl<'a> Writer<'a> {
         let q = self.several(name, comment, "joint", &angles, from);
         self.warnings.push(match ball {
             Ball::Xyz | Ball::Zyx => {
-                format!("`{}` is singular at 90° to either side; --ball chooses other angles", q[1])
+                format!("`{}` is singular at 90° to either side; --ball selects other angles", q[1])
             }
             Ball::Zxz | Ball::Quaternion => format!(
-                "`{}` is singular at 0, where it starts, and at 180°: give it a start, or --ball other angles",
+                "`{}` is singular at 0, where it starts, and at 180°: give it a start value, or select other angles by --ball",
                 q[1]
             ),
         });
@@ -413,7 +413,7 @@ impl<'a> Writer<'a> {
             self.reference_of[index] =
                 self.parameter(&mut entries, &format!("{name}_ref"), unit, &reference);
             let comment = format!(
-                "Joint {}: its value where it moves nothing.",
+                "Joint {}: its reference value, at which nothing is displaced.",
                 quoted(&joint.name)
             );
             self.text.add("parameters", Some(comment), entries);
@@ -425,7 +425,7 @@ impl<'a> Writer<'a> {
                     let name = quoted(&joint.name);
                     faults.add(
                         joint.at,
-                        format!("the limits of joint {name} leave it no room"),
+                        format!("the limits of joint {name} leave it no range"),
                     );
                 }
                 let bound = match () {
@@ -605,21 +605,21 @@ impl<'a> Writer<'a> {
         }
         if !resting.is_empty() {
             let many = resting.len() > 1;
-            let (several, stand, masses) = if many {
-                ("s", "stand", "their masses are")
+            let (several, are, masses) = if many {
+                ("s", "are", "their masses are")
             } else {
-                ("", "stands", "its mass is")
+                ("", "is", "its mass is")
             };
             let part = match (self.robot.part, many) {
                 ("body", true) => "bodie",
                 (part, _) => part,
             };
             let help = match self.robot.gravity {
-                None => "; with --base floating the robot hangs on nothing",
+                None => "; with --base floating the robot is not fixed to the ground",
                 Some(_) => "",
             };
             self.warnings.push(format!(
-                "{part}{several} {} {stand} on the ground, so {masses} left out{help}",
+                "{part}{several} {} {are} fixed to the ground, so {masses} left out{help}",
                 resting.join(", ")
             ));
         }
@@ -779,7 +779,7 @@ impl<'a> Writer<'a> {
                     );
                 }
             }
-            let comment = format!("Joint {}: what acts along it.", quoted(&joint.name));
+            let comment = format!("Joint {}: the forces along it.", quoted(&joint.name));
             self.text.add("parameters", Some(comment), entries);
         }
         if !left_out.is_empty() {
@@ -792,7 +792,7 @@ impl<'a> Writer<'a> {
         if limited > 0 && self.call.limits == Limits::None {
             let count = counted(limited, "joint", "joints");
             self.warnings.push(format!(
-                "limits of {count} stand in comments only; with --limits assume a run says when it leaves them, with --limits stop \
+                "limits of {count} are written as comments only; with --limits assume a run reports when it leaves them, with --limits stop \
                  they stop it"
             ));
         }
@@ -812,7 +812,7 @@ impl<'a> Writer<'a> {
             let name = quoted(&joint.name);
             faults.add(
                 joint.at,
-                format!("the limits of joint {name} leave it no room"),
+                format!("the limits of joint {name} leave it no range"),
             );
         }
         let unit = unit_of(joint);
@@ -828,7 +828,7 @@ impl<'a> Writer<'a> {
             let mut entry = Vec::new();
             *restitution = Some(self.parameter(&mut entry, "stop_restitution", "1", "0"));
             let comment =
-                "How much of its rate a joint keeps when it comes back from the end of its range.";
+                "The fraction of its rate with which a joint rebounds from the end of its range.";
             self.text.add("parameters", Some(comment.to_owned()), entry);
         }
         let restitution = restitution.clone().unwrap_or_default();
@@ -1159,7 +1159,7 @@ impl<'a> Writer<'a> {
             self.warnings.push(format!("not carried over: {list}"));
         }
         for name in &self.robot.unneeded {
-            let message = format!("--ignore {name}: there is nothing of that name to leave out");
+            let message = format!("--ignore {name}: there is nothing with that name to leave out");
             self.warnings.push(message);
         }
         let name = names::machine(&self.robot.name);

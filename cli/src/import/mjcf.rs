@@ -394,7 +394,7 @@ pub fn read(
         let what = match root.name.as_str() {
             "robot" => "this is URDF: give its file the ending `.urdf`".to_owned(),
             name => format!(
-                "{} is no model: a file of MJCF begins with `<mujoco>`",
+                "{} is not a model: an MJCF file begins with `<mujoco>`",
                 quoted(name)
             ),
         };
@@ -559,7 +559,7 @@ impl<'e> Reader<'_, '_, 'e> {
 
     fn unknown(&mut self, element: &Element, owner: &str) {
         let name = &element.name;
-        let message = format!("`{name}` of {owner} is not read, and may change the motion");
+        let message = format!("`{name}` of {owner} is not supported, and may change the motion");
         self.refuse(element.at, name, &message);
     }
 
@@ -579,7 +579,7 @@ impl<'e> Reader<'_, '_, 'e> {
             }
             let element = &element.name;
             let message = format!(
-                "`{name}` of `{element}` of {owner} is not read, and may change the motion"
+                "`{name}` of `{element}` of {owner} is not supported, and may change the motion"
             );
             self.refuse(attribute.at, name, &message);
         }
@@ -645,7 +645,7 @@ impl<'e> Reader<'_, '_, 'e> {
             "auto" => None,
             value => {
                 let message = format!(
-                    "`{name}` of {}: {} is none of `true`, `false` and `auto`",
+                    "`{name}` of {}: {} is not `true`, `false` or `auto`",
                     item.owner,
                     quoted(value)
                 );
@@ -680,7 +680,7 @@ impl<'e> Reader<'_, '_, 'e> {
                     format!("{N} numbers are")
                 };
                 let message = format!(
-                    "`{name}` of {}: {expected} expected, and there are {count}",
+                    "`{name}` of {}: {expected} expected, but there are {count}",
                     item.owner
                 );
                 self.faults.add(at, message);
@@ -701,7 +701,7 @@ impl<'e> Reader<'_, '_, 'e> {
         let first = numbers.next().unwrap_or_default();
         if numbers.any(|number| !number.is_zero()) {
             let message = format!(
-                "`{name}` of {} is a polynomial, which is not read",
+                "`{name}` of {} is a polynomial, which is not supported",
                 item.owner
             );
             self.refuse(at, name, &message);
@@ -745,8 +745,10 @@ impl<'e> Reader<'_, '_, 'e> {
             if is_fine {
                 self.compiler.sequence.clone_from(&sequence.value)
             } else {
-                self.faults
-                    .add(sequence.at, "`eulerseq` has three of the letters xyzXYZ")
+                self.faults.add(
+                    sequence.at,
+                    "`eulerseq` must consist of three of the letters xyzXYZ",
+                )
             }
         }
         if element.own("inertiafromgeom").is_some() {
@@ -780,7 +782,7 @@ impl<'e> Reader<'_, '_, 'e> {
                 && said.value.parse() != Ok(0.0)
             {
                 let message =
-                    format!("`{name}` of the compiler changes the model, and is not read");
+                    format!("`{name}` of the compiler changes the model, and is not supported");
                 self.refuse(said.at, name, &message);
             }
         }
@@ -796,14 +798,15 @@ impl<'e> Reader<'_, '_, 'e> {
             if let Some(said) = element.own(name)
                 && said.value.parse() != Ok(0.0)
             {
-                let message = format!("`{name}` of a fluid changes the motion, and is not read");
+                let message =
+                    format!("`{name}` of a fluid changes the motion, and is not supported");
                 self.refuse(said.at, name, &message);
             }
         }
         if let Some(groups) = element.own("actuatorgroupdisable")
             && !groups.value.is_empty()
         {
-            let message = "`actuatorgroupdisable` is not read";
+            let message = "`actuatorgroupdisable` is not supported";
             self.refuse(groups.at, "actuatorgroupdisable", message);
         }
         for flag in element.children.iter().filter(|part| part.name == "flag") {
@@ -815,7 +818,7 @@ impl<'e> Reader<'_, '_, 'e> {
                         self.robot.gravity = Some([(); 3].map(|()| Number::zero()));
                     }
                     _ if SWITCHES.contains(&name) => {
-                        let message = format!("`{name}` is switched off, which is not read");
+                        let message = format!("`{name}` is switched off, which is not supported");
                         self.refuse(attribute.at, name, &message);
                     }
                     _ => {}
@@ -844,7 +847,7 @@ impl<'e> Reader<'_, '_, 'e> {
             [name] => Some(name),
             [_, other, ..] => {
                 let at = item.element.own(other).map_or(item.element.at, |it| it.at);
-                let message = format!("{} says twice how it is turned", item.owner);
+                let message = format!("{} specifies its orientation twice", item.owner);
                 self.faults.add(at, message);
                 None
             }

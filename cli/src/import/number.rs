@@ -63,7 +63,7 @@ impl Number {
     /// # Errors
     /// If the text is not a number: what is wrong with it.
     pub fn read(text: &str) -> Result<Number, String> {
-        let malformed = || format!("`{text}` is no number: write it like -0.25 or 2.5e-3");
+        let malformed = || format!("`{text}` is not a number: write it like -0.25 or 2.5e-3");
         let (is_negative, unsigned) = match text.as_bytes().first() {
             Some(b'-') => (true, &text[1..]),
             Some(b'+') => (false, &text[1..]),
@@ -89,7 +89,7 @@ impl Number {
         }
         if !value.is_normal() {
             return Err(format!(
-                "`{text}` is beyond what a floating-point number can hold: 2.2e-308 to 1.8e308"
+                "`{text}` is beyond the range of floating-point numbers: 2.2e-308 to 1.8e308"
             ));
         }
         let whole = whole.trim_start_matches('0');

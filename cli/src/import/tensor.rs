@@ -50,7 +50,7 @@ pub fn flaw(tensor: &Tensor) -> Option<String> {
         return Some(format!("{shown}, and no body has a negative one"));
     }
     (c > (a + b) + SLACK)
-        .then(|| format!("{shown}, and of no body is one greater than the sum of the others"))
+        .then(|| format!("{shown}, but for a body none can exceed the sum of the other two"))
 }
 
 /// The tensor in the axes of a frame, from one in rotated axes: R I Rᵀ. Computed with 106 bits and rounded once; without rotation

@@ -54,7 +54,7 @@ pub fn plant(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
         let found = places.get(name).copied();
         if found.is_none() {
             let message = format!(
-                "the {what} of joint {} is {}, and there is no such link",
+                "the {what} of joint {} is {}, but there is no such link",
                 quoted(&joint.name),
                 quoted(name)
             );
@@ -80,7 +80,7 @@ pub fn plant(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
         if let Some(other) = above[lower].replace(joint) {
             let other: &Joint = &joints[other];
             let message = format!(
-                "link {} hangs on two joints, {} and {}: URDF has trees only",
+                "link {} is the child of two joints, {} and {}: URDF allows only trees",
                 quoted(&links[lower].name),
                 quoted(&other.name),
                 quoted(&joints[joint].name)
@@ -96,14 +96,14 @@ pub fn plant(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
         let message = if links.is_empty() {
             "the robot has no links"
         } else {
-            "every link hangs on another, in a circle: one must stand on the ground"
+            "the links form a closed loop without a root: one link must have no parent"
         };
         faults.add(0, message);
         return None;
     };
     for other in roots {
         let message = format!(
-            "links {} and {} both hang on nothing: a robot has one root; join them",
+            "links {} and {} both have no parent: a robot has one root; connect them",
             quoted(&links[root].name),
             quoted(&links[other].name)
         );
@@ -120,7 +120,7 @@ pub fn plant(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
         order.iter().for_each(|joint| is_reached[*joint] = true);
         for joint in (0..joints.len()).filter(|joint| !is_reached[*joint]) {
             let message = format!(
-                "joint {} is one of a circle that hangs on nothing",
+                "joint {} is part of a closed loop that is not connected to the root",
                 quoted(&joints[joint].name)
             );
             faults.add(joints[joint].at, message);
@@ -153,14 +153,14 @@ fn leaders(
                 continue;
             }
             Some(leader) => format!(
-                "that is {}, without a value of its own",
+                "that is {}, which has no single value",
                 joints[*leader].label
             ),
         };
         let (follower, leader) = (quoted(&joint.name), quoted(&mimic.joint));
         faults.add(
             mimic.at,
-            format!("joint {follower} mimics {leader}, and {told}"),
+            format!("joint {follower} mimics {leader}, but {told}"),
         );
     }
     // A path along leaders with more links than there are joints is a cycle; each joint is visited once.
@@ -176,7 +176,10 @@ fn leaders(
                     .as_ref()
                     .map_or(joints[start].at, |mimic| mimic.at);
                 let name = quoted(&joints[start].name);
-                faults.add(mimic_at, format!("joint {name} mimics others in a circle"));
+                faults.add(
+                    mimic_at,
+                    format!("joint {name} mimics others in a closed loop"),
+                );
                 return leaders;
             }
             at = next;

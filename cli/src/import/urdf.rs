@@ -117,10 +117,10 @@ impl Reader<'_, '_> {
         if name != "robot" {
             let what = match name {
                 "mujoco" => "this is MJCF: give its file the ending `.xml`".to_owned(),
-                "sdf" => "this is SDF, which is not read".to_owned(),
-                _ => format!("`{}` is no robot", name.escape_debug()),
+                "sdf" => "this is SDF, which is not supported".to_owned(),
+                _ => format!("`{}` is not a robot", name.escape_debug()),
             };
-            let help = "a file of URDF begins with `<robot name=\"…\">`";
+            let help = "a URDF file begins with `<robot name=\"…\">`";
             self.faults
                 .add(root.range().start, format!("{what}: {help}"));
             return;
@@ -151,7 +151,8 @@ impl Reader<'_, '_> {
             return false;
         }
         if space.is_some_and(|space| space.contains("xacro")) {
-            let message = "this is a file of macros: write the robot out first, `xacro robot.xacro > robot.urdf`";
+            let message =
+                "this is a xacro file: expand its macros first, `xacro robot.xacro > robot.urdf`";
             self.faults.add(node.range().start, message);
         } else {
             self.unknown(node, "a robot");
@@ -205,7 +206,7 @@ impl Reader<'_, '_> {
             (Some(rotor), false) if !self.is_ignored("transmission") => self.faults.add(
                 rotor.range().start,
                 format!(
-                    "{}: how a rotor turns with several joints is not read; --ignore transmission leaves it out",
+                    "{}: a rotor that turns with several joints is not supported; --ignore transmission leaves it out",
                     called(node)
                 ),
             ),
@@ -222,7 +223,7 @@ impl Reader<'_, '_> {
     ) {
         let name = joint.and_then(|joint| joint.attribute("name"));
         let Some(name) = name else {
-            let message = format!("{} does not say which joint it moves", called(node));
+            let message = format!("{} does not specify which joint it moves", called(node));
             return self.faults.add(node.range().start, message);
         };
         let number = |reader: &mut Self, inner: Node<'_, '_>| {
@@ -279,14 +280,14 @@ impl Reader<'_, '_> {
                 }
                 Some(_) => {
                     let message = format!(
-                        "a transmission moves joint {}, which has not one coordinate; --ignore transmission leaves it out",
+                        "a transmission moves joint {}, which does not have exactly one coordinate; --ignore transmission leaves it out",
                         quoted(&name)
                     );
                     self.faults.add(at, message);
                 }
                 None => {
                     let message = format!(
-                        "a transmission moves joint {}, and there is no such joint",
+                        "a transmission moves joint {}, but there is no such joint",
                         quoted(&name)
                     );
                     self.faults.add(at, message);
@@ -311,7 +312,7 @@ impl Reader<'_, '_> {
                 let name = moving.tag_name().name();
                 self.faults.add(
                     moving.range().start,
-                    format!("`{name}` in `gazebo` may change the motion, and is not read; --ignore gazebo leaves it out"),
+                    format!("`{name}` in `gazebo` may change the motion, and is not supported; --ignore gazebo leaves it out"),
                 );
             }
             _ => self.leave_out("gazebo"),
@@ -419,7 +420,7 @@ impl Reader<'_, '_> {
         let numbers = numbers.and_then(|numbers| {
             let count = numbers.len();
             <[Number; 3]>::try_from(numbers)
-                .map_err(|_| format!("three numbers are expected, and there are {count}"))
+                .map_err(|_| format!("three numbers are expected, but there are {count}"))
         });
         numbers.unwrap_or_else(|wrong| {
             self.faults
@@ -473,11 +474,12 @@ impl Reader<'_, '_> {
             let message = format!("the mass of {owner} is negative");
             self.faults.add(mass_node.range().start, message);
         } else if mass.is_zero() && has_tensor {
-            let message = format!("{owner} has a tensor of inertia and no mass: give it a mass");
+            let message = format!("{owner} has a tensor of inertia but no mass: give it a mass");
             self.faults.add(mass_node.range().start, message);
         }
         if let Some(flaw) = tensor::flaw(&tensor) {
-            let message = format!("the tensor of inertia of {owner} is that of no body: {flaw}");
+            let message =
+                format!("the tensor of inertia of {owner} is impossible for a body: {flaw}");
             self.faults.add(inertia_node.range().start, message);
         }
         let is_turned = !rpy.iter().all(Number::is_zero);
@@ -487,7 +489,7 @@ impl Reader<'_, '_> {
             turns: turns(&rpy),
             tensor,
             source: if is_turned {
-                "; the file gives it in axes turned by `rpy`"
+                "; the file gives it in axes rotated by `rpy`"
             } else {
                 ""
             },
@@ -591,7 +593,8 @@ impl Reader<'_, '_> {
         let largest = axis.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         if largest == 0.0 {
             if kind.is_single() || kind == Kind::Planar {
-                let message = format!("the axis of {owner} has no direction: three zeros");
+                let message =
+                    format!("the axis of {owner} has no direction: it consists of three zeros");
                 self.faults.add(node.range().start, message);
             }
             return X;
@@ -675,7 +678,7 @@ impl Reader<'_, '_> {
         let has_any = found.iter().any(|number| !number.is_zero());
         if has_any && !kind.is_single() && kind != Kind::Fixed {
             let message = format!(
-                "`dynamics` of {owner}: URDF does not say what damping and friction of a {} joint are: take them out",
+                "`dynamics` of {owner}: URDF does not define damping and friction of a {} joint: remove them",
                 label(kind)
             );
             self.faults.add(node.range().start, message);
@@ -688,7 +691,7 @@ impl Reader<'_, '_> {
         let at = node.range().start;
         let Some(joint) = node.attribute("joint") else {
             let message =
-                format!("`mimic` of {owner} does not say which joint: write `joint=\"…\"`");
+                format!("`mimic` of {owner} does not specify which joint: write `joint=\"…\"`");
             self.faults.add(at, message);
             return None;
         };

@@ -54,7 +54,7 @@ pub fn open<'t>(text: &'t str, start: usize, faults: &mut Faults) -> Option<Docu
                 Some((what, _)) => what,
                 None => &message,
             };
-            faults.add(start + at, format!("no XML: {message}"));
+            faults.add(start + at, format!("invalid XML: {message}"));
             None
         }
     }

@@ -98,7 +98,7 @@ pub fn show(
         trace.points.len()
     );
     if lost > 0 {
-        text.push_str(&format!("at {lost} values nothing is found: "));
+        text.push_str(&format!("no solution was found at {lost} values: "));
         let why = trace.points.iter().find_map(|p| p.motion.as_ref().err());
         text.push_str(why.map_or("", String::as_str));
         text.push('\n');

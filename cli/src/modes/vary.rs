@@ -140,7 +140,7 @@ pub fn trace(
     let (first, to) = (end(&vary.ends[0])?, end(&vary.ends[1])?);
     if first == to {
         let said = format!(
-            "{option} {}: from {first} to {to} there is nothing to vary",
+            "{option} {}: the range from {first} to {to} is empty",
             vary.name
         );
         return Err(Failure::Call(said));
@@ -358,7 +358,7 @@ impl<'a> Tracer<'a> {
             Ok(motion) if is_near(&from.motion, &motion) => return Ok(motion),
             Err(Failure::Call(why)) => return Err(Failure::Call(why)),
             found if halvings == 0 => {
-                return found.and(Err(Failure::run("the motion ends")));
+                return found.and(Err(Failure::run("the branch of motions ends")));
             }
             _ => {}
         }

@@ -179,7 +179,7 @@ pub fn keep_apart<'a>(
         let mut before = destinations.iter().take(k);
         if let Some(other) = before.find(|other| other.identity.as_ref() == Some(identity)) {
             return Err(Failure::Call(format!(
-                "{} {} and {option} {path} are one file",
+                "{} {} and {option} {path} are the same file",
                 other.option,
                 other.path.display(),
             )));
@@ -276,7 +276,7 @@ fn end_of_links(path: &Path) -> PathBuf {
 fn new_file(path: &Path) -> Result<PathBuf, String> {
     let is_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/");
     let name = path.file_name().filter(|_| !is_folder);
-    let name = name.ok_or_else(|| "it names a folder".to_owned())?;
+    let name = name.ok_or_else(|| "it is the name of a folder".to_owned())?;
     let folder = path.parent().unwrap_or(Path::new("/"));
     let folder = folder.canonicalize().map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => format!("there is no folder {}", folder.display()),
@@ -337,7 +337,7 @@ fn try_folder(path: &Path) -> Result<(), String> {
     match temporary(folder, 0o600) {
         Ok(_) => Ok(()), // the temporary file has been removed
         Err(error) => Err(format!(
-            "no file can be made in the folder {}: {error}",
+            "no file can be created in the folder {}: {error}",
             folder.display()
         )),
     }

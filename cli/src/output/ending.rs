@@ -64,7 +64,7 @@ pub fn unknown(option: &str, path: &Path, endings: Endings) -> Failure {
         None => "has no ending".to_owned(),
     };
     Failure::Call(format!(
-        "{option} {}: the name {found}, and {option} writes {}",
+        "{option} {}: the name {found}, but {option} writes {}",
         path.display(),
         list.join(" or ")
     ))

@@ -25,7 +25,7 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
     if let Some(path) = &call.table {
         if !call.vary.is_empty() || call.samples.is_some() || !call.together.is_empty() {
             return Err(Failure::Call(
-                "--table says all runs, a row a run: nothing is varied beside it".into(),
+                "--table lists all runs, one in each row: nothing else can be varied".into(),
             ));
         }
         let (names, rows) = super::numbers(path)?;
@@ -48,7 +48,7 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
             .position(|row| row.iter().any(|value| !value.is_finite()))
         {
             return Err(Failure::Call(format!(
-                "--table {shown}: row {row} holds what is no finite number"
+                "--table {shown}: row {row} contains something that is not a finite number"
             )));
         }
         return Ok(vec![Factor::List { names, rows }]);
@@ -61,7 +61,7 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
             Varied::Sampled(name, distribution) => {
                 let Some(count) = call.samples else {
                     return Err(Failure::Call(format!(
-                        "--vary {text}: how many values? --samples N, or a grid {name}=FROM..TO:N"
+                        "--vary {text}: give the number of values by --samples N, or a grid {name}=FROM..TO:N"
                     )));
                 };
                 let place = *drawn.get_or_insert_with(|| {
@@ -85,7 +85,7 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
     }
     if call.samples.is_some() && drawn.is_none() {
         return Err(Failure::Call(
-            "--samples: nothing is to be sampled; --vary NAME=FROM..TO or NAME~normal(MEAN,DEVIATION) is".into(),
+            "--samples: nothing is sampled; --vary NAME=FROM..TO or NAME~normal(MEAN,DEVIATION) would be".into(),
         ));
     }
     for group in &call.together {
@@ -107,10 +107,10 @@ fn together(factors: &mut Vec<Factor>, group: &str) -> Result<(), String> {
         let found = factors
             .iter()
             .position(|factor| factor.names() == [name.as_str()]);
-        let found = found.ok_or_else(|| format!("no list and no grid of `{name}` is varied"))?;
+        let found = found.ok_or_else(|| format!("`{name}` is not varied by a list or a grid"))?;
         if matches!(factors[found], Factor::Sample { .. }) {
             return Err(format!(
-                "`{name}` is sampled, and stands beside all that is sampled already"
+                "`{name}` is sampled, together with all other sampled values"
             ));
         }
         let at = *place.get_or_insert(found);
@@ -127,7 +127,7 @@ fn together(factors: &mut Vec<Factor>, group: &str) -> Result<(), String> {
             .map(|(name, count)| format!("{name} has {count}"));
         let each: Vec<String> = each.collect();
         return Err(format!(
-            "these are two or more of equally many values; {}",
+            "expected two or more names with equal numbers of values; {}",
             each.join(", ")
         ));
     }
@@ -155,7 +155,7 @@ fn varied(text: &str, model: &Model<'_>) -> Result<Varied, String> {
         let listed = arguments(values);
         if listed.len() > MOST_LISTED {
             return Err(format!(
-                "more than {MOST_LISTED} values; --table takes as many"
+                "more than {MOST_LISTED} values, the maximum for --vary and --table"
             ));
         }
         let rows = listed.iter().map(|text| Ok(vec![value(text)?]));
@@ -174,16 +174,22 @@ fn varied(text: &str, model: &Model<'_>) -> Result<Varied, String> {
     let log = match parts.next().map(str::trim) {
         None => false,
         Some("log") => true,
-        Some(other) => return Err(format!("`:{other}` is no spacing: `:log`, or nothing")),
+        Some(other) => {
+            return Err(format!(
+                "`:{other}` is not a spacing: expected `:log`, or nothing"
+            ));
+        }
     };
     let count = call::count(count)
-        .map_err(|why| format!("`{}` is no number of values: {why}", count.trim()))?;
+        .map_err(|why| format!("`{}` is not a valid number of values: {why}", count.trim()))?;
     if parts.next().is_some() {
         return Err(wanted.into());
     }
     let have_one_sign = from / to > 0.0;
     if log && !have_one_sign {
-        return Err("both ends of a geometric grid have the same sign, and none is 0".into());
+        return Err(
+            "both ends of a geometric grid must have the same sign, and neither may be 0".into(),
+        );
     }
     Ok(Varied::Fixed(Factor::Grid {
         name: name.clone(),
@@ -251,16 +257,16 @@ fn distribution_of(name: &str, text: &str, unit: &str) -> Result<Distribution, S
 fn check(distribution: Distribution) -> Result<(), String> {
     match distribution {
         Distribution::Uniform(a, b) if a >= b => {
-            Err("the first end is below the second one".into())
+            Err("the first end must be below the second one".into())
         }
         Distribution::LogUniform(a, b) if a >= b || a / b <= 0.0 || b == 0.0 || a == 0.0 => {
-            Err("the ends have the same sign, none is 0, and the first is below the second".into())
+            Err("the ends must have the same sign, neither may be 0, and the first must be below the second".into())
         }
         Distribution::Normal(_, deviation) if deviation <= 0.0 => {
-            Err("a standard deviation is greater than 0".into())
+            Err("a standard deviation must be greater than 0".into())
         }
         Distribution::Triangular(a, b, peak) if a >= b || !(a..=b).contains(&peak) => {
-            Err("the first end is below the second one, and the peak between them".into())
+            Err("the first end must be below the second one, and the peak between them".into())
         }
         _ => Ok(()),
     }

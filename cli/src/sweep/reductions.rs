@@ -38,7 +38,7 @@ pub fn recorded(given: &[String]) -> Result<Recorded, Failure> {
                 for time in times.split(',') {
                     let time = call::number(time).map_err(wrong)?;
                     if at.contains(&time) {
-                        return Err(wrong(format!("{time} s is there already")));
+                        return Err(wrong(format!("{time} s is given more than once")));
                     }
                     at.push(time);
                 }
@@ -46,16 +46,16 @@ pub fn recorded(given: &[String]) -> Result<Recorded, Failure> {
             Some(("every", interval)) => {
                 let interval = call::number(interval).map_err(wrong)?;
                 if interval <= 0.0 {
-                    return Err(wrong("an interval is greater than 0".into()));
+                    return Err(wrong("an interval must be greater than 0".into()));
                 }
                 if every.replace(interval).is_some() {
-                    return Err(wrong("there is an interval already".into()));
+                    return Err(wrong("an interval is given more than once".into()));
                 }
             }
             Some(("event", names)) => {
                 for name in names.split(',').map(str::trim) {
                     if events.iter().any(|known| known == name) {
-                        return Err(wrong(format!("`{name}` is there already")));
+                        return Err(wrong(format!("`{name}` is given more than once")));
                     }
                     events.push(name.to_owned());
                 }

@@ -73,11 +73,11 @@ impl Reporter {
         let left = if left.is_finite() {
             format!("{} left", duration(left))
         } else {
-            "time left unknown".to_owned()
+            "remaining time unknown".to_owned()
         };
         let Progress { done, failed } = progress;
         let line = format!(
-            "{done} of {} runs, {failed} failed, {speed:.0} runs a second, {left}",
+            "{done} of {} runs, {failed} failed, {speed:.0} runs per second, {left}",
             self.runs
         );
         match &self.bar {

@@ -201,7 +201,7 @@ fn the_end_is_the_specs_the_calls_or_of_both() {
     assert!((time(&["--natural", "--to", &second]) / time(&[]) - 1.0).abs() < 1e-13);
     let error = solved(BEAD, &[])["error"].to_string();
     assert!(
-        error.contains("nothing says where the motion ends"),
+        error.contains("it is not specified where the motion ends"),
         "{error}"
     );
 }
@@ -319,7 +319,7 @@ fn what_was_tried_is_said() {
     let text = String::from_utf8(output.stdout).expect("text");
     assert!(output.status.success(), "{text}");
     assert!(
-        text.contains("the fastest found from 5 starts, others take 1.338777"),
+        text.contains("the fastest found from 5 starts; others take 1.338777"),
         "{text}"
     );
     let found = solved(HILL, &["--to", "x=1,y=0"]);
@@ -357,7 +357,7 @@ fn what_was_tried_is_said() {
             "{error}"
         );
     }
-    assert!(error.contains("a way aside in y by 0.7"), "{error}");
+    assert!(error.contains("a path displaced in y by 0.7"), "{error}");
     assert_eq!(
         solved(BEAD, &["--to", "x=1,y=-1"])["tried"],
         serde_json::json!([])
@@ -393,9 +393,9 @@ fn a_guess_is_a_table() {
         ("x,z\n0,0\n", "no column is named `y`"),
         (
             "x,y\n0,a\n",
-            "line 2: `a` in column `y` is no finite number",
+            "line 2: `a` in column `y` is not a finite number",
         ),
-        ("x,y\n0,0\n", "a way needs two rows of places at least"),
+        ("x,y\n0,0\n", "a path needs at least two rows of positions"),
     ] {
         std::fs::write(&way.0, text).expect("a file");
         let error =

@@ -906,14 +906,18 @@ fn what_is_wrong_is_said() {
             &["--fit", "kk"][..],
             "no parameter named `kk`; did you mean `k`?",
         ),
-        (path, &["--fit", "x"], "whose start is fitted as start(x)"),
+        (
+            path,
+            &["--fit", "x"],
+            "whose start value is fitted as start(x)",
+        ),
         (path, &["--fit", "x(start)"], "is fitted as start(x)"),
         (path, &["--fit", "start(y)"], "no coordinate named `y`"),
         (path, &["--fit", "k,k"], "names `k` more than once"),
         (
             path,
             &["--fit", "k", "--bounds", "c=0..1"],
-            "--bounds c: nothing of this name is fitted",
+            "--bounds c: nothing with this name is fitted",
         ),
         (
             path,
@@ -923,7 +927,7 @@ fn what_is_wrong_is_said() {
         (
             path,
             &["--fit", "k", "--bounds", "k=2..1"],
-            "there is nothing between",
+            "there is no value between 2 and 1",
         ),
         (
             path,
@@ -933,7 +937,7 @@ fn what_is_wrong_is_said() {
         (
             path,
             &["--fit", "k", "--sigma", "y=1"],
-            "--sigma y: nothing of this name is measured",
+            "--sigma y: nothing with this name is measured",
         ),
         (path, &["--fit", "k", "--sigma", "x=0"], "greater than 0"),
         (
@@ -949,9 +953,9 @@ fn what_is_wrong_is_said() {
         (
             path,
             &["--fit", "k,c,m,start(x)"],
-            "3 measurements cannot tell 4 numbers",
+            "3 measurements cannot determine 4 numbers",
         ),
-        (path, &["--fit", "k", "--method", "taylor"], "take dop853"),
+        (path, &["--fit", "k", "--method", "taylor"], "use dop853"),
         (path, &["--fit", "k", "--data", path], "more than once"),
         (path, &["--fit", "k", "--out", "x.csv"], "writes `.machine`"),
         (path, &["--fit", "k", "--table", path], "would overwrite"),
@@ -963,18 +967,14 @@ fn what_is_wrong_is_said() {
         (
             both.path(),
             &["--fit", "k", "--sigma", "x=1"],
-            "says nothing of der(x)",
+            "gives no standard deviation of der(x)",
         ),
         (
             both.path(),
             &["--fit", "k", "--sigma", "auto", "--sigma", "x=1"],
-            "no other --sigma",
+            "excludes any other --sigma",
         ),
-        (
-            &double,
-            &["--fit", "k"],
-            "`k` is fitted, and has one value by --data",
-        ),
+        (&double, &["--fit", "k"], "`k` is fitted, but --data"),
         ("run.txt", &["--fit", "k"], "expected a table"),
         ("missing.csv", &["--fit", "k"], "cannot read missing.csv"),
     ] {

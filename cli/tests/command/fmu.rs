@@ -512,9 +512,9 @@ fn a_unit_says_what_is_wrong() {
     assert_eq!(lines.len(), 4, "{said}");
     for (line, words) in lines.iter().zip([
         &["3 logStatusError", "the reference 1"][..],
-        &["1 logStatusWarning", "does not hold any more that s > 0"],
+        &["1 logStatusWarning", "it no longer holds that s > 0"],
         &["2 logStatusDiscard", "no acceleration of phi"],
-        &["3 logStatusError", "for co-simulation"],
+        &["3 logStatusError", "only in co-simulation"],
     ]) {
         assert!(words.iter().all(|words| line.contains(words)), "{line}");
     }
@@ -734,7 +734,7 @@ fn events_that_are_none_are_refused() {
         (&["low=(1, 2)"], 1, "found a vector"),
         (&["low=theta1 <"], 1, "--event low"),
         (&["low"], 2, "expected NAME=VALUE"),
-        (&["low="], 2, "expected a value behind `=`"),
+        (&["low="], 2, "expected a value after `=`"),
         (&["low=theta1", "low=theta2"], 2, "more than once"),
         (&["so low=theta1"], 2, "letters a to z"),
         (&["θ=theta1"], 2, "letters a to z"),
@@ -790,7 +790,7 @@ fn what_no_unit_can_be_is_refused() {
             "double_pendulum",
             &["--cc", "/no/compiler"],
             1,
-            "--sources-only makes a unit without a library",
+            "--sources-only builds a unit without a library",
         ),
         (
             "double_pendulum",
@@ -1033,7 +1033,7 @@ fn a_unit_has_libraries_for_the_targets_that_are_asked_for() {
         "{told}"
     );
     for (target, words) in [
-        ("riscv64-linux-gnu", "units have folders for"),
+        ("riscv64-linux-gnu", "a unit has folders for"),
         ("x86_64-linux-gnu,x86_64-unknown-linux-musl", "already"),
     ] {
         let arguments = [

@@ -928,27 +928,27 @@ fn what_is_wrong_is_told_with_its_place() {
     let base = pendulum("continuous", "<axis xyz=\"0 1 0\"/>");
     let with = |from: &str, to: &str| base.replacen(from, to, 1);
     for (text, words) in [
-        (with("\"2\"", "\"2,5\""), "3:65: `value` of link \"bob\": `2,5` is no number"),
+        (with("\"2\"", "\"2,5\""), "3:65: `value` of link \"bob\": `2,5` is not a number"),
         (with("\"2\"", "\"-2\""), "the mass of link \"bob\" is negative"),
-        (with("\"2\"", "\"nan\""), "is no number"),
-        (with("0 0 -0.5", "0 -0.5"), "three numbers are expected, and there are 2"),
-        (with("izz=\"0\"", "izz=\"0.1\""), "of no body is one greater than the sum of the others"),
+        (with("\"2\"", "\"nan\""), "is not a number"),
+        (with("0 0 -0.5", "0 -0.5"), "three numbers are expected, but there are 2"),
+        (with("izz=\"0\"", "izz=\"0.1\""), "for a body none can exceed the sum of the other two"),
         (with("izz=\"0\" ", ""), "`inertia` of link \"bob\" lacks `izz`"),
         (with("<mass value=\"2\"/>", ""), "`inertial` of link \"bob\" lacks `mass`"),
         (with("continuous", "hinge"), "4:27: the type \"hinge\" of joint \"pivot\" is not known: there are revolute"),
         (with("<child link=\"bob\"/>", ""), "joint \"pivot\" has no child"),
         (with("<child link=\"bob\"/>", "<child link=\"b\"/>"), "there is no such link"),
         (with("<link name=\"base\"/>", "<link name=\"base\"/><link name=\"bob\"/>"), "there are two links \"bob\""),
-        (with("<link name=\"base\"/>", "<link name=\"base\"/><link name=\"c\"/>"), "both hang on nothing"),
+        (with("<link name=\"base\"/>", "<link name=\"base\"/><link name=\"c\"/>"), "both have no parent"),
         (with("0 1 0", "0 0 0"), "has no direction"),
         (with("0 1 0\"/>", "0 1 0\"/><spring k=\"1\"/>"), "5:20: `spring` of joint \"pivot\" is not known"),
         (with("0 1 0\"/>", "0 1 0\"/><dynamics armature=\"1\"/>"), "`armature` of `dynamics` of joint \"pivot\""),
-        (with("0 1 0\"/>", "0 1 0\"/><mimic joint=\"p\"/>"), "mimics \"p\", and there is no such joint"),
-        (with("0 1 0\"/>", "0 1 0\"/><mimic joint=\"pivot\"/>"), "in a circle"),
-        (with("<robot", "<mujoco"), "no XML"),
+        (with("0 1 0\"/>", "0 1 0\"/><mimic joint=\"p\"/>"), "mimics \"p\", but there is no such joint"),
+        (with("0 1 0\"/>", "0 1 0\"/><mimic joint=\"pivot\"/>"), "in a closed loop"),
+        (with("<robot", "<mujoco"), "invalid XML"),
         ("<mujoco/>".to_owned(), "this is MJCF: give its file the ending `.xml`"),
         ("<robot name=\"r\"><link name=\"a\"".to_owned(), "1:"),
-        (String::new(), "no XML"),
+        (String::new(), "invalid XML"),
         (
             format!("<robot name=\"r\">\n<link{}/></robot>", " a='1'".repeat(1001)),
             "2:1: an element has more than 1000 attributes",
@@ -958,12 +958,12 @@ fn what_is_wrong_is_told_with_its_place() {
             "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\"><xacro:include filename=\"a\"/></robot>".to_owned(),
             "macros",
         ),
-        ("<!DOCTYPE a [<!ENTITY b \"c\">]><robot/>".to_owned(), "no XML"),
+        ("<!DOCTYPE a [<!ENTITY b \"c\">]><robot/>".to_owned(), "invalid XML"),
         (
             "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child \
              link=\"b\"/></joint><joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint></robot>"
                 .to_owned(),
-            "in a circle",
+            "in a closed loop",
         ),
     ] {
         let said = refused(&text, &[]);
@@ -988,7 +988,7 @@ fn what_is_wrong_is_told_with_its_place() {
     );
     let said = refused(&led, &["--drop-massless"]);
     assert!(
-        said.contains("\"pivot\" mimics \"second\", which hangs on"),
+        said.contains("\"pivot\" mimics \"second\", which is attached to"),
         "{said}"
     );
     for (gazebo, is_refused) in [
@@ -1049,7 +1049,7 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
     for (text, words) in [
         (
             model(&swing.replace("\"2\"", "\"2,5\""), ""),
-            "2:94: `mass` of body \"bob\": `2,5` is no number",
+            "2:94: `mass` of body \"bob\": `2,5` is not a number",
         ),
         (
             model(&swing.replace("0 1 0", "0 0 0"), ""),
@@ -1065,7 +1065,7 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
         ),
         (
             model(&swing.replace("name", "quat=\"1 0 0 0\" name"), ""),
-            "`quat` of `joint` of joint \"pivot\" is not read",
+            "`quat` of `joint` of joint \"pivot\" is not supported",
         ),
         (
             model(&swing.replace("name", "frictionloss=\"1\" name"), ""),
@@ -1077,12 +1077,12 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
         ),
         (
             model(&format!("<joint type=\"ball\" damping=\"1\"/>{WEIGHT}"), ""),
-            "`damping` of a joint without a name is that of a ball joint",
+            "`damping` of a joint without a name belongs to a ball joint",
         ),
         (model(SWING, ""), "joint \"pivot\" moves no mass"),
         (
             model(&format!("{SWING}<geom size=\"-1\"/>"), ""),
-            "1 positive numbers are expected of a sphere",
+            "1 positive numbers are expected for a sphere",
         ),
         (
             model(&format!("{SWING}<geom type=\"mesh\" mesh=\"m\"/>"), ""),
@@ -1105,11 +1105,11 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
         ),
         (
             model(&swing, "<actuator><motor joint=\"p\"/></actuator>"),
-            "is \"p\", and there is no such joint",
+            "is \"p\", but there is no such joint",
         ),
         (
             model(&swing, "<actuator><muscle joint=\"pivot\"/></actuator>"),
-            "`muscle` of the actuators is not read",
+            "`muscle` of the actuators is not supported",
         ),
         (
             model(
@@ -1120,7 +1120,7 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
         ),
         (
             model(&swing, "<equality><flex flex=\"bob\"/></equality>"),
-            "3:11: `flex` of the equality constraints is not read",
+            "3:11: `flex` of the equality constraints is not supported",
         ),
         (
             model(&swing, "<equality><connect body1=\"bob\"/></equality>"),
@@ -1128,7 +1128,7 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
         ),
         (
             model(&swing, "<equality><weld body1=\"bib\"/></equality>"),
-            "`body1` of a weld without a name is \"bib\", and there is no such body",
+            "`body1` of a weld without a name is \"bib\", but there is no such body",
         ),
         (
             model(
@@ -1142,7 +1142,7 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
                 &swing,
                 "<keyframe><key name=\"home\" qpos=\"1 2\"/></keyframe>",
             ),
-            "`qpos` of key \"home\": 1 numbers are expected, and there are 2",
+            "`qpos` of key \"home\": 1 numbers are expected, but there are 2",
         ),
         (
             model(&swing, "<equality><joint joint1=\"q\"/></equality>"),
@@ -1154,25 +1154,25 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
         ),
         (
             model(&swing, "<deformable/>"),
-            "`deformable` of a model is not read",
+            "`deformable` of a model is not supported",
         ),
         (
             model(&swing, "<compiler eulerseq=\"abc\"/>"),
-            "`eulerseq` has three of the letters",
+            "`eulerseq` must consist of three of the letters",
         ),
-        (model(&"<body>".repeat(5), ""), "no XML"),
+        (model(&"<body>".repeat(5), ""), "invalid XML"),
         (
             model(
                 &format!("{}{}", "<body>".repeat(250), "</body>".repeat(250)),
                 "",
             ),
-            "stand in each other more than 200 deep",
+            "elements are nested more than 200 deep",
         ),
         (
             "<robot/>".to_owned(),
             "this is URDF: give its file the ending `.urdf`",
         ),
-        ("<sdf/>".to_owned(), "a file of MJCF begins with `<mujoco>`"),
+        ("<sdf/>".to_owned(), "an MJCF file begins with `<mujoco>`"),
         ("<mujoco/>".to_owned(), "nothing moves"),
     ] {
         let file = Scratch::new("model.xml", &text);
@@ -1330,14 +1330,14 @@ fn transmissions_are_motors() {
     assert_close(&numbers(&found["mass_matrix"]), &[0.5], 1.0, "no motor");
     let said = refused(&text.replace("pivot\"/><actuator", "p\"/><actuator"), &[]);
     assert!(
-        said.contains("a transmission moves joint \"p\", and there is no such joint"),
+        said.contains("a transmission moves joint \"p\", but there is no such joint"),
         "{said}"
     );
     let two = text.replace(
         "<joint name=\"pivot\"/>",
         "<joint name=\"pivot\"/><joint name=\"q\"/>",
     );
-    assert!(refused(&two, &[]).contains("how a rotor turns with several joints is not read"));
+    assert!(refused(&two, &[]).contains("a rotor that turns with several joints is not supported"));
 }
 
 #[test]
@@ -1351,7 +1351,7 @@ fn calls_are_told_what_they_lack() {
                 "--base",
                 "floating",
             ],
-            "says itself which bodies float",
+            "itself specifies which bodies float",
         ),
         (&["a.urdf", "--out", "a.txt"], "writes `.machine`"),
         (&["a.urdf", "--friction", "smooth=0"], "a rate above 0"),

@@ -380,7 +380,7 @@ fn check_contacts(name: &str, spec: &Path, names: &[&str]) {
     let said = String::from_utf8(output.stderr).expect("text");
     assert!(output.status.success(), "{said}");
     assert!(
-        said.contains("`eval` has the accelerations with all of them open"),
+        said.contains("`eval` gives the accelerations with all of them open"),
         "{said}"
     );
     fs::write(folder.0.join("program.c"), OF_CONTACTS).expect("a temporary file");

@@ -66,7 +66,7 @@ fn what_cannot_be_drawn_is_said() {
     let table = table();
     for (arguments, words) in [
         (&["--of", "produkt"][..], "did you mean `product`?"),
-        (&["--of", "error"], "holds no numbers"),
+        (&["--of", "error"], "does not contain numbers"),
         (&["--of", "product,t"], "shows one quantity"),
         (
             &["--of", "product", "--over", "a,b,t"],
@@ -74,7 +74,7 @@ fn what_cannot_be_drawn_is_said() {
         ),
         (
             &["--of", "t", "--over", "a,product"],
-            "choose one by --only b=VALUE",
+            "select one by --only b=VALUE",
         ),
         (
             &["--of", "product", "--only", "b=25"],
@@ -88,7 +88,7 @@ fn what_cannot_be_drawn_is_said() {
     let other = Scratch::new("run.csv", "t [s],x [m]\n0,1\n");
     let (status, _, error) = map(&other, &["--of", "x"]);
     assert!(
-        status == 2 && error.contains("it is no table of a sweep"),
+        status == 2 && error.contains("it is not the table of a sweep"),
         "{error}"
     );
 }
@@ -243,7 +243,7 @@ fn a_page_holds_the_values_of_the_table() {
     ]);
     let error = String::from_utf8_lossy(&samples.stderr).into_owned();
     assert!(
-        samples.status.code() == Some(2) && error.contains("there are no samples beside the table"),
+        samples.status.code() == Some(2) && error.contains("the table has no file of samples"),
         "{error}"
     );
 }

@@ -467,7 +467,7 @@ fn van_der_pols_cycle_is_the_same_with_states_of_first_order() {
     );
     let (status, said) = refused(&[spec.path(), "--advance", "x=1"]);
     assert_eq!(status, 2, "{said}");
-    assert!(said.contains("comes back to its value"), "{said}");
+    assert!(said.contains("returns to its value"), "{said}");
 }
 
 #[test]
@@ -736,7 +736,7 @@ fn the_woodpecker_has_the_cycle_of_its_equations_by_hand() {
     let said = lagrangian(&["orbit", WOODPECKER]);
     let said = String::from_utf8(said.stdout).expect("text");
     assert!(
-        said.contains("nothing depends on y, which goes on by -0.0194454 m in a period"),
+        said.contains("nothing depends on y, which advances by -0.0194454 m in a period"),
         "{said}"
     );
     // Requiring y to come back, or keeping a coordinate of a start in contact, is refused by name.

@@ -252,19 +252,19 @@ fn what_has_no_run_in_double_double_is_refused_with_the_reason() {
         ),
         (
             &["machines/double_pendulum.machine", "--out", "x.csv"],
-            "no part for --out",
+            "cannot be used with --out",
         ),
         (
             &["machines/double_pendulum.machine", "--method", "radau5"],
-            "no steps of `radau5`",
+            "the method `radau5` is not available",
         ),
         (
             &["machines/cart_pole.machine", "--input", "push=1*N"],
-            "there is no --input",
+            "--input is not supported",
         ),
         (
             &["machines/double_pendulum.machine", "--tolerance", "1e-32"],
-            "no more digits",
+            "the limit of round-off",
         ),
     ] {
         let (status, said) = refused(&[call, &dd].concat());
@@ -471,5 +471,5 @@ fn where_rounding_is_reached_it_is_said() {
     assert_eq!(coarse["global_error"]["is_rounding"], false, "{coarse:#}");
     let output = lagrangian(&[&["simulate"], CHAOTIC.call, &call].concat());
     let text = String::from_utf8(output.stdout).expect("text");
-    assert!(text.contains("the limit of rounding is reached"), "{text}");
+    assert!(text.contains("the limit of round-off is reached"), "{text}");
 }

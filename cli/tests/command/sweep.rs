@@ -392,7 +392,7 @@ fn a_full_disk_ends_a_sweep_that_goes_on_later() {
     let error = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{error}");
     assert!(
-        error.contains("cannot write") && error.contains("the same command goes on"),
+        error.contains("cannot write") && error.contains("the same command resumes the sweep"),
         "{error}"
     );
     assert!(!out.exists());
@@ -603,7 +603,7 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
         ),
         (
             &["--vary", "k=1,2", "--record", "event=low,low"],
-            "`low` is there already",
+            "`low` is given more than once",
         ),
         (&["--vary", "k=3*m"], "--vary k=3*m: expected N/m, found m"),
         (&["--vary", "k=1..2"], "--samples N"),
@@ -629,7 +629,7 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
         ),
         (
             &["--vary", "k=1,2", "--together", "k,m"],
-            "no list and no grid of `m`",
+            "`m` is not varied by a list or a grid",
         ),
         (&["--reduce", "p = max(y)"], "nothing is named `y`"),
         (&["--reduce", "p = maxi(x)"], "did you mean `max`?"),
@@ -644,7 +644,7 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
         (&["--after", "3"], "not within the run"),
         (&["--record", "often"], "expected end"),
         (&["--method", "dop835"], "did you mean `dop853`?"),
-        (&["--chunk", "3"], "write one by --plan"),
+        (&["--chunk", "3"], "write a plan by --plan"),
     ] {
         let arguments = [&["--until", "1"], arguments].concat();
         let said = sweep(spec.path(), &out, &arguments);
@@ -656,7 +656,7 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
     let begun = ["--until", "1", "--vary", "k=1..2:100", "--limit", "1"];
     let said = sweep(spec.path(), &out, &begun);
     assert_eq!(said.status, 0, "{}", said.error);
-    if said.out.contains("the same command goes on") {
+    if said.out.contains("the same command resumes the sweep") {
         let other = [
             "--until",
             "1",

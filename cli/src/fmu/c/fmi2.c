@@ -16,7 +16,7 @@ static void reportOf2(const Unit *unit, Outcome outcome, const char *message) {
 
 static fmi2Status absent(fmi2Component c, const char *what) {
     Unit *unit = c;
-    snprintf(unit->message, sizeof unit->message, "%s: this unit has none of that", what);
+    snprintf(unit->message, sizeof unit->message, "%s: not supported by this unit", what);
     return (fmi2Status)say(unit, FAILED, unit->message);
 }
 
@@ -26,7 +26,7 @@ static Outcome setInputRates(Unit *unit, const unsigned *references, size_t coun
         const unsigned i = references[k];
         if (i < AT_INPUTS || i >= AT_OUTPUTS) return unknown(unit, i);
         if (!unit->is_co_simulation || orders[k] != 1 || !isFinite(values[k]))
-            return say(unit, FAILED, "of inputs the first derivative in time can be set, in co-simulation, to a finite number");
+            return say(unit, FAILED, "only the first time derivative of an input can be set, in co-simulation, and to a finite number");
         unit->now.input_rates[i - AT_INPUTS] = values[k];
     }
     return WELL;
@@ -120,7 +120,7 @@ NO_VARIABLES(String)
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate) {
     if (!*FMUstate) *FMUstate = malloc(sizeof(Saved));
-    if (!*FMUstate) return (fmi2Status)say(c, FAILED, "there is no memory for the state");
+    if (!*FMUstate) return (fmi2Status)say(c, FAILED, "there is not enough memory for the state");
     save(c, *FMUstate);
     return fmi2OK;
 }
@@ -141,16 +141,16 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, si
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate, fmi2Byte serializedState[], size_t size) {
-    if (size < sizeof(Saved)) return (fmi2Status)say(c, FAILED, "the state has more bytes than these");
+    if (size < sizeof(Saved)) return (fmi2Status)say(c, FAILED, "the state needs more bytes than the given array has");
     memcpy(serializedState, FMUstate, sizeof(Saved));
     return fmi2OK;
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedState[], size_t size, fmi2FMUstate *FMUstate) {
     if (size != sizeof(Saved) || memcmp(serializedState, TOKEN, sizeof TOKEN))
-        return (fmi2Status)say(c, FAILED, "the bytes are no state of this machine");
+        return (fmi2Status)say(c, FAILED, "the bytes are not a state of this machine");
     if (!*FMUstate) *FMUstate = malloc(sizeof(Saved));
-    if (!*FMUstate) return (fmi2Status)say(c, FAILED, "there is no memory for the state");
+    if (!*FMUstate) return (fmi2Status)say(c, FAILED, "there is not enough memory for the state");
     memcpy(*FMUstate, serializedState, sizeof(Saved));
     return fmi2OK;
 }
@@ -202,32 +202,32 @@ fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
 }
 
 fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t nx) {
-    if (nx != STATES) return absent(c, "another number of states");
+    if (nx != STATES) return absent(c, "a different number of states");
     setStates(c, x);
     return fmi2OK;
 }
 
 fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t nx) {
-    if (nx != STATES) return absent(c, "another number of states");
+    if (nx != STATES) return absent(c, "a different number of states");
     return (fmi2Status)getDerivatives(c, derivatives);
 }
 
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real eventIndicators[], size_t ni) {
-    if (ni != INDICATORS) return absent(c, "another number of event indicators");
+    if (ni != INDICATORS) return absent(c, "a different number of event indicators");
     getIndicators(c, eventIndicators);
     return fmi2OK;
 }
 
 fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t nx) {
     Unit *unit = c;
-    if (nx != STATES) return absent(c, "another number of states");
+    if (nx != STATES) return absent(c, "a different number of states");
     prepare(unit);
     memcpy(x, unit->now.states, STATES * sizeof *x);
     return fmi2OK;
 }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x_nominal[], size_t nx) {
-    if (nx != STATES) return absent(c, "another number of states");
+    if (nx != STATES) return absent(c, "a different number of states");
     for (int i = 0; i < STATES; ++i) x_nominal[i] = 1.0;
     return fmi2OK;
 }
@@ -248,7 +248,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2R
     (void)noSetFMUStatePriorToCurrentPoint;
     Unit *unit = c;
     if (unit->now.mode != STEPPING)
-        return (fmi2Status)say(unit, FAILED, "fmi2DoStep is for co-simulation behind its initialization");
+        return (fmi2Status)say(unit, FAILED, "fmi2DoStep can be called only in co-simulation and after initialization");
     return (fmi2Status)integrate(unit, currentCommunicationPoint + communicationStepSize);
 }
 

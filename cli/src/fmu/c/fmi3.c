@@ -16,7 +16,7 @@ static void reportOf3(const Unit *unit, Outcome outcome, const char *message) {
 
 static fmi3Status absent(fmi3Instance instance, const char *what) {
     Unit *unit = instance;
-    snprintf(unit->message, sizeof unit->message, "%s: this unit has none of that", what);
+    snprintf(unit->message, sizeof unit->message, "%s: not supported by this unit", what);
     return (fmi3Status)say(unit, FAILED, unit->message);
 }
 
@@ -110,19 +110,19 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
 
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                           fmi3Float64 values[], size_t nValues) {
-    if (nValues != nValueReferences) return absent(instance, "arrays");
+    if (nValues != nValueReferences) return absent(instance, "array variables");
     return (fmi3Status)get(instance, valueReferences, nValueReferences, values);
 }
 
 fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                           const fmi3Float64 values[], size_t nValues) {
-    if (nValues != nValueReferences) return absent(instance, "arrays");
+    if (nValues != nValueReferences) return absent(instance, "array variables");
     return (fmi3Status)set(instance, valueReferences, nValueReferences, values);
 }
 
 fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference valueReferences[], size_t nValueReferences,
                         fmi3Int32 values[], size_t nValues) {
-    if (nValues != nValueReferences) return absent(instance, "arrays");
+    if (nValues != nValueReferences) return absent(instance, "array variables");
     return (fmi3Status)getCounts(instance, valueReferences, nValueReferences, values);
 }
 
@@ -196,7 +196,7 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState) {
     if (!*FMUState) *FMUState = malloc(sizeof(Saved));
-    if (!*FMUState) return (fmi3Status)say(instance, FAILED, "there is no memory for the state");
+    if (!*FMUState) return (fmi3Status)say(instance, FAILED, "there is not enough memory for the state");
     save(instance, *FMUState);
     return fmi3OK;
 }
@@ -219,16 +219,16 @@ fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUSta
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState, fmi3Byte serializedState[], size_t size) {
-    if (size < sizeof(Saved)) return (fmi3Status)say(instance, FAILED, "the state has more bytes than these");
+    if (size < sizeof(Saved)) return (fmi3Status)say(instance, FAILED, "the state needs more bytes than the given array has");
     memcpy(serializedState, FMUState, sizeof(Saved));
     return fmi3OK;
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[], size_t size, fmi3FMUState *FMUState) {
     if (size != sizeof(Saved) || memcmp(serializedState, TOKEN, sizeof TOKEN))
-        return (fmi3Status)say(instance, FAILED, "the bytes are no state of this machine");
+        return (fmi3Status)say(instance, FAILED, "the bytes are not a state of this machine");
     if (!*FMUState) *FMUState = malloc(sizeof(Saved));
-    if (!*FMUState) return (fmi3Status)say(instance, FAILED, "there is no memory for the state");
+    if (!*FMUState) return (fmi3Status)say(instance, FAILED, "there is not enough memory for the state");
     memcpy(*FMUState, serializedState, sizeof(Saved));
     return fmi3OK;
 }
@@ -236,14 +236,14 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte seriali
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[], size_t nUnknowns,
                                         const fmi3ValueReference knowns[], size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
                                         fmi3Float64 sensitivity[], size_t nSensitivity) {
-    if (nSeed != nKnowns || nSensitivity != nUnknowns) return absent(instance, "arrays");
+    if (nSeed != nKnowns || nSensitivity != nUnknowns) return absent(instance, "array variables");
     return (fmi3Status)differentiateAlong(instance, unknowns, nUnknowns, knowns, nKnowns, seed, sensitivity);
 }
 
 fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[], size_t nUnknowns,
                                     const fmi3ValueReference knowns[], size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
                                     fmi3Float64 sensitivity[], size_t nSensitivity) {
-    if (nSeed != nUnknowns || nSensitivity != nKnowns) return absent(instance, "arrays");
+    if (nSeed != nUnknowns || nSensitivity != nKnowns) return absent(instance, "array variables");
     return (fmi3Status)differentiateBack(instance, unknowns, nUnknowns, knowns, nKnowns, seed, sensitivity);
 }
 
@@ -344,32 +344,32 @@ fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
 }
 
 fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 continuousStates[], size_t nContinuousStates) {
-    if (nContinuousStates != STATES) return absent(instance, "another number of states");
+    if (nContinuousStates != STATES) return absent(instance, "a different number of states");
     setStates(instance, continuousStates);
     return fmi3OK;
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 derivatives[], size_t nContinuousStates) {
-    if (nContinuousStates != STATES) return absent(instance, "another number of states");
+    if (nContinuousStates != STATES) return absent(instance, "a different number of states");
     return (fmi3Status)getDerivatives(instance, derivatives);
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 eventIndicators[], size_t nEventIndicators) {
-    if (nEventIndicators != INDICATORS) return absent(instance, "another number of event indicators");
+    if (nEventIndicators != INDICATORS) return absent(instance, "a different number of event indicators");
     getIndicators(instance, eventIndicators);
     return fmi3OK;
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 continuousStates[], size_t nContinuousStates) {
     Unit *unit = instance;
-    if (nContinuousStates != STATES) return absent(instance, "another number of states");
+    if (nContinuousStates != STATES) return absent(instance, "a different number of states");
     prepare(unit);
     memcpy(continuousStates, unit->now.states, STATES * sizeof *continuousStates);
     return fmi3OK;
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[], size_t nContinuousStates) {
-    if (nContinuousStates != STATES) return absent(instance, "another number of states");
+    if (nContinuousStates != STATES) return absent(instance, "a different number of states");
     for (int i = 0; i < STATES; ++i) nominals[i] = 1.0;
     return fmi3OK;
 }
@@ -414,7 +414,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
         *eventHandlingNeeded = outcome == WELL && unit->has_stopped;
         *earlyReturn = *eventHandlingNeeded && unit->now.time < until;
     } else {
-        say(unit, FAILED, "fmi3DoStep is for co-simulation behind its initialization, outside of event mode");
+        say(unit, FAILED, "fmi3DoStep can be called only in co-simulation, after initialization and outside event mode");
     }
     *lastSuccessfulTime = unit->now.time;
     return (fmi3Status)outcome;

@@ -186,7 +186,7 @@ static Outcome withoutAccelerations(Unit *unit, Outcome outcome) {
 }
 
 static Outcome unknown(Unit *unit, unsigned reference) {
-    snprintf(unit->message, sizeof unit->message, "there is no number with the reference %u for this call", reference);
+    snprintf(unit->message, sizeof unit->message, "there is no variable with the reference %u for this call", reference);
     return say(unit, FAILED, unit->message);
 }
 
@@ -270,7 +270,7 @@ static Outcome set(Unit *unit, const unsigned *references, size_t count, const d
         const int is_state = i >= AT_STATES && i < AT_ACCELERATIONS && now->mode <= INITIALIZING;
         if (!is_state && (i < AT_PARAMETERS || i >= AT_OUTPUTS)) return unknown(unit, i);
         if (!isFinite(values[k])) {
-            snprintf(unit->message, sizeof unit->message, "the number with the reference %u is not finite", i);
+            snprintf(unit->message, sizeof unit->message, "the value of the variable with the reference %u is not finite", i);
             return say(unit, FAILED, unit->message);
         }
         if (is_state) {
@@ -362,7 +362,7 @@ static int isBehind(int k, int sign, double value) {
 }
 
 static Outcome withoutEvent(Unit *unit, int k, double t) {
-    snprintf(unit->message, sizeof unit->message, "at t = %.17g s the formula of event %s is no number", t, EVENT_NAMES[k]);
+    snprintf(unit->message, sizeof unit->message, "at t = %.17g s the formula of event %s is not a number", t, EVENT_NAMES[k]);
     return say(unit, FAILED, unit->message);
 }
 
@@ -455,7 +455,7 @@ static void settleEvents(Unit *unit) {
 static void changeFact(Unit *unit, int fact, double t, int is_broken) {
     unit->now.is_broken[fact] = (unsigned char)is_broken;
     if (!is_broken) return;
-    snprintf(unit->message, sizeof unit->message, "at t = %.17g s it does not hold any more that %s", t, FACT_TEXTS[fact]);
+    snprintf(unit->message, sizeof unit->message, "at t = %.17g s it no longer holds that %s", t, FACT_TEXTS[fact]);
     say(unit, WARNED, unit->message);
 }
 
@@ -630,7 +630,7 @@ static Outcome projectStart(Unit *unit) {
     if (!(isOff(unit) > LEFT)) return WELL;
     if (project(unit, 1)) {
         memcpy(unit->now.states, before, sizeof before);
-        return say(unit, FAILED, "no state that obeys the constraints was found near the start");
+        return say(unit, FAILED, "no state that satisfies the constraints was found near the start");
     }
     int which = 0;
     for (int i = 0; i < STATES; ++i) {
@@ -650,7 +650,7 @@ static Outcome projectStart(Unit *unit) {
  */
 static Outcome differentiateAlong(Unit *unit, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
                                    size_t known_count, const double *seed, double *to) {
-    if (!HAS_DERIVATIVES) return say(unit, FAILED, "this machine is too large for derivatives in a direction");
+    if (!HAS_DERIVATIVES) return say(unit, FAILED, "this machine is too large for directional derivatives");
     if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
     /* Each array holds the values, followed by their changes. */
     const State *now = &unit->now;
@@ -699,7 +699,7 @@ static Outcome differentiateBack(Unit *unit, const unsigned *unknowns, size_t un
     /* Derivatives with respect to coordinates, rates, parameters and inputs, in the order of their references; those of outputs also with
        respect to accelerations. */
     enum { BY = STATES + PARAMETERS + INPUTS };
-    if (!HAS_DERIVATIVES) return say(unit, FAILED, "this machine is too large for derivatives in a direction");
+    if (!HAS_DERIVATIVES) return say(unit, FAILED, "this machine is too large for directional derivatives");
     if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
     const State *now = &unit->now;
     const double *q = now->states, *v = q + COORDINATES;
@@ -748,7 +748,7 @@ static void save(const Unit *unit, Saved *to) {
 }
 
 static Outcome restore(Unit *unit, const Saved *from) {
-    if (memcmp(from->token, TOKEN, sizeof TOKEN)) return say(unit, FAILED, "the state is that of another machine");
+    if (memcmp(from->token, TOKEN, sizeof TOKEN)) return say(unit, FAILED, "the state belongs to another machine");
     memcpy(&unit->now, &from->state, sizeof from->state);
     unit->is_prepared = 0;
     unit->is_evaluated = 0;
@@ -767,7 +767,7 @@ static Unit *instantiate(const char *name, const char *token, Report *report, vo
     unit->is_co_simulation = is_co_simulation;
     strncpy(unit->name, name ? name : "", sizeof unit->name - 1);
     if (!token || strcmp(token, TOKEN)) {
-        say(unit, FAILED, "the token is that of another machine");
+        say(unit, FAILED, "the token belongs to another machine");
         free(unit);
         return NULL;
     }
@@ -778,7 +778,7 @@ static Unit *instantiate(const char *name, const char *token, Report *report, vo
 static Outcome begin(Unit *unit, int has_tolerance, double tolerance, double start) {
     if (has_tolerance) {
         if (!(tolerance >= 1e-14 && tolerance < 1.0))
-            return say(unit, FAILED, "a tolerance is at least 1e-14, and less than 1");
+            return say(unit, FAILED, "a tolerance must be at least 1e-14 and less than 1");
         unit->now.tolerance = tolerance;
     }
     if (!isFinite(start)) return say(unit, FAILED, "the start time is not finite");
@@ -1364,7 +1364,7 @@ static Outcome integrate(Unit *unit, double until) {
     State *now = &unit->now;
     long tries = 0;
     if (!isFinite(until)) return say(unit, FAILED, "the end of the step is not finite");
-    if (until < now->time) return say(unit, FAILED, "a step ends before it begins");
+    if (until < now->time) return say(unit, FAILED, "the step would end before it begins");
     prepare(unit);
     if (now->is_unsettled) {
         settleEvents(unit);
@@ -1412,7 +1412,7 @@ static Outcome integrate(Unit *unit, double until) {
                 return say(unit, FAILED, unit->message);
             }
         }
-        if (++tries > MOST_TRIES) return say(unit, FAILED, "one step of communication takes more than 1e7 steps");
+        if (++tries > MOST_TRIES) return say(unit, FAILED, "one communication step takes more than 1e7 integration steps");
     }
     for (int i = 0; i < INPUTS; ++i) now->input_rates[i] = 0.0;
     return WELL;

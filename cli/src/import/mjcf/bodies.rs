@@ -66,7 +66,7 @@ impl<'e> Reader<'_, '_, 'e> {
                 && said.value.parse() != Ok(0.0)
             {
                 let message = format!(
-                    "`{name}` of {} changes the motion, and is not read",
+                    "`{name}` of {} changes the motion, and is not supported",
                     item.owner
                 );
                 self.refuse(said.at, name, &message);
@@ -254,7 +254,7 @@ impl<'e> Reader<'_, '_, 'e> {
             && numbers.iter().any(|number| !number.is_zero())
         {
             let message = format!(
-                "`springdamper` of {} says a spring by its period, which is not read: write `stiffness` and `damping`",
+                "`springdamper` of {} specifies a spring by its period, which is not supported: write `stiffness` and `damping`",
                 item.owner
             );
             self.refuse(at, "springdamper", &message);
@@ -274,7 +274,7 @@ impl<'e> Reader<'_, '_, 'e> {
                     .attribute_of(item, name)
                     .map_or(element.at, |said| said.at);
                 let message = format!(
-                    "`{name}` of {} is that of a {label} joint, which is not read",
+                    "`{name}` of {} belongs to a {label} joint, which is not supported",
                     item.owner
                 );
                 self.refuse(at, name, &message);
@@ -300,7 +300,10 @@ impl<'e> Reader<'_, '_, 'e> {
             if axis.amax() > 0.0 {
                 joint.axis = unit(&axis)
             } else {
-                let message = format!("the axis of {} has no direction: three zeros", item.owner);
+                let message = format!(
+                    "the axis of {} has no direction: it consists of three zeros",
+                    item.owner
+                );
                 self.faults.add(element.at, message);
             }
         }
@@ -361,7 +364,7 @@ impl<'e> Reader<'_, '_, 'e> {
             return;
         }
         if self.flag(&item, "shellinertia") == Some(true) {
-            let message = format!("{} is a shell, whose inertia is not read", item.owner);
+            let message = format!("{} is a shell, whose inertia is not supported", item.owner);
             self.refuse(element.at, "shellinertia", &message);
         }
         if kind == "mesh" {
@@ -382,7 +385,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
         let Some(shape) = self.shape(&item, kind) else {
             if !matches!(kind, "plane" | "hfield") {
-                let why = format!("a {kind} of this kind is not read");
+                let why = format!("a {kind} of this kind is not supported");
                 found.unknown.push((element, why));
             }
             return;
@@ -425,7 +428,7 @@ impl<'e> Reader<'_, '_, 'e> {
             "exact" => mesh::Inside::Signed,
             other => {
                 return Err(format!(
-                    "`inertia` {} of its mesh is not read",
+                    "`inertia` {} of its mesh is not supported",
                     quoted(other)
                 ));
             }
@@ -482,7 +485,7 @@ impl<'e> Reader<'_, '_, 'e> {
             mesh.faces.iter_mut().for_each(|face| face.swap(1, 2));
         }
         mesh.inside(inside)
-            .ok_or_else(|| "its mesh has nothing inside".to_owned())
+            .ok_or_else(|| "its mesh encloses no volume".to_owned())
     }
 
     /// The ends of a shape that is given by its ends.
@@ -525,7 +528,7 @@ impl<'e> Reader<'_, '_, 'e> {
         };
         if size.len() < needed || size[..needed].iter().any(|size| *size <= 0.0) {
             let message = format!(
-                "`size` of {}: {needed} positive numbers are expected of a {kind}",
+                "`size` of {}: {needed} positive numbers are expected for a {kind}",
                 item.owner
             );
             self.faults.add(item.element.at, message);
@@ -566,7 +569,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
         for (geom, why) in &found.unknown {
             let message = format!(
-                "what {} of body {} weighs is not known, as {why}: give the body an `inertial`, or the geom `mass=\"0\"`",
+                "the mass of {} of body {} is not known, as {why}: give the body an `inertial`, or the geom `mass=\"0\"`",
                 called(geom),
                 quoted(&link.name)
             );
@@ -620,7 +623,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
         if let Some(flaw) = tensor::flaw(&tensor) {
             let message = format!(
-                "the tensor of inertia of {} is that of no body: {flaw}",
+                "the tensor of inertia of {} is impossible for a body: {flaw}",
                 item.owner
             );
             self.faults.add(element.at, message);
@@ -628,7 +631,7 @@ impl<'e> Reader<'_, '_, 'e> {
         let source = if turns.is_empty() || !has_tensor {
             ""
         } else {
-            "; the file gives it in axes that are turned"
+            "; the file gives it in rotated axes"
         };
         (!mass.is_zero()).then_some(Inertial {
             mass,

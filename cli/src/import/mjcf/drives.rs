@@ -9,7 +9,7 @@ impl<'e> Reader<'_, '_, 'e> {
         let found = self.joints.get(&attribute.value).copied();
         if found.is_none() {
             let message = format!(
-                "`{name}` of {} is {}, and there is no such joint",
+                "`{name}` of {} is {}, but there is no such joint",
                 item.owner,
                 quoted(&attribute.value)
             );
@@ -18,7 +18,7 @@ impl<'e> Reader<'_, '_, 'e> {
         let joint = found.map(|found| &self.robot.joints[found]);
         if let Some(joint) = joint.filter(|joint| !joint.kind.is_single()) {
             let message = format!(
-                "`{name}` of {} is {}, a {} joint: one with a single coordinate is expected",
+                "`{name}` of {} is {}, a {} joint: a joint with a single coordinate is expected",
                 item.owner,
                 quoted(&attribute.value),
                 joint.label
@@ -47,12 +47,12 @@ impl<'e> Reader<'_, '_, 'e> {
                     .any(|number| number.parse() != Ok(0.0))
                 && (name != "springlength" || self.attribute_of(&item, "stiffness").is_some())
             {
-                let message = format!("`{name}` of the tendon {} is not read", item.owner);
+                let message = format!("`{name}` of the tendon {} is not supported", item.owner);
                 return self.refuse(element.at, "tendon", &message);
             }
         }
         if self.is_limited(&item, "limited", "range") {
-            let message = format!("the range of the tendon {} is not read", item.owner);
+            let message = format!("the range of the tendon {} is not supported", item.owner);
             self.refuse(element.at, "tendon", &message);
         }
     }
@@ -74,7 +74,7 @@ impl<'e> Reader<'_, '_, 'e> {
             None => "jointinparent",
         };
         if self.attribute_of(&item, place).is_none() {
-            let message = format!("{} moves no joint, and is not read", item.owner);
+            let message = format!("{} moves no joint, which is not supported", item.owner);
             return self.refuse(element.at, kind, &message);
         }
         let Some(joint) = self.named(&item, place) else {
@@ -123,7 +123,7 @@ impl<'e> Reader<'_, '_, 'e> {
         match missing.next() {
             Some(name) if !is_clear => {
                 let message = format!(
-                    "classes say something of actuators of several kinds, {}: say `{name}` of {} itself",
+                    "the classes set attributes of actuators of several kinds, {}: specify `{name}` of {} itself",
                     tags.join(" and "),
                     item.owner
                 );
@@ -159,7 +159,8 @@ impl<'e> Reader<'_, '_, 'e> {
                 if let Some(said) = self.attribute_of(item, "dampratio")
                     && said.value.parse() != Ok(0.0)
                 {
-                    let message = format!("`dampratio` of {} is not read: write `kv`", item.owner);
+                    let message =
+                        format!("`dampratio` of {} is not supported: write `kv`", item.owner);
                     self.refuse(said.at, "dampratio", &message);
                 }
                 Some(Law::Position {
@@ -182,7 +183,7 @@ impl<'e> Reader<'_, '_, 'e> {
                 && !fine.contains(&said.value.as_str())
             {
                 let message = format!(
-                    "`{name}` of {} is {}, which is not read",
+                    "`{name}` of {} is {}, which is not supported",
                     item.owner,
                     quoted(&said.value)
                 );
@@ -240,7 +241,10 @@ impl<'e> Reader<'_, '_, 'e> {
             return self.count("inactive `equality` of joint");
         }
         if self.attribute_of(&item, "joint1").is_none() {
-            let message = format!("{} does not say which joint: write `joint1`", item.owner);
+            let message = format!(
+                "{} does not specify which joint: write `joint1`",
+                item.owner
+            );
             return self.faults.add(element.at, message);
         }
         let Some(follower) = self.named(&item, "joint1") else {

@@ -49,7 +49,7 @@ impl<'e> Reader<'_, '_, 'e> {
         let rest = self.at_rest(&body);
         if rest.is_none() {
             let message = format!(
-                "`{name}` of {} is {}, and there is no such body",
+                "`{name}` of {} is {}, but there is no such body",
                 item.owner,
                 quoted(&body)
             );
@@ -79,7 +79,7 @@ impl<'e> Reader<'_, '_, 'e> {
         for name in ["site1", "site2"] {
             if let Some(said) = self.attribute_of(&item, name) {
                 let message = format!(
-                    "`{name}` of {} is not read: write `body1`, `body2` and `anchor`",
+                    "`{name}` of {} is not supported: write `body1`, `body2` and `anchor`",
                     item.owner
                 );
                 return self.refuse(said.at, kind, &message);
@@ -176,7 +176,7 @@ impl<'e> Reader<'_, '_, 'e> {
 
     fn miscounted(&mut self, item: &Item<'e>, name: &str, [wanted, found]: [usize; 2], at: usize) {
         let message = format!(
-            "`{name}` of {}: {wanted} numbers are expected, and there are {found}",
+            "`{name}` of {}: {wanted} numbers are expected, but there are {found}",
             item.owner
         );
         self.faults.add(at, message);
@@ -244,7 +244,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
         if is_turning {
             let message = format!(
-                "`qvel` of {} moves a free or a ball joint, whose rates are not read",
+                "`qvel` of {} moves a free or a ball joint, whose rates are not supported",
                 item.owner
             );
             self.refuse(at, "qvel", &message);

@@ -39,20 +39,20 @@ impl Mesh {
         let mesh = match ending.to_ascii_lowercase().as_str() {
             "stl" => Mesh::stl(bytes),
             "obj" => Mesh::obj(bytes),
-            _ => return Err("of meshes `.stl` and `.obj` are read".to_owned()),
+            _ => return Err("only `.stl` and `.obj` meshes are supported".to_owned()),
         }?;
         let is_fine = |face: &[usize; 3]| face.iter().all(|point| *point < mesh.points.len());
         match () {
             () if mesh.faces.is_empty() => Err("the mesh has no triangles".to_owned()),
             () if !mesh.faces.iter().all(is_fine) => {
-                Err("a triangle of the mesh has a point that is not there".to_owned())
+                Err("a triangle of the mesh refers to a point that does not exist".to_owned())
             }
             () if !mesh
                 .points
                 .iter()
                 .all(|point| point.iter().all(|x| x.is_finite())) =>
             {
-                Err("a point of the mesh is infinitely far away".to_owned())
+                Err("a point of the mesh is not finite".to_owned())
             }
             () => Ok(mesh),
         }
@@ -122,7 +122,7 @@ impl Mesh {
                         }
                     };
                     let corners: Option<Vec<usize>> = words.map(corner).collect();
-                    let corners = corners.ok_or_else(|| format!("`{line}` is no face"))?;
+                    let corners = corners.ok_or_else(|| format!("`{line}` is not a face"))?;
                     let pairs = corners.iter().skip(1).zip(corners.iter().skip(2));
                     mesh.faces.extend(pairs.map(|(b, c)| [corners[0], *b, *c]));
                     if mesh.faces.len() > MOST_FACES {

@@ -71,7 +71,7 @@ impl Reading<'_> {
     fn element(&mut self, node: Node<'_, '_>, start: usize, depth: usize) -> Option<Element> {
         let at = start + node.range().start;
         if depth > DEEPEST {
-            let message = format!("elements stand in each other more than {DEEPEST} deep");
+            let message = format!("elements are nested more than {DEEPEST} deep");
             self.faults.add(at, message);
             return None;
         }
@@ -107,7 +107,7 @@ impl Reading<'_> {
     ) {
         let at = start + node.range().start;
         let Some(name) = node.attribute("file") else {
-            self.faults.add(at, "`include` says no `file`");
+            self.faults.add(at, "`include` lacks `file`");
             return;
         };
         if !self.seen.insert(name.to_owned()) {
@@ -170,7 +170,7 @@ impl<'e> Classes<'e> {
                 0
             }
             (Some(_), None) => {
-                faults.add(section.at, "a `default` in another lacks its `class`");
+                faults.add(section.at, "a nested `default` lacks its `class`");
                 return;
             }
             (Some(_), Some(name)) => {

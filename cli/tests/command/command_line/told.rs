@@ -116,7 +116,7 @@ fn wrong_points_are_told_where_they_are() {
     assert!(results[0]["accelerations"].is_array());
     assert_eq!(
         results[1]["error"],
-        "standard input: line 3, column 20: point 2: \"v\": \"theta1\": expected a number, found a text"
+        "standard input: line 3, column 20: point 2: \"v\": \"theta1\": expected a number, found a string"
     );
     for wrong in ["", "7", "[7]", "[{\"q\": [true]}]", "[{\"q\": {}}", "[{]"] {
         let output = with_input(&call, wrong);

@@ -22,7 +22,7 @@ static void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3Str
         must(status == fmi3OK && !strcmp(category, "logEvents"), 70);
     } else {
         char text[64];
-        must(sscanf(message, "at t = %lf s it does not hold any more that %60[^\n]", &one->t, text) == 2, 71);
+        must(sscanf(message, "at t = %lf s it no longer holds that %60[^\n]", &one->t, text) == 2, 71);
         must(status == fmi3Warning && !strcmp(category, "logStatusWarning"), 72);
         strncpy(one->what, text, sizeof one->what - 1);
     }

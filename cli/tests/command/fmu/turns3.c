@@ -15,7 +15,7 @@ static void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3Str
     char word[16];
     (void)environment, (void)status, (void)category;
     if (sscanf(message, "at t = %lf s event %15[a-z]", &t, word) == 2) events[event_count++ % MOST] = t;
-    else if (sscanf(message, "at t = %lf s it does %15[a-z]", &t, word) == 2) facts[fact_count++ % MOST] = t;
+    else if (sscanf(message, "at t = %lf s it no longer %15[a-z]", &t, word) == 2) facts[fact_count++ % MOST] = t;
 }
 
 /* Compares each instant, to the accuracy of 1e-13 s plus the rounding of an angle after so many turns and steps. */
