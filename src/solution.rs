@@ -464,14 +464,17 @@ impl<M: Machine, L> Solution<M, L> {
         self.balance
     }
 
-    /// [`contact_energies`](Self::contact_energies) until a time within the run; at an impact, including it. They are recorded at
-    /// the ends of steps and interpolated between them by cubic Hermite polynomials. `None` if the energies at the ends of steps
-    /// were not kept.
+    /// [`contact_energies`](Self::contact_energies) until a time within the run; at an impact, including it, but at the start before
+    /// any. They are recorded at the ends of steps and interpolated between them by cubic Hermite polynomials. `None` if the energies
+    /// at the ends of steps were not kept.
     pub fn contact_energies_at(&self, t: f64) -> Option<Vec<ContactEnergies>> {
         let energy_entries = &self.unilateral.energy_entries;
         if !self.settings.keep_energies || energy_entries.len() != self.energies.len() {
             return (t == self.end.t && !energy_entries.is_empty())
                 .then(|| self.contact_energies().to_vec());
+        }
+        if t == self.start.t {
+            return energy_entries.first().map(|of| of.of_each.clone());
         }
         let after = self.energies.partition_point(|of| of.t <= t);
         let (before, next) = (

@@ -38,6 +38,10 @@ const MOST_RATE_GROWTH: f64 = 2.0;
 /// What opens at a look is looked at from this part of the way to the next one on.
 const OPENED: f64 = 1e-3;
 
+/// A flight that begins at a look with no rate beyond rounding is found if it takes at least this part of the step. A gap that does not
+/// open falls by more than its rounding by then.
+const LEAST_FLIGHT: f64 = 1e-6;
+
 /// The most looks at a step.
 const MOST_SAMPLES: f64 = 1e6;
 
@@ -196,8 +200,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         at_start: bool,
     ) -> Result<(), Error> {
         let before = (self.settings.hands_over).then(|| self.stepper.standing());
+        let stored_before = at_start.then(|| self.stored_now());
         self.forget_values();
-        let met = self.stepper.resolve_contacts(cause, self.stop, step);
+        let met = (self.stepper).resolve_contacts(cause, at_start, self.stop, step);
         let changes_at_instant = match met {
             Ok(changes_at_instant) => changes_at_instant,
             Err(error) => {
@@ -225,16 +230,24 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         self.activity
             .record_changes(self.stepper.t(), &changes_at_instant);
-        if !at_start && let Some(steps) = &mut self.record.steps {
-            steps.jump(&self.stepper);
+        if let Some(before) = stored_before {
+            // What is pressed at the start holds its energy from there on.
+            let stored = self.stored_now() - before;
+            for energies in &mut self.record.energies {
+                energies.potential += stored;
+            }
         }
-        if !at_start {
+        // What touches at the start and is not hit changes nothing there.
+        let is_change = !at_start || !changes_at_instant.impacts.is_empty();
+        if is_change {
+            if let Some(steps) = &mut self.record.steps {
+                steps.jump(&self.stepper);
+            }
             self.enter_energies();
         }
         self.report_changes(&changes_at_instant, at_start);
-        if !at_start {
-            self.correct_energy_entry();
-        }
+        // At the start it is only known now what the contacts that touch there take.
+        self.correct_energy_entry();
         self.keep_phase(Change {
             cause: Some(cause),
             impacts: changes_at_instant.impacts,
@@ -724,16 +737,17 @@ fn closing(
         if gap_after >= 0.0 {
             return Ok(None);
         }
-        if rate <= 0.0 {
-            return Ok(Some(from));
-        }
-        if rate_after >= 0.0 {
-            return Ok(Some(to));
-        }
-        // It opens first: up to where it is greatest.
-        open = event::root([from, to], roundoff, &mut |theta| Ok(at(theta)?[1]))?;
-        if at(open)?[0] <= 0.0 {
-            return Ok(Some(open));
+        if rate > 0.0 && rate_after < 0.0 {
+            // It opens first: up to where it is greatest.
+            open = event::root([from, to], roundoff, &mut |theta| Ok(at(theta)?[1]))?;
+            if at(open)?[0] <= 0.0 {
+                return Ok(Some(open));
+            }
+        } else if let Some(opened) = find_open([from, to], LEAST_FLIGHT, &mut at)? {
+            // It opens by its acceleration alone: the rate is rounding.
+            open = opened;
+        } else {
+            return Ok(Some(if rate <= 0.0 { from } else { to }));
         }
     }
     if gap_after < 0.0 {
@@ -750,6 +764,23 @@ fn closing(
     Ok(None)
 }
 
+/// Where what is closed at the first of two looks is open between them, if it is: at the half, quarter, eighth, … of the way, no
+/// closer to its beginning than `least`.
+fn find_open(
+    [from, to]: [f64; 2],
+    least: f64,
+    at: &mut impl FnMut(f64) -> Result<[f64; 2], Error>,
+) -> Result<Option<f64>, Error> {
+    let mut part = 0.5 * (to - from);
+    while part > least {
+        if at(from + part)?[0] > 0.0 {
+            return Ok(Some(from + part));
+        }
+        part *= 0.5;
+    }
+    Ok(None)
+}
+
 /// Where a contact that yields begins to press between two looks, if it does.
 fn find_loading_start(
     [from, to]: [f64; 2],
@@ -762,14 +793,10 @@ fn find_loading_start(
         let mut open = from;
         if clearance <= 0.0 {
             // It has just opened, and goes on doing so for a while; or it is pressed from here on.
-            let mut part = 0.5 * (to - from);
-            while part > roundoff && at(from + part)?[0] <= 0.0 {
-                part *= 0.5;
+            match find_open([from, to], roundoff, &mut at)? {
+                Some(opened) => open = opened,
+                None => return Ok(Some(from)),
             }
-            if part <= roundoff {
-                return Ok(Some(from));
-            }
-            open = from + part;
         }
         let found = event::root([open, to], roundoff, &mut |theta| Ok(at(theta)?[0]))?;
         return Ok(Some(found));

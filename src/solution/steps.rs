@@ -84,9 +84,8 @@ impl<V: Vector> Steps<V> {
         &mut self,
         stepper: &Stepper<'_, S, L, A>,
     ) {
-        let Some(last) = self.vectors.last().cloned() else {
-            return;
-        };
+        // Before the first step there is nothing to separate but that step from what happens at the start.
+        let last = self.vectors.last().unwrap_or(stepper.q()).clone();
         let now = Sum {
             high: stepper.t(),
             low: 0.0,

@@ -60,10 +60,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         &self.model.touching
     }
 
-    /// Lets contacts that touch meet, and continues to `end` with the contacts that are closed then.
+    /// Lets contacts that touch meet, and continues to `end` with the contacts that are closed then. What yields and is pressed
+    /// `at_start` has been pressed before.
     pub(crate) fn resolve_contacts(
         &mut self,
         cause: Cause,
+        at_start: bool,
         end: f64,
         step: f64,
     ) -> Result<ContactChanges, StepError> {
@@ -276,6 +278,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             .map(|(k, (is, _))| (k, is))
             .collect();
         let stored_after = stored_by_each(model.system.get(), &touching, now);
+        let stored_before = if at_start {
+            stored_after.clone()
+        } else {
+            stored_before
+        };
         model.constraints = hold(model.system.get(), &touching, now)?;
         changes_at_instant.after = touching.modes().to_vec();
         model.touching = Some(touching);

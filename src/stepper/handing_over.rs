@@ -112,7 +112,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             touching.end_stepping();
         }
         let met = self.go_on_by(method, longest);
-        match met.and_then(|()| self.resolve_contacts(Cause::Unspecified, end, step)) {
+        match met.and_then(|()| self.resolve_contacts(Cause::Unspecified, false, end, step)) {
             Ok(mut changes_at_instant) => {
                 if changes_at_instant.impacts.is_empty() {
                     let taken = energy_before - energy(self);

@@ -78,6 +78,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         end[0].clone_from(&known[stages - 1]);
         model.set_inputs(now.t, &now.q, &now.v);
         let moved = model.project(now)?;
+        // The integrals do without the powers at the end, but those of contacts are interpolated with them.
+        if S::MAY_COLLIDE && model.touching.is_some() && quadratures.integrals().is_some() {
+            model.take_rates(quadratures, stages, (now.t, &now.q, &now.v, &end[0]));
+        }
         Ok(if moved {
             error.max(self.error_of_move())
         } else {

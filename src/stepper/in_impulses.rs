@@ -152,14 +152,17 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             now.q.as_mut_slice()[i] = sum;
             now.q_low.as_mut_slice()[i] = low;
             v.as_mut_slice()[i] = 0.5 * (from + to);
-            k[1].as_mut_slice()[i] = (to - from) / h;
+        }
+        // With the accelerations as if nothing touched: what the impulses do to the energy is added at once.
+        model.take_rates(quadratures, 1, (t, q, v, &k[1]));
+        for (i, a) in k[1].as_mut_slice().iter_mut().enumerate() {
+            *a = (now.v.as_slice()[i] - before.v.as_slice()[i]) / h;
         }
         now.set_time(before, h, (*end, &[last]));
         if let Some(coordinate) = not_finite(&now.q, &now.v, 0) {
             let t = now.t;
             return Err(StepError::NotFinite { coordinate, t });
         }
-        model.take_rates(quadratures, 1, (t, q, v, &k[1]));
         model.project(now)?;
         if S::MAY_COLLIDE && model.touching.is_some() {
             let is_counted = quadratures.integrals().is_some();

@@ -86,6 +86,92 @@ fn friction_takes_what_a_ball_loses_until_it_rolls() {
     }
 }
 
+/// A point that hits the floor at the start, at (1, −1) m/s: with e = 1/2 and μ = 0.3 it leaves at (0.55, 0.5) m/s, so that
+/// `1 − (0.55² + 0.5²)/2` J are lost from there on, also in a run that ends where it begins.
+#[test]
+fn an_impact_at_the_start_is_lost_from_there_on() {
+    let spec = Scratch::new(
+        "hit.machine",
+        "machine Hit in plane {
+            coordinates { x: m, y: m, der(x): m/s = 1, der(y): m/s = -1 }
+            bodies { point { mass: 1, at: (x, y) } }
+            gravity (0, -9.81);
+            contacts { floor { gap: y, slip: der(x), restitution: 0.5, friction: 0.3 } }
+        }",
+    );
+    let loss = 1.0 - 0.5 * (0.55 * 0.55 + 0.5 * 0.5);
+    for until in [0.0, 0.01] {
+        let run = simulate(spec.path(), until, &[]);
+        is_booked(&run, 1e-14);
+        close(of_contact(&run, "floor", "impact_loss"), loss, 1e-14);
+        close(number(&run["dissipated"]), loss, 1e-14);
+    }
+    let rows = table(spec.path(), "0.01", "0.0025", "dop853");
+    assert_eq!(rows.len(), 5);
+    for [_, lost, all] in rows {
+        close(lost + all, 1.0, 1e-14);
+    }
+}
+
+/// What slides from the start has lost μ m g (v t − μ g t²/2) at t, also within the first step, and with
+/// methods whose last stage is the end of a step.
+#[test]
+fn friction_takes_its_part_from_the_start_on() {
+    let spec = Scratch::new(
+        "slides.machine",
+        "machine Slides in plane {
+            coordinates { x: m, y: m, der(x): m/s = 3 }
+            bodies { block { mass: 1, at: (x, y) } }
+            gravity (0, -9.81);
+            contacts { floor { gap: y, slip: der(x), restitution: 0, friction: 0.3 } }
+        }",
+    );
+    let brake = 0.3 * 9.81;
+    for (until, every, method) in [
+        ("0.02", "0.002", "dop853"),
+        ("1", "0.1", "radau5"),
+        ("1", "0.1", "radau9"),
+    ] {
+        let rows = table(spec.path(), until, every, method);
+        assert_eq!(rows.len(), 11);
+        for [t, lost, all] in rows {
+            close(lost, brake * (3.0 * t - 0.5 * brake * t * t), 1e-13);
+            close(lost + all, 4.5, 1e-13);
+        }
+    }
+}
+
+/// For each row of a table, the time, what `floor` has taken, and the energy that is left.
+fn table(spec: &str, until: &str, every: &str, method: &str) -> Vec<[f64; 3]> {
+    let out = Scratch::new("table.csv", "");
+    let made = lagrangian(&[
+        "simulate",
+        spec,
+        "--until",
+        until,
+        "--every",
+        every,
+        "--method",
+        method,
+        "--out",
+        out.path(),
+    ]);
+    assert!(made.status.success(), "{made:?}");
+    let table = std::fs::read_to_string(out.path()).expect("a table");
+    let mut lines = table.lines();
+    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let columns = ["t [s]", "lost(floor) [J]", "total energy [J]"].map(|name| {
+        let column = header.iter().position(|own| *own == name);
+        column.unwrap_or_else(|| panic!("{header:?}"))
+    });
+    lines
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            columns.map(|column| cells[column].parse().expect("a number"))
+        })
+        .collect()
+}
+
 /// Rolling resistance dissipates ¾ m v², and friction nothing, if a disc does not slip.
 #[test]
 fn rolling_resistance_has_a_line_of_its_own() {

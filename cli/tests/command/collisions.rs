@@ -523,6 +523,50 @@ fn grazing_is_neither_missed_nor_doubled() {
     }
 }
 
+/// A rod, at the angle φ to a smooth floor and not turning, lands with its lower end, which does not bounce: the rate at which this gap
+/// opens is then only rounding. But the rod turns, at `3 v cos φ/((1 + 3 cos² φ) l)`, so that the end leaves the floor by its
+/// acceleration and comes back at the angle φ − u with `sin φ − u cos φ = sin(φ − u)`, all within one step.
+#[test]
+fn what_opens_by_its_acceleration_alone_has_opened() {
+    for k in 1..=14 {
+        let angle = 0.05 * f64::from(k);
+        let (sin, cos) = angle.sin_cos();
+        let turn = 3.0 * 2.0 * cos / ((1.0 + 3.0 * cos * cos) * 0.5);
+        let over = |u: f64| sin - u * cos - (angle - u).sin();
+        let [mut from, mut to] = [1.5 * angle, 3.0];
+        assert!(over(from) > 0.0 && over(to) < 0.0);
+        for _ in 0..60 {
+            let middle = f64::midpoint(from, to);
+            let half = if over(middle) > 0.0 {
+                &mut from
+            } else {
+                &mut to
+            };
+            *half = middle;
+        }
+        let back = 1.0 + from / turn;
+        let spec = Scratch::new(
+            "rod.machine",
+            &format!(
+                "machine Rod in plane {{
+                    parameters {{ m: kg = 2, l: m = 0.5, v: m/s = 2, T: s = 1 }}
+                    coordinates {{ x: m, y: m = l*sin({angle:?}) + v*T, phi: rad = {angle:?}, der(y): m/s = -v }}
+                    frames {{ rod = ground.shift(x, y).turn(phi) }}
+                    bodies {{ rod {{ mass: m, inertia: m*l^2/3, frame: rod }} }}
+                    gravity none;
+                    contacts {{ floor {{ point: (-l, 0), on: rod, along: ground, restitution: 0 }} }}
+                }}"
+            ),
+        );
+        let run = simulate(spec.path(), back + 0.01, &[]);
+        is_good(&run);
+        let impacts = events(&run, "impact");
+        assert_eq!(impacts.len(), 2, "{angle}: {run:#}");
+        close(number(&impacts[0]["t"]), 1.0, 1e-14);
+        close(number(&impacts[1]["t"]), back, 1e-12);
+    }
+}
+
 /// A start with penetration is reported as an error; a start on the surface is not an impact.
 #[test]
 fn a_start_inside_of_something_is_an_error() {

@@ -191,6 +191,54 @@ fn friction_of_a_floor_that_yields_is_coulombs() {
     close(number(&run["energy_residual"]), 0.0, 1e-9);
 }
 
+/// What rests on a floor that yields holds the energy ½ (m g)²/k in it from the start, and loses nothing.
+#[test]
+fn what_is_pressed_at_the_start_holds_its_energy_there() {
+    let spec = Scratch::new(
+        "resting.machine",
+        "machine Resting in plane {
+            parameters { m: kg = 2, k: N/m = 1000, b: N*s/m = 5, g: m/s^2 = 9.81 }
+            inputs { F: N }
+            coordinates { y: m = -m*g/k }
+            bodies { block { mass: m, at: (0, y) } }
+            gravity (0, -g);
+            forces { push { at: (0, y), force: (0, F) } }
+            contacts { floor { gap: y, compliance: linear(k, b) } }
+        }",
+    );
+    let sampled = ["--input", "F=0*N,every=10*ms"];
+    for options in [&[][..], &sampled[..]] {
+        for until in ["0", "1"] {
+            let mut arguments = vec!["simulate", spec.path(), "--until", until, "--json"];
+            arguments.extend(options);
+            let output = lagrangian(&arguments);
+            let text = String::from_utf8(output.stdout).expect("text");
+            let run: Value = serde_json::from_str(&text).expect("a document");
+            is_good(&run);
+            close(number(&run["dissipated"]), 0.0, 1e-12);
+            close(number(&run["damping_loss"]), 0.0, 1e-12);
+            let own = &run["unilateral_contacts"][0];
+            close(number(&own["damping_loss"]), 0.0, 1e-12);
+        }
+    }
+    // From rest at twice this depth, until it rests: the damper takes ½ k (m g/k)².
+    let output = lagrangian(&[
+        "simulate",
+        spec.path(),
+        "--until",
+        "16",
+        "--start",
+        "y=-0.03924",
+        "--json",
+    ]);
+    let text = String::from_utf8(output.stdout).expect("text");
+    let run: Value = serde_json::from_str(&text).expect("a document");
+    is_good(&run);
+    let lost = 0.5 * (2.0 * 9.81_f64).powi(2) / 1000.0;
+    close(number(&run["damping_loss"]), lost, 1e-8);
+    close(number(&run["dissipated"]), lost, 1e-8);
+}
+
 /// A moving compliant wall does work on the ball, and the energy balance includes it.
 #[test]
 fn a_wall_that_yields_and_moves_works() {

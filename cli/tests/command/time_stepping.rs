@@ -42,6 +42,41 @@ fn a_ball_bounces_at_most_a_step_late() {
     }
 }
 
+/// What moves by itself, a constraint or the place of a body, works also in a step with an impact, and that is counted once: the residual
+/// decreases with the step, and the work approaches that of a run that finds every impact.
+#[test]
+fn what_moves_works_once_in_a_step_with_an_impact() {
+    let bead = "machine Bead in plane {
+        parameters { m: kg = 1, W: rad/s = 3, k: N/m = 20, l: m = 0.2, end: m = 0.6, g: m/s^2 = 9.81 }
+        coordinates { x: m = 0.3, y: m, der(y): m/s = 0.9 }
+        define { s = x*cos(W*t) + y*sin(W*t) }
+        bodies { bead { mass: m, at: (x, y) } }
+        gravity (0, -g);
+        constraints { rod: x*sin(W*t) - y*cos(W*t) = 0 }
+        springs { spring { stiffness: k, stretch: s - l } }
+        contacts { stop { gap: end - s, restitution: 0.5 } }
+    }";
+    let shaken = "machine Shaken in plane {
+        parameters { m: kg = 0.8, g: m/s^2 = 9.81, A: m = 0.03, B: m = 0.01, w: rad/s = 15 }
+        coordinates { x: m, y: m = 0.02, der(x): m/s = -A*w, der(y): m/s = -2*B*w }
+        bodies { block { mass: m, at: (x + A*sin(w*t), y + B*sin(2*w*t)) } }
+        gravity (0, -g);
+        contacts { plate { gap: y, slip: der(x), restitution: 0.3, friction: 0.25 } }
+    }";
+    for (text, until, within) in [(bead, 3.0, 0.1), (shaken, 1.5, 0.01)] {
+        let spec = Scratch::new("moves.machine", text);
+        let exact = crate::collisions::simulate(spec.path(), until, &[]);
+        let run = step(spec.path(), until, 2.5e-4, &[]);
+        close(number(&run["energy_residual"]), 0.0, within);
+        close(number(&run["work"]), number(&exact["work"]), within);
+        close(
+            number(&run["dissipated"]),
+            number(&exact["dissipated"]),
+            within,
+        );
+    }
+}
+
 /// Without contacts the error decreases with the square of the step length.
 #[test]
 fn between_contacts_its_order_is_2() {
