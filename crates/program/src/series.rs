@@ -196,26 +196,28 @@ impl Series {
     /// The cost of a step by this series, in evaluations of the accelerations in a step of `dop853`, with 12 and with 20 coefficients of
     /// the accelerations, if the accelerations have this cost.
     ///
-    /// A product of series with 20 coefficients takes some 200 multiplications, and a row about as many operations as it has coefficients.
-    /// An evaluation comes with the sums of a stage of the method, which take 8 cycles for each coordinate. With 12 coefficients the cost is
-    /// two thirds. Measured costs (`docs/benchmarks.md`, Taylor series) are within a factor of 2.
+    /// A product of series with 20 coefficients takes 210 multiplications. The matrix of the unknowns is made from the gradients of
+    /// rows, and is factorized once and solved with at each order: 5 cycles for each entry of a gradient. An evaluation comes with the
+    /// sums of a stage of the method, 8 cycles for each coordinate. With 12 coefficients the cost is two thirds. Measured costs
+    /// (`docs/benchmarks.md`, Taylor series) are within a factor of 2.
     pub fn cost(&self, accelerations: Cost) -> [f64; 2] {
-        let varying = self.levels.iter();
-        let varying = varying.filter(|level| **level > Level::Constant).count();
-        let step = CYCLES_PER_OPERATION
-            * COEFFICIENTS
-            * (0.5 * COEFFICIENTS * self.products() + varying as f64);
-        let evaluation = accelerations.alone() as f64 / 10.0 + 8.0 * self.coordinates as f64;
+        let gradients: usize = self.depends.iter().map(Vec::len).sum();
+        let step = CYCLES_OF_PRODUCT * self.products() + CYCLES_OF_GRADIENT * gradients as f64;
+        let evaluation =
+            accelerations.alone() as f64 / 10.0 + CYCLES_OF_STAGE * self.coordinates as f64;
         let fine = step / evaluation;
         [2.0 / 3.0 * fine, fine]
     }
 }
 
-/// The number of coefficients of a step at fine tolerances.
-const COEFFICIENTS: f64 = 20.0;
+/// The time of a product of series with 20 coefficients, in processor cycles: 0.4 for a multiplication.
+const CYCLES_OF_PRODUCT: f64 = 84.0;
 
-/// The time of an operation of a series, fitted to measured steps.
-const CYCLES_PER_OPERATION: f64 = 0.45;
+/// The time that an entry of a gradient takes in a step, fitted to measured steps.
+const CYCLES_OF_GRADIENT: f64 = 5.0;
+
+/// The time of the sums of a stage for each coordinate.
+const CYCLES_OF_STAGE: f64 = 8.0;
 
 /// Why the motion of a machine has no Taylor series here.
 #[derive(Clone, Debug, PartialEq, Eq)]
