@@ -294,7 +294,7 @@ pub fn set_start(start: &mut State<Named>, call: &call::Start) -> Result<(), Fai
 }
 
 /// The name of the rate that is a state of first order, or a family of such, and its unit.
-fn state_named(rates: &Named, name: &str) -> Option<(String, String)> {
+pub fn state_named(rates: &Named, name: &str) -> Option<(String, String)> {
     let integral = integral_name(name);
     let unit = rate_unit(&integral, rates.unit(&integral)?);
     Some((integral, unit))

@@ -267,8 +267,8 @@ pub enum SampleInstants<'a> {
     Even,
     /// At these, as far as they lie within the run.
     At(&'a [f64]),
-    /// Where a formula crosses 0.
-    Crossing(&'a str, call::Direction),
+    /// Where a formula crosses 0. If it says where a name has a value, these two come with it: the value of an output is in its unit.
+    Crossing(&'a str, call::Direction, Option<(&'a str, &'a str)>),
     /// Once per period, which is a formula of parameters, in s.
     Period(&'a str),
 }
@@ -362,7 +362,7 @@ fn made(
     let laws = reading.drive(&spec, &written)?;
     let driving = reading.formulas();
     match looks {
-        SampleInstants::Crossing(formula, _) => {
+        SampleInstants::Crossing(formula, ..) => {
             reading.add_formula("--crossing FORMULA", formula, None)
         }
         SampleInstants::Period(formula) => {
@@ -398,9 +398,12 @@ fn made(
     simulation = reading::keep(simulation, &runs.keep);
     let interval = runs.every.unwrap_or(options.until / SAMPLES);
     match looks {
-        SampleInstants::Even => simulation = simulation.every(interval).forget_steps(),
+        SampleInstants::Even => {
+            simulate::check_samples("--every", interval, options.until)?;
+            simulation = simulation.every(interval).forget_steps();
+        }
         SampleInstants::At(_) => {}
-        SampleInstants::Crossing(formula, direction) => {
+        SampleInstants::Crossing(formula, direction, level) => {
             let value = &compiled.model.outputs[asked].value;
             if value.stage() == stage::ACCELERATION {
                 return Err(Failure::Call(format!(
@@ -412,8 +415,10 @@ fn made(
                 call::Direction::Down => Crossing::Falling,
                 call::Direction::Both => Crossing::Any,
             };
+            let level = level.and_then(|(name, value)| level_of(&machine, own, name, value));
+            let (place, level) = level.unwrap_or((asked, 0.0));
             simulation = simulation.event_on("crossing", crossing, move |seen| {
-                seen.outputs.values.get(asked).copied().unwrap_or(f64::NAN)
+                seen.outputs.values.get(place).copied().unwrap_or(f64::NAN) - level
             });
         }
         SampleInstants::Period(_) => {}
@@ -426,13 +431,9 @@ fn made(
                     "--every-period {formula}: a period can depend only on numbers and parameters"
                 )));
             }
-            Some(period_of(
-                &machine,
-                &start,
-                asked,
-                "--every-period",
-                formula,
-            )?)
+            let period = period_of(&machine, &start, asked, "--every-period", formula)?;
+            simulate::check_samples("--every-period", period, options.until)?;
+            Some(period)
         }
         _ => None,
     };
@@ -463,6 +464,24 @@ fn made(
         }
     };
     Ok((ran, recording))
+}
+
+/// The index of the output with this name, among the outputs of the spec, and a value of numbers and units in its unit.
+fn level_of(
+    machine: &InterpretedMachine,
+    own: usize,
+    name: &str,
+    value: &str,
+) -> Option<(usize, f64)> {
+    let mut outputs = machine.program().outputs.iter().take(own);
+    let place = outputs.position(|slot| slot.name.to_string() == name)?;
+    let unit = machine.program().outputs[place].label();
+    let set = Assignment {
+        name: name.to_owned(),
+        value: value.to_owned(),
+    };
+    let level = set.value("--crossing", &unit).ok()?;
+    Some((place, level))
 }
 
 /// Prints the warnings of a run: violated assumptions, missing energy.

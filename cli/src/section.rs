@@ -9,7 +9,7 @@ use crate::failure::Failure;
 use crate::modes::number;
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::runs::{self, Columns, Options, Quantity, SampleInstants};
-use crate::table;
+use crate::{simulate, table};
 
 /// The number of points that are printed.
 const SHOWN: usize = 10;
@@ -98,17 +98,22 @@ fn points(call: &call::Section, files: &[&Destination]) -> Result<Columns, Failu
             (Some(period), _) => runs::spec(&options, &SampleInstants::Period(period), files)?,
             (None, Some(crossing)) => {
                 // `x=0.1*m` means where x − 0.1 m crosses 0.
-                let formula = match crossing.split_once('=') {
+                let level = crossing.split_once('=');
+                let level = level.map(|(name, value)| (name.trim(), value.trim()));
+                let formula = match level {
                     Some((name, value)) => format!("({name}) - ({value})"),
                     None => crossing.clone(),
                 };
-                let looks = SampleInstants::Crossing(&formula, call.direction);
+                let looks = SampleInstants::Crossing(&formula, call.direction, level);
                 runs::spec(&options, &looks, files)?
             }
             (None, None) => return Err(neither()),
         }
     } else {
-        let columns = runs::one(part, files)?;
+        keep_apart(files.iter().copied(), &[(part.run.as_path(), "the run")])?;
+        runs::refuse_without_spec(&part.runs)?;
+        // Periods are counted from the first row, as those of a spec from its start, whatever --after leaves out.
+        let columns = runs::table(&part.run)?;
         let times = match (&call.period, &call.crossing) {
             (Some(period), _) => periods(&columns, period)?,
             (None, Some(crossing)) => crossings(call, &columns, crossing)?,
@@ -127,6 +132,7 @@ fn periods(columns: &Columns, period: &str) -> Result<Vec<f64>, Failure> {
         return Err(wrong("expected a time greater than 0".into()));
     }
     let [from, to] = [columns.times.first(), columns.times.last()].map(|t| t.map_or(0.0, |t| *t));
+    simulate::check_samples("--every-period", period, to - from)?;
     let count = ((to - from) / period * (1.0 + 1e-12)).floor() as usize;
     Ok((0..=count)
         .map(|k| (from + k as f64 * period).min(to))

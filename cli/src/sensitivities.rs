@@ -24,6 +24,7 @@ use crate::orbit::differentiate;
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading, places};
 use crate::runs::{header, warn};
+use crate::simulate::check_samples;
 use crate::{methods, progress, table};
 
 /// The default number of recorded samples of a run.
@@ -457,28 +458,19 @@ fn made(
         // A start that the spec computes from a parameter changes with it, unless the call sets it.
         if let By::Parameter(index) = variation.by {
             let (q, v) = start_by(machine, index);
-            let mut is_set = vec![false; 2 * coordinates.len()];
-            for (list, shift) in [
-                (&call.start.coordinates, 0),
-                (&call.start.rates, coordinates.len()),
-            ] {
-                for set in list {
-                    for place in places(&start.q, &set.name) {
-                        is_set[shift + place] = true;
-                    }
-                }
-            }
+            let [q_set, v_set] = set_by_call(&start, call);
             for (j, (q, v)) in q.into_iter().zip(v).enumerate() {
-                if !is_set[j] {
+                if !q_set[j] {
                     from.q.by[k].values[j] = q;
                 }
-                if !is_set[coordinates.len() + j] {
+                if !v_set[j] {
                     from.v.by[k].values[j] = v;
                 }
             }
         }
     }
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
+    check_samples("--every", interval, call.until)?;
     progress::run(call.until);
     if collides {
         return across_impacts(call, machine, method, &from, variations, observed);
@@ -516,6 +508,25 @@ fn made(
         }
     }
     Ok((states.iter().map(|state| state.t).collect(), columns))
+}
+
+/// Which coordinates and which rates start at values of the call. A state of first order is the rate of its integral.
+fn set_by_call(start: &State<Named>, call: &call::Sensitivities) -> [Vec<bool>; 2] {
+    let mut set = [&start.q, &start.v].map(|numbers| vec![false; numbers.values.len()]);
+    for assignment in &call.start.coordinates {
+        for place in places(&start.q, &assignment.name) {
+            set[0][place] = true;
+        }
+        for place in places(&start.v, &integral_name(&assignment.name)) {
+            set[1][place] = true;
+        }
+    }
+    for assignment in &call.start.rates {
+        for place in places(&start.v, &assignment.name) {
+            set[1][place] = true;
+        }
+    }
+    set
 }
 
 /// Empty columns: for each value, then for its derivatives.

@@ -42,6 +42,19 @@ const MOST_SAMPLES: f64 = 5e6;
 /// The default tolerance.
 const TOLERANCE: f64 = 1e-9;
 
+/// Refuses an interval, given by an option, at which a run of this length has too many instants.
+///
+/// # Errors
+/// If there are more than [`MOST_SAMPLES`].
+pub fn check_samples(option: &str, interval: f64, length: f64) -> Result<(), Failure> {
+    if (length / interval).abs() > MOST_SAMPLES {
+        return Err(Failure::Call(format!(
+            "{option} {interval:e} would record more than {MOST_SAMPLES:e} instants"
+        )));
+    }
+    Ok(())
+}
+
 /// The files that a call requests.
 struct Files {
     out: Option<Destination>,
@@ -212,11 +225,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
             }
         });
     if recorded && call.until != 0.0 {
-        if call.until.abs() / interval.abs() > MOST_SAMPLES {
-            return Err(Failure::Call(format!(
-                "--every {interval:e} would record more than {MOST_SAMPLES:e} instants"
-            )));
-        }
+        check_samples("--every", interval, call.until)?;
         simulation = simulation.every(interval / f64::from(finer));
     }
     simulation = reading::keep(simulation, &call.keep);

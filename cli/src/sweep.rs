@@ -472,18 +472,31 @@ fn check_kept(model: &Model<'_>, keep: &call::Keep) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The named columns of numbers in a table of runs.
-fn numbers(path: &Path) -> Result<(Vec<String>, Vec<Vec<f64>>), Failure> {
+/// A column of a table of runs: its name, and the unit in its header if there is one.
+type Heading = (String, Option<String>);
+
+/// The names in the header of a table of runs; none if it cannot be read, which is reported where it is used.
+pub fn names_in(path: &Path) -> Vec<String> {
+    let headings = numbers(path).map_or_else(|_| Vec::new(), |(headings, _)| headings);
+    headings.into_iter().map(|(name, _)| name).collect()
+}
+
+/// The columns of numbers in a table of runs, with its rows.
+fn numbers(path: &Path) -> Result<(Vec<Heading>, Vec<Vec<f64>>), Failure> {
     let wrong = |why: String| Failure::Call(format!("--table {}: {why}", path.display()));
+    let heading = |header: &str| {
+        let (name, unit) = table::name_and_unit(header);
+        (name.to_owned(), unit.map(str::to_owned))
+    };
     if path.extension().is_some_and(|ending| ending == "parquet") {
-        return lagrangian_sweep::table::numbers(path).map_err(|error| wrong(error.to_string()));
+        let (headers, rows) =
+            lagrangian_sweep::table::numbers(path).map_err(|error| wrong(error.to_string()))?;
+        return Ok((headers.iter().map(|header| heading(header)).collect(), rows));
     }
     let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
     let header = text.lines().next().unwrap_or_default();
-    let names: Vec<String> = header
-        .split(',')
-        .map(|cell| table::named(cell).to_owned())
-        .collect();
+    let headings: Vec<Heading> = header.split(',').map(heading).collect();
+    let names: Vec<String> = headings.iter().map(|(name, _)| name.clone()).collect();
     let rows = table::rows(&text, &names).map_err(wrong)?;
-    Ok((names, rows))
+    Ok((headings, rows))
 }

@@ -138,11 +138,17 @@ pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
 }
 
 /// The name in a header, without its unit.
-pub fn named(header: &str) -> &str {
+fn named(header: &str) -> &str {
+    name_and_unit(header).0
+}
+
+/// The name in a header, and its unit if there is one.
+pub fn name_and_unit(header: &str) -> (&str, Option<&str>) {
     let header = header.trim();
-    match header.rsplit_once(" [") {
-        Some((name, unit)) if unit.ends_with(']') => name,
-        _ => header,
+    let unit = header.rsplit_once(" [");
+    match unit.and_then(|(name, unit)| Some((name, unit.strip_suffix(']')?))) {
+        Some((name, unit)) => (name.trim_end(), Some(unit)),
+        None => (header, None),
     }
 }
 

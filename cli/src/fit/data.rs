@@ -14,6 +14,7 @@ use lagrangian_sweep::signals::{self, Written};
 
 use crate::call::{self, Assignment};
 use crate::failure::Failure;
+use crate::reading;
 
 /// A file of measurements with the settings of the call: `run.csv,start(phi)=0.3,m=2,torque=run.csv:u`.
 pub struct Given {
@@ -186,11 +187,20 @@ impl Given {
         }
         let mut start = start.clone();
         for (level, sets) in self.starts.iter().enumerate() {
-            let numbers = match level {
-                0 => &mut start.q,
-                _ => &mut start.v,
-            };
             for set in sets {
+                // A state of first order is the rate of its integral.
+                if let Some((integral, unit)) = reading::state_named(&start.v, &set.name)
+                    && level == 0
+                {
+                    let value = set.value(&option, &unit).map_err(Failure::Call)?;
+                    let set = start.v.set(&integral, value);
+                    set.map_err(|unknown| wrong(unknown.to_string()))?;
+                    continue;
+                }
+                let numbers = match level {
+                    0 => &mut start.q,
+                    _ => &mut start.v,
+                };
                 let unit = numbers.unit(&set.name).unwrap_or_default();
                 let unit = match level {
                     0 => unit.to_owned(),

@@ -7,6 +7,7 @@ use lagrangian_sweep::unit_of;
 
 use crate::call::{self, Assignment, Design};
 use crate::failure::Failure;
+use crate::runs;
 
 /// The most values that one option lists.
 const MOST_LISTED: usize = 1_000_000;
@@ -28,15 +29,25 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
                 "--table lists all runs, one in each row: nothing else can be varied".into(),
             ));
         }
-        let (names, rows) = super::numbers(path)?;
-        let names: Vec<String> = names
+        let (headings, mut rows) = super::numbers(path)?;
+        let names: Vec<String> = headings
             .iter()
-            .map(|name| normalized(name).into_owned())
+            .map(|(name, _)| normalized(name).into_owned())
             .collect();
         let shown = path.display();
-        for name in &names {
-            unit_of(model, name)
-                .map_err(|why| Failure::Call(format!("--table {shown}: column `{name}`: {why}")))?;
+        for (column, (name, (_, written))) in names.iter().zip(&headings).enumerate() {
+            let wrong =
+                |why: String| Failure::Call(format!("--table {shown}: column `{name}`: {why}"));
+            let unit = unit_of(model, name).map_err(wrong)?;
+            // Runs have values in the units that the spec declares.
+            if let Some(written) = written {
+                let factor = runs::factor(written, &unit).ok_or_else(|| {
+                    wrong(format!("expected a unit like {unit}, found {written}"))
+                })?;
+                for row in &mut rows {
+                    row[column] *= factor;
+                }
+            }
         }
         if rows.len() > MOST_LISTED {
             return Err(Failure::Call(format!(

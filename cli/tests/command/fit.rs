@@ -436,6 +436,45 @@ fn of_a_pendulum_gravity_by_length_is_told() {
     assert_eq!(number(&result["fitted"][0]["value"]), 1.0);
 }
 
+/// The weight of a number in the residuals does not end where its value is 0: a force that is not there is found not to be there.
+#[test]
+fn a_value_of_zero_is_told() {
+    // x = cos 2t without a force; a force f displaces it by (f/4) (1 − cos 2t).
+    let spec = "machine Pushed in plane {
+        parameters { k: N/m = 5, f: N = 0.5 }
+        coordinates { x: m = 1 }
+        bodies { block { mass: 1*kg, at: (x, 0) } }
+        gravity none;
+        springs { spring { stiffness: k, stretch: x } }
+        forces { push { on: x, value: f } }
+    }";
+    let spec = Scratch::new("pushed.machine", spec);
+    let mut rows = String::from("t,x\n");
+    for k in 0..=40 {
+        let t = f64::from(k) / 10.0;
+        rows.push_str(&format!("{t},{:e}\n", (2.0 * t).cos()));
+    }
+    let data = Scratch::new("still.csv", &rows);
+    for from in ["f=0.5", "f=0"] {
+        let call = [
+            spec.path(),
+            "--data",
+            data.path(),
+            "--fit",
+            "k,f",
+            "--set",
+            from,
+        ];
+        let result = fit(&call);
+        assert_eq!(result["fitted"][1]["standing"], "told", "{result:#}");
+        assert_eq!(result["degrees_of_freedom"], 39);
+        assert_eq!(result["warnings"].as_array().map(Vec::len), Some(0));
+        // The error of the runs at a tolerance of 1e-9 over some two periods.
+        assert!(number(&result["fitted"][1]["value"]).abs() < 1e-7);
+        assert!((number(&result["fitted"][0]["value"]) - 4.0).abs() < 1e-7);
+    }
+}
+
 #[test]
 fn units_of_a_table_change_nothing() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);

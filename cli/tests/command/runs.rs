@@ -403,6 +403,24 @@ fn sections_are_where_the_closed_form_has_them() {
         assert!((x - oscillation(t, 0.2, STIFFNESS)).abs() < 1e-9);
     }
     assert_eq!(values.len(), 6);
+    // A bare number is in the unit of an output: 150 mm.
+    let scaled = OSCILLATOR.replace("outputs {", "outputs { far: mm = x,");
+    let scaled = Scratch::new("scaled.machine", &scaled);
+    for value in ["far=150", "far=0.15*m", "far=150*mm"] {
+        let at = ["--crossing", value, "--of", "far"];
+        let found = answer(&[&["section", scaled.path()], &at[..], &run].concat());
+        let values = list(&quantity(&found, "far")["values"]);
+        assert!(!values.is_empty(), "{value}");
+        for far in values {
+            assert!((far - 150.0).abs() < 1e-9, "{value}: {far}");
+        }
+    }
+    // What --after leaves out does not change the phase, also of a table.
+    let after = ["--every-period", "0.5", "--after", "1.2"];
+    let made = answer(&[&["section", spec.path()], &after[..], &run].concat());
+    let read = answer(&[&["section", data.path()], &after[..]].concat());
+    assert_eq!(list(&read["t"])[..2], [1.5, 2.0]);
+    assert_eq!(list(&made["t"]), list(&read["t"]));
 }
 
 #[test]
@@ -594,6 +612,35 @@ fn what_cannot_be_is_said() {
             &["section", spec, "--until", "1", "--every-period", "x"],
             2,
             &["--every-period"],
+        ),
+        (
+            &["section", spec, "--until", "1", "--every-period", "1e-9"],
+            2,
+            &["--every-period", "instants"],
+        ),
+        (
+            &["section", data, "--every-period", "1e-300"],
+            2,
+            &["--every-period", "instants"],
+        ),
+        (
+            &["spectrum", spec, "--until", "1", "--every", "1e-9"],
+            2,
+            &["--every", "instants"],
+        ),
+        (
+            &[
+                "sensitivities",
+                spec,
+                "--until",
+                "1",
+                "--by",
+                "k",
+                "--every",
+                "1e-9",
+            ],
+            2,
+            &["--every", "instants"],
         ),
         (
             &["sensitivities", spec, "--until", "1", "--by", "m"],

@@ -573,6 +573,32 @@ fn the_start_of_a_state_is_varied_and_fitted_under_its_name() {
     assert_eq!([named(0), named(1)], ["i by start(i)", "i by R"]);
     assert_eq!(found["derivatives"][0]["unit"], "A/A");
 
+    // A start that the call sets no longer follows the parameter.
+    let set = json(&[
+        "sensitivities",
+        spec.path(),
+        "--by",
+        "first,R",
+        "--until",
+        "0.5",
+        "--tolerance",
+        "1e-11",
+        "--start",
+        "i=3",
+        "--json",
+    ]);
+    for (k, known) in [0.0, -3.0 * left].into_iter().enumerate() {
+        let values = set["derivatives"][2 + k]["values"].as_array();
+        let last = values.and_then(|values| values.last()).expect("a list");
+        assert_eq!(
+            set["derivatives"][2 + k]["name"]
+                .as_str()
+                .map(|name| &name[..4]),
+            Some("i by")
+        );
+        close(number(last), known, 1e-8, "sensitivity");
+    }
+
     // Measurements in closed form with 4 A and 3 ohm.
     let mut rows = String::from("t,i [A]\n");
     for k in 0..=20 {
@@ -603,6 +629,10 @@ fn the_start_of_a_state_is_varied_and_fitted_under_its_name() {
         1e-6,
         "fitted",
     );
+    // An experiment with a start of its own: from 4 A the same current has the resistance of 3 ohm.
+    let own = format!("{},start(i)=4000*mA", data.path());
+    let found = json(&["fit", spec.path(), "--data", &own, "--fit", "R", "--json"]);
+    close(number(&found["fitted"][0]["value"]), 3.0, 1e-6, "R");
     for name in ["start(j)", "rate(integral(i))", "start(integral(i))"] {
         let call = ["fit", spec.path(), "--data", data.path(), "--fit", name];
         let output = lagrangian(&call);

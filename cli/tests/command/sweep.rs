@@ -573,6 +573,109 @@ fn a_table_says_runs_and_lists_go_together() {
     );
 }
 
+/// A header says in which unit its column is, whatever unit the spec declares, and of what the spec has a formula for.
+#[test]
+fn a_table_of_runs_may_have_other_units_than_the_spec() {
+    let spec = "machine Oscillator in plane {
+        parameters { m: g = 1000, l: mm = 500, J: kg*m^2 = m*l^2, k: N*m = 4 }
+        coordinates { phi: rad = 0.1 }
+        bodies { wheel { mass: m, inertia: J, at: (0, 0), angle: phi } }
+        gravity none;
+        torsion_springs { spring { stiffness: k, twist: phi } }
+    }";
+    let spec = Scratch::new("oscillator.machine", spec);
+    let at = |name: &str| spec.0.with_file_name(name);
+    let run = |table: &str| {
+        let sets = at("sets.csv");
+        std::fs::write(&sets, table).expect("a file");
+        let sets = sets.to_str().expect("text").to_owned();
+        let out = at("units.csv");
+        let more = ["--until", "1", "--fresh", "--table", &sets];
+        let said = sweep(spec.path(), &out, &more);
+        (said, out)
+    };
+    let (said, out) = run("l [m],m,start(phi) [deg],rate(phi) [rpm]\n0.4,2000,3,1\n0.5,1e3,0,6\n");
+    assert_eq!(said.status, 0, "{}", said.error);
+    let rows = read(&out);
+    assert_eq!(numbers(&rows, "l"), [400.0, 500.0]);
+    let degree = std::f64::consts::PI / 180.0;
+    // phi = φ₀ cos ωt + (ω₀/ω) sin ωt with ω = √(k/J), J = m l².
+    let expected = |inertia: f64, start: f64, rate: f64| {
+        let omega = (4.0 / inertia).sqrt();
+        start * omega.cos() + rate / omega * omega.sin()
+    };
+    let found = numbers(&rows, "phi");
+    let exact = [
+        expected(2.0 * 0.16, 3.0 * degree, 6.0 * degree),
+        expected(0.25, 0.0, 36.0 * degree),
+    ];
+    for (found, exact) in found.iter().zip(exact) {
+        // The default tolerance is 1e-9 in each of some ten steps.
+        assert!((found - exact).abs() < 1e-8, "{found} {exact}");
+    }
+    // A value for what has a formula.
+    let (said, out) = run("J [kg*m^2]\n0.32\n0.25\n");
+    assert_eq!(said.status, 0, "{}", said.error);
+    for (found, inertia) in numbers(&read(&out), "phi").iter().zip([0.32, 0.25]) {
+        assert!(
+            (found - expected(inertia, 0.1, 0.0)).abs() < 1e-8,
+            "{found}"
+        );
+    }
+    let (said, _) = run("l [s]\n0.4\n");
+    assert_eq!(said.status, 2);
+    assert!(said.error.contains("column `l`"), "{}", said.error);
+}
+
+/// Integrals of what is not smooth, and of what oscillates many times in a step: a wheel turns uniformly, in a few steps.
+#[test]
+fn integrals_see_kinks_jumps_and_many_turns_in_a_step() {
+    let spec = "machine Wheel in plane {
+        parameters { J: kg*m^2 = 2 }
+        coordinates { phi: rad = 0.2, der(phi): rad/s = 7 }
+        bodies { wheel { mass: 1*kg, inertia: J, at: (0, 0), angle: phi } }
+        gravity none;
+    }";
+    let spec = Scratch::new("wheel.machine", spec);
+    let out = spec.0.with_file_name("rows.csv");
+    let reductions = [
+        "rms = rms(cos(phi))",
+        "size = integral(abs(cos(phi)))",
+        "upper = mean(max(cos(phi), 0))",
+        "share = mean(sign(cos(phi)))",
+    ];
+    let mut more = vec!["--until", "100", "--vary", "J=2"];
+    more.extend(reductions.iter().flat_map(|one| ["--reduce", one]));
+    let said = sweep(spec.path(), &out, &more);
+    assert_eq!(said.status, 0, "{}", said.error);
+    let rows = read(&out);
+    assert!(numbers(&rows, "steps")[0] < 20.0);
+    // From φ = 0.2 to 700.2: ∫ cos² = (φ + sin φ cos φ)/2; ∫ |cos| = 2n + sin(φ − nπ) with n = ⌊φ/π + ½⌋;
+    // ∫ sign(cos) is the triangle wave of slope ±1 with extremes at odd multiples of π/2.
+    let (from, to) = (0.2_f64, 700.2_f64);
+    let between = |f: &dyn Fn(f64) -> f64| f(to) - f(from);
+    let turns = |x: f64| (x / std::f64::consts::PI + 0.5).floor();
+    let beside = |x: f64| x - turns(x) * std::f64::consts::PI;
+    let size = between(&|x| 2.0 * turns(x) + beside(x).sin());
+    let sine = between(&f64::sin);
+    let square = between(&|x| 0.5 * (x + x.sin() * x.cos()));
+    let triangle = between(&|x| beside(x) * if turns(x) % 2.0 == 0.0 { 1.0 } else { -1.0 });
+    let exact = [
+        ("rms", (square / 700.0).sqrt()),
+        ("size", size / 7.0),
+        ("upper", 0.5 * (size + sine) / 700.0),
+        ("share", triangle / 700.0),
+    ];
+    for (name, exact) in exact {
+        let found = numbers(&rows, name)[0];
+        // Some hundred intervals with a kink or a jump, of 1e-11 of the integral each.
+        assert!(
+            (found - exact).abs() < 1e-8 * exact.abs().max(1.0),
+            "{name}: {found} {exact}"
+        );
+    }
+}
+
 #[test]
 fn what_makes_no_sense_is_refused_before_the_first_run() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);

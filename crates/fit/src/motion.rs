@@ -288,7 +288,11 @@ impl Fit<'_> {
             .zip(&minimum.x)
             .map(|(size, x)| if *x == 0.0 { *size } else { x.abs() })
             .collect();
-        let statistics = Statistics::of(&minimum, &self.bounds(), &sizes, exact, is_scaled);
+        // Whether the residuals depend on a number is asked of changes of the size with which the search began, even if its value is
+        // nearly 0.
+        let own = self.sizes().into_iter().zip(&minimum.x);
+        let changes: Vec<f64> = own.map(|(size, x)| size.max(x.abs())).collect();
+        let statistics = Statistics::of(&minimum, &self.bounds(), &changes, exact, is_scaled);
         let mut is_stopped = false;
         let entangled = statistics.standing.contains(&Standing::Entangled);
         let combinations = if entangled {

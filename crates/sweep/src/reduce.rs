@@ -7,14 +7,70 @@ use lagrangian::{Error, StepMotion, System, extremes};
 
 use crate::plan::Function;
 
-/// Nodes and weights of the Gauss formula with five nodes on [−1, 1], exact up to degree 9; the motion within a step has degree 7.
-const GAUSS: [(f64, f64); 5] = [
-    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-    (0.0, 0.568_888_888_888_888_9),
-    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+/// Nodes of the formula of Clenshaw and Curtis of degree 16 on [−1, 1], each with its weight there and in the formula of degree 8, 0 if that has
+/// no such node. Both ends are nodes, so that a kink or a jump next to an end is not overlooked.
+const NODES: [(f64, f64, f64); 17] = [
+    (-1.0, 0.003_921_568_627_450_98, 0.015_873_015_873_015_872),
+    (-0.980_785_280_403_230_4, 0.037_368_702_837_205_61, 0.0),
+    (
+        -0.923_879_532_511_286_7,
+        0.075_482_331_543_151_83,
+        0.146_218_649_216_018_15,
+    ),
+    (-0.831_469_612_302_545_2, 0.108_905_552_581_890_93, 0.0),
+    (
+        -0.707_106_781_186_547_6,
+        0.138_956_468_368_233_08,
+        0.279_365_079_365_079_37,
+    ),
+    (-0.555_570_233_019_602_2, 0.163_172_664_281_703_3, 0.0),
+    (
+        -0.382_683_432_365_089_8,
+        0.181_473_784_236_493_35,
+        0.361_717_858_720_489_8,
+    ),
+    (-0.195_090_322_016_128_28, 0.192_513_864_612_925_63, 0.0),
+    (0.0, 0.196_410_125_821_890_52, 0.393_650_793_650_793_64),
+    (0.195_090_322_016_128_28, 0.192_513_864_612_925_63, 0.0),
+    (
+        0.382_683_432_365_089_8,
+        0.181_473_784_236_493_35,
+        0.361_717_858_720_489_8,
+    ),
+    (0.555_570_233_019_602_2, 0.163_172_664_281_703_3, 0.0),
+    (
+        0.707_106_781_186_547_6,
+        0.138_956_468_368_233_08,
+        0.279_365_079_365_079_37,
+    ),
+    (0.831_469_612_302_545_2, 0.108_905_552_581_890_93, 0.0),
+    (
+        0.923_879_532_511_286_7,
+        0.075_482_331_543_151_83,
+        0.146_218_649_216_018_15,
+    ),
+    (0.980_785_280_403_230_4, 0.037_368_702_837_205_61, 0.0),
+    (1.0, 0.003_921_568_627_450_98, 0.015_873_015_873_015_872),
 ];
+
+/// An interval whose integral may be wrong by more than this fraction of the integral of the size so far is bisected.
+const ENOUGH: f64 = 1e-11;
+
+/// The same for a part of a step that has been bisected: at a kink the two formulas may agree by chance to some hundredths of the error.
+const ENOUGH_OF_PART: f64 = 1e-13;
+
+/// The shortest interval that is bisected, as a fraction of a step: what it contributes does not matter, even if the formula jumps there.
+const SHORTEST: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// How many intervals an integral may look at in one step: enough for a thousand turns of a shaft in a step.
+const MOST_INTERVALS: usize = 32_768;
+
+/// How many of these each further step allows. The rounding of a formula that cancels, as of an energy less its start, cannot be resolved:
+/// it costs this many intervals a step. A jump costs about 80.
+const INTERVALS_OF_STEP: usize = 32;
+
+/// How many states of a step are kept for other formulas.
+const MOST_LOOKS: usize = 256;
 
 /// A Taylor step has a much higher degree, so its integral is computed in this many parts.
 const PARTS_OF_SERIES: u32 = 4;
@@ -38,6 +94,10 @@ pub(crate) struct Tracker {
     /// The least and the greatest value so far, with their times.
     extent: [Option<(f64, f64)>; 2],
     integral: f64,
+    /// The integral of the absolute value.
+    size: f64,
+    /// How many intervals the integral may still look at.
+    allowed: usize,
     /// The time from which the integral is taken.
     since: Option<f64>,
     until: f64,
@@ -53,6 +113,8 @@ impl Tracker {
             of_size,
             extent: [None; 2],
             integral: 0.0,
+            size: 0.0,
+            allowed: MOST_INTERVALS,
             since: None,
             until: 0.0,
             first: None,
@@ -96,16 +158,17 @@ impl Tracker {
                 self.since.get_or_insert(from_t);
                 self.until = end;
                 let parts = if step.is_series { PARTS_OF_SERIES } else { 1 };
-                let half = 0.5 * (1.0 - from) / f64::from(parts);
-                let mut sum = 0.0;
-                for part in 0..parts {
-                    for (node, weight) in GAUSS {
-                        let theta = from + half * (f64::from(2 * part) + 1.0 + node);
-                        let value = value(theta)?;
-                        sum += weight * if is_square { value * value } else { value };
-                    }
-                }
-                self.integral += (end - start) * half * sum;
+                let length = end - start;
+                let power = |theta: f64| {
+                    let value = value(theta)?;
+                    Ok(if is_square { value * value } else { value })
+                };
+                let known = self.size / length.abs();
+                self.allowed = (self.allowed + INTERVALS_OF_STEP).min(MOST_INTERVALS);
+                let allowed = &mut self.allowed;
+                let [sum, size] = integral(power, [from, 1.0], parts, (known, allowed))?;
+                self.integral += length * sum;
+                self.size += length.abs() * size;
             }
             Function::First => {
                 if self.first.is_none() {
@@ -166,6 +229,52 @@ impl Tracker {
     }
 }
 
+/// The integrals of a function and of its absolute value between two fractions of a step.
+///
+/// The formulas of Clenshaw and Curtis of two degrees are compared in each interval, first in this many equal parts, and an interval is bisected
+/// in which they differ: at a kink, at a jump, or where the function oscillates many times, as in the long steps of a body that turns
+/// uniformly. `known` is the integral of the absolute value before this step, by which errors are measured too: otherwise round-off of a
+/// function that has died down would be resolved. `allowed` is reduced by the number of intervals.
+fn integral(
+    mut f: impl FnMut(f64) -> Result<f64, Error>,
+    [from, to]: [f64; 2],
+    parts: u32,
+    (known, allowed): (f64, &mut usize),
+) -> Result<[f64; 2], Error> {
+    let cut = |part: u32| match part {
+        _ if part == parts => to,
+        _ => from + (to - from) * f64::from(part) / f64::from(parts),
+    };
+    let first = (0..parts).rev();
+    let first = first.map(|part| ([cut(part), cut(part + 1)], ENOUGH));
+    let mut open: Vec<([f64; 2], f64)> = first.collect();
+    let (mut sum, mut size) = (0.0, 0.0);
+    let mut scale = known;
+    while let Some(([a, b], enough)) = open.pop() {
+        *allowed = allowed.saturating_sub(1);
+        let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+        let (mut fine, mut coarse, mut own) = (0.0, 0.0, 0.0);
+        for (node, weight, of_coarse) in NODES {
+            let value = f((middle + half * node).clamp(a, b))?;
+            fine += half * weight * value;
+            coarse += half * of_coarse * value;
+            own += half * weight * value.abs();
+        }
+        scale = (size + own).max(scale);
+        let error = (fine - coarse).abs();
+        // A value that is not a number is a result.
+        let is_enough = own == 0.0 || !own.is_finite() || error <= enough * scale;
+        if is_enough || b - a < SHORTEST || *allowed <= open.len() {
+            sum += fine;
+            size += own;
+        } else {
+            open.push(([middle, b], ENOUGH_OF_PART));
+            open.push(([a, middle], ENOUGH_OF_PART));
+        }
+    }
+    Ok([sum, size])
+}
+
 /// Time, state and inputs at a fraction of a step, and accelerations if they were needed.
 #[derive(Debug)]
 struct Look {
@@ -178,7 +287,7 @@ struct Look {
     has_accelerations: bool,
 }
 
-/// The states evaluated within a step; kept from one step to the next to avoid allocation.
+/// The states evaluated within a step, up to [`MOST_LOOKS`]; kept from one step to the next to avoid allocation.
 #[derive(Debug, Default)]
 pub(crate) struct Seen {
     /// The first `of_step` entries belong to the current step.
@@ -222,6 +331,8 @@ impl<'s, 'm> Looks<'s, 'm> {
         let place = match known {
             Some(place) => place,
             None => {
+                // The last place is used again and again when there are no more.
+                *of_step = (*of_step).min(MOST_LOOKS - 1);
                 if looks.len() == *of_step {
                     let zeros = || vec![0.0; self.system.coordinates().len()];
                     looks.push(Look {

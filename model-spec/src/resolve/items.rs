@@ -259,10 +259,16 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let base = unit.as_written(false);
         let message = format!("a coordinate and its rate must be in SI units, here {base}");
         let diagnostic = Diagnostic::new(Code::UnitOfState, written.span, message);
-        let number = match quantity.value.as_ref().map(|value| &value.kind) {
-            Some(ExpressionKind::Number(number)) => number.as_str(),
-            _ => "30",
+        let number = |value: &Expression| match &value.kind {
+            ExpressionKind::Number(number) => Some(number.clone()),
+            _ => None,
         };
+        let signed = |value: &Expression| match &value.kind {
+            ExpressionKind::Negative(inner) => number(inner).map(|number| format!("-{number}")),
+            _ => number(value),
+        };
+        let number = quantity.value.as_ref().and_then(signed);
+        let number = number.unwrap_or_else(|| "30".to_owned());
         let help = match written.factors.first() {
             Some(first) if first.power > 0 => format!("write `{base} = {number}*{written}`"),
             _ => format!("write `{base}`, and convert the value"),
