@@ -726,6 +726,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             lists: &mut Default::default(),
             coefficients,
         };
+        costs series_cost(p) = [5.7, 8.5];
         matrix mass_matrix(p, t, q) = mass_matrix(p, q);
         vector bias(p, t, q, v) = bias(p, q, v);
         vector applied(p, t, q, v, u) = applied(p, q);
