@@ -25,6 +25,10 @@ pub use crate::reading::set_start;
 use crate::reading::{self, Reading};
 use points::{Entry, Numbers, Point};
 
+/// Residuals of constraints up to this, relative to the numbers of the state, are round-off: a thousandth of what the equations of
+/// motion are checked to.
+const OFF_CONSTRAINTS: f64 = 1e-12;
+
 /// The quantities at a state.
 #[derive(Debug, Serialize)]
 struct Numbered {
@@ -48,6 +52,9 @@ struct Numbered {
     potential_energy: f64,
     dissipation: f64,
     outputs: Map<String, Value>,
+    /// Facts that the spec assumes and that do not hold here; left out if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
 }
 
 /// Runs the command.
@@ -234,7 +241,15 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             coordinate.name
         ));
     }
-    check_equations(system, (t, q, v, &u)).map_err(|error| error.to_string())?;
+    check_equations(system, (t, q, v, &u)).map_err(|error| {
+        // The program takes a coordinate that a constraint determines from the others, so away from the constraints its
+        // accelerations are not those of the point.
+        let apart = off_constraints(system, state);
+        let is_apart = matches!(error, Error::EquationsViolated { .. });
+        apart
+            .filter(|_| is_apart)
+            .unwrap_or_else(|| error.to_string())
+    })?;
     let mut contacts = contacts::forces(system, &multipliers);
     contacts.extend(slips(system, &sliding));
     contacts.extend(collisions::forces(system, &unilateral));
@@ -290,8 +305,58 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             .iter()
             .map(|(name, value)| (name.to_owned(), value.into()))
             .collect(),
+        warnings: ended_assumptions(system, (t, q, v)),
     };
     serde_json::to_value(result).map_err(|error| error.to_string())
+}
+
+/// The facts that the spec assumes and that do not hold at a state, with the default inputs: numbers computed from them are
+/// meaningless there, as the distance `r` of a polar coordinate is where `r > 0` fails.
+pub fn ended_assumptions(
+    system: &InterpretedSystem,
+    (t, q, v): (f64, &Vec<f64>, &Vec<f64>),
+) -> Vec<String> {
+    let inputs = system.default_inputs();
+    let facts = system.assumptions(t, q, v, &inputs);
+    let ended = facts.filter(|fact| !fact.holds());
+    ended
+        .map(|fact| {
+            format!(
+                "the machine assumes `{}`, which does not hold here",
+                fact.text
+            )
+        })
+        .collect()
+}
+
+/// The constraint that a state violates most, if it violates any by more than round-off.
+fn off_constraints(system: &InterpretedSystem, state: &State<Named>) -> Option<String> {
+    let (q, v) = (&state.q.values, &state.v.values);
+    let count = system.constraints().len();
+    let (mut positions, mut rates) = (vec![0.0; count], vec![0.0; count]);
+    system.constraint_positions(state.t, q, &mut positions);
+    system.constraint_rates(state.t, q, v, &mut rates);
+    let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let (of_places, of_rates) = (1.0 + largest(q), 1.0 + largest(q) + largest(v));
+    let residuals = positions.iter().map(|residual| residual / of_places);
+    let residuals = residuals.chain(rates.iter().map(|residual| residual / of_rates));
+    let (worst, residual) = residuals
+        .enumerate()
+        .max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
+    if residual.abs() <= OFF_CONSTRAINTS {
+        return None;
+    }
+    let constraint = system.constraints().nth(worst % count)?;
+    let (what, residual) = if worst < count {
+        ("", positions[worst])
+    } else {
+        ("the rate of ", rates[worst - count])
+    };
+    Some(format!(
+        "the point is not on the constraints, and its accelerations are those of a machine that is: {what}`{}` is off by \
+         {residual:e}; with --keep none the point is moved onto them",
+        constraint.name
+    ))
 }
 
 /// Slip, normal reaction and friction of each guided contact, whether sliding or sticking.

@@ -108,6 +108,7 @@ fn about_start(
         request,
     );
     let model = model.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), OPTIONS)))?;
+    modes::warn_of_ended(machine, (start.t, &model.q, &model.v));
     let mut text = "about the start:\n".to_owned();
     let width = start.q.iter().map(|(name, _)| name.chars().count()).max();
     let width = width.unwrap_or(0);

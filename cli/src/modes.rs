@@ -20,7 +20,7 @@ use lagrangian_units::{rate_name, rate_unit as unit_of_rate, state_of};
 use serde_json::{Map, Value, json};
 
 use crate::call;
-use crate::evaluate::set_start;
+use crate::evaluate::{ended_assumptions, set_start};
 use crate::failure::Failure;
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading};
@@ -115,7 +115,15 @@ pub fn reach(machine: &InterpretedMachine, search: &call::Search) -> Result<Reac
     start.v.values = wanted.given();
     let from = on_constraints(machine, &search.keep, start)?;
     let motion = motion(machine, &from, &wanted)?;
+    warn_of_ended(machine, (0.0, &motion.found.place.q(), &motion.v));
     Ok(Reached { q, wanted, motion })
+}
+
+/// Prints a warning for each fact that the spec assumes and that does not hold at a state.
+pub fn warn_of_ended(machine: &InterpretedMachine, state: (f64, &Vec<f64>, &Vec<f64>)) {
+    for warning in ended_assumptions(&machine.prepare(), state) {
+        output::print_error(format_args!("warning: {warning}"));
+    }
 }
 
 /// The position at which the search starts: if the call keeps numbers of the start, the projected start of a run.

@@ -197,3 +197,41 @@ fn what_cannot_be_kept_is_told() {
         }
     }
 }
+
+/// Two carts that a bar keeps together, each with a spring: y is substituted, and the start is not on the constraint.
+const TIED: &str = "machine Tied in plane {
+    coordinates { x: m = 0.2, y: m }
+    bodies { a { mass: 8, at: (x, 0) }, b { mass: 1, at: (y, 1) } }
+    springs { a { stiffness: 30, stretch: x }, b { stiffness: 1, stretch: y } }
+    constraints { bar: y = x }
+}
+";
+
+#[test]
+fn a_point_off_a_constraint_that_determines_a_coordinate_is_told_as_such() {
+    let spec = Scratch::new("tied.machine", TIED);
+    let evaluate = |more: &[&str]| -> Value {
+        let output = lagrangian(&[&["evaluate", spec.path()], more].concat());
+        serde_json::from_slice(&output.stdout).expect("JSON")
+    };
+    let found = evaluate(&[]);
+    let error = found[0]["error"].as_str().expect("an error");
+    assert!(error.contains("`bar` is off by -2e-1"), "{error}");
+    assert!(error.contains("--keep none"), "{error}");
+    // The nearest point in the metric of inertia, x = y = 8·0.2/9, where 9 ẍ = −31 x.
+    let x = 1.6 / 9.0;
+    for found in [
+        evaluate(&["--keep", "none"]),
+        evaluate(&[
+            "--start",
+            &format!("x={x:?}"),
+            "--start",
+            &format!("y={x:?}"),
+        ]),
+    ] {
+        let exact = -31.0 * x / 9.0;
+        for a in found[0]["accelerations"].as_array().expect("two") {
+            assert!((number(a) - exact).abs() < 1e-14, "{a} {exact}");
+        }
+    }
+}

@@ -1522,3 +1522,38 @@ fn a_row_of_bars_finds_an_equilibrium_from_everywhere() {
     let starts = starts.iter().flat_map(|start| ["--start", start]);
     balanced(&modes(&[&[spec], &starts.collect::<Vec<_>>()[..]].concat()));
 }
+
+/// A spring between the pivot and the end of a rope of the length r: with `r > 0` their distance is r.
+const PULLED: &str = "machine Pulled in plane {
+    coordinates { r: m = START }
+    assume { r > 0 }
+    bodies { bob { mass: 1, at: (r, 0) } }
+    springs {
+        own { stiffness: 10, from: ground.origin, to: bob.at, length: 0.5 },
+        other { stiffness: 20, stretch: r + 1 },
+    }
+    gravity none;
+}
+";
+
+#[test]
+fn a_state_beyond_the_assumptions_is_told() {
+    let warning = "the machine assumes `r > 0`, which does not hold here";
+    // With the distance r the forces 10 (r - 0.5) and 20 (r + 1) balance at r = -1/2; the true distance there is 1/2, so that the
+    // first spring has no force and nothing rests there.
+    let spec = Scratch::new("pulled.machine", &PULLED.replace("START", "-0.5"));
+    let calls: [&[&str]; 3] = [&["modes"], &["linearize"], &["linearize", "--here"]];
+    for call in calls {
+        let output = lagrangian(&[&call[..1], &[spec.path()], &call[1..]].concat());
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(error.contains(warning), "{call:?} {error}");
+    }
+    let evaluate = |point: &str| -> Value {
+        let points = Scratch::new("points.json", point);
+        let output = lagrangian(&["evaluate", spec.path(), "--at", points.path()]);
+        serde_json::from_slice(&output.stdout).expect("JSON")
+    };
+    let found = evaluate("[{\"q\": [-0.5]}, {\"q\": [0.5]}]");
+    assert_eq!(found[0]["warnings"], serde_json::json!([warning]));
+    assert_eq!(found[1]["warnings"], Value::Null);
+}

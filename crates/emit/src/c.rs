@@ -15,7 +15,7 @@ use lagrangian_mechanics::Proved;
 use lagrangian_program::{Function, Guard, Op, Program, Reads, Role, Shape, Slot, Source};
 use lagrangian_units::{rate_unit, state_of};
 
-/// Keywords of C, and the functions of its library that the code calls.
+/// Keywords of C, the functions of its library that the code calls, and macros.
 const RESERVED: &[&str] = &[
     "auto",
     "break",
@@ -86,6 +86,40 @@ const RESERVED: &[&str] = &[
     "singular",
     "NAN",
     "INFINITY",
+    // Macros of <math.h> in C99 and POSIX and of GNU's dialect, and those of other headers that a program is likely to include.
+    "M_E",
+    "M_LOG2E",
+    "M_LOG10E",
+    "M_LN2",
+    "M_LN10",
+    "M_PI",
+    "M_PI_2",
+    "M_PI_4",
+    "M_1_PI",
+    "M_2_PI",
+    "M_2_SQRTPI",
+    "M_SQRT2",
+    "M_SQRT1_2",
+    "HUGE_VAL",
+    "HUGE_VALF",
+    "HUGE_VALL",
+    "FP_INFINITE",
+    "FP_NAN",
+    "FP_NORMAL",
+    "FP_SUBNORMAL",
+    "FP_ZERO",
+    "FP_FAST_FMA",
+    "FP_FAST_FMAF",
+    "FP_FAST_FMAL",
+    "FP_ILOGB0",
+    "FP_ILOGBNAN",
+    "MATH_ERRNO",
+    "MATH_ERREXCEPT",
+    "math_errhandling",
+    "unix",
+    "linux",
+    "NULL",
+    "errno",
 ];
 
 /// The text of the file. `origin` holds lines for its head, `formulas` those that comments show.

@@ -7,6 +7,7 @@
 use lagrangian_symbolic::{Expr, Function, Node, Rational, Symbol, Tangent};
 
 use super::Resolver;
+use super::items::is_worth;
 use super::names::{Namespace, suggestion, with_help};
 use super::value::{Scalar, Scope, Value, Vector, dependence, dimension_text};
 use super::work::{Need, State};
@@ -92,6 +93,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<Scalar<'d>> {
         let scalar = self.scalar(expression, scope.hinting(unit))?;
         self.demand(scalar.unit, unit, expression.span, why);
+        self.no_hidden_unit(expression, scalar.unit, unit);
         if scalar.unit.is_none() {
             self.notice_angle(&scalar, unit, expression.span);
         }
@@ -109,6 +111,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<Vector<'d>> {
         let vector = self.vector(expression, what, scope.hinting(unit))?;
         self.demand(vector.unit, unit, expression.span, why);
+        self.no_hidden_unit(expression, vector.unit, unit);
         Some(vector)
     }
 
@@ -304,6 +307,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             parts.map(|(value, term)| (value.is_bare(), term.value.span)),
             unit,
         );
+        if let Some(unit) = unit {
+            for (value, term) in &values {
+                if !value.is_unknown() {
+                    self.no_hidden_unit(&term.value, value.unit(), unit);
+                }
+            }
+        }
         let (Some((_, first)), Some((_, last)), Some(vectors)) =
             (values.first(), values.last(), vectors)
         else {
@@ -443,44 +453,52 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     /// A unit after a number, `30*deg`, if no declaration has its name.
     fn unit_factor(&mut self, factor: &'a Expression, scope: Scope<'a>) -> Option<Measure> {
-        match &factor.kind {
-            ExpressionKind::Name(reference) if reference.index.is_none() => {
-                let word = reference.base.text.as_str();
-                let is_index = scope.index.is_some_and(|(variable, _)| variable == word);
-                let is_taken = is_index || matches!(word, "t" | "pi" | "ground");
-                let namespaces = [Namespace::Values, Namespace::FRAMES, Namespace::BODIES];
-                let is_declared = || {
-                    let mut found = namespaces.into_iter();
-                    found.any(|namespace| self.find_group(namespace, word).is_some())
-                };
-                if is_taken || self.incomplete || is_declared() {
-                    None
-                } else {
-                    Measure::named(word)
-                }
-            }
-            ExpressionKind::Power(base, exponent) => {
-                let (sign, exponent) = match &exponent.kind {
-                    ExpressionKind::Negative(inner) => (-1, &inner.kind),
-                    other => (1, other),
-                };
-                let ExpressionKind::Number(power) = exponent else {
-                    return None;
-                };
-                let power = power.parse::<i32>().ok().filter(|power| *power <= 12)?;
-                self.unit_factor(base, scope)?.power(sign * power)
-            }
-            ExpressionKind::Product(factors) => {
-                factors.iter().try_fold(Measure::ONE, |product, factor| {
-                    let next = self.unit_factor(&factor.value, scope)?;
-                    product.times(&if factor.divides {
-                        next.power(-1)?
-                    } else {
-                        next
-                    })
-                })
-            }
-            _ => None,
+        let namespaces = [Namespace::Values, Namespace::FRAMES, Namespace::BODIES];
+        unit_of(factor, &|word| {
+            let is_index = scope.index.is_some_and(|(variable, _)| variable == word);
+            let is_taken = is_index || matches!(word, "t" | "pi" | "ground");
+            let is_declared = || {
+                let mut found = namespaces.into_iter();
+                found.any(|namespace| self.find_group(namespace, word).is_some())
+            };
+            !(is_taken || self.incomplete || is_declared())
+        })
+    }
+
+    /// Refuses a bare number that would be a quantity in the unit of its place if a name in it were that of a unit: `5*N` with a
+    /// constant `N`, where a force is expected. No unit can tell the two apart, because a bare number takes any.
+    pub fn no_hidden_unit(
+        &mut self,
+        expression: &'a Expression,
+        found: Option<Unit>,
+        expected: Unit,
+    ) {
+        if found.is_some() || self.remarks.is_some() {
+            return;
+        }
+        let names = hidden_unit(expression, expected);
+        // `1500*rpm` with a constant `rpm = 2*pi/60` is the same either way.
+        let Some(name) = names.into_iter().find(|name| !self.is_as_unit(name)) else {
+            return;
+        };
+        let unit = name.text.as_str();
+        let message = format!("`{unit}` is a number declared here, and a unit that fits here too");
+        let diagnostic = Diagnostic::new(Code::ReservedName, expression.span, message);
+        let help =
+            format!("give the number another name, or write `{unit}*…` if it is not the unit");
+        self.push(diagnostic.help(help));
+    }
+
+    /// Whether a name is declared with the value of the unit of the same name.
+    fn is_as_unit(&mut self, name: &'a Ident) -> bool {
+        let group = self.find_group(Namespace::Values, &name.text);
+        let member = group.and_then(|group| self.groups[group].members.get(&None).copied());
+        let (Some(member), Some(measure)) = (member, Measure::named(&name.text)) else {
+            return false;
+        };
+        match self.value_of(member, name.span) {
+            Value::Scalar(scalar) => is_worth(scalar.expr, &measure),
+            _ => false,
         }
     }
 
@@ -709,6 +727,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let parts = values.iter().zip(components);
         let is_bare = |value: &Option<Scalar<'d>>| value.is_some_and(|value| value.is_bare());
         self.no_bare_number(parts.map(|(value, part)| (is_bare(value), part.span)), unit);
+        if let Some(unit) = unit {
+            for (value, part) in values.iter().zip(components) {
+                if let Some(value) = value {
+                    self.no_hidden_unit(part, value.unit, unit);
+                }
+            }
+        }
         let components: Option<Vec<Expr<'d>>> =
             values.iter().map(|value| Some((*value)?.expr)).collect();
         match components {
@@ -1072,6 +1097,94 @@ impl Value<'_> {
             Value::Vector(vector) => vector.unit,
             _ => None,
         }
+    }
+}
+
+/// An expression of names of units, `m/s^2`, as a unit; `is_free` tells whether a name may be that of a unit.
+fn unit_of(factor: &Expression, is_free: &dyn Fn(&str) -> bool) -> Option<Measure> {
+    match &factor.kind {
+        ExpressionKind::Name(reference) if reference.index.is_none() => {
+            let word = reference.base.text.as_str();
+            is_free(word).then(|| Measure::named(word)).flatten()
+        }
+        ExpressionKind::Power(base, exponent) => {
+            let (sign, exponent) = match &exponent.kind {
+                ExpressionKind::Negative(inner) => (-1, &inner.kind),
+                other => (1, other),
+            };
+            let ExpressionKind::Number(power) = exponent else {
+                return None;
+            };
+            let power = power.parse::<i32>().ok().filter(|power| *power <= 12)?;
+            unit_of(base, is_free)?.power(sign * power)
+        }
+        ExpressionKind::Product(factors) => {
+            factors.iter().try_fold(Measure::ONE, |product, factor| {
+                let next = unit_of(&factor.value, is_free)?;
+                product.times(&if factor.divides {
+                    next.power(-1)?
+                } else {
+                    next
+                })
+            })
+        }
+        _ => None,
+    }
+}
+
+/// The names in a bare number that are those of units, if the number would be in `expected` by these units. All names in a bare
+/// number are declared.
+fn hidden_unit(expression: &Expression, expected: Unit) -> Vec<&Ident> {
+    match &expression.kind {
+        ExpressionKind::Negative(inner) => hidden_unit(inner, expected),
+        ExpressionKind::Sum(terms) => {
+            let parts = terms.iter().map(|term| &term.value);
+            parts.flat_map(|part| hidden_unit(part, expected)).collect()
+        }
+        ExpressionKind::Tuple(parts) => {
+            let parts = parts.iter();
+            parts.flat_map(|part| hidden_unit(part, expected)).collect()
+        }
+        ExpressionKind::Product(factors) => {
+            let is_number = |factor: &Factor| match &factor.value.kind {
+                ExpressionKind::Number(_) => true,
+                ExpressionKind::Name(name) => name.base.text == "pi",
+                _ => false,
+            };
+            let numbers = factors.iter().take_while(|factor| is_number(factor));
+            let (numbers, units) = factors.split_at(numbers.count());
+            let mut measure = (!numbers.is_empty()).then_some(Measure::ONE);
+            for factor in units {
+                let next = unit_of(&factor.value, &|_| true);
+                let power = if factor.divides { -1 } else { 1 };
+                let next = next.and_then(|next| next.power(power));
+                measure = measure
+                    .zip(next)
+                    .and_then(|(so_far, next)| so_far.times(&next));
+            }
+            let fits = |measure: Measure| !measure.unit.is_one() && measure.unit.fits(expected);
+            if !measure.is_some_and(fits) {
+                return Vec::new();
+            }
+            units
+                .iter()
+                .flat_map(|factor| names_of(&factor.value))
+                .collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The names in a unit.
+fn names_of(unit: &Expression) -> Vec<&Ident> {
+    match &unit.kind {
+        ExpressionKind::Name(reference) => vec![&reference.base],
+        ExpressionKind::Power(base, _) => names_of(base),
+        ExpressionKind::Product(factors) => {
+            let factors = factors.iter();
+            factors.flat_map(|factor| names_of(&factor.value)).collect()
+        }
+        _ => Vec::new(),
     }
 }
 

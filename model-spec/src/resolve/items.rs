@@ -18,6 +18,12 @@ use crate::unit::{Measure, Unit};
 
 const INERTIA: Unit = Unit::base(1, 2, 0);
 
+/// Whether a value is a constant that equals a unit, to rounding.
+pub(super) fn is_worth(value: Expr<'_>, measure: &Measure) -> bool {
+    value.stage() == stage::CONSTANT
+        && (nearest(value) - measure.to_f64()).abs() <= 1e-15 * measure.to_f64()
+}
+
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     // Values.
 
@@ -69,6 +75,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             value.span,
             "the expected unit is that of the declaration",
         );
+        self.no_hidden_unit(value, scalar.unit, unit);
         if scalar.unit.is_none() {
             self.notice_angle(&scalar, unit, value.span);
         } else if !measure.is_si() {
@@ -88,9 +95,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         };
         let alike = value.unit.unwrap_or(Unit::ONE) == measure.unit;
         // A declaration `deg = pi/180` agrees with the meaning of the unit.
-        let is_same = value.expr.stage() == stage::CONSTANT
-            && (nearest(value.expr) - measure.to_f64()).abs() <= 1e-15 * measure.to_f64();
-        if alike && !is_same {
+        if alike && !is_worth(value.expr, &measure) {
             let unit = name.text.as_str();
             let message = format!(
                 "`{unit}` is also the name of a unit of the same kind as the quantity declared here"

@@ -332,7 +332,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .collect()
     }
 
-    /// Refuses a name that refers to none of the existing members.
+    /// Refuses a name that refers to none of the existing members. The name of a family alone refers to all of its members, of which
+    /// a size of 0 leaves none.
     pub fn check_members(
         &mut self,
         members: &[MemberId],
@@ -340,7 +341,17 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         (base, index): (&str, Option<i64>),
         span: Span,
     ) {
-        if members.is_empty() && !self.groups[group].broken {
+        let Group {
+            declarations,
+            removals,
+            broken,
+            ..
+        } = &self.groups[group];
+        let is_family = |&declaration: &usize| {
+            matches!(self.declarations[declaration].name.index, Index::Range(_))
+        };
+        let is_all = index.is_none() && removals.is_empty() && declarations.iter().any(is_family);
+        if members.is_empty() && !broken && !is_all {
             let message = format!("there is no `{}`", show(base, index));
             self.error(Code::IndexOutOfRange, span, message);
         }

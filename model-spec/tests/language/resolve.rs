@@ -1168,3 +1168,71 @@ fn a_number_with_a_unit_is_converted_exactly() {
         assert_eq!(model.outputs[2].value.as_constant(), Some(number), "{text}");
     }
 }
+
+#[test]
+fn a_number_that_would_be_a_quantity_if_its_name_were_a_unit_is_refused() {
+    let refused = |parts: &str| {
+        errors(&format!(
+            "machine Test in plane {{
+                constants {{ N = 3, m = 2 }}
+                parameters {{ k: N/m = 1 }}
+                coordinates {{ x[1..N]: m }}
+                bodies {{ cart[i in 1..N] {{ mass: m, at: (x[i], 0) }} }}
+                springs {{ s {{ stiffness: k, stretch: x[1] }} }}
+                gravity none;
+                {parts}
+            }}"
+        ))
+    };
+    // 15 N and 5 N, 1 m and 0.5 m look alike.
+    for parts in [
+        "forces { f { on: x[1], value: 5*N } }",
+        "forces { f { on: x[1], value: k*x[2] - 2*5*N } }",
+        "forces { f { at: cart[1].at, force: (5*N, k*x[2]) } }",
+        "parameters { push: N = 5*N } forces { f { on: x[1], value: push } }",
+        "outputs { far: m = x[1] + 0.5*m }",
+        "outputs { near: m = -(0.5*m) }",
+    ] {
+        let said = refused(parts);
+        let unit = if parts.contains("outputs") { "m" } else { "N" };
+        let message = format!("`{unit}` is a number declared here, and a unit that fits here too");
+        assert!(
+            said.contains(&message) && said.lines().count() == 1,
+            "{parts}: {said}"
+        );
+    }
+    // Numbers of members, other orders of the factors, and numbers where the unit does not fit.
+    for parts in [
+        "forces { f { on: x[1], value: N*5 } }",
+        // The same either way.
+        "constants { kN = 1000 } forces { f { on: x[1], value: 5*kN } }",
+        "outputs { last: m = x[2*N - 3], share: m = x[1]/N, count: 1 = 2*N, angle: rad = 2*pi/N }",
+    ] {
+        assert_eq!(refused(parts), "", "{parts}");
+    }
+}
+
+#[test]
+fn a_family_without_members_may_be_named() {
+    let named = |parts: &str| {
+        errors(&format!(
+            "machine Test in plane {{
+                constants {{ K = 0 }}
+                coordinates {{ x: m, p[1..K]: m }}
+                states {{ w[1..K]: 1, der(w) = 1 }}
+                bodies {{ cart {{ mass: 1, at: (x, 0) }} }}
+                gravity none;
+                {parts}
+            }}"
+        ))
+    };
+    for parts in [
+        "coordinates { der(p): m/s = 1 }",
+        "approximations { p: small }",
+        "keep { p, der(p) }",
+    ] {
+        assert_eq!(named(parts), "", "{parts}");
+    }
+    let said = named("coordinates { der(p[1]): m/s = 1 }");
+    assert!(said.contains("there is no `p[1]`"), "{said}");
+}

@@ -306,3 +306,49 @@ fn a_top_in_c() {
 fn a_chain_in_pieces_in_c() {
     check("chain", Some(16));
 }
+
+/// Names that are macros of <math.h>: the mass of the Earth is none of 2.718….
+#[test]
+fn names_of_macros_in_c() {
+    let text = "machine Names in plane {
+        parameters { M_E: kg = 5, M_PI: N/m = 3, HUGE_VAL: m = 1, NULL: 1 = 2, double: N = 1 }
+        coordinates { M_SQRT2: m = 0.2, linux: m, errno: m }
+        inputs { FP_ZERO: N = 1 }
+        bodies {
+            a { mass: M_E, at: (M_SQRT2, NULL*linux) },
+            b { mass: M_E, at: (HUGE_VAL*sin(errno/HUGE_VAL), 0) },
+        }
+        springs { s { stiffness: M_PI, stretch: M_SQRT2 - HUGE_VAL } }
+        forces { f { on: linux, value: FP_ZERO + double } }
+        gravity none;
+        outputs { M_LN2: N = M_PI*M_SQRT2 }
+    }";
+    let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
+    let model = lagrangian_spec::model(
+        &dag,
+        "names.machine",
+        text,
+        &[],
+        &mut Disk,
+        &mut sources,
+        &mut report,
+    );
+    let compiled = model
+        .and_then(|model| Compiled::new(model, &mut report))
+        .unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
+    let c = emit::c::file(&compiled.program, &[], &compiled.formulas());
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c-names");
+    fs::create_dir_all(&folder).expect("cargo made the folder above");
+    fs::write(folder.join("names.c"), c).expect("the folder can be written");
+    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+    let checked = Command::new(&compiler)
+        .args(["-std=gnu99", "-fsyntax-only", "-include", "errno.h"])
+        .arg(folder.join("names.c"))
+        .output();
+    let Ok(checked) = checked else {
+        eprintln!("there is no C compiler; nothing is tested");
+        return;
+    };
+    let said = String::from_utf8_lossy(&checked.stderr);
+    assert!(checked.status.success(), "{said}");
+}
