@@ -633,7 +633,7 @@ impl NoPiece<'_> {
         let (input, why) = match self {
             NoPiece::Ended(name) => (
                 name,
-                "ends, but the run continues: there is no value beyond",
+                "covers only a part of the run: it has no value next to",
             ),
             NoPiece::TooFine(name) => (name, "changes more often than times can resolve at"),
         };

@@ -72,14 +72,11 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     })?;
     let form = problem::form(&compiled, &machine)?;
     let [from, to] = ends(call, &compiled, &machine, &form)?;
-    let names: Vec<String> = machine
-        .start()
-        .q
-        .iter()
-        .map(|(name, _)| name.to_owned())
-        .collect();
+    let coordinates = &compiled.program.coordinates;
     let guess = call.guess.as_deref();
-    let guess = guess.map(|path| guess::read(path, &names)).transpose()?;
+    let guess = guess
+        .map(|path| guess::read(path, coordinates))
+        .transpose()?;
     progress::now("searching for the fastest motion");
     let clock = Instant::now();
     let (motion, because) = match form {

@@ -433,7 +433,7 @@ fn header(program: &Program, lanes: &[u8], spec: &str) -> String {
     format!(
         "/* The machine {name}: its accelerations. Made from {spec} by `lagrangian library`.\n \
          *\n \
-         * SI units, angles in radians. Coordinates:{}\n \
+         * Numbers are in the units listed, rates and accelerations in these per s and s^2. Coordinates:{}\n \
          *\n \
          * Parameters:{}{of_inputs}{of_contacts}\n \
          */\n\

@@ -389,6 +389,25 @@ fn a_guess_is_a_table() {
         .fold(0.0, f64::max);
     assert!(slowest > alone["time"].as_f64().expect("a time") + 0.05);
     close(&first["time"], slowest, 1e-10);
+    // The same path in centimetres and millimetres: what the search finds from it is the same motion.
+    let written = std::fs::read_to_string(&way.0).expect("a table");
+    let mut lines = written.lines();
+    let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let column = |name: &str| {
+        let found = names
+            .iter()
+            .position(|of| of.split(' ').next() == Some(name));
+        found.expect("a column")
+    };
+    let (x, y) = (column("x"), column("y"));
+    let mut converted = "x [cm],y [mm]\n".to_owned();
+    for line in lines {
+        let cells: Vec<f64> = line.split(',').flat_map(str::parse).collect();
+        converted += &format!("{},{}\n", 100.0 * cells[x], 1000.0 * cells[y]);
+    }
+    std::fs::write(&way.0, converted).expect("a file");
+    let in_other_units = solved(HILL, &["--to", "x=1,y=0.3", "--guess", way.path()]);
+    close(&in_other_units["tried"][0]["time"], slowest, 1e-10);
     for (text, why) in [
         ("x,z\n0,0\n", "no column is named `y`"),
         (
@@ -396,6 +415,10 @@ fn a_guess_is_a_table() {
             "line 2: `a` in column `y` is not a finite number",
         ),
         ("x,y\n0,0\n", "a path needs at least two rows of positions"),
+        (
+            "x [m],y [kg]\n0,0\n1,0.3\n",
+            "column `y`: expected a unit like m, found kg",
+        ),
     ] {
         std::fs::write(&way.0, text).expect("a file");
         let error =

@@ -341,7 +341,7 @@ fn what_cannot_drive_an_input_is_refused() {
         (
             &["--input", &error],
             1,
-            "the table of input push ends, but the run continues",
+            "the table of input push covers only a part of the run: it has no value next to t = ",
         ),
         (&["--input", "push=1,every=1e-300"], 2, "greater than 0"),
         (
