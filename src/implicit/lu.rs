@@ -104,6 +104,18 @@ impl<T: Coefficient> Lu<T> {
                 self.entries[i * n + j] = entry(i, j);
             }
         }
+        self.factor_entries()
+    }
+
+    /// [`factor`](Self::factor) for a matrix whose rows this writes, each given its index and its entries.
+    pub fn factor_rows(&mut self, mut write: impl FnMut(usize, &mut [T])) -> bool {
+        let rows = self.entries.chunks_exact_mut(self.n.max(1));
+        rows.enumerate().for_each(|(i, row)| write(i, row));
+        self.factor_entries()
+    }
+
+    fn factor_entries(&mut self) -> bool {
+        let n = self.n;
         for k in 0..n {
             let mut pivot = k;
             for i in k + 1..n {

@@ -69,16 +69,22 @@ impl StageJacobians {
         let Self {
             jacobians, matrix, ..
         } = self;
-        matrix.factor(|row, column| {
-            let at = (row % n) * n + column % n;
-            let Jacobian {
-                by_coordinates,
-                by_rates,
-                ..
-            } = &jacobians[row / n];
-            let [velocity, position] = weights[row / n][column / n];
-            let one = if row == column { 1.0 } else { 0.0 };
-            one - velocity * by_rates[at] - position * by_coordinates[at]
+        // By blocks: to find the stage of each entry would take longer than the factorization.
+        matrix.factor_rows(|row, entries| {
+            let (stage, i) = (row / n, row % n);
+            let jacobian = &jacobians[stage];
+            let by_coordinates = &jacobian.by_coordinates[i * n..][..n];
+            let by_rates = &jacobian.by_rates[i * n..][..n];
+            let blocks = entries.chunks_exact_mut(n).zip(&weights[stage]);
+            for (other, (block, [velocity, position])) in blocks.enumerate() {
+                let derivatives = by_rates.iter().zip(by_coordinates);
+                for (j, (entry, (by_rate, by_coordinate))) in
+                    block.iter_mut().zip(derivatives).enumerate()
+                {
+                    let one = if (other, j) == (stage, i) { 1.0 } else { 0.0 };
+                    *entry = one - velocity * by_rate - position * by_coordinate;
+                }
+            }
         })
     }
 
