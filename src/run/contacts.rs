@@ -328,6 +328,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
         }
         self.record_energy_gains(&changes_at_instant.impacts, t);
+        let hit: Vec<usize> = reported.iter().map(|(contact, ..)| *contact).collect();
         for (contact, (before, after)) in changes_at_instant
             .before
             .iter()
@@ -341,7 +342,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 (Mode::Open, _) | (_, Mode::Open) if self.has_carrier(contact) => continue,
                 // What is done along both tangents is told of the contact.
                 _ if self.is_across(contact) => continue,
-                (Mode::Open, _) if at_start => continue,
+                // What is closed before the run does not close; what is hit at its start does.
+                (Mode::Open, _) if at_start && !hit.contains(&contact) => continue,
                 (Mode::Open, _) => (Closes, 0.0),
                 (_, Mode::Open) if self.is_compliant(contact) => (Opens, 0.0),
                 (_, Mode::Open) => (Lifts, 0.0),
