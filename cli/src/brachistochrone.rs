@@ -73,6 +73,10 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     let form = problem::form(&compiled, &machine)?;
     let [from, to] = ends(call, &compiled, &machine, &form)?;
     let coordinates = &compiled.program.coordinates;
+    let names: Vec<String> = coordinates
+        .iter()
+        .map(|slot| slot.name.to_string())
+        .collect();
     let guess = call.guess.as_deref();
     let guess = guess
         .map(|path| guess::read(path, coordinates))
