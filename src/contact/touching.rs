@@ -1161,10 +1161,14 @@ impl UnilateralState {
                         let tangential = answer.forces[place][1];
                         let normal = answer.forces[carrier(place).unwrap_or(place)][0];
                         let normal = pressing[place].unwrap_or(normal);
-                        let most = here.friction(k)[1] * normal;
+                        let [kinetic, at_rest] = here.friction(k);
+                        let most = at_rest * normal;
                         let (slips, rounding) = after(1);
+                        // Contacts that share a load may share it so that the friction of one is used up while others hold it. As long as
+                        // it does not begin to slip it has its static friction, without which they could no longer hold.
+                        let is_held = kinetic != at_rest && slips.abs() <= rounding;
                         // What has friction left sticks, whatever rounding makes of its slip.
-                        let sign = match tangential.abs() < most * (1.0 - SATURATED) {
+                        let sign = match is_held || tangential.abs() < most * (1.0 - SATURATED) {
                             true => 0.0,
                             false if most > 0.0 => -tangential.signum(),
                             false if slips.abs() > rounding => slips.signum(),
@@ -1174,7 +1178,7 @@ impl UnilateralState {
                             0.0 => Mode::Sticks,
                             sign => {
                                 slipping[place] = Some(sign);
-                                breaks_away |= here.friction(k)[0] != here.friction(k)[1];
+                                breaks_away |= kinetic != at_rest;
                                 Mode::Slides(sign)
                             }
                         }

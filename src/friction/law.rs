@@ -188,6 +188,21 @@ impl Parts<'_> {
         })
     }
 
+    /// Whether no friction force changes a normal reaction, in space.
+    fn presses_regardless_of_friction(&self) -> bool {
+        let by_friction = |contact: usize, part: usize| {
+            let mut vector = [0.0; 3];
+            for (x, i) in vector.iter_mut().zip(self.components(contact)) {
+                *x = self.at(1 + part, i);
+            }
+            self.across(contact, vector)
+        };
+        let all = || 0..self.layout.k;
+        let is_none = |x: f64| x.abs() <= SINGULAR;
+        self.layout.axes == 3
+            && all().all(|k| all().all(|part| by_friction(k, part).into_iter().all(is_none)))
+    }
+
     pub fn friction(&self, contact: usize) -> f64 {
         self.values[(1 + self.layout.k) * self.layout.part() + contact]
     }
@@ -605,6 +620,14 @@ impl OpenStates {
                 unknown = (0..count).find(|k| mode.motion[*k] != Motion::Sticks);
             }
         });
+        // With normal reactions that friction does not change, the accelerations minimize a strictly convex function, so there are no others.
+        // With more friction at rest this holds for what sticks.
+        let is_proved = |(mode, _): &(Mode, Each)| {
+            let mut asked = (0..count).filter(|k| self.motion[*k].is_none());
+            parts.presses_regardless_of_friction()
+                && (!holds_more || asked.all(|k| mode.motion[k] == Motion::Sticks))
+        };
+        let unknown = unknown.filter(|_| !best.as_ref().is_some_and(is_proved));
         match (best, several.or(unknown)) {
             (Some(best), None) => Ok(best),
             (Some(_), Some(contact)) => Err(Paradox {

@@ -372,6 +372,123 @@ fn a_block_on_a_belt_sticks_and_slips_in_time() {
     close(number(&run["energy_residual"]), 0.0, 1e-10);
 }
 
+/// A box that rests on two corners shares its load between them, and the one that presses less has no friction left before the other. The box is held
+/// by the static friction of both: it rests on every slope below μ₀, and under a force c t, above its feet, it begins to slip at t₀ = μ₀ m g/c, not earlier.
+/// From there on x = (μ₀ − μ) g τ²/2 + c τ³/(6 m), where τ = t − t₀.
+#[test]
+fn a_box_is_held_by_the_static_friction_of_both_corners() {
+    let on = |contact: &str| {
+        format!(
+            "machine Box in plane {{
+                parameters {{
+                    m: kg = 2, w: m = 0.4, h: m = 0.1, mu: 1 = 0.3, mu0: 1 = 0.36, g: m/s^2 = 9.81, alpha: rad = 0, c: N/s = 0,
+                }}
+                coordinates {{ x: m, y: m = h/2, theta: rad }}
+                frames {{ slope = ground.turn(alpha), carton = slope.shift(x, y).turn(theta) }}
+                bodies {{
+                    carton {{
+                        mass: m, inertia: m*(w^2 + h^2)/12, frame: carton,
+                        outline: ((-w/2, -h/2), (w/2, -h/2), (w/2, h/2), (-w/2, h/2)),
+                    }}
+                }}
+                gravity (0, -g);
+                forces {{ push {{ at: carton.origin, force: c*t*slope.vector(1, 0) }} }}
+                contacts {{ base {{ {contact}, restitution: 0, friction: mu, static_friction: mu0 }} }}
+            }}"
+        )
+    };
+    let (m, mu, mu0, g, c, until) = (2.0, 0.3, 0.36, 9.81, 4.0, 3.0);
+    let start: f64 = mu0 * m * g / c;
+    let since = until - start;
+    let slipped = (mu0 - mu) * g * since.powi(2) / 2.0 + c * since.powi(3) / (6.0 * m);
+    for (name, contact) in [
+        (
+            "corners.machine",
+            "corners: outline, on: carton, along: slope",
+        ),
+        (
+            "faces.machine",
+            "corners: outline, on: carton, against: ((-5, -1), (5, -1), (5, 0), (-5, 0)), of: slope",
+        ),
+    ] {
+        let spec = Scratch::new(name, &on(contact));
+        for tangent in ["0.31", "0.35", "0.3599"] {
+            let run = simulate(spec.path(), 1.0, &[&format!("alpha=atan({tangent})")]);
+            is_good(&run);
+            // Rounding over one second of rest.
+            close(number(&run["q"]["x"]), 0.0, 1e-12);
+        }
+        let run = simulate(spec.path(), until, &["c=4"]);
+        is_good(&run);
+        let slips = events(&run, "slips");
+        assert_eq!(slips.len(), 2, "both corners slip once: {slips:?}");
+        for slip in &slips {
+            // The instant is known within 1e-9 of a step, which is at most as long as the run.
+            close(number(&slip["t"]), start, 1e-8);
+        }
+        // An instant that is late by this makes the slip less by the speed at the end, 4 m/s, times it.
+        close(number(&run["q"]["x"]), slipped, 1e-7);
+    }
+}
+
+/// A puck lies on a plate that slides on the floor in space, both between guides: it does not slip on the plate, and both stop together after v/(μ g) and
+/// v²/(2 μ g), where the friction of neither depends on that of the other.
+#[test]
+fn a_plate_stops_under_its_puck_in_space() {
+    let spec = Scratch::new(
+        "plate.machine",
+        "machine Plate in space {
+            coordinates { a: m, b: m, x: m = 0.3, y: m = 0.2, der(a): m/s = -1 }
+            frames { slab = ground.shift(a, b, 0) }
+            bodies { plate { mass: 1, frame: slab }, puck { mass: 0.4, at: slab.point(x, y, 0.1) } }
+            gravity (0, 0, -9.81);
+            sliding {
+                low { body: plate, on: ground, normal: (0, 0, 1), friction: 0.1 },
+                up { body: puck, on: slab, normal: (0, 0, 1), friction: 0.3 },
+            }
+        }",
+    );
+    let run = simulate(spec.path(), 2.0, &[]);
+    is_good(&run);
+    let events = run["events"].as_array().expect("events");
+    assert_eq!(events.len(), 1, "{events:?}");
+    assert_eq!(events[0]["name"], "low sticks");
+    close(number(&events[0]["t"]), 1.0 / 0.981, 1e-9);
+    close(number(&run["q"]["a"]), -0.5 / 0.981, 1e-9);
+    close(number(&run["q"]["x"]), 0.3, 1e-12);
+}
+
+/// Two blocks on a rod are held by the static friction of both, up to μ₀ (m + M) g, here 10 N; above that they slip with (F − μ (m + M) g)/(m + M).
+#[test]
+fn two_blocks_on_a_rod_are_held_by_the_static_friction_of_both() {
+    let spec = Scratch::new(
+        "rod.machine",
+        "machine Rod in plane {
+            parameters { F: N = 0 }
+            coordinates { x: m, y: m = 1, u: m, w: m }
+            bodies { a { mass: 1, at: (x, u) }, b { mass: 1, at: (y, w) } }
+            gravity (0, -10);
+            forces { push { at: a.at, force: (F, 0) } }
+            constraints { rod: y - x = 1 }
+            contacts {
+                under_a { gap: u, slip: der(x), restitution: 0, friction: 0.3, static_friction: 0.5 },
+                under_b { gap: w, slip: der(y), restitution: 0, friction: 0.3, static_friction: 0.5 },
+            }
+        }",
+    );
+    for (force, slipped) in [
+        ("F=4", 0.0),
+        ("F=8.5", 0.0),
+        ("F=9.9", 0.0),
+        ("F=10.1", 1.025),
+    ] {
+        let run = simulate(spec.path(), 1.0, &[force]);
+        is_good(&run);
+        // Rounding over one second.
+        close(number(&run["q"]["x"]), slipped, 1e-12);
+    }
+}
+
 /// A body that slides on a plane with friction μ and then rolls: a sphere rolls at 5/7 of its initial speed, a disc at 2/3, after v₀/(3 μ g).
 #[test]
 fn a_disc_slides_until_it_rolls() {
