@@ -233,6 +233,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         simulation = simulation.automatic();
     }
     let simulation = contacts.watch(simulation, !signals.is_empty());
+    let stated = start.clone();
     let (run, error) = simulation
         .run_interpreted_as_far_as_possible(start)
         .map_err(cause)?;
@@ -306,6 +307,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
                 report.page_that_runs(&Live {
                     tolerance,
                     most_steps: call.max_steps,
+                    stated: &stated,
                 })
             } else {
                 report.page()

@@ -126,20 +126,17 @@ impl<V: Vector> Constraints<V> {
         let n = place.q[0].as_slice().len();
         let before = [place.q[0].clone(), place.v[0].clone()];
         let mut moved = false;
-        // Positions and rates have different fixed numbers, so different rows are independent.
-        let levels: &[&[Level]] = match &self.kept {
-            None => &[&[Level::Positions, Level::Rates]],
-            Some(_) => &[&[Level::Positions], &[Level::Rates]],
-        };
+        // The smallest move of the rates is that at the pose to which the positions have moved. Also, positions and rates may have
+        // different fixed numbers, so that different rows are independent.
         let known = self.choice.clone();
-        for levels in levels {
-            let fixed = self.kept.as_ref().map(|kept| &kept[levels[0] as usize]);
+        for level in [Level::Positions, Level::Rates] {
+            let fixed = self.kept.as_ref().map(|kept| &kept[level as usize]);
             let by = (&self.scales, fixed);
             self.choice = known.made(system, (place.t, place.q[0]), rank, by)?;
             self.redundant = self.choice.rank < system.constraints().len();
             let approached = in_workspace(system, place.t, n, |workspace| {
                 self.record_curvatures(system, workspace, (place.t, place.q[0]));
-                self.approach(system, workspace, place, levels)
+                self.approach(system, workspace, place, &[level])
             });
             match approached {
                 Ok(has_moved) => moved |= has_moved,

@@ -404,6 +404,26 @@ fn a_start_is_brought_onto_the_constraints_and_says_how_far() {
         .expect("it runs");
     assert_near(&run.start().q, &[4.0, 1.0, 0.0, 0.0], 1e-14);
 
+    // The rates move by the smallest amount at the pose to which the positions have moved: v − W Gᵀ (G W Gᵀ)⁻¹ G v with G = (x, y) there.
+    let uneven = Constrained {
+        mass: [1.0, 4.0],
+        ..circle::<1>()
+    };
+    let given = State {
+        t: 0.0,
+        q: [0.9, 1.1],
+        v: [1.0, -3.0],
+    };
+    let v = given.v;
+    let run = Simulation::new(&uneven)
+        .until(0.1)
+        .run(given)
+        .expect("it runs");
+    let [x, y] = run.start().q;
+    let share = (x * v[0] + y * v[1]) / (x * x + y * y / 4.0);
+    let least = [v[0] - share * x, v[1] - share * y / 4.0];
+    assert_near(&run.start().v, &least, 1e-12);
+
     // Newton's method finds the circle from far away, too.
     let afar = State {
         t: 0.0,

@@ -379,6 +379,20 @@ struct Item<'e> {
     element: &'e Element,
     class: usize,
     owner: String,
+    /// The name of the elements of its class that give its defaults.
+    tag: &'e str,
+}
+
+impl<'e> Item<'e> {
+    /// An element in a class, by its own name.
+    fn of(element: &'e Element, class: usize, owner: String) -> Item<'e> {
+        Item {
+            element,
+            class,
+            owner,
+            tag: &element.name,
+        }
+    }
 }
 
 /// Reads a robot. `file` reads further files.
@@ -602,11 +616,13 @@ impl<'e> Reader<'_, '_, 'e> {
     fn item(&mut self, element: &'e Element, class: usize) -> Item<'e> {
         let owner = called(element);
         let class = self.class(element, "class", class);
-        Item {
-            element,
-            class,
-            owner,
-        }
+        Item::of(element, class, owner)
+    }
+
+    /// The same for an element to which its class gives the defaults of elements with another name.
+    fn item_as(&mut self, element: &'e Element, tag: &'e str) -> Item<'e> {
+        let item = self.item(element, 0);
+        Item { tag, ..item }
     }
 
     /// The class that an attribute names.
@@ -622,13 +638,22 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 
     fn attribute_of(&self, item: &Item<'e>, name: &str) -> Option<&'e Attribute> {
-        let own = [item.element.name.as_str()];
-        let tags = if DRIVES.contains(&own[0]) && OF_DRIVES.contains(&name) {
-            &DRIVES[..]
+        self.attributes_of(item, name).next()
+    }
+
+    /// An attribute at every place that sets it for an item, the one that applies first.
+    fn attributes_of<'s>(
+        &'s self,
+        item: &Item<'e>,
+        name: &'s str,
+    ) -> impl Iterator<Item = &'e Attribute> + use<'s, 'e> {
+        let tags = if DRIVES.contains(&item.tag) && OF_DRIVES.contains(&name) {
+            DRIVES.to_vec()
         } else {
-            &own[..]
+            vec![item.tag]
         };
-        self.classes.find(item.element, item.class, tags, name)
+        let places = self.classes.places(item.element, item.class, tags);
+        places.filter_map(move |place| place.own(name))
     }
 
     fn word(&self, item: &Item<'e>, name: &str) -> Option<&'e str> {
@@ -655,22 +680,33 @@ impl<'e> Reader<'_, '_, 'e> {
         }
     }
 
-    /// A list of any length.
+    /// A list of any length. Where an element gives fewer numbers than its class, the others remain those of the class.
     fn list(&mut self, item: &Item<'e>, name: &str) -> Option<(Vec<Number>, usize)> {
-        let attribute = self.attribute_of(item, name)?;
-        let numbers = attribute.value.split_whitespace().map(Number::read);
-        match numbers.collect::<Result<Vec<Number>, String>>() {
-            Ok(numbers) => Some((numbers, attribute.at)),
-            Err(wrong) => {
-                let message = format!("`{name}` of {}: {wrong}", item.owner);
-                self.faults.add(attribute.at, message);
-                None
-            }
+        let attributes: Vec<&'e Attribute> = self.attributes_of(item, name).collect();
+        let mut list: Vec<Number> = Vec::new();
+        for attribute in &attributes {
+            let numbers = self.read_list(item, attribute)?;
+            list.extend(numbers.into_iter().skip(list.len()));
         }
+        let first = attributes.first()?;
+        Some((list, first.at))
+    }
+
+    /// The numbers of one attribute.
+    fn read_list(&mut self, item: &Item<'e>, attribute: &Attribute) -> Option<Vec<Number>> {
+        let numbers = attribute.value.split_whitespace().map(Number::read);
+        let numbers = numbers.collect::<Result<Vec<Number>, String>>();
+        numbers
+            .map_err(|wrong| {
+                let message = format!("`{}` of {}: {wrong}", attribute.name, item.owner);
+                self.faults.add(attribute.at, message);
+            })
+            .ok()
     }
 
     fn numbers<const N: usize>(&mut self, item: &Item<'e>, name: &str) -> Option<[Number; N]> {
-        let (numbers, at) = self.list(item, name)?;
+        let attribute = self.attribute_of(item, name)?;
+        let (numbers, at) = (self.read_list(item, attribute)?, attribute.at);
         let count = numbers.len();
         <[Number; N]>::try_from(numbers)
             .map_err(|_| {
@@ -841,9 +877,16 @@ impl<'e> Reader<'_, '_, 'e> {
             .filter(|name| item.element.own(name).is_some())
             .collect();
         let name = match own[..] {
-            [] => ORIENTATIONS
-                .into_iter()
-                .find(|name| self.attribute_of(item, name).is_some()),
+            // The nearest class that gives any orientation, whichever attribute the classes above use.
+            [] => {
+                let tags = vec![item.tag];
+                let mut places = self.classes.places(item.element, item.class, tags);
+                places.find_map(|place| {
+                    ORIENTATIONS
+                        .into_iter()
+                        .find(|name| place.own(name).is_some())
+                })
+            }
             [name] => Some(name),
             [_, other, ..] => {
                 let at = item.element.own(other).map_or(item.element.at, |it| it.at);
@@ -953,7 +996,8 @@ struct Parent {
 /// The contents of a body.
 #[derive(Default)]
 struct Found<'e> {
-    inertial: Option<&'e Element>,
+    /// The element `inertial`, and the pose in the body of the frame that contains it.
+    inertial: Option<(&'e Element, Pose)>,
     solids: Vec<Solid>,
     /// Geometry with unknown mass, and the reason.
     unknown: Vec<(&'e Element, String)>,

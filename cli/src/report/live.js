@@ -93,15 +93,39 @@ class Constraints {
     Object.assign(this, { p, holonomic, kept, n, order });
   }
 
-  /** The residuals of each constraint in positions and in rates, relative to the sizes of their terms. */
+  /** Remembers the largest coordinates and rates so far. At the start each is at least as large as any other with its unit,
+   * and an angle, or a pure number, is at least 1. */
+  remember(y) {
+    const { n } = this;
+    const units = machine.coordinate_units;
+    const first = (values, level) => values.map((_, j) => {
+      const alike = Array.from(values.filter((__, i) => units[i] === units[j]), Math.abs);
+      return Math.max(level === 0 && ['rad', '1'].includes(units[j]) ? 1 : 0, ...alike);
+    });
+    const halves = [y.subarray(0, n), y.subarray(n)];
+    this.largest = halves.map((values, level) => {
+      const known = this.largest ? this.largest[level] : first(values, level);
+      return values.map((x, j) => Math.max(known[j], Math.abs(x)));
+    });
+  }
+
+  /** The residuals of each constraint in positions and in rates, and the sizes of their terms. What the constraints keep at
+   * zero is as inexact as everything else, in the metric of inertia. */
   residuals(t, y) {
-    const { p, n } = this;
+    const { p, n, largest } = this;
     const [q, v] = [y.subarray(0, n), y.subarray(n)];
     const rows = machine.constraint_matrix(p, t, q);
-    const sizes = (x) => rows.map((row) => row.reduce((sum, g, i) => sum + Math.abs(g * x[i]), 0) || 1);
+    const inertia = machine.mass_matrix(p, t, q).map((row, i) => row[i]);
+    const drift = machine.constraint_rates(p, t, q, new Float64Array(n));
+    const sum = (term) => inertia.reduce((total, m, i) => total + term(m, i), 0);
+    const sizes = (x) => rows.map((row) => {
+      const terms = sum((m, i) => Math.abs(row[i] * x[i]));
+      const [length, whole] = [sum((m, i) => (m > 0 ? row[i] * row[i] / m : 0)), sum((m, i) => m * x[i] * x[i])];
+      return terms + 1e-4 * Math.sqrt(length * whole);
+    });
     return {
-      positions: { residuals: machine.constraint_positions(p, t, q), sizes: sizes(q) },
-      rates: { residuals: machine.constraint_rates(p, t, q, v), sizes: sizes(v) },
+      positions: { residuals: machine.constraint_positions(p, t, q), sizes: sizes(largest[0]).map((size) => size || 1) },
+      rates: { residuals: machine.constraint_rates(p, t, q, v), sizes: sizes(largest[1]).map((size, k) => size + Math.abs(drift[k]) || 1) },
     };
   }
 
@@ -178,8 +202,8 @@ class Constraints {
     return values;
   }
 
-  /** Subtracts the values along the rows from `x` by the smallest change. */
-  moveBack({ m, basis }, values, kept, x) {
+  /** The smallest change that removes the values along the rows, to be subtracted. */
+  correction({ m, basis }, values, kept) {
     const { n } = this;
     const change = new Float64Array(n);
     values.forEach((value, j) => basis[j].unit.forEach((entry, i) => { change[i] += entry * value; }));
@@ -188,25 +212,35 @@ class Constraints {
         for (let j = i + 1; j < n; j++) change[i] -= m[j][i] * change[j];
         change[i] /= m[i][i];
       }
-      if (!(kept && kept[i])) x[i] -= change[i];
+      if (kept && kept[i]) change[i] = 0;
     }
+    return change;
   }
 
-  /** Newton's method on positions or on rates, which keeps the matrices of one pose as long as it contracts, as in the command. */
-  newton(t, y, level, matrices, kept, x) {
+  /** Newton's method on positions or on rates, which keeps the matrices of one pose as long as it contracts and takes a part of a step
+   * that is too long, as in the command. */
+  newton(t, y, level, matrices, isFresh, kept, x) {
     const length = (values) => Math.hypot(...values);
     const seen = () => this.residuals(t, y)[level];
-    const isOn = ({ residuals, sizes }) => residuals.every((r, k) => Math.abs(r) <= 1e-15 * sizes[k]);
+    const off = ({ residuals, sizes }) => Math.max(...residuals.map((r, k) => Math.abs(r) / sizes[k]));
+    const isOn = (found) => off(found) <= 2.5e-14;
     let found = seen();
     let values = this.along(matrices, found.residuals, level);
     let far = length(values);
-    let fresh = true;
+    let fresh = isFresh;
     for (let round = 0; round < 50 && !isOn(found); round++) {
-      this.moveBack(matrices, values, kept, x);
-      found = seen();
-      values = this.along(matrices, found.residuals, level);
-      let near = length(values);
-      if (isOn(found) || (fresh && !(near <= 0.875 * far))) break;
+      const before = x.slice();
+      const change = this.correction(matrices, values, kept);
+      let near;
+      let part = 1;
+      for (;; part *= 0.5) {
+        for (let i = 0; i < x.length; i++) x[i] = before[i] - part * change[i];
+        found = seen();
+        values = this.along(matrices, found.residuals, level);
+        near = length(values);
+        if (near <= (1 - 0.25 * part) * far || part < 0.01 || off(found) < 1e-3) break;
+      }
+      if (isOn(found) || (fresh && !(near <= (1 - 0.125 * part) * far))) break;
       fresh = !(near <= 0.1 * far);
       if (fresh) {
         Object.assign(matrices, this.prepare(t, y, kept));
@@ -219,14 +253,17 @@ class Constraints {
 
   /** Projects a state onto the constraints; throws if that fails. */
   hold(t, y, isStart) {
-    if (!this.order.length || !(this.off(t, y) > (isStart ? 1e-15 : 1e-10))) return;
+    if (!this.order.length) return;
+    this.remember(y);
+    if (!(this.off(t, y) > (isStart ? 2.5e-14 : 1e-10))) return;
     const { n } = this;
-    // The rates begin with the last matrices of the positions, unless other coordinates are kept.
+    // After a step the rates begin with the last matrices of the positions.
     let matrices = null;
     for (const [level, from] of [['positions', 0], ['rates', n]]) {
       const kept = isStart && this.kept.includes(true) ? this.kept.slice(from, from + n) : null;
-      if (!matrices || kept) matrices = this.prepare(t, y, kept);
-      this.newton(t, y, level, matrices, kept, y.subarray(from, from + n));
+      const isFresh = !matrices || isStart;
+      if (isFresh) matrices = this.prepare(t, y, kept);
+      this.newton(t, y, level, matrices, isFresh, kept, y.subarray(from, from + n));
     }
     if (!(this.off(t, y) <= 1e-10)) throw new Error(`no state that satisfies the constraints was found at t = ${t} s`);
   }
@@ -317,8 +354,22 @@ class Live {
         }
       };
       const constraints = new Constraints(p, data.constraints, n);
+      // The first fact that does not hold after a step, or at the start.
+      let broken = null;
+      const check = (t, state) => {
+        const holds = ({ strict }, k) => {
+          const margin = machine[`assumption_${k}`](p, t, state, state.subarray(n), u);
+          return margin > 0 || (!strict && margin >= 0);
+        };
+        const index = broken ? -1 : data.facts.findIndex((fact, k) => !holds(fact, k));
+        if (index >= 0) broken = `the machine assumes ${data.facts[index].text}, which does not hold at t = ${t} s`;
+      };
       constraints.hold(times[0], y, true);
-      integrator.run(f, y, times, (state, k) => states.set(state, 2 * n * k), (t, state) => constraints.hold(t, state, false));
+      check(times[0], y);
+      integrator.run(f, y, times, (state, k) => states.set(state, 2 * n * k), (t, state) => {
+        constraints.hold(t, state, false);
+        check(t, state);
+      });
       motion.states = n === drawn ? states : Float64Array.from({ length: 2 * drawn * times.length }, (_, i) => {
         const [k, j] = [Math.floor(i / (2 * drawn)), i % (2 * drawn)];
         return states[2 * n * k + (j < drawn ? j : n + j - drawn)];
@@ -328,8 +379,9 @@ class Live {
       player.drawing.weigh();
       const took = performance.now() - before;
       status.textContent = `Run again in this page: ${integrator.steps} steps in ${took.toFixed(0)} ms. `
-        + 'The tables below are from the run of the command.';
-      status.className = '';
+        + 'The tables below are from the run of the command.'
+        + (broken ? ` Attention: ${broken}; the motion after it may be wrong.` : '');
+      status.className = broken ? 'alert' : '';
     } catch (reason) {
       status.textContent = `The run failed with these values: ${reason.message}. The previous run is shown.`;
       status.className = 'alert';

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use lagrangian::interpreted::Named;
 use lagrangian::methods::Method;
-use lagrangian::{Machine, System, Warning};
+use lagrangian::{Machine, State, System, Warning};
 use lagrangian_emit::script::{self, Dialect};
 use lagrangian_program::Program;
 use lagrangian_units::{rate_name, state_of};
@@ -82,11 +83,13 @@ pub fn without_constraint(warning: &Warning, machine: &str, file: &str) -> Strin
 }
 
 /// The settings of the integration on the page.
-pub struct Live {
+pub struct Live<'a> {
     /// Relative and absolute tolerance of a step.
     pub tolerance: f64,
     /// The most steps of a run.
     pub most_steps: usize,
+    /// The start as the spec and the call state it, before it is projected onto the constraints.
+    pub stated: &'a State<Named>,
 }
 
 /// The machine as a script. It contains names of the spec, which must not end the element.
@@ -96,7 +99,7 @@ pub fn machine(report: &Report<'_, '_>) -> String {
     text.replace("</", "<\\/").replace("<!--", "<\\!--")
 }
 
-impl Live {
+impl Live<'_> {
     /// The element with the data that the script reads.
     pub fn data(&self, report: &Report<'_, '_>) -> String {
         let program = &report.compiled.program;
@@ -104,11 +107,10 @@ impl Live {
         let start = report.run.start;
         let own = report.machine.start();
         // Values given in the call are fixed; the others follow from the parameters.
-        let pairs = || {
-            let values = start.q.values.iter().chain(&start.v.values);
-            values.zip(own.q.values.iter().chain(&own.v.values))
-        };
-        let said: Vec<Option<f64>> = pairs()
+        let stated = self.stated.q.values.iter().chain(&self.stated.v.values);
+        let usual = own.q.values.iter().chain(&own.v.values);
+        let said: Vec<Option<f64>> = stated
+            .zip(usual)
             .map(|(value, usual)| (value.to_bits() != usual.to_bits()).then_some(*value))
             .collect();
         let names = program
@@ -123,8 +125,8 @@ impl Live {
         });
         let states: Vec<Value> = names
             .chain(rates)
-            .zip(pairs())
-            .map(|((name, unit), (value, _))| {
+            .zip(start.q.values.iter().chain(&start.v.values))
+            .map(|((name, unit), value)| {
                 // Nothing depends on the integral of a state of first order.
                 let is_hidden = state_of(&name).is_some();
                 json!({ "name": name, "unit": unit, "value": value, "hidden": is_hidden })
@@ -144,6 +146,11 @@ impl Live {
                 "holonomic": program.constraints.iter().map(|it| it.holonomic).collect::<Vec<_>>(),
                 "kept": kept,
             },
+            "facts": program
+                .assumptions
+                .iter()
+                .map(|fact| json!({ "text": fact.text, "strict": fact.strict }))
+                .collect::<Vec<_>>(),
             "tolerance": self.tolerance,
             "steps": self.most_steps,
             "method": {

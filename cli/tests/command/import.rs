@@ -1192,6 +1192,78 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
     );
 }
 
+/// The accelerations are those of MuJoCo 4.0.0, without contacts.
+#[test]
+fn what_an_element_leaves_out_is_that_of_the_nearest_class() {
+    let box_of_class = format!(
+        "{SWING}<geom class=\"inner\" type=\"box\" size=\"0.1 0.2 0.4\" pos=\"0.3 0 0\" mass=\"2\"/>"
+    );
+    let ball =
+        |attributes: &str| format!("{SWING}<geom size=\"0.1\" pos=\"0.5 0 0\" {attributes}/>");
+    let in_frame = "<frame pos=\"0.3 0 0\" euler=\"0 0 40\"><inertial pos=\"0.1 0 0\" mass=\"1\" diaginertia=\"1 1.5 2\"/></frame>";
+    for (text, push, acceleration) in [
+        // A class and the class above it give an orientation by different attributes.
+        (
+            model(
+                &box_of_class,
+                "<default><geom axisangle=\"0 1 0 30\"/><default class=\"inner\"><geom zaxis=\"1 1 0\"/></default></default>",
+            ),
+            None,
+            21.766_879_645_135_422,
+        ),
+        // An element gives the first numbers of a list, and its class the others.
+        (
+            model(
+                &ball("mass=\"2\""),
+                "<default><general gainprm=\"3\" biastype=\"affine\" biasprm=\"0 -30 -10\"/></default>
+                <actuator><general name=\"push\" joint=\"pivot\" biasprm=\"0.2\"/></actuator>",
+            ),
+            Some(1.0),
+            5.062_698_736_854_712,
+        ),
+        (
+            model(&ball(""), "<default><geom type=\"capsule\" size=\"0.2 0.4\"/></default>"),
+            None,
+            14.392_926_000_056_027,
+        ),
+        // The pose of a frame is also that of an `inertial` in it.
+        (
+            model(&format!("{SWING}{in_frame}"), ""),
+            None,
+            2.459_152_102_213_521,
+        ),
+    ] {
+        let machine = imported_model(&text, &[], &[]);
+        let inputs = push.map_or_else(|| json!({}), |push| json!({ "push": push }));
+        let found = evaluated(
+            &machine,
+            &json!([{ "q": [0.3], "v": [0.1], "inputs": inputs }]),
+        );
+        let found = numbers(&found[0]["accelerations"]);
+        assert_close(&found, &[acceleration], acceleration, &text);
+    }
+    // Coefficients that are not given are those of the identity; an equality is active unless its class says otherwise.
+    let swing = format!("{SWING}{WEIGHT}");
+    let follows = "<equality><joint joint1=\"pivot\" polycoef=\"0.2\"/></equality>";
+    let spec = |text: &str| {
+        let machine = imported_model(text, &[], &[]);
+        std::fs::read_to_string(&machine.0).expect("a file")
+    };
+    let pair = "<body name=\"next\" pos=\"0 0 -1\"><joint name=\"other\" axis=\"0 1 0\"/><geom size=\"0.1\" pos=\"0.2 0 0\"/></body>";
+    let both = follows.replace("joint1", "joint2=\"other\" joint1");
+    let tied = spec(&model(&format!("{swing}{pair}"), &both));
+    assert!(tied.contains("pivot = pivot_follows_c0 + other"), "{tied}");
+    let inactive = format!("<default><equality active=\"false\"/></default>{follows}");
+    let loose = spec(&model(&swing, &inactive));
+    assert!(!loose.contains("constraints {"), "{loose}");
+    // The defaults of tendons are those of the element `tendon`.
+    let tendon = "<default><tendon stiffness=\"3\"/></default><tendon><fixed><joint joint=\"pivot\" coef=\"1\"/></fixed></tendon>";
+    let file = Scratch::new("model.xml", &model(&swing, tendon));
+    let output = lagrangian(&["import", file.path()]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("`stiffness` of the tendon"), "{said}");
+}
+
 /// A swinging box of 0.2 by 0.4 by 0.6: as a box, as an OBJ mesh in another unit and position, and from an included file.
 #[test]
 fn a_mesh_weighs_what_its_shape_does() {

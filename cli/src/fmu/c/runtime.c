@@ -92,6 +92,10 @@ struct Unit {
        G W G^T. */
     double mass[COORDINATES * COORDINATES + 1], rows[CONSTRAINTS * COORDINATES + 1], carried[CONSTRAINTS * COORDINATES + 1];
     double normal[CONSTRAINTS * CONSTRAINTS + 1];
+    /* The diagonal of the mass matrix; whether the mass matrix has no Cholesky factor; and which rows are left out. */
+    double inertia[COORDINATES + 1];
+    int is_plain;
+    unsigned char is_left[CONSTRAINTS + 1];
     int singular;
     int is_prepared, is_evaluated;
     /* Workspace of a step of co-simulation. */
@@ -476,14 +480,40 @@ static void checkFacts(Unit *unit) {
  * likewise the rates with their residuals. Coordinates that a spec keeps at the start do not change there.
  */
 
-/* The scale of the residual of each constraint: the sum of the sizes of its terms. */
-static void sizesOfTerms(const double *rows, const double *x, double *to) {
+/* The part of the inertial scale in that of a residual: what the constraints keep at 0 is as inexact as everything else. */
+#define OF_INERTIA 1e-4
+
+/*
+ * The scale of the residual of each constraint: the sum of the sizes of its terms, of positions or of rates (level 1), and a part of |G| |x|
+ * in the metric of inertia; 1, the unit, if all are 0. An angle counts as at least 1 rad. Leaves the constraint matrix in the workspace.
+ */
+static void sizesOfTerms(Unit *unit, int level, double *to) {
+    const int n = COORDINATES;
+    const State *now = &unit->now;
+    const double *q = now->states, *v = q + n, *x = level == 0 ? q : v;
+    double drift[CONSTRAINTS + 1], whole = 0.0;
+    unitConstraintMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->rows);
+    if (level == 1) {
+        static const double at_rest[COORDINATES + 1];
+        unitConstraintRates(&unit->prepared, now->time, q, at_rest, now->inputs, drift);
+    }
+    double sizes[COORDINATES + 1];
+    for (int i = 0; i < n; ++i) {
+        sizes[i] = x[i] < 0.0 ? -x[i] : x[i];
+    }
+    for (int i = 0; level == 0 && i < ANGLES; ++i) {
+        if (sizes[ANGLE[i]] < 1.0) sizes[ANGLE[i]] = 1.0;
+    }
+    for (int i = 0; i < n; ++i) whole += unit->inertia[i] * sizes[i] * sizes[i];
     for (int k = 0; k < CONSTRAINTS; ++k) {
-        to[k] = 0.0;
-        for (int i = 0; i < COORDINATES; ++i) {
-            const double term = rows[k * COORDINATES + i] * x[i];
-            to[k] += term < 0.0 ? -term : term;
+        double terms = level == 0 ? 0.0 : drift[k] < 0.0 ? -drift[k] : drift[k], length = 0.0;
+        for (int i = 0; i < n; ++i) {
+            const double g = unit->rows[k * n + i];
+            terms += (g < 0.0 ? -g : g) * sizes[i];
+            if (unit->inertia[i] > 0.0) length += g * g / unit->inertia[i];
         }
+        const double size = terms + OF_INERTIA * sqrt(length * whole);
+        to[k] = size > 0.0 ? size : 1.0;
     }
 }
 
@@ -507,15 +537,19 @@ static int factorizeMass(double *m, const unsigned char *is_kept) {
 }
 
 /*
- * Subtracts the residuals from x once, for the rows in `is_wanted`: x -= W G^T (G W G^T)^-1 residuals. Rows that depend on earlier ones are
- * redundant and are skipped.
+ * Prepares corrections at the present pose: the Cholesky factor of the mass matrix, the rows of L^-1 G^T, and the Cholesky factor of their
+ * products for the rows in `is_wanted`. Rows that depend on earlier ones are redundant and are left out.
  */
-static void moveBack(Unit *unit, double *residuals, const unsigned char *is_wanted, const unsigned char *is_kept, double *x) {
+static void prepareCorrections(Unit *unit, const unsigned char *is_wanted, const unsigned char *is_kept) {
     const int n = COORDINATES, m = CONSTRAINTS;
+    State *now = &unit->now;
     double *mass = unit->mass, *carried = unit->carried, *normal = unit->normal;
-    const int is_plain = factorizeMass(mass, is_kept);
-    unsigned char is_left[CONSTRAINTS + 1];
-    /* The rows of L^-1 G^T; of G alone if the mass matrix has no Cholesky factor because a coordinate has no inertia of its own. */
+    const double *q = now->states, *v = q + n;
+    unitConstraintMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->rows);
+    unitMassMatrix(&unit->prepared, now->time, q, v, now->inputs, mass);
+    /* Of G alone if the mass matrix has no Cholesky factor because a coordinate has no inertia of its own. */
+    const int is_plain = unit->is_plain = factorizeMass(mass, is_kept);
+    unsigned char *is_left = unit->is_left;
     for (int k = 0; k < m; ++k) {
         for (int i = 0; i < n; ++i) {
             double sum = is_kept && is_kept[i] ? 0.0 : unit->rows[k * n + i];
@@ -526,7 +560,6 @@ static void moveBack(Unit *unit, double *residuals, const unsigned char *is_want
             carried[k * n + i] = sum;
         }
     }
-    /* Cholesky factorization of the products of these rows. */
     for (int k = 0; k < m; ++k) {
         double whole = 0.0;
         for (int i = 0; i < n; ++i) whole += carried[k * n + i] * carried[k * n + i];
@@ -540,84 +573,121 @@ static void moveBack(Unit *unit, double *residuals, const unsigned char *is_want
             else is_left[k] = !is_wanted[k] || !(sum > 1e-12 * whole);
             if (l == k && !is_left[k]) normal[k * m + k] = sqrt(sum);
         }
-        if (is_left[k]) continue;
-        for (int l = 0; l < k; ++l)
-            if (!is_left[l]) residuals[k] -= normal[k * m + l] * residuals[l];
-        residuals[k] /= normal[k * m + k];
-    }
-    for (int k = m; k-- > 0;) {
-        if (is_left[k]) continue;
-        for (int l = k + 1; l < m; ++l)
-            if (!is_left[l]) residuals[k] -= normal[l * m + k] * residuals[l];
-        residuals[k] /= normal[k * m + k];
-    }
-    double change[COORDINATES + 1];
-    for (int i = 0; i < n; ++i) {
-        change[i] = 0.0;
-        for (int k = 0; k < m; ++k)
-            if (!is_left[k]) change[i] += carried[k * n + i] * residuals[k];
-    }
-    for (int i = n; i-- > 0;) {
-        if (!is_plain) {
-            for (int j = i + 1; j < n; ++j) change[i] -= mass[j * n + i] * change[j];
-            change[i] /= mass[i * n + i];
-        }
-        if (!is_kept || !is_kept[i]) x[i] -= change[i];
     }
 }
 
-/* The largest residual of the constraints, relative to the size of its terms; 0 without constraints. */
-static double isOff(Unit *unit) {
-    State *now = &unit->now;
-    double residuals[CONSTRAINTS + 1], sizes[CONSTRAINTS + 1], most = 0.0;
-    if (CONSTRAINTS == 0) return 0.0;
-    prepare(unit);
-    const double *q = now->states, *v = q + COORDINATES;
-    unitConstraintMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->rows);
-    for (int level = 0; level < 2; ++level) {
-        if (level == 0) unitConstraintPositions(&unit->prepared, now->time, q, v, now->inputs, residuals);
-        else unitConstraintRates(&unit->prepared, now->time, q, v, now->inputs, residuals);
-        sizesOfTerms(unit->rows, level == 0 ? q : v, sizes);
-        for (int k = 0; k < CONSTRAINTS; ++k) {
-            /* If all terms are 0, the scale is 1, the unit. */
-            const double size = sizes[k] > 0.0 ? sizes[k] : 1.0;
-            const double off = (residuals[k] < 0.0 ? -residuals[k] : residuals[k]) / size;
-            /* NaN counts as a violation. */
-            if (!(off <= most)) most = off;
+/* Replaces residuals by their parts along the orthogonalized rows; returns their length, the distance to the constraints in the metric of
+   inertia. */
+static double alongRows(const Unit *unit, double *residuals) {
+    const int m = CONSTRAINTS;
+    double square = 0.0;
+    for (int k = 0; k < m; ++k) {
+        if (unit->is_left[k]) continue;
+        for (int l = 0; l < k; ++l)
+            if (!unit->is_left[l]) residuals[k] -= unit->normal[k * m + l] * residuals[l];
+        residuals[k] /= unit->normal[k * m + k];
+        square += residuals[k] * residuals[k];
+    }
+    return sqrt(square);
+}
+
+/* The correction of residuals, as parts along the rows: W G^T (G W G^T)^-1 residuals, to be subtracted; 0 where a value is kept. */
+static void correctionOf(const Unit *unit, double *residuals, const unsigned char *is_kept, double *change) {
+    const int n = COORDINATES, m = CONSTRAINTS;
+    const unsigned char *is_left = unit->is_left;
+    const double *mass = unit->mass;
+    for (int k = m; k-- > 0;) {
+        if (is_left[k]) continue;
+        for (int l = k + 1; l < m; ++l)
+            if (!is_left[l]) residuals[k] -= unit->normal[l * m + k] * residuals[l];
+        residuals[k] /= unit->normal[k * m + k];
+    }
+    for (int i = 0; i < n; ++i) {
+        change[i] = 0.0;
+        for (int k = 0; k < m; ++k)
+            if (!is_left[k]) change[i] += unit->carried[k * n + i] * residuals[k];
+    }
+    for (int i = n; i-- > 0;) {
+        if (!unit->is_plain) {
+            for (int j = i + 1; j < n; ++j) change[i] -= mass[j * n + i] * change[j];
+            change[i] /= mass[i * n + i];
         }
+        if (is_kept && is_kept[i]) change[i] = 0.0;
+    }
+}
+
+/* The residuals of positions or of rates, level 1, and the largest of them relative to the size of its terms, of the rows in `is_wanted`. */
+static double residualsOf(Unit *unit, int level, const unsigned char *is_wanted, double *residuals) {
+    const State *now = &unit->now;
+    const double *q = now->states, *v = q + COORDINATES;
+    double sizes[CONSTRAINTS + 1], most = 0.0;
+    if (level == 0) unitConstraintPositions(&unit->prepared, now->time, q, v, now->inputs, residuals);
+    else unitConstraintRates(&unit->prepared, now->time, q, v, now->inputs, residuals);
+    sizesOfTerms(unit, level, sizes);
+    for (int k = 0; k < CONSTRAINTS; ++k) {
+        const double off = (residuals[k] < 0.0 ? -residuals[k] : residuals[k]) / sizes[k];
+        /* NaN counts as a violation. */
+        if ((!is_wanted || is_wanted[k]) && !(off <= most)) most = off;
     }
     return most;
 }
 
-/* Projects the state onto the constraints; returns 0 on success. At the start some coordinates and rates are kept. */
-static int project(Unit *unit, int is_start) {
-    State *now = &unit->now;
-    double residuals[CONSTRAINTS + 1];
-    unsigned char all[CONSTRAINTS + 1];
-    double *q = now->states, *v = q + COORDINATES;
-    const unsigned char *kept = is_start ? IS_KEPT : NULL;
-    if (CONSTRAINTS == 0) return 0;
+/* The largest residual of the constraints, relative to the size of its terms; 0 without constraints. */
+static double isOff(Unit *unit) {
+    double residuals[CONSTRAINTS + 1], most = 0.0;
+    if (CONSTRAINTS == 0) return 0.0;
     prepare(unit);
+    const State *now = &unit->now;
+    unitMassMatrix(&unit->prepared, now->time, now->states, now->states + COORDINATES, now->inputs, unit->mass);
+    for (int i = 0; i < COORDINATES; ++i) unit->inertia[i] = unit->mass[i * COORDINATES + i];
+    for (int level = 0; level < 2; ++level) {
+        const double off = residualsOf(unit, level, NULL, residuals);
+        if (!(off <= most)) most = off;
+    }
+    return most;
+}
+
+/* Newton's method on positions or on rates, level 1, until the residuals are within round-off of their terms. As in the command it keeps the
+   matrices of one pose as long as it contracts, and takes a part of a step that is too long. */
+static void approach(Unit *unit, int level, const unsigned char *is_wanted, const unsigned char *is_kept) {
+    double residuals[CONSTRAINTS + 1], change[COORDINATES + 1], before[COORDINATES + 1];
+    double *x = unit->now.states + level * COORDINATES;
+    int is_fresh = 1;
+    double off = residualsOf(unit, level, is_wanted, residuals), far = alongRows(unit, residuals);
+    for (int round = 0; round < 50 && !(off <= 2.5e-14); ++round) {
+        double near, part = 1.0;
+        correctionOf(unit, residuals, is_kept, change);
+        memcpy(before, x, COORDINATES * sizeof *x);
+        for (;; part *= 0.5) {
+            for (int i = 0; i < COORDINATES; ++i) x[i] = before[i] - part * change[i];
+            off = residualsOf(unit, level, is_wanted, residuals);
+            near = alongRows(unit, residuals);
+            if (near <= (1.0 - 0.25 * part) * far || part < 0.01 || off < 1e-3) break;
+        }
+        if (off <= 2.5e-14 || (is_fresh && !(near <= (1.0 - 0.125 * part) * far))) break;
+        is_fresh = !(near <= 0.1 * far);
+        if (is_fresh) {
+            prepareCorrections(unit, is_wanted, is_kept);
+            residualsOf(unit, level, is_wanted, residuals);
+            near = alongRows(unit, residuals);
+        }
+        far = near;
+    }
+}
+
+/* Projects the state, which is off the constraints, onto them; returns 0 on success. At the start some coordinates and rates are kept. */
+static int project(Unit *unit, int is_start) {
+    unsigned char all[CONSTRAINTS + 1];
+    int is_keeping = 0;
+    if (CONSTRAINTS == 0) return 0;
+    for (int i = 0; i < STATES; ++i) is_keeping |= is_start && IS_KEPT[i];
     memset(all, 1, sizeof all);
-    /* Newton's method, until the residuals are within round-off of their terms. */
-    for (int tries = 0; tries < 50; ++tries) {
-        unitConstraintMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->rows);
-        unitConstraintPositions(&unit->prepared, now->time, q, v, now->inputs, residuals);
-        double sizes[CONSTRAINTS + 1];
-        sizesOfTerms(unit->rows, q, sizes);
-        int is_there = 1;
-        for (int k = 0; k < CONSTRAINTS; ++k)
-            if (!((residuals[k] < 0.0 ? -residuals[k] : residuals[k]) <= 1e-14 * (sizes[k] > 0.0 ? sizes[k] : 1.0))) is_there = 0;
-        if (is_there) break;
-        unitMassMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->mass);
-        moveBack(unit, residuals, IS_HOLONOMIC, kept, q);
-    }
-    for (int tries = 0; tries < 2; ++tries) {
-        unitConstraintMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->rows);
-        unitConstraintRates(&unit->prepared, now->time, q, v, now->inputs, residuals);
-        unitMassMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->mass);
-        moveBack(unit, residuals, all, kept ? kept + COORDINATES : NULL, v);
-    }
+    const unsigned char *kept = is_keeping ? IS_KEPT : NULL;
+    prepareCorrections(unit, IS_HOLONOMIC, kept);
+    approach(unit, 0, IS_HOLONOMIC, kept);
+    if (kept) kept += COORDINATES;
+    prepareCorrections(unit, all, kept);
+    approach(unit, 1, all, kept);
     unit->is_evaluated = 0;
     return !(isOff(unit) <= LEFT);
 }

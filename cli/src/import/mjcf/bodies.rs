@@ -17,11 +17,7 @@ impl<'e> Reader<'_, '_, 'e> {
                 "body" => self.body(part, link, class, pose),
                 "frame" => {
                     let class = self.class(part, "childclass", class);
-                    let item = Item {
-                        element: part,
-                        class,
-                        owner: called(part),
-                    };
+                    let item = Item::of(part, class, called(part));
                     self.only(part, &item.owner, "frame");
                     let inner = pose.then(&self.pose(&item));
                     self.parts(part, link, class, &inner, found);
@@ -29,7 +25,7 @@ impl<'e> Reader<'_, '_, 'e> {
                 "geom" => self.geom(part, link, class, pose, found),
                 "joint" | "freejoint" if owner.name == "body" => {}
                 "inertial" if !link.is_world => {
-                    if found.inertial.replace(part).is_some() {
+                    if found.inertial.replace((part, pose.clone())).is_some() {
                         let message =
                             format!("body {} has more than one `inertial`", quoted(&link.name));
                         self.faults.add(part.at, message);
@@ -54,11 +50,7 @@ impl<'e> Reader<'_, '_, 'e> {
 
     fn body(&mut self, element: &'e Element, parent: &Parent, class: usize, outer: &Pose) {
         let class = self.class(element, "childclass", class);
-        let item = Item {
-            element,
-            class,
-            owner: called(element),
-        };
+        let item = Item::of(element, class, called(element));
         self.only(element, &item.owner, "body");
         for (name, usual) in [("mocap", "false"), ("gravcomp", "0")] {
             if let Some(said) = element.own(name)
@@ -561,8 +553,8 @@ impl<'e> Reader<'_, '_, 'e> {
             Some(false) => false,
             None => found.inertial.is_none(),
         };
-        if let (Some(inertial), false) = (found.inertial, from_geometry) {
-            return self.written(inertial, link);
+        if let (Some((inertial, pose)), false) = (&found.inertial, from_geometry) {
+            return self.written(inertial, pose, link);
         }
         if !from_geometry {
             return None;
@@ -593,15 +585,11 @@ impl<'e> Reader<'_, '_, 'e> {
         })
     }
 
-    /// The inertia given by an element `inertial`.
-    fn written(&mut self, element: &'e Element, link: &Parent) -> Option<Inertial> {
-        let item = Item {
-            element,
-            class: 0,
-            owner: format!("body {}", quoted(&link.name)),
-        };
+    /// The inertia given by an element `inertial`, in a frame with this pose in the body.
+    fn written(&mut self, element: &'e Element, frame: &Pose, link: &Parent) -> Option<Inertial> {
+        let item = Item::of(element, 0, format!("body {}", quoted(&link.name)));
         self.only(element, &item.owner, "inertial");
-        let Pose { xyz, turns } = self.pose(&item);
+        let Pose { xyz, turns } = frame.then(&self.pose(&item));
         let Some(mass) = self.number(&item, "mass") else {
             if element.own("mass").is_none() {
                 let message = format!("`inertial` of {} lacks `mass`", item.owner);

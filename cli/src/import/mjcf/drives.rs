@@ -31,7 +31,7 @@ impl<'e> Reader<'_, '_, 'e> {
 
     /// Reads a tendon; without spring, damper and friction it has no effect by itself.
     pub(super) fn tendon(&mut self, element: &'e Element) {
-        let item = self.item(element, 0);
+        let item = self.item_as(element, "tendon");
         let acts = [
             "stiffness",
             "damping",
@@ -235,7 +235,7 @@ impl<'e> Reader<'_, '_, 'e> {
         if kind != "joint" {
             return self.unknown(element, "the equality constraints");
         }
-        let item = self.item(element, 0);
+        let item = self.item_as(element, "equality");
         self.only(element, &item.owner, "equality.joint");
         if self.flag(&item, "active") == Some(false) {
             return self.count("inactive `equality` of joint");
@@ -257,10 +257,14 @@ impl<'e> Reader<'_, '_, 'e> {
                 leader => leader,
             },
         };
-        let coefficients = match self.list(&item, "polycoef") {
+        // Coefficients that are not given are those of the identity.
+        let mut coefficients = match self.list(&item, "polycoef") {
             Some((numbers, _)) => numbers,
-            None => vec![Number::zero(), Number::computed(1.0)],
+            None => vec![Number::zero()],
         };
+        if coefficients.len() == 1 {
+            coefficients.push(Number::computed(1.0));
+        }
         let most = if leader.is_some() { 5 } else { 1 };
         self.robot.ties.push(Tie {
             name: match element.own("name") {

@@ -62,7 +62,7 @@ impl<'e> Reader<'_, '_, 'e> {
     /// reference configuration or as `relpose` gives.
     pub(super) fn closing(&mut self, element: &'e Element) {
         let kind = element.name.as_str();
-        let item = self.item(element, 0);
+        let item = self.item_as(element, "equality");
         let is_weld = kind == "weld";
         self.only(
             element,

@@ -219,27 +219,18 @@ impl<'e> Classes<'e> {
         found
     }
 
-    /// The value of an attribute: from the element itself, or from the nearest class that sets it for an element with a name among `tags`.
-    pub fn find(
+    /// Where the attributes of an element come from: the element itself, then the elements of its class with a name among
+    /// `tags`, then those of the classes above; what is said at an earlier place applies.
+    pub fn places<'t>(
         &self,
         element: &'e Element,
         class: usize,
-        tags: &[&str],
-        name: &str,
-    ) -> Option<&'e Attribute> {
-        if let Some(own) = element.own(name) {
-            return Some(own);
-        }
-        let mut at = Some(class);
-        while let Some(class) = at {
-            let class = &self.list[class];
-            let of_tag = |element: &&&'e Element| tags.contains(&element.name.as_str());
-            let mut matching = class.elements.iter().rev().filter(of_tag);
-            if let Some(found) = matching.find_map(|element| element.own(name)) {
-                return Some(found);
-            }
-            at = class.above;
-        }
-        None
+        tags: Vec<&'t str>,
+    ) -> impl Iterator<Item = &'e Element> + use<'_, 'e, 't> {
+        let above = move |class: &usize| self.list[*class].above;
+        let classes = std::iter::successors(Some(class), above);
+        let of_classes = classes.flat_map(move |class| self.list[class].elements.iter().rev());
+        let is_meant = move |place: &&'e Element| tags.contains(&place.name.as_str());
+        std::iter::once(element).chain(of_classes.copied().filter(is_meant))
     }
 }
