@@ -145,13 +145,18 @@ impl<V: Vector> Taylor<V> {
         let (q, v) = (coefficients[0].as_slice(), coefficients[1].as_slice());
         let rows = powers.map(|j| coefficients[j].as_slice());
         for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
-            let size = q[i].abs().max(v[i].abs());
-            let over = 1.0 / bound(size, *absolute, tolerance.relative);
+            let over = 1.0 / bound(size_of_rate(q[i], v[i]), *absolute, tolerance.relative);
             for (worst, (row, j)) in worst.iter_mut().zip(rows.iter().zip(powers)) {
                 *worst = worse(*worst, row[i], j as f64, over);
             }
         }
-        length(worst, powers)
+        let by_rates = length(worst, powers);
+        if !is_slow(by_rates, last) {
+            return by_rates;
+        }
+        let absolute = tolerance.absolute.as_slice();
+        let of = |i: usize| [q[i], v[i], rows[0][i], rows[1][i], absolute[i]];
+        length_in_slow_motion(by_rates, last, (0..q.len()).map(of), tolerance.relative)
     }
 
     /// The state at the end of a step of length `h`, as compensated sums.
@@ -172,7 +177,43 @@ impl<V: Vector> Taylor<V> {
     }
 }
 
-/// The bound on the last terms of a step, for a coordinate and a rate of this size.
+/// The size of a rate in the bound on its last terms: that of a coordinate counts up to 1, so that a rate that is just 0 does not shorten the
+/// step. A coordinate may be far larger than its rate, such as an angle after many turns or the radius of a planet's orbit.
+#[inline(always)]
+pub(crate) fn size_of_rate(q: f64, v: f64) -> f64 {
+    v.abs().max(q.abs().min(1.0))
+}
+
+/// Whether the coordinates limit a step, too, whose length follows from the rates and whose last power of time is `last`. The last terms of a
+/// coordinate are those of its rate times `h/j`, so in shorter steps they are smaller.
+#[inline(always)]
+pub(crate) fn is_slow(by_rates: f64, last: usize) -> bool {
+    by_rates > (last - 1) as f64 && by_rates.is_finite()
+}
+
+/// The length of a step in which the last terms of coordinates are tolerable as well, for a step [that is slow](is_slow). Of each coordinate it
+/// takes `[q, v, c₍last−1₎, c₍last₎, absolute tolerance]`. Its size is that within the step.
+#[cold]
+pub(crate) fn length_in_slow_motion(
+    by_rates: f64,
+    last: usize,
+    coordinates: impl Iterator<Item = [f64; 5]>,
+    relative: f64,
+) -> f64 {
+    let mut worst = [0.0_f64; 2];
+    for [q, v, one, other, absolute] in coordinates {
+        let size = q.abs() + v.abs() * by_rates;
+        let over = 1.0 / bound(size, absolute, relative);
+        worst = [
+            worse(worst[0], one, 1.0, over),
+            worse(worst[1], other, 1.0, over),
+        ];
+    }
+    // The terms of rates have one power less, and so have those that `length` expects.
+    length(worst, [last, last + 1]).min(by_rates)
+}
+
+/// The bound on the last terms of a step, for a coordinate or a rate of this size.
 #[inline(always)]
 pub(crate) fn bound(size: f64, absolute: f64, relative: f64) -> f64 {
     let tolerable = absolute + relative * size;

@@ -365,7 +365,7 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Lengths<'_, V, W> {
             let one = coefficients[last - 1].as_ref()[i].0;
             let other = coefficients[last].as_ref()[i].0;
             for lane in 0..W {
-                let size = q[lane].abs().max(v[lane].abs());
+                let size = taylor::size_of_rate(q[lane], v[lane]);
                 let over = 1.0 / taylor::bound(size, absolute[lane], tolerance.relative);
                 worst[0][lane] = taylor::worse(worst[0][lane], one[lane], (last - 1) as f64, over);
                 worst[1][lane] = taylor::worse(worst[1][lane], other[lane], last as f64, over);
@@ -386,6 +386,17 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Lengths<'_, V, W> {
             } else {
                 taylor::length([*one, other], powers)
             };
+        }
+        for (lane, length) in lengths.iter_mut().enumerate() {
+            if taylor::is_slow(*length, last) {
+                let coordinates = tolerance.absolute.as_ref().iter().enumerate();
+                let all = coordinates.map(|(i, absolute)| {
+                    let of_power = |j: usize| coefficients[j].as_ref()[i].0[lane];
+                    let [q, v] = [of_power(0), of_power(1)];
+                    [q, v, of_power(last - 1), of_power(last), absolute[lane]]
+                });
+                *length = taylor::length_in_slow_motion(*length, last, all, tolerance.relative);
+            }
         }
         lengths
     }

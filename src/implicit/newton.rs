@@ -166,6 +166,7 @@ impl Implicit {
         self.predict(task, k);
         let [q, v] = scratch;
         let mut anew = self.steps_apart > 0;
+        let is_measured = self.left < 1.0;
         // The known contraction is forgotten gradually.
         self.left = rough_power(self.left.max(f64::EPSILON), 0.8);
         self.contraction = 0.0;
@@ -173,14 +174,19 @@ impl Implicit {
         let most = self.most_rounds();
         for round in 1..=most {
             self.rounds = round;
+            let mut is_confirmed = is_measured || round > 1;
             let solved = match self.steps_apart {
                 0 => {
                     self.residuals(task, k, [q, v], accelerations)?;
+                    is_confirmed = is_confirmed || self.residuals_are_small(task);
                     self.solve_by_eigenvectors();
                     self.multiplications += lu::solution(self.n) * self.systems_at_once();
                     true
                 }
-                _ => self.solve_apart(task, k, [q, v], anew, accelerations)?,
+                _ => {
+                    is_confirmed = true;
+                    self.solve_apart(task, k, [q, v], anew, accelerations)?
+                }
             };
             let size = self.size_of_change(task);
             if !solved || !size.is_finite() {
@@ -215,7 +221,7 @@ impl Implicit {
                     *k += change;
                 }
             }
-            if self.left * size <= 1.0 {
+            if is_confirmed && self.left * size <= 1.0 {
                 return Ok(Solved::Yes);
             }
             anew = self.steps_apart > 0 && self.left > CONTRACTS;
@@ -253,6 +259,25 @@ impl Implicit {
             subtract(&scratch[0], &k[stage], &mut self.change[stage - 1]);
         }
         Ok(())
+    }
+
+    /// Whether the residuals in `change` are small by themselves, before Newton's matrix reduces them.
+    ///
+    /// A small change alone does not show that the stages are found: where a force jumps, as `sign(der(x))` does at rest, its difference quotient
+    /// is as large as that of a very stiff part, and any residual causes hardly a change. So the first change counts only if the contraction is
+    /// known from earlier steps, or if the residuals are below the tolerance or round-off.
+    fn residuals_are_small<V: Vector>(&self, task: &StepProblem<'_, V>) -> bool {
+        let (before, tolerance) = (task.before, task.tolerance);
+        let share = self.share(task);
+        let is_small = |(i, residual): (usize, &f64)| {
+            let absolute = tolerance.absolute.as_slice()[i];
+            let v = before.v.as_slice()[i].abs();
+            let tolerable = share * (absolute + tolerance.relative * v);
+            let roundoff = 4.0 * f64::EPSILON * self.jacobian.noise[i];
+            residual.abs() <= (tolerable / task.h.abs()).max(roundoff)
+        };
+        let mut stages = self.change.iter();
+        stages.all(|residuals| residuals.iter().enumerate().all(is_small))
     }
 
     /// One iteration with the Jacobians of each stage, evaluated `anew` or kept from the iteration

@@ -29,7 +29,7 @@ use lagrangian_scalar::{Dual, Interval, Scalar};
 
 use super::InterpretedMachine;
 use crate::error::NoNumbers;
-use crate::taylor::{bound, length, worse};
+use crate::taylor::{bound, length, size_of_rate, worse};
 
 /// Number of coefficients of the accelerations in a step.
 const ORDER: usize = 24;
@@ -340,7 +340,7 @@ impl Enclosure {
         let powers = [ORDER, ORDER + 1];
         let mut worst = [0.0_f64; 2];
         for (i, row) in of_states.iter().enumerate() {
-            let size = self.middle[i].abs().max(self.middle[n + i].abs());
+            let size = size_of_rate(self.middle[i], self.middle[n + i]);
             let over = 1.0 / bound(size, LAST_TERMS, LAST_TERMS);
             for (worst, j) in worst.iter_mut().zip(powers) {
                 let most = row[j].lo().abs().max(row[j].hi().abs());

@@ -12,7 +12,7 @@ use crate::error::NoNumbers;
 use crate::math::rough_log2;
 use crate::roots;
 use crate::step_error::StepError;
-use crate::taylor::{bound, length, state, worse};
+use crate::taylor::{bound, is_slow, length, length_in_slow_motion, size_of_rate, state, worse};
 use crate::{Error, Machine, Real, System};
 
 /// The smallest and the largest order of steps.
@@ -273,7 +273,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         let powers = [last - 1, last];
         let mut worst = [0.0_f64; 2];
         for i in 0..self.q.len() {
-            let size = self.q[i].to_f64().abs().max(self.v[i].to_f64().abs());
+            let size = size_of_rate(self.q[i].to_f64(), self.v[i].to_f64());
             let over = 1.0 / bound(size, self.tolerance, self.tolerance);
             for (worst, j) in worst.iter_mut().zip(powers) {
                 let c = self.coefficients[j][i].to_f64();
@@ -284,6 +284,16 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
                 *worst = worse(*worst, c, j as f64, over);
             }
         }
-        Ok(length(worst, powers))
+        let by_rates = length(worst, powers);
+        if !is_slow(by_rates, last) {
+            return Ok(by_rates);
+        }
+        let of = |i: usize| {
+            let of_power = |j: usize| self.coefficients[j][i].to_f64();
+            let [q, v] = [self.q[i].to_f64(), self.v[i].to_f64()];
+            [q, v, of_power(last - 1), of_power(last), self.tolerance]
+        };
+        let all = (0..self.q.len()).map(of);
+        Ok(length_in_slow_motion(by_rates, last, all, self.tolerance))
     }
 }

@@ -327,6 +327,57 @@ fn a_run_goes_backward() {
     }
 }
 
+/// A motion of 2e-6 rad/s takes steps of days: an error of the rates that is small beside the coordinates grows with them. Coordinates are 10⁶ times
+/// their rates, and at the second start both are smaller than what the tolerance allows of a rate in such a step.
+#[test]
+fn a_slow_motion_is_as_exact_as_a_fast_one() {
+    let machine = machine(
+        "machine Slow in plane {
+            parameters { m: kg = 1e9, k: N/m = 4e-3 }
+            coordinates { x: m }
+            bodies { block { mass: m, at: (x, 0) } }
+            springs { spring { stiffness: k, stretch: x } }
+        }",
+    );
+    let (omega, until, tolerance) = (2e-6_f64, 3e6, 1e-9);
+    for size in [1e6, 1e-3] {
+        let from = start(&machine, &[size], &[0.5 * omega * size]);
+        let simulation = Simulation::new(&machine).method(&TAYLOR).until(until);
+        let run = simulation.tolerance(tolerance).run(from).unwrap();
+        let angle = omega * until;
+        let exact = size * (angle.cos() + 0.5 * angle.sin());
+        // Two terms in each step, of a coordinate whose size within the step is counted as up to three times the greatest.
+        let limit = run.statistics().steps as f64 * 2.0 * tolerance * (1.0 + 3.0 * size);
+        let error = (run.end().q.values[0] - exact).abs();
+        assert!(error < limit, "{size:e}: {error:e} > {limit:e}");
+    }
+}
+
+/// After a hundred thousand turns a pendulum that whirls conserves its energy as well as at the start: its angle is large, but its rate is not.
+#[test]
+fn a_pendulum_whirls_as_exactly_after_many_turns() {
+    let machine = machine(
+        "machine Whirling in plane {
+            parameters { m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }
+            coordinates { phi: rad }
+            bodies { bob { mass: m, at: polar(l, phi - pi/2) } }
+            gravity (0, -g);
+        }",
+    );
+    let tolerance = 1e-9;
+    for turns in [0.0, 1e5] {
+        let from = start(&machine, &[2.0 * PI * turns + 0.5], &[7.0]);
+        let simulation = Simulation::new(&machine).method(&TAYLOR).until(20.0);
+        let run = simulation.tolerance(tolerance).run(from).unwrap();
+        let energy = |phi: f64, rate: f64| 0.5 * rate * rate - 9.81 * phi.cos();
+        let (end, steps) = (run.end(), run.statistics().steps as f64);
+        let error = (energy(end.q.values[0], end.v.values[0]) - energy(0.5, 7.0)).abs();
+        // The rate is at most 7.4 rad/s. Two terms in each step.
+        let limit = steps * 2.0 * tolerance * (1.0 + 7.4) * (7.4 + 9.81);
+        assert!(error < limit, "{turns}: {error:e} > {limit:e}");
+    }
+}
+
 /// The assumption x > −0.5 fails at cos 3t = −0.5, within a step.
 #[test]
 fn a_run_ends_where_an_assumption_ends() {

@@ -245,6 +245,41 @@ fn what_a_damper_drags_along_takes_no_more_steps_however_strong_it_is() {
     }
 }
 
+/// A force that jumps at rest, `x'' = 0.3 cos 0.2t − 0.1 sign x'`: at the start its difference quotient is that of a very stiff damper. While x'
+/// is positive, which it is for 5 s, `x' = 1.5 sin 0.2t − 0.1 t`.
+#[test]
+fn a_force_that_jumps_where_a_run_starts_is_not_taken_for_a_stiff_one() {
+    let rubbed = Toy {
+        work_rate: |t, _, v, _, _| 0.3 * (0.2 * t).cos() * v[0] - 0.1 * v[0].abs(),
+        ..Toy::new(([0.0], [0.0]), |t, _, v, _, _| {
+            let sign = if v[0] == 0.0 { 0.0 } else { v[0].signum() };
+            [0.3 * (0.2 * t).cos() - 0.1 * sign]
+        })
+    };
+    let [nine, thirteen] = &RADAU_OF_HIGH_ORDER;
+    for method in [radau5(), nine, thirteen] {
+        for tolerance in [1e-2, 1e-3, 1e-4, 1e-5, 1e-7] {
+            let run = run_by(method, &rubbed, tolerance, 5.0);
+            let end = run.end();
+            let exact = [
+                7.5 * (1.0 - 1.0_f64.cos()) - 1.25,
+                1.5 * 1.0_f64.sin() - 0.5,
+            ];
+            // Sizes are at most 2.2 m and 0.8 m/s, and an error of x' lasts for at most 5 s.
+            let of_rate = 1.8 * limit(&run, tolerance);
+            let of_place = 3.2 * limit(&run, tolerance) + 5.0 * of_rate;
+            assert!(
+                (end.q[0] - exact[0]).abs() <= of_place,
+                "{tolerance} {end:?}"
+            );
+            assert!(
+                (end.v[0] - exact[1]).abs() <= of_rate,
+                "{tolerance} {end:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn an_explicit_method_is_held_short_there_and_says_what_helps() {
     let dragged = dragged(1e5);
