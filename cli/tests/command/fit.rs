@@ -361,7 +361,10 @@ fn what_cannot_be_told_apart_is_named_with_what_can() {
     assert!((told[0].1 / (2.0 / 0.6) - 1.0).abs() < 1e-6, "{told:?}");
     assert!((told[1].1 / 50.0 - 1.0).abs() < 1e-6, "{told:?}");
     let said = result["warnings"][0].as_str().expect("a warning");
-    assert!(said.contains("only m/c, k/c are told"), "{said}");
+    assert!(
+        said.contains("only m/c, k/c are determined by these measurements"),
+        "{said}"
+    );
 
     // If two masses move as one, only their sum is identifiable; gravity is at right angles to the motion, so the depth is not.
     let two = OSCILLATOR
@@ -923,12 +926,12 @@ fn what_is_wrong_is_said() {
         (
             "none.csv",
             "t,y\n0,0.1\n1,0.2\n",
-            "none of its columns y has measurements",
+            "none of its columns y contains measurements",
         ),
         (
             "empty.csv",
             "t,x\n0,\n1,\n",
-            "none of its columns x has measurements",
+            "none of its columns x contains measurements",
         ),
     ];
     for (name, text, why) in files {

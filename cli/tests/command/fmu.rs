@@ -590,7 +590,7 @@ fn a_unit_finds_its_events() {
                 "needsCompletedIntegratorStep=\"true\"",
                 "hasEventMode=\"true\"",
                 "<Int32 name=\"event.bottom\" valueReference=\"19\"",
-                "<Float64 name=\"'indicator(low)'\" valueReference=\"13\" description=\"Changes its sign at the event low: y-1*m\" \
+                "<Float64 name=\"'indicator(low)'\" valueReference=\"13\" description=\"Changes sign at the event low: y-1*m\" \
                  causality=\"local\" variability=\"continuous\" initial=\"calculated\" unit=\"m\"/>",
             ],
             _ => &["numberOfEventIndicators=\"5\"", "<Integer/>"],

@@ -963,7 +963,7 @@ fn what_is_wrong_is_told_with_its_place() {
             "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child \
              link=\"b\"/></joint><joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint></robot>"
                 .to_owned(),
-            "in a closed loop",
+            "form a closed loop without a root",
         ),
     ] {
         let said = refused(&text, &[]);

@@ -684,7 +684,7 @@ impl Search<'_> {
         let chart = chart.map_err(|_| NoOrbit::Constraints)?;
         match starts::dependent_constraint(self.machine, &self.named(x)) {
             Some(constraint) => Err(NoOrbit::Refused(format!(
-                "the constraint `{constraint}` follows from others, and accelerations have no derivatives then: leave it out"
+                "the constraint `{constraint}` follows from others, so that accelerations have no derivatives: leave it out"
             ))),
             None => Ok(chart),
         }
