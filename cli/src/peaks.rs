@@ -3,10 +3,12 @@
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
+use lagrangian::ContactEventKind;
 use lagrangian_analysis::extremes::{Extreme, extremes};
 use serde_json::{Value, json};
 
 use crate::call;
+use crate::exactness::Exactness;
 use crate::failure::Failure;
 use crate::modes::number;
 use crate::output::{self, Destination, TABLE};
@@ -76,6 +78,9 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
     output::keep_document_apart(&file, call.part.runs.json)?;
     let all: Vec<&Destination> = file.iter().collect();
     let (columns, exactness) = runs::one_with_run(&call.part, &all)?;
+    if let Some(exactness) = &exactness {
+        warn_of_impacts(exactness, call.part.after);
+    }
     let chosen = columns.chosen(&call.part.of, &call.part.run)?;
     let errors = match (&exactness, call.ripple) {
         (Some(exactness), None) => {
@@ -113,6 +118,23 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
         output::text(&text(&found))
     }
     Ok(())
+}
+
+/// Warns if rates jump in the part of the run that is examined: the curve through the rows is smooth there, unlike the motion.
+fn warn_of_impacts(exactness: &Exactness, after: Option<f64>) {
+    let events = exactness.run.contact_events().iter();
+    let impacts = events.filter(|event| event.kind == ContactEventKind::Impact);
+    let instants = impacts.map(|event| event.state.t);
+    let count = instants
+        .filter(|t| after.is_none_or(|after| *t >= after))
+        .count();
+    if count > 0 {
+        let (plural, are) = if count == 1 { ("", "is") } else { ("s", "are") };
+        output::print_error(format_args!(
+            "warning: there {are} {count} impact{plural}, at which rates jump: extremes next to an impact are those of the smooth \
+             curve through the rows; the reductions min and max of `lagrangian sweep` are those of the motion"
+        ));
+    }
 }
 
 /// One row for each extreme: the index of the quantity, the time, the value, and 1 for a maximum or −1 for a minimum.

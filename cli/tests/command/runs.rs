@@ -299,6 +299,30 @@ fn what_a_run_is_not_exact_enough_for_is_no_extreme() {
     assert!(text.contains(" ripples of no more than "), "{text}");
 }
 
+/// A ball that falls by 1 m with g = 8 m/s² reaches the floor after √(2/8) s, and with e = 1/2 its impacts are at 0.5, 1, 1.25, … s.
+#[test]
+fn extremes_next_to_impacts_are_said_to_be_those_of_a_smooth_curve() {
+    let ball = "machines/contacts/bouncing_ball.machine";
+    let given = ["--set", "e=0.5", "--set", "g=8", "--of", "y"];
+    for (until, after, count) in [
+        ("0.4", "0", 0),
+        ("0.9", "0", 1),
+        ("1.1", "0", 2),
+        ("1.1", "0.7", 1),
+    ] {
+        let call = ["peaks", ball, "--until", until, "--after", after];
+        let output = lagrangian(&[&call[..], &given].concat());
+        assert!(output.status.success());
+        let said = String::from_utf8(output.stderr).expect("text");
+        let expected = match count {
+            1 => "there is 1 impact, at which rates jump",
+            _ => &format!("there are {count} impacts, at which rates jump"),
+        };
+        assert_eq!(said.contains(expected), count > 0, "{until}: {said}");
+        assert_eq!(said.contains("impact"), count > 0, "{until}: {said}");
+    }
+}
+
 /// A wheel that rotates uniformly allows long steps, and is upright many times in one: also if its coordinate is a pure number, or
 /// the distance rolled.
 #[test]

@@ -1,6 +1,7 @@
 //! Reductions of a motion to numbers while it runs: extremes, integrals, end values.
 
 use std::cell::RefCell;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{Error, StepMotion, System, extremes};
@@ -19,7 +20,7 @@ const NODES: [(f64, f64, f64); 17] = [
     ),
     (-0.831_469_612_302_545_2, 0.108_905_552_581_890_93, 0.0),
     (
-        -0.707_106_781_186_547_6,
+        -FRAC_1_SQRT_2,
         0.138_956_468_368_233_08,
         0.279_365_079_365_079_37,
     ),
@@ -39,7 +40,7 @@ const NODES: [(f64, f64, f64); 17] = [
     ),
     (0.555_570_233_019_602_2, 0.163_172_664_281_703_3, 0.0),
     (
-        0.707_106_781_186_547_6,
+        FRAC_1_SQRT_2,
         0.138_956_468_368_233_08,
         0.279_365_079_365_079_37,
     ),
