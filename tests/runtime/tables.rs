@@ -385,7 +385,7 @@ fn a_run_ends_with_the_table_that_ends() {
     assert!((broken.end().q[0] - pushed(2.4)[0]).abs() < 1e-13);
     let said = error.unwrap().to_string();
     assert!(
-        said.contains("the table push.csv ends") && said.contains("2.4 s"),
+        said.contains("the table push.csv covers only a part of the run") && said.contains("2.4 s"),
         "{said}"
     );
     // Backward in time, the table ends at its first row.

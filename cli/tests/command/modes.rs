@@ -1363,7 +1363,7 @@ fn critical_damping_is_where_an_oscillation_ends() {
         "{text}"
     );
     assert!(
-        text.contains("critical b = 20 N*s/m: 1 oscillates before it, none after it"),
+        text.contains("critical b = 20 N*s/m: 1 mode oscillates before it, none after it"),
         "{text}"
     );
 }

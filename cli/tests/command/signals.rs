@@ -324,7 +324,7 @@ fn what_cannot_drive_an_input_is_refused() {
         (
             &["--input", "push=1,every=1", "--input", "wind=1,every=2"],
             2,
-            "one period",
+            "must have the same period and the same delay",
         ),
         (&["--input", "push=1,every=1*m"], 2, "expected s, found m"),
         (&["--input", "push=none.csv"], 2, "cannot read none.csv"),
