@@ -137,7 +137,7 @@ impl Command {
                 let names = call.vary.iter().filter_map(|text| text.split(ends).next());
                 given.extend(names.map(|name| name.trim().to_owned()));
                 let table = call.table.iter();
-                given.extend(table.flat_map(|path| crate::sweep::names_in(path)));
+                given.extend(table.flat_map(|path| crate::heading::names_in(path)));
             }
             Command::Fit(call) => given.extend(names_of(&call.sought)?),
             Command::Sensitivities(call) => given.extend(names_of(&call.by)?),

@@ -22,6 +22,7 @@ mod failure;
 mod fit;
 mod fmu;
 mod global_error;
+mod heading;
 mod host;
 mod import;
 mod inputs;

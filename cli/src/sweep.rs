@@ -23,6 +23,7 @@ use serde_json::json;
 use crate::call::{self, Assignment};
 use crate::diagnostics;
 use crate::failure::Failure;
+use crate::heading;
 use crate::inputs;
 use crate::interrupt;
 use crate::methods;
@@ -475,27 +476,21 @@ fn check_kept(model: &Model<'_>, keep: &call::Keep) -> Result<(), Failure> {
 /// A column of a table of runs: its name, and the unit in its header if there is one.
 type Heading = (String, Option<String>);
 
-/// The names in the header of a table of runs; none if it cannot be read, which is reported where it is used.
-pub fn names_in(path: &Path) -> Vec<String> {
-    let headings = numbers(path).map_or_else(|_| Vec::new(), |(headings, _)| headings);
-    headings.into_iter().map(|(name, _)| name).collect()
-}
-
 /// The columns of numbers in a table of runs, with its rows.
 fn numbers(path: &Path) -> Result<(Vec<Heading>, Vec<Vec<f64>>), Failure> {
     let wrong = |why: String| Failure::Call(format!("--table {}: {why}", path.display()));
-    let heading = |header: &str| {
-        let (name, unit) = table::name_and_unit(header);
+    let split = |header: &str| {
+        let (name, unit) = heading::name_and_unit(header);
         (name.to_owned(), unit.map(str::to_owned))
     };
     if path.extension().is_some_and(|ending| ending == "parquet") {
         let (headers, rows) =
             lagrangian_sweep::table::numbers(path).map_err(|error| wrong(error.to_string()))?;
-        return Ok((headers.iter().map(|header| heading(header)).collect(), rows));
+        return Ok((headers.iter().map(|header| split(header)).collect(), rows));
     }
     let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
     let header = text.lines().next().unwrap_or_default();
-    let headings: Vec<Heading> = header.split(',').map(heading).collect();
+    let headings: Vec<Heading> = header.split(',').map(split).collect();
     let names: Vec<String> = headings.iter().map(|(name, _)| name.clone()).collect();
     let rows = table::rows(&text, &names).map_err(wrong)?;
     Ok((headings, rows))

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use crate::failure::Failure;
+use crate::heading::name_and_unit;
 use crate::output::Destination;
 use crate::recording::Recording;
 
@@ -107,7 +108,10 @@ fn parquet(_: &[(String, &[f64])], _: &mut (dyn Write + Send)) -> io::Result<()>
 pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
     let mut lines = text.lines().enumerate();
     let header = lines.next().map_or("", |(_, line)| line);
-    let columns: Vec<&str> = header.split(',').map(named).collect();
+    let columns: Vec<&str> = header
+        .split(',')
+        .map(|cell| name_and_unit(cell).0)
+        .collect();
     let place = |name: &String| {
         let mut found = (0..columns.len()).filter(|i| columns[*i] == name);
         match (found.next(), found.next()) {
@@ -135,21 +139,6 @@ pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
             places.iter().map(value).collect()
         })
         .collect()
-}
-
-/// The name in a header, without its unit.
-fn named(header: &str) -> &str {
-    name_and_unit(header).0
-}
-
-/// The name in a header, and its unit if there is one.
-pub fn name_and_unit(header: &str) -> (&str, Option<&str>) {
-    let header = header.trim();
-    let unit = header.rsplit_once(" [");
-    match unit.and_then(|(name, unit)| Some((name, unit.strip_suffix(']')?))) {
-        Some((name, unit)) => (name.trim_end(), Some(unit)),
-        None => (header, None),
-    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::path::Path;
 use lagrangian_program::Slot;
 
 use crate::failure::Failure;
-use crate::{runs, table};
+use crate::{heading, runs, table};
 
 /// The positions in a table, one for each row, from the columns named after coordinates, in the units that the spec declares for them.
 /// A column whose header has another unit is converted.
@@ -21,10 +21,10 @@ pub fn read(path: &Path, coordinates: &[Slot]) -> Result<Vec<Vec<f64>>, Failure>
         .collect();
     let mut places = table::rows(&text, &names).map_err(wrong)?;
     let header = text.lines().next().unwrap_or_default();
-    let headings: Vec<_> = header.split(',').map(table::name_and_unit).collect();
+    let headings: Vec<_> = header.split(',').map(heading::name_and_unit).collect();
     for (column, (name, slot)) in names.iter().zip(coordinates).enumerate() {
-        let heading = headings.iter().find(|(heading, _)| heading == name);
-        let Some((_, Some(written))) = heading else {
+        let found = headings.iter().find(|(heading, _)| heading == name);
+        let Some((_, Some(written))) = found else {
             continue;
         };
         let unit = &slot.unit_text;
