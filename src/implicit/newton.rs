@@ -69,7 +69,7 @@ impl StageJacobians {
         let Self {
             jacobians, matrix, ..
         } = self;
-        // By blocks: to find the stage of each entry would take longer than the factorization.
+        // By blocks, so that the stage of an entry is not found by a division.
         matrix.factor_rows(|row, entries| {
             let (stage, i) = (row / n, row % n);
             let jacobian = &jacobians[stage];
