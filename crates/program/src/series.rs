@@ -199,7 +199,7 @@ impl Series {
     /// A product of series with 20 coefficients takes 210 multiplications. The matrix of the unknowns is made from the gradients of
     /// rows, and is factorized once and solved with at each order: 5 cycles for each entry of a gradient. An evaluation comes with the
     /// sums of a stage of the method, 8 cycles for each coordinate. With 12 coefficients the cost is two thirds. Measured costs
-    /// (`docs/benchmarks.md`, Taylor series) are within a factor of 2.
+    /// (`docs/benchmarks.md`, the method that a run chooses) are within a factor of 2.
     pub fn cost(&self, accelerations: Cost) -> [f64; 2] {
         let gradients: usize = self.depends.iter().map(Vec::len).sum();
         let step = CYCLES_OF_PRODUCT * self.products() + CYCLES_OF_GRADIENT * gradients as f64;

@@ -275,7 +275,7 @@ impl Emitter<'_> {
         self.row_of_workspace();
     }
 
-    /// Writes the costs of a step by the series, by which a run chooses its method. One decimal is more than they are known to.
+    /// Writes the costs of a step by the series, by which a run chooses its method. They are estimates, for which one decimal suffices.
     fn row_of_costs(&mut self) {
         let series = self.options.series.as_ref();
         let accelerations = self.program.function(Role::Accelerations);
