@@ -6,7 +6,7 @@
 
 use lagrangian::{Error, Simulation};
 
-lagrangian::machine!(file = "machines/cart_pole.machine");
+lagrangian::machine!(file = "../machines/cart_pole.machine");
 
 /// Position of the cart, in m, and angle of the pole, in rad, second by second.
 pub fn balance(angle: f64) -> Result<Vec<[f64; 2]>, Error> {

@@ -1,7 +1,7 @@
 //! How does a program let its user edit a machine while it runs? A text becomes a machine, or messages with places.
 //!
 //! ```sh
-//! cargo run --release --features interpreter --example edited_spec
+//! cargo run --release --example edited_spec
 //! ```
 
 use lagrangian::interpreted::InterpretedMachine;

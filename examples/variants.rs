@@ -1,7 +1,7 @@
 //! How do I run a spec without a compiler? One file, read while the program runs, with many sets of parameters.
 //!
 //! ```sh
-//! cargo run --release --features interpreter --example variants
+//! cargo run --release --example variants
 //! ```
 
 use lagrangian::interpreted::InterpretedMachine;

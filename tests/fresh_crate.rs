@@ -34,7 +34,7 @@ impl Crate {
             folder,
             _alone: alone,
         };
-        let root = env!("CARGO_MANIFEST_DIR");
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
         fresh.write(
             "Cargo.toml",
             &format!(
@@ -282,7 +282,7 @@ fn machines_stand_inline_side_by_side() {
 #[test]
 fn mistakes_are_told_at_the_users_tokens() {
     let fresh = Crate::new("mistakes");
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/ui/macro");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("ui/macro");
     let mut programs: Vec<String> = Vec::new();
     for entry in fs::read_dir(&folder).expect("the folder is part of the repository") {
         let path = entry.expect("the folder can be read").path();

@@ -1,5 +1,4 @@
 //! Machines with constraints, tested against closed forms and against the same machine in minimal coordinates.
-#![cfg(all(feature = "std", feature = "macros"))]
 
 use crate::by_hand::constrained::{
     Constrained, bead, circle, double_pendulum, parallelogram, rope, sleigh, winch,

@@ -1,5 +1,4 @@
 //! Machines from the macro whose parts collide or press on compliant walls.
-#![cfg(all(feature = "std", feature = "macros"))]
 
 use lagrangian::{Compliance, ContactEventKind, METHODS, Simulation, System};
 

@@ -1,6 +1,5 @@
 //! Derivatives in emitted code that a spec requests, tested against closed
 //! forms and against dual numbers through the emitted accelerations.
-#![cfg(feature = "macros")]
 
 use crate::support::library;
 use lagrangian::scalar::{DoubleDouble, Dual, Scalar};

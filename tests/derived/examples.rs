@@ -1,7 +1,6 @@
 //! Every example runs and gives the right answer.
 //!
 //! The examples are modules of this one program, which saves linking each of them separately.
-#![cfg(feature = "interpreter")]
 
 #[path = "../../examples/balance.rs"]
 mod balance;
@@ -53,7 +52,7 @@ fn limit(tolerance: f64) -> f64 {
 
 #[test]
 fn every_example_is_here() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
     for entry in std::fs::read_dir(folder).expect("the examples") {
         let entry = entry.expect("an entry");
         if entry.path().is_dir() {
@@ -79,7 +78,7 @@ fn programs_of_some_use_are_short() {
         "realtime",
         "sweep",
     ] {
-        let path = format!("{}/examples/{name}.rs", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/../examples/{name}.rs", env!("CARGO_MANIFEST_DIR"));
         let lines = std::fs::read_to_string(path)
             .expect("it is text")
             .lines()

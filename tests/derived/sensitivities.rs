@@ -1,5 +1,4 @@
 //! Derivatives of motions, tested against closed forms, differences of motions, and the symplectic invariant of conservative machines.
-#![cfg(feature = "macros")]
 
 use crate::support::library;
 use lagrangian::{

@@ -1,6 +1,5 @@
 //! Accelerations evaluated in stages, in emitted code and interpreted, equal those
 //! evaluated at once up to rounding.
-#![cfg(feature = "macros")]
 
 use lagrangian::{Batch, Lanes, Machine, Staged, System, Vector};
 

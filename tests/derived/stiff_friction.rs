@@ -1,5 +1,4 @@
 //! Contacts that stick and slide in stiff machines, integrated by `radau5`.
-#![cfg(all(feature = "std", feature = "macros"))]
 
 use std::f64::consts::PI;
 

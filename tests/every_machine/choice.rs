@@ -1,5 +1,4 @@
 //! The rounding errors that the choice between programs estimates agree with measured ones.
-#![cfg(feature = "std")]
 
 use crate::support::library::{self, CONSTRAINED, MACHINES};
 use crate::support::random::SplitMix;

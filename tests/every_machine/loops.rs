@@ -9,12 +9,12 @@ use lagrangian_program::{Arguments, Interpreter, Program, Role};
 
 /// A chain in which every link has parameters of its own.
 mod chain {
-    lagrangian::machine!(file = "benches/peers/chain.machine", N = 16);
+    lagrangian::machine!(file = "../benches/peers/chain.machine", N = 16);
 }
 
 /// A chain in relative coordinates, in which each absolute angle is a sum.
 mod relative {
-    lagrangian::machine!(file = "machines/chain_relative.machine", N = 24);
+    lagrangian::machine!(file = "../machines/chain_relative.machine", N = 24);
 }
 
 /// The number of states that are compared.
@@ -102,7 +102,7 @@ where
 
 #[test]
 fn a_chain_is_the_program_to_the_last_bit() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/peers/chain.machine");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../benches/peers/chain.machine");
     let text = std::fs::read_to_string(path).expect("it is there");
     let program = library::compile(path, &text, &[("N", 16)]);
     // No two links are alike.

@@ -11,7 +11,7 @@ const TOLERANCE: f64 = 1e-9;
 
 fn machine(name: &str, settings: &[(&str, f64)]) -> InterpretedMachine {
     let path = format!(
-        "{}/machines/contacts/{name}.machine",
+        "{}/../machines/contacts/{name}.machine",
         env!("CARGO_MANIFEST_DIR")
     );
     let mut machine = InterpretedMachine::from_file(path).expect("a good spec");

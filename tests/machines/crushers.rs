@@ -1,6 +1,5 @@
 //! Variants of the crusher: one with two debalances that shake along a line, and one driven by a
 //! motor whose speed is free.
-#![cfg(feature = "std")]
 
 use lagrangian::{Coordinates, Machine, Simulation, Solution, State};
 use lagrangian_machines::{

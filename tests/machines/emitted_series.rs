@@ -1,5 +1,4 @@
 //! Taylor series of compiled machines, and runs by them, equal those of the interpreter bit for bit.
-#![cfg(feature = "macros")]
 
 use crate::support::library;
 use lagrangian::interpreted::InterpretedMachine;

@@ -1,6 +1,5 @@
 //! Coulomb friction: bodies that stick stay in place, sliding bodies lose the right energy, and where
 //! the law does not determine the motion the run reports that.
-#![cfg(feature = "interpreter")]
 
 mod space;
 mod spelling;

@@ -1,6 +1,5 @@
 //! The references to 30 digits belong to the machines that they name: runs by methods that were not used to compute
 //! them end at the same states.
-#![cfg(feature = "std")]
 
 use crate::support::known_ends::{CHAOTIC_AT_10, CRUSHER_AT_5, REGULAR_AT_100};
 use crate::support::known_runs::KnownRun;

@@ -121,7 +121,7 @@ fn run<M: Machine>(machine: &M, (q, v): (&[f64], &[f64]), until: f64) -> Solutio
 /// `machines/README.md` lists every machine once, and the tests that it names exist.
 #[test]
 fn the_table_of_the_library_is_complete_and_true() {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = crate::support::root();
     let read = |path: &str| std::fs::read_to_string(root.join(path)).expect("it is text");
     let entries = std::fs::read_dir(root.join("machines")).expect("the library");
     let files = entries.map(|entry| entry.expect("an entry").file_name());

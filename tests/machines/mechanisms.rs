@@ -1,6 +1,5 @@
 //! Machines of the library with constraints. Accelerations and multipliers are compared with equations typed by hand, other
 //! coordinates and published numbers; motions are compared with closed forms and results in quadruple precision.
-#![cfg(feature = "std")]
 #![expect(
     clippy::excessive_precision,
     reason = "references with all their digits"

@@ -1,6 +1,5 @@
 //! The machines of the library end where results in higher precision say, and
 //! their energy balances close.
-#![cfg(feature = "std")]
 #![expect(
     clippy::excessive_precision,
     reason = "references with all their digits"

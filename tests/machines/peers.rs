@@ -24,7 +24,7 @@ impl SplitMix64 {
 /// Interprets a spec of `benches/peers`.
 fn spec(name: &str, constants: &[(&str, i64)]) -> InterpretedMachine {
     let path = format!(
-        "{}/benches/peers/{name}.machine",
+        "{}/../benches/peers/{name}.machine",
         env!("CARGO_MANIFEST_DIR")
     );
     let text = std::fs::read_to_string(&path).expect("the spec");

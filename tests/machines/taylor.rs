@@ -1,5 +1,4 @@
 //! Runs by Taylor series are as accurate as closed forms and high-precision references show, with dense output and events as accurate as the steps.
-#![cfg(feature = "std")]
 #![expect(
     clippy::excessive_precision,
     reason = "references with all their digits"

@@ -1,5 +1,4 @@
 //! Runs end where the closed form, or a computation in higher precision, predicts.
-#![cfg(feature = "std")]
 #![expect(
     clippy::excessive_precision,
     reason = "references with all their digits"

@@ -1,5 +1,4 @@
 //! A derived machine with an additional force, compared with a machine whose spec contains that force.
-#![cfg(feature = "interpreter")]
 
 use crate::by_hand::as_list::AsList;
 use crate::by_hand::toy::oscillator;

@@ -1,5 +1,4 @@
 //! Steps allocate nothing, and runs allocate only what they keep.
-#![cfg(feature = "std")]
 
 use crate::by_hand::constrained::{Constrained, circle, parallelogram};
 use crate::by_hand::double_pendulum::DoublePendulum;

@@ -1,5 +1,4 @@
 //! Controllers, sampled ones in one run and loops around a stepper, against recursions worked out by hand.
-#![cfg(feature = "interpreter")]
 
 use std::sync::atomic::{AtomicU32, Ordering};
 

@@ -1,5 +1,4 @@
 //! The energy balance closes and accounts for every loss and gain.
-#![cfg(feature = "std")]
 
 use crate::by_hand::double_pendulum::DoublePendulum;
 use crate::by_hand::toy::{Toy, oscillator, pendulum};

@@ -1,5 +1,4 @@
 //! Events are found at the right time and in order, and end a run where they should.
-#![cfg(feature = "std")]
 
 use crate::by_hand::toy::{Toy, ball, oscillator};
 use lagrangian::{

@@ -1,5 +1,4 @@
 //! Methods with steps of a fixed length: their orders, their invariants, and the machines that they refuse.
-#![cfg(feature = "std")]
 
 use crate::by_hand::constrained::{self, Constrained};
 use crate::by_hand::double_pendulum::{DoublePendulum, DoublePendulumCoordinates};

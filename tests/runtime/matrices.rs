@@ -1,5 +1,4 @@
 //! The matrices of a system agree with its equations of motion.
-#![cfg(all(feature = "std", feature = "nalgebra"))]
 
 use crate::by_hand::double_pendulum::{
     DoublePendulum, DoublePendulumCoordinates, DoublePendulumInputs,

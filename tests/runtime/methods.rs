@@ -1,6 +1,5 @@
 //! Every method of the list is as published: its coefficients obey the order conditions, and its steps and dense output
 //! converge at the stated orders.
-#![cfg(feature = "std")]
 
 use crate::by_hand::toy::{Toy, oscillator};
 use lagrangian::methods::{Conjugates, MethodError, Tableau, Tree as Rooted, Weights};

@@ -1,5 +1,4 @@
 //! Errors of runs name the cause: the parameter, the coordinate, the time, the number.
-#![cfg(feature = "std")]
 
 use crate::by_hand::constrained::{Constrained, bead, circle, parallelogram, sleigh, winch};
 use crate::by_hand::double_pendulum::DoublePendulum;

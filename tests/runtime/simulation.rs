@@ -1,5 +1,4 @@
 //! The settings of a simulation have their stated effects.
-#![cfg(feature = "std")]
 
 use crate::by_hand::as_list::AsList;
 use crate::by_hand::double_pendulum::DoublePendulum;

@@ -1,5 +1,4 @@
 //! Specs that a program reads at run time.
-#![cfg(feature = "interpreter")]
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Error, Machine, Simulation, TAYLOR};

@@ -1,5 +1,4 @@
 //! Stiff machines integrated by `radau5`, tested against closed forms and against the rigid machines that they tend to.
-#![cfg(feature = "std")]
 
 use crate::by_hand::constrained::Constrained;
 use crate::by_hand::toy::{Toy, pendulum};

@@ -1,5 +1,4 @@
 //! Solutions and simulations can be sent to other threads, and solutions can be serialized.
-#![cfg(all(feature = "interpreter", feature = "serde", feature = "macros"))]
 
 use std::thread;
 
@@ -13,7 +12,6 @@ lagrangian::machine! {
     #[derive(serde::Serialize, serde::Deserialize)]
     #[serde(rename_all = "UPPERCASE")]
     /// A pair of masses on springs.
-    #[cfg(feature = "macros")]
     #[deny(unsafe_code)]
     machine Pair in plane {
         parameters { m: kg = 1, k[1..2]: N/m = 4 }

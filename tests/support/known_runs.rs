@@ -23,8 +23,8 @@ pub struct KnownRun {
 impl KnownRun {
     /// Reads the run of this name.
     pub fn named(name: &str) -> Self {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/references");
-        let path = format!("{folder}/{name}.txt");
+        let folder = super::root().join("tests/data/references");
+        let path = format!("{}/{name}.txt", folder.display());
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
         Self::read(&text)
     }

@@ -200,5 +200,6 @@ fn compile_by(
 
 /// The path of a machine's file in the library.
 pub fn path(machine: &str) -> String {
-    format!("{}/machines/{machine}.machine", env!("CARGO_MANIFEST_DIR"))
+    let root = super::root();
+    format!("{}/machines/{machine}.machine", root.display())
 }
