@@ -501,7 +501,7 @@ impl System for InterpretedSystem {
         });
         expanded.map_err(|singular| where_it_stopped(&self.program, singular))?;
         for i in 0..q.len() {
-            for (row, c) in coefficients.iter_mut().zip(expander.of_coordinate(i)) {
+            for (row, c) in coefficients.iter_mut().zip(expander.coordinate(i)) {
                 row[i] = *c;
             }
         }
@@ -696,10 +696,10 @@ impl System for InterpretedSystem {
                     model::Compliance::HuntCrossley => Compliance::HuntCrossley,
                     model::Compliance::Layer => Compliance::Layer,
                 }),
-                rubs: contact.rubs,
-                rolls: contact.rolls,
-                across: contact.across,
-                faced: contact.faced,
+                rubs: contact.has_friction,
+                rolls: contact.is_rolling_resistance,
+                across: contact.is_second_tangent,
+                faced: contact.has_face,
             })
     }
 
@@ -893,8 +893,8 @@ impl InterpretedSystem {
         let t = if stage == Role::AtTime && !self.program.stages.time {
             left[0]
         } else {
-            running.interpreter.stand(stage, left);
-            running.compiled.stand(stage, left);
+            running.interpreter.set_stage_results(stage, left);
+            running.compiled.set_stage_results(stage, left);
             f64::NAN // the time is not used
         };
         let called = running.call(role, at(t, q, v, u), results);

@@ -209,7 +209,7 @@ impl Published {
             to: add[to].clone(),
             side: drop_side.get(from).copied(),
         };
-        let undotted = comparison.undotted.iter().map(|undotted| Change {
+        let undotted = comparison.superfluous_dots.iter().map(|undotted| Change {
             from: undotted.from.clone(),
             to: undotted.to.clone(),
             side: None,

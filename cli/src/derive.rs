@@ -150,7 +150,7 @@ fn choices(program: &Program) -> Value {
             "made": candidate.form.to_string(),
             "counts": by_kind(&candidate.counts),
             // Costs are in tenths of a cycle.
-            "cycles_alone": candidate.cost.alone() as f64 / 10.0,
+            "cycles_alone": candidate.cost.single_call() as f64 / 10.0,
             "cycles_among_others": candidate.cost.throughput as f64 / 10.0,
             // In units of 2⁻⁵³; null where unknown.
             "rounding": candidate.rounding.map(|rounding| rounding.units()),

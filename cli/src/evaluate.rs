@@ -116,7 +116,7 @@ fn at(
         .check_parameters()
         .map_err(|missing| missing.to_string())?;
     if !point.parameters.is_empty() {
-        diagnostics::refused(&model.refused_values(machine.parameter_values()))?;
+        diagnostics::refused(&model.parameter_diagnostics(machine.parameter_values()))?;
     }
     // The start may depend on parameters, including those of the point.
     let mut state = machine.start();

@@ -16,10 +16,10 @@ use lagrangian_fit::motion::{
 };
 use lagrangian_fit::searches::{Failed, Search, Sigmas, search};
 use lagrangian_mechanics::Compiled;
-use lagrangian_spec::diagnostic::{Severity, nearest};
+use lagrangian_spec::diagnostic::{Severity, most_similar};
 use lagrangian_spec::unit::{self, integral_name, state_of};
 use lagrangian_sweep::plan::Law;
-use lagrangian_sweep::signals::{self, Written};
+use lagrangian_sweep::signals::{self, InputArgument};
 use lagrangian_symbolic::Dag;
 
 use crate::call::{self, Bounds, SigmaOption};
@@ -48,7 +48,7 @@ impl Files {
     fn new(
         call: &call::Fit,
         given: &[Given],
-        everywhere: &[(String, Written)],
+        everywhere: &[(String, InputArgument)],
     ) -> Result<Files, Failure> {
         let files = Files {
             out: Destination::of("--out", call.out.as_ref(), MACHINE)?,
@@ -135,7 +135,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     }
     let (sigmas, values) = sigmas(call, &classes, &experiments)?;
     let refusal = |parameters: &[f64]| {
-        let said = compiled.model.refused_values(parameters);
+        let said = compiled.model.parameter_diagnostics(parameters);
         let wrong = said
             .iter()
             .find(|said| said.code.severity() == Severity::Error);
@@ -524,7 +524,7 @@ fn ends(bounds: &Bounds, unit: &str) -> Result<[f64; 2], Failure> {
 }
 
 fn unknown(said: &str, what: &str, name: &str, known: &[String]) -> Failure {
-    let help = match nearest(name, known.iter().map(String::as_str)) {
+    let help = match most_similar(name, known.iter().map(String::as_str)) {
         Some(near) => format!("did you mean `{near}`?"),
         None if known.is_empty() => "there are none".to_owned(),
         None => format!("there are: {}", known.join(", ")),

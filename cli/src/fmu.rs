@@ -20,7 +20,7 @@ use lagrangian::{Machine, Simulation, System, Warning};
 use lagrangian_emit::c::uniform::{self, Derivatives};
 use lagrangian_mechanics::{Compiled, Unproved};
 use lagrangian_program::Program;
-use lagrangian_spec::diagnostic::nearest;
+use lagrangian_spec::diagnostic::most_similar;
 use lagrangian_spec::model::stage;
 use lagrangian_symbolic::Dag;
 use serde_json::json;
@@ -397,7 +397,7 @@ fn start(machine: &InterpretedMachine, given: &call::Start) -> Result<Vec<(f64, 
 }
 
 fn unknown_output(name: &str, known: &[&str]) -> Failure {
-    let help = match nearest(name, known.iter().copied()) {
+    let help = match most_similar(name, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("there are: {}", known.join(", ")),
     };

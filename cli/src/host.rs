@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use lagrangian_spec::source::{Disk, Files};
-use lagrangian_sweep::plan::{Kept, SpecText};
+use lagrangian_sweep::plan::{RecordedFiles, SpecText};
 
 use crate::call::Call;
 
@@ -125,7 +125,7 @@ impl Files for Specs {
             if is_own {
                 Ok((spec.name.clone(), spec.text.clone()))
             } else {
-                Kept(&spec.files).read(path, from)
+                RecordedFiles(&spec.files).read(path, from)
             }
         })
     }

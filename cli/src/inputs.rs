@@ -6,7 +6,7 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::Model;
 use lagrangian_spec::source::Sources;
 use lagrangian_sweep::plan::Law;
-use lagrangian_sweep::signals::{self, Written};
+use lagrangian_sweep::signals::{self, InputArgument};
 
 use crate::call::Assignment;
 use crate::failure::Failure;
@@ -15,9 +15,9 @@ use crate::failure::Failure;
 ///
 /// # Errors
 /// If the call is invalid.
-pub fn written(given: &[Assignment]) -> Result<Vec<(String, Written)>, Failure> {
+pub fn written(given: &[Assignment]) -> Result<Vec<(String, InputArgument)>, Failure> {
     let one = |input: &Assignment| {
-        let written = signals::written(&input.value);
+        let written = signals::parse_input(&input.value);
         let written = written.map_err(|why| {
             Failure::Call(format!("--input {}={}: {why}", input.name, input.value))
         })?;
@@ -27,7 +27,7 @@ pub fn written(given: &[Assignment]) -> Result<Vec<(String, Written)>, Failure> 
 }
 
 /// The files from which inputs are read; they must not be overwritten.
-pub fn files(written: &[(String, Written)]) -> impl Iterator<Item = (&Path, &'static str)> {
+pub fn files(written: &[(String, InputArgument)]) -> impl Iterator<Item = (&Path, &'static str)> {
     let files = written.iter().filter_map(|(_, written)| written.file());
     files.map(|path| (path, "the table of an input"))
 }
@@ -37,7 +37,7 @@ pub fn files(written: &[(String, Written)]) -> impl Iterator<Item = (&Path, &'st
 /// # Errors
 /// If there is no such input, or a table is invalid.
 pub fn laws(
-    written: &[(String, Written)],
+    written: &[(String, InputArgument)],
     model: &Model<'_>,
 ) -> Result<Vec<(String, Law)>, Failure> {
     signals::laws(written, model).map_err(Failure::Call)

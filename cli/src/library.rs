@@ -17,7 +17,7 @@ use lagrangian_emit as emit;
 use lagrangian_linear::starts::dependent_constraint;
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{LONGEST_SCHEDULED, Program, Role, Slot};
-use lagrangian_spec::diagnostic::nearest;
+use lagrangian_spec::diagnostic::most_similar;
 use lagrangian_symbolic::Dag;
 use serde_json::json;
 
@@ -288,7 +288,7 @@ fn check_processor(call: &call::Library) -> Result<(), Failure> {
     if known.is_empty() || known.contains(&asked) {
         return Ok(());
     }
-    let help = match nearest(asked, known.iter().copied()) {
+    let help = match most_similar(asked, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`? "),
         None => String::new(),
     };

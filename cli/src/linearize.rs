@@ -17,7 +17,7 @@ use lagrangian_linear::poles::{Pole, poles};
 use lagrangian_linear::spectrum::damping;
 use lagrangian_linear::zeros::zeros;
 use lagrangian_linear::{Complex, DMatrix};
-use lagrangian_spec::diagnostic::nearest;
+use lagrangian_spec::diagnostic::most_similar;
 use lagrangian_symbolic::Dag;
 use lagrangian_units::{integral_name, rate_unit, state_of};
 use serde_json::{Value, json};
@@ -266,7 +266,7 @@ fn resolve(name: &str, q: &Named, outputs: &Named, constraints: &[String]) -> Ve
 }
 
 fn unknown(option: &str, what: &str, name: &str, known: &[String]) -> Failure {
-    let help = match nearest(name, known.iter().map(String::as_str)) {
+    let help = match most_similar(name, known.iter().map(String::as_str)) {
         Some(near) => format!("did you mean `{near}`?"),
         None if known.is_empty() => "there are none".to_owned(),
         None => format!("there are: {}", known.join(", ")),

@@ -248,7 +248,7 @@ impl Rows {
         let found = self.names.iter().position(|known| known == name);
         found.ok_or_else(|| {
             let names = self.names.iter().map(String::as_str);
-            let help = match lagrangian_spec::diagnostic::nearest(name, names) {
+            let help = match lagrangian_spec::diagnostic::most_similar(name, names) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("there are: {}", self.names.join(", ")),
             };

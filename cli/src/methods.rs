@@ -1,7 +1,7 @@
 //! Integration methods by name.
 
 use lagrangian::methods::Method;
-use lagrangian_spec::diagnostic::nearest;
+use lagrangian_spec::diagnostic::most_similar;
 
 use crate::failure::Failure;
 
@@ -19,7 +19,7 @@ pub fn named_or(name: &str, others: &[&'static str]) -> Result<&'static Method, 
     Method::named(name).ok_or_else(|| {
         let methods = || Method::all().map(|method| method.tableau.name);
         let names = || others.iter().copied().chain(methods());
-        let help = match nearest(name, names()) {
+        let help = match most_similar(name, names()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
         };

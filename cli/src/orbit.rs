@@ -544,7 +544,7 @@ fn along(
         let said = ready
             .compiled
             .model
-            .refused_values(machine.parameter_values());
+            .parameter_diagnostics(machine.parameter_values());
         crate::diagnostics::refused(&said).map_err(|said| Stop::Failed(Failure::Call(said)))?;
         let period = match &ready.period {
             None => None,

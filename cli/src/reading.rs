@@ -11,7 +11,7 @@ use lagrangian_spec::resolve::Formula;
 use lagrangian_spec::source::{Files, SourceId, Sources};
 use lagrangian_spec::unit::{Unit, integral_name, rate_unit};
 use lagrangian_sweep::plan::Law;
-use lagrangian_sweep::signals::Written;
+use lagrangian_sweep::signals::InputArgument;
 use lagrangian_symbolic::{Dag, Rational};
 
 use crate::call::{self, Assignment};
@@ -104,7 +104,7 @@ impl Reading {
         } = self;
         let asked = formulas.iter().map(|(said, text, unit)| Formula {
             name: said,
-            said,
+            source_name: said,
             text,
             unit: unit.as_deref(),
         });
@@ -121,7 +121,7 @@ impl Reading {
     pub fn drive(
         &mut self,
         spec: &call::Spec,
-        written: &[(String, Written)],
+        written: &[(String, InputArgument)],
     ) -> Result<Vec<(String, Law)>, Failure> {
         if written.is_empty() {
             return Ok(Vec::new());
@@ -263,7 +263,9 @@ pub fn machine(
         return Err(unknown_name("coordinate", &unknown, other));
     }
     if !start.parameters.is_empty() {
-        let said = compiled.model.refused_values(machine.parameter_values());
+        let said = compiled
+            .model
+            .parameter_diagnostics(machine.parameter_values());
         diagnostics::refused(&said).map_err(Failure::Call)?;
     }
     Ok(machine)
@@ -410,7 +412,10 @@ pub fn name_error(what: &str, unknown: &UnknownName) -> Failure {
 fn unknown_name(what: &str, unknown: &UnknownName, other: Option<&str>) -> Failure {
     let name = &unknown.name;
     let known = || unknown.known.iter().map(String::as_str);
-    let help = match (other, lagrangian_spec::diagnostic::nearest(name, known())) {
+    let help = match (
+        other,
+        lagrangian_spec::diagnostic::most_similar(name, known()),
+    ) {
         (Some(other), _) => other.to_owned(),
         (None, Some(near)) => format!("did you mean `{near}`?"),
         (None, None) if unknown.known.is_empty() => "there are none".into(),

@@ -7,7 +7,7 @@ use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{Crossing, InputLaw, Machine, Simulation, Solution, State, System};
 use lagrangian_analysis::Curve;
 use lagrangian_analysis::curve::Between;
-use lagrangian_spec::diagnostic::{Report, nearest};
+use lagrangian_spec::diagnostic::{Report, most_similar};
 use lagrangian_spec::model::stage;
 use lagrangian_spec::resolve::value_in;
 use lagrangian_spec::source::Sources;
@@ -186,7 +186,7 @@ impl Columns {
 /// The failure that there is no such column.
 pub fn unknown(name: &str, columns: &Columns, run: &Path) -> Failure {
     let names = || columns.columns.iter().map(|column| column.name.as_str());
-    let help = match nearest(name, names()) {
+    let help = match most_similar(name, names()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
     };
@@ -440,7 +440,7 @@ fn made(
     let ran = simulation
         .run_interpreted(start)
         .map_err(|error| Failure::Run(verdict::message_of(&error)))?;
-    if let Some(objection) = verdict::objection(&ran) {
+    if let Some(objection) = verdict::energy_error(&ran) {
         return Err(Failure::Run(objection));
     }
     warn(&ran);

@@ -8,7 +8,7 @@ use lagrangian_linear::starts::{self, Cause, Change};
 use lagrangian_linear::varied::Direction;
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
-use lagrangian_spec::diagnostic::nearest;
+use lagrangian_spec::diagnostic::most_similar;
 use lagrangian_spec::model::Variable;
 use lagrangian_spec::unit::{self, integral_name, state_of};
 use lagrangian_sweep::verdict;
@@ -250,7 +250,7 @@ fn variations(
                         }),
                 )
                 .collect();
-            let help = match nearest(name, known.iter().map(String::as_str)) {
+            let help = match most_similar(name, known.iter().map(String::as_str)) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("there are: {}", known.join(", ")),
             };
@@ -349,7 +349,7 @@ fn observed(
                         }),
                 )
                 .collect();
-            let help = match nearest(name, known.iter().map(String::as_str)) {
+            let help = match most_similar(name, known.iter().map(String::as_str)) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("there are: {}", known.join(", ")),
             };

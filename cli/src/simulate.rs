@@ -9,7 +9,7 @@ use lagrangian::{
     Warning,
 };
 use lagrangian_mechanics::series::ProvedSeries;
-use lagrangian_sweep::signals::{self, Written};
+use lagrangian_sweep::signals::{self, InputArgument};
 use lagrangian_sweep::verdict;
 use lagrangian_symbolic::Dag;
 use lagrangian_units::state_of;
@@ -63,7 +63,7 @@ struct Files {
 }
 
 impl Files {
-    fn new(call: &call::Simulate, written: &[(String, Written)]) -> Result<Files, Failure> {
+    fn new(call: &call::Simulate, written: &[(String, InputArgument)]) -> Result<Files, Failure> {
         let files = Files {
             out: Destination::of("--out", call.out.as_ref(), TABLE)?,
             plot: Destination::of("--plot", call.plot.as_ref(), SVG)?,
@@ -240,7 +240,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let mut trouble = Trouble {
         error: error.as_ref(),
         is_interrupted: matches!(run.ending(), Ending::Stopped),
-        other: verdict::objection(&run).into_iter().collect(),
+        other: verdict::energy_error(&run).into_iter().collect(),
     };
     let contacts = contacts.found(&run);
     let global = if call.global_error && *run.ending() == Ending::End {

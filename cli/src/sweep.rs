@@ -15,7 +15,8 @@ use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_sweep::plan::{SpecText, VERSION, Watch};
 use lagrangian_sweep::table::Format;
 use lagrangian_sweep::{
-    Folder, Plan, Summary, Sweep, Trouble, Wrong, chunk_length, cores, run_all, samples_beside,
+    Folder, FolderError, Plan, PlanError, Summary, Sweep, chunk_length, cores, run_all,
+    samples_beside,
 };
 use lagrangian_symbolic::Dag;
 use serde_json::json;
@@ -93,7 +94,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
     let is_part = call.chunk.is_some();
     let folder = Folder::open(&out.folder, out.format, is_part).map_err(refused)?;
     let known = if call.fresh && !is_part {
-        folder.forget().map_err(refused)?;
+        folder.clear().map_err(refused)?;
         None
     } else {
         folder.plan().map_err(refused)?
@@ -104,7 +105,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
             differences.push(format!("chunk: {}, was {}", plan.chunk, known.chunk));
         }
         if !differences.is_empty() {
-            let trouble = Trouble::OtherPlan(differences);
+            let trouble = FolderError::OtherPlan(differences);
             return Err(Failure::Call(format!(
                 "{}: {trouble}",
                 out.folder.display()
@@ -148,7 +149,7 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
     })?;
     let seconds = began.elapsed().as_secs_f64();
     let runs = sweep.plan().runs();
-    let is_all = (0..sweep.plan().chunks()).all(|chunk| folder.has(sweep, chunk));
+    let is_all = (0..sweep.plan().chunks()).all(|chunk| folder.has_chunk(sweep, chunk));
     let shown = out.shown.display();
     if !is_all {
         let is_interrupted = stop.load(Ordering::Relaxed);
@@ -227,13 +228,13 @@ fn one_chunk(sweep: &Sweep, folder: &Folder, chunk: u64, json: bool) -> Result<(
     }
     folder.begin_shared(sweep.plan()).map_err(refused)?;
     let stop = interrupt::flag();
-    if folder.has(sweep, chunk) {
+    if folder.has_chunk(sweep, chunk) {
         return Ok(());
     }
     let Some(made) = sweep.run_chunk(chunk, &stop) else {
         return Err(Failure::Interrupted);
     };
-    folder.keep(chunk, &made).map_err(refused)?;
+    folder.store(chunk, &made).map_err(refused)?;
     let runs = made.rows.len();
     if json {
         let document = json!({ "chunk": chunk, "runs": runs, "failed": made.failed });
@@ -258,7 +259,7 @@ impl Out {
         if is_folder || (path.extension().is_none() && !path.exists()) {
             return Ok(Out {
                 folder: path.clone(),
-                format: if Format::Parquet.is_here() {
+                format: if Format::Parquet.is_available() {
                     Format::Parquet
                 } else {
                     Format::Csv
@@ -322,8 +323,8 @@ fn keep_from<'a>(
 /// Prepares a plan.
 fn made(plan: Plan, engine: Engine) -> Result<Sweep, Failure> {
     let sweep = Sweep::new(plan, engine).map_err(|wrong| match wrong {
-        Wrong::Plan(message) => Failure::Call(message),
-        Wrong::Spec(wrong) => {
+        PlanError::Plan(message) => Failure::Call(message),
+        PlanError::Spec(wrong) => {
             let (report, sources) = *wrong;
             inputs::formula(&report, &sources)
                 .unwrap_or_else(|| Failure::Spec(Box::new((report, sources))))
@@ -335,7 +336,7 @@ fn made(plan: Plan, engine: Engine) -> Result<Sweep, Failure> {
     Ok(sweep)
 }
 
-fn refused(trouble: Trouble) -> Failure {
+fn refused(trouble: FolderError) -> Failure {
     Failure::Run(trouble.to_string())
 }
 
@@ -384,7 +385,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     let dag = Dag::new();
     let (mut sources, mut report) = (Sources::new(), Report::new());
     let mut disk = Disk;
-    let mut files = lagrangian_sweep::plan::Recorded::new(&mut disk);
+    let mut files = lagrangian_sweep::plan::FileRecorder::new(&mut disk);
     let constants = &call.spec.constants;
     let spec = lagrangian_spec::parse(&mut sources, &path, &text, &mut report);
     let model = Model::resolve(

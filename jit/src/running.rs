@@ -73,7 +73,7 @@ impl Running {
     }
 
     /// Stores the results of [`Role::AtTime`] or [`Role::AtPosition`] for calls of the next stage.
-    pub fn stand(&mut self, role: Role, values: &[f64]) {
+    pub fn set_stage_results(&mut self, role: Role, values: &[f64]) {
         let left = match role {
             Role::AtTime => &mut self.at_time,
             _ => &mut self.at_position,

@@ -164,7 +164,7 @@ impl<const N: usize> Several<N> {
     }
 
     /// Stores the results of [`Role::AtTime`] or [`Role::AtPosition`] for calls of the next stage.
-    pub fn stand(&mut self, role: Role, values: &[Lanes<N>]) {
+    pub fn set_stage_results(&mut self, role: Role, values: &[Lanes<N>]) {
         let left = match role {
             Role::AtTime => &mut self.at_time,
             _ => &mut self.at_position,

@@ -290,7 +290,7 @@ pub struct Report {
     warnings: Vec<Diagnostic>,
     /// The messages that were reported already: the members of a family all have the same error at
     /// the same place.
-    said: BTreeSet<(Span, Code, String)>,
+    reported: BTreeSet<(Span, Code, String)>,
     omitted: usize,
 }
 
@@ -303,7 +303,7 @@ impl Report {
     /// Adds a message, unless it is there already or [`REPORT_LIMIT`] is reached.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         let key = (diagnostic.span, diagnostic.code, diagnostic.message.clone());
-        if self.said.contains(&key) {
+        if self.reported.contains(&key) {
             return;
         }
         let is_error = diagnostic.code.severity() == Severity::Error;
@@ -316,7 +316,7 @@ impl Report {
             self.omitted += usize::from(is_error);
             return;
         }
-        self.said.insert(key);
+        self.reported.insert(key);
         list.push(diagnostic);
     }
 
@@ -362,7 +362,10 @@ fn by_position<'a>(list: impl IntoIterator<Item = &'a Diagnostic>) -> Vec<&'a Di
 ///
 /// Similar means equal except for case, or at most one slip in three characters, where a slip is a
 /// missing, extra or wrong letter, or two neighbouring letters exchanged. In case of a tie the first wins.
-pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn most_similar<'a>(
+    name: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
     /// Longer names are not compared, since the work is the product of the lengths.
     const LONGEST: usize = 64;
     let letters: Vec<char> = name
@@ -384,7 +387,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         if other.len() > LONGEST || letters.len().abs_diff(other.len()) > allowed {
             continue;
         }
-        let slips = slips(&letters, &other);
+        let slips = edit_distance(&letters, &other);
         // A single letter is one slip away from every other letter, which means nothing.
         let tells = slips == 0 || letters.len() > 1 || other.len() > 1;
         let better = best.is_none_or(|(least, _)| slips < least);
@@ -399,7 +402,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 ///
 /// F. J. Damerau, *A technique for computer detection and correction of spelling errors*,
 /// Comm. ACM 7 (1964) 171–176.
-fn slips(a: &[char], b: &[char]) -> usize {
+fn edit_distance(a: &[char], b: &[char]) -> usize {
     let mut before: Vec<usize> = Vec::new();
     let mut above: Vec<usize> = (0..=b.len()).collect();
     for i in 1..=a.len() {
@@ -445,14 +448,14 @@ mod tests {
     #[test]
     fn a_near_miss_is_found() {
         let names = ["stiffness", "stretch", "from", "to", "length"];
-        assert_eq!(nearest("stifness", names), Some("stiffness"));
-        assert_eq!(nearest("strecth", names), Some("stretch"));
-        assert_eq!(nearest("Length", names), Some("length"));
-        assert_eq!(nearest("form", names), Some("from"));
-        assert_eq!(nearest("mass", names), None);
-        assert_eq!(nearest("x", ["y", "z"]), None);
-        assert_eq!(nearest("M", ["m"]), Some("m"));
-        assert_eq!(nearest("m1", ["m0", "J"]), Some("m0"));
+        assert_eq!(most_similar("stifness", names), Some("stiffness"));
+        assert_eq!(most_similar("strecth", names), Some("stretch"));
+        assert_eq!(most_similar("Length", names), Some("length"));
+        assert_eq!(most_similar("form", names), Some("from"));
+        assert_eq!(most_similar("mass", names), None);
+        assert_eq!(most_similar("x", ["y", "z"]), None);
+        assert_eq!(most_similar("M", ["m"]), Some("m"));
+        assert_eq!(most_similar("m1", ["m0", "J"]), Some("m0"));
     }
 
     #[test]

@@ -30,7 +30,7 @@ const TRIALS: usize = 16;
 
 /// The largest [work](evaluation_work) of the tests of one machine: some seconds. Whatever is
 /// undecided then stays as it is.
-const WORK: usize = 30_000_000;
+const WORK_LIMIT: usize = 30_000_000;
 
 /// Whether two expressions are equal, as far as the prime field can tell; `None` if they have no
 /// values at any point.
@@ -39,7 +39,7 @@ pub fn equal(a: Expr<'_>, b: Expr<'_>) -> Option<bool> {
     let needed = needed_points(dag, &[a, b]);
     let mut agreeing = 0;
     for seed in 0..(TRIALS * needed) as u64 {
-        let values = evaluate(dag, &[a, b], |symbol| random(seed, symbol));
+        let values = evaluate(dag, &[a, b], |symbol| random_value(seed, symbol));
         if values.iter().all(|value| value.is_finite()) {
             if values[0] != values[1] {
                 return Some(false);
@@ -66,7 +66,7 @@ pub fn is_zero(expression: Expr<'_>) -> Option<bool> {
 /// `1 - sin(x)^2 - cos(x)^2`.
 pub fn write_zeros<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
     // One evaluation of all leaves only a few to be tested one by one.
-    let values = evaluate(dag, expressions, |symbol| random(0, symbol));
+    let values = evaluate(dag, expressions, |symbol| random_value(0, symbol));
     for (expression, value) in expressions.iter_mut().zip(values) {
         let is_suspect = value == Residue::ZERO || !value.is_finite();
         if is_suspect && is_zero(*expression) == Some(true) {
@@ -87,13 +87,13 @@ pub fn are_divisors<'d>(
     for seed in 0..TRIALS as u64 {
         let mut known: BTreeMap<Symbol, Residue> = BTreeMap::new();
         let meanings: Vec<Expr<'d>> = names.iter().map(|(_, meaning)| *meaning).collect();
-        let values = evaluate(dag, &meanings, |symbol| random(seed, symbol));
+        let values = evaluate(dag, &meanings, |symbol| random_value(seed, symbol));
         for ((name, _), value) in names.iter().zip(values) {
             known.extend(name.as_symbol().map(|symbol| (symbol, value)));
         }
         let value = |symbol: Symbol| known.get(&symbol).copied();
         let values = evaluate(dag, divisors, |s| {
-            value(s).unwrap_or_else(|| random(seed, s))
+            value(s).unwrap_or_else(|| random_value(seed, s))
         });
         if values.contains(&Residue::ZERO) {
             return false;
@@ -115,7 +115,7 @@ pub fn is_free_of_motion(expression: Expr<'_>) -> bool {
 pub fn null_space<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> Option<Vec<Vec<Residue>>> {
     let all: Vec<Expr<'d>> = rows.iter().flatten().copied().collect();
     let width = rows.first().map_or(0, Vec::len);
-    let mut points = (0..TRIALS as u64).map(|seed| evaluate(dag, &all, |s| random(seed, s)));
+    let mut points = (0..TRIALS as u64).map(|seed| evaluate(dag, &all, |s| random_value(seed, s)));
     let values = points.find(|values| values.iter().all(|x| x.is_finite()))?;
     let rows = values.chunks(width.max(1)).map(<[_]>::to_vec);
     Some(lagrangian_symbolic::null_space(rows.collect(), width))
@@ -135,11 +135,11 @@ fn subtract(row: &mut [Residue], factor: Residue, other: &[Residue]) {
 ///
 /// In the field a sign is the Legendre symbol, and that of `c x²` is that of `c` at every point. It need
 /// not be the sign of the number `c`, which is determined at a point where the expression has a real value.
-pub fn steady_sign(expression: Expr<'_>) -> Option<bool> {
+pub fn constant_sign(expression: Expr<'_>) -> Option<bool> {
     let dag = expression.dag();
     let mut signs = Vec::new();
     for seed in 0..(TRIALS * POINTS_WITH_SIGNS) as u64 {
-        let value = evaluate(dag, &[expression], |symbol| random(seed, symbol))[0];
+        let value = evaluate(dag, &[expression], |symbol| random_value(seed, symbol))[0];
         if value.is_finite() && value != Residue::ZERO {
             signs.push(value.sign());
         }
@@ -155,10 +155,12 @@ pub fn steady_sign(expression: Expr<'_>) -> Option<bool> {
         return None;
     }
     /// Far above round-off.
-    const CLEAR: f64 = 1e-9;
+    const ZERO_TOLERANCE: f64 = 1e-9;
     let real =
-        (0..TRIALS as u32).map(|point| evaluate(dag, &[expression], |s| number(point, s))[0]);
-    let clear: Vec<f64> = real.filter(|x| x.is_finite() && x.abs() > CLEAR).collect();
+        (0..TRIALS as u32).map(|point| evaluate(dag, &[expression], |s| sample_value(point, s))[0]);
+    let clear: Vec<f64> = real
+        .filter(|x| x.is_finite() && x.abs() > ZERO_TOLERANCE)
+        .collect();
     let positive = *clear.first()? > 0.0;
     clear
         .iter()
@@ -171,7 +173,7 @@ pub fn steady_sign(expression: Expr<'_>) -> Option<bool> {
 pub fn is_combination<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> bool {
     let all: Vec<Expr<'d>> = rows.iter().flatten().copied().collect();
     let width = rows.first().map_or(0, Vec::len);
-    let mut points = (0..TRIALS as u64).map(|seed| evaluate(dag, &all, |s| random(seed, s)));
+    let mut points = (0..TRIALS as u64).map(|seed| evaluate(dag, &all, |s| random_value(seed, s)));
     let Some(values) = points.find(|values| values.iter().all(|x| x.is_finite())) else {
         return false;
     };
@@ -194,7 +196,7 @@ pub fn is_combination<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> bool {
 /// The expression with only parameters in it, if it is a function of these alone.
 pub fn as_function_of_parameters(expression: Expr<'_>) -> Option<Expr<'_>> {
     let mut settled = [expression];
-    settle(expression.dag(), &mut settled);
+    remove_spurious_symbols(expression.dag(), &mut settled);
     (settled[0].stage() <= Stage::PARAMETER && !settled[0].is_undefined()).then_some(settled[0])
 }
 
@@ -235,7 +237,7 @@ pub fn irrelevant<'d>(
     mut cyclic: Vec<Symbol>,
 ) -> Vec<Symbol> {
     let needed = needed_points(dag, expressions);
-    if evaluation_work(dag, expressions).saturating_mul(needed * cyclic.len()) > WORK {
+    if evaluation_work(dag, expressions).saturating_mul(needed * cyclic.len()) > WORK_LIMIT {
         return Vec::new();
     }
     let mut agreeing = 0;
@@ -246,7 +248,7 @@ pub fn irrelevant<'d>(
         let at = |zero: Option<Symbol>| {
             evaluate(dag, expressions, |symbol| match zero {
                 Some(zero) if zero == symbol => Residue::ZERO,
-                _ => random(seed, symbol),
+                _ => random_value(seed, symbol),
             })
         };
         let here = at(None);
@@ -260,7 +262,11 @@ pub fn irrelevant<'d>(
 
 /// The expressions with 0 substituted for symbols on which they do not depend; unchanged if that
 /// has no value.
-pub fn without<'d>(dag: &'d Dag, expressions: Vec<Expr<'d>>, symbols: &[Symbol]) -> Vec<Expr<'d>> {
+pub fn with_zeros_for<'d>(
+    dag: &'d Dag,
+    expressions: Vec<Expr<'d>>,
+    symbols: &[Symbol],
+) -> Vec<Expr<'d>> {
     let zeros: Vec<_> = symbols.iter().map(|&symbol| (symbol, dag.zero())).collect();
     let shorter = substitute(dag, &expressions, &zeros);
     let has_value = !shorter.iter().any(|expression| expression.is_undefined());
@@ -269,7 +275,7 @@ pub fn without<'d>(dag: &'d Dag, expressions: Vec<Expr<'d>>, symbols: &[Symbol])
 
 /// Rewrites every expression that depends on parameters alone so that nothing else occurs in it;
 /// expressions that are zero become the constant 0.
-pub fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
+pub fn remove_spurious_symbols<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
     let constants = constants(dag, expressions);
     for (expression, constant) in expressions.iter_mut().zip(constants) {
         if let Some(value) = constant {
@@ -279,7 +285,10 @@ pub fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
             let settled = substitute(dag, &[*expression], &zeros);
             if value == Residue::ZERO && is_zero(*expression) == Some(true) {
                 *expression = dag.zero();
-            } else if evaluate(dag, &settled, |symbol| varied(dag, 0, symbol)) == [value] {
+            } else if evaluate(dag, &settled, |symbol| {
+                random_unless_parameter(dag, 0, symbol)
+            }) == [value]
+            {
                 *expression = settled[0];
             }
         }
@@ -297,7 +306,7 @@ fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
             ..Trial::default()
         })
         .collect();
-    let mut left = WORK / evaluation_work(dag, expressions).max(1);
+    let mut left = WORK_LIMIT / evaluation_work(dag, expressions).max(1);
     for seed in 0..(TRIALS * needed) as u64 {
         let is_open = |&i: &usize| !trials[i].varies && trials[i].agreeing < needed;
         let open: Vec<usize> = (0..expressions.len()).filter(is_open).collect();
@@ -306,7 +315,9 @@ fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
         }
         left -= 1;
         let roots: Vec<Expr<'_>> = open.iter().map(|&i| expressions[i]).collect();
-        let values = evaluate(dag, &roots, |symbol| varied(dag, seed, symbol));
+        let values = evaluate(dag, &roots, |symbol| {
+            random_unless_parameter(dag, seed, symbol)
+        });
         open.iter()
             .zip(values)
             .for_each(|(&i, value)| trials[i].add(value));
@@ -323,20 +334,20 @@ fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
 /// differences, at a hundredth of the cost.
 fn varying(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<bool> {
     /// Far above round-off.
-    const CLEAR: f64 = 1e-6;
+    const ZERO_TOLERANCE: f64 = 1e-6;
     let at = |point: u32| {
         evaluate(dag, expressions, |symbol| {
             let fixed = dag.stage_of(symbol) <= Stage::PARAMETER;
-            number(if fixed { 0 } else { point }, symbol)
+            sample_value(if fixed { 0 } else { point }, symbol)
         })
     };
-    let differ = |(a, b): (f64, f64)| (a - b).abs() > CLEAR * (1.0 + a.abs() + b.abs());
+    let differ = |(a, b): (f64, f64)| (a - b).abs() > ZERO_TOLERANCE * (1.0 + a.abs() + b.abs());
     at(1).into_iter().zip(at(2)).map(differ).collect()
 }
 
 /// A number between ½ and 1½ for a symbol: fractional parts of multiples of √2, √3, …, which are uniformly
 /// distributed (H. Weyl, *Über die Gleichverteilung von Zahlen mod. Eins*, Math. Ann. 77 (1916) 313–352).
-pub fn number(point: u32, symbol: Symbol) -> f64 {
+pub fn sample_value(point: u32, symbol: Symbol) -> f64 {
     let root = (symbol.index() as f64 + 2.0).sqrt() * std::f64::consts::E;
     0.5 + (f64::from(point + 1) * root).fract()
 }
@@ -359,18 +370,18 @@ impl Trial {
 }
 
 /// A value for a symbol.
-pub fn random(seed: u64, symbol: Symbol) -> Residue {
+pub fn random_value(seed: u64, symbol: Symbol) -> Residue {
     Residue::random(seed, symbol.index() as u64)
 }
 
 /// Keeps parameters the same, and gives everything else a new value at every point.
-fn varied(dag: &Dag, seed: u64, symbol: Symbol) -> Residue {
+fn random_unless_parameter(dag: &Dag, seed: u64, symbol: Symbol) -> Residue {
     let seed = if dag.stage_of(symbol) > Stage::PARAMETER {
         seed
     } else {
         u64::MAX
     };
-    random(seed, symbol)
+    random_value(seed, symbol)
 }
 
 /// The number of points that prove something about the expressions.

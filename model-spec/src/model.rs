@@ -368,7 +368,7 @@ pub struct Body<'d> {
     /// Its name in the spec.
     pub span: Span,
     /// The field that places it: `at`, or `frame` if that is the only one.
-    pub place: Span,
+    pub position_span: Span,
 }
 
 /// A point in the axes of a frame.
@@ -472,7 +472,7 @@ pub struct Contact<'d> {
 
 impl Contact<'_> {
     /// Whether friction acts along two tangents, as in space.
-    pub fn slips_across(&self, space: Space) -> bool {
+    pub fn has_two_tangents(&self, space: Space) -> bool {
         let has_two = match &self.geometry {
             ContactGeometry::Circles(_) | ContactGeometry::Point { .. } => space == Space::Space,
             ContactGeometry::Corner(_) => false,

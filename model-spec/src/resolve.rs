@@ -70,7 +70,7 @@ use std::collections::BTreeSet;
 use lagrangian_symbolic::{Dag, Expr, Rational, Symbol, Tangent};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::diagnostic::{Code, Diagnostic, Report, nearest};
+use crate::diagnostic::{Code, Diagnostic, Report, most_similar};
 use crate::model::bounds::Bound;
 use crate::model::{Assumption, Body, Model, Pose, PoseId, Space, Variable, quaternion, stage};
 use crate::source::{Files, Sources, Span};
@@ -81,7 +81,7 @@ use frames::PoseKey;
 use layers::Layers;
 use names::{Declaration, Group, Member, Namespace};
 use outlines::Outline;
-use relaxation::Guide;
+use relaxation::RelaxedGuide;
 use tables::Tables;
 use value::MemberId;
 use work::Need;
@@ -161,7 +161,7 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     derived: FxHashSet<usize>,
     report: &'r mut Report,
     /// What was reported where, since all members of a family make the same error.
-    said: FxHashSet<(Span, Code)>,
+    reported: FxHashSet<(Span, Code)>,
     /// Diagnostics of wrong units while a published formula is read; these are not errors of the spec.
     remarks: Option<Vec<Diagnostic>>,
     /// Whether declarations are missing, so that an unknown name need not be reported.
@@ -187,7 +187,7 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     /// The quaternions that turn frames, and the span where each does so first.
     quaternions: Vec<([Expr<'d>; 4], Span)>,
     /// The guides that are relaxed.
-    guides: Vec<Guide<'d>>,
+    guides: Vec<RelaxedGuide<'d>>,
     /// Symbols to reuse, by name.
     symbols: FxHashMap<String, Expr<'d>>,
 
@@ -229,7 +229,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 .map_or_else(Vec::new, |spec| spec.given.clone()),
             derived: FxHashSet::default(),
             report,
-            said: FxHashSet::default(),
+            reported: FxHashSet::default(),
             remarks: None,
             incomplete: layers.incomplete || layers.specs.iter().any(|spec| spec.incomplete),
             layer_count: layers.specs.len(),
@@ -269,40 +269,40 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         self.check_overrides(machine);
         self.expand_all();
 
-        let parameters = self.each(Parameters, |resolver, member| {
+        let parameters = self.resolve_each(Parameters, |resolver, member| {
             resolver
                 .parameter(member)
                 .map(|parameter| (member, parameter))
         });
-        let derived_parameters = self.each(Parameters, Self::derived_parameter);
-        let constants = self.each(Constants, Self::constant);
-        let mut coordinates = self.each(Coordinates, Self::coordinate);
+        let derived_parameters = self.resolve_each(Parameters, Self::derived_parameter);
+        let constants = self.resolve_each(Constants, Self::constant);
+        let mut coordinates = self.resolve_each(Coordinates, Self::coordinate);
         self.start_rates(layers, &mut coordinates);
         let states = self.states(layers);
-        let inputs = self.each(Inputs, Self::input);
-        self.each(Define, |resolver, member| {
+        let inputs = self.resolve_each(Inputs, Self::input);
+        self.resolve_each(Define, |resolver, member| {
             resolver.definition(member);
             None::<()>
         });
-        let frames = self.each(Frames, Self::named_frame);
-        let mut bodies = self.each(Bodies, Self::body);
+        let frames = self.resolve_each(Frames, Self::named_frame);
+        let mut bodies = self.resolve_each(Bodies, Self::body);
         self.outlines = bodies.iter().enumerate().filter_map(Outline::of).collect();
         let mut assumptions = self.assumptions(layers);
         let facts = assumptions.iter().map(|fact| fact.excess);
         self.facts = facts.map(|fact| (fact, fact.symbols())).collect();
         let elements = self.elements(layers);
         bodies.append(&mut self.rotors);
-        let mut circles = self.each(Circles, Self::circle);
-        circles.extend(self.each(Spheres, Self::sphere));
-        let contacts = self.each(Contacts, Self::contacts);
+        let mut circles = self.resolve_each(Circles, Self::circle);
+        circles.extend(self.resolve_each(Spheres, Self::sphere));
+        let contacts = self.resolve_each(Contacts, Self::contacts);
         let contacts = contacts.into_iter().flatten().collect();
-        let approximations = self.each(Approximations, |resolver, member| {
+        let approximations = self.resolve_each(Approximations, |resolver, member| {
             Some(resolver.approximation(member))
         });
-        let outputs = self.each(Outputs, Self::output);
+        let outputs = self.resolve_each(Outputs, Self::output);
         let derivatives = self.variables(Derivatives, Self::differentiated_by);
-        let methods = self.each(Methods, Self::method);
-        let stages = self.each(Stages, |resolver, member| Some(resolver.stage(member)));
+        let methods = self.resolve_each(Methods, Self::method);
+        let stages = self.resolve_each(Stages, |resolver, member| Some(resolver.stage(member)));
         let kept = self.variables(Keep, Self::kept);
         let destination = self.destination(layers, &coordinates);
         let published = self.published(layers);
@@ -317,7 +317,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         if self.report.has_errors() {
             return None;
         }
-        self.notice_unused(layers);
+        self.warn_about_unused(layers);
         let mut model = Model {
             dag: self.dag,
             name: machine.name.text.clone(),
@@ -360,12 +360,12 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             let e = model.quaternions[k].e;
             model.quaternions[k].inertia = quaternion::inertia(&model, &e);
         }
-        self.notice_weight(&model, layers);
+        self.warn_about_missing_gravity(&model, layers);
         Some(model)
     }
 
     /// Resolves each member of a section, in order.
-    fn each<T>(
+    fn resolve_each<T>(
         &mut self,
         section: SectionKind,
         resolve: impl Fn(&mut Self, MemberId) -> Option<T>,
@@ -373,7 +373,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let members = self.members_of(section);
         members
             .into_iter()
-            .filter_map(|member| self.settle(|resolver| resolve(resolver, member)))
+            .filter_map(|member| self.repeat_until_resolved(|resolver| resolve(resolver, member)))
             .collect()
     }
 
@@ -383,7 +383,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         section: SectionKind,
         named: impl Fn(&mut Self, MemberId) -> Vec<Variable>,
     ) -> Vec<Variable> {
-        let all = self.each(section, |resolver, member| Some(named(resolver, member)));
+        let all = self.resolve_each(section, |resolver, member| Some(named(resolver, member)));
         let all: BTreeSet<Variable> = all.into_iter().flatten().collect();
         all.into_iter().collect()
     }
@@ -395,7 +395,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 Some(&first) => self.declarations[first].name.span,
                 None => continue,
             };
-            self.settle(|resolver| {
+            self.repeat_until_resolved(|resolver| {
                 if resolver.groups[group].state != work::State::Done {
                     resolver.need(Need::Group(group), span);
                 }
@@ -486,7 +486,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             }
             let message = format!("the machine has no constant `{name}` to set");
             let diagnostic = Diagnostic::new(Code::UnknownName, machine.name.span, message);
-            let help = match nearest(base, constants.iter().copied()) {
+            let help = match most_similar(base, constants.iter().copied()) {
                 Some(near) => Some(format!("did you mean `{near}`?")),
                 None => self.find_group(Namespace::Values, base).map(|group| {
                     let first = self.groups[group].declarations.first();
@@ -527,7 +527,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         match &mut self.remarks {
             Some(remarks) if about_units => remarks.push(diagnostic),
             _ => {
-                if self.said.insert((diagnostic.span, diagnostic.code)) {
+                if self.reported.insert((diagnostic.span, diagnostic.code)) {
                     self.report.push(diagnostic);
                 }
             }
@@ -559,8 +559,8 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
 
 /// Plane or space, as given by the first layer that says it.
 fn space_of(layers: &[Spec]) -> Space {
-    let said = layers.iter().find_map(|spec| spec.space);
-    match said.map(|space| space.value) {
+    let written = layers.iter().find_map(|spec| spec.space);
+    match written.map(|space| space.value) {
         Some(syntax::Space::Space) => Space::Space,
         _ => Space::Plane, // if no layer says it, the parser has reported that
     }

@@ -398,7 +398,7 @@ impl<'a> Lexer<'a> {
                 let message = format!("the character {} has no meaning in a spec", shown_char(c));
                 let mut diagnostic =
                     Diagnostic::new(Code::UnknownCharacter, self.span(start), message);
-                diagnostic.help = meant(c).map(|meant| format!("write `{meant}`"));
+                diagnostic.help = ascii_equivalent(c).map(|meant| format!("write `{meant}`"));
                 self.report.push(diagnostic);
                 TokenKind::Unknown
             }
@@ -593,7 +593,7 @@ fn no_suffix(suffix: &str, span: Span, report: &mut Report) {
 }
 
 /// The ASCII equivalent of a character from a book or a word processor.
-fn meant(c: char) -> Option<&'static str> {
+fn ascii_equivalent(c: char) -> Option<&'static str> {
     Some(match c {
         '−' | '–' | '—' => "-",
         '·' | '×' | '∙' | '⋅' => "*",

@@ -118,7 +118,7 @@ fn table((name, times, values, between, beyond): Rows) -> PyResult<Table> {
 #[pyfunction]
 pub fn written(text: &str, input: &str, unit: &str) -> PyResult<String> {
     let law: Result<Written, String> =
-        signals::written(text).and_then(|written| written.law(input, unit));
+        signals::parse_input(text).and_then(|written| written.law(input, unit));
     let law = law.map_err(|why| PyValueError::new_err(format!("input {input}: {why}")))?;
     serde_json::to_string(&law).map_err(|error| PyValueError::new_err(error.to_string()))
 }

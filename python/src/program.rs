@@ -13,7 +13,7 @@ use lagrangian_spec::diagnostic::{Report, Severity};
 use lagrangian_spec::model::Model;
 use lagrangian_spec::resolve::Formula;
 use lagrangian_spec::source::{Disk, Files, Sources};
-use lagrangian_sweep::plan::{Kept, Recorded, SpecText};
+use lagrangian_sweep::plan::{FileRecorder, RecordedFiles, SpecText};
 use lagrangian_symbolic::Dag;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -138,11 +138,11 @@ impl Derived {
                     &mut given
                 }
                 Bases::Kept => {
-                    read = Kept(&kept);
+                    read = RecordedFiles(&kept);
                     &mut read
                 }
             };
-            let mut recorded = Recorded::new(files);
+            let mut recorded = FileRecorder::new(files);
             let spec = lagrangian_spec::parse(&mut sources, &text.name, &text.text, &mut report);
             let spec = spec.with_given(text.given.iter().cloned());
             let model = Model::resolve_with(
@@ -254,7 +254,7 @@ impl Derived {
                     lagrangian_spec::parse(&mut sources, &text.name, &text.text, &mut report);
                 let spec = spec.with_given(text.given.iter().cloned());
                 let asked: Vec<Formula<'_>> = self.formulas.iter().map(asked).collect();
-                let files = &mut Kept(&text.files);
+                let files = &mut RecordedFiles(&text.files);
                 let model = Model::resolve_with(
                     spec,
                     &dag,
@@ -309,7 +309,7 @@ impl Derived {
     /// Why the spec refuses these parameters, for example a negative mass.
     pub fn refused(&self, values: &[f64]) -> Result<Option<String>, Trouble> {
         self.with_model(|model, _| {
-            let said = model.refused_values(values);
+            let said = model.parameter_diagnostics(values);
             let error = said.iter().find(|of| of.code.severity() == Severity::Error);
             error.map(|error| format!("{} [{}]", error.message, error.code))
         })
@@ -319,7 +319,7 @@ impl Derived {
     pub fn first_refused(&self, all: &[Vec<f64>]) -> Result<Option<(usize, String)>, Trouble> {
         self.with_model(|model, _| {
             for (place, values) in all.iter().enumerate() {
-                let said = model.refused_values(values);
+                let said = model.parameter_diagnostics(values);
                 let error = said.iter().find(|of| of.code.severity() == Severity::Error);
                 if let Some(error) = error {
                     return Some((place, format!("{} [{}]", error.message, error.code)));
@@ -333,7 +333,7 @@ impl Derived {
 fn asked((name, said, text, unit): &Asked) -> Formula<'_> {
     Formula {
         name,
-        said,
+        source_name: said,
         text,
         unit: unit.as_deref(),
     }

@@ -257,6 +257,6 @@ impl Run {
 
     /// What is wrong with a run that reached its end: too much energy is missing.
     fn objection(&self) -> Option<String> {
-        verdict::objection(&self.solution)
+        verdict::energy_error(&self.solution)
     }
 }

@@ -11,7 +11,7 @@ use lagrangian::interpreted::Engine;
 use lagrangian_sweep::rows::{Rows, Values};
 use lagrangian_sweep::table::Format;
 use lagrangian_sweep::{
-    Chunk, Contents, Folder, Plan, Progress, Sweep, Trouble, Wrong, chunk_length, contents, run_all,
+    Chunk, Contents, Folder, Plan, Progress, Sweep, FolderError, PlanError, chunk_length, contents, run_all,
 };
 use numpy::PyArray1;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
@@ -42,8 +42,8 @@ fn made(py: Python<'_>, text: &str) -> PyResult<Arc<Sweep>> {
     let plan = read(text)?;
     let sweep = py.detach(|| Sweep::new(plan, Engine::Auto));
     let sweep = Arc::new(sweep.map_err(|wrong| match wrong {
-        Wrong::Plan(message) => PyValueError::new_err(message),
-        Wrong::Spec(said) => {
+        PlanError::Plan(message) => PyValueError::new_err(message),
+        PlanError::Spec(said) => {
             let (report, sources) = &*said;
             errors::of_spec(
                 py,
@@ -102,14 +102,14 @@ pub struct Kept {
     format: Format,
 }
 
-fn trouble(trouble: Trouble) -> PyErr {
+fn trouble(trouble: FolderError) -> PyErr {
     match trouble {
-        Trouble::File(path, error) => PyOSError::new_err(format!(
+        FolderError::File(path, error) => PyOSError::new_err(format!(
             "cannot write {}: {error}; finished chunks are kept, and the same call continues",
             path.display()
         )),
-        Trouble::Taken(_) => PyRuntimeError::new_err(trouble.to_string()),
-        Trouble::OtherPlan(differences) => PyValueError::new_err(format!(
+        FolderError::InUse(_) => PyRuntimeError::new_err(trouble.to_string()),
+        FolderError::OtherPlan(differences) => PyValueError::new_err(format!(
             "the folder holds another sweep: {}; fresh=True begins again",
             differences.join("; ")
         )),
@@ -117,7 +117,7 @@ fn trouble(trouble: Trouble) -> PyErr {
 }
 
 impl Kept {
-    fn folder<T>(&self, work: impl FnOnce(&Folder) -> Result<T, Trouble>) -> PyResult<T> {
+    fn folder<T>(&self, work: impl FnOnce(&Folder) -> Result<T, FolderError>) -> PyResult<T> {
         let folder = self.folder.lock().unwrap_or_else(PoisonError::into_inner);
         let folder = folder.as_ref();
         let folder = folder.ok_or_else(|| PyRuntimeError::new_err("the sweep has ended"))?;
@@ -142,13 +142,13 @@ impl Kept {
         let opened = py.detach(|| {
             let folder = Folder::open(&folder, format(ending), false)?;
             if fresh {
-                folder.forget()?;
+                folder.clear()?;
             }
             match folder.plan()? {
                 Some(known) => {
                     let differences = plan.differences(&known);
                     if !differences.is_empty() {
-                        return Err(Trouble::OtherPlan(differences));
+                        return Err(FolderError::OtherPlan(differences));
                     }
                     plan.chunk = known.chunk;
                 }
@@ -175,14 +175,14 @@ impl Kept {
     /// `csv` or `parquet`.
     #[getter]
     fn ending(&self) -> &'static str {
-        self.format.ending()
+        self.format.extension()
     }
 
     /// The missing chunks.
     fn missing(&self, py: Python<'_>) -> PyResult<Vec<u64>> {
         let chunks = 0..self.sweep.plan().chunks();
         py.detach(|| {
-            self.folder(|folder| Ok(chunks.filter(|k| !folder.has(&self.sweep, *k)).collect()))
+            self.folder(|folder| Ok(chunks.filter(|k| !folder.has_chunk(&self.sweep, *k)).collect()))
         })
     }
 
@@ -195,7 +195,7 @@ impl Kept {
         samples: Option<Vec<u8>>,
     ) -> PyResult<()> {
         let contents = Contents { rows, samples };
-        py.detach(|| self.folder(|folder| folder.keep_contents(chunk, &contents)))
+        py.detach(|| self.folder(|folder| folder.store_contents(chunk, &contents)))
     }
 
     /// Makes the missing chunks with this number of threads; `tell` is called ten times a second with the number of finished runs.

@@ -112,9 +112,9 @@ impl Compiled {
     }
 
     /// Like [`Interpreter::stand`].
-    pub(super) fn stand(&mut self, role: Role, values: &[f64]) {
+    pub(super) fn set_stage_results(&mut self, role: Role, values: &[f64]) {
         if let Some(running) = &mut self.running {
-            running.stand(role, values);
+            running.set_stage_results(role, values);
         }
     }
 }
@@ -147,5 +147,5 @@ impl Compiled {
     }
 
     #[inline(always)]
-    pub(super) fn stand(&mut self, _: Role, _: &[f64]) {}
+    pub(super) fn set_stage_results(&mut self, _: Role, _: &[f64]) {}
 }

@@ -5,7 +5,7 @@ use std::format;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-use lagrangian_spec::diagnostic::{Report, nearest};
+use lagrangian_spec::diagnostic::{Report, most_similar};
 use lagrangian_spec::resolve::value_in;
 use lagrangian_spec::source::Sources;
 
@@ -267,7 +267,7 @@ impl TableFile {
         let mut found = (0..columns.len()).filter(|place| columns[*place] == name);
         let Some(place) = found.next() else {
             let names = || columns.iter().map(String::as_str);
-            let help = match nearest(name, names()) {
+            let help = match most_similar(name, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => {
                     let shown: Vec<&str> = names().take(SHOWN).collect();

@@ -7,7 +7,7 @@ use lagrangian::{Coordinates, Machine, Method, Simulation, Solution, State};
 lagrangian::machine! {
     /// A block on a belt that carries a load along by a stiff spring. As the stiffness grows, the machine
     /// tends to the stick-slip oscillator of their total mass.
-    machine Carrier in plane {
+    machine InertiaNodes in plane {
         parameters {
             m: kg = 0.5, load: kg = 0.5, k: N/m = 1, stiff: N/m = 1e6, settling: s = 0.01,
             v_b: m/s = 0.2, mu: 1 = 0.5, mu0: 1 = 1, g: m/s^2 = 2,
@@ -90,7 +90,7 @@ fn what_carries_a_load_stiffly_sticks_and_slips_like_one_block() {
     // error of the stretch: at 1e6 N/m and this tolerance it is below 0.01 N, against the 0.5 N of
     // friction in reserve.
     for stiff in [1e4, 1e5, 1e6] {
-        let carrier = Carrier {
+        let carrier = InertiaNodes {
             stiff,
             ..Default::default()
         };

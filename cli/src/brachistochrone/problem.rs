@@ -3,7 +3,7 @@
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_brachistochrone::{Guide, Problem, Unsolved};
 use lagrangian_mechanics::Compiled;
-use lagrangian_mechanics::{Brachistochronic, Guided};
+use lagrangian_mechanics::{Brachistochronic, SlidingGuide};
 use lagrangian_symbolic::{Expr, evaluate};
 use nalgebra::DMatrix;
 
@@ -33,7 +33,7 @@ pub fn form<'a, 'd>(
         Ok(form) => return problem(compiled, machine, &form).map(Form::Constant),
         Err(unmet) => unmet,
     };
-    let form = Brachistochronic::anywhere(model, equations).map_err(|unmet| {
+    let form = Brachistochronic::position_dependent(model, equations).map_err(|unmet| {
         let list: Vec<String> = unmet.iter().map(|unmet| format!("\n  {unmet}")).collect();
         Failure::Run(format!(
             "the fastest motion can be found only for machines that change by their motion alone:{}",
@@ -90,7 +90,7 @@ fn guides<'d>(
     if count == 0 {
         return Ok(Vec::new()); // An empty matrix cannot be factored.
     }
-    let list = |of: &dyn Fn(&Guided<'d>) -> Vec<Expr<'d>>| -> Vec<Vec<f64>> {
+    let list = |of: &dyn Fn(&SlidingGuide<'d>) -> Vec<Expr<'d>>| -> Vec<Vec<f64>> {
         form.guides.iter().map(|guide| values(&of(guide))).collect()
     };
     let scalars = list(&|guide| vec![guide.load, guide.friction]);
@@ -109,7 +109,7 @@ fn guides<'d>(
             "the normal reactions of the guides are not determined: the guides jam by friction",
         )
     })?;
-    let guide = |(i, guide): (usize, &Guided<'d>)| Guide {
+    let guide = |(i, guide): (usize, &SlidingGuide<'d>)| Guide {
         name: guide.name.clone(),
         along: along[i].clone(),
         load: reactions[(i, 0)],

@@ -3,7 +3,7 @@
 use lagrangian::Machine;
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_mechanics::{Compiled, around_start};
-use lagrangian_program::accuracy::{Accuracy, Judge};
+use lagrangian_program::accuracy::{Accuracy, AccuracyTest};
 use lagrangian_program::rounding::{SplitMix, State};
 use lagrangian_program::{Program, Slot};
 use serde_json::{Map, Value, json};
@@ -56,12 +56,12 @@ pub fn look(compiled: &Compiled<'_>) -> Found {
         }
     }
     let system = with_parameters.prepare();
-    let mut judge = Judge::new(program, &drawn.parameters);
+    let mut judge = AccuracyTest::new(program, &drawn.parameters);
     let mut random = SplitMix(4);
     let extreme = drawn.states.iter().take(EXTREME);
     let extreme: Vec<State> = extreme
         .map(|state| stretched(program, state, &mut random))
-        .filter(|state| judge.holds(state))
+        .filter(|state| judge.satisfies_assumptions(state))
         .collect();
     let singular = drawn.states.iter().take(SINGULAR);
     let singular: Vec<State> = singular.map(|from| judge.towards_singular(from)).collect();
@@ -75,7 +75,7 @@ pub fn look(compiled: &Compiled<'_>) -> Found {
         .flat_map(|(kind, states)| states.into_iter().map(move |state| (kind, state)))
         .collect();
     for (_, state) in &states {
-        judge.look(state, &mut |role, arguments, results| {
+        judge.examine(state, &mut |role, arguments, results| {
             system.quantity(role, arguments, results).is_ok()
         });
     }

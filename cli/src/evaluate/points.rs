@@ -158,7 +158,7 @@ impl<'a> Reader<'a> {
                 "parameters" => point.parameters = self.entries(value).map_err(in_field)?,
                 "inputs" => point.inputs = self.entries(value).map_err(in_field)?,
                 _ => {
-                    let near = lagrangian_spec::diagnostic::nearest(&name, FIELDS);
+                    let near = lagrangian_spec::diagnostic::most_similar(&name, FIELDS);
                     let help = match near {
                         Some(near) => format!("did you mean \"{near}\"?"),
                         None => format!("there are: {}", FIELDS.join(", ")),

@@ -8,9 +8,9 @@ use lagrangian::{Machine, State, System};
 use lagrangian_fit::least_squares::Trouble;
 use lagrangian_fit::motion::{Column, Experiment, Fit, Quantity};
 use lagrangian_mechanics::Compiled;
-use lagrangian_spec::diagnostic::{Severity, nearest};
+use lagrangian_spec::diagnostic::{Severity, most_similar};
 use lagrangian_spec::unit::{self, state_of};
-use lagrangian_sweep::signals::{self, Written};
+use lagrangian_sweep::signals::{self, InputArgument};
 
 use crate::call::{self, Assignment};
 use crate::failure::Failure;
@@ -27,7 +27,7 @@ pub struct Given {
     /// Starts of coordinates and rates that differ in this experiment.
     pub starts: [Vec<Assignment>; 2],
     /// Tables that drive inputs.
-    pub inputs: Vec<(String, Written)>,
+    pub inputs: Vec<(String, InputArgument)>,
 }
 
 /// The measurements with the same name, in all experiments.
@@ -127,18 +127,18 @@ fn read(text: &str) -> Result<Given, String> {
         } else if let Some(name) = inside("rate") {
             given.starts[1].push(Assignment { name, ..set });
         } else {
-            match signals::written(&set.value) {
-                Ok(Written::File { .. }) => {
-                    let written = signals::written(&set.value)?;
+            match signals::parse_input(&set.value) {
+                Ok(InputArgument::File { .. }) => {
+                    let written = signals::parse_input(&set.value)?;
                     given.inputs.push((set.name, written));
                 }
-                Ok(Written::Sampled { .. }) => {
+                Ok(InputArgument::Sampled { .. }) => {
                     return Err(format!(
                         "`{}`: a controller is the same in all experiments: give it by --input",
                         set.name
                     ));
                 }
-                Ok(Written::Formula(_)) | Err(_) => given.sets.push(set),
+                Ok(InputArgument::Formula(_)) | Err(_) => given.sets.push(set),
             }
         }
     }
@@ -164,7 +164,7 @@ impl Given {
             let Some(unit) = machine.unit(&set.name).map(str::to_owned) else {
                 let known: Vec<String> =
                     machine.parameters().map(|(of, _)| of.name.into()).collect();
-                let help = match nearest(&set.name, known.iter().map(String::as_str)) {
+                let help = match most_similar(&set.name, known.iter().map(String::as_str)) {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => "start values are given as start(NAME) and rate(NAME)".into(),
                 };
@@ -177,7 +177,9 @@ impl Given {
                 .map_err(|unknown| wrong(unknown.to_string()))?;
         }
         if !self.sets.is_empty() {
-            let said = compiled.model.refused_values(machine.parameter_values());
+            let said = compiled
+                .model
+                .parameter_diagnostics(machine.parameter_values());
             let error = said
                 .iter()
                 .find(|said| said.code.severity() == Severity::Error);
@@ -291,7 +293,7 @@ pub fn measure(
         }
         if !known.iter().any(|class| class.name == *name) {
             let names = || known.iter().map(|class| class.name.as_str());
-            let help = match nearest(name, names()) {
+            let help = match most_similar(name, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
             };
@@ -347,7 +349,7 @@ pub fn measure(
         check_times(one, experiment, &names, (&known[..], &asked[..]))?;
         if !unused.is_empty() {
             let near = unused.iter().find_map(|name| {
-                let near = nearest(name, known.iter().map(|class| class.name.as_str()))?;
+                let near = most_similar(name, known.iter().map(|class| class.name.as_str()))?;
                 Some(format!("; did you mean `{near}` by `{name}`?"))
             });
             notes.push(format!(

@@ -152,7 +152,9 @@ pub fn trace(
     };
     for k in 0..=last {
         let machine = tracer.machine_at(value(k));
-        let mut said = compiled.model.refused_values(machine.parameter_values());
+        let mut said = compiled
+            .model
+            .parameter_diagnostics(machine.parameter_values());
         if k > 0 {
             // Warnings are printed only once.
             said.retain(|diagnostic| diagnostic.code.severity() == Severity::Error);

@@ -16,7 +16,7 @@
 //! All findings hold for all parameters, coordinates and times, see [`places`](super::places). Points and vectors are indices in
 //! the list of values that the page computes.
 
-use lagrangian_spec::model::circles::{body_axes, outline, placed};
+use lagrangian_spec::model::circles::{body_axes, centre_and_axes, outline};
 use lagrangian_spec::model::element::{Drawing, Element, Shape, Site};
 use lagrangian_spec::model::{
     Body, ContactGeometry, Inertia, Model, Place, PoseId, Rotation, Step, stage,
@@ -123,7 +123,7 @@ pub struct ElementDrawn {
 }
 
 #[derive(Debug, Serialize, PartialEq)]
-#[serde(rename_all = "lowercase", tag = "placed")]
+#[serde(rename_all = "lowercase", tag = "centre_and_axes")]
 pub enum Placed {
     /// Between two points.
     Between { ends: [usize; 2] },
@@ -160,7 +160,7 @@ pub struct ContactDrawn {
 }
 
 #[derive(Debug, Serialize, PartialEq)]
-#[serde(rename_all = "lowercase", tag = "placed")]
+#[serde(rename_all = "lowercase", tag = "centre_and_axes")]
 pub enum Touch {
     /// At a point, along unit vectors.
     Point {
@@ -281,7 +281,7 @@ impl Points {
         });
         let outlines = outlines.collect();
         let circles = model.circles.iter().map(|circle| {
-            let (center, axes) = placed(model, circle);
+            let (center, axes) = centre_and_axes(model, circle);
             [
                 places.of(&center),
                 places.of(&[circle.radius]),
@@ -644,7 +644,7 @@ impl<'d> Finder<'_, 'd> {
                 omitted.push(format!("{} {}", element.section.noun, element.name));
                 continue;
             };
-            // Elements that act on one body along the same direction are placed alternately on opposite sides.
+            // Elements that act on one body along the same direction are centre_and_axes alternately on opposite sides.
             if let Placed::Sketch {
                 body, along, side, ..
             } = &mut place

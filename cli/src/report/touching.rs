@@ -1,6 +1,6 @@
 //! The points at which contact forces act, and the directions there: where a circle, a sphere or a point touches.
 
-use lagrangian_spec::model::circles::{distance, placed};
+use lagrangian_spec::model::circles::{centre_and_axes, distance};
 use lagrangian_spec::model::polygons::{self, Corner};
 use lagrangian_spec::model::{Circle, Model, Surface, spheres};
 use lagrangian_symbolic::Expr;
@@ -16,7 +16,7 @@ pub struct Site<'d> {
 
 /// Where a circle or sphere, possibly a point, touches a surface.
 pub fn site<'d>(model: &Model<'d>, circle: &Circle<'d>, surface: Surface) -> Site<'d> {
-    let (centre, _) = placed(model, circle);
+    let (centre, _) = centre_and_axes(model, circle);
     let (other, is_inside) = match surface {
         Surface::Along(pose) => {
             let mut axes = model.poses[pose.index()].axes.clone();
@@ -31,7 +31,7 @@ pub fn site<'d>(model: &Model<'d>, circle: &Circle<'d>, surface: Surface) -> Sit
         Surface::Inside(other) => (&model.circles[other], true),
         Surface::Outside(other) => (&model.circles[other], false),
     };
-    let (middle, _) = placed(model, other);
+    let (middle, _) = centre_and_axes(model, other);
     let line: Vec<Expr<'d>> = centre.iter().zip(&middle).map(|(&a, &b)| a - b).collect();
     let facts = model.assumptions.iter().map(|fact| fact.excess);
     let facts: Vec<_> = facts.map(|fact| (fact, fact.symbols())).collect();
@@ -56,7 +56,7 @@ pub fn site<'d>(model: &Model<'d>, circle: &Circle<'d>, surface: Surface) -> Sit
 
 /// Where a corner of a polygon touches another polygon.
 pub fn site_of_corner<'d>(model: &Model<'d>, corner: &Corner<'d>) -> Site<'d> {
-    let polygons::Site { point, directions } = polygons::site(model, corner);
+    let polygons::ContactFrame { point, directions } = polygons::contact_frame(model, corner);
     Site {
         point,
         directions: directions.into(),

@@ -95,7 +95,7 @@ fn reduction(given: &Assignment, events: &[Watch]) -> Result<Reduction, Failure>
     let known = Function::NAMES.iter().find(|(name, _)| *name == function);
     let Some((_, known)) = known else {
         return Err(
-            match lagrangian_spec::diagnostic::nearest(function, functions()) {
+            match lagrangian_spec::diagnostic::most_similar(function, functions()) {
                 Some(near) => wrong(format!(
                     "no function named `{function}`; did you mean `{near}`?"
                 )),

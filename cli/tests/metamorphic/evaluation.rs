@@ -427,7 +427,7 @@ fn in_stages(
             if interpreter.call(role, arguments, &mut values).is_err() {
                 return vec![Wide::from_f64(f64::NAN); n];
             }
-            interpreter.stand(role, &values);
+            interpreter.set_stage_results(role, &values);
         }
     }
     let mut results = vec![Wide::ZERO; n];

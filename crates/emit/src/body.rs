@@ -10,13 +10,13 @@ use super::layout::{Writer, width};
 use super::names::Scope;
 use lagrangian_program as program;
 use lagrangian_program::{
-    Contracted, Contraction, Contractions, Function, Guard, Op, Pack, Source, Statement, Value,
-    What,
+    Contracted, Contraction, Contractions, Function, Guard, Op, Pack, PackedOperation, Source,
+    Statement, Value,
 };
 
 mod repeats;
 
-pub use repeats::{Loops, Place, Plan, fill, runs, statements_with_loops};
+pub use repeats::{ArrayElement, Loops, Plan, fill, runs, statements_with_loops};
 
 /// The longest expression that is inlined into another one.
 const LONGEST_INLINE: usize = 72;
@@ -81,7 +81,7 @@ pub trait Language {
     fn sin_cos_all(&self, _writer: &mut Writer, _angles: &[Angle]) {}
     /// Two operations of the same kind in one statement, with their operands slot by slot; `None` where the
     /// language writes them separately.
-    fn pack(&self, _what: What, _operands: &[[Expression; 2]]) -> Option<String> {
+    fn pack(&self, _what: PackedOperation, _operands: &[[Expression; 2]]) -> Option<String> {
         None
     }
 }
@@ -107,7 +107,7 @@ pub struct Angle {
 
 /// The precedence of an expression's outermost operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Binding {
+pub enum Precedence {
     /// `a + b`, `a - b`
     Sum,
     /// `a * b`, `a / b`
@@ -124,7 +124,7 @@ pub struct Expression {
     /// The text.
     pub text: String,
     /// Its outermost operator.
-    pub binding: Binding,
+    pub precedence: Precedence,
     /// Whether it is as short and as cheap as a name.
     pub is_leaf: bool,
 }
@@ -134,7 +134,7 @@ impl Expression {
     pub fn leaf(text: impl Into<String>) -> Expression {
         Expression {
             text: text.into(),
-            binding: Binding::Atom,
+            precedence: Precedence::Atom,
             is_leaf: true,
         }
     }
@@ -143,7 +143,7 @@ impl Expression {
     pub fn call(text: impl Into<String>) -> Expression {
         Expression {
             text: text.into(),
-            binding: Binding::Atom,
+            precedence: Precedence::Atom,
             is_leaf: false,
         }
     }
@@ -151,31 +151,36 @@ impl Expression {
     /// A sum.
     pub fn sum(text: impl Into<String>) -> Expression {
         Expression {
-            binding: Binding::Sum,
+            precedence: Precedence::Sum,
             ..Expression::call(text)
         }
     }
 
     /// The text, in parentheses if its operator binds less tightly than `least`.
-    pub fn at_least(&self, least: Binding) -> String {
-        if self.binding >= least {
+    pub fn at_least(&self, least: Precedence) -> String {
+        if self.precedence >= least {
             self.text.clone()
         } else {
             format!("({})", self.text)
         }
     }
 
-    fn operation(operator: &str, binding: Binding, a: &Expression, b: &Expression) -> Expression {
+    fn operation(
+        operator: &str,
+        binding: Precedence,
+        a: &Expression,
+        b: &Expression,
+    ) -> Expression {
         // `a - (b - c)` keeps its parentheses, `(a - b) - c` needs none.
-        let tighter = if binding == Binding::Sum {
-            Binding::Product
+        let tighter = if binding == Precedence::Sum {
+            Precedence::Product
         } else {
-            Binding::Sign
+            Precedence::Sign
         };
         let text = format!("{} {operator} {}", a.at_least(binding), b.at_least(tighter));
         Expression {
             text,
-            binding,
+            precedence: binding,
             is_leaf: false,
         }
     }
@@ -264,7 +269,7 @@ struct Body<'a, L> {
     /// How many times each value is used.
     uses: Vec<u32>,
     /// The elements of arrays that hold each value, for loops that count through them.
-    places: Vec<Vec<Place>>,
+    places: Vec<Vec<ArrayElement>>,
     /// The names wanted for values.
     wanted: Vec<Option<&'a str>>,
     /// The text of each value written so far.
@@ -407,7 +412,7 @@ impl<'a, L: Language> Body<'a, L> {
         let operands: Vec<[Expression; 2]> = operands
             .map(|pair| pair.map(|value| self.text(value)))
             .collect();
-        let Some(text) = self.language.pack(pack.what, &operands) else {
+        let Some(text) = self.language.pack(pack.operation, &operands) else {
             return pack
                 .values
                 .into_iter()
@@ -444,20 +449,20 @@ impl<'a, L: Language> Body<'a, L> {
             Op::Sin(a) => self.combine([a], |[a]| language.unary(symbolic::Function::Sin, a)),
             Op::Cos(a) => self.combine([a], |[a]| language.unary(symbolic::Function::Cos, a)),
             Op::Add(a, b) => self.combine([a, b], |[a, b]| {
-                Expression::operation("+", Binding::Sum, a, b)
+                Expression::operation("+", Precedence::Sum, a, b)
             }),
             Op::Sub(a, b) => self.combine([a, b], |[a, b]| {
-                Expression::operation("-", Binding::Sum, a, b)
+                Expression::operation("-", Precedence::Sum, a, b)
             }),
             Op::Mul(a, b) => self.combine([a, b], |[a, b]| {
-                Expression::operation("*", Binding::Product, a, b)
+                Expression::operation("*", Precedence::Product, a, b)
             }),
             Op::Div(a, b) => self.combine([a, b], |[a, b]| {
-                Expression::operation("/", Binding::Product, a, b)
+                Expression::operation("/", Precedence::Product, a, b)
             }),
             Op::Neg(a) => self.combine([a], |[a]| Expression {
-                text: format!("-{}", a.at_least(Binding::Atom)),
-                binding: Binding::Sign,
+                text: format!("-{}", a.at_least(Precedence::Atom)),
+                precedence: Precedence::Sign,
                 is_leaf: false,
             }),
             Op::ProductError(a, b) => {

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use lagrangian_symbolic::{self as symbolic, Rational};
 
-use super::body::{self, Binding, Expression, Language, Rounded};
+use super::body::{self, Expression, Language, Precedence, Rounded};
 use super::cut::{self, Cut, Piece, Place};
 use super::layout::{Writer, width};
 use super::names::{Field, Scope, ascii, fields, flat, snake_case};
@@ -138,14 +138,14 @@ pub fn file(program: &Proved, origin: &[String], formulas: &BTreeMap<Role, Vec<S
 }
 
 /// Whether any of the programs contains such an operation.
-fn have(programs: &[&Program], is_such: fn(&Op) -> bool) -> bool {
+fn contain(programs: &[&Program], is_such: fn(&Op) -> bool) -> bool {
     let functions = programs.iter().flat_map(|program| program.all_functions());
     functions.flat_map(|function| &function.code).any(is_such)
 }
 
 /// The helper for the rounding error of a sum, where programs need it.
 fn sum_error(writer: &mut Writer, programs: &[&Program]) {
-    if !have(programs, |op| matches!(op, Op::SumError(..))) {
+    if !contain(programs, |op| matches!(op, Op::SumError(..))) {
         return;
     }
     writer.gap();
@@ -158,7 +158,7 @@ fn sum_error(writer: &mut Writer, programs: &[&Program]) {
 
 /// The helper for the sign of a number, where programs need it.
 fn sign(writer: &mut Writer, programs: &[&Program]) {
-    if !have(programs, |op| {
+    if !contain(programs, |op| {
         matches!(op, Op::Unary(symbolic::Function::Sign, _))
     }) {
         return;
@@ -209,7 +209,7 @@ impl<'a> Emitter<'a> {
         let program = self.program;
         writer.line("/*");
         for line in origin {
-            writer.comment(" *", &harmless(line));
+            writer.comment(" *", &comment_text(line));
         }
         if !origin.is_empty() && !program.docs.is_empty() {
             writer.line(" *");
@@ -217,7 +217,7 @@ impl<'a> Emitter<'a> {
         for line in program.docs.lines() {
             match line.trim() {
                 "" => writer.line(" *"),
-                line => writer.comment(" *", &harmless(line)),
+                line => writer.comment(" *", &comment_text(line)),
             }
         }
         writer.line(" *");
@@ -241,7 +241,7 @@ impl<'a> Emitter<'a> {
             };
             writer.comment(
                 " *",
-                harmless(&format!("    [{i}] {what}  {docs}")).trim_end(),
+                comment_text(&format!("    [{i}] {what}  {docs}")).trim_end(),
             );
         }
         writer.line(" *");
@@ -279,7 +279,7 @@ impl<'a> Emitter<'a> {
         writer.line("/* What depends on parameters alone. */");
         writer.open("typedef struct {");
         for (name, formula) in self.prepared.iter().zip(&program.prepared) {
-            writer.line(format!("/* {} */", harmless(formula)));
+            writer.line(format!("/* {} */", comment_text(formula)));
             writer.line(format!("double {name};"));
         }
         if !program.prepare.guards.is_empty() || self.prepared.is_empty() {
@@ -551,7 +551,7 @@ impl<'a> Emitter<'a> {
         let result = if fails { "int" } else { "void" };
         self.signature(writer, &format!("static {result} {name}"), &arguments);
         let texts = self.statements(writer, &piece.function);
-        for (slot, text) in piece.keeps.iter().zip(texts) {
+        for (slot, text) in piece.result_slots.iter().zip(texts) {
             writer.line(format!("w[{slot}] = {};", text.text));
         }
         if fails {
@@ -678,7 +678,7 @@ impl Language for Emitter<'_> {
         Expression::call(match of {
             Rounded::Product => {
                 let product = [a, b]
-                    .map(|factor| factor.at_least(Binding::Sign))
+                    .map(|factor| factor.at_least(Precedence::Sign))
                     .join(" * ");
                 format!("fma({}, {}, -({product}))", a.text, b.text)
             }
@@ -742,7 +742,7 @@ fn number(x: f64) -> Expression {
     if x < 0.0 {
         Expression {
             text: format!("-{magnitude}"),
-            binding: Binding::Sign,
+            precedence: Precedence::Sign,
             is_leaf: false,
         }
     } else {
@@ -775,7 +775,7 @@ fn function_name(function: symbolic::Function) -> &'static str {
 }
 
 fn comment(writer: &mut Writer, text: &str, formulas: &[String]) {
-    let text = harmless(text);
+    let text = comment_text(text);
     if text.lines().count() == 1 && formulas.is_empty() && width(&text) + 6 <= writer.columns() {
         return writer.line(format!("/* {text} */"));
     }
@@ -785,13 +785,13 @@ fn comment(writer: &mut Writer, text: &str, formulas: &[String]) {
     writer.line("/*");
     writer.comment(" *", &text);
     for formula in formulas {
-        writer.formula(" *    ", &harmless(formula));
+        writer.formula(" *    ", &comment_text(formula));
     }
     writer.line(" */");
 }
 
 /// A text that cannot end the comment in which it is written.
-fn harmless(text: &str) -> String {
+fn comment_text(text: &str) -> String {
     text.replace("*/", "* /").replace("/*", "/ *")
 }
 

@@ -32,7 +32,7 @@ pub struct Piece {
     /// The operations of the piece.
     pub function: Function,
     /// The slot of `w` for each of its results.
-    pub keeps: Vec<usize>,
+    pub result_slots: Vec<usize>,
 }
 
 /// Where a result is found after all pieces have run.
@@ -182,7 +182,7 @@ impl<'a> Cutter<'a> {
             .collect();
         kept.sort();
         let results: Vec<Value> = kept.iter().map(|value| values[value]).collect();
-        let keeps: Vec<usize> = kept.iter().map(|&value| self.keep(value)).collect();
+        let keeps: Vec<usize> = kept.iter().map(|&value| self.store(value)).collect();
         // Slots of values that are no longer needed become free, but only for the pieces after this one.
         let last_use = &self.last_use;
         let mut dead: Vec<Value> = self
@@ -204,11 +204,11 @@ impl<'a> Cutter<'a> {
                 results,
                 guards,
             },
-            keeps,
+            result_slots: keeps,
         }
     }
 
-    fn keep(&mut self, value: Value) -> usize {
+    fn store(&mut self, value: Value) -> usize {
         let slot = self.free.pop().unwrap_or_else(|| {
             self.count += 1;
             self.count - 1
@@ -357,7 +357,7 @@ mod tests {
             );
             let results = run(&piece.function, 0.3, &w);
             piece
-                .keeps
+                .result_slots
                 .iter()
                 .zip(results)
                 .for_each(|(&slot, value)| w[slot] = value);

@@ -99,7 +99,7 @@ pub fn module(program: &Proved, options: &Options) -> String {
 }
 
 /// The content of a module for a library that is called from C: the accelerations and what they need. For a machine with unilateral
-/// contacts it also has what a simulator needs to find out which of them press: see [`OF_CONTACTS`].
+/// contacts it also has what a simulator needs to find out which of them press: see [`CONTACT_ROLES`].
 ///
 /// It contains the functions `prepared` and `evaluate`, the type `Prepared` and the tables `COORDINATES`, `PARAMETERS`, `INPUTS`;
 /// with contacts the table `CONTACTS`, and a function like `gaps_of` for each of these quantities.
@@ -109,7 +109,7 @@ pub fn module(program: &Proved, options: &Options) -> String {
 pub fn library(program: &Proved, options: &Options) -> Result<String, Unproved> {
     let mut roles = vec![Role::Accelerations];
     if !program.unilateral.is_empty() {
-        roles.extend(OF_CONTACTS);
+        roles.extend(CONTACT_ROLES);
         roles.retain(|role| program.function(*role).is_some());
     }
     let program = program.restricted(&roles)?;
@@ -125,7 +125,7 @@ pub fn in_pairs(function: &Function, options: &Options) -> Option<Vec<Statement>
 /// The quantities that a library provides for a machine with unilateral contacts, besides the accelerations with all contacts open.
 /// Together with M and the rows of contacts and constraints they determine accelerations under any contact forces, and changes of
 /// rates by impulses.
-pub const OF_CONTACTS: [Role; 7] = [
+pub const CONTACT_ROLES: [Role; 7] = [
     Role::MassMatrix,
     Role::ConstraintMatrix,
     Role::Gaps,
@@ -174,7 +174,7 @@ struct Emitter<'a> {
     /// The loops of functions that have loops.
     plans: BTreeMap<Role, Plan>,
     /// Whether the function being written leaves the check for large angles to its caller.
-    asks_once: bool,
+    defers_angle_check: bool,
 }
 
 /// Lints that a formula may violate, with the reason; this list shows auditors that no other lint is silenced.
@@ -231,7 +231,7 @@ impl<'a> Emitter<'a> {
             prepared,
             prepared_families,
             plans,
-            asks_once: false,
+            defers_angle_check: false,
             types: Types::new(&program.name),
             parameters,
             coordinates: Group::new(&program.coordinates),

@@ -15,7 +15,7 @@ use lagrangian_program::quantity::{Argument, Extent};
 use lagrangian_program::{Function, Guard, Program, Role, Shape, Slot, Source};
 use lagrangian_symbolic::{self as symbolic, Rational};
 
-use super::body::{self, Binding, Expression, Language, Rounded};
+use super::body::{self, Expression, Language, Precedence, Rounded};
 use super::layout::Writer;
 use super::names::{Scope, ascii, flat, snake_case};
 
@@ -106,7 +106,7 @@ pub fn file(
     formulas: &BTreeMap<Role, Vec<String>>,
 ) -> String {
     let syntax = dialect.syntax();
-    let speaker = Speaker { program, syntax };
+    let speaker = ScriptEmitter { program, syntax };
     let mut writer = Writer::default();
     let comment = syntax.comment();
     for line in origin
@@ -176,12 +176,12 @@ fn tables(program: &Program) -> Vec<Table> {
 }
 
 /// The emitter of a program in a language.
-struct Speaker<'a> {
+struct ScriptEmitter<'a> {
     program: &'a Program,
     syntax: &'static dyn Syntax,
 }
 
-impl Speaker<'_> {
+impl ScriptEmitter<'_> {
     fn name(&self, role: Role) -> String {
         match role {
             Role::Output(i) => format!("output_{}", ascii(&flat(&self.program.outputs[i].name))),
@@ -264,7 +264,7 @@ impl Speaker<'_> {
     }
 }
 
-impl Language for Speaker<'_> {
+impl Language for ScriptEmitter<'_> {
     fn constant(&self, value: &Rational) -> Expression {
         self.syntax.constant(value)
     }
@@ -360,7 +360,7 @@ fn number(x: f64) -> Expression {
     if x < 0.0 {
         Expression {
             text,
-            binding: Binding::Sign,
+            precedence: Precedence::Sign,
             is_leaf: false,
         }
     } else {

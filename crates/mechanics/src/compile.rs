@@ -89,7 +89,7 @@ fn emitted_series(model: &Model<'_>) -> Result<ProvedSeries, String> {
         return Err("it has contacts that close and open".into());
     }
     let series = ProvedSeries::derive(model).map_err(|reason| reason.to_string())?;
-    if series.unwritten().is_some() {
+    if series.first_not_emittable().is_some() {
         let reason = "emitted code supports only products of positions, their sines and forces; the interpreter supports this series";
         return Err(reason.into());
     }

@@ -41,7 +41,7 @@ mod unilateral;
 
 use lagrangian_symbolic::{Expr, Node, Symbol, normal};
 
-pub use brachistochrone::{Brachistochronic, Guided, Unmet};
+pub use brachistochrone::{Brachistochronic, SlidingGuide, UnmetCondition};
 pub use carrying::Carrying;
 pub use constraints::{ConstraintEquation, constraints};
 pub use freedom::{Freedom, Independent, contradictions, freedom};
@@ -100,10 +100,10 @@ pub struct Equations<'d> {
     pub reduction: Option<Box<Reduction<'d>>>,
     /// The residual of the equations of motion at given accelerations, `f − M a`, eq. (E25); with
     /// constraints `f − M a + Gᵀ λ`, followed by `γ − G a`. Empty if no derivative is asked for.
-    pub unbalanced: Vec<Expr<'d>>,
+    pub residual: Vec<Expr<'d>>,
     /// For each variable of [`Model::derivatives`], the derivatives of `f − M a` with respect to it
     /// at given accelerations, one for each coordinate, followed by one for each constraint.
-    pub slopes: Vec<Vec<Expr<'d>>>,
+    pub residual_derivatives: Vec<Vec<Expr<'d>>>,
     /// Power of forces, torques, inputs and prescribed motion, eq. (E19). Accelerations may occur.
     pub work_rate: Expr<'d>,
     /// Power taken out by dissipation, eq. (E18).
@@ -133,7 +133,7 @@ pub struct Unprojected<'d> {
     pub loads: Vec<(Expr<'d>, Expr<'d>)>,
     /// Whether velocities have accelerations when all coordinate accelerations are zero. If false,
     /// these accelerations are already among the loads, and `u̇` is `Σ aᵢ ∂u/∂vᵢ` alone.
-    pub drifts: bool,
+    pub has_bias_accelerations: bool,
 }
 
 /// A term `½ weight u w` of the kinetic energy.
@@ -150,17 +150,17 @@ pub struct InertialPair<'d> {
     pub weight: Expr<'d>,
     /// The acceleration of free fall along `u`, for pairs `u u` whose weights are not among the
     /// loads: the load on `u` is this times `weight`.
-    pub fall: Option<Expr<'d>>,
+    pub free_fall: Option<Expr<'d>>,
 }
 
 impl<'d> InertialPair<'d> {
     /// A pair without free fall: gravity does not act on it, or its weight is among the loads.
-    pub(crate) fn weightless(u: Expr<'d>, w: Expr<'d>, weight: Expr<'d>) -> InertialPair<'d> {
+    pub(crate) fn without_gravity(u: Expr<'d>, w: Expr<'d>, weight: Expr<'d>) -> InertialPair<'d> {
         InertialPair {
             u,
             w,
             weight,
-            fall: None,
+            free_fall: None,
         }
     }
 }
@@ -189,7 +189,7 @@ impl<'d> Equations<'d> {
     /// Derives the equations of a machine. Returns nothing, and reports each reason, if it has none.
     pub fn derive(model: &Model<'d>, report: &mut Report) -> Option<Equations<'d>> {
         if refusal::refuse_unsupported(model, report)
-            || refusal::refuse_unturned(model, report)
+            || refusal::refuse_unoriented(model, report)
             || refusal::refuse_many_coordinates(model, report)
             || refusal::refuse_many_constraints(model, report)
             || lengths::refuse(model, report)
@@ -215,17 +215,20 @@ impl<'d> Equations<'d> {
             refusal::refuse_large(model, report);
             return None;
         };
-        equations.drop_what_cancels(model);
+        equations.remove_cancelling_variables(model);
         equations.add_power_of_constraints(model);
         if !model.derivatives.is_empty() {
-            equations.unbalanced =
-                derivatives::constrained(model, &equations.unbalanced, &equations.constraints);
+            equations.residual = derivatives::constrained_residual(
+                model,
+                &equations.residual,
+                &equations.constraints,
+            );
         }
-        let Some(slopes) = derivatives::slopes(model, &equations.unbalanced) else {
+        let Some(slopes) = derivatives::residual_derivatives(model, &equations.residual) else {
             refusal::refuse_large(model, report);
             return None;
         };
-        equations.slopes = slopes;
+        equations.residual_derivatives = slopes;
         if !model.dag.is_exhausted() {
             equations.sliding = sliding::sliding(model, report)?;
             equations.unilateral = unilateral::unilateral(model);
@@ -284,15 +287,19 @@ impl<'d> Equations<'d> {
     /// The derivatives of `f − M a` in several forms: as they were derived and, for few
     /// coordinates, from `M` and `f` as they stand here, which may be shorter if these are
     /// multiplied out. Empty if none is asked for.
-    pub(crate) fn slopes_in_forms(&self, model: &Model<'d>) -> Vec<Vec<Vec<Expr<'d>>>> {
-        if self.slopes.is_empty() {
+    pub(crate) fn residual_derivatives_in_forms(
+        &self,
+        model: &Model<'d>,
+    ) -> Vec<Vec<Vec<Expr<'d>>>> {
+        if self.residual_derivatives.is_empty() {
             return Vec::new();
         }
-        let mut forms = vec![self.slopes.clone()];
+        let mut forms = vec![self.residual_derivatives.clone()];
         if self.bias.len() <= EXPANDED_COORDINATES {
-            let unbalanced = derivatives::unbalanced(model, &self.mass_matrix, &self.forces);
-            let unbalanced = derivatives::constrained(model, &unbalanced, &self.constraints);
-            forms.extend(derivatives::slopes(model, &unbalanced));
+            let unbalanced = derivatives::residual(model, &self.mass_matrix, &self.forces);
+            let unbalanced =
+                derivatives::constrained_residual(model, &unbalanced, &self.constraints);
+            forms.extend(derivatives::residual_derivatives(model, &unbalanced));
         }
         forms
     }
@@ -323,7 +330,7 @@ impl<'d> Equations<'d> {
         if moves.iter().all(|rate| rate.is_zero()) {
             return;
         }
-        let forces = derivatives::unbalanced(model, &self.mass_matrix, &self.forces);
+        let forces = derivatives::residual(model, &self.mass_matrix, &self.forces);
         // The row of a state is not a balance of forces, and no constraint contributes to it.
         let rows = model.coordinates.iter().zip(forces);
         let rows = rows.filter(|(coordinate, _)| coordinate.rate.is_none());
@@ -331,7 +338,7 @@ impl<'d> Equations<'d> {
         // The inertia and the load on the lengths of quaternions contribute no power.
         let mut total = Variables::of(model).total(model);
         let lengths = model.quaternions.iter().map(|four| {
-            let rate = total.of(four.size());
+            let rate = total.of(four.log_length());
             let load = four.load(&four.e.map(|e| total.of(e)));
             -(rate * (four.inertia * total.of(rate) - load))
         });
@@ -340,7 +347,7 @@ impl<'d> Equations<'d> {
     }
 
     /// Removes coordinates and time from equations that do not depend on them, eqs. (E21) and (E22).
-    fn drop_what_cancels(&mut self, model: &Model<'d>) {
+    fn remove_cancelling_variables(&mut self, model: &Model<'d>) {
         let x = Variables::of(model);
         let candidates: Vec<Symbol> = x.q.iter().copied().chain([x.t]).collect();
         let energies = [self.kinetic_energy, self.potential_energy, self.dissipation];
@@ -348,8 +355,8 @@ impl<'d> Equations<'d> {
         let cyclic = identity::cyclic(model.dag, &sources, &candidates);
         let mut all: Vec<&mut Expr<'d>> = self.dynamics();
         let values: Vec<Expr<'d>> = all.iter().map(|e| **e).collect();
-        let mut values = identity::without(model.dag, values, &cyclic);
-        identity::settle(model.dag, &mut values);
+        let mut values = identity::with_zeros_for(model.dag, values, &cyclic);
+        identity::remove_spurious_symbols(model.dag, &mut values);
         all.iter_mut()
             .zip(values)
             .for_each(|(place, value)| **place = value);
@@ -361,7 +368,7 @@ impl<'d> Equations<'d> {
             &mut self.bias,
             &mut self.applied,
             &mut self.forces,
-            &mut self.unbalanced,
+            &mut self.residual,
         ];
         let scalars = [
             &mut self.kinetic_energy,
@@ -388,7 +395,7 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
 
     let kinetic_energies = projection.kinetic_energies();
     let potential_energy = energy::potential_energy(model);
-    let dissipation = energy::dissipation(model, &mut x.coasting(model));
+    let dissipation = energy::dissipation(model, &mut x.without_acceleration(model));
 
     let mut weightless = Loads::default();
     projection.add_applied(&mut weightless);
@@ -413,12 +420,12 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
         unilateral: Vec::new(),
         reduction: None,
         forces: projection.project(&forces, all),
-        unbalanced: if model.derivatives.is_empty() {
+        residual: if model.derivatives.is_empty() {
             Vec::new()
         } else {
-            projection.unbalanced()
+            projection.residual()
         },
-        slopes: Vec::new(),
+        residual_derivatives: Vec::new(),
         work_rate: power::work_rate(model, &x, &projection, potential_energy),
         dissipation_rate: power::dissipation_rate(model, &x, dissipation),
         outputs: model.outputs.iter().map(|output| output.value).collect(),
@@ -443,8 +450,8 @@ fn approximate<'d>(
             .map(|motion| approximations.motion(motion))
             .collect::<Vec<_>>()
     };
-    let motions = frozen(x.coasting(model));
-    let driving = frozen(x.explicit(model));
+    let motions = frozen(x.without_acceleration(model));
+    let driving = frozen(x.explicit_time(model));
     let pairs = model.bodies.iter().zip(&motions);
     let kinetic_energies = pairs
         .clone()
@@ -456,7 +463,7 @@ fn approximate<'d>(
 
     let kinetic_energy = dag.sum(kinetic_energies.iter().copied());
     let potential_energy = approximations.energy(energy::potential_energy(model));
-    let dissipation = energy::dissipation(model, &mut x.coasting(model));
+    let dissipation = energy::dissipation(model, &mut x.without_acceleration(model));
     let dissipation = approximations.energy(dissipation);
     let driven = approximations.energy(dag.sum(driven));
 
@@ -473,7 +480,7 @@ fn approximate<'d>(
     let unbalanced = if model.derivatives.is_empty() {
         Vec::new()
     } else {
-        derivatives::unbalanced(model, &mass_matrix, &forces)
+        derivatives::residual(model, &mass_matrix, &forces)
     };
     Some(Equations {
         kinetic_energy,
@@ -489,8 +496,8 @@ fn approximate<'d>(
         sliding: Vec::new(),
         unilateral: Vec::new(),
         reduction: None,
-        unbalanced,
-        slopes: Vec::new(),
+        residual: unbalanced,
+        residual_derivatives: Vec::new(),
         work_rate: power::work_rate_of_energies(
             model,
             &x,
@@ -510,7 +517,7 @@ fn bodies<'d>(
     x: &Variables<'d>,
     kinetic_energies: Vec<Expr<'d>>,
 ) -> Vec<BodyEquations<'d>> {
-    let mut rate = x.coasting(model);
+    let mut rate = x.without_acceleration(model);
     let of_body =
         |(body, kinetic_energy): (&lagrangian_spec::model::Body<'d>, Expr<'d>)| BodyEquations {
             position: body.at.clone(),

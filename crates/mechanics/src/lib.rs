@@ -19,10 +19,10 @@ pub mod series;
 pub use compile::Compiled;
 pub use equations::{
     BodyEquations, Brachistochronic, Carrying, ConstraintEquation, Dependent, Equations, Freedom,
-    Guided, Independent, InertialPair, MOST_CONTACTS, MOST_COORDINATES, Oracle, OracleConstraint,
+    Independent, InertialPair, MOST_CONTACTS, MOST_COORDINATES, Oracle, OracleConstraint,
     OracleReaction, OracleSliding, Reaction, ReducedModel, Reduction, Route, SlidingEquation,
-    Symmetric, Unmet, Unprojected, angular_velocities, constraints, contradictions, dependents,
-    freedom, groups, integrals,
+    SlidingGuide, Symmetric, UnmetCondition, Unprojected, angular_velocities, constraints,
+    contradictions, dependents, freedom, groups, integrals,
 };
 #[cfg(doc)]
 use lagrangian_program::Program;

@@ -58,8 +58,8 @@ pub fn lower_by<'d>(
     choose: &dyn Fn(&[Candidate]) -> usize,
 ) -> Program {
     let slopes = |basis| match (basis, expanded) {
-        (Basis::Expanded, Some(expanded)) => expanded.slopes_in_forms(model),
-        _ => equations.slopes_in_forms(model),
+        (Basis::Expanded, Some(expanded)) => expanded.residual_derivatives_in_forms(model),
+        _ => equations.residual_derivatives_in_forms(model),
     };
     let reduced = equations.reduction.as_ref().map(|reduction| {
         let (model, equations) = (&reduction.machine.0, &reduction.equations);
@@ -73,7 +73,7 @@ pub fn lower_by<'d>(
     });
     let multipliers = equations.constraints.iter().map(|c| c.multiplier);
     let multipliers: Vec<Expr<'d>> = multipliers.collect();
-    let source = Origin {
+    let source = LoweringInput {
         quantities: &quantities(model, equations),
         expanded: &expanded.map_or_else(Vec::new, |expanded| matrix_and_forces(model, expanded)),
         // Elimination along the machine would not close the loops of a closed-loop mechanism.
@@ -90,7 +90,7 @@ pub fn lower_by<'d>(
         multipliers: &multipliers,
         reduced: reduced
             .as_ref()
-            .map(|(reduction, quantities, expanded)| Set {
+            .map(|(reduction, quantities, expanded)| EquationSet {
                 model: &reduction.machine.0,
                 quantities,
                 expanded,
@@ -124,10 +124,10 @@ pub fn lower_by<'d>(
         order: u.order,
         painleve: u.painleve,
         compliance: u.compliance,
-        rubs: u.rubs,
-        rolls: u.rolls,
-        across: u.across,
-        faced: u.face.is_some(),
+        has_friction: u.has_friction,
+        is_rolling_resistance: u.is_rolling_resistance,
+        is_second_tangent: u.is_second_tangent,
+        has_face: u.face.is_some(),
     });
     program.unilateral = unilateral.collect();
     debug_assert_eq!(program.verify(), Ok(()));
@@ -138,7 +138,7 @@ pub fn lower_by<'d>(
 ///
 /// If a mass matrix and forces are among them, the accelerations are computed too.
 pub fn of_quantities<'d>(model: &Model<'d>, quantities: &[Quantity<'d>]) -> Program {
-    let source = Origin {
+    let source = LoweringInput {
         quantities,
         expanded: &[],
         unprojected: None,
@@ -153,7 +153,7 @@ pub fn of_quantities<'d>(model: &Model<'d>, quantities: &[Quantity<'d>]) -> Prog
 
 fn build<'d>(
     model: &Model<'d>,
-    source: Origin<'_, 'd>,
+    source: LoweringInput<'_, 'd>,
     constraints: Vec<Constraint>,
     choose: &dyn Fn(&[Candidate]) -> usize,
 ) -> Program {
@@ -161,7 +161,7 @@ fn build<'d>(
     if let Some(machine) = source.unprojected {
         shorten_mass_matrix(model, machine, &mut quantities);
     }
-    let source = Origin {
+    let source = LoweringInput {
         quantities: &quantities,
         ..source
     };
@@ -211,7 +211,7 @@ fn build<'d>(
         .map(|o| slot(&o.name, &o.docs, o.unit, &o.unit_text, None))
         .collect();
 
-    let start = Planned {
+    let start = PlannedFunction {
         role: Role::Start,
         shape: Shape::Vector(starts.len()),
         results: lowering.values(&starts),
@@ -223,7 +223,7 @@ fn build<'d>(
     let mut drafts: Vec<Draft> = Vec::new();
     let states = states::around_start(model, 1, rounding::STATES);
     let mut take = |candidates: Vec<Draft>, graph: &Graph| {
-        let (draft, choice) = taken(candidates, graph, &states, choose);
+        let (draft, choice) = chosen_draft(candidates, graph, &states, choose);
         choices.extend(choice);
         drafts.extend(draft);
     };
@@ -232,7 +232,7 @@ fn build<'d>(
         take(drafts, &lowering.graph);
     }
     let mut ways = if source.sliding.is_empty() {
-        accelerations(&mut lowering, source.whole(model))
+        accelerations(&mut lowering, source.all_coordinates(model))
     } else {
         friction::friction(&mut lowering, source)
     };
@@ -268,7 +268,8 @@ fn build<'d>(
         }
         _ => Vec::new(),
     };
-    let (multipliers, multipliers_choice) = taken(multipliers, &lowering.graph, &states, choose);
+    let (multipliers, multipliers_choice) =
+        chosen_draft(multipliers, &lowering.graph, &states, choose);
     drafts.extend(multipliers);
     choices.extend(multipliers_choice);
     let has_derivatives = derivatives.is_some();
@@ -340,7 +341,7 @@ fn all_values<'d>(quantities: &[Quantity<'d>]) -> Vec<Expr<'d>> {
 
 /// What a program is made from.
 #[derive(Clone, Copy)]
-struct Origin<'a, 'd> {
+struct LoweringInput<'a, 'd> {
     quantities: &'a [Quantity<'d>],
     /// Some of the same quantities, multiplied out.
     expanded: &'a [Quantity<'d>],
@@ -355,12 +356,12 @@ struct Origin<'a, 'd> {
     /// The symbols of their multipliers.
     multipliers: &'a [Expr<'d>],
     /// This machine without the coordinates that constraints determine.
-    reduced: Option<Set<'a, 'd>>,
+    reduced: Option<EquationSet<'a, 'd>>,
 }
 
 /// A set of equations from which accelerations can be solved.
 #[derive(Clone, Copy)]
-struct Set<'a, 'd> {
+struct EquationSet<'a, 'd> {
     model: &'a Model<'d>,
     quantities: &'a [Quantity<'d>],
     expanded: &'a [Quantity<'d>],
@@ -370,10 +371,10 @@ struct Set<'a, 'd> {
     reduction: Option<&'a Reduction<'d>>,
 }
 
-impl<'a, 'd> Origin<'a, 'd> {
+impl<'a, 'd> LoweringInput<'a, 'd> {
     /// The set with all coordinates.
-    fn whole(self, model: &'a Model<'d>) -> Set<'a, 'd> {
-        Set {
+    fn all_coordinates(self, model: &'a Model<'d>) -> EquationSet<'a, 'd> {
+        EquationSet {
             model,
             quantities: self.quantities,
             expanded: self.expanded,
@@ -403,7 +404,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         contacts: equations.sliding.len(),
         reaction_axes: model.space.reaction_axes(),
         unilateral: equations.unilateral.len(),
-        faced: (equations.unilateral.iter())
+        faces: (equations.unilateral.iter())
             .filter(|u| u.face.is_some())
             .count(),
         derivatives: model.derivatives.len(),
@@ -547,7 +548,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
     fn name(&mut self, names: &[(Expr<'d>, Expr<'d>)]) {
         for (name, meaning) in names {
             self.lower(&[*meaning]);
-            let whole = self.graph.whole(self.values[&meaning.id()]);
+            let whole = self.graph.opaque(self.values[&meaning.id()]);
             self.values.insert(name.id(), whole);
         }
     }
@@ -613,9 +614,9 @@ impl<'m, 'd> Lowering<'m, 'd> {
             matrix,
             forces,
             coordinates,
-            held: Vec::new(),
+            held_constraints: Vec::new(),
         };
-        Some(system.held_by_constraints(&mut self.graph))
+        Some(system.regularized(&mut self.graph))
     }
 
     fn values(&self, expressions: &[Expr<'d>]) -> Vec<Scaled> {
@@ -627,7 +628,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
 }
 
 /// A function before its code is written.
-struct Planned {
+struct PlannedFunction {
     role: Role,
     shape: Shape,
     results: Vec<Scaled>,
@@ -652,7 +653,7 @@ impl Draft {
     }
 }
 
-impl Planned {
+impl PlannedFunction {
     /// The function in its alternative forms: with common pairs shared, and with factors taken out
     /// of sums before that.
     fn drafts(self, graph: &mut Graph, basis: Basis) -> Vec<Draft> {
@@ -725,7 +726,7 @@ impl Planned {
 }
 
 /// The draft that is chosen, and the record of the choice if there was one.
-fn taken(
+fn chosen_draft(
     mut drafts: Vec<Draft>,
     graph: &Graph,
     states: &States,
@@ -783,7 +784,7 @@ fn of_quantity<'d>(
     quantity: &Quantity<'d>,
     expanded: &[Quantity<'d>],
 ) -> Vec<Draft> {
-    let planned = |values: &[Expr<'d>], lowering: &Lowering<'_, 'd>| Planned {
+    let planned = |values: &[Expr<'d>], lowering: &Lowering<'_, 'd>| PlannedFunction {
         role: quantity.role,
         shape: quantity.shape,
         results: lowering.values(values),
@@ -804,7 +805,7 @@ fn of_quantity<'d>(
 }
 
 /// The drafts of the accelerations, from the mass matrix and along the machine.
-fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Vec<Draft> {
+fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: EquationSet<'_, 'd>) -> Vec<Draft> {
     let Some(derived) = lowering.system(source.quantities, source.quantities) else {
         return Vec::new();
     };
@@ -948,7 +949,7 @@ fn embedded<'d>(
         lowering.lower(&[dependent.coefficient]);
         let coefficient = lowering.values(&[dependent.coefficient])[0];
         let pivot = lowering.graph.product(&[(coefficient, 2)]);
-        let pivot = lowering.graph.whole(pivot);
+        let pivot = lowering.graph.opaque(pivot);
         pivots.push(Pivot {
             coordinate: all + dependent.constraint,
             pivot,
@@ -972,7 +973,7 @@ fn embedded<'d>(
 /// The multipliers of the constraints, from the equations in all coordinates.
 fn multipliers<'d>(
     lowering: &mut Lowering<'_, 'd>,
-    source: Origin<'_, 'd>,
+    source: LoweringInput<'_, 'd>,
     accelerations: &Draft,
 ) -> Vec<Draft> {
     let (basis, quantities) = match accelerations.form {
@@ -996,7 +997,7 @@ fn multipliers<'d>(
     let mut draft = |lowering: &mut Lowering<'_, 'd>, basis, solution: Solution| {
         let known = &accelerations.known_pivots;
         let pivots = solution.pivots.into_iter();
-        let planned = Planned {
+        let planned = PlannedFunction {
             role: Role::Multipliers,
             shape: Shape::Vector(solution.multipliers.len()),
             results: solution.multipliers,
@@ -1019,7 +1020,7 @@ fn multipliers<'d>(
 /// The accelerations with their derivatives, if any are requested, from the same equations as the accelerations.
 fn derivatives<'d>(
     lowering: &mut Lowering<'_, 'd>,
-    source: Origin<'_, 'd>,
+    source: LoweringInput<'_, 'd>,
     accelerations: &Draft,
 ) -> Option<Draft> {
     let (quantities, unprojected) = match accelerations.form.basis {
@@ -1028,11 +1029,11 @@ fn derivatives<'d>(
     };
     let slopes = (source.slopes)(accelerations.form.basis);
     let system = lowering.system(quantities, source.quantities)?;
-    let asked = derivatives::Asked {
+    let asked = derivatives::DerivativeInput {
         system: &system,
         multipliers: source.multipliers,
         unprojected,
-        slopes: &slopes,
+        residual_derivatives: &slopes,
         known_pivots: &accelerations.known_pivots,
     };
     (!slopes.is_empty()).then(|| derivatives::derivatives(lowering, &asked))
@@ -1041,7 +1042,7 @@ fn derivatives<'d>(
 /// The drafts of a solution; pivots that depend on parameters alone are kept apart.
 fn solved<'d>(
     lowering: &mut Lowering<'_, 'd>,
-    source: Set<'_, 'd>,
+    source: EquationSet<'_, 'd>,
     solution: Solution,
     basis: Basis,
 ) -> Vec<Draft> {
@@ -1052,7 +1053,7 @@ fn solved<'d>(
     let known = |p: &Pivot| p.pivot.is_known() && p.scale.is_known();
     let (known_pivots, pivots): (Vec<Pivot>, Vec<Pivot>) =
         solution.pivots.into_iter().partition(known);
-    let planned = Planned {
+    let planned = PlannedFunction {
         role: Role::Accelerations,
         rows: solution.accelerations.len() + solution.multipliers.len(),
         shape: Shape::Vector(solution.accelerations.len()),
@@ -1070,7 +1071,7 @@ fn solved<'d>(
 /// The accelerations by [`articulated::solve`]; `None` if these are too long and the mass matrix already gives another draft.
 fn along_the_machine<'d>(
     lowering: &mut Lowering<'_, 'd>,
-    source: Set<'_, 'd>,
+    source: EquationSet<'_, 'd>,
     matrix: &[Scaled],
     machine: &Unprojected<'d>,
     (basis, has_other): (Basis, bool),
@@ -1080,7 +1081,7 @@ fn along_the_machine<'d>(
         _ => Order::Short,
     };
     // A frame that is turned by a quaternion moves with three velocities.
-    let Some(turned::Along {
+    let Some(turned::TurnSolution {
         accelerations,
         pivots,
         solution: articulated::Solution { names, .. },
@@ -1135,14 +1136,14 @@ fn along_the_machine<'d>(
         let counts = drafts.iter().map(|draft| draft.function.counts().ops());
         counts.min().unwrap_or(0)
     };
-    let is_cheap = 100 * ops(&full) <= (100 + DEAREST_GUARDS) * ops(&lean);
+    let is_cheap = 100 * ops(&full) <= (100 + MOST_GUARD_COST) * ops(&lean);
     Some(if is_cheap { full } else { lean })
 }
 
 /// The largest cost, in percent of the rest, of computing the diagonal entries of `M` with which
 /// pivots are compared. If they are not available at this cost, as in a chain in relative angles, a
 /// pivot need only be positive.
-const DEAREST_GUARDS: usize = 10;
+const MOST_GUARD_COST: usize = 10;
 
 /// The function that computes the prepared values, the formulas of its results, and the other
 /// functions with their final indices.
@@ -1160,7 +1161,7 @@ fn prepare(
     });
     let functions = functions.collect();
     let (ids, formulas, functions) = prepared(graph, functions, &|source| name_of(model, source));
-    let planned = Planned {
+    let planned = PlannedFunction {
         role: Role::Prepare,
         shape: Shape::Vector(ids.len()),
         results: ids

@@ -44,7 +44,7 @@ use std::ops::Deref;
 use lagrangian_scalar::{Ball, Dual, Residue, Scalar};
 use lagrangian_symbolic::{Expr, Function as Call, Node, reachable};
 
-use crate::equations::guide::{counts, guides_of};
+use crate::equations::guide::{guides_of, occurs_in_equation};
 use crate::equations::literal::{Lagrange, Literal, LiteralSliding, State};
 use crate::proof::symbolic::{determinant, guarded_coordinates, with_guarded_values};
 use crate::{Dependent, Equations};
@@ -53,7 +53,7 @@ use lagrangian_program::quantity::{Entry, Kind, Use};
 use lagrangian_program::{Arguments, FrictionLayout, Interpreter, Program, Role, Shape};
 use lagrangian_spec::diagnostic::{Code, Diagnostic};
 use lagrangian_spec::model::{Model, Space, Variable};
-use number::{Number, Sight};
+use number::{Number, ZeroTest};
 
 /// The number of states at which programs are compared in double-doubles.
 pub const STATES: usize = 4;
@@ -93,7 +93,7 @@ impl Proved {
         match validate(&program, model, equations) {
             Ok(()) => Ok(Proved(program)),
             Err((disagreement, witness)) => Err(Unproved {
-                what: told(&disagreement, &program),
+                description: subject_text(&disagreement, &program),
                 disagreement,
                 witness,
             }),
@@ -109,7 +109,7 @@ impl Proved {
         for &role in roles {
             if let Err(disagreement) = same_results(&self.0, &part, role) {
                 return Err(Unproved {
-                    what: told(&disagreement, &self.0),
+                    description: subject_text(&disagreement, &self.0),
                     disagreement,
                     witness: Witness::Field,
                 });
@@ -146,7 +146,7 @@ pub struct Unproved {
     /// Where it was seen.
     pub witness: Witness,
     /// What is wrong, in the names of the spec.
-    what: String,
+    description: String,
 }
 
 /// The numbers in which a program was found wrong.
@@ -192,17 +192,17 @@ impl fmt::Display for Unproved {
             | Disagreement::Motion { point, .. }
             | Disagreement::Constraint { point, .. }
             | Disagreement::Reaction { point, .. }
-            | Disagreement::Settled { point, .. }
+            | Disagreement::Eliminated { point, .. }
             | Disagreement::Pivots { point } => format!(" (random {witness} {point})"),
             Disagreement::Singular(_)
             | Disagreement::Undefined
-            | Disagreement::Unseen { .. }
+            | Disagreement::NotCompared { .. }
             | Disagreement::Exhausted { .. } => String::new(),
         };
         write!(
             f,
             "the program generated for this machine is wrong: {} what Lagrange's equations say{seed}",
-            self.what
+            self.description
         )
     }
 }
@@ -210,7 +210,7 @@ impl fmt::Display for Unproved {
 impl std::error::Error for Unproved {}
 
 /// The subject of the sentence that a message completes with what Lagrange's equations say.
-fn told(disagreement: &Disagreement, program: &Program) -> String {
+fn subject_text(disagreement: &Disagreement, program: &Program) -> String {
     let member = |(kind, index): (Kind, usize)| {
         let name = program.member((kind, index));
         match kind {
@@ -264,7 +264,7 @@ fn told(disagreement: &Disagreement, program: &Program) -> String {
         Disagreement::Reaction { contact: k, .. } => {
             format!("the normal reaction of {} is not", contact(k))
         }
-        Disagreement::Settled {
+        Disagreement::Eliminated {
             coordinate: i,
             constraint: k,
             ..
@@ -278,7 +278,7 @@ fn told(disagreement: &Disagreement, program: &Program) -> String {
             "the elimination stops at {}, contrary to",
             coordinate(singular.coordinate)
         ),
-        Disagreement::Unseen { role } => format!("nothing compares `{}` with", role.name()),
+        Disagreement::NotCompared { role } => format!("nothing compares `{}` with", role.name()),
         Disagreement::Undefined | Disagreement::Exhausted { .. } => {
             "no state was found to compare it with".into()
         }
@@ -300,28 +300,32 @@ fn validate<'d>(
         Node::Function(call, _) => matches!(call, Call::Sin | Call::Cos),
         _ => true,
     });
-    let settled = settled(program, equations);
+    let settled = eliminated_coordinates(program, equations);
     let relaxed = model.relaxed.as_deref();
     let relaxed = relaxed.map(|relaxed| Lagrange::of(relaxed, holonomic));
-    let parts = Parts {
+    let parts = ProofInput {
         program,
         machine: &machine,
         relaxed: relaxed.as_ref(),
-        settled,
+        eliminated: settled,
     };
     let work = work(program, nodes.len());
     let in_field = Prover::<Residue>::new(parts).run(POINTS, most, work);
-    if in_field == Found::Equal && smooth && model.sliding().is_empty() {
+    if in_field == ComparisonResult::Equal && smooth && model.sliding().is_empty() {
         return Ok(());
     }
     let at_states = Prover::<Ball>::new(parts).run(STATES, MOST_STATES, work);
     match (in_field, at_states) {
-        (Found::Equal | Found::Nothing | Found::Exhausted(_), Found::Wrong(wrong)) => {
-            Err((wrong, Witness::States))
-        }
-        (_, Found::Equal) | (Found::Equal, _) => Ok(()),
-        (Found::Wrong(wrong), _) => Err((wrong, Witness::Field)),
-        (Found::Exhausted(comparisons), _) | (_, Found::Exhausted(comparisons)) => {
+        (
+            ComparisonResult::Equal
+            | ComparisonResult::Inconclusive
+            | ComparisonResult::Exhausted(_),
+            ComparisonResult::Wrong(wrong),
+        ) => Err((wrong, Witness::States)),
+        (_, ComparisonResult::Equal) | (ComparisonResult::Equal, _) => Ok(()),
+        (ComparisonResult::Wrong(wrong), _) => Err((wrong, Witness::Field)),
+        (ComparisonResult::Exhausted(comparisons), _)
+        | (_, ComparisonResult::Exhausted(comparisons)) => {
             Err((Disagreement::Exhausted { comparisons }, Witness::States))
         }
         (_, _) => Err((Disagreement::Undefined, Witness::States)),
@@ -329,7 +333,7 @@ fn validate<'d>(
 }
 
 /// The arguments whose side of 0 is asked for by functions in the equations.
-fn asked_sides<'d>(machine: &Lagrange<'_, 'd>) -> Vec<(Expr<'d>, [bool; 2])> {
+fn branch_arguments<'d>(machine: &Lagrange<'_, 'd>) -> Vec<(Expr<'d>, [bool; 2])> {
     let dag = machine.model.dag;
     let nodes = reachable(dag, &machine.roots).into_iter();
     let arguments = nodes.filter_map(|id| match dag.node(id) {
@@ -359,7 +363,10 @@ fn work(program: &Program, nodes: usize) -> u64 {
 }
 
 /// The coordinates that the accelerations do not read, since constraints determine them.
-fn settled<'a, 'd>(program: &Program, equations: &'a Equations<'d>) -> &'a [Dependent<'d>] {
+fn eliminated_coordinates<'a, 'd>(
+    program: &Program,
+    equations: &'a Equations<'d>,
+) -> &'a [Dependent<'d>] {
     let choice = program.choice(program.solving());
     let is_reduced = choice.is_none_or(|choice| choice.chosen().form.reduced);
     match &equations.reduction {
@@ -370,27 +377,27 @@ fn settled<'a, 'd>(program: &Program, equations: &'a Equations<'d>) -> &'a [Depe
 
 /// The inputs of a prover.
 #[derive(Clone, Copy)]
-struct Parts<'a, 'd> {
+struct ProofInput<'a, 'd> {
     program: &'a Program,
     machine: &'a Lagrange<'a, 'd>,
     relaxed: Option<&'a Lagrange<'a, 'd>>,
-    settled: &'a [Dependent<'d>],
+    eliminated: &'a [Dependent<'d>],
 }
 
 /// The result of a comparison.
 #[derive(Clone, Debug, PartialEq)]
-enum Found {
+enum ComparisonResult {
     Equal,
     Wrong(Disagreement),
     /// There are too few points at which everything has a value.
-    Nothing,
-    /// As [`Found::Nothing`], after this number of comparisons, the most that are allowed.
+    Inconclusive,
+    /// As [`ComparisonResult::Inconclusive`], after this number of comparisons, the most that are allowed.
     Exhausted(u64),
 }
 
 /// Why a comparison is inconclusive or has failed.
 enum Verdict {
-    Elsewhere,
+    Undefined,
     Wrong(Disagreement),
 }
 
@@ -432,10 +439,10 @@ impl<R: Number> Sum<R> {
 
     /// Whether it is 0.
     fn vanishes(self) -> Result<bool, Verdict> {
-        match self.value.look(self.size) {
-            Sight::Zero => Ok(true),
-            Sight::NotZero => Ok(false),
-            Sight::Hidden => Err(Verdict::Elsewhere),
+        match self.value.test_zero(self.size) {
+            ZeroTest::Zero => Ok(true),
+            ZeroTest::NotZero => Ok(false),
+            ZeroTest::Undecided => Err(Verdict::Undefined),
         }
     }
 }
@@ -461,28 +468,28 @@ struct Computed<R> {
 
 /// Runs a program in one kind of numbers and compares it.
 struct Prover<'a, 'd, R> {
-    parts: Parts<'a, 'd>,
+    parts: ProofInput<'a, 'd>,
     interpreter: Interpreter<R>,
     /// Runs the accelerations for the values of their guards.
     guards: Interpreter<R>,
     /// The accelerations over dual numbers, where derivatives are to be compared.
-    slopes: Option<Interpreter<Dual<R>>>,
+    derivatives: Option<Interpreter<Dual<R>>>,
     number: u64,
     /// The number of comparisons that were begun.
     comparisons: u64,
     /// For each output whether it has had a value.
-    seen: Vec<bool>,
+    has_had_value: Vec<bool>,
     /// The functions that were compared.
-    called: BTreeSet<Role>,
+    compared: BTreeSet<Role>,
     /// Whether accelerations existed at any point.
-    has_moved: bool,
+    has_had_accelerations: bool,
     /// Arguments whose side of 0 the equations ask for, and whether each has been below and above it at a point where all was
     /// equal. A program that is right only on one side agrees at any number of states on that side.
     sides: Vec<(Expr<'d>, [bool; 2])>,
 }
 
 impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
-    fn new(parts: Parts<'a, 'd>) -> Prover<'a, 'd, R> {
+    fn new(parts: ProofInput<'a, 'd>) -> Prover<'a, 'd, R> {
         let program = parts.program;
         let parameters = vec![R::ONE; program.parameters.len()];
         let slopes = (!program.derivatives.is_empty()).then(|| {
@@ -492,14 +499,14 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Prover {
             interpreter: Interpreter::new(program, &parameters),
             guards: Interpreter::new(&with_guarded_values(program), &parameters),
-            slopes,
+            derivatives: slopes,
             number: 0,
             comparisons: 0,
-            seen: vec![false; program.outputs.len()],
-            called: BTreeSet::new(),
-            has_moved: false,
+            has_had_value: vec![false; program.outputs.len()],
+            compared: BTreeSet::new(),
+            has_had_accelerations: false,
             sides: if R::IS_ORDERED {
-                asked_sides(parts.machine)
+                branch_arguments(parts.machine)
             } else {
                 Vec::new()
             },
@@ -508,21 +515,21 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     }
 
     /// Compares at `points` points out of at most `most`; each comparison costs about `work`.
-    fn run(mut self, points: usize, most: u64, work: u64) -> Found {
+    fn run(mut self, points: usize, most: u64, work: u64) -> ComparisonResult {
         let allowed = COMPARISONS * points as u64 + MOST_COMPARED / work.max(1);
         let mut good = 0;
         for number in 0..most {
             if self.comparisons >= allowed && good < points {
-                return Found::Exhausted(self.comparisons);
+                return ComparisonResult::Exhausted(self.comparisons);
             }
             self.number = number;
             match self.check() {
                 Ok(()) => good += 1,
-                Err(Verdict::Elsewhere) => {}
-                Err(Verdict::Wrong(disagreement)) => return Found::Wrong(disagreement),
+                Err(Verdict::Undefined) => {}
+                Err(Verdict::Wrong(disagreement)) => return ComparisonResult::Wrong(disagreement),
             }
             // An output or a side that hardly ever occurs is not waited for indefinitely.
-            let has_seen = self.seen.iter().all(|seen| *seen)
+            let has_seen = self.has_had_value.iter().all(|seen| *seen)
                 && self.sides.iter().all(|(_, sides)| *sides == [true; 2]);
             let has_seen = has_seen || good >= 4 * points;
             if good >= points && has_seen {
@@ -532,20 +539,21 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if good >= points {
             self.covered()
         } else {
-            Found::Nothing
+            ComparisonResult::Inconclusive
         }
     }
 
     /// Whether every function of the program was compared: a quantity that the proof does not know is not
     /// proved. If there are no accelerations, functions that are compared with them are exempt.
-    fn covered(&self) -> Found {
+    fn covered(&self) -> ComparisonResult {
         let is_covered = |role: Role| {
-            self.called.contains(&role) || (role.row().called != Use::Seldom && !self.has_moved)
+            self.compared.contains(&role)
+                || (role.row().called != Use::Seldom && !self.has_had_accelerations)
         };
         let functions = self.parts.program.functions.iter();
         match functions.map(|f| f.role).find(|role| !is_covered(*role)) {
-            Some(role) => Found::Wrong(Disagreement::Unseen { role }),
-            None => Found::Equal,
+            Some(role) => ComparisonResult::Wrong(Disagreement::NotCompared { role }),
+            None => ComparisonResult::Equal,
         }
     }
 
@@ -558,7 +566,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let facts = machine.values(&facts, &state);
         let here = machine.values(&machine.roots, &state);
         if !here.iter().all(|x| x.is_finite()) {
-            return Err(Verdict::Elsewhere);
+            return Err(Verdict::Undefined);
         }
         self.comparisons += 1;
         self.interpreter.prepare(&state.parameters);
@@ -575,7 +583,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
         match compared {
             // Where the assumptions of the spec do not hold, agreement counts and a difference does not.
-            Err(Verdict::Wrong(_)) if !are_facts => Err(Verdict::Elsewhere),
+            Err(Verdict::Wrong(_)) if !are_facts => Err(Verdict::Undefined),
             result => result,
         }
     }
@@ -583,7 +591,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     fn compare_at(&mut self, state: State<R>, facts: &[R]) -> Result<(), Verdict> {
         let machine = self.parts.machine;
         let n = machine.model.coordinates.len();
-        let w = self.many(1, n);
+        let w = self.random_numbers(1, n);
         let literal = machine.at(&state, &w);
         let computed = self.computed(&state)?;
         self.check_dynamics(&state, &w, &literal, &computed)?;
@@ -591,19 +599,19 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.check_power(&state, &literal, &computed)?;
         let signs = self.check_slips(&state, &w, &literal)?;
         self.check_unilateral(&state, &w, &literal)?;
-        self.check_rest(&state, facts)?;
+        self.check_outputs_and_start(&state, facts)?;
 
-        let (state, computed) = if self.parts.settled.is_empty() {
+        let (state, computed) = if self.parts.eliminated.is_empty() {
             (state, computed)
         } else {
-            let state = self.follow(state)?;
+            let state = self.satisfy_constraints(state)?;
             let computed = self.computed(&state)?;
             (state, computed)
         };
         if self.has_no_accelerations(&state, &computed)? {
             return Ok(());
         }
-        self.has_moved = true;
+        self.has_had_accelerations = true;
         self.check_pivots(&state, &computed)?;
         if literal.sliding.is_empty() {
             self.check_motion(&state, &computed)?
@@ -615,7 +623,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     }
 
     /// Random numbers for this point; those of different kinds are independent.
-    fn many(&self, kind: u64, len: usize) -> Vec<R> {
+    fn random_numbers(&self, kind: u64, len: usize) -> Vec<R> {
         let one = |i: usize| R::random(self.number, (kind << 32) + 1 + i as u64);
         (0..len).map(one).collect()
     }
@@ -627,13 +635,18 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
 
     /// Compares a result.
     fn compare(&self, role: Role, index: usize, found: R, expected: R) -> Result<(), Verdict> {
-        self.settle(role, index, Sum::of([found, -expected]))
+        self.compare_difference(role, index, Sum::of([found, -expected]))
     }
 
     /// Compares a result, given its difference from the expected value.
-    fn settle(&self, role: Role, index: usize, difference: Sum<R>) -> Result<(), Verdict> {
+    fn compare_difference(
+        &self,
+        role: Role,
+        index: usize,
+        difference: Sum<R>,
+    ) -> Result<(), Verdict> {
         if !difference.value.is_finite() {
-            return Err(Verdict::Elsewhere);
+            return Err(Verdict::Undefined);
         }
         if difference.vanishes()? {
             Ok(())
@@ -661,11 +674,11 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     /// The results of a function; an error if they are undefined.
     fn call(&mut self, role: Role, at: &State<R>, len: usize) -> Result<Vec<R>, Verdict> {
         let results = Self::try_call(&mut self.interpreter, role, at, len);
-        self.called.insert(role);
+        self.compared.insert(role);
         if results.iter().all(|x| x.is_finite()) {
             Ok(results)
         } else {
-            Err(Verdict::Elsewhere)
+            Err(Verdict::Undefined)
         }
     }
 
@@ -718,7 +731,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             }
         }
         if !literal.inertia.is_finite() || !literal.applied.is_finite() {
-            return Err(Verdict::Elsewhere);
+            return Err(Verdict::Undefined);
         }
         if !inertia.plus(-literal.inertia).vanishes()? {
             return Err(self.wrong_inertia(at, computed));
@@ -730,7 +743,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
         for i in 0..n {
             let sum = Sum::of([computed.forces[i], -computed.applied[i], computed.bias[i]]);
-            self.settle(Role::Forces, i, sum)?;
+            self.compare_difference(Role::Forces, i, sum)?;
         }
         Ok(())
     }
@@ -792,13 +805,13 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         } else {
             R::ZERO
         };
-        let lost = lost + literal.lost;
+        let lost = lost + literal.power_loss;
         let found = self.call(Role::DissipationRate, at, 1)?[0];
         self.compare(Role::DissipationRate, 0, found, lost)?;
         let power = self.call(Role::WorkRate, at, 1)?[0];
         let with_constraints = Sum::of([power, -literal.energy_rate, -lost]);
         // The lengths of quaternions are excluded from the balance.
-        let mut without = with_constraints.plus(-literal.of_lengths);
+        let mut without = with_constraints.plus(-literal.length_power);
         // The row of a state is not a balance of forces.
         for i in (0..n).filter(|&i| model.coordinates[i].rate.is_none()) {
             without = without.plus(-(at.v[i] * computed.forces[i]));
@@ -849,7 +862,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             let row = &computed.rows[k * n..][..n];
             let along = Sum::products(row, w).plus(-constraint.along);
             if !constraint.along.is_finite() || !constraint.acceleration.is_finite() {
-                return Err(Verdict::Elsewhere);
+                return Err(Verdict::Undefined);
             }
             if !along.vanishes()? {
                 let entry = |j: usize| (row[j], self.literal(at, j).constraints[k].along);
@@ -857,7 +870,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 return Err(self.wrong(Role::ConstraintMatrix, k * n + j));
             }
             let drift = Sum::products(row, &at.a).plus(-computed.drift[k]);
-            self.settle(
+            self.compare_difference(
                 Role::ConstraintDrift,
                 k,
                 drift.plus(-constraint.acceleration),
@@ -900,7 +913,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 return Err(self.wrong(Role::SlipMatrix, k * n + j));
             }
             let rate = Sum::products(row, &at.a).plus(drifts[k]);
-            self.settle(Role::SlipDrift, k, rate.plus(-(sign * contact.slip_rate)))?;
+            self.compare_difference(Role::SlipDrift, k, rate.plus(-(sign * contact.slip_rate)))?;
             signs.push(sign);
         }
         Ok(signs)
@@ -930,7 +943,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             .filter_map(|contact| contact.face)
             .flatten()
             .collect();
-        if self.parts.program.sizes().faced * 3 != of_faces.len() {
+        if self.parts.program.sizes().faces * 3 != of_faces.len() {
             return Err(self.wrong(Role::ContactFaces, 0));
         }
         if !of_faces.is_empty() {
@@ -940,18 +953,18 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             }
         }
         for (k, contact) in literal.unilateral.iter().enumerate() {
-            self.compare(Role::Gaps, k, gaps[k], contact.open.position)?;
+            self.compare(Role::Gaps, k, gaps[k], contact.opening.position)?;
             // Positions must not depend on rates.
-            self.compare(Role::Gaps, k, contact.open.by_rates, R::ZERO)?;
+            self.compare(Role::Gaps, k, contact.opening.by_rates, R::ZERO)?;
             self.compare(Role::Gaps, k, contact.gap.by_rates, R::ZERO)?;
             for (i, direction) in [contact.gap, contact.slip].into_iter().enumerate() {
                 let i = 2 * k + i;
                 self.compare(Role::ContactRates, i, rates[i], direction.rate)?;
                 let row = &rows[i * n..][..n];
                 let along = Sum::products(row, w).plus(-direction.along);
-                self.settle(Role::ContactMatrix, i * n, along)?;
+                self.compare_difference(Role::ContactMatrix, i * n, along)?;
                 let rate = Sum::products(row, &at.a).plus(drifts[i]);
-                self.settle(Role::ContactDrift, i, rate.plus(-direction.acceleration))?;
+                self.compare_difference(Role::ContactDrift, i, rate.plus(-direction.acceleration))?;
             }
             for (i, &expected) in contact.coefficients.iter().enumerate() {
                 let i = 4 * k + i;
@@ -962,19 +975,19 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     }
 
     /// Compares outputs, assumptions and the start. An output may have no value here.
-    fn check_rest(&mut self, at: &State<R>, facts: &[R]) -> Result<(), Verdict> {
+    fn check_outputs_and_start(&mut self, at: &State<R>, facts: &[R]) -> Result<(), Verdict> {
         let machine = self.parts.machine;
         let model = machine.model;
         let outputs: Vec<Expr<'d>> = model.outputs.iter().map(|output| output.value).collect();
         for (i, expected) in machine.values(&outputs, at).into_iter().enumerate() {
             let role = Role::Output(i);
             let found = Self::try_call(&mut self.interpreter, role, at, 1)[0];
-            self.called.insert(role);
+            self.compared.insert(role);
             if !found.is_finite() || !expected.is_finite() {
                 continue;
             }
             match Sum::of([found, -expected]).vanishes() {
-                Ok(true) => self.seen[i] = true,
+                Ok(true) => self.has_had_value[i] = true,
                 Ok(false) => return Err(self.wrong(role, 0)),
                 Err(_) => {}
             }
@@ -1003,12 +1016,12 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
 
     /// Moves the coordinates that constraints determine to where these are satisfied; the
     /// constraints themselves show whether they are.
-    fn follow(&self, mut at: State<R>) -> Result<State<R>, Verdict> {
-        let (machine, settled) = (self.parts.machine, self.parts.settled);
+    fn satisfy_constraints(&self, mut at: State<R>) -> Result<State<R>, Verdict> {
+        let (machine, settled) = (self.parts.machine, self.parts.eliminated);
         let point = self.number;
         let wrong = |dependent: &Dependent<'_>| {
             let (coordinate, constraint) = (dependent.coordinate, dependent.constraint);
-            Verdict::from(Disagreement::Settled {
+            Verdict::from(Disagreement::Eliminated {
                 coordinate,
                 constraint,
                 point,
@@ -1023,7 +1036,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             .collect();
         let values = machine.values(&expressions, &at);
         for (dependent, values) in settled.iter().zip(values.chunks_exact(2)) {
-            if values[0].look(1.0) == Sight::Zero {
+            if values[0].test_zero(1.0) == ZeroTest::Zero {
                 return Err(wrong(dependent));
             }
         }
@@ -1048,11 +1061,11 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             for value in open {
                 let i = dependent.coordinate;
                 let size = 1.0 + at.q[i].size() + at.v[i].size();
-                match value.look(size) {
-                    _ if !value.is_finite() => return Err(Verdict::Elsewhere),
-                    Sight::Zero => {}
-                    Sight::NotZero => return Err(wrong(dependent)),
-                    Sight::Hidden => return Err(Verdict::Elsewhere),
+                match value.test_zero(size) {
+                    _ if !value.is_finite() => return Err(Verdict::Undefined),
+                    ZeroTest::Zero => {}
+                    ZeroTest::NotZero => return Err(wrong(dependent)),
+                    ZeroTest::Undecided => return Err(Verdict::Undefined),
                 }
             }
         }
@@ -1095,12 +1108,12 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             // seen to depend on the others.
             has_dependent(&computed.rows, at.q.len())
         } else {
-            !determinant.is_finite() || determinant.look(0.0) == Sight::Zero
+            !determinant.is_finite() || determinant.test_zero(0.0) == ZeroTest::Zero
         };
         if is_singular {
             Ok(true)
         } else {
-            Err(Verdict::Elsewhere)
+            Err(Verdict::Undefined)
         }
     }
 
@@ -1165,7 +1178,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             axes: program.reaction_axes,
         };
         let responses = self.call(Role::Friction, at, layout.len())?;
-        let friction_forces = self.many(2, count);
+        let friction_forces = self.random_numbers(2, count);
         let part = layout.part();
         let values: Vec<R> = (0..part)
             .map(|i| {
@@ -1189,7 +1202,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.check_balance(computed, a, multipliers, &forces)?;
         for (k, row) in rows.chunks(n).enumerate() {
             let rate = Sum::products(row, a).plus(drifts[k]).plus(-slip_rates[k]);
-            self.settle(Role::Friction, n + m + k, rate)?;
+            self.compare_difference(Role::Friction, n + m + k, rate)?;
         }
 
         let moving = State {
@@ -1210,12 +1223,12 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 // Compared up to sign, because square roots in a field have none.
                 for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
                     let place = layout.directions() + 3 * k + j;
-                    let expected = contact.telling[i] * contact.telling[j];
+                    let expected = contact.reference_direction[i] * contact.reference_direction[j];
                     self.compare(Role::Friction, place, told[i] * told[j], expected)?;
                 }
             }
         }
-        let pressed = Pressed {
+        let pressed = GuideForces {
             multipliers,
             friction_forces: &friction_forces,
             normals,
@@ -1230,11 +1243,11 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         &self,
         at: &State<R>,
         contacts: &[LiteralSliding<R>],
-        pressed: &Pressed<'_, R>,
+        pressed: &GuideForces<'_, R>,
     ) -> Result<(), Verdict> {
         let (n, point) = (at.q.len(), self.number);
         let Some(relaxed) = self.parts.relaxed else {
-            return Err(Verdict::Elsewhere);
+            return Err(Verdict::Undefined);
         };
         let all = relaxed.model.coordinates.len();
         let mut at = at.clone();
@@ -1250,7 +1263,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             sides.push(if R::IS_ORDERED { side } else { R::ONE });
         }
         if !sides.iter().all(|side| side.is_finite()) {
-            return Err(Verdict::Elsewhere);
+            return Err(Verdict::Undefined);
         }
         let axes = contacts.iter().enumerate();
         let axes = axes.flat_map(|(k, contact)| contact.axes.iter().map(move |axis| (k, axis)));
@@ -1289,7 +1302,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 for (j, contact) in literal.sliding.iter().enumerate() {
                     let friction = pressed.signs[j] * pressed.friction_forces[j];
                     open = open.plus(-(contact.slip_along * friction));
-                    if !counts(&guides, *k, j) {
+                    if !occurs_in_equation(&guides, *k, j) {
                         continue;
                     }
                     for (axis, &off) in contact.off_along.iter().enumerate() {
@@ -1297,7 +1310,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                     }
                 }
                 if !open.value.is_finite() {
-                    return Err(Verdict::Elsewhere);
+                    return Err(Verdict::Undefined);
                 }
                 if !open.vanishes()? {
                     first = Some(*k);
@@ -1325,7 +1338,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         // A coordinate that a constraint determines may have no pivot; then the pivot of the
         // constraint is divided by.
         let missing: Vec<usize> = (0..n).filter(|i| !sorted.contains(i)).collect();
-        let settled = self.parts.settled;
+        let settled = self.parts.eliminated;
         let is_settled = |i: &usize| settled.iter().any(|d| d.coordinate == *i);
         if sorted.len() + missing.len() != n || !missing.iter().all(is_settled) {
             let point = self.number;
@@ -1362,14 +1375,14 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let product = pivots.fold(R::ONE, |product, pivot| product * pivot);
         let whole = determinant(lower, n);
         if !whole.is_finite() || !product.is_finite() {
-            return Err(Verdict::Elsewhere);
+            return Err(Verdict::Undefined);
         }
         if !equal(product, whole)? {
             return wrong();
         }
         // Coordinates that constraints hold because they have no inertia have another scale.
         let own = &lower[..Shape::Symmetric(coordinates).len()];
-        let has_inertia = determinant(own, coordinates).look(0.0) == Sight::NotZero;
+        let has_inertia = determinant(own, coordinates).test_zero(0.0) == ZeroTest::NotZero;
         if are_of_matrix && has_inertia {
             for (i, &[pivot, scale]) in pairs.iter().take(coordinates).enumerate() {
                 if !equal(scale, pivot)? && !equal(scale, lower[Shape::index(i, i)])? {
@@ -1394,8 +1407,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         for i in 0..n {
             self.compare(role, i * width, found[i * width], accelerations[i])?;
         }
-        let direction = self.many(3, variables.len());
-        let slopes = self.slopes_along(at, &direction)?;
+        let direction = self.random_numbers(3, variables.len());
+        let slopes = self.derivatives_along(at, &direction)?;
         for (i, &slope) in slopes.iter().enumerate() {
             let row = &found[i * width + 1..][..variables.len()];
             if Sum::products(row, &direction).plus(-slope).vanishes()? {
@@ -1404,7 +1417,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             for column in 0..variables.len() {
                 let mut one = vec![R::ZERO; variables.len()];
                 one[column] = R::ONE;
-                let slope = self.slopes_along(at, &one)?[i];
+                let slope = self.derivatives_along(at, &one)?[i];
                 self.compare(role, i * width + 1 + column, row[column], slope)?;
             }
             return Err(self.wrong(role, i * width + 1));
@@ -1413,9 +1426,9 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     }
 
     /// The directional derivatives of the accelerations.
-    fn slopes_along(&mut self, at: &State<R>, direction: &[R]) -> Result<Vec<R>, Verdict> {
-        let Some(interpreter) = &mut self.slopes else {
-            return Err(Verdict::Elsewhere);
+    fn derivatives_along(&mut self, at: &State<R>, direction: &[R]) -> Result<Vec<R>, Verdict> {
+        let Some(interpreter) = &mut self.derivatives else {
+            return Err(Verdict::Undefined);
         };
         let constants =
             |values: &[R]| -> Vec<Dual<R>> { values.iter().map(|&x| Dual::constant(x)).collect() };
@@ -1441,7 +1454,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let arguments = Arguments { t, q, v, u, a: &[] };
         let called = interpreter.call(Role::Accelerations, arguments, &mut a);
         if called.is_err() || !a.iter().all(|a| a.is_finite()) {
-            return Err(Verdict::Elsewhere);
+            return Err(Verdict::Undefined);
         }
         Ok(a.iter().map(|a| a.derivative).collect())
     }
@@ -1473,7 +1486,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 continue;
             };
             let len = function.results.len();
-            self.called.insert(role);
+            self.compared.insert(role);
             found = Self::try_call(&mut self.guards, role, at, len + 2 * function.guards.len());
             for (guard, pair) in function.guards.iter().zip(found[len..].chunks_exact(2)) {
                 pivots[guard.coordinate] = Some([pair[0], pair[1]]);
@@ -1481,11 +1494,11 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             if role == last {
                 found.truncate(len);
             } else {
-                self.guards.stand(role, &found);
+                self.guards.set_stage_results(role, &found);
             }
         }
         if !found.iter().all(|x| x.is_finite()) {
-            return Err(Verdict::Elsewhere);
+            return Err(Verdict::Undefined);
         }
         for (i, (&found, &expected)) in found.iter().zip(&expected).enumerate() {
             self.compare(last, i, found, expected)?;
@@ -1497,7 +1510,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
 }
 
 /// The forces in the guides.
-struct Pressed<'a, R> {
+struct GuideForces<'a, R> {
     multipliers: &'a [R],
     friction_forces: &'a [R],
     normals: &'a [R],
@@ -1562,19 +1575,19 @@ fn is_dependent<R: Number>(rows: &[R], n: usize, one: usize) -> bool {
     let mut ordered: Vec<&[R]> = rows.chunks(n.max(1)).collect();
     let one = ordered.remove(one);
     ordered.push(one);
-    vanishing(&ordered).last() == Some(&true)
+    dependent_rows(&ordered).last() == Some(&true)
 }
 
 /// Whether some of the rows are linear combinations of others.
 fn has_dependent<R: Number>(rows: &[R], n: usize) -> bool {
     let rows: Vec<&[R]> = rows.chunks(n.max(1)).collect();
-    vanishing(&rows).contains(&true)
+    dependent_rows(&rows).contains(&true)
 }
 
 /// For each row whether it is a linear combination of those before it, by elimination; a rounded
 /// number that may be 0 counts as 0.
-fn vanishing<R: Number>(rows: &[&[R]]) -> Vec<bool> {
-    let is_zero = |x: &R| !matches!(x.look(0.0), Sight::NotZero);
+fn dependent_rows<R: Number>(rows: &[&[R]]) -> Vec<bool> {
+    let is_zero = |x: &R| !matches!(x.test_zero(0.0), ZeroTest::NotZero);
     let mut pivots: Vec<(usize, Vec<R>)> = Vec::new();
     let mut vanishing = Vec::with_capacity(rows.len());
     for row in rows {

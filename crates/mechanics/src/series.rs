@@ -18,7 +18,7 @@ use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Function as Call, Node, reachable};
 
 use crate::equations::literal::{Lagrange, State};
-use crate::proof::number::{Number, Sight};
+use crate::proof::number::{Number, ZeroTest};
 use crate::{POINTS, STATES};
 
 /// The number of coefficients of the equations that are compared. A recurrence is one rule for all orders;
@@ -119,7 +119,7 @@ fn holds<R: Number>(
     let number = |j: usize| R::from_ratio(j as i64, 1);
     let jets = |derivative: usize| -> Vec<Jet<R, ORDERS>> {
         let of = |i: usize| {
-            let q = expander.of_coordinate(i);
+            let q = expander.coordinate(i);
             Jet(std::array::from_fn(|k| match derivative {
                 0 => q[k],
                 1 => number(k + 1) * q[k + 1],
@@ -142,7 +142,7 @@ fn holds<R: Number>(
     let mut pairs: Vec<(R, R, f64)> = Vec::new();
     let mut held = literal.applied;
     for (k, constraint) in literal.constraints.iter().enumerate() {
-        let series = expander.of_multiplier(k);
+        let series = expander.multiplier(k);
         held = held + Jet(std::array::from_fn(|order| series[order])) * constraint.along;
         // Accelerations and velocity products cancel in the residual, so their size is its scale.
         for (order, rate) in constraint.acceleration.0.into_iter().enumerate() {
@@ -158,10 +158,10 @@ fn holds<R: Number>(
         if !left.is_finite() {
             return None;
         }
-        match left.look(size) {
-            Sight::Zero => {}
-            Sight::NotZero => return Some(false),
-            Sight::Hidden => return None,
+        match left.test_zero(size) {
+            ZeroTest::Zero => {}
+            ZeroTest::NotZero => return Some(false),
+            ZeroTest::Undecided => return None,
         }
     }
     Some(true)

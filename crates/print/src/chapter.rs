@@ -1,7 +1,7 @@
 //! The derivation of a machine as a chapter of a book on mechanics.
 //!
 //! Everything in it is computed from the model and its equations; claims that something is absent have been decided in the
-//! prime field ([`Facts`]). Long formulas are left out, and so are the middle members of a long family; the text says so, and
+//! prime field ([`EquationProperties`]). Long formulas are left out, and so are the middle members of a long family; the text says so, and
 //! where to find them.
 
 mod conserved;
@@ -20,7 +20,7 @@ use lagrangian_symbolic::{Expr, Math, Names, math};
 use super::document::{Block, Document, Row, Run, Section, Words, of_docs};
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::equations::groups::{self, Share};
-use lagrangian_mechanics::equations::integrals::Facts;
+use lagrangian_mechanics::equations::integrals::EquationProperties;
 use lagrangian_spec::model::{Model, Name};
 
 /// Expressions of a greater [`size`](Expr::size) are not printed: they would fill pages that nobody reads.
@@ -37,7 +37,7 @@ struct Chapter<'a, 'd> {
     compiled: &'a Compiled<'d>,
     model: &'a Model<'d>,
     shares: Vec<Share<'d>>,
-    facts: Facts<'d>,
+    properties: EquationProperties<'d>,
 }
 
 impl Document {
@@ -56,7 +56,7 @@ fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
         compiled,
         model: &compiled.model,
         shares: groups::shares(&compiled.model),
-        facts: Facts::of(&compiled.model, &compiled.equations),
+        properties: EquationProperties::of(&compiled.model, &compiled.equations),
     };
     let sections = [
         ("The machine", chapter.machine()),
@@ -117,7 +117,7 @@ enum Shown {
     /// The item with this index.
     Item(usize),
     /// The first index and the number of items that are left out, members of one family.
-    LeftOut(usize, usize),
+    Omitted(usize, usize),
 }
 
 /// Which items of a list are shown: the first two and the last of a long family.
@@ -130,7 +130,7 @@ fn shown<'n>(names: impl Iterator<Item = &'n Name>) -> Vec<Shown> {
         let length = names[begin..].iter().take_while(family).count().max(1);
         if length > LONG_FAMILY {
             shown.extend((begin..begin + FIRST_MEMBERS).map(Shown::Item));
-            shown.push(Shown::LeftOut(
+            shown.push(Shown::Omitted(
                 begin + FIRST_MEMBERS,
                 length - FIRST_MEMBERS - 1,
             ));
@@ -226,7 +226,7 @@ fn counted(n: usize, thing: &str) -> String {
 }
 
 /// The text with an initial capital.
-fn capital(text: &str) -> String {
+fn capitalized(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters
         .next()

@@ -34,12 +34,12 @@ pub struct Comparison<'d> {
     /// Whether it agrees.
     pub agrees: bool,
     /// The corrections: one difference for each component of a vector, and one for anything else.
-    pub mend: Vec<Difference<'d>>,
+    pub corrections: Vec<Difference<'d>>,
     /// Warnings about printed sums of different units.
     pub remarks: Vec<Diagnostic>,
     /// Dots that must be removed because the quantity is constant: `m0` for `der(m0)`. The other corrections assume
     /// that these have been removed.
-    pub undotted: Vec<Undotted>,
+    pub superfluous_dots: Vec<SuperfluousDot>,
     /// The terms as printed, for each component.
     printed: Vec<Vec<PrintedTerm<'d>>>,
 }
@@ -55,7 +55,7 @@ pub struct Quoted {
 
 /// A superfluous dot over a constant, which makes a term zero.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Undotted {
+pub struct SuperfluousDot {
     /// As printed: `der(m0)`.
     pub from: String,
     /// The corrected form: `m0`.
@@ -95,7 +95,7 @@ impl<'d> Comparison<'d> {
     pub fn changes(&self) -> Vec<(usize, usize)> {
         let (mut dropped, mut added) = (0, 0);
         let mut all = Vec::new();
-        for mend in &self.mend {
+        for mend in &self.corrections {
             let pairs = changes::pairs(&mend.drop, &mend.add).into_iter();
             all.extend(pairs.map(|(i, j)| (dropped + i, added + j)));
             dropped += mend.drop.len();
@@ -105,9 +105,9 @@ impl<'d> Comparison<'d> {
     }
 
     fn words(&self, own_sides: bool) -> [Vec<Quoted>; 2] {
-        let dimension = self.mend.len();
+        let dimension = self.corrections.len();
         let mut all = [Vec::new(), Vec::new()];
-        for (position, mend) in self.mend.iter().enumerate() {
+        for (position, mend) in self.corrections.iter().enumerate() {
             let printed = self.printed.get(position).map_or(&[][..], Vec::as_slice);
             let pairs = changes::pairs(&mend.drop, &mend.add);
             let words = wording::words(mend, &pairs, printed, own_sides);
@@ -143,8 +143,8 @@ pub fn compare<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Comparis
                 item: item.text.clone(),
                 span: item.span,
                 agrees: undotted.is_empty() && mend.iter().all(Difference::is_empty),
-                mend,
-                undotted,
+                corrections: mend,
+                superfluous_dots: undotted,
                 remarks: item.remarks.clone(),
                 printed: item.terms.clone(),
             }
@@ -158,9 +158,9 @@ fn without_dots<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,
     item: &PublishedItem<'d>,
-) -> (Vec<Difference<'d>>, Vec<Undotted>) {
+) -> (Vec<Difference<'d>>, Vec<SuperfluousDot>) {
     let mut item = item.clone();
-    let mut mends = mend(model, equations, &item);
+    let mut mends = corrections(model, equations, &item);
     let mut undotted = Vec::new();
     let count = |mends: &[Difference<'d>]| -> usize {
         mends.iter().map(|m| m.add.len() + m.drop.len()).sum()
@@ -173,7 +173,7 @@ fn without_dots<'d>(
             let mut candidate = item.clone();
             let Some(value) = term.value() else { continue };
             candidate.printed[component] = candidate.printed[component] + value;
-            let fewer = mend(model, equations, &candidate);
+            let fewer = corrections(model, equations, &candidate);
             if count(&fewer) < count(&mends) {
                 undotted.push(found);
                 (item, mends) = (candidate, fewer);
@@ -187,7 +187,7 @@ fn without_dots<'d>(
 fn without_dot<'d>(
     model: &Model<'d>,
     term: &PrintedTerm<'d>,
-) -> Option<(Undotted, PrintedTerm<'d>)> {
+) -> Option<(SuperfluousDot, PrintedTerm<'d>)> {
     let mut zeros = term.factors.iter().enumerate();
     let (place, factor) = zeros.find(|(_, factor)| factor.value.is_zero())?;
     let name = factor.text.strip_prefix("der(")?.strip_suffix(')')?;
@@ -196,7 +196,7 @@ fn without_dot<'d>(
     let mut mended = term.clone();
     mended.factors[place].value = parameter.symbol;
     name.clone_into(&mut mended.factors[place].text);
-    let undotted = Undotted {
+    let undotted = SuperfluousDot {
         from: factor.text.clone(),
         to: name.to_owned(),
         term: mended.text(),
@@ -206,7 +206,7 @@ fn without_dot<'d>(
 }
 
 /// The corrections of a printed formula, component by component.
-fn mend<'d>(
+fn corrections<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,
     item: &PublishedItem<'d>,
@@ -215,7 +215,10 @@ fn mend<'d>(
         PublishedQuantity::KineticEnergy(None) => vec![equations.kinetic_energy],
         PublishedQuantity::KineticEnergy(Some(body)) => vec![equations.bodies[body].kinetic_energy],
         PublishedQuantity::PotentialEnergy => {
-            return vec![mend_potential(equations.potential_energy, item.printed[0])];
+            return vec![potential_correction(
+                equations.potential_energy,
+                item.printed[0],
+            )];
         }
         PublishedQuantity::Dissipation => vec![equations.dissipation],
         PublishedQuantity::Force(coordinate) => vec![equations.applied[coordinate]],
@@ -225,17 +228,22 @@ fn mend<'d>(
         PublishedQuantity::Position(body) => equations.bodies[body].position.clone(),
         PublishedQuantity::Velocity(body) => equations.bodies[body].velocity.clone(),
         PublishedQuantity::Equation(coordinate) => {
-            return vec![mend_equation(model, equations, coordinate, item.printed[0])];
+            return vec![equation_correction(
+                model,
+                equations,
+                coordinate,
+                item.printed[0],
+            )];
         }
     };
     let pairs = right.into_iter().zip(&item.printed);
     pairs
-        .map(|(right, &printed)| mend_formula(right, printed))
+        .map(|(right, &printed)| formula_correction(right, printed))
         .collect()
 }
 
 /// The correction of a formula that must agree exactly.
-fn mend_formula<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
+fn formula_correction<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
     if equal(right, printed) {
         return Difference {
             add: Vec::new(),
@@ -252,14 +260,14 @@ fn mend_formula<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
 }
 
 /// The correction of a potential energy, which may differ by a constant, eq. (E24).
-fn mend_potential<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
+fn potential_correction<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
     if identity::is_free_of_motion(printed - right) {
         return Difference {
             add: Vec::new(),
             drop: Vec::new(),
         };
     }
-    let mut difference = mend_formula(right, printed);
+    let mut difference = formula_correction(right, printed);
     for terms in [&mut difference.add, &mut difference.drop] {
         terms.retain(|term| term.stage() > stage::PARAMETER);
     }
@@ -267,7 +275,7 @@ fn mend_potential<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
 }
 
 /// The correction of an equation `M a + h − Q = 0`, which may have any factor of parameters, eq. (E23).
-fn mend_equation<'d>(
+fn equation_correction<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,
     coordinate: usize,
@@ -290,7 +298,7 @@ fn mend_equation<'d>(
         };
     }
     let factor = common_factor(model, equations, coordinate, printed);
-    mend_formula(factor * right, printed)
+    formula_correction(factor * right, printed)
 }
 
 /// The factor between a printed equation and the derived one for which most accelerations agree.
@@ -352,7 +360,7 @@ fn nearly_equal(a: Expr<'_>, b: Expr<'_>) -> bool {
     let tolerance = DoubleDouble::from_f64(1e-20);
     let mut compared = 0;
     for point in 0..POINTS {
-        let value = |symbol| DoubleDouble::from_f64(identity::number(point, symbol));
+        let value = |symbol| DoubleDouble::from_f64(identity::sample_value(point, symbol));
         let values = evaluate(a.dag(), &[a, b], value);
         if !values.iter().all(|value| value.is_finite()) {
             continue;

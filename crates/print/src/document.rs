@@ -81,7 +81,7 @@ pub fn of_docs(paragraph: &str) -> Words {
         let marked = match letter {
             '`' => between(rest, "`").map(|(code, after)| (Run::Code(code.to_owned()), after)),
             '*' if !before.is_some_and(char::is_alphanumeric) => {
-                stressed(rest).map(|(words, after)| (Run::Emphasis(words.to_owned()), after))
+                emphasized(rest).map(|(words, after)| (Run::Emphasis(words.to_owned()), after))
             }
             _ => None,
         };
@@ -110,7 +110,7 @@ fn between<'t>(text: &'t str, mark: &str) -> Option<(&'t str, &'t str)> {
 }
 
 /// Splits a text that begins with asterisks into the words up to the closing ones and the rest.
-fn stressed(text: &str) -> Option<(&str, &str)> {
+fn emphasized(text: &str) -> Option<(&str, &str)> {
     let mark = if text.starts_with("**") { "**" } else { "*" };
     let inside = text.strip_prefix(mark)?;
     if inside.starts_with(|letter: char| letter.is_whitespace() || letter == '*') {

@@ -13,13 +13,13 @@ use super::rounding::{SplitMix, State};
 use super::{Arguments, Interpreter, Program, Role};
 
 /// Half the distance between 1 and the next number: the bound of the relative error of a rounding.
-const HALF_UNIT: f64 = f64::EPSILON / 2.0;
+const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 /// The number of times that all data are perturbed by up to half a unit in their last place.
-const DRAWS: usize = 8;
+const PERTURBATIONS: usize = 8;
 
 /// The number of times that the step towards a singular state is shortened before the search ends.
-const ROUNDS: usize = 16;
+const BISECTIONS: usize = 16;
 
 /// The rounding errors of one of a machine's quantities.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,31 +54,31 @@ pub type Compute<'a> = dyn FnMut(Role, Arguments<'_, f64>, &mut [f64]) -> bool +
 
 /// Examines a program state by state.
 #[derive(Debug)]
-pub struct Judge<'p> {
+pub struct AccuracyTest<'p> {
     program: &'p Program,
-    near: Interpreter<f64>,
+    in_f64: Interpreter<f64>,
     exact: Interpreter<DoubleDouble>,
     /// Interpreters with perturbed parameters, each parameter by up to half a unit in its last place.
-    moved: Vec<Interpreter<DoubleDouble>>,
+    perturbed: Vec<Interpreter<DoubleDouble>>,
     random: SplitMix,
     /// The number of states that were examined.
     states: usize,
     /// For each function its role, the largest ratio at each state, and the worst number.
-    seen: Vec<(Role, Vec<f64>, Worst)>,
+    ratios: Vec<(Role, Vec<f64>, Worst)>,
 }
 
-impl<'p> Judge<'p> {
+impl<'p> AccuracyTest<'p> {
     /// A judge of a program with these parameters.
     ///
     /// # Panics
     /// If `parameters` is not as long as [`Program::parameters`].
-    pub fn new(program: &'p Program, parameters: &[f64]) -> Judge<'p> {
+    pub fn new(program: &'p Program, parameters: &[f64]) -> AccuracyTest<'p> {
         let mut random = SplitMix(2);
         let row: Vec<DoubleDouble> = parameters.iter().map(|&p| p.into()).collect();
         let exact = Interpreter::new(program, &row);
-        let moved = (0..DRAWS).map(|_| {
+        let moved = (0..PERTURBATIONS).map(|_| {
             let mut other = exact.clone();
-            other.prepare(&moved(parameters, &mut random));
+            other.prepare(&perturbed(parameters, &mut random));
             other
         });
         let moved = moved.collect();
@@ -90,27 +90,27 @@ impl<'p> Judge<'p> {
                 Role::AtTime | Role::AtPosition | Role::AccelerationsAt
             )
         });
-        Judge {
+        AccuracyTest {
             program,
-            near: Interpreter::new(program, parameters),
+            in_f64: Interpreter::new(program, parameters),
             exact,
-            moved,
+            perturbed: moved,
             random,
             states: 0,
-            seen: whole
+            ratios: whole
                 .map(|role| (role, Vec::new(), Worst::default()))
                 .collect(),
         }
     }
 
     /// Whether all assumptions of the machine hold at a state.
-    pub fn holds(&mut self, state: &State) -> bool {
+    pub fn satisfies_assumptions(&mut self, state: &State) -> bool {
         let facts = self.program.assumptions.iter().zip(0..);
         let mut all = true;
         for (fact, index) in facts {
             let mut excess = [f64::NAN];
             let role = Role::Assumption(index);
-            let called = self.near.call(role, state.arguments(), &mut excess);
+            let called = self.in_f64.call(role, state.arguments(), &mut excess);
             all &= called.is_ok() && (excess[0] > 0.0 || !fact.strict && excess[0] == 0.0);
         }
         all
@@ -118,17 +118,17 @@ impl<'p> Judge<'p> {
 
     /// Examines a state. `fast` is the code that is judged: it computes a quantity in the arithmetic of compiled machines, and returns
     /// whether it has a value.
-    pub fn look(&mut self, state: &State, fast: &mut Compute<'_>) {
+    pub fn examine(&mut self, state: &State, fast: &mut Compute<'_>) {
         let compute = fast;
         let number = self.states;
         self.states += 1;
         let draws: Vec<State<DoubleDouble>> = self
-            .moved
+            .perturbed
             .iter()
-            .map(|_| state.mapped(|row| moved(row, &mut self.random)))
+            .map(|_| state.mapped(|row| perturbed(row, &mut self.random)))
             .collect();
         let exactly = state.mapped(|row| row.iter().map(|&x| x.into()).collect());
-        for (role, shares, worst) in &mut self.seen {
+        for (role, shares, worst) in &mut self.ratios {
             let length = self
                 .program
                 .function(*role)
@@ -144,8 +144,8 @@ impl<'p> Judge<'p> {
                 continue;
             }
             let mut unavoidable: Vec<f64> =
-                exact.iter().map(|x| HALF_UNIT * x.hi().abs()).collect();
-            for (interpreter, state) in self.moved.iter_mut().zip(&draws) {
+                exact.iter().map(|x| UNIT_ROUNDOFF * x.hi().abs()).collect();
+            for (interpreter, state) in self.perturbed.iter_mut().zip(&draws) {
                 let mut other = vec![DoubleDouble::ZERO; length];
                 if interpreter
                     .call(*role, state.arguments(), &mut other)
@@ -154,7 +154,7 @@ impl<'p> Judge<'p> {
                     continue;
                 }
                 for ((unavoidable, other), exact) in unavoidable.iter_mut().zip(other).zip(&exact) {
-                    let by = (other - *exact).hi().abs() + HALF_UNIT * exact.hi().abs();
+                    let by = (other - *exact).hi().abs() + UNIT_ROUNDOFF * exact.hi().abs();
                     *unavoidable = unavoidable.max(by);
                 }
             }
@@ -198,7 +198,7 @@ impl<'p> Judge<'p> {
         let mut least = self.margin(&best);
         let sizes = from.q.iter().map(|q| 0.5 * (0.1 + q.abs()));
         let mut steps: Vec<f64> = sizes.collect();
-        for _ in 0..ROUNDS {
+        for _ in 0..BISECTIONS {
             for (i, step) in steps.iter_mut().enumerate() {
                 let mut found = false;
                 for by in [*step, -*step] {
@@ -206,7 +206,7 @@ impl<'p> Judge<'p> {
                     there.q[i] += by;
                     let margin = self.margin(&there);
                     // A NaN margin compares false and is rejected.
-                    if margin < least && self.holds(&there) {
+                    if margin < least && self.satisfies_assumptions(&there) {
                         (best, least, found) = (there, margin, true);
                         break;
                     }
@@ -222,8 +222,8 @@ impl<'p> Judge<'p> {
         let role = self.program.solving();
         let length = self.program.function(role).map_or(0, |of| of.results.len());
         let mut results = vec![0.0; length];
-        match self.near.call(role, state.arguments(), &mut results) {
-            Ok(()) => self.near.margin(role),
+        match self.in_f64.call(role, state.arguments(), &mut results) {
+            Ok(()) => self.in_f64.margin(role),
             Err(_) => f64::INFINITY,
         }
     }
@@ -231,7 +231,7 @@ impl<'p> Judge<'p> {
     /// The results, in the order of the program's functions, without those that have no value at any state.
     pub fn finish(self) -> Vec<Accuracy> {
         let seen = self
-            .seen
+            .ratios
             .into_iter()
             .filter(|(_, shares, _)| !shares.is_empty());
         seen.map(|(role, mut shares, worst)| {
@@ -248,9 +248,9 @@ impl<'p> Judge<'p> {
 }
 
 /// Numbers, each perturbed by up to half a unit in its last place.
-fn moved(row: &[f64], random: &mut SplitMix) -> Vec<DoubleDouble> {
+fn perturbed(row: &[f64], random: &mut SplitMix) -> Vec<DoubleDouble> {
     let moved = |&x: &f64| {
-        let by = x * random.uniform(-HALF_UNIT, HALF_UNIT);
+        let by = x * random.uniform(-UNIT_ROUNDOFF, UNIT_ROUNDOFF);
         DoubleDouble::from(x) + DoubleDouble::from(by)
     };
     row.iter().map(moved).collect()

@@ -61,14 +61,14 @@ impl Cost {
     }
 
     /// The time of a single call.
-    pub fn alone(self) -> u64 {
+    pub fn single_call(self) -> u64 {
         self.throughput.max(self.path)
     }
 
     /// Orders two programs by the sum of the time of a single call and that of a call among others,
     /// since one program serves for both.
     pub fn compare(self, other: Cost) -> Ordering {
-        let both = |cost: Cost| cost.alone() + cost.throughput;
+        let both = |cost: Cost| cost.single_call() + cost.throughput;
         both(self).cmp(&both(other))
     }
 }
@@ -76,7 +76,7 @@ impl Cost {
 /// `130 cycles alone, 63 among others`.
 impl fmt::Display for Cost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (alone, among_others) = (cycles(self.alone()), cycles(self.throughput));
+        let (alone, among_others) = (cycles(self.single_call()), cycles(self.throughput));
         write!(f, "{alone} cycles alone, {among_others} among others")
     }
 }
@@ -162,6 +162,6 @@ mod tests {
         code.extend((0..5).map(|index| Op::Div(Value(index), Value(0))));
         let cost = cost(code);
         assert_eq!((cost.throughput, cost.path), (225, 650));
-        assert_eq!(cost.alone(), 650);
+        assert_eq!(cost.single_call(), 650);
     }
 }

@@ -25,7 +25,7 @@ const DEEPEST: usize = 48;
 
 /// The largest number of factors that are counted in one function, anew for each factor taken out.
 /// After that the remaining sums stay as they are.
-const LOOKS: usize = 2_000_000;
+const FACTORS_COUNTED: usize = 2_000_000;
 
 /// A term of a sum.
 struct Monomial {
@@ -56,7 +56,7 @@ impl Net {
     pub fn factor(&mut self) -> bool {
         let uses = self.uses();
         let mut changed = false;
-        let mut looks = LOOKS;
+        let mut looks = FACTORS_COUNTED;
         for index in 0..self.items.len() {
             let Item::Sum(terms) = &self.items[index] else {
                 continue;
@@ -70,7 +70,7 @@ impl Net {
             }
             changed = true;
             let terms = self.factored(monomials, 0, &mut looks);
-            let terms: Vec<Signed> = terms.into_iter().map(|term| self.written(term)).collect();
+            let terms: Vec<Signed> = terms.into_iter().map(|term| self.item_of(term)).collect();
             self.items[index] = match *terms.as_slice() {
                 // The whole sum is one product, and nothing else uses its item.
                 [(product, false)] => self.items[product as usize].clone(),
@@ -78,13 +78,13 @@ impl Net {
             };
         }
         if changed {
-            self.forget_unused();
+            self.clear_unused();
         }
         changed
     }
 
     /// Empties the items that no root needs any more, so that nothing is shared with them.
-    fn forget_unused(&mut self) {
+    fn clear_unused(&mut self) {
         let mut needed = vec![false; self.items.len()];
         let mut open: Vec<Index> = self.roots.iter().map(|(root, _)| *root).collect();
         while let Some(index) = open.pop() {
@@ -112,7 +112,10 @@ impl Net {
 
     fn monomial(&self, (item, negative): Signed, uses: &[u32]) -> Monomial {
         let mut factors = match &self.items[item as usize] {
-            Item::Product { up, down } if down.is_empty() && uses[item as usize] == 1 => up.clone(),
+            Item::Product {
+                factors: up,
+                divisors: down,
+            } if down.is_empty() && uses[item as usize] == 1 => up.clone(),
             _ => vec![item],
         };
         factors.sort_unstable();
@@ -156,7 +159,7 @@ impl Net {
                     terms.push(Monomial::new(common, negative ^ product.negative));
                 }
                 Err(inside) => {
-                    let sum = inside.into_iter().map(|term| self.written(term)).collect();
+                    let sum = inside.into_iter().map(|term| self.item_of(term)).collect();
                     common.push(self.add(Item::Sum(sum)));
                     terms = outside;
                     terms.push(Monomial::new(common, negative));
@@ -184,13 +187,13 @@ impl Net {
     }
 
     /// A term as an item.
-    fn written(&mut self, term: Monomial) -> Signed {
+    fn item_of(&mut self, term: Monomial) -> Signed {
         let item = match (term.item, term.factors.as_slice()) {
             (Some(item), _) => item,
             (None, &[factor]) => factor,
             (None, _) => self.add(Item::Product {
-                up: term.factors,
-                down: vec![],
+                factors: term.factors,
+                divisors: vec![],
             }),
         };
         (item, term.negative)

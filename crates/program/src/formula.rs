@@ -24,9 +24,9 @@ pub fn formula(graph: &mut Graph, value: Scaled, name: &dyn Fn(Source) -> String
     writer.write(
         id,
         if value.negative {
-            Binding::Product
+            Precedence::Product
         } else {
-            Binding::Sum
+            Precedence::Sum
         },
     );
     let mut text = writer.text;
@@ -70,7 +70,7 @@ fn decimal(value: &Rational) -> Option<String> {
 
 /// The binding strength of a position, which decides whether an expression there needs brackets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Binding {
+enum Precedence {
     Sum,
     Product,
     Power,
@@ -85,7 +85,7 @@ struct Writer<'a> {
 impl Writer<'_> {
     /// Writes a node. Every level of nesting writes something before it goes deeper, so the limit
     /// on the length also limits the depth.
-    fn write(&mut self, id: Id, place: Binding) {
+    fn write(&mut self, id: Id, place: Precedence) {
         if self.text.len() > LONGEST {
             return;
         }
@@ -93,12 +93,12 @@ impl Writer<'_> {
             Node::Constant(value) => {
                 let text = number(value);
                 let needed = if text.contains('/') {
-                    Binding::Product
+                    Precedence::Product
                 } else {
-                    Binding::Power
+                    Precedence::Power
                 };
                 self.bracketed(
-                    place > needed || (text.starts_with('-') && place > Binding::Sum),
+                    place > needed || (text.starts_with('-') && place > Precedence::Sum),
                     |writer| {
                         writer.text.push_str(&text);
                     },
@@ -109,8 +109,8 @@ impl Writer<'_> {
                 let text = (self.name)(*source);
                 self.text.push_str(&text);
             }
-            Node::Whole(inner) => self.write(*inner, place),
-            Node::Sum(terms) => self.bracketed(place > Binding::Sum, |writer| {
+            Node::Opaque(inner) => self.write(*inner, place),
+            Node::Sum(terms) => self.bracketed(place > Precedence::Sum, |writer| {
                 for (position, term) in terms.iter().enumerate() {
                     writer.text.push_str(match (position, term.negative) {
                         (0, false) => "",
@@ -121,28 +121,28 @@ impl Writer<'_> {
                     writer.write(
                         term.id,
                         if term.negative {
-                            Binding::Product
+                            Precedence::Product
                         } else {
-                            Binding::Sum
+                            Precedence::Sum
                         },
                     );
                 }
             }),
-            Node::Product(factors) => {
-                self.bracketed(place > Binding::Product, |writer| writer.product(factors))
-            }
+            Node::Product(factors) => self.bracketed(place > Precedence::Product, |writer| {
+                writer.product(factors)
+            }),
             Node::Function(Function::Pow, arguments) => {
-                self.bracketed(place > Binding::Product, |writer| {
-                    writer.write(arguments[0], Binding::Power);
+                self.bracketed(place > Precedence::Product, |writer| {
+                    writer.write(arguments[0], Precedence::Power);
                     writer.text.push('^');
-                    writer.write(arguments[1], Binding::Power);
+                    writer.write(arguments[1], Precedence::Power);
                 })
             }
             Node::Function(function, arguments) => {
                 let _ = write!(self.text, "{}(", function.name()); // writing to a String cannot fail
                 for (position, argument) in arguments.iter().enumerate() {
                     self.text.push_str(if position > 0 { ", " } else { "" });
-                    self.write(*argument, Binding::Sum);
+                    self.write(*argument, Precedence::Sum);
                 }
                 self.text.push(')');
             }
@@ -179,7 +179,7 @@ impl Writer<'_> {
     }
 
     fn power(&mut self, id: Id, power: u32) {
-        self.write(id, Binding::Power);
+        self.write(id, Precedence::Power);
         if power != 1 {
             let _ = write!(self.text, "^{power}"); // writing to a String cannot fail
         }

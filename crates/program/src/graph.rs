@@ -56,7 +56,7 @@ pub enum Node {
     /// A function of its arguments.
     Function(Function, Box<[Id]>),
     /// A value that is computed on its own: it stays one factor, even if it is a product.
-    Whole(Id),
+    Opaque(Id),
 }
 
 /// A term of a sum.
@@ -154,7 +154,7 @@ impl Graph {
             Node::Sum(terms) => terms.iter().all(|term| self.is_known(term.id)),
             Node::Product(factors) => factors.iter().all(|(id, _)| self.is_known(*id)),
             Node::Function(_, arguments) => arguments.iter().all(|id| self.is_known(*id)),
-            Node::Whole(id) => self.is_known(*id),
+            Node::Opaque(id) => self.is_known(*id),
         };
         let id = Id(u32::try_from(self.nodes.len()).expect("memory ends before 2^32 nodes"));
         self.nodes.push(node.clone());
@@ -502,7 +502,7 @@ impl Graph {
                 Node::Sum(terms) => terms.iter().for_each(|term| need(term.id)),
                 Node::Product(factors) => factors.iter().for_each(|(id, _)| need(*id)),
                 Node::Function(_, arguments) => arguments.iter().for_each(|id| need(*id)),
-                Node::Whole(id) => need(*id),
+                Node::Opaque(id) => need(*id),
             }
         }
         let mut values = vec![S::ZERO; self.nodes.len()];
@@ -533,7 +533,7 @@ impl Graph {
                     [x, y] => binary(*function, at(x), at(y)),
                     _ => unreachable!("functions have one argument or two"),
                 },
-                Node::Whole(id) => at(*id),
+                Node::Opaque(id) => at(*id),
             };
         }
         let value = |root: &Scaled| {
@@ -544,13 +544,13 @@ impl Graph {
     }
 
     /// A value that is computed on its own wherever it is used, and never multiplied out.
-    pub fn whole(&mut self, x: Scaled) -> Scaled {
+    pub fn opaque(&mut self, x: Scaled) -> Scaled {
         if x.is_known() {
             return x;
         }
         let id = self.unsigned(x);
         let core = match self.node(id) {
-            Node::Product(_) => self.intern(Node::Whole(id)),
+            Node::Product(_) => self.intern(Node::Opaque(id)),
             _ => id,
         };
         Scaled {

@@ -191,7 +191,7 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
     ///
     /// # Panics
     /// If `values` is not as long as the results of that role.
-    pub fn stand(&mut self, role: Role, values: &[S]) {
+    pub fn set_stage_results(&mut self, role: Role, values: &[S]) {
         let region = match role {
             Role::AtTime => &self.layout.at_time,
             _ => &self.layout.at_position,

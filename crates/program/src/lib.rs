@@ -62,7 +62,7 @@ pub use count::Counts;
 pub use fusion::{Contracted, Contraction, Contractions, Side, fused, ready, uses};
 pub use interpret::{Arguments, Interpreter};
 pub use mutate::{Mutant, mutants};
-pub use packs::{Pack, Statement, What, packs};
+pub use packs::{Pack, PackedOperation, Statement, packs};
 pub use quantity::Role;
 pub use repeats::{Kind, Operand, Repeat, Step, Steps, early_angles};
 pub use rounding::Rounding;
@@ -199,16 +199,16 @@ pub struct Unilateral {
     /// The force law, if the contact is compliant.
     pub compliance: Option<Compliance>,
     /// Whether there is friction.
-    pub rubs: bool,
+    pub has_friction: bool,
     /// Whether it is the rolling resistance of the preceding contact. It then has the gap and the normal force of that
     /// contact; its slip is the relative angular velocity of the two bodies, in rad/s, its friction the torque that
     /// resists this, in N m, and its coefficient of friction a length, in m.
-    pub rolls: bool,
+    pub is_rolling_resistance: bool,
     /// Whether it is the second tangent of the preceding contact, in space. It then has the gap, the normal and the coefficients
     /// of that contact, but its own slip and friction. The resultant of both frictions is at most `μ` times the normal force.
-    pub across: bool,
+    pub is_second_tangent: bool,
     /// Whether it is a corner on a face of a polygon, which has ends: see [`Role::ContactFaces`].
-    pub faced: bool,
+    pub has_face: bool,
 }
 
 /// How the results of [`Role::Friction`] are arranged.

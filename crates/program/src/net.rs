@@ -32,9 +32,9 @@ pub enum Item {
     /// Factors, repeated for powers, over divisors.
     Product {
         /// The factors.
-        up: Vec<Index>,
+        factors: Vec<Index>,
         /// The divisors.
-        down: Vec<Index>,
+        divisors: Vec<Index>,
     },
     /// A function of its arguments.
     Function(Function, Vec<Index>),
@@ -67,7 +67,7 @@ pub struct Net {
     /// The stage of each item.
     pub stages: Vec<Stage>,
     /// The stages that are computed separately: products and sums are not merged across them.
-    pub apart: Stages,
+    pub separate: Stages,
     /// The requested values, with their signs.
     pub roots: Vec<Signed>,
 }
@@ -78,7 +78,7 @@ impl Net {
         let mut net = Net {
             items: Vec::new(),
             stages: Vec::new(),
-            apart: Stages::default(),
+            separate: Stages::default(),
             roots: Vec::new(),
         };
         let mut index_of: FxHashMap<Id, Index> = FxHashMap::default();
@@ -131,7 +131,7 @@ impl Net {
                 Item::Leaf(Leaf::Op(Op::Read(*source)))
             }
             _ if cut && graph.is_known(id) => Item::Leaf(Leaf::Prepared(id)),
-            Node::Whole(inner) => return index_of[inner],
+            Node::Opaque(inner) => return index_of[inner],
             Node::Sum(terms) => Item::Sum(
                 terms
                     .iter()
@@ -162,7 +162,10 @@ impl Net {
                 side.push(self.add_power(item, power));
             }
         }
-        self.add(Item::Product { up, down })
+        self.add(Item::Product {
+            factors: up,
+            divisors: down,
+        })
     }
 
     /// x^power by squaring.
@@ -171,13 +174,13 @@ impl Net {
         // From the second-highest bit down: square, and multiply by x if the bit is set.
         for bit in (0..power.ilog2()).rev() {
             value = self.add(Item::Product {
-                up: vec![value, value],
-                down: vec![],
+                factors: vec![value, value],
+                divisors: vec![],
             });
             if power >> bit & 1 == 1 {
                 value = self.add(Item::Product {
-                    up: vec![value, x],
-                    down: vec![],
+                    factors: vec![value, x],
+                    divisors: vec![],
                 });
             }
         }
@@ -203,7 +206,7 @@ impl Net {
         // Divisors that always occur together are treated as one divisor.
         let mut groups: FxHashMap<Vec<Index>, Vec<usize>> = FxHashMap::default();
         for (index, item) in self.items.iter_mut().enumerate() {
-            if let Item::Product { down, .. } = item
+            if let Item::Product { divisors: down, .. } = item
                 && !down.is_empty()
             {
                 down.sort_unstable();
@@ -229,8 +232,8 @@ impl Net {
                 let reciprocal = match reciprocals.get(&base) {
                     Some(&known) => known,
                     None => self.add(Item::Product {
-                        up: vec![],
-                        down: vec![base],
+                        factors: vec![],
+                        divisors: vec![base],
                     }),
                 };
                 reciprocals.insert(base, reciprocal);
@@ -239,12 +242,16 @@ impl Net {
             let mut left = own;
             if products.len() > 1 && !left.is_empty() {
                 factors.push(self.add(Item::Product {
-                    up: vec![],
-                    down: std::mem::take(&mut left),
+                    factors: vec![],
+                    divisors: std::mem::take(&mut left),
                 }));
             }
             for product in products {
-                if let Item::Product { up, down } = &mut self.items[product] {
+                if let Item::Product {
+                    factors: up,
+                    divisors: down,
+                } = &mut self.items[product]
+                {
                     up.extend(&factors);
                     down.clone_from(&left);
                 }
@@ -278,7 +285,7 @@ fn needed(graph: &Graph, roots: &[(Id, bool)], cut: bool) -> Vec<Id> {
             Node::Function(_, arguments) => arguments
                 .iter()
                 .for_each(|argument| visit(*argument, &mut found)),
-            Node::Whole(inner) => visit(*inner, &mut found),
+            Node::Opaque(inner) => visit(*inner, &mut found),
         }
     }
     found.sort_unstable();
@@ -290,7 +297,10 @@ pub fn operands(item: &Item, mut visit: impl FnMut(Index)) {
     match item {
         Item::Leaf(_) => {}
         Item::Sum(terms) => terms.iter().for_each(|(term, _)| visit(*term)),
-        Item::Product { up, down } => up.iter().chain(down).for_each(|factor| visit(*factor)),
+        Item::Product {
+            factors: up,
+            divisors: down,
+        } => up.iter().chain(down).for_each(|factor| visit(*factor)),
         Item::Function(_, arguments) => arguments.iter().for_each(|argument| visit(*argument)),
     }
 }

@@ -24,7 +24,7 @@ use super::{Contracted, Contractions, Function, Op, Source, Value};
 const DISTANCE: usize = 8;
 
 /// The distances at which seeds are searched: large ones first, since agreement over a large distance is more reliable.
-const OF_SEEDS: [usize; 4] = [8, 6, 5, 4];
+const SEED_DISTANCES: [usize; 4] = [8, 6, 5, 4];
 
 /// The largest number of operations of one color, and of users of one value, that are compared with each other. Larger
 /// sets are skipped: they are not distinctive, and comparing all of their pairs would take too long.
@@ -46,7 +46,7 @@ pub enum Statement {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pack {
     /// The operation.
-    pub what: What,
+    pub operation: PackedOperation,
     /// The values that they compute.
     pub values: [Value; 2],
     /// Their operands, slot by slot.
@@ -55,7 +55,7 @@ pub struct Pack {
 
 /// The operation of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum What {
+pub enum PackedOperation {
     /// a + b
     Add,
     /// a − b
@@ -68,10 +68,10 @@ pub enum What {
     Contraction(Contracted),
 }
 
-impl What {
+impl PackedOperation {
     /// Whether the first two operands may be exchanged.
     fn commutes(self) -> bool {
-        !matches!(self, What::Sub | What::Div)
+        !matches!(self, PackedOperation::Sub | PackedOperation::Div)
     }
 }
 
@@ -83,13 +83,13 @@ pub fn packs(function: &Function) -> Option<Vec<Statement>> {
     finder.prune();
     let packs = finder.lane.iter().filter(|lane| **lane == Some(0));
     let packs = packs.count() - finder.pairs_of_arguments();
-    let operations = finder.nodes.iter().filter(|node| node.what.is_some());
+    let operations = finder.nodes.iter().filter(|node| node.operation.is_some());
     (packs > 0 && packs * LEAST_SHARE >= operations.count()).then(|| finder.statements())
 }
 
 /// The kind of a value from the point of view of its users.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Sort {
+enum ValueKind {
     /// Computed here.
     Operation,
     /// Known before; two such values can be adjacent in memory.
@@ -101,9 +101,9 @@ enum Sort {
 }
 
 struct Node {
-    sort: Sort,
+    value_kind: ValueKind,
     /// Its operation, if it may be one of a pair.
-    what: Option<What>,
+    operation: Option<PackedOperation>,
     /// A hash of its operation.
     kind: u64,
     operands: Vec<Value>,
@@ -121,7 +121,7 @@ struct Finder<'a> {
     /// Its index in its pair.
     lane: Vec<Option<u8>>,
     /// Pairs whose neighbours are still to be examined.
-    open: Vec<[Value; 2]>,
+    pending: Vec<[Value; 2]>,
 }
 
 fn hash(of: impl Hash) -> u64 {
@@ -141,7 +141,7 @@ impl<'a> Finder<'a> {
             colors,
             partner: vec![None; n],
             lane: vec![None; n],
-            open: Vec::new(),
+            pending: Vec::new(),
         }
     }
 
@@ -159,34 +159,39 @@ impl<'a> Finder<'a> {
     }
 
     /// The distance up to which two values look alike.
-    fn likeness(&self, a: Value, b: Value) -> usize {
+    fn common_distance(&self, a: Value, b: Value) -> usize {
         let both = self.colors[a.index()].iter().zip(&self.colors[b.index()]);
         both.take_while(|(a, b)| a == b).count()
     }
 
     /// How well two operands go together, 0 for not at all. With `is_strict`, operations must already be a pair.
-    fn fit(&self, a: Value, b: Value, is_strict: bool) -> u32 {
+    fn operand_score(&self, a: Value, b: Value, is_strict: bool) -> u32 {
         if a == b {
             return 1;
         }
-        let (sort, other) = (self.node(a).sort, self.node(b).sort);
+        let (sort, other) = (self.node(a).value_kind, self.node(b).value_kind);
         let is_free = !self.is_paired(a) && !self.is_paired(b);
         match (sort, other) {
             _ if sort != other => 0,
-            (Sort::Known, _) => 1,
-            (Sort::Operation, _) if self.is_pair([a, b]) => 3,
-            (Sort::Operation, _) => u32::from(is_free && !is_strict),
-            (Sort::Argument(_), _) if self.is_pair([a, b]) => 2,
-            (Sort::Argument(_), _) => u32::from(is_free),
-            (Sort::Absent, _) => 0,
+            (ValueKind::Known, _) => 1,
+            (ValueKind::Operation, _) if self.is_pair([a, b]) => 3,
+            (ValueKind::Operation, _) => u32::from(is_free && !is_strict),
+            (ValueKind::Argument(_), _) if self.is_pair([a, b]) => 2,
+            (ValueKind::Argument(_), _) => u32::from(is_free),
+            (ValueKind::Absent, _) => 0,
         }
     }
 
     /// The operands of two operations side by side, if these can be a pair, and how well they fit.
-    fn side_by_side(&self, x: Value, y: Value, is_strict: bool) -> Option<(u32, Vec<[Value; 2]>)> {
+    fn paired_operands(
+        &self,
+        x: Value,
+        y: Value,
+        is_strict: bool,
+    ) -> Option<(u32, Vec<[Value; 2]>)> {
         let (first, second) = (self.node(x), self.node(y));
-        let what = first.what?;
-        if x == y || second.what != Some(what) || first.depth != second.depth {
+        let what = first.operation?;
+        if x == y || second.operation != Some(what) || first.depth != second.depth {
             return None;
         }
         let rated = |order: [usize; 3]| {
@@ -194,7 +199,9 @@ impl<'a> Finder<'a> {
             let columns: Vec<[Value; 2]> = columns
                 .map(|(a, place)| [*a, second.operands[place]])
                 .collect();
-            let mut fits = columns.iter().map(|&[a, b]| self.fit(a, b, is_strict));
+            let mut fits = columns
+                .iter()
+                .map(|&[a, b]| self.operand_score(a, b, is_strict));
             let rate = fits.try_fold(0, |sum, fit| (fit > 0).then_some(sum + fit));
             rate.map(|rate| (rate, columns))
         };
@@ -211,15 +218,15 @@ impl<'a> Finder<'a> {
         }
     }
 
-    fn join(&mut self, x: Value, y: Value) {
+    fn pair(&mut self, x: Value, y: Value) {
         for (value, other, lane) in [(x, y, 0), (y, x, 1)] {
             self.partner[value.index()] = Some(other);
             self.lane[value.index()] = Some(lane);
         }
-        self.open.push([x, y]);
+        self.pending.push([x, y]);
     }
 
-    fn part(&mut self, x: Value) {
+    fn unpair(&mut self, x: Value) {
         for value in [Some(x), self.partner[x.index()]].into_iter().flatten() {
             self.partner[value.index()] = None;
             self.lane[value.index()] = None;
@@ -228,10 +235,10 @@ impl<'a> Finder<'a> {
 
     /// Grows pairs from seeds.
     fn find(&mut self) {
-        for distance in OF_SEEDS {
+        for distance in SEED_DISTANCES {
             let mut classes: FxHashMap<u64, Vec<Value>> = FxHashMap::default();
             for (index, node) in self.nodes.iter().enumerate() {
-                if node.what.is_some() {
+                if node.operation.is_some() {
                     let color = self.colors[index][distance - 1];
                     classes.entry(color).or_default().push(Value(index as u32));
                 }
@@ -244,11 +251,11 @@ impl<'a> Finder<'a> {
                     let later = class[place + 1..].iter().copied();
                     let mut fitting = later.filter(|&y| {
                         let is_free = !self.is_paired(x) && !self.is_paired(y);
-                        is_free && self.side_by_side(x, y, false).is_some()
+                        is_free && self.paired_operands(x, y, false).is_some()
                     });
                     if let Some(y) = fitting.next() {
-                        self.join(x, y);
-                        self.close();
+                        self.pair(x, y);
+                        self.add_implied();
                     }
                 }
             }
@@ -256,20 +263,21 @@ impl<'a> Finder<'a> {
     }
 
     /// Adds the pairs that follow from existing ones.
-    fn close(&mut self) {
-        while let Some([x, y]) = self.open.pop() {
-            if let Some((_, columns)) = self.side_by_side(x, y, false) {
+    fn add_implied(&mut self) {
+        while let Some([x, y]) = self.pending.pop() {
+            if let Some((_, columns)) = self.paired_operands(x, y, false) {
                 for [a, b] in columns {
                     let (first, second) = (self.node(a), self.node(b));
-                    let can_be = match first.sort {
-                        Sort::Operation => {
-                            self.side_by_side(a, b, false).is_some() && self.likeness(a, b) > 0
+                    let can_be = match first.value_kind {
+                        ValueKind::Operation => {
+                            self.paired_operands(a, b, false).is_some()
+                                && self.common_distance(a, b) > 0
                         }
-                        Sort::Argument(_) => first.sort == second.sort,
+                        ValueKind::Argument(_) => first.value_kind == second.value_kind,
                         _ => false,
                     };
                     if a != b && can_be && !self.is_paired(a) && !self.is_paired(b) {
-                        self.join(a, b);
+                        self.pair(a, b);
                     }
                 }
             }
@@ -286,16 +294,16 @@ impl<'a> Finder<'a> {
         let mut candidates = Vec::new();
         for &a in first.iter().filter(|a| !self.is_paired(**a)) {
             for &b in second.iter().filter(|b| !self.is_paired(**b)) {
-                if let Some((fit, _)) = self.side_by_side(a, b, true) {
-                    candidates.push((2 * fit as usize + self.likeness(a, b), a, b));
+                if let Some((fit, _)) = self.paired_operands(a, b, true) {
+                    candidates.push((2 * fit as usize + self.common_distance(a, b), a, b));
                 }
             }
         }
         candidates.sort_unstable_by_key(|&(rate, a, b)| (std::cmp::Reverse(rate), a, b));
         for (_, a, b) in candidates {
             let is_free = !self.is_paired(a) && !self.is_paired(b);
-            if is_free && self.side_by_side(a, b, true).is_some() {
-                self.join(a, b);
+            if is_free && self.paired_operands(a, b, true).is_some() {
+                self.pair(a, b);
             }
         }
     }
@@ -308,14 +316,16 @@ impl<'a> Finder<'a> {
                 let Some((y, 0)) = self.partner[x.index()].zip(self.lane[x.index()]) else {
                     return false;
                 };
-                if self.node(x).what.is_none() {
+                if self.node(x).operation.is_none() {
                     return false;
                 }
-                let Some((_, columns)) = self.side_by_side(x, y, false) else {
+                let Some((_, columns)) = self.paired_operands(x, y, false) else {
                     return true;
                 };
                 let gathered = columns.iter().filter(|&&[a, b]| {
-                    self.node(a).sort == Sort::Operation && a != b && !self.is_pair([a, b])
+                    self.node(a).value_kind == ValueKind::Operation
+                        && a != b
+                        && !self.is_pair([a, b])
                 });
                 let users = &self.node(y).users;
                 let is_taken_out =
@@ -328,7 +338,7 @@ impl<'a> Finder<'a> {
                 return;
             }
             for x in bad {
-                self.part(x);
+                self.unpair(x);
             }
         }
     }
@@ -336,7 +346,7 @@ impl<'a> Finder<'a> {
     /// The number of pairs of arguments, which save nothing.
     fn pairs_of_arguments(&self) -> usize {
         let all = self.nodes.iter().zip(&self.lane);
-        all.filter(|(node, lane)| node.what.is_none() && **lane == Some(0))
+        all.filter(|(node, lane)| node.operation.is_none() && **lane == Some(0))
             .count()
     }
 
@@ -353,7 +363,7 @@ impl<'a> Finder<'a> {
             .collect();
         open.reverse();
         while let Some((value, is_ready)) = open.pop() {
-            if self.node(value).sort != Sort::Operation {
+            if self.node(value).value_kind != ValueKind::Operation {
                 continue;
             }
             let pack = self.pack(value);
@@ -386,9 +396,9 @@ impl<'a> Finder<'a> {
     /// The pair whose first value is given.
     fn pack(&self, x: Value) -> Option<Pack> {
         let y = self.partner[x.index()]?;
-        let (_, operands) = self.side_by_side(x, y, false)?;
+        let (_, operands) = self.paired_operands(x, y, false)?;
         Some(Pack {
-            what: self.node(x).what?,
+            operation: self.node(x).operation?,
             values: [x, y],
             operands,
         })
@@ -420,49 +430,49 @@ fn nodes(function: &Function) -> Vec<Node> {
         let sort = match op {
             Op::Constant(_) | Op::Pi | Op::Read(Source::Parameter(_) | Source::Prepared(_)) => {
                 kind = 0;
-                Sort::Known
+                ValueKind::Known
             }
-            Op::Read(source) => Sort::Argument(match source {
+            Op::Read(source) => ValueKind::Argument(match source {
                 Source::Coordinate(_) => 0,
                 Source::Velocity(_) => 1,
                 Source::Acceleration(_) => 2,
                 Source::Input(_) => 3,
                 _ => 4,
             }),
-            Op::Sin(angle) if is_early_angle[angle.index()] => Sort::Argument(5),
-            Op::Cos(angle) if is_early_angle[angle.index()] => Sort::Argument(6),
+            Op::Sin(angle) if is_early_angle[angle.index()] => ValueKind::Argument(5),
+            Op::Cos(angle) if is_early_angle[angle.index()] => ValueKind::Argument(6),
             // Computed before everything else, and there are few of these.
-            _ if is_early[index] => Sort::Argument(7),
-            _ if contractions.is_part(value) => Sort::Absent,
+            _ if is_early[index] => ValueKind::Argument(7),
+            _ if contractions.is_part(value) => ValueKind::Absent,
             _ => {
                 what = match (contractions.sum(value), op) {
                     (Some(sum), _) => {
                         let [a, b] = sum.factors;
                         operands = vec![a, b, sum.term];
-                        Some(What::Contraction(sum.kind))
+                        Some(PackedOperation::Contraction(sum.kind))
                     }
-                    (_, Op::Add(..)) => Some(What::Add),
-                    (_, Op::Sub(..)) => Some(What::Sub),
-                    (_, Op::Mul(..)) => Some(What::Mul),
-                    (_, Op::Div(..)) => Some(What::Div),
+                    (_, Op::Add(..)) => Some(PackedOperation::Add),
+                    (_, Op::Sub(..)) => Some(PackedOperation::Sub),
+                    (_, Op::Mul(..)) => Some(PackedOperation::Mul),
+                    (_, Op::Div(..)) => Some(PackedOperation::Div),
                     _ => None,
                 };
-                Sort::Operation
+                ValueKind::Operation
             }
         };
-        if let Sort::Argument(which) = sort {
+        if let ValueKind::Argument(which) = sort {
             kind = u64::from(which);
         }
-        if sort != Sort::Operation {
+        if sort != ValueKind::Operation {
             operands.clear();
         }
         let below = operands.iter().map(|operand| nodes[operand.index()].depth);
         nodes.push(Node {
-            sort,
-            what,
+            value_kind: sort,
+            operation: what,
             kind: hash((sort, what, kind)),
             depth: match sort {
-                Sort::Operation => 1 + below.max().unwrap_or(0),
+                ValueKind::Operation => 1 + below.max().unwrap_or(0),
                 _ => 0,
             },
             operands,
@@ -488,7 +498,7 @@ fn colors(nodes: &[Node]) -> Vec<[u64; DISTANCE]> {
     for distance in 0..DISTANCE {
         let next_below = nodes.iter().map(|node| {
             let mut operands: Vec<u64> = node.operands.iter().map(|x| below[x.index()]).collect();
-            if node.what.is_some_and(What::commutes) {
+            if node.operation.is_some_and(PackedOperation::commutes) {
                 operands[..2].sort_unstable();
             }
             hash((node.kind, operands))
@@ -499,7 +509,7 @@ fn colors(nodes: &[Node]) -> Vec<[u64; DISTANCE]> {
             for user in &node.users {
                 let user = (&nodes[user.index()], above[user.index()]);
                 // The slots in which the value stands; for commuting slots only how often it occurs.
-                let commutes = user.0.what.is_some_and(What::commutes);
+                let commutes = user.0.operation.is_some_and(PackedOperation::commutes);
                 for (slot, operand) in user.0.operands.iter().enumerate() {
                     if operand.index() == index {
                         let slot = if commutes && slot < 2 { 0 } else { slot as u64 };
@@ -593,11 +603,16 @@ mod tests {
         let statements = packs(&function).expect("all but one are alike");
         check(&function, &statements);
         let pairs = statements.iter().filter_map(|statement| match statement {
-            Statement::Two(pack) => Some(pack.what),
+            Statement::Two(pack) => Some(pack.operation),
             Statement::One(_) => None,
         });
-        let contractions = [What::Contraction(Contracted::Add); 6];
-        let expected = [&[What::Mul], &contractions[..], &[What::Mul, What::Div]].concat();
+        let contractions = [PackedOperation::Contraction(Contracted::Add); 6];
+        let expected = [
+            &[PackedOperation::Mul],
+            &contractions[..],
+            &[PackedOperation::Mul, PackedOperation::Div],
+        ]
+        .concat();
         assert_eq!(pairs.collect::<Vec<_>>(), expected);
     }
 

@@ -19,11 +19,11 @@ use super::net::{Index, Item, Net, Signed, Stage};
 /// The largest number of changes to the table of pairs in one pass. A pass that reaches it stops
 /// there: its code is correct, only longer than it could be. A change takes some 50 ns; a spatial
 /// arm of six joints needs 20 000.
-const BUDGET: usize = 1 << 18;
+const CHANGE_LIMIT: usize = 1 << 18;
 
 /// The part of the budget that may be spent on counting the initial pairs. Bags with more pairs
 /// than this leaves room for are skipped: the table of a bag of n members has n²/2 pairs.
-const COUNTING: usize = BUDGET / 2;
+const COUNTING_LIMIT: usize = CHANGE_LIMIT / 2;
 
 impl Net {
     /// Finds common pairs of factors, then of terms.
@@ -58,14 +58,14 @@ struct Bag {
     item: Index,
     members: Vec<Member>,
     /// Members that occur nowhere else, or must not be changed.
-    alone: Vec<Member>,
+    unshared: Vec<Member>,
 }
 
 impl Bag {
     fn len(&self) -> u32 {
         self.members
             .iter()
-            .chain(&self.alone)
+            .chain(&self.unshared)
             .map(|member| member.count)
             .sum()
     }
@@ -98,7 +98,7 @@ impl Bags {
         let mut uses = vec![0_u32; net.items.len()];
         for item in &net.items {
             match (item, kind) {
-                (Item::Product { up, .. }, Kind::Products) => {
+                (Item::Product { factors: up, .. }, Kind::Products) => {
                     up.iter().for_each(|&factor| uses[factor as usize] += 1);
                 }
                 (Item::Sum(terms), Kind::Sums) => {
@@ -113,7 +113,7 @@ impl Bags {
             // An item with fewer than two shared members has no pair in common with any other; its shared member is
             // placed last, as in the others.
             let members = match (item, kind) {
-                (Item::Product { up, .. }, Kind::Products) => {
+                (Item::Product { factors: up, .. }, Kind::Products) => {
                     if up.iter().filter(|&&factor| is_shared(factor)).count() < 2 {
                         up.sort_unstable_by_key(|&factor| (is_shared(factor), factor));
                         continue;
@@ -140,7 +140,7 @@ impl Bags {
             bags.push(Bag {
                 item: index as Index,
                 members,
-                alone,
+                unshared: alone,
             });
         }
         Bags {
@@ -155,7 +155,7 @@ impl Bags {
     fn run(&mut self, net: &mut Net) {
         for bag in 0..self.bags.len() {
             let members = self.bags[bag].members.len();
-            if self.changes + members * (members + 1) / 2 <= COUNTING {
+            if self.changes + members * (members + 1) / 2 <= COUNTING_LIMIT {
                 self.count_pairs(bag, net, Change::Enter);
             }
         }
@@ -166,7 +166,7 @@ impl Bags {
             .map(|(&pair, uses)| rank(pair, uses.count, net))
             .collect();
         while let Some((count, _, Reverse(pair))) = self.queue.pop() {
-            if self.changes > BUDGET {
+            if self.changes > CHANGE_LIMIT {
                 return;
             }
             // Ranks in the queue are not updated; a pair is queued again instead.
@@ -193,7 +193,7 @@ impl Bags {
         let (first, second, opposite) = pair;
         let definition = users.iter().copied().find(|&bag| {
             let bag = &self.bags[bag as usize];
-            let down_free = !matches!(&net.items[bag.item as usize], Item::Product { down, .. } if !down.is_empty());
+            let down_free = !matches!(&net.items[bag.item as usize], Item::Product { divisors: down, .. } if !down.is_empty());
             bag.len() == 2 && down_free && bag.members.iter().any(|member| !member.negative)
         });
         // p = ±first ± second, at least one of them positive.
@@ -206,8 +206,8 @@ impl Bags {
             Some(bag) => self.bags[bag as usize].item,
             None => net.add(match self.kind {
                 Kind::Products => Item::Product {
-                    up: vec![first, second],
-                    down: vec![],
+                    factors: vec![first, second],
+                    divisors: vec![],
                 },
                 Kind::Sums => Item::Sum(vec![(first, false), (second, opposite)]),
             }),
@@ -216,7 +216,7 @@ impl Bags {
             self.count_pairs(bag as usize, net, Change::Leave);
             let target = &mut self.bags[bag as usize];
             if Some(bag) == definition {
-                target.alone.append(&mut target.members);
+                target.unshared.append(&mut target.members);
                 continue;
             }
             let count = occurrences(target, pair);
@@ -276,9 +276,9 @@ impl Bags {
 
     fn write_back(self, net: &mut Net) {
         for bag in self.bags {
-            let members = bag.alone.iter().chain(&bag.members);
+            let members = bag.unshared.iter().chain(&bag.members);
             match &mut net.items[bag.item as usize] {
-                Item::Product { up, .. } => {
+                Item::Product { factors: up, .. } => {
                     up.clear();
                     for member in members {
                         up.extend((0..member.count).map(|_| member.item));

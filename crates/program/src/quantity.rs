@@ -104,7 +104,7 @@ impl Needs {
             Needs::Constraints => sizes.constraints > 0,
             Needs::Contacts => sizes.contacts > 0,
             Needs::Unilateral => sizes.unilateral > 0,
-            Needs::Faces => sizes.faced > 0,
+            Needs::Faces => sizes.faces > 0,
             Needs::Stores => sizes.stores,
         }
     }
@@ -159,7 +159,7 @@ pub struct Sizes {
     /// Unilateral contacts.
     pub unilateral: usize,
     /// Unilateral contacts with faces of polygons.
-    pub faced: usize,
+    pub faces: usize,
     /// Variables that accelerations are differentiated by.
     pub derivatives: usize,
     /// Whether first-order states store energy.
@@ -380,7 +380,7 @@ impl Sizes {
             Kind::Constraint => self.constraints,
             Kind::Contact => self.contacts,
             Kind::Unilateral => self.unilateral,
-            Kind::Face => 3 * self.faced,
+            Kind::Face => 3 * self.faces,
             Kind::Direction => 2 * self.unilateral,
             Kind::Coefficient => 4 * self.unilateral,
         }
@@ -443,7 +443,7 @@ impl Program {
             contacts: self.contacts.len(),
             reaction_axes: self.reaction_axes,
             unilateral: self.unilateral.len(),
-            faced: self.unilateral.iter().filter(|one| one.faced).count(),
+            faces: self.unilateral.iter().filter(|one| one.has_face).count(),
             derivatives: self.derivatives.len(),
             stores: self.function(Role::StateEnergy).is_some(),
         }
@@ -492,7 +492,7 @@ impl Program {
                 let one = self
                     .unilateral
                     .iter()
-                    .filter(|one| one.faced)
+                    .filter(|one| one.has_face)
                     .nth(index / 3);
                 one.map(|one| format!("{}.{part}", one.name))
             }

@@ -496,7 +496,7 @@ impl<'a> Finder<'a> {
             .iter()
             .map(origin)
             .collect::<Option<Vec<Origin>>>()
-            .is_some_and(|origins| is_counted(&origins))
+            .is_some_and(|origins| are_evenly_spaced(&origins))
     }
 
     fn candidates(&self) -> Vec<Candidate> {
@@ -577,8 +577,8 @@ impl<'a> Finder<'a> {
             let iteration = (end - start) / period;
             let (this, before) = (&self.steps[end], &self.steps[end - period]);
             let operands = this.operands.iter().zip(&before.operands);
-            let mut unlike =
-                operands.filter(|(a, b)| !self.is_like(**a, **b, start, period, iteration));
+            let mut unlike = operands
+                .filter(|(a, b)| !self.matches_previous(**a, **b, start, period, iteration));
             if let Some((_, before)) = unlike.next() {
                 // The later operand may be carried as soon as the earlier one is known before the
                 // stretch; if that is known before already, it must be so in the first iteration.
@@ -589,7 +589,7 @@ impl<'a> Finder<'a> {
                 break;
             }
             if this.defines.map(|x| x.is_some()) != before.defines.map(|x| x.is_some())
-                || !self.counts_on(end, start, period)
+                || !self.has_even_coordinates(end, start, period)
             {
                 next = end - period + 1;
                 break;
@@ -600,7 +600,7 @@ impl<'a> Finder<'a> {
     }
 
     /// Whether an operand is related to its counterpart in the preceding iteration as required.
-    fn is_like(
+    fn matches_previous(
         &self,
         this: Value,
         before: Value,
@@ -618,7 +618,7 @@ impl<'a> Finder<'a> {
     }
 
     /// Whether the coordinates of guards form an arithmetic progression over the iterations.
-    fn counts_on(&self, step: usize, start: usize, period: usize) -> bool {
+    fn has_even_coordinates(&self, step: usize, start: usize, period: usize) -> bool {
         let coordinate = |step: usize| match self.steps[step].kind {
             Kind::Guard(_) => self.function.guards[self.steps[step].guard].coordinate as i64,
             _ => 0,
@@ -690,7 +690,7 @@ impl<'a> Finder<'a> {
         let mut carried: Vec<&Operand> = Vec::new();
         for operand in operands.iter().flatten() {
             match operand {
-                Operand::Column(column) if !self.is_counted(column) => saving -= count as i64,
+                Operand::Column(column) if !self.is_evenly_spaced(column) => saving -= count as i64,
                 Operand::Carried(..) if !carried.contains(&operand) => {
                     carried.push(operand);
                     saving -= 1;
@@ -707,7 +707,7 @@ impl<'a> Finder<'a> {
     }
 
     /// Whether a column is evenly spaced in one array, or can be stored in one.
-    fn is_counted(&self, column: &[Value]) -> bool {
+    fn is_evenly_spaced(&self, column: &[Value]) -> bool {
         let origin = |value: &Value| match self.places[value.index()] {
             Some((step, which)) => Some((16 + which as u32, step as i64)),
             None => self.origins[value.index()],
@@ -715,12 +715,12 @@ impl<'a> Finder<'a> {
         let Some(origins) = column.iter().map(origin).collect::<Option<Vec<Origin>>>() else {
             return false;
         };
-        is_counted(&origins)
+        are_evenly_spaced(&origins)
     }
 }
 
 /// Whether these are members of one array at even distances, or can be.
-fn is_counted(origins: &[Origin]) -> bool {
+fn are_evenly_spaced(origins: &[Origin]) -> bool {
     // Prepared values can be stored in any order.
     let is_prepared = origins[0].0 == 1;
     origins.windows(2).all(|pair| pair[0].0 == pair[1].0)

@@ -38,7 +38,7 @@ impl Program {
         choices.retain(|choice| roles.contains(&choice.role()));
         Program {
             prepared: formulas.map(|(_, formula)| formula.clone()).collect(),
-            prepare: without_the_unused(prepare),
+            prepare: without_unused(prepare),
             functions,
             choices,
             stages: Stages::default(),
@@ -79,7 +79,7 @@ impl Program {
 }
 
 /// A function with only the operations that a result or a guard needs.
-fn without_the_unused(function: Function) -> Function {
+fn without_unused(function: Function) -> Function {
     let Function {
         code,
         mut results,

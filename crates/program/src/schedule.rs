@@ -132,13 +132,16 @@ fn merged(net: &Net) -> Vec<bool> {
     let uses = net.uses();
     let mut merged = vec![false; net.items.len()];
     let varies = |index: &Index| net.stages[*index as usize] > 0;
-    let part = |index: Index| stages::part(net.apart, net.stages[index as usize]);
+    let part = |index: Index| stages::part(net.separate, net.stages[index as usize]);
     let is_product = |index: Index| match &net.items[index as usize] {
-        Item::Product { up, down } => down.is_empty() && up.iter().all(varies),
+        Item::Product {
+            factors: up,
+            divisors: down,
+        } => down.is_empty() && up.iter().all(varies),
         _ => false,
     };
     for (index, item) in net.items.iter().enumerate() {
-        if let Item::Product { up, .. } = item {
+        if let Item::Product { factors: up, .. } = item {
             for &factor in up.iter().filter(|&&factor| is_product(factor)) {
                 merged[factor as usize] =
                     uses[factor as usize] == 1 && part(factor) == part(index as Index);
@@ -257,12 +260,17 @@ impl Builder<'_> {
                     _ => unreachable!("functions have one argument or two"),
                 }
             }
-            Item::Product { up, down } => {
+            Item::Product {
+                factors: up,
+                divisors: down,
+            } => {
                 let mut factors = Vec::with_capacity(up.len());
                 let mut open = up.clone();
                 while let Some(factor) = open.pop() {
                     match &net.items[factor as usize] {
-                        Item::Product { up, .. } if merged[factor as usize] => open.extend(up),
+                        Item::Product { factors: up, .. } if merged[factor as usize] => {
+                            open.extend(up)
+                        }
                         _ => factors.push(factor),
                     }
                 }
@@ -395,7 +403,7 @@ impl Builder<'_> {
         let mut left: Vec<Option<(Value, bool)>> = Vec::with_capacity(terms.len());
         // The positions of the terms, since searching a long sum would take too long.
         let mut places: FxHashMap<(Value, bool), Vec<usize>> = FxHashMap::default();
-        let is_long = terms.len() > SEARCHED;
+        let is_long = terms.len() > LINEAR_SEARCH_LIMIT;
         if is_long {
             places.reserve(terms.len());
         }
@@ -464,7 +472,7 @@ impl Builder<'_> {
 }
 
 /// Sums of up to this many terms are searched linearly for terms that cancel.
-const SEARCHED: usize = 32;
+const LINEAR_SEARCH_LIMIT: usize = 32;
 
 /// Whether a value depends on parameters alone, and is computed with them.
 fn is_known(op: &Op) -> bool {
@@ -558,9 +566,9 @@ fn by_time((code, roots): (Vec<Op>, Vec<Value>)) -> (Vec<Op>, Vec<Value>) {
     if cost.path <= cost.throughput || function.code.len() > LONGEST_SCHEDULED {
         return (function.code, function.results);
     }
-    let rows = Rows::of(&function);
+    let rows = Dependencies::of(&function);
     let mut writer = InOrder::new(&function);
-    for index in rows.started() {
+    for index in rows.start_order() {
         writer.write(index);
     }
     let roots = function.results.iter();
@@ -571,14 +579,14 @@ fn by_time((code, roots): (Vec<Op>, Vec<Value>)) -> (Vec<Op>, Vec<Value>) {
 }
 
 /// The dependencies among operations.
-struct Rows {
+struct Dependencies {
     /// The latency of each operation, in tenths of a cycle; `None` for values that are not
     /// operations of their own.
-    takes: Vec<Option<u64>>,
+    latencies: Vec<Option<u64>>,
     /// The operations that wait for each.
     users: Vec<Vec<u32>>,
     /// The number of operands that each waits for.
-    waits: Vec<u32>,
+    operand_counts: Vec<u32>,
 }
 
 /// The longest function that is ordered by time. Longer ones are cut into pieces or written as loops,
@@ -589,31 +597,31 @@ pub const LONGEST_SCHEDULED: usize = 8000;
 const UNITS: u32 = 2;
 const CYCLE: u64 = 10;
 
-impl Rows {
-    fn of(function: &Function) -> Rows {
+impl Dependencies {
+    fn of(function: &Function) -> Dependencies {
         let n = function.code.len();
         let contractions = Contractions::of(function);
-        let mut rows = Rows {
-            takes: Vec::with_capacity(n),
+        let mut rows = Dependencies {
+            latencies: Vec::with_capacity(n),
             users: vec![Vec::new(); n],
-            waits: vec![0; n],
+            operand_counts: vec![0; n],
         };
         let is_read = |op: &Op| matches!(op, Op::Constant(_) | Op::Pi | Op::Read(_));
         for (index, op) in function.code.iter().enumerate() {
             let value = Value(index as u32);
             if is_read(op) || contractions.is_part(value) {
-                rows.takes.push(None);
+                rows.latencies.push(None);
                 continue;
             }
-            rows.takes.push(Some(latency(op)));
+            rows.latencies.push(Some(latency(op)));
             let operands: Vec<Value> = match contractions.sum(value) {
                 Some(sum) => vec![sum.factors[0], sum.factors[1], sum.term],
                 None => op.operands().collect(),
             };
             for operand in operands {
-                if rows.takes[operand.index()].is_some() {
+                if rows.latencies[operand.index()].is_some() {
                     rows.users[operand.index()].push(value.0);
-                    rows.waits[index] += 1;
+                    rows.operand_counts[index] += 1;
                 }
             }
         }
@@ -622,25 +630,25 @@ impl Rows {
 
     /// The time from the start of each operation to the end of the longest chain that depends on it.
     fn heights(&self) -> Vec<u64> {
-        let mut heights = vec![0; self.takes.len()];
+        let mut heights = vec![0; self.latencies.len()];
         for index in (0..heights.len()).rev() {
             let after = self.users[index].iter();
             let after = after.map(|user| heights[*user as usize]).max();
-            heights[index] = after.unwrap_or(0) + self.takes[index].unwrap_or(0);
+            heights[index] = after.unwrap_or(0) + self.latencies[index].unwrap_or(0);
         }
         heights
     }
 
     /// The operations in the order of their starts.
-    fn started(mut self) -> Vec<usize> {
+    fn start_order(mut self) -> Vec<usize> {
         let heights = self.heights();
         let mut known: Vec<u64> = vec![0; heights.len()];
         // Operations by the time at which their operands are known, and those whose operands are
         // known, by height.
         let mut later: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
         let mut now: BinaryHeap<(u64, Reverse<u32>)> = BinaryHeap::new();
-        for (index, takes) in self.takes.iter().enumerate() {
-            if takes.is_some() && self.waits[index] == 0 {
+        for (index, takes) in self.latencies.iter().enumerate() {
+            if takes.is_some() && self.operand_counts[index] == 0 {
                 later.push(Reverse((0, index as u32)));
             }
         }
@@ -675,12 +683,12 @@ impl Rows {
             let index = index as usize;
             order.push(index);
             busy += 1;
-            let end = time + self.takes[index].unwrap_or(0);
+            let end = time + self.latencies[index].unwrap_or(0);
             for &user in &self.users[index] {
                 let user = user as usize;
                 known[user] = known[user].max(end);
-                self.waits[user] -= 1;
-                if self.waits[user] == 0 {
+                self.operand_counts[user] -= 1;
+                if self.operand_counts[user] == 0 {
                     later.push(Reverse((known[user], user as u32)));
                 }
             }

@@ -27,7 +27,7 @@ use lagrangian_symbolic::{Function as Call, Rational};
 use crate::Cost;
 
 pub use expand::Expander;
-pub use recurrence::{Along, Arithmetic, Coefficient, Convolution, Order, Stream};
+pub use recurrence::{Arithmetic, Coefficient, Convolution, Order, Stream, TermOrder};
 
 /// The index of a row in [`Series::rows`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -151,7 +151,7 @@ impl Series {
 
     /// The first row whose operation can be interpreted but not emitted: straight-line code has sums, products, sines and
     /// cosines of positions, forces along them, and rates by themselves.
-    pub fn unwritten(&self) -> Option<&Row> {
+    pub fn first_not_emittable(&self) -> Option<&Row> {
         let rows = (0..self.rows.len() as u32).map(RowId);
         let mut varying = rows.filter(|row| self.varies(*row));
         let found = varying.find(|&row| {
@@ -169,7 +169,7 @@ impl Series {
                     | Row::Cos(..)
             );
             let sums = self.convolutions(row);
-            !is_known || sums.iter().any(|sum| sum.along == Along::Rest)
+            !is_known || sums.iter().any(|sum| sum.along == TermOrder::Other)
         });
         found.map(|row| &self.rows[row.index()])
     }
@@ -204,7 +204,7 @@ impl Series {
         let gradients: usize = self.depends.iter().map(Vec::len).sum();
         let step = CYCLES_OF_PRODUCT * self.products() + CYCLES_OF_GRADIENT * gradients as f64;
         let evaluation =
-            accelerations.alone() as f64 / 10.0 + CYCLES_OF_STAGE * self.coordinates as f64;
+            accelerations.single_call() as f64 / 10.0 + CYCLES_OF_STAGE * self.coordinates as f64;
         let fine = step / evaluation;
         [2.0 / 3.0 * fine, fine]
     }

@@ -20,7 +20,7 @@
 //! rounded and every zero is recognized. Constraints that depend on others leave a pivot of 0: their
 //! multipliers are 0 here, and a guard that always fails reports that the multipliers are not unique.
 //! If M is singular and constraints hold the massless parts, `M + Gᵀ W G` takes its place, which has
-//! the same motion and the same multipliers since the constraints determine `G a` ([`System::held`]).
+//! the same motion and the same multipliers since the constraints determine `G a` ([`System::held_constraints`]).
 //!
 //! W. F. Tinney and J. W. Walker, *Direct solutions of sparse network equations by optimally
 //! ordered triangular factorization*, Proc. IEEE 55 (1967) 1801–1809, scheme 2.
@@ -79,7 +79,7 @@ pub struct System {
     pub coordinates: usize,
     /// Constraints whose squares are part of M and f, `M + Σ wₖ gₖ gₖᵀ` and `f + Σ wₖ γₖ gₖ`, with
     /// their weights.
-    pub held: Vec<(usize, Scaled)>,
+    pub held_constraints: Vec<(usize, Scaled)>,
 }
 
 impl System {
@@ -101,7 +101,7 @@ impl System {
 
     /// This system with a regular M, if constraints hold massless parts: each of these constraints
     /// adds as much inertia along it as its coordinates have together.
-    pub fn held_by_constraints(mut self, graph: &mut Graph) -> System {
+    pub fn regularized(mut self, graph: &mut Graph) -> System {
         let n = self.coordinates;
         let count = self.forces.len() - n;
         if count == 0 {
@@ -139,12 +139,12 @@ impl System {
             let squares: Vec<Scaled> = own.clone().map(|j| graph.product(&[(row[j], 2)])).collect();
             let squares = graph.sum(&squares);
             let weight = graph.quotient(inertia, squares);
-            let weight = graph.whole(weight);
+            let weight = graph.opaque(weight);
             let weighted: Vec<Scaled> = row
                 .iter()
                 .map(|g| {
                     let weighted = graph.product(&[(weight, 1), (*g, 1)]);
-                    graph.whole(weighted)
+                    graph.opaque(weighted)
                 })
                 .collect();
             for i in own.clone() {
@@ -156,7 +156,7 @@ impl System {
                 let product = graph.product(&[(weighted[i], 1), (self.forces[n + k], 1)]);
                 forces[i] = total(graph, &[forces[i], product]);
             }
-            self.held.push((k, weight));
+            self.held_constraints.push((k, weight));
         }
         self.matrix = matrix;
         self.forces = forces;
@@ -232,7 +232,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
             let u = left.total(graph, i, k);
             if !u.is_zero() {
                 let l = graph.quotient(u, pivot);
-                column.push((i, u, graph.whole(l)));
+                column.push((i, u, graph.opaque(l)));
             }
         }
         // Mᵢⱼ −= lᵢ uⱼ.
@@ -288,7 +288,7 @@ pub struct Column {
 /// The sum, as one value that is computed once.
 fn total(graph: &mut Graph, terms: &[Scaled]) -> Scaled {
     let sum = graph.sum(terms);
-    graph.whole(sum)
+    graph.opaque(sum)
 }
 
 /// The Schur complement of M during elimination: for each entry of the lower triangle its terms.
@@ -333,7 +333,7 @@ enum Kind {
 /// The kinds of all entries, and the remaining rows.
 struct Pattern {
     kinds: Vec<Vec<Kind>>,
-    left: Vec<usize>,
+    remaining: Vec<usize>,
 }
 
 impl Pattern {
@@ -348,14 +348,14 @@ impl Pattern {
             .collect();
         Pattern {
             kinds,
-            left: (0..entries.n).collect(),
+            remaining: (0..entries.n).collect(),
         }
     }
 
     /// The rows that eliminating k changes: the numbers of known and of varying ones.
     fn neighbours(&self, k: usize) -> (usize, usize) {
         let count = |kind| {
-            self.left
+            self.remaining
                 .iter()
                 .filter(|&&i| i != k && self.kinds[i][k] == kind)
                 .count()
@@ -377,9 +377,9 @@ impl Pattern {
     }
 
     fn eliminate(&mut self, k: usize) {
-        self.left.retain(|&i| i != k);
+        self.remaining.retain(|&i| i != k);
         let touched: Vec<usize> = self
-            .left
+            .remaining
             .iter()
             .copied()
             .filter(|&i| self.kinds[i][k] != Kind::Zero)
@@ -457,7 +457,10 @@ impl Elimination {
             multiplications: 0,
         };
         let next = |pattern: &Pattern, numbers: &Numbers| {
-            let ready = pattern.left.iter().filter(|k| is_ready(**k, &pattern.left));
+            let ready = pattern
+                .remaining
+                .iter()
+                .filter(|k| is_ready(**k, &pattern.remaining));
             ready
                 .map(|&k| (numbers.is_zero(k, k), pattern.cost(k), k))
                 .min()
@@ -466,11 +469,11 @@ impl Elimination {
             elimination.order.push(k);
             if is_zero {
                 elimination.dependent.push(k);
-                pattern.left.retain(|&i| i != k);
+                pattern.remaining.retain(|&i| i != k);
             } else {
                 elimination.multiplications += cost;
                 pattern.eliminate(k);
-                numbers.eliminate(k, &pattern.left);
+                numbers.eliminate(k, &pattern.remaining);
             }
         }
         elimination

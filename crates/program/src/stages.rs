@@ -25,13 +25,19 @@ pub fn part(apart: Stages, stage: Stage) -> usize {
 
 impl Net {
     /// Regroups products and sums by the parts that know their factors and terms.
-    pub fn set_apart(&mut self, apart: Stages) {
-        self.apart = apart;
+    pub fn separate_stages(&mut self, apart: Stages) {
+        self.separate = apart;
         for index in 0..self.items.len() {
             match self.items[index].clone() {
-                Item::Product { up, down } => {
+                Item::Product {
+                    factors: up,
+                    divisors: down,
+                } => {
                     let (up, down) = self.product_by_parts(index as Index, up, down);
-                    self.items[index] = Item::Product { up, down };
+                    self.items[index] = Item::Product {
+                        factors: up,
+                        divisors: down,
+                    };
                 }
                 Item::Sum(terms) => {
                     let terms = self.sum_by_parts(index as Index, terms);
@@ -43,7 +49,7 @@ impl Net {
     }
 
     fn part_of(&self, index: Index) -> usize {
-        part(self.apart, self.stages[index as usize])
+        part(self.separate, self.stages[index as usize])
     }
 
     /// The factors and divisors of a product; those of earlier parts form a product of their own.
@@ -66,8 +72,8 @@ impl Net {
             let has_work = early_up.iter().chain(&early_down).any(|i| varies(self, i));
             if has_work && (early_up.len() > 1 || !early_down.is_empty()) {
                 let early = self.add(Item::Product {
-                    up: early_up,
-                    down: early_down,
+                    factors: early_up,
+                    divisors: early_down,
                 });
                 up = late_up;
                 up.push(early);
@@ -139,7 +145,7 @@ pub fn split(whole: &Function, apart: Stages) -> Vec<Function> {
             parts: &parts,
             number,
             before: number.checked_sub(1).map(|before| roles[before]),
-            handed: &handed,
+            passed: &handed,
             code: Vec::new(),
             values: FxHashMap::default(),
         };
@@ -205,7 +211,7 @@ struct Builder<'a> {
     /// The role of the preceding part.
     before: Option<Role>,
     /// The values that the preceding part hands on, in the order of its results.
-    handed: &'a [Value],
+    passed: &'a [Value],
     code: Vec<Op>,
     /// The values of the whole function that this part has.
     values: FxHashMap<Value, Value>,
@@ -220,7 +226,7 @@ impl Builder<'_> {
         let op = self.whole.op(value);
         let op = match self.before {
             Some(before) if self.parts[value.index()] < self.number && !is_known(op) => {
-                let place = self.handed.binary_search(&value);
+                let place = self.passed.binary_search(&value);
                 let place = place.expect("what a part reads was handed on") as u32;
                 Op::Read(match before {
                     Role::AtTime => Source::AtTime(place),

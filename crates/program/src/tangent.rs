@@ -26,7 +26,7 @@ impl Program {
     /// [`Role::Accelerations`] and [`Role::Start`] give values and changes; [`Role::Output`] gives the change of that output,
     /// given the accelerations and their changes. Time does not change.
     pub fn tangent(&self) -> Program {
-        let mut lift = Lift::new(self);
+        let mut lift = Differentiation::new(self);
         let start = lift.values(&self.start);
         let start_changes = lift.changes(&self.start, &start);
         let n = self.dimension().max(1);
@@ -80,7 +80,7 @@ impl Program {
     /// derivatives of the weighted sum of the accelerations by all coordinates, rates, parameters and inputs;
     /// [`Role::Gradient`] those of an output by the same and by the accelerations.
     pub fn adjoint(&self) -> Program {
-        let mut lift = Lift::new(self);
+        let mut lift = Differentiation::new(self);
         let mut parts = Vec::new();
         let inputs = self.inputs.len() as u32;
         for function in self.functions.iter().filter(|f| is_differentiated(f.role)) {
@@ -195,29 +195,29 @@ struct Slopes {
 }
 
 /// Converts a program to its derivatives.
-struct Lift<'p> {
+struct Differentiation<'p> {
     program: &'p Program,
     graph: Graph,
     /// The value of each operation of `prepare`.
-    preparing: Vec<Scaled>,
+    prepare_values: Vec<Scaled>,
     /// The change of each prepared value.
     prepared_changes: Vec<Scaled>,
 }
 
-impl<'p> Lift<'p> {
-    fn new(program: &'p Program) -> Lift<'p> {
-        let mut lift = Lift {
+impl<'p> Differentiation<'p> {
+    fn new(program: &'p Program) -> Differentiation<'p> {
+        let mut lift = Differentiation {
             program,
             graph: Graph::default(),
-            preparing: Vec::new(),
+            prepare_values: Vec::new(),
             prepared_changes: Vec::new(),
         };
-        lift.preparing = lift.values(&program.prepare);
-        let values = std::mem::take(&mut lift.preparing);
+        lift.prepare_values = lift.values(&program.prepare);
+        let values = std::mem::take(&mut lift.prepare_values);
         let changes = lift.changes(&program.prepare, &values);
         let results = program.prepare.results.iter();
         lift.prepared_changes = results.map(|x| changes[x.index()]).collect();
-        lift.preparing = values;
+        lift.prepare_values = values;
         lift
     }
 
@@ -232,7 +232,7 @@ impl<'p> Lift<'p> {
                 Op::Constant(ref value) => graph.constant(value),
                 Op::Pi => graph.pi(),
                 Op::Read(Source::Prepared(i)) => {
-                    self.preparing[self.program.prepare.results[i as usize].index()]
+                    self.prepare_values[self.program.prepare.results[i as usize].index()]
                 }
                 Op::Read(source) => graph.read(source),
                 Op::Add(a, b) => graph.sum(&[x(a), x(b)]),
@@ -247,7 +247,7 @@ impl<'p> Lift<'p> {
                 Op::Binary(call, a, b) => graph.function(call, &[x(a), x(b)]),
             };
             values.push(if is_shared[index] {
-                self.graph.whole(value)
+                self.graph.opaque(value)
             } else {
                 value
             });
@@ -262,7 +262,7 @@ impl<'p> Lift<'p> {
         for (index, op) in function.code.iter().enumerate() {
             let change = match *op {
                 Op::Read(Source::Prepared(i)) => self.prepared_changes[i as usize],
-                Op::Read(source) => match self.behind(source) {
+                Op::Read(source) => match self.change_argument(source) {
                     Some(change) => self.graph.read(change),
                     None => Scaled::ZERO,
                 },
@@ -277,11 +277,11 @@ impl<'p> Lift<'p> {
                     });
                     let terms: Vec<Scaled> = terms.collect();
                     let sum = self.graph.sum(&terms);
-                    self.over(sum, slopes.divisor)
+                    self.divided(sum, slopes.divisor)
                 }
             };
             changes.push(if is_shared[index] {
-                self.graph.whole(change)
+                self.graph.opaque(change)
             } else {
                 change
             });
@@ -290,7 +290,7 @@ impl<'p> Lift<'p> {
     }
 
     /// The argument that holds the change of an argument; time has none.
-    fn behind(&self, source: Source) -> Option<Source> {
+    fn change_argument(&self, source: Source) -> Option<Source> {
         let n = self.program.dimension() as u32;
         Some(match source {
             Source::Parameter(i) => Source::Parameter(self.program.parameters.len() as u32 + i),
@@ -313,14 +313,14 @@ impl<'p> Lift<'p> {
     ) -> Vec<Scaled> {
         let mut by = BTreeMap::new();
         let seeded = function.results.iter().copied().zip(seeds.iter().copied());
-        self.backwards(function, values, seeded.collect(), &mut by);
+        self.reverse_sweep(function, values, seeded.collect(), &mut by);
         let prepared = self.program.prepare.results.iter().zip(0..);
         let seeds =
             prepared.filter_map(|(x, i)| Some((*x, self.sum_of(&mut by, Source::Prepared(i))?)));
         let seeds: Vec<(Value, Scaled)> = seeds.collect();
-        let preparing = std::mem::take(&mut self.preparing);
-        self.backwards(&self.program.prepare, &preparing, seeds, &mut by);
-        self.preparing = preparing;
+        let prepare_values = std::mem::take(&mut self.prepare_values);
+        self.reverse_sweep(&self.program.prepare, &prepare_values, seeds, &mut by);
+        self.prepare_values = prepare_values;
         let (n, program) = (self.program.dimension() as u32, self.program);
         let all = (0..n).map(Source::Coordinate);
         let all = all.chain((0..n).map(Source::Velocity));
@@ -337,7 +337,7 @@ impl<'p> Lift<'p> {
     }
 
     /// Adds to `by` the derivatives of a weighted sum of a function's values with respect to its arguments.
-    fn backwards(
+    fn reverse_sweep(
         &mut self,
         function: &Function,
         values: &[Scaled],
@@ -358,9 +358,9 @@ impl<'p> Lift<'p> {
                 continue;
             }
             let slopes = self.slopes(op, Value(index as u32), values);
-            let weight = self.over(weight, slopes.divisor);
+            let weight = self.divided(weight, slopes.divisor);
             // It goes to several operands, or to sums.
-            let weight = self.graph.whole(weight);
+            let weight = self.graph.opaque(weight);
             for (operand, slope) in slopes.by.into_iter().flatten() {
                 let term = self.graph.product(&[(slope, 1), (weight, 1)]);
                 terms[operand.index()].push(term);
@@ -368,7 +368,7 @@ impl<'p> Lift<'p> {
         }
     }
 
-    fn over(&mut self, x: Scaled, divisor: Option<Scaled>) -> Scaled {
+    fn divided(&mut self, x: Scaled, divisor: Option<Scaled>) -> Scaled {
         match divisor {
             Some(divisor) if !x.is_zero() => self.graph.quotient(x, divisor),
             _ => x,
@@ -485,9 +485,9 @@ impl<'p> Lift<'p> {
             factor,
             core: Id::ONE,
         };
-        let preparing = std::mem::take(&mut self.preparing);
+        let prepare_values = std::mem::take(&mut self.prepare_values);
         let mut prepare = Part::new(Role::Prepare, ids.into_iter().map(known).collect());
-        prepare.guards = self.guards(&self.program.prepare, &preparing, further);
+        prepare.guards = self.guards(&self.program.prepare, &prepare_values, further);
         let (prepare, _) = self.function(prepare, false);
         let program = Program {
             prepared: formulas,

@@ -69,7 +69,7 @@ impl Program {
             }
         }
         if !matches!(function.role, Role::Prepare | Role::Start) {
-            no_work_left_for_prepare(code)?;
+            check_prepared_operations(code)?;
         }
         match guards
             .iter()
@@ -127,7 +127,7 @@ impl Program {
 
 /// Checks that no operation has only constants and prepared values as operands. The sign for the
 /// error of a rounded difference is exempt: it costs less than one more prepared value.
-fn no_work_left_for_prepare(code: &[Op]) -> Result<(), String> {
+fn check_prepared_operations(code: &[Op]) -> Result<(), String> {
     let known = |value: Value| {
         matches!(
             code[value.index()],

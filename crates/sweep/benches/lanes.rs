@@ -39,7 +39,7 @@ fn plan(machine: &str, until: f64, varied: [(&str, f64, f64); 1], tolerance: f64
 
 /// Runs per second, in pieces of `piece` runs, and the rows.
 fn measure(sweep: &Sweep, piece: u64) -> (f64, String) {
-    let (stop, mut all) = (AtomicBool::new(false), sweep.empty());
+    let (stop, mut all) = (AtomicBool::new(false), sweep.empty_rows());
     let began = Instant::now();
     for from in (0..RUNS).step_by(piece as usize) {
         let chunk = sweep.run(from..RUNS.min(from + piece), &stop, &|_| ());

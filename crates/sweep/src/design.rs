@@ -171,7 +171,7 @@ fn share(
         Sampling::Random => between(bits(seed, index, variable, Purpose::Value)),
         Sampling::Latin => {
             let stratum = permuted(index, count, (seed, variable));
-            let place = between(bits(seed, index, variable, Purpose::Place));
+            let place = between(bits(seed, index, variable, Purpose::Position));
             // Stays below 1 even where the sum is rounded up to the count.
             ((stratum as f64 + place) / count as f64).min(1.0 - f64::EPSILON / 2.0)
         }

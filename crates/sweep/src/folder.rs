@@ -24,28 +24,28 @@ const SHOWN_ERRORS: usize = 3;
 
 /// Why chunks cannot be stored.
 #[derive(Debug)]
-pub enum Trouble {
+pub enum FolderError {
     /// A file cannot be read or written.
     File(PathBuf, io::Error),
     /// Another process uses the folder.
-    Taken(String),
+    InUse(String),
     /// The folder holds the chunks of another plan; lists the differences.
     OtherPlan(Vec<String>),
 }
 
-impl fmt::Display for Trouble {
+impl fmt::Display for FolderError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Trouble::File(path, error) => write!(f, "{}: {error}", path.display()),
-            Trouble::Taken(by) => write!(f, "another sweep is using the folder ({by})"),
-            Trouble::OtherPlan(differences) => {
+            FolderError::File(path, error) => write!(f, "{}: {error}", path.display()),
+            FolderError::InUse(by) => write!(f, "another sweep is using the folder ({by})"),
+            FolderError::OtherPlan(differences) => {
                 write!(f, "{}; --fresh begins again", differences.join("; "))
             }
         }
     }
 }
 
-impl std::error::Error for Trouble {}
+impl std::error::Error for FolderError {}
 
 /// A folder of chunks, locked.
 #[derive(Debug)]
@@ -106,8 +106,8 @@ impl Folder {
     ///
     /// # Errors
     /// If it cannot be opened, or another process uses it.
-    pub fn open(path: &Path, format: Format, is_shared: bool) -> Result<Folder, Trouble> {
-        let at = |error| Trouble::File(path.to_owned(), error);
+    pub fn open(path: &Path, format: Format, is_shared: bool) -> Result<Folder, FolderError> {
+        let at = |error| FolderError::File(path.to_owned(), error);
         fs::create_dir_all(path).map_err(at)?;
         let name = path.join("lock");
         let lock = OpenOptions::new()
@@ -116,7 +116,7 @@ impl Folder {
             .create(true)
             .truncate(false)
             .open(&name);
-        let mut lock = lock.map_err(|error| Trouble::File(name.clone(), error))?;
+        let mut lock = lock.map_err(|error| FolderError::File(name.clone(), error))?;
         let locked = if is_shared {
             lock.try_lock_shared()
         } else {
@@ -126,9 +126,9 @@ impl Folder {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
                 let by = fs::read_to_string(&name).unwrap_or_default();
-                return Err(Trouble::Taken(by.trim().to_owned()));
+                return Err(FolderError::InUse(by.trim().to_owned()));
             }
-            Err(TryLockError::Error(error)) => return Err(Trouble::File(name, error)),
+            Err(TryLockError::Error(error)) => return Err(FolderError::File(name, error)),
         }
         // This text is shown to a process that is refused. The lock itself decides: it ends with its process.
         if !is_shared {
@@ -141,7 +141,7 @@ impl Folder {
             _lock: lock,
         };
         if !is_shared {
-            folder.tidy(|name| name.ends_with(".tmp"))?;
+            folder.remove_files(|name| name.ends_with(".tmp"))?;
         }
         Ok(folder)
     }
@@ -150,17 +150,17 @@ impl Folder {
     ///
     /// # Errors
     /// If the file is not a valid plan.
-    pub fn plan(&self) -> Result<Option<Plan>, Trouble> {
+    pub fn plan(&self) -> Result<Option<Plan>, FolderError> {
         let path = self.path.join("plan.json");
         match fs::read_to_string(&path) {
             Ok(text) => {
                 let plan = Plan::from_json(&text);
                 Ok(Some(plan.map_err(|why| {
-                    Trouble::File(path, io::Error::other(why + "; --fresh begins again"))
+                    FolderError::File(path, io::Error::other(why + "; --fresh begins again"))
                 })?))
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(Trouble::File(path, error)),
+            Err(error) => Err(FolderError::File(path, error)),
         }
     }
 
@@ -168,8 +168,8 @@ impl Folder {
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn begin(&self, plan: &Plan) -> Result<(), Trouble> {
-        self.forget()?;
+    pub fn begin(&self, plan: &Plan) -> Result<(), FolderError> {
+        self.clear()?;
         let text = plan.to_json() + "\n";
         self.write("plan.json", |to| to.write_all(text.as_bytes()))
     }
@@ -178,7 +178,7 @@ impl Folder {
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn begin_shared(&self, plan: &Plan) -> Result<(), Trouble> {
+    pub fn begin_shared(&self, plan: &Plan) -> Result<(), FolderError> {
         if self.path.join("plan.json").is_file() {
             Ok(())
         } else {
@@ -190,7 +190,7 @@ impl Folder {
     /// The number of runs in the chunks that are there.
     pub fn runs(&self, sweep: &Sweep) -> u64 {
         let chunks = 0..sweep.plan().chunks();
-        let there = chunks.filter(|&chunk| self.has(sweep, chunk));
+        let there = chunks.filter(|&chunk| self.has_chunk(sweep, chunk));
         let runs = there.map(|chunk| sweep.plan().runs_of(chunk));
         runs.map(|runs| runs.end - runs.start).sum()
     }
@@ -199,29 +199,29 @@ impl Folder {
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn forget(&self) -> Result<(), Trouble> {
+    pub fn clear(&self) -> Result<(), FolderError> {
         // The plan goes first: chunks without a plan are never used.
-        self.tidy(|name| name == "plan.json")?;
-        self.tidy(is_chunk)
+        self.remove_files(|name| name == "plan.json")?;
+        self.remove_files(is_chunk)
     }
 
     /// Whether a chunk is there.
-    pub fn has(&self, sweep: &Sweep, chunk: u64) -> bool {
+    pub fn has_chunk(&self, sweep: &Sweep, chunk: u64) -> bool {
         let runs = sweep.plan().runs_of(chunk);
         let path = self.chunk(chunk, "");
         let is_there = match self.format {
             Format::Csv => path.is_file(),
-            Format::Parquet => table::read(&path, &sweep.empty())
+            Format::Parquet => table::read(&path, &sweep.empty_rows())
                 .is_ok_and(|rows| rows.len() as u64 == runs.end - runs.start),
         };
-        is_there && (sweep.no_samples().is_none() || self.chunk(chunk, ".samples").is_file())
+        is_there && (sweep.empty_samples().is_none() || self.chunk(chunk, ".samples").is_file())
     }
 
     /// Stores a chunk.
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn keep(&self, number: u64, chunk: &Chunk) -> Result<(), Trouble> {
+    pub fn store(&self, number: u64, chunk: &Chunk) -> Result<(), FolderError> {
         // The file of rows is written last: where it exists the chunk is complete.
         if let Some(samples) = &chunk.samples {
             self.write_rows(&self.name(number, ".samples"), samples)?;
@@ -229,7 +229,7 @@ impl Folder {
         self.write_rows(&self.name(number, ""), &chunk.rows)
     }
 
-    fn write_rows(&self, name: &str, rows: &Rows) -> Result<(), Trouble> {
+    fn write_rows(&self, name: &str, rows: &Rows) -> Result<(), FolderError> {
         self.write(name, |to| write_chunk(self.format, rows, to))
     }
 
@@ -237,7 +237,7 @@ impl Folder {
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn keep_contents(&self, number: u64, contents: &Contents) -> Result<(), Trouble> {
+    pub fn store_contents(&self, number: u64, contents: &Contents) -> Result<(), FolderError> {
         // The file of rows is written last: where it exists the chunk is complete.
         if let Some(samples) = &contents.samples {
             self.write(&self.name(number, ".samples"), |to| to.write_all(samples))?;
@@ -249,7 +249,7 @@ impl Folder {
     ///
     /// # Errors
     /// Errors of the file system, or a file that does not belong to this sweep.
-    pub fn rows(&self, sweep: &Sweep) -> Result<(Rows, Option<Rows>), Trouble> {
+    pub fn rows(&self, sweep: &Sweep) -> Result<(Rows, Option<Rows>), FolderError> {
         let all = |suffix: &str, empty: Rows| {
             let mut rows = empty.clone();
             for number in 0..sweep.plan().chunks() {
@@ -258,38 +258,38 @@ impl Folder {
                     Format::Csv => table::read_csv(&path, &empty, false),
                     Format::Parquet => table::read(&path, &empty),
                 };
-                rows.extend(part.map_err(|error| Trouble::File(path, error))?);
+                rows.extend(part.map_err(|error| FolderError::File(path, error))?);
             }
             Ok(rows)
         };
-        let samples = sweep.no_samples().map(|empty| all(".samples", empty));
-        Ok((all("", sweep.empty())?, samples.transpose()?))
+        let samples = sweep.empty_samples().map(|empty| all(".samples", empty));
+        Ok((all("", sweep.empty_rows())?, samples.transpose()?))
     }
 
     /// Reads a chunk.
     ///
     /// # Errors
     /// Errors of the file system.
-    fn read(&self, empty: &Rows, number: u64) -> Result<Rows, Trouble> {
+    fn read(&self, empty: &Rows, number: u64) -> Result<Rows, FolderError> {
         let path = self.chunk(number, "");
-        table::read(&path, empty).map_err(|error| Trouble::File(path, error))
+        table::read(&path, empty).map_err(|error| FolderError::File(path, error))
     }
 
     /// A summary of all chunks.
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn summary(&self, sweep: &Sweep) -> Result<Summary, Trouble> {
+    pub fn summary(&self, sweep: &Sweep) -> Result<Summary, FolderError> {
         let mut summary = Summary::default();
         for number in 0..sweep.plan().chunks() {
             match self.format {
                 Format::Csv => {
                     let path = self.chunk(number, "");
                     let text = fs::read_to_string(&path);
-                    let text = text.map_err(|error| Trouble::File(path, error))?;
-                    summary.count_lines(&text, &sweep.empty());
+                    let text = text.map_err(|error| FolderError::File(path, error))?;
+                    summary.count_lines(&text, &sweep.empty_rows());
                 }
-                Format::Parquet => summary.count(&self.read(&sweep.empty(), number)?),
+                Format::Parquet => summary.count(&self.read(&sweep.empty_rows(), number)?),
             }
         }
         Ok(summary)
@@ -299,11 +299,11 @@ impl Folder {
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn join(&self, sweep: &Sweep, out: &Path) -> Result<(), Trouble> {
-        if let Some(empty) = sweep.no_samples() {
+    pub fn join(&self, sweep: &Sweep, out: &Path) -> Result<(), FolderError> {
+        if let Some(empty) = sweep.empty_samples() {
             self.join_one(sweep, &samples_beside(out), ".samples", empty)?;
         }
-        self.join_one(sweep, out, "", sweep.empty())
+        self.join_one(sweep, out, "", sweep.empty_rows())
     }
 
     fn join_one(
@@ -312,7 +312,7 @@ impl Folder {
         out: &Path,
         suffix: &str,
         empty: Rows,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), FolderError> {
         let chunks = 0..sweep.plan().chunks();
         let mut chunks = chunks.map(|number| self.chunk(number, suffix));
         write_whole(out, |to| match self.format {
@@ -321,7 +321,7 @@ impl Folder {
                 chunks.try_for_each(|path| io::copy(&mut File::open(path)?, to).map(drop))
             }
             Format::Parquet => {
-                let mut writer = Writer::new(to, &empty, &said(sweep.plan(), &empty))?;
+                let mut writer = Writer::new(to, &empty, &metadata(sweep.plan(), &empty))?;
                 let mut waiting = empty.clone();
                 for path in chunks {
                     waiting.extend(table::read(&path, &empty)?);
@@ -335,26 +335,26 @@ impl Folder {
                 writer.end().map(drop)
             }
         })
-        .map_err(|error| Trouble::File(out.to_owned(), error))
+        .map_err(|error| FolderError::File(out.to_owned(), error))
     }
 
     /// Removes the folder with everything that a sweep has stored there.
     ///
     /// # Errors
     /// Errors of the file system.
-    pub fn remove(self) -> Result<(), Trouble> {
-        self.forget()?;
-        self.tidy(|name| name == "lock")?;
+    pub fn remove(self) -> Result<(), FolderError> {
+        self.clear()?;
+        self.remove_files(|name| name == "lock")?;
         match fs::remove_dir(&self.path) {
             Ok(()) => Ok(()),
             // The folder also holds files that are not ours.
             Err(error) if error.kind() == io::ErrorKind::DirectoryNotEmpty => Ok(()),
-            Err(error) => Err(Trouble::File(self.path.clone(), error)),
+            Err(error) => Err(FolderError::File(self.path.clone(), error)),
         }
     }
 
     fn name(&self, number: u64, suffix: &str) -> String {
-        format!("{number:08}{suffix}.{}", self.format.ending())
+        format!("{number:08}{suffix}.{}", self.format.extension())
     }
 
     fn chunk(&self, number: u64, suffix: &str) -> PathBuf {
@@ -366,21 +366,21 @@ impl Folder {
         &self,
         name: &str,
         content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), FolderError> {
         let path = self.path.join(name);
         let partial = self.path.join(format!("{name}.{}.tmp", std::process::id()));
         let written = write_as(&partial, &path, content);
-        written.map_err(|error| Trouble::File(path, error))
+        written.map_err(|error| FolderError::File(path, error))
     }
 
     /// Removes the files that are meant.
-    fn tidy(&self, is_meant: impl Fn(&str) -> bool) -> Result<(), Trouble> {
-        let at = |error| Trouble::File(self.path.clone(), error);
+    fn remove_files(&self, is_meant: impl Fn(&str) -> bool) -> Result<(), FolderError> {
+        let at = |error| FolderError::File(self.path.clone(), error);
         for entry in fs::read_dir(&self.path).map_err(at)? {
             let entry = entry.map_err(at)?;
             if entry.file_name().to_str().is_some_and(&is_meant) {
                 let path = entry.path();
-                fs::remove_file(&path).map_err(|error| Trouble::File(path, error))?;
+                fs::remove_file(&path).map_err(|error| FolderError::File(path, error))?;
             }
         }
         Ok(())
@@ -432,7 +432,7 @@ pub fn samples_beside(out: &Path) -> PathBuf {
 }
 
 /// The metadata of a file: the plan without the length of chunks, and the units of the columns.
-fn said(plan: &Plan, rows: &Rows) -> Vec<(&'static str, String)> {
+fn metadata(plan: &Plan, rows: &Rows) -> Vec<(&'static str, String)> {
     let mut plan = serde_json::to_value(plan).unwrap_or_default();
     if let Some(plan) = plan.as_object_mut() {
         plan.shift_remove("chunk");

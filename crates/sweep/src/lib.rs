@@ -19,9 +19,9 @@ pub mod table;
 mod threads;
 pub mod verdict;
 
-pub use folder::{Contents, Folder, Summary, Trouble, contents, samples_beside};
+pub use folder::{Contents, Folder, FolderError, Summary, contents, samples_beside};
 pub use numbers::shortest;
 pub use plan::Plan;
 pub use sobol::MOST_VARIABLES;
-pub use sweep::{Chunk, Sweep, Wrong, unit_of};
+pub use sweep::{Chunk, PlanError, Sweep, unit_of};
 pub use threads::{Progress, chunk_length, cores, run_all};

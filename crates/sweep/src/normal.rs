@@ -8,14 +8,14 @@ pub(crate) fn quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
         let r = 0.180_625 - q * q;
-        return q * ratio(MIDDLE, r);
+        return q * ratio(CENTRAL, r);
     }
     let tail = if q < 0.0 { p } else { 1.0 - p };
     let r = libm::sqrt(-libm::log(tail));
     let size = if r <= 5.0 {
-        ratio(SIDE, r - 1.6)
+        ratio(INTERMEDIATE, r - 1.6)
     } else {
-        ratio(FAR, r - 5.0)
+        ratio(TAIL, r - 5.0)
     };
     size.copysign(q)
 }
@@ -28,7 +28,7 @@ fn ratio([above, below]: Ratio, r: f64) -> f64 {
     value(above) / value(below)
 }
 
-const MIDDLE: Ratio = [
+const CENTRAL: Ratio = [
     [
         3.387_132_872_796_366_5,
         133.141_667_891_784_38,
@@ -51,7 +51,7 @@ const MIDDLE: Ratio = [
     ],
 ];
 
-const SIDE: Ratio = [
+const INTERMEDIATE: Ratio = [
     [
         1.423_437_110_749_683_5,
         4.630_337_846_156_546,
@@ -74,7 +74,7 @@ const SIDE: Ratio = [
     ],
 ];
 
-const FAR: Ratio = [
+const TAIL: Ratio = [
     [
         6.657_904_643_501_103,
         5.463_784_911_164_114,

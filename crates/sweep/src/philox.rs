@@ -9,7 +9,7 @@ pub(crate) enum Purpose {
     /// A value of a random design.
     Value = 0,
     /// The position within a stratum of a Latin hypercube.
-    Place = 1,
+    Position = 1,
     /// A round of the permutation of strata.
     Round = 2,
     /// The digits by which a Sobol sequence is shifted.

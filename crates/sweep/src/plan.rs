@@ -341,9 +341,9 @@ impl SpecText {
 
 /// A file system of recorded files, instead of the files on disk.
 #[derive(Clone, Copy, Debug)]
-pub struct Kept<'a>(pub &'a [ReadFile]);
+pub struct RecordedFiles<'a>(pub &'a [ReadFile]);
 
-impl Files for Kept<'_> {
+impl Files for RecordedFiles<'_> {
     fn read(&mut self, path: &str, from: Option<&str>) -> Result<(String, String), String> {
         let found = self
             .0
@@ -355,23 +355,23 @@ impl Files for Kept<'_> {
 }
 
 /// A file system that records what is read from it.
-pub struct Recorded<'a> {
+pub struct FileRecorder<'a> {
     files: &'a mut dyn Files,
     /// The files read so far.
     pub read: Vec<ReadFile>,
 }
 
-impl<'a> Recorded<'a> {
+impl<'a> FileRecorder<'a> {
     /// A recorder that has read nothing yet.
     pub fn new(files: &'a mut dyn Files) -> Self {
-        Recorded {
+        FileRecorder {
             files,
             read: Vec::new(),
         }
     }
 }
 
-impl Files for Recorded<'_> {
+impl Files for FileRecorder<'_> {
     fn read(&mut self, path: &str, from: Option<&str>) -> Result<(String, String), String> {
         let (name, text) = self.files.read(path, from)?;
         self.read.push(ReadFile {

@@ -55,10 +55,10 @@ const NODES: [(f64, f64, f64); 17] = [
 ];
 
 /// An interval whose integral may be wrong by more than this fraction of the integral of the size so far is bisected.
-const ENOUGH: f64 = 1e-11;
+const TOLERANCE: f64 = 1e-11;
 
 /// The same for a part of a step that has been bisected: at a kink the two formulas may agree by chance to some hundredths of the error.
-const ENOUGH_OF_PART: f64 = 1e-13;
+const TOLERANCE_OF_PART: f64 = 1e-13;
 
 /// The shortest interval that is bisected, as a fraction of a step: what it contributes does not matter, even if the formula jumps there.
 const SHORTEST: f64 = 1.0 / (1u64 << 40) as f64;
@@ -71,7 +71,7 @@ const MOST_INTERVALS: usize = 32_768;
 const INTERVALS_OF_STEP: usize = 32;
 
 /// How many states of a step are kept for other formulas.
-const MOST_LOOKS: usize = 256;
+const MOST_STATES: usize = 256;
 
 /// A Taylor step has a much higher degree, so its integral is computed in this many parts.
 const PARTS_OF_SERIES: u32 = 4;
@@ -124,7 +124,7 @@ impl Tracker {
     }
 
     /// Updates the reduction with the last step, starting at a fraction of it.
-    pub fn take(&mut self, step: &Looks<'_, '_>, from: f64) -> Result<(), Error> {
+    pub fn add_step(&mut self, step: &StepStates<'_, '_>, from: f64) -> Result<(), Error> {
         let [start, end] = step.span;
         let value = |theta: f64| step.value(theta, self.formula);
         match self.function {
@@ -247,7 +247,7 @@ fn integral(
         _ => from + (to - from) * f64::from(part) / f64::from(parts),
     };
     let first = (0..parts).rev();
-    let first = first.map(|part| ([cut(part), cut(part + 1)], ENOUGH));
+    let first = first.map(|part| ([cut(part), cut(part + 1)], TOLERANCE));
     let mut open: Vec<([f64; 2], f64)> = first.collect();
     let (mut sum, mut size) = (0.0, 0.0);
     let mut scale = known;
@@ -269,8 +269,8 @@ fn integral(
             sum += fine;
             size += own;
         } else {
-            open.push(([middle, b], ENOUGH_OF_PART));
-            open.push(([a, middle], ENOUGH_OF_PART));
+            open.push(([middle, b], TOLERANCE_OF_PART));
+            open.push(([a, middle], TOLERANCE_OF_PART));
         }
     }
     Ok([sum, size])
@@ -278,7 +278,7 @@ fn integral(
 
 /// Time, state and inputs at a fraction of a step, and accelerations if they were needed.
 #[derive(Debug)]
-struct Look {
+struct StepState {
     theta: f64,
     t: f64,
     q: Vec<f64>,
@@ -288,55 +288,55 @@ struct Look {
     has_accelerations: bool,
 }
 
-/// The states evaluated within a step, up to [`MOST_LOOKS`]; kept from one step to the next to avoid allocation.
+/// The states evaluated within a step, up to [`MOST_STATES`]; kept from one step to the next to avoid allocation.
 #[derive(Debug, Default)]
-pub(crate) struct Seen {
+pub(crate) struct StateCache {
     /// The first `of_step` entries belong to the current step.
-    looks: Vec<Look>,
+    states: Vec<StepState>,
     of_step: usize,
 }
 
 /// A step that several formulas evaluate at the same points, so that each state is computed once.
-pub(crate) struct Looks<'s, 'm> {
+pub(crate) struct StepStates<'s, 'm> {
     pub span: [f64; 2],
     pub is_series: bool,
     system: &'s InterpretedSystem,
     motion: RefCell<&'s mut (dyn StepMotion<InterpretedMachine> + 'm)>,
-    seen: RefCell<&'s mut Seen>,
+    cache: RefCell<&'s mut StateCache>,
 }
 
-impl<'s, 'm> Looks<'s, 'm> {
+impl<'s, 'm> StepStates<'s, 'm> {
     pub fn new(
         system: &'s InterpretedSystem,
         motion: &'s mut (dyn StepMotion<InterpretedMachine> + 'm),
-        seen: &'s mut Seen,
+        cache: &'s mut StateCache,
     ) -> Self {
-        seen.of_step = 0;
-        Looks {
+        cache.of_step = 0;
+        StepStates {
             span: motion.span(),
             is_series: motion.is_series(),
             system,
             motion: RefCell::new(motion),
-            seen: RefCell::new(seen),
+            cache: RefCell::new(cache),
         }
     }
 
     /// The value of a formula at a fraction of the step.
     pub fn value(&self, theta: f64, formula: Formula) -> Result<f64, Error> {
         let mut motion = self.motion.borrow_mut();
-        let mut seen = self.seen.borrow_mut();
-        let Seen { looks, of_step } = &mut **seen;
-        let known = looks[..*of_step]
+        let mut cache = self.cache.borrow_mut();
+        let StateCache { states, of_step } = &mut **cache;
+        let known = states[..*of_step]
             .iter()
-            .position(|look| look.theta == theta);
+            .position(|state| state.theta == theta);
         let place = match known {
             Some(place) => place,
             None => {
                 // The last place is used again and again when there are no more.
-                *of_step = (*of_step).min(MOST_LOOKS - 1);
-                if looks.len() == *of_step {
+                *of_step = (*of_step).min(MOST_STATES - 1);
+                if states.len() == *of_step {
                     let zeros = || vec![0.0; self.system.coordinates().len()];
-                    looks.push(Look {
+                    states.push(StepState {
                         theta,
                         t: 0.0,
                         q: zeros(),
@@ -346,23 +346,23 @@ impl<'s, 'm> Looks<'s, 'm> {
                         has_accelerations: false,
                     });
                 }
-                let look = &mut looks[*of_step];
-                look.theta = theta;
-                look.t = motion.state_at(theta, &mut look.q, &mut look.v)?;
-                look.u = motion.inputs(look.t, &look.q, &look.v);
-                look.has_accelerations = false;
+                let state = &mut states[*of_step];
+                state.theta = theta;
+                state.t = motion.state_at(theta, &mut state.q, &mut state.v)?;
+                state.u = motion.inputs(state.t, &state.q, &state.v);
+                state.has_accelerations = false;
                 *of_step += 1;
                 *of_step - 1
             }
         };
-        let look = &mut looks[place];
-        if formula.reads_accelerations && !look.has_accelerations {
-            motion.accelerations((look.t, &look.q, &look.v), &look.u, &mut look.a)?;
-            look.has_accelerations = true;
+        let state = &mut states[place];
+        if formula.reads_accelerations && !state.has_accelerations {
+            motion.accelerations((state.t, &state.q, &state.v), &state.u, &mut state.a)?;
+            state.has_accelerations = true;
         }
-        let Look { t, q, v, u, a, .. } = look;
+        let StepState { t, q, v, u, a, .. } = state;
         // Outputs that do not depend on accelerations get none.
-        let a = if look.has_accelerations { &a[..] } else { &[] };
+        let a = if state.has_accelerations { &a[..] } else { &[] };
         Ok(self.system.output(formula.output, *t, q, v, a, &u.values))
     }
 }

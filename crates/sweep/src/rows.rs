@@ -84,7 +84,7 @@ impl Rows {
                 (Values::Count(values), Cell::Count(value)) => values.push(value),
                 (Values::Number(values), Cell::Number(value)) => values.push(value),
                 (Values::Text(values), Cell::Text(value)) => values.push(value),
-                (values, _) => values.push_nothing(),
+                (values, _) => values.push_missing(),
             }
         }
     }
@@ -135,7 +135,7 @@ impl Values {
         }
     }
 
-    fn push_nothing(&mut self) {
+    fn push_missing(&mut self) {
         match self {
             Values::Count(values) => values.push(0),
             Values::Number(values) => values.push(None),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lagrangian::interpreted::{InterpretedMachine, Signal, Signals, TableFile};
 use lagrangian::{Between, Beyond, Table};
-use lagrangian_spec::diagnostic::{Report, nearest};
+use lagrangian_spec::diagnostic::{Report, most_similar};
 use lagrangian_spec::model::Model;
 use lagrangian_spec::resolve::value_in;
 use lagrangian_spec::source::Sources;
@@ -15,7 +15,7 @@ use crate::table;
 
 /// The text after `--input NAME=`, parsed.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Written {
+pub enum InputArgument {
     /// A formula of the spec's language.
     Formula(String),
     /// A formula that is evaluated once in each period; its value takes effect after a delay and holds until the
@@ -45,7 +45,7 @@ pub enum Written {
 ///
 /// # Errors
 /// If the text is malformed: what is wrong, and what is expected instead.
-pub fn written(text: &str) -> Result<Written, String> {
+pub fn parse_input(text: &str) -> Result<InputArgument, String> {
     let text = text.trim();
     let Some(end) = end_of_file(text) else {
         return formula(text);
@@ -71,7 +71,7 @@ pub fn written(text: &str) -> Result<Written, String> {
             "end=error" => beyond.replace(Beyond::Error).is_some(),
             "end=repeat" => beyond.replace(Beyond::Repeat).is_some(),
             _ => {
-                let near = nearest(option, FILE_OPTIONS.iter().copied());
+                let near = most_similar(option, FILE_OPTIONS.iter().copied());
                 let near = near.map(|near| format!("; did you mean `{near}`?"));
                 return Err(format!(
                     "`{option}` is not an option of a table: {}{}",
@@ -86,7 +86,7 @@ pub fn written(text: &str) -> Result<Written, String> {
             ));
         }
     }
-    Ok(Written::File {
+    Ok(InputArgument::File {
         path: PathBuf::from(path),
         column,
         between: between.unwrap_or_default(),
@@ -131,7 +131,7 @@ fn parts(text: &str) -> Vec<&str> {
     parts.collect()
 }
 
-fn formula(text: &str) -> Result<Written, String> {
+fn formula(text: &str) -> Result<InputArgument, String> {
     let parts = parts(text);
     let formula = parts.first().copied().unwrap_or_default().trim().to_owned();
     if formula.is_empty() {
@@ -166,8 +166,8 @@ fn formula(text: &str) -> Result<Written, String> {
         }
     }
     match (every, delay) {
-        (None, None) => Ok(Written::Formula(formula)),
-        (Some(every), delay) => Ok(Written::Sampled {
+        (None, None) => Ok(InputArgument::Formula(formula)),
+        (Some(every), delay) => Ok(InputArgument::Sampled {
             formula,
             every,
             delay: delay.unwrap_or(0.0),
@@ -198,11 +198,11 @@ pub fn table_file(path: &Path) -> Result<TableFile, String> {
     file.map_err(|wrong| wrong.to_string())
 }
 
-impl Written {
+impl InputArgument {
     /// The file that the law reads.
     pub fn file(&self) -> Option<&Path> {
         match self {
-            Written::File { path, .. } => Some(path),
+            InputArgument::File { path, .. } => Some(path),
             _ => None,
         }
     }
@@ -213,8 +213,8 @@ impl Written {
     /// If its table is invalid: what is wrong with it.
     pub fn law(&self, input: &str, unit: &str) -> Result<Law, String> {
         Ok(match self {
-            Written::Formula(formula) => Law::Formula(formula.clone()),
-            Written::Sampled {
+            InputArgument::Formula(formula) => Law::Formula(formula.clone()),
+            InputArgument::Sampled {
                 formula,
                 every,
                 delay,
@@ -223,7 +223,7 @@ impl Written {
                 every: *every,
                 delay: *delay,
             },
-            Written::File {
+            InputArgument::File {
                 path,
                 column,
                 between,
@@ -278,7 +278,7 @@ impl Law {
 /// # Errors
 /// If there is no such input, with a similar name as suggestion, or if a table is invalid.
 pub fn laws(
-    written: &[(String, Written)],
+    written: &[(String, InputArgument)],
     model: &Model<'_>,
 ) -> Result<Vec<(String, Law)>, String> {
     let inputs = || {
@@ -295,7 +295,7 @@ pub fn laws(
         };
         let meant: Vec<(String, &str)> = inputs().filter(|(own, _)| is_meant(own)).collect();
         if meant.is_empty() {
-            return Err(unknown(name, model));
+            return Err(unknown_input(name, model));
         }
         for (own, unit) in meant {
             let law = what.law(&own, unit);
@@ -306,13 +306,13 @@ pub fn laws(
 }
 
 /// The message for an unknown input.
-pub(crate) fn unknown(name: &str, model: &Model<'_>) -> String {
+pub(crate) fn unknown_input(name: &str, model: &Model<'_>) -> String {
     let names: Vec<String> = model
         .inputs
         .iter()
         .map(|input| input.name.to_string())
         .collect();
-    let near = nearest(name, names.iter().map(String::as_str));
+    let near = most_similar(name, names.iter().map(String::as_str));
     let help = match (near, names.is_empty()) {
         (Some(near), _) => format!("did you mean `{near}`?"),
         (None, true) => "the machine has none".into(),
@@ -385,7 +385,7 @@ mod tests {
     #[test]
     fn what_stands_behind_an_input_is_told_apart() {
         let file = |path: &str, column: Option<&str>, between, beyond| {
-            Ok(Written::File {
+            Ok(InputArgument::File {
                 path: path.into(),
                 column: column.map(str::to_owned),
                 between,
@@ -393,13 +393,13 @@ mod tests {
             })
         };
         let sampled = |formula: &str, every: f64, delay: f64| {
-            Ok(Written::Sampled {
+            Ok(InputArgument::Sampled {
                 formula: formula.into(),
                 every,
                 delay,
             })
         };
-        let formula = |text: &str| Ok(Written::Formula(text.into()));
+        let formula = |text: &str| Ok(InputArgument::Formula(text.into()));
         for (text, known) in [
             ("0.5*sin(10*t)", formula("0.5*sin(10*t)")),
             ("max(x, y)", formula("max(x, y)")),
@@ -423,7 +423,7 @@ mod tests {
                 ),
             ),
         ] {
-            assert_eq!(written(text), known, "{text}");
+            assert_eq!(parse_input(text), known, "{text}");
         }
         for (text, why) in [
             ("", "expected a formula"),
@@ -437,7 +437,7 @@ mod tests {
             ("x,every=1,every=1", "given twice"),
             ("x,often", "`every=TIME`"),
         ] {
-            let said = written(text).expect_err(text);
+            let said = parse_input(text).expect_err(text);
             assert!(said.contains(why), "{text}: {said}");
         }
     }

@@ -10,16 +10,16 @@ use lagrangian::{
 };
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
-use lagrangian_spec::diagnostic::{Report, Severity, nearest};
+use lagrangian_spec::diagnostic::{Report, Severity, most_similar};
 use lagrangian_spec::model::{Contact, Coordinate, Model, stage};
-use lagrangian_spec::resolve::Formula as Asked;
+use lagrangian_spec::resolve::Formula as OutputFormula;
 use lagrangian_spec::source::Sources;
 use lagrangian_spec::unit::{integral_name, rate_name, rate_unit, state_of};
 use lagrangian_symbolic::{Dag, Rational};
 
 use crate::design;
-use crate::plan::{Function, Kept, Plan, Reduction};
-use crate::reduce::{Formula, Looks, Seen, Tracker};
+use crate::plan::{Function, Plan, RecordedFiles, Reduction};
+use crate::reduce::{Formula, StateCache, StepStates, Tracker};
 use crate::rows::{Cell, Column, Kind, Rows};
 use crate::signals::{self, without_series};
 use crate::sobol::MOST_VARIABLES;
@@ -37,7 +37,7 @@ const MOST_GROUP: u64 = 64;
 
 /// Why a plan cannot be run.
 #[derive(Debug)]
-pub enum Wrong {
+pub enum PlanError {
     /// The spec, or a formula, is invalid.
     Spec(Box<(Report, Sources)>),
     /// The plan is invalid.
@@ -53,11 +53,11 @@ pub struct Sweep {
     /// Why another method is used than the plan asks for, as a sentence.
     warning: Option<String>,
     constants: Vec<(String, Rational)>,
-    places: Vec<Place>,
+    varied: Vec<VariedQuantity>,
     signals: Signals,
     /// For each event the index of the output that is its function.
     events: Vec<usize>,
-    reductions: Vec<Made>,
+    reductions: Vec<ReductionSource>,
     columns: Vec<Column>,
     sample_columns: Option<Vec<Column>>,
     /// How many runs are started together where they may run in lanes.
@@ -66,7 +66,7 @@ pub struct Sweep {
 
 /// How a reduction is computed.
 #[derive(Clone, Debug)]
-enum Made {
+enum ReductionSource {
     /// From an expression along the motion.
     Along(Tracker),
     /// From the event or contact with this name.
@@ -75,7 +75,7 @@ enum Made {
 
 /// What a varied name stands for.
 #[derive(Clone, Debug)]
-enum Place {
+enum VariedQuantity {
     /// A parameter or an input.
     Set(String),
     /// A coordinate at the start.
@@ -95,9 +95,9 @@ pub struct Chunk {
     pub failed: u64,
 }
 
-impl Place {
+impl VariedQuantity {
     /// Resolves a name: `omega`, `start(x)`, `rate(x)`. A state of first order is the rate of its integral.
-    fn of(name: &str, model: &Model<'_>) -> Place {
+    fn of(name: &str, model: &Model<'_>) -> VariedQuantity {
         let inner = |function: &str| {
             let inner = name.strip_prefix(function)?.strip_prefix('(')?;
             Some(inner.strip_suffix(')')?.trim().to_owned())
@@ -110,19 +110,20 @@ impl Place {
                     own == integral || (state_of(&own).is_some() && c.name.base == integral)
                 };
                 if model.coordinates.iter().any(is_meant) {
-                    Place::Rate(integral)
+                    VariedQuantity::Rate(integral)
                 } else {
-                    Place::Start(name)
+                    VariedQuantity::Start(name)
                 }
             }
-            (_, Some(name)) => Place::Rate(name),
-            _ => Place::Set(name.to_owned()),
+            (_, Some(name)) => VariedQuantity::Rate(name),
+            _ => VariedQuantity::Set(name.to_owned()),
         }
     }
 
     /// Whether it is a member of a family; members are set after the family.
     fn is_member(&self) -> bool {
-        let (Place::Set(name) | Place::Start(name) | Place::Rate(name)) = self;
+        let (VariedQuantity::Set(name) | VariedQuantity::Start(name) | VariedQuantity::Rate(name)) =
+            self;
         name.contains('[')
     }
 }
@@ -132,10 +133,10 @@ impl Place {
 /// # Errors
 /// If the machine has nothing of this name; suggests a similar name.
 pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
-    let place = Place::of(name, model);
+    let place = VariedQuantity::of(name, model);
     let (what, wanted) = match &place {
-        Place::Set(name) => ("parameter or input", name),
-        Place::Start(name) | Place::Rate(name) => ("coordinate", name),
+        VariedQuantity::Set(name) => ("parameter or input", name),
+        VariedQuantity::Start(name) | VariedQuantity::Rate(name) => ("coordinate", name),
     };
     let wanted = &*lagrangian_spec::token::normalized(wanted);
     let coordinates = model.coordinates.iter().map(|c| match c.rate {
@@ -151,15 +152,15 @@ pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
         .iter()
         .map(|i| (i.name.to_string(), i.unit_text.clone()));
     let known: Vec<(String, String)> = match place {
-        Place::Set(_) => parameters.chain(inputs).collect(),
+        VariedQuantity::Set(_) => parameters.chain(inputs).collect(),
         _ => coordinates.collect(),
     };
     let is_meant =
         |name: &str| name == wanted || name.split_once('[').is_some_and(|(base, _)| base == wanted);
     if let Some((name, unit)) = known.iter().find(|(name, _)| is_meant(name)) {
         return Ok(match place {
-            Place::Rate(_) if state_of(name).is_some() => rate_unit(name, unit),
-            Place::Rate(_) => format!("({unit})/s"),
+            VariedQuantity::Rate(_) if state_of(name).is_some() => rate_unit(name, unit),
+            VariedQuantity::Rate(_) => format!("({unit})/s"),
             _ => unit.clone(),
         });
     }
@@ -168,8 +169,8 @@ pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
         .iter()
         .any(|c| is_meant(&c.name.to_string()));
     let names = || known.iter().map(|(name, _)| name.as_str());
-    let help = match nearest(wanted, names()) {
-        _ if is_coordinate && matches!(place, Place::Set(_)) => {
+    let help = match most_similar(wanted, names()) {
+        _ if is_coordinate && matches!(place, VariedQuantity::Set(_)) => {
             format!("it is a coordinate, whose start is `start({wanted})`")
         }
         Some(near) => format!("did you mean `{near}`?"),
@@ -184,20 +185,20 @@ impl Sweep {
     ///
     /// # Errors
     /// If the spec or the plan is invalid: what is wrong.
-    pub fn new(plan: Plan, engine: Engine) -> Result<Sweep, Wrong> {
-        let constants = plan.spec.constants().map_err(Wrong::Plan)?;
+    pub fn new(plan: Plan, engine: Engine) -> Result<Sweep, PlanError> {
+        let constants = plan.spec.constants().map_err(PlanError::Plan)?;
         let dag = Dag::new();
         let (mut sources, mut report) = (Sources::new(), Report::new());
         let Some(plain) = model(&plan, &constants, &dag, &[], &mut sources, &mut report) else {
-            return Err(Wrong::Spec(Box::new((report, sources))));
+            return Err(PlanError::Spec(Box::new((report, sources))));
         };
         let places = check(&plan, &plain)?;
         let names = names(&plan, &plain);
-        let asked: Vec<Asked<'_>> = names
+        let asked: Vec<OutputFormula<'_>> = names
             .iter()
-            .map(|(name, said, text, unit)| Asked {
+            .map(|(name, source_name, text, unit)| OutputFormula {
                 name,
-                said,
+                source_name,
                 text,
                 unit: unit.as_deref(),
             })
@@ -209,7 +210,7 @@ impl Sweep {
         };
         let compiled = with.and_then(|model| Compiled::new(model, &mut report));
         let Some(compiled) = compiled else {
-            return Err(Wrong::Spec(Box::new((report, sources))));
+            return Err(PlanError::Spec(Box::new((report, sources))));
         };
         let own = compiled.model.outputs.len() - asked.len();
         let formulas: Vec<Formula> = (own..)
@@ -221,7 +222,7 @@ impl Sweep {
             .collect();
         for ((_, said, text, _), formula) in names.iter().zip(&formulas) {
             if formula.reads_accelerations && !said.starts_with("--reduce") {
-                return Err(Wrong::Plan(format!(
+                return Err(PlanError::Plan(format!(
                     "{said}: `{text}` depends on accelerations, which depend on it in turn or jump where contacts change; only \
                      reductions may"
                 )));
@@ -231,7 +232,7 @@ impl Sweep {
         let mut machine = InterpretedMachine::new(compiled.program.clone());
         machine
             .set_engine(engine)
-            .map_err(|none| Wrong::Plan(none.to_string()))?;
+            .map_err(|none| PlanError::Plan(none.to_string()))?;
         let Some(mut method) = Method::named(&plan.method) else {
             let names: Vec<_> = Method::all().map(|method| method.tableau.name).collect();
             let message = format!(
@@ -239,14 +240,14 @@ impl Sweep {
                 plan.method,
                 names.join(", ")
             );
-            return Err(Wrong::Plan(message));
+            return Err(PlanError::Plan(message));
         };
         if method.has_fixed_steps() {
             let name = method.tableau.name;
             let message = format!(
                 "the method `{name}` takes steps of a fixed length, which a plan does not have"
             );
-            return Err(Wrong::Plan(message));
+            return Err(PlanError::Plan(message));
         }
         let mut warning = None;
         if std::ptr::eq(method, &TAYLOR) {
@@ -258,15 +259,15 @@ impl Sweep {
             }
             machine = machine.with_series(series);
         }
-        set_all(&mut machine, &plan.set).map_err(Wrong::Plan)?;
+        set_all(&mut machine, &plan.set).map_err(PlanError::Plan)?;
         let mut probe = machine.clone();
         for place in &places {
-            if let Place::Set(name) = place {
+            if let VariedQuantity::Set(name) = place {
                 let _ = probe.set(name, 1.0); // the name was checked
             }
         }
         probe.check_parameters().map_err(|missing| {
-            Wrong::Plan(format!(
+            PlanError::Plan(format!(
                 "{missing}; set them with --set {}=…",
                 missing.names.join("=… --set ")
             ))
@@ -280,7 +281,7 @@ impl Sweep {
             })
         };
         let signals = signals::signals(&plan.inputs, &machine, || next().output);
-        let signals = signals.map_err(Wrong::Plan)?;
+        let signals = signals.map_err(PlanError::Plan)?;
         if std::ptr::eq(method, &TAYLOR)
             && let Some(reason) = without_series(&signals, &machine)
         {
@@ -300,7 +301,10 @@ impl Sweep {
                     _ => "s",
                 };
                 units.push(unit.to_owned());
-                reductions.push(Made::Of(reduction.function, reduction.of.clone()));
+                reductions.push(ReductionSource::Of(
+                    reduction.function,
+                    reduction.of.clone(),
+                ));
                 continue;
             }
             let formula = next();
@@ -312,7 +316,7 @@ impl Sweep {
                 Function::Integral => format!("({unit})*s"),
                 _ => unit.clone(),
             });
-            reductions.push(Made::Along(Tracker::new(
+            reductions.push(ReductionSource::Along(Tracker::new(
                 reduction.function,
                 formula,
                 of_size,
@@ -324,7 +328,7 @@ impl Sweep {
             .iter()
             .find(|column| !seen.insert(column.name.as_str()))
         {
-            return Err(Wrong::Plan(format!(
+            return Err(PlanError::Plan(format!(
                 "two columns would be named `{}`: give the reduction another name",
                 twice.name
             )));
@@ -341,7 +345,7 @@ impl Sweep {
             method,
             warning,
             constants,
-            places,
+            varied: places,
             signals,
             events,
             reductions,
@@ -373,12 +377,12 @@ impl Sweep {
     }
 
     /// An empty set of rows of this sweep.
-    pub fn empty(&self) -> Rows {
+    pub fn empty_rows(&self) -> Rows {
         Rows::new(self.columns.clone())
     }
 
     /// An empty set of samples; `None` if the plan asks for none.
-    pub fn no_samples(&self) -> Option<Rows> {
+    pub fn empty_samples(&self) -> Option<Rows> {
         self.sample_columns.clone().map(Rows::new)
     }
 
@@ -392,9 +396,9 @@ impl Sweep {
         // Checks of numbers need the model of the spec, which belongs to one thread.
         let dag = Dag::new();
         let sets = self
-            .places
+            .varied
             .iter()
-            .any(|place| matches!(place, Place::Set(_)));
+            .any(|place| matches!(place, VariedQuantity::Set(_)));
         let refuses = if sets || !self.plan.set.is_empty() {
             let (mut sources, mut report) = (Sources::new(), Report::new());
             model(
@@ -409,8 +413,8 @@ impl Sweep {
             None
         };
         let mut chunk = Chunk {
-            rows: self.empty(),
-            samples: self.no_samples(),
+            rows: self.empty_rows(),
+            samples: self.empty_samples(),
             failed: 0,
         };
         let mut numbers = runs;
@@ -458,9 +462,9 @@ impl Sweep {
         refuses: Option<&Model<'_>>,
         stop: &AtomicBool,
     ) -> Option<Vec<Outcome>> {
-        let mut begun: Vec<Begun> = runs
+        let mut begun: Vec<PreparedRun> = runs
             .iter()
-            .map(|(_, values)| self.begin_one(values, refuses))
+            .map(|(_, values)| self.prepare_run(values, refuses))
             .collect();
         let mut simulations = Vec::new();
         for ((run, _), begun) in runs.iter().zip(&mut begun) {
@@ -472,7 +476,7 @@ impl Sweep {
         let made = Simulation::run_interpreted_in_lanes(simulations);
         let mut made = made.into_iter();
         let outcomes = runs.iter().zip(begun).map(|((run, _), begun)| {
-            let (instants, reductions) = (begun.watched.at.len(), self.reductions.len());
+            let (instants, reductions) = (begun.recorder.at.len(), self.reductions.len());
             let failed = Outcome::failed(begun.start, instants, reductions);
             if let Some(error) = begun.refused {
                 let error = Some(error);
@@ -480,7 +484,7 @@ impl Sweep {
             }
             match made.next()? {
                 Ok((solution, error)) => {
-                    self.outcome(*run, (&solution, error), begun.watched, failed)
+                    self.outcome(*run, (&solution, error), begun.recorder, failed)
                 }
                 Err(error) => {
                     let error = Some(verdict::message_of(&error));
@@ -492,18 +496,18 @@ impl Sweep {
     }
 
     /// A run with its varied values, ready to start.
-    fn begin_one(&self, values: &[f64], refuses: Option<&Model<'_>>) -> Begun {
+    fn prepare_run(&self, values: &[f64], refuses: Option<&Model<'_>>) -> PreparedRun {
         let plan = &self.plan;
         let mut machine = self.machine.clone();
         let mut coordinates = [(&plan.start, Vec::new()), (&plan.rate, Vec::new())];
         for is_member in [false, true] {
-            let varied = self.places.iter().zip(values);
+            let varied = self.varied.iter().zip(values);
             for (place, value) in varied.filter(|(place, _)| place.is_member() == is_member) {
                 match place {
                     // All names were checked.
-                    Place::Set(name) => drop(machine.set(name, *value)),
-                    Place::Start(name) => coordinates[0].1.push((name, *value)),
-                    Place::Rate(name) => coordinates[1].1.push((name, *value)),
+                    VariedQuantity::Set(name) => drop(machine.set(name, *value)),
+                    VariedQuantity::Start(name) => coordinates[0].1.push((name, *value)),
+                    VariedQuantity::Rate(name) => coordinates[1].1.push((name, *value)),
                 }
             }
         }
@@ -520,28 +524,28 @@ impl Sweep {
             }
         }
         let trackers = self.reductions.iter().map(|made| match made {
-            Made::Along(tracker) => Some(tracker.clone()),
-            Made::Of(..) => None,
+            ReductionSource::Along(tracker) => Some(tracker.clone()),
+            ReductionSource::Of(..) => None,
         });
-        let watched = Watched {
+        let recorder = Recorder {
             trackers: trackers.collect(),
             at: vec![None; plan.at.len()],
-            samples: self.no_samples(),
+            samples: self.empty_samples(),
             due: 0,
-            seen: Seen::default(),
+            cache: StateCache::default(),
         };
         let refused = refuses.and_then(|model| {
-            let said = model.refused_values(machine.parameter_values());
+            let said = model.parameter_diagnostics(machine.parameter_values());
             let error = said
                 .iter()
                 .find(|said| said.code.severity() == Severity::Error)?;
             Some(format!("{} [{}]", error.message, error.code))
         });
-        Begun {
+        PreparedRun {
             system: machine.prepare(),
             machine,
             start,
-            watched,
+            recorder,
             refused,
         }
     }
@@ -550,14 +554,14 @@ impl Sweep {
     fn simulation<'r>(
         &'r self,
         run: u64,
-        begun: &'r mut Begun,
+        begun: &'r mut PreparedRun,
         stop: &'r AtomicBool,
     ) -> Simulation<'r, InterpretedMachine, Signals> {
         let plan = &self.plan;
-        let Begun {
+        let PreparedRun {
             machine,
             system,
-            watched,
+            recorder,
             ..
         } = begun;
         let (machine, system) = (&*machine, &*system);
@@ -609,14 +613,15 @@ impl Sweep {
                 simulation.event(&watch.name, Crossing::Any, function)
             };
         }
-        let looks = self
+        let records_steps = self
             .reductions
             .iter()
-            .any(|made| matches!(made, Made::Along(_)))
+            .any(|made| matches!(made, ReductionSource::Along(_)))
             || !plan.at.is_empty()
             || plan.every.is_some();
-        if looks {
-            simulation = simulation.each_step(move |step| watched.take(plan, run, system, step));
+        if records_steps {
+            simulation =
+                simulation.each_step(move |step| recorder.record_step(plan, run, system, step));
         }
         simulation.stop_if(|_| stop.load(Ordering::Relaxed))
     }
@@ -629,7 +634,7 @@ impl Sweep {
             &Solution<InterpretedMachine, Signals>,
             Option<lagrangian::Error>,
         ),
-        mut watched: Watched,
+        mut recorder: Recorder,
         mut outcome: Outcome,
     ) -> Option<Outcome> {
         let plan = &self.plan;
@@ -637,7 +642,7 @@ impl Sweep {
             return None;
         }
         let error = error.as_ref().map(verdict::message_of);
-        outcome.error = error.or_else(|| verdict::objection(solution));
+        outcome.error = error.or_else(|| verdict::energy_error(solution));
         outcome.status = match (&outcome.error, solution.ending()) {
             (Some(_), _) => "failed".to_owned(),
             (None, Ending::Event(name)) => format!("event {name}"),
@@ -646,12 +651,12 @@ impl Sweep {
         outcome.end = solution.end().clone();
         outcome.steps = solution.statistics().steps as u64;
         outcome.residual = solution.energy_balance().map(|balance| balance.residual());
-        watched.end(plan, (run, solution.start(), solution.end()));
+        recorder.record_ends(plan, (run, solution.start(), solution.end()));
         let after = |t: f64| {
             plan.after
                 .is_none_or(|after| (t - after) * plan.until.signum() >= 0.0)
         };
-        if let Some(samples) = &mut watched.samples {
+        if let Some(samples) = &mut recorder.samples {
             let events = solution.events().iter();
             for event in
                 events.filter(|event| plan.at_events.contains(&event.name) && after(event.state.t))
@@ -661,13 +666,13 @@ impl Sweep {
                 samples.push(cells);
             }
         }
-        outcome.at = watched.at;
-        outcome.samples = watched.samples;
+        outcome.at = recorder.at;
+        outcome.samples = recorder.samples;
         if outcome.error.is_none() {
-            let made = self.reductions.iter().zip(&watched.trackers);
+            let made = self.reductions.iter().zip(&recorder.trackers);
             outcome.reductions = made
                 .map(|(made, tracker)| match (made, tracker) {
-                    (Made::Of(Function::Power, contact), _) => {
+                    (ReductionSource::Of(Function::Power, contact), _) => {
                         let mut names = solution.system().unilateral_contacts();
                         let k = names.position(|of| of.name == contact)?;
                         let since = plan.after.unwrap_or(solution.start().t);
@@ -678,7 +683,7 @@ impl Sweep {
                         let taken = solution.contact_energies().get(k)?.lost() - before;
                         Some(taken / (solution.end().t - since))
                     }
-                    (Made::Of(function, name), _) => {
+                    (ReductionSource::Of(function, name), _) => {
                         let since = plan.after.unwrap_or(solution.start().t);
                         let events = solution.events().iter();
                         let mut times = events
@@ -704,18 +709,18 @@ impl Sweep {
 }
 
 /// A run before its simulation: its machine with the varied values, its start, and its observers.
-struct Begun {
+struct PreparedRun {
     machine: InterpretedMachine,
     /// Evaluates formulas while the run uses its own system.
     system: InterpretedSystem,
     start: State<Named>,
-    watched: Watched,
+    recorder: Recorder,
     /// Why the spec refuses these numbers, if it does.
     refused: Option<String>,
 }
 
 /// What is recorded while a run is made.
-struct Watched {
+struct Recorder {
     trackers: Vec<Option<Tracker>>,
     /// The states at recorded instants.
     at: Vec<Option<State<Named>>>,
@@ -723,12 +728,12 @@ struct Watched {
     /// The index of the next sample.
     due: u64,
     /// The states that the trackers evaluated within the step.
-    seen: Seen,
+    cache: StateCache,
 }
 
-impl Watched {
+impl Recorder {
     /// Records a step.
-    fn take(
+    fn record_step(
         &mut self,
         plan: &Plan,
         run: u64,
@@ -760,15 +765,15 @@ impl Watched {
         if self.trackers.iter().all(Option::is_none) {
             return Ok(());
         }
-        let looks = Looks::new(system, step, &mut self.seen);
+        let states = StepStates::new(system, step, &mut self.cache);
         for tracker in self.trackers.iter_mut().flatten() {
-            tracker.take(&looks, theta)?;
+            tracker.add_step(&states, theta)?;
         }
         Ok(())
     }
 
     /// Adds the recorded instants and samples at the ends of a run, which may have taken no step.
-    fn end(&mut self, plan: &Plan, (run, start, end): (u64, &State<Named>, &State<Named>)) {
+    fn record_ends(&mut self, plan: &Plan, (run, start, end): (u64, &State<Named>, &State<Named>)) {
         for (t, state) in plan.at.iter().zip(&mut self.at) {
             if *t == start.t {
                 *state = Some(start.clone());
@@ -847,14 +852,14 @@ fn model<'d>(
     plan: &Plan,
     constants: &[(String, Rational)],
     dag: &'d Dag,
-    formulas: &[Asked<'_>],
+    formulas: &[OutputFormula<'_>],
     sources: &mut Sources,
     report: &mut Report,
 ) -> Option<Model<'d>> {
     let text = &plan.spec;
     let spec = lagrangian_spec::parse(sources, &text.name, &text.text, report);
     let spec = spec.with_given(plan.spec.given.iter().cloned().chain(plan.given()));
-    let files = &mut Kept(&text.files);
+    let files = &mut RecordedFiles(&text.files);
     Model::resolve_with(spec, dag, constants, formulas, files, sources, report)
 }
 
@@ -934,8 +939,8 @@ fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<
 }
 
 /// Checks names and numbers of a plan; returns what each varied name stands for.
-fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
-    let wrong = |message: String| Err(Wrong::Plan(message));
+fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity>, PlanError> {
+    let wrong = |message: String| Err(PlanError::Plan(message));
     if design::runs(&plan.design).is_none() {
         return wrong("there are more than 2^40 runs".into());
     }
@@ -984,7 +989,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
         .iter()
         .find(|name| !known().any(|known| known == *name))
     {
-        let help = match nearest(name, known()) {
+        let help = match most_similar(name, known()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("`--event {name}=FORMULA` defines it"),
         };
@@ -1000,7 +1005,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
     let both: Vec<String> = starts.chain(rates).collect();
     let mut seen = std::collections::BTreeSet::new();
     for name in &varied {
-        unit_of(model, name).map_err(Wrong::Plan)?;
+        unit_of(model, name).map_err(PlanError::Plan)?;
         if !seen.insert(*name) {
             return wrong(format!("`{name}` is varied more than once"));
         }
@@ -1016,12 +1021,12 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
         .map(|(name, _)| name.as_str())
         .chain(both.iter().map(String::as_str))
     {
-        unit_of(model, name).map_err(Wrong::Plan)?;
+        unit_of(model, name).map_err(PlanError::Plan)?;
     }
     for (name, _) in &plan.inputs {
         let mut inputs = model.inputs.iter();
         if !inputs.any(|input| input.name.to_string() == *name) {
-            return wrong(signals::unknown(name, model));
+            return wrong(signals::unknown_input(name, model));
         }
         if plan.set.iter().any(|(set, _)| set == name) {
             return wrong(format!(
@@ -1049,7 +1054,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
     {
         let names = known;
         if !names().any(|name| name == reduction.of) {
-            let help = match nearest(&reduction.of, names()) {
+            let help = match most_similar(&reduction.of, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "name it by --event NAME=FORMULA".into(),
             };
@@ -1069,7 +1074,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
             .iter()
             .map(|of| of.name.to_string())
             .collect();
-        let help = match nearest(&reduction.of, names.iter().map(String::as_str)) {
+        let help = match most_similar(&reduction.of, names.iter().map(String::as_str)) {
             Some(near) => format!("did you mean `{near}`?"),
             None if names.is_empty() => "the machine has no `contacts`".into(),
             None => format!("there are: {}", names.join(", ")),
@@ -1081,7 +1086,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
     }
     Ok(varied
         .into_iter()
-        .map(|name| Place::of(name, model))
+        .map(|name| VariedQuantity::of(name, model))
         .collect())
 }
 

@@ -16,7 +16,7 @@ pub enum Format {
 
 impl Format {
     /// The extension of a file name.
-    pub fn ending(self) -> &'static str {
+    pub fn extension(self) -> &'static str {
         match self {
             Format::Csv => "csv",
             Format::Parquet => "parquet",
@@ -24,7 +24,7 @@ impl Format {
     }
 
     /// Whether this build can write it.
-    pub fn is_here(self) -> bool {
+    pub fn is_available(self) -> bool {
         self == Format::Csv || cfg!(feature = "parquet")
     }
 }

@@ -5,26 +5,26 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::time::{Duration, Instant};
 
-use crate::folder::{Folder, Trouble};
+use crate::folder::{Folder, FolderError};
 use crate::plan::LONGEST_CHUNK;
 use crate::sweep::Sweep;
 
 /// The time that a chunk should take.
-const CHUNK: Duration = Duration::from_secs(1);
+const CHUNK_DURATION: Duration = Duration::from_secs(1);
 
 /// The number of runs that fills the lanes of a processor twice, and the longest time that a chunk may take
 /// for this purpose.
 const FILLS_LANES: u64 = 16;
-const LONGEST: Duration = Duration::from_secs(10);
+const LONGEST_CHUNK: Duration = Duration::from_secs(10);
 
 /// How many runs are timed to choose the length of chunks.
-const TRIED: u64 = 8;
+const TIMED_RUNS: u64 = 8;
 
 /// The number of chunks per core, so that no core idles for long at the end.
-const CHUNKS_A_CORE: u64 = 4;
+const CHUNKS_PER_CORE: u64 = 4;
 
 /// The interval between progress reports.
-const BETWEEN: Duration = Duration::from_millis(100);
+const REPORT_INTERVAL: Duration = Duration::from_millis(100);
 
 /// The progress of a sweep.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,7 +44,7 @@ pub fn cores() -> usize {
 /// lanes; a power of two.
 pub fn chunk_length(sweep: &Sweep) -> u64 {
     let runs = sweep.plan().runs();
-    let most = (runs / (CHUNKS_A_CORE * cores() as u64)).clamp(1, LONGEST_CHUNK);
+    let most = (runs / (CHUNKS_PER_CORE * cores() as u64)).clamp(1, LONGEST_CHUNK);
     if most == 1 {
         return 1;
     }
@@ -55,11 +55,11 @@ pub fn chunk_length(sweep: &Sweep) -> u64 {
     std::thread::scope(|scope| {
         let is_over = &is_over;
         scope.spawn(move || {
-            if told.recv_timeout(CHUNK) == Err(mpsc::RecvTimeoutError::Timeout) {
+            if told.recv_timeout(CHUNK_DURATION) == Err(mpsc::RecvTimeoutError::Timeout) {
                 is_over.store(true, Ordering::Relaxed);
             }
         });
-        while done < TRIED.min(runs) {
+        while done < TIMED_RUNS.min(runs) {
             if sweep.run(done..done + 1, is_over, &|_| ()).is_none() {
                 break;
             }
@@ -68,8 +68,8 @@ pub fn chunk_length(sweep: &Sweep) -> u64 {
         drop(tell);
     });
     let each = began.elapsed().as_secs_f64() / done.max(1) as f64;
-    let mut fit = (CHUNK.as_secs_f64() / each.max(1e-9)) as u64;
-    if sweep.may_run_in_lanes() && each * FILLS_LANES as f64 <= LONGEST.as_secs_f64() {
+    let mut fit = (CHUNK_DURATION.as_secs_f64() / each.max(1e-9)) as u64;
+    if sweep.may_run_in_lanes() && each * FILLS_LANES as f64 <= LONGEST_CHUNK.as_secs_f64() {
         fit = fit.max(FILLS_LANES);
     }
     let length = fit.clamp(1, most);
@@ -87,14 +87,14 @@ pub fn run_all(
     (threads, limit): (usize, Option<u64>),
     stop: &AtomicBool,
     watch: &mut dyn FnMut(Progress),
-) -> Result<u64, Trouble> {
+) -> Result<u64, FolderError> {
     let plan = sweep.plan();
     let length = |chunk: u64| {
         let runs = plan.runs_of(chunk);
         runs.end - runs.start
     };
     let (there, missing): (Vec<u64>, Vec<u64>) =
-        (0..plan.chunks()).partition(|&chunk| folder.has(sweep, chunk));
+        (0..plan.chunks()).partition(|&chunk| folder.has_chunk(sweep, chunk));
     let before: u64 = there.into_iter().map(length).sum();
     let mut begun = 0;
     let wanted = missing.iter().take_while(|&&chunk| {
@@ -116,7 +116,7 @@ pub fn run_all(
             let Some(made) = sweep.run(plan.runs_of(chunk), stop, &count) else {
                 return;
             };
-            if let Err(error) = folder.keep(chunk, &made) {
+            if let Err(error) = folder.store(chunk, &made) {
                 let mut trouble = trouble.lock().unwrap_or_else(PoisonError::into_inner);
                 trouble.get_or_insert(error);
                 stop.store(true, Ordering::Relaxed);
@@ -134,7 +134,7 @@ pub fn run_all(
             });
         }
         drop(tell);
-        while told.recv_timeout(BETWEEN) == Err(mpsc::RecvTimeoutError::Timeout) {
+        while told.recv_timeout(REPORT_INTERVAL) == Err(mpsc::RecvTimeoutError::Timeout) {
             watch(Progress {
                 done: done.load(Ordering::Relaxed),
                 failed: failed.load(Ordering::Relaxed),

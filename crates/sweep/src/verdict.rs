@@ -18,7 +18,7 @@ pub fn message_of(error: &Error) -> String {
 }
 
 /// What is wrong with a run that reached its end: an energy that is not a number, or too much energy missing.
-pub fn objection<L: InputLaw<<InterpretedMachine as Machine>::System>>(
+pub fn energy_error<L: InputLaw<<InterpretedMachine as Machine>::System>>(
     run: &Solution<InterpretedMachine, L>,
 ) -> Option<String> {
     overflow(run.energies()).or_else(|| imbalance(run.warnings()))

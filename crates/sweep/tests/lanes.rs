@@ -53,7 +53,7 @@ fn watch(name: &str, formula: &str, ends: bool) -> Watch {
 
 /// All rows and samples, computed in pieces of `piece` runs and printed with enough digits to tell any two numbers apart.
 fn rows(sweep: &Sweep, piece: u64) -> (String, u64) {
-    let (mut all, mut samples) = (sweep.empty(), sweep.no_samples());
+    let (mut all, mut samples) = (sweep.empty_rows(), sweep.empty_samples());
     let (stop, runs) = (AtomicBool::new(false), sweep.plan().runs());
     let (mut from, mut failed) = (0, 0);
     while from < runs {

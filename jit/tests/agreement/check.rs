@@ -90,7 +90,7 @@ const STAGES: [Role; 2] = [Role::AtTime, Role::AtPosition];
 
 fn interpret(interpreter: &mut Interpreter<f64>, role: Role, len: usize, state: &State) -> Outcome {
     for (role, values) in STAGES.into_iter().zip(&state.left) {
-        interpreter.stand(role, values);
+        interpreter.set_stage_results(role, values);
     }
     let arguments = arguments(state);
     let mut results = vec![0.0; len];
@@ -195,7 +195,7 @@ pub fn agrees(
                 let what = format!("{level:?}, {}, seed {seed}, state {index}", role.name());
                 let expected = interpret(&mut interpreter, role, len, state);
                 for (role, values) in STAGES.into_iter().zip(&state.left) {
-                    running.stand(role, values);
+                    running.set_stage_results(role, values);
                 }
                 let mut results = vec![0.0; len];
                 let is_run = running.call(role, arguments(state), &mut results);
@@ -252,8 +252,8 @@ fn in_lanes<const N: usize>(
                     let row = |index| side_by_side(|lane| of(&states[lane])[index]);
                     (0..count).map(row).collect()
                 };
-                several.stand(Role::AtTime, &rows(|state| &state.left[0]));
-                several.stand(Role::AtPosition, &rows(|state| &state.left[1]));
+                several.set_stage_results(Role::AtTime, &rows(|state| &state.left[0]));
+                several.set_stage_results(Role::AtPosition, &rows(|state| &state.left[1]));
                 let (q, v, u, a) = (
                     rows(|state| &state.q),
                     rows(|state| &state.v),

@@ -15,14 +15,14 @@ impl Diagnostic {
     /// On one line, for other programs: `file:line:column: error: message [code]`; then the help
     /// and other places, indented.
     pub fn render_short(&self, sources: &Sources) -> String {
-        let place = place(sources, self.span);
+        let place = location(sources, self.span);
         let severity = self.code.severity().as_str();
         let mut text = format!("{place}: {severity}: {} [{}]", self.message, self.code);
         if let Some(help) = &self.help {
             let _ = write!(text, "\n    help: {help}");
         }
         for (span, note) in &self.notes {
-            let place = self::place(sources, *span);
+            let place = self::location(sources, *span);
             let _ = write!(text, "\n    note: {place}: {note}");
         }
         text
@@ -86,14 +86,14 @@ impl Report {
 }
 
 /// `file:line:column`.
-fn place(sources: &Sources, span: Span) -> String {
+fn location(sources: &Sources, span: Span) -> String {
     let (line, column) = sources.line_column(span);
     format!("{}:{line}:{column}", sources.name(span.source))
 }
 
 /// The place and, for a file, its line with the words underlined by `mark`.
 fn snippet(sources: &Sources, span: Span, margin: usize, mark: char) -> String {
-    let mut text = format!("\n{:margin$}--> {}", "", place(sources, span));
+    let mut text = format!("\n{:margin$}--> {}", "", location(sources, span));
     if sources.is_tokens(span.source) {
         return text;
     }

@@ -13,7 +13,7 @@ use crate::model::element::{Contribution, Drawing, Load, Shape, Site};
 use crate::model::{Place, PoseId, Space, stage};
 use crate::resolve::Resolver;
 use crate::resolve::element::{Meaning, Resolved, Row};
-use crate::resolve::motion::to_point;
+use crate::resolve::motion::vector_between;
 use crate::resolve::value::{Limit, MemberId, limit};
 use crate::source::Span;
 use crate::syntax::{Expression, Form, Record, Section};
@@ -72,7 +72,7 @@ fn between_points<'a, 'd>(
         Some((resolver.point(member, end)?, end.span))
     });
     let ((from, _), (to, span)) = (from?, to?);
-    let line = to_point(&from, &to);
+    let line = vector_between(&from, &to);
     let square = resolver.dag.sum(line.iter().map(|c| c.square()));
     if identity::is_zero(square) == Some(true) {
         same_ends(resolver, span);
@@ -109,7 +109,7 @@ fn between_frames<'a, 'd>(
     let torque = resolver.scalar_in(torque, Unit::JOULE, "a torque is in N*m", scope);
     let ends = ["from", "to"].map(|end| {
         let end = resolver.field(member, record, end)?;
-        Some((resolver.turning_place(member, end)?, end.span))
+        Some((resolver.oriented_place(member, end)?, end.span))
     });
     let axis = axis(resolver, member, record);
     let [Some((from, _)), Some((to, span))] = ends else {
@@ -144,7 +144,7 @@ fn axis<'a, 'd>(
     member: MemberId,
     record: &'a Record,
 ) -> Option<Option<Vec<Expr<'d>>>> {
-    let Some(said) = record.field("axis") else {
+    let Some(written) = record.field("axis") else {
         if resolver.space == Space::Plane {
             return Some(None);
         }
@@ -155,11 +155,13 @@ fn axis<'a, 'd>(
     };
     if resolver.space == Space::Plane {
         let message = "in the plane a torque acts only about the normal";
-        let diagnostic = Diagnostic::new(Code::WrongSpace, said.name.span, message);
+        let diagnostic = Diagnostic::new(Code::WrongSpace, written.name.span, message);
         resolver.push(diagnostic.help("leave the axis out"));
         return None;
     }
     let scope = resolver.scope(member, &AXIS);
-    let axis = resolver.vector(&said.value, "a vector", scope)?;
-    Some(Some(resolver.direction(&axis.components, said.value.span)?))
+    let axis = resolver.vector(&written.value, "a vector", scope)?;
+    Some(Some(
+        resolver.direction(&axis.components, written.value.span)?,
+    ))
 }

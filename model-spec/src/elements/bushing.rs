@@ -50,7 +50,7 @@ struct Values {
     field: &'static str,
     /// The units of the values along the axes, and of the value about them.
     units: [Unit; 2],
-    why: &'static str,
+    reason: &'static str,
     limit: &'static Limit,
     bound: Option<BoundKind<'static>>,
 }
@@ -58,7 +58,7 @@ struct Values {
 const STIFFNESSES: Values = Values {
     field: "stiffness",
     units: [Unit::base(1, 0, -2), Unit::JOULE],
-    why: "the stiffnesses of a bushing are in N/m, N/m and N*m",
+    reason: "the stiffnesses of a bushing are in N/m, N/m and N*m",
     limit: &STIFFNESS,
     bound: Some(BoundKind::Stiffness),
 };
@@ -66,7 +66,7 @@ const STIFFNESSES: Values = Values {
 const DAMPINGS: Values = Values {
     field: "damping",
     units: [Unit::base(1, 0, -1), Unit::base(1, 2, -1)],
-    why: "the dampings of a bushing are in N*s/m, N*s/m and N*m*s",
+    reason: "the dampings of a bushing are in N*s/m, N*s/m and N*m*s",
     limit: &DAMPING,
     bound: Some(BoundKind::Damping),
 };
@@ -74,7 +74,7 @@ const DAMPINGS: Values = Values {
 const PRELOADS: Values = Values {
     field: "preload",
     units: [Unit::NEWTON, Unit::JOULE],
-    why: "the preload of a bushing is in N, N and N*m",
+    reason: "the preload of a bushing is in N, N and N*m",
     limit: &PRELOAD,
     bound: None,
 };
@@ -92,7 +92,8 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         Some((resolver.frame(end, scope)?, end.span))
     });
     let stiffness = resolver.field(member, record, STIFFNESSES.field);
-    let stiffness = stiffness.and_then(|said| three(resolver, member, said, &STIFFNESSES));
+    let stiffness =
+        stiffness.and_then(|written| three_values(resolver, member, written, &STIFFNESSES));
     let damping = optional(resolver, member, record, &DAMPINGS);
     let preload = optional(resolver, member, record, &PRELOADS);
     let [Some((from, _)), Some((to, span))] = ends else {
@@ -104,7 +105,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         return None;
     }
 
-    let measures = measures(resolver, from, to);
+    let measures = relative_pose(resolver, from, to);
     let deformations = |coefficients: [Expr<'d>; 3]| {
         let pairs = coefficients.into_iter().zip(measures).enumerate();
         // A direction without stiffness or damping adds no term.
@@ -138,29 +139,29 @@ fn optional<'a, 'd>(
     values: &Values,
 ) -> Option<[Expr<'d>; 3]> {
     match record.get(values.field) {
-        Some(said) => three(resolver, member, said, values),
+        Some(written) => three_values(resolver, member, written, values),
         None => Some([resolver.dag.zero(); 3]),
     }
 }
 
 /// Two values along the axes, and one about them. They are not a vector, since their units differ.
-fn three<'a, 'd>(
+fn three_values<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
-    said: &'a Expression,
+    written: &'a Expression,
     values: &Values,
 ) -> Option<[Expr<'d>; 3]> {
-    let parts = match &said.kind {
+    let parts = match &written.kind {
         ExpressionKind::Tuple(parts) => &parts[..],
         ExpressionKind::Error => return None,
-        _ => std::slice::from_ref(said),
+        _ => std::slice::from_ref(written),
     };
     let [x, y, angle] = parts else {
         let message = format!(
             "expected three values, two along the axes and one for the rotation, found {}",
             parts.len()
         );
-        let diagnostic = Diagnostic::new(Code::WrongDimension, said.span, message);
+        let diagnostic = Diagnostic::new(Code::WrongDimension, written.span, message);
         let help = format!("write `{}: (…, …, …)`", values.field);
         resolver.push(diagnostic.help(help));
         return None;
@@ -168,7 +169,7 @@ fn three<'a, 'd>(
     let [along, about] = values.units;
     let found = [(x, along), (y, along), (angle, about)].map(|(part, unit)| {
         let scope = resolver.scope(member, values.limit);
-        let scalar = resolver.scalar_in(part, unit, values.why, scope)?;
+        let scalar = resolver.scalar_in(part, unit, values.reason, scope)?;
         if let Some(bound) = values.bound {
             resolver.bound(bound, scalar.expr, part.span);
         }
@@ -183,14 +184,14 @@ fn three<'a, 'd>(
 /// The largest number of steps from frame to frame that are followed. Frames farther apart are
 /// measured from the ground, so that bushings on every link of a long chain do not take as many
 /// traversals of it.
-const FAR: usize = 64;
+const FRAME_STEP_LIMIT: usize = 64;
 
 /// The pose of the frame `to` relative to `from`: x, y and φ. Their common base is left out.
 ///
 /// On the way from one to the other every shift was made in the axes of some frame of angle ψ, and so is
 /// turned by ψ minus the angle of `from`: nothing in it has to cancel, and a frame that is built on
 /// `from` by a shift alone is displaced by that shift.
-fn measures<'d>(resolver: &Resolver<'_, 'd, '_>, from: PoseId, to: PoseId) -> [Expr<'d>; 3] {
+fn relative_pose<'d>(resolver: &Resolver<'_, 'd, '_>, from: PoseId, to: PoseId) -> [Expr<'d>; 3] {
     let (dag, base) = (resolver.dag, resolver.pose(from).angle);
     let less_base = |angle: Expr<'d>| {
         let base = terms(base).into_iter().map(|term| -term);
@@ -226,21 +227,25 @@ fn measures<'d>(resolver: &Resolver<'_, 'd, '_>, from: PoseId, to: PoseId) -> [E
 /// A shift on the way, in the axes of a frame that is turned by an angle.
 struct Shift<'d> {
     angle: Expr<'d>,
-    by: Vec<Expr<'d>>,
+    displacement: Vec<Expr<'d>>,
     /// Whether it lies between `from` and the common base of both frames, and counts with the opposite sign.
-    is_back: bool,
+    is_reversed: bool,
 }
 
 impl<'d> Shift<'d> {
     fn new(angle: Expr<'d>, by: Vec<Expr<'d>>, is_back: bool) -> Shift<'d> {
-        Shift { angle, by, is_back }
+        Shift {
+            angle,
+            displacement: by,
+            is_reversed: is_back,
+        }
     }
 
     /// The terms of a component.
     fn terms(&self, k: usize) -> impl Iterator<Item = Expr<'d>> {
-        let is_back = self.is_back;
+        let is_back = self.is_reversed;
         let signed = move |term: Expr<'d>| if is_back { -term } else { term };
-        terms(self.by[k]).into_iter().map(signed)
+        terms(self.displacement[k]).into_iter().map(signed)
     }
 }
 
@@ -252,7 +257,7 @@ fn shifts_between<'d>(
 ) -> Option<Vec<Shift<'d>>> {
     let mut shifts = Vec::new();
     let (mut near, mut far) = ((from, true), (to, false));
-    for _ in 0..FAR {
+    for _ in 0..FRAME_STEP_LIMIT {
         if near.0 == far.0 {
             shifts.sort_by_key(|shift: &Shift<'d>| shift.angle.id());
             return Some(shifts);

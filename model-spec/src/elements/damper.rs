@@ -33,8 +33,8 @@ pub(super) static DAMPING: Limit = limit(
 
 const DAMPER: Elastic = Elastic {
     coefficient: "damping",
-    linear: Unit::base(1, 0, -1),
-    product: Unit::base(1, 2, -1),
+    translational_unit: Unit::base(1, 0, -1),
+    energy_unit: Unit::base(1, 2, -1),
     limit: &DAMPING,
     bound: BoundKind::Damping,
     shape: Shape::Dashpot,

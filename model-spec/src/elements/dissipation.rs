@@ -30,8 +30,8 @@ static DISSIPATION: Limit = limit(
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
     let value = resolver.expression(member)?;
     let scope = resolver.scope(member, &DISSIPATION);
-    let why = "a dissipation function is in W: 1/2*b*der(x)^2";
-    let function = resolver.scalar_in(value, Unit::WATT, why, scope)?;
+    let reason = "a dissipation function is in W: 1/2*b*der(x)^2";
+    let function = resolver.scalar_in(value, Unit::WATT, reason, scope)?;
     let help = "its derivative with respect to a velocity is a force: write that under `forces` or `torques`";
     if resolver.refuse_states(function.expr, value.span, "a dissipation function", help) {
         return None;

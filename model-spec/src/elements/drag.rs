@@ -57,13 +57,13 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let record = resolver.record(member)?;
     let at = resolver.field(member, record, "at");
     let point = at.and_then(|at| Some((resolver.point(member, at)?, at.span)));
-    let factors = FACTORS.map(|factor| of_factor(resolver, member, record, factor));
+    let factors = FACTORS.map(|factor| force_factor(resolver, member, record, factor));
     let scope = resolver.scope(member, &FORCE);
     let wind = match record.get("wind") {
         None => Some(None),
         Some(wind) => {
-            let (unit, why) = (Unit::METRE.rate(), "a wind is in m/s");
-            let wind = resolver.vector_in(wind, "a vector", unit, why, scope);
+            let (unit, reason) = (Unit::METRE.rate(), "a wind is in m/s");
+            let wind = resolver.vector_in(wind, "a vector", unit, reason, scope);
             wind.map(|wind| Some(wind.components))
         }
     };
@@ -111,15 +111,15 @@ fn speed<'d>(resolver: &Resolver<'_, 'd, '_>, velocity: &[Expr<'d>]) -> Expr<'d>
     }
 }
 
-fn of_factor<'a, 'd>(
+fn force_factor<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
     record: &'a Record,
-    (field, unit, why): Factor,
+    (field, unit, reason): Factor,
 ) -> Option<Expr<'d>> {
-    let said = resolver.field(member, record, field)?;
+    let written = resolver.field(member, record, field)?;
     let scope = resolver.scope(member, &FACTOR);
-    let value = resolver.scalar_in(said, unit, why, scope)?;
-    resolver.bound(BoundKind::Drag, value.expr, said.span);
+    let value = resolver.scalar_in(written, unit, reason, scope)?;
+    resolver.bound(BoundKind::Drag, value.expr, written.span);
     Some(value.expr)
 }

@@ -22,9 +22,9 @@ pub(super) struct Elastic {
     /// The field of the coefficient.
     pub coefficient: &'static str,
     /// The unit of the coefficient for a stretch in m.
-    pub linear: Unit,
+    pub translational_unit: Unit,
     /// The unit of coefficient times stretch squared.
-    pub product: Unit,
+    pub energy_unit: Unit,
     /// The limit of the coefficient.
     pub limit: &'static Limit,
     /// The bound that it must obey.
@@ -50,7 +50,9 @@ impl Elastic {
         let record = resolver.record(member)?;
         let coefficient = resolver.field(member, record, self.coefficient);
         let coefficient = coefficient.map(|coefficient| {
-            let scope = resolver.scope(member, self.limit).hinting(self.linear);
+            let scope = resolver
+                .scope(member, self.limit)
+                .with_expected_unit(self.translational_unit);
             (resolver.scalar(coefficient, scope), coefficient.span)
         });
         let stretch = stretch(resolver, member, record)?;
@@ -81,26 +83,26 @@ impl Elastic {
         let (Some(c), Some(x)) = (coefficient.unit, stretch.value.unit) else {
             return; // a bare number takes any unit
         };
-        if c.times(x).times(x) == self.product {
+        if c.times(x).times(x) == self.energy_unit {
             return;
         }
-        let why = format!(
+        let reason = format!(
             "`{}` is in {} for a stretch in m",
-            self.coefficient, self.linear
+            self.coefficient, self.translational_unit
         );
-        if c == self.linear {
-            resolver.demand(Some(x), Unit::METRE, stretch.span, &why);
+        if c == self.translational_unit {
+            resolver.require_unit(Some(x), Unit::METRE, stretch.span, &reason);
         } else {
-            let expected = self.product.over(x.times(x));
+            let expected = self.energy_unit.over(x.times(x));
             let expected = if x == Unit::METRE {
-                self.linear
+                self.translational_unit
             } else {
                 expected
             };
             let message = format!("expected {}, found {}", unit_text(expected), unit_text(c));
             let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
             let note = format!("the stretch is in {}", unit_text(x));
-            resolver.push(diagnostic.help(why).note(stretch.span, note));
+            resolver.push(diagnostic.help(reason).note(stretch.span, note));
         }
     }
 }
@@ -116,7 +118,9 @@ fn stretch<'a, 'd>(
             for field in ["from", "to", "length"] {
                 resolver.conflict(record, field, "stretch");
             }
-            let scope = resolver.scope(member, &STRETCH).hinting(Unit::METRE);
+            let scope = resolver
+                .scope(member, &STRETCH)
+                .with_expected_unit(Unit::METRE);
             let value = resolver.scalar(stretch, scope)?;
             Some(Stretch {
                 value,
@@ -124,7 +128,7 @@ fn stretch<'a, 'd>(
                 site: Site::Stretch(value.expr),
             })
         }
-        (None, Some(from), Some(to)) => between(resolver, member, record, [from, to]),
+        (None, Some(from), Some(to)) => stretch_between(resolver, member, record, [from, to]),
         (None, from, to) => {
             let base = resolver.base_name(member);
             let message = match (from, to) {
@@ -142,7 +146,7 @@ fn stretch<'a, 'd>(
 }
 
 /// The stretch between two points.
-fn between<'a, 'd>(
+fn stretch_between<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
     record: &'a Record,
@@ -154,7 +158,7 @@ fn between<'a, 'd>(
     let (from, to, length) = (from?, to?, length?);
     let line: Vec<Expr<'d>> = to.iter().zip(&from).map(|(&to, &from)| to - from).collect();
     let value = Scalar {
-        expr: distance_less(resolver, &line, length),
+        expr: elongation(resolver, &line, length),
         unit: Some(Unit::METRE),
         number: None,
     };
@@ -185,11 +189,7 @@ fn free_length<'a, 'd>(
 /// So the distance of the ends of a spring in polar coordinates is `r`, and that of two
 /// points on a line `b − a`: no root remains, and no division by it in the force. The run
 /// checks the assumption.
-fn distance_less<'d>(
-    resolver: &Resolver<'_, 'd, '_>,
-    line: &[Expr<'d>],
-    free: Expr<'d>,
-) -> Expr<'d> {
+fn elongation<'d>(resolver: &Resolver<'_, 'd, '_>, line: &[Expr<'d>], free: Expr<'d>) -> Expr<'d> {
     let length = resolver.distance(line);
     // Added as one sum, so that a free length in it cancels.
     resolver.dag.sum(terms(length).into_iter().chain([-free]))

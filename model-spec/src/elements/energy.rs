@@ -37,5 +37,5 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     if resolver.refuse_rates(energy.expr, value.span, "an energy of states", help) {
         return None;
     }
-    Some(Resolved::of([Contribution::OfStates(energy.expr)]))
+    Some(Resolved::of([Contribution::StateEnergy(energy.expr)]))
 }

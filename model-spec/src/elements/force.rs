@@ -58,9 +58,9 @@ fn at_point<'a, 'd>(
     let force = resolver.field(member, record, "force");
     let at = at.and_then(|at| resolver.point(member, at));
     let scope = resolver.scope(member, &FORCE);
-    let why = "a force is in N";
+    let reason = "a force is in N";
     let force =
-        force.and_then(|force| resolver.vector_in(force, "a vector", Unit::NEWTON, why, scope));
+        force.and_then(|force| resolver.vector_in(force, "a vector", Unit::NEWTON, reason, scope));
     Some(Load::Point {
         at: at?,
         force: force?.components,
@@ -79,8 +79,8 @@ fn on_coordinate<'a, 'd>(
     let unit = coordinate.and_then(|coordinate| resolver.unit_of(coordinate));
     let value = value.and_then(|value| match unit {
         Some(unit) => {
-            let why = "a generalized force does work along its coordinate";
-            resolver.scalar_in(value, Unit::JOULE.over(unit), why, scope)
+            let reason = "a generalized force does work along its coordinate";
+            resolver.scalar_in(value, Unit::JOULE.over(unit), reason, scope)
         }
         None => resolver.scalar(value, scope),
     });

@@ -29,15 +29,15 @@ static GRAVITY: Limit = limit(
 
 fn resolve<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
-    said: &'a Expression,
+    written: &'a Expression,
 ) -> Option<Resolved<'d>> {
     let scope = Scope {
         index: None,
         limit: &GRAVITY,
-        hint: None,
+        expected_unit: None,
     };
     let unit = Unit::METRE.rate().rate();
-    let why = "gravity is an acceleration, in m/s^2";
-    let gravity = resolver.vector_in(said, "a vector", unit, why, scope)?;
+    let reason = "gravity is an acceleration, in m/s^2";
+    let gravity = resolver.vector_in(written, "a vector", unit, reason, scope)?;
     Some(Resolved::of([Contribution::Gravity(gravity.components)]))
 }

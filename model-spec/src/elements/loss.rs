@@ -33,5 +33,5 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let value = resolver.expression(member)?;
     let scope = resolver.scope(member, &LOSS);
     let power = resolver.scalar_in(value, Unit::WATT, "a loss is a power, in W", scope)?;
-    Some(Resolved::of([Contribution::Lost(power.expr)]))
+    Some(Resolved::of([Contribution::PowerLoss(power.expr)]))
 }

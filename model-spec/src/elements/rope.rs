@@ -39,7 +39,7 @@ use crate::model::element::{Constraint, Contribution};
 use crate::model::{Assumption, Name, Space, stage};
 use crate::resolve::Resolver;
 use crate::resolve::element::{Meaning, Resolved, Row};
-use crate::resolve::motion::to_point;
+use crate::resolve::motion::vector_between;
 use crate::resolve::value::{Limit, MemberId, POSITIONS, limit};
 use crate::source::Span;
 use crate::syntax::{Expression, ExpressionKind, Form, Record, Section};
@@ -75,21 +75,21 @@ static RADIUS: Limit = limit(
 static TURN: Limit = limit(stage::POSITION, "the turn of a pulley", POSITIONS);
 
 /// A point of the path: its position and, for a pulley, its radius and its angle.
-struct Stop<'d> {
-    at: Vec<Expr<'d>>,
+struct PathPoint<'d> {
+    position: Vec<Expr<'d>>,
     /// Signed; 0 for a point.
     radius: Expr<'d>,
     turn: Option<Expr<'d>>,
 }
 
 /// A straight part of the rope.
-struct Part<'d> {
+struct Segment<'d> {
     length: Expr<'d>,
     /// Its direction, times `norm`.
     along: Vec<Expr<'d>>,
     norm: Expr<'d>,
     /// The vector from centre to centre.
-    line: Vec<Expr<'d>>,
+    centre_line: Vec<Expr<'d>>,
 }
 
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
@@ -101,9 +101,9 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         _ => resolver.field(member, record, "length"),
     };
     let scope = resolver.scope(member, &LENGTH);
-    let length = length.map(|said| {
-        let length = resolver.scalar_in(said, Unit::METRE, "a length is in m", scope);
-        (length, said.span)
+    let length = length.map(|written| {
+        let length = resolver.scalar_in(written, Unit::METRE, "a length is in m", scope);
+        (length, written.span)
     });
     let path = path?;
     let points = match &path.kind {
@@ -120,14 +120,14 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         .map(|point| resolver.point(member, point))
         .collect();
     let points: Vec<Vec<Expr<'d>>> = points.into_iter().collect::<Option<_>>()?;
-    let stops = stops(resolver, member, record, points)?;
-    let parts: Vec<Part<'d>> = stops
+    let stops = path_points(resolver, member, record, points)?;
+    let parts: Vec<Segment<'d>> = stops
         .windows(2)
-        .map(|ends| part(resolver, &ends[0], &ends[1]))
+        .map(|ends| segment(resolver, &ends[0], &ends[1]))
         .collect();
     let mut constraints = Vec::new();
-    let has_drum =
-        stops.first().is_some_and(Stop::has_size) || stops.last().is_some_and(Stop::has_size);
+    let has_drum = stops.first().is_some_and(PathPoint::is_pulley)
+        || stops.last().is_some_and(PathPoint::is_pulley);
     if has_drum {
         if let Some((_, span)) = length {
             let message = "a rope on a drum keeps the length that it has at the start";
@@ -135,7 +135,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
             resolver.push(diagnostic.help("leave `length` out"));
             return None;
         }
-        let expression = growth(resolver, (&stops, &parts), stops.len() - 1, path.span)?;
+        let expression = length_rate(resolver, (&stops, &parts), stops.len() - 1, path.span)?;
         constraints.push((None, expression, Unit::METRE.rate()));
     } else {
         let Some((length, _)) = length else {
@@ -153,7 +153,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     }
     for k in 1..stops.len() - 1 {
         if stops[k].turn.is_some() {
-            let expression = growth(resolver, (&stops, &parts), k, path.span)?;
+            let expression = length_rate(resolver, (&stops, &parts), k, path.span)?;
             constraints.push((Some(k), expression, Unit::METRE.rate()));
         }
         if has_drum {
@@ -185,8 +185,8 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     Some(Resolved::of(constraints))
 }
 
-impl Stop<'_> {
-    fn has_size(&self) -> bool {
+impl PathPoint<'_> {
+    fn is_pulley(&self) -> bool {
         !self.radius.is_zero()
     }
 }
@@ -204,26 +204,26 @@ fn is_wound(record: &Record) -> bool {
 }
 
 /// The points of the path with their radii and angles.
-fn stops<'a, 'd>(
+fn path_points<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
     record: &'a Record,
     points: Vec<Vec<Expr<'d>>>,
-) -> Option<Vec<Stop<'d>>> {
+) -> Option<Vec<PathPoint<'d>>> {
     let zero = resolver.dag.zero();
     let radii = match record.get("radii") {
         None => vec![(zero, None); points.len()],
-        Some(said) if resolver.space == Space::Space => {
+        Some(written) if resolver.space == Space::Space => {
             let message = "ropes around pulleys with radii exist only in the plane";
-            let diagnostic = Diagnostic::new(Code::WrongSpace, said.span, message);
+            let diagnostic = Diagnostic::new(Code::WrongSpace, written.span, message);
             resolver.push(
                 diagnostic.help("in space a rope goes from point to point: leave `radii` out"),
             );
             return None;
         }
-        Some(said) => {
+        Some(written) => {
             let scope = resolver.scope(member, &RADIUS);
-            let radii = list(resolver, said, points.len(), "radii")?.iter();
+            let radii = list(resolver, written, points.len(), "radii")?.iter();
             let radii: Vec<_> = radii
                 .map(|radius| {
                     let scalar =
@@ -236,8 +236,8 @@ fn stops<'a, 'd>(
     };
     let turns = match record.get("turns") {
         None => vec![None; points.len()],
-        Some(said) => {
-            let turns = list(resolver, said, points.len(), "turns")?.iter();
+        Some(written) => {
+            let turns = list(resolver, written, points.len(), "turns")?.iter();
             let turns: Vec<_> = turns
                 .map(|turn| {
                     let scalar = turn_of(resolver, member, turn, &TURN)?;
@@ -245,8 +245,8 @@ fn stops<'a, 'd>(
                         return Some(None);
                     }
                     let unit = scalar.unit.unwrap_or(Unit::RADIAN);
-                    let why = "a pulley turns by an angle";
-                    resolver.demand(Some(Unit::RADIAN), unit, turn.span, why);
+                    let reason = "a pulley turns by an angle";
+                    resolver.require_unit(Some(Unit::RADIAN), unit, turn.span, reason);
                     Some(Some((scalar.expr, turn.span)))
                 })
                 .collect();
@@ -275,8 +275,8 @@ fn stops<'a, 'd>(
             }
             _ => {}
         }
-        stops.push(Stop {
-            at,
+        stops.push(PathPoint {
+            position: at,
             radius,
             turn: turn.map(|(turn, _)| turn),
         });
@@ -287,46 +287,50 @@ fn stops<'a, 'd>(
 /// A tuple of as many expressions as the path has points.
 fn list<'a>(
     resolver: &mut Resolver<'a, '_, '_>,
-    said: &'a Expression,
+    written: &'a Expression,
     count: usize,
     field: &str,
 ) -> Option<&'a [Expression]> {
-    match &said.kind {
+    match &written.kind {
         ExpressionKind::Error => None,
         ExpressionKind::Tuple(parts) if parts.len() == count => Some(parts),
         _ => {
             let message = format!(
                 "`{field}` needs one value for each of the {count} points of `path`, 0 where there is none"
             );
-            resolver.error(Code::WrongDimension, said.span, message);
+            resolver.error(Code::WrongDimension, written.span, message);
             None
         }
     }
 }
 
 /// The straight part between two points or pulleys.
-fn part<'d>(resolver: &Resolver<'_, 'd, '_>, from: &Stop<'d>, to: &Stop<'d>) -> Part<'d> {
-    let line = to_point(&from.at, &to.at);
+fn segment<'d>(
+    resolver: &Resolver<'_, 'd, '_>,
+    from: &PathPoint<'d>,
+    to: &PathPoint<'d>,
+) -> Segment<'d> {
+    let line = vector_between(&from.position, &to.position);
     let h = to.radius - from.radius;
     if h.is_zero() {
         let length = resolver.distance(&line);
-        return Part {
+        return Segment {
             length,
             along: line.clone(),
             norm: length,
-            line,
+            centre_line: line,
         };
     }
     let square = resolver.dag.sum(line.iter().map(|x| x.square()));
     let length = (square - h.square()).sqrt();
-    Part {
+    Segment {
         length,
         along: vec![
             length * line[0] + h * line[1],
             length * line[1] - h * line[0],
         ],
         norm: square,
-        line,
+        centre_line: line,
     }
 }
 
@@ -334,7 +338,7 @@ fn part<'d>(resolver: &Resolver<'_, 'd, '_>, from: &Stop<'d>, to: &Stop<'d>) -> 
 fn arc<'d>(
     resolver: &mut Resolver<'_, 'd, '_>,
     member: MemberId,
-    (stops, parts): (&[Stop<'d>], &[Part<'d>]),
+    (stops, parts): (&[PathPoint<'d>], &[Segment<'d>]),
     (k, span): (usize, Span),
 ) -> Option<Expr<'d>> {
     let radius = stops[k].radius;
@@ -360,16 +364,16 @@ fn arc<'d>(
 }
 
 /// The rate at which the rope up to a pulley or the last point grows, including wound parts.
-fn growth<'d>(
+fn length_rate<'d>(
     resolver: &mut Resolver<'_, 'd, '_>,
-    (stops, parts): (&[Stop<'d>], &[Part<'d>]),
+    (stops, parts): (&[PathPoint<'d>], &[Segment<'d>]),
     to: usize,
     span: Span,
 ) -> Option<Expr<'d>> {
     let mut terms = Vec::new();
     for part in &parts[..to] {
         let mut along = Vec::new();
-        for (&e, &line) in part.along.iter().zip(&part.line) {
+        for (&e, &line) in part.along.iter().zip(&part.centre_line) {
             along.push(e * resolver.rate(line, span)?);
         }
         terms.push(resolver.dag.sum(along) / part.norm);

@@ -38,11 +38,11 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     // ½ J q̇² is an energy, whatever the unit of the coordinate.
     let rate = angle.unit.unwrap_or(Unit::RADIAN).rate();
     let unit = Unit::JOULE.over(rate.times(rate));
-    let inertia = inertia.and_then(|said| {
+    let inertia = inertia.and_then(|written| {
         let scope = resolver.scope(member, &limits::INERTIA);
-        let why = "half the inertia times the rate squared is an energy";
-        let inertia = resolver.scalar_in(said, unit, why, scope)?;
-        resolver.bound(BoundKind::Moment, inertia.expr, said.span);
+        let reason = "half the inertia times the rate squared is an energy";
+        let inertia = resolver.scalar_in(written, unit, reason, scope)?;
+        resolver.bound(BoundKind::Moment, inertia.expr, written.span);
         Some(inertia.expr)
     })?;
     if angle.expr.stage() < stage::TIME {
@@ -65,7 +65,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         rotation: Rotation::Angle(angle.expr),
         outline: Vec::new(),
         span: own,
-        place: own,
+        position_span: own,
     });
     Some(Resolved::of([]))
 }

@@ -7,7 +7,7 @@ use lagrangian_symbolic::Expr;
 
 use crate::identity;
 use crate::model::bounds::BoundKind;
-use crate::model::element::{ACROSS, Contribution, Sliding, Tangent};
+use crate::model::element::{ACROSS, Contribution, Sliding, SurfaceTangent};
 use crate::model::spheres::tangents;
 use crate::model::{Name, Space, stage};
 use crate::resolve::Resolver;
@@ -60,10 +60,10 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let normal = normal.map(|normal| resolver.vector(normal, "a vector", scope));
     let friction = friction.and_then(|friction| resolver.friction(member, friction));
     let sticking = record.get("static_friction");
-    let sticking = sticking.map(|said| {
-        let sticking = resolver.friction(member, said);
+    let sticking = sticking.map(|written| {
+        let sticking = resolver.friction(member, written);
         if let (Some(sticking), Some(friction)) = (sticking, friction) {
-            resolver.bound(BoundKind::StaticFriction(friction), sticking, said.span);
+            resolver.bound(BoundKind::StaticFriction(friction), sticking, written.span);
         }
         sticking
     });
@@ -76,8 +76,8 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         Some(normal) if is_surface => {
             let [first, second] = tangents(&unit(normal));
             vec![
-                (Some(Tangent::First), first.to_vec()),
-                (Some(Tangent::Second), second.to_vec()),
+                (Some(SurfaceTangent::First), first.to_vec()),
+                (Some(SurfaceTangent::Second), second.to_vec()),
             ]
         }
         _ => vec![(None, direction?.components)],
@@ -98,7 +98,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     };
     let contact = |(tangent, direction)| {
         let name = match tangent {
-            Some(Tangent::Second) => Name {
+            Some(SurfaceTangent::Second) => Name {
                 base: format!("{}{ACROSS}", sliding.name),
                 index: None,
             },

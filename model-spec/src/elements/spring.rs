@@ -33,8 +33,8 @@ pub(super) static STIFFNESS: Limit = limit(
 
 const SPRING: Elastic = Elastic {
     coefficient: "stiffness",
-    linear: Unit::base(1, 0, -2),
-    product: Unit::JOULE,
+    translational_unit: Unit::base(1, 0, -2),
+    energy_unit: Unit::JOULE,
     limit: &STIFFNESS,
     bound: BoundKind::Stiffness,
     shape: Shape::Coil,

@@ -67,11 +67,11 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         return None;
     }
     let bounds = ["above", "below"].map(|field| {
-        let Some(said) = record.get(field) else {
+        let Some(written) = record.get(field) else {
             return Some(None);
         };
         let bound = resolver.scalar_in(
-            said,
+            written,
             unit,
             "a bound is in the unit of what it bounds",
             scope,
@@ -81,21 +81,23 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let square = unit.times(unit);
     let stiffness = stiffness.and_then(|k| {
         let scope = resolver.scope(member, &STIFFNESS);
-        let why = "half the stiffness times the depth squared is an energy";
-        let scalar = resolver.scalar_in(k, Unit::JOULE.over(square), why, scope)?;
+        let reason = "half the stiffness times the depth squared is an energy";
+        let scalar = resolver.scalar_in(k, Unit::JOULE.over(square), reason, scope)?;
         resolver.bound(BoundKind::Stiffness, scalar.expr, k.span);
         Some(scalar.expr)
     });
     let damping = match record.get("damping") {
         None => Some(None),
-        Some(said) => {
+        Some(written) => {
             let scope = resolver.scope(member, &DAMPING);
             let unit = Unit::WATT.over(unit.times(unit.rate()).times(unit.rate()));
-            let why = "the damping of a stop is a damping coefficient for each unit of depth";
-            resolver.scalar_in(said, unit, why, scope).map(|scalar| {
-                resolver.bound(BoundKind::Damping, scalar.expr, said.span);
-                Some(scalar.expr)
-            })
+            let reason = "the damping of a stop is a damping coefficient for each unit of depth";
+            resolver
+                .scalar_in(written, unit, reason, scope)
+                .map(|scalar| {
+                    resolver.bound(BoundKind::Damping, scalar.expr, written.span);
+                    Some(scalar.expr)
+                })
         }
     };
     let [above, below] = bounds;

@@ -26,16 +26,16 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let record = resolver.record(member)?;
     let on = resolver.field(member, record, "on");
     let torque = resolver.field(member, record, "torque");
-    let body = on.and_then(|on| resolver.turning_body(member, on));
+    let body = on.and_then(|on| resolver.oriented_body(member, on));
     let scope = resolver.scope(member, &FORCE);
-    let why = "a torque is in N*m";
+    let reason = "a torque is in N*m";
     let torque = torque.and_then(|torque| match resolver.space {
         Space::Plane => {
-            let scalar = resolver.scalar_in(torque, Unit::JOULE, why, scope)?;
+            let scalar = resolver.scalar_in(torque, Unit::JOULE, reason, scope)?;
             Some(vec![scalar.expr])
         }
         Space::Space => {
-            let vector = resolver.vector_in(torque, "a vector", Unit::JOULE, why, scope)?;
+            let vector = resolver.vector_in(torque, "a vector", Unit::JOULE, reason, scope)?;
             Some(vector.components)
         }
     });

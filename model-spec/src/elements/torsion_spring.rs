@@ -28,15 +28,15 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let stiffness = resolver.field(member, record, "stiffness");
     let twist = resolver.field(member, record, "twist");
     let scope = resolver.scope(member, &STIFFNESS);
-    let why = "a torsional stiffness is in N*m, per radian";
+    let reason = "a torsional stiffness is in N*m, per radian";
     let stiffness = stiffness.and_then(|k| {
-        let scalar = resolver.scalar_in(k, Unit::JOULE, why, scope)?;
+        let scalar = resolver.scalar_in(k, Unit::JOULE, reason, scope)?;
         resolver.bound(BoundKind::Stiffness, scalar.expr, k.span);
         Some(scalar)
     });
     let scope = resolver.scope(member, &STRETCH);
-    let why = "a twist is an angle in rad";
-    let twist = twist.and_then(|angle| resolver.scalar_in(angle, Unit::RADIAN, why, scope));
+    let reason = "a twist is an angle in rad";
+    let twist = twist.and_then(|angle| resolver.scalar_in(angle, Unit::RADIAN, reason, scope));
     let deformation = Deformation {
         coefficient: stiffness?.expr,
         measure: twist?.expr,

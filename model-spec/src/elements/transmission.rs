@@ -72,18 +72,18 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     let (mut first, mut second) = (first.expr, second.expr);
     if let Some(carrier) = carrier {
         let field = record.get("carrier")?;
-        let why = "wheels and their carrier turn in the same unit";
-        resolver.demand(
+        let reason = "wheels and their carrier turn in the same unit";
+        resolver.require_unit(
             Some(unit),
             carrier.unit.unwrap_or(Unit::ONE),
             field.span,
-            why,
+            reason,
         );
-        resolver.demand(
+        resolver.require_unit(
             Some(of_second),
             carrier.unit.unwrap_or(Unit::ONE),
             field.span,
-            why,
+            reason,
         );
         (first, second) = (first - carrier.expr, second - carrier.expr);
     }
@@ -97,8 +97,8 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
             return None;
         }
         let scope = resolver.scope(member, &RATIO);
-        let why = "an offset is in the unit of the first turn";
-        let offset = resolver.scalar_in(&offset.value, unit, why, scope)?;
+        let reason = "an offset is in the unit of the first turn";
+        let offset = resolver.scalar_in(&offset.value, unit, reason, scope)?;
         expression = expression - offset.expr;
     }
     check(resolver, expression, span)?;
@@ -134,15 +134,15 @@ fn check<'d>(resolver: &mut Resolver<'_, 'd, '_>, joined: Expr<'d>, span: Span) 
 /// A pair of expressions in brackets.
 fn pair<'a>(
     resolver: &mut Resolver<'a, '_, '_>,
-    said: &'a Expression,
+    written: &'a Expression,
     what: &str,
 ) -> Option<[&'a Expression; 2]> {
-    match &said.kind {
+    match &written.kind {
         ExpressionKind::Error => None,
         ExpressionKind::Tuple(parts) if parts.len() == 2 => Some([&parts[0], &parts[1]]),
         _ => {
             let message = format!("{what} are expected here, `(first, second)`");
-            resolver.error(Code::WrongDimension, said.span, message);
+            resolver.error(Code::WrongDimension, written.span, message);
             None
         }
     }
@@ -152,19 +152,19 @@ fn pair<'a>(
 pub(super) fn turn_of<'a, 'd>(
     resolver: &mut Resolver<'a, 'd, '_>,
     member: MemberId,
-    said: &'a Expression,
+    written: &'a Expression,
     limit: &'static Limit,
 ) -> Option<Scalar<'d>> {
     let scope: Scope<'a> = resolver.scope(member, limit);
-    let value = match &said.kind {
-        ExpressionKind::Name(_) | ExpressionKind::Chain(_) => resolver.value(said, scope),
-        _ => return resolver.scalar(said, scope),
+    let value = match &written.kind {
+        ExpressionKind::Name(_) | ExpressionKind::Chain(_) => resolver.value(written, scope),
+        _ => return resolver.scalar(written, scope),
     };
     match value {
         Value::Unknown => None,
         Value::Scalar(scalar) => Some(scalar),
         Value::Frame(_) | Value::Body(_) if resolver.space == Space::Plane => {
-            let place = resolver.turning_place(member, said)?;
+            let place = resolver.oriented_place(member, written)?;
             Some(Scalar {
                 expr: resolver.angle_of_place(place)?,
                 unit: Some(Unit::RADIAN),
@@ -173,13 +173,13 @@ pub(super) fn turn_of<'a, 'd>(
         }
         Value::Frame(_) | Value::Body(_) => {
             let message = "in space one angle does not determine the orientation of a frame";
-            let diagnostic = Diagnostic::new(Code::WrongSpace, said.span, message);
+            let diagnostic = Diagnostic::new(Code::WrongSpace, written.span, message);
             let help = "give the angle itself, or the rate about an axis: `dot(wheel.spin, axis)`";
             resolver.push(diagnostic.help(help));
             None
         }
         other => {
-            resolver.wrong_kind("a number", &other, said);
+            resolver.wrong_kind("a number", &other, written);
             None
         }
     }
@@ -196,8 +196,8 @@ fn ratio<'a, 'd>(
     if let Some(ratio) = record.get("ratio") {
         resolver.conflict(record, "teeth", "ratio");
         resolver.conflict(record, "belt", "ratio");
-        let why = "a ratio has the unit of the first turn over that of the second";
-        let scalar = resolver.scalar_in(ratio, first.over(second), why, scope)?;
+        let reason = "a ratio has the unit of the first turn over that of the second";
+        let scalar = resolver.scalar_in(ratio, first.over(second), reason, scope)?;
         if scalar.expr.is_zero() {
             let message = "a ratio of 0 transmits nothing";
             resolver.error(Code::OutsideDomain, ratio.span, message);
@@ -211,7 +211,7 @@ fn ratio<'a, 'd>(
     let found = SIZES
         .iter()
         .find_map(|size| Some((size, record.get(size.0)?)));
-    let Some((&(field, unit, why), said)) = found else {
+    let Some((&(field, unit, reason), written)) = found else {
         let base = resolver.base_name(member);
         let message =
             format!("a transmission needs `teeth`, `belt` or `ratio`, and `{base}` has none");
@@ -219,9 +219,9 @@ fn ratio<'a, 'd>(
         return None;
     };
     let why_angles = "both wheels turn by angles, in the same unit";
-    resolver.demand(Some(second), first, record.get("turns")?.span, why_angles);
-    let [z1, z2] = pair(resolver, said, "two of them")?.map(|part| {
-        let scalar = resolver.scalar_in(part, unit, why, scope)?;
+    resolver.require_unit(Some(second), first, record.get("turns")?.span, why_angles);
+    let [z1, z2] = pair(resolver, written, "two of them")?.map(|part| {
+        let scalar = resolver.scalar_in(part, unit, reason, scope)?;
         if scalar.expr.is_zero() {
             resolver.error(Code::DivisionByZero, part.span, "no wheel has a size of 0");
             return None;

@@ -22,7 +22,7 @@ use crate::model::element::{Constraint, Contribution};
 use crate::model::{Name, Place, PoseId, Space, stage};
 use crate::resolve::Resolver;
 use crate::resolve::element::{Meaning, Resolved, Row};
-use crate::resolve::motion::{swept, to_point};
+use crate::resolve::motion::{rotational_velocity, vector_between};
 use crate::resolve::value::{Limit, MemberId, limit, limits};
 use crate::syntax::{Form, Section};
 use crate::unit::Unit;
@@ -54,20 +54,22 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         resolver.push(diagnostic.help("in the plane use circles, under `rolling`"));
         return None;
     }
-    let said = resolver.field(member, record, "wheel");
-    let wheel = said.and_then(|said| resolver.turning_place(member, said));
+    let written = resolver.field(member, record, "wheel");
+    let wheel = written.and_then(|written| resolver.oriented_place(member, written));
     let on = resolver.field(member, record, "on");
     let scope = resolver.scope(member, &limits::POINT);
     let on = on.and_then(|on| Some((resolver.frame(on, scope)?, on.span)));
-    let radius = resolver.field(member, record, "radius").and_then(|said| {
-        let scope = resolver.scope(member, &RADIUS);
-        let radius = resolver.scalar_in(said, Unit::METRE, "a radius is in m", scope)?;
-        resolver.bound(BoundKind::Radius, radius.expr, said.span);
-        Some(radius.expr)
-    });
+    let radius = resolver
+        .field(member, record, "radius")
+        .and_then(|written| {
+            let scope = resolver.scope(member, &RADIUS);
+            let radius = resolver.scalar_in(written, Unit::METRE, "a radius is in m", scope)?;
+            resolver.bound(BoundKind::Radius, radius.expr, written.span);
+            Some(radius.expr)
+        });
     let axis = match record.get("axis") {
         None => Some(None),
-        Some(said) => resolver.axis(said).map(Some),
+        Some(written) => resolver.axis(written).map(Some),
     };
     let (Place::Frame(wheel), (on, span)) = (wheel?, on?) else {
         return None; // in space whatever turns has a frame
@@ -78,7 +80,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         resolver.error(Code::ConflictingFields, span, message);
         return None;
     }
-    let (gap, lever) = touching(resolver, wheel, on, radius, axis);
+    let (gap, lever) = distance_and_lever(resolver, wheel, on, radius, axis);
     let mut constraints = Vec::new();
     let name = resolver.name(member);
     let part = |part: &str| Name {
@@ -127,7 +129,7 @@ fn dot<'d>(u: &[Expr<'d>], v: &[Expr<'d>]) -> Expr<'d> {
 
 /// The distance of the wheel from the plane, unless it always touches, and the touching point relative
 /// to its centre.
-fn touching<'d>(
+fn distance_and_lever<'d>(
     resolver: &Resolver<'_, 'd, '_>,
     wheel: PoseId,
     on: PoseId,
@@ -136,7 +138,7 @@ fn touching<'d>(
 ) -> (Option<Expr<'d>>, Vec<Expr<'d>>) {
     let (wheel, on) = (resolver.pose(wheel), resolver.pose(on));
     let normal = &on.axes[2];
-    let height = dot(normal, &to_point(&on.origin, &wheel.origin));
+    let height = dot(normal, &vector_between(&on.origin, &wheel.origin));
     let Some(axis) = axis else {
         let lever = normal.iter().map(|&n| -radius * n).collect();
         let touches = identity::equal(height, radius) == Some(true);
@@ -172,9 +174,12 @@ fn slip<'d>(
     let [centre, origin] = [wheel, on].map(|pose| resolver.pose(pose).origin.clone());
     let [spin, of_plane] = [wheel, on].map(|pose| resolver.spin(pose, span));
     let (spin, of_plane) = (spin?, of_plane?);
-    let line = to_point(&origin, &centre);
+    let line = vector_between(&origin, &centre);
     let from_origin: Vec<Expr<'d>> = line.iter().zip(lever).map(|(&a, &b)| a + b).collect();
-    let (turned, carried) = (swept(&spin, lever), swept(&of_plane, &from_origin));
+    let (turned, carried) = (
+        rotational_velocity(&spin, lever),
+        rotational_velocity(&of_plane, &from_origin),
+    );
     let mut slip = Vec::with_capacity(3);
     for k in 0..3 {
         let rate = resolver.rate(line[k], span)?;

@@ -17,7 +17,7 @@ pub struct Bound<'d> {
     /// Its value, of parameters alone.
     pub value: Expr<'d>,
     /// Its place in the spec.
-    pub said: Span,
+    pub span: Span,
 }
 
 /// The kind of a bounded number.
@@ -58,12 +58,12 @@ pub enum BoundKind<'d> {
 
 impl BoundKind<'_> {
     /// Whether a machine may violate it, if its spec says so.
-    pub(crate) fn may_be_meant(self) -> bool {
+    pub(crate) fn may_be_intentional(self) -> bool {
         matches!(self, BoundKind::Stiffness | BoundKind::Damping)
     }
 
     /// The error in a value; none if the value is unknown, which is NaN.
-    fn complaint(self, value: f64, other: f64) -> Option<(Code, String)> {
+    fn violation(self, value: f64, other: f64) -> Option<(Code, String)> {
         let (is_wrong, code, words) = match self {
             BoundKind::Mass => (value <= 0.0, Code::NotPositive, "a mass must be positive"),
             BoundKind::Moment => (
@@ -137,7 +137,7 @@ impl BoundKind<'_> {
 }
 
 /// The violated bounds, by index, with a message for each.
-pub(crate) fn broken(
+pub(crate) fn violations(
     dag: &Dag,
     bounds: &[Bound<'_>],
     mut value: impl FnMut(Symbol) -> f64,
@@ -165,7 +165,7 @@ pub(crate) fn broken(
         if unknown[place] || (vanishes && bound.value.stage() > stage::CONSTANT) {
             return None;
         }
-        let (code, message) = bound.kind.complaint(pair[0], pair[1])?;
+        let (code, message) = bound.kind.violation(pair[0], pair[1])?;
         Some((place, code, message))
     })
     .collect()
@@ -175,18 +175,18 @@ impl<'d> Model<'d> {
     /// The errors and warnings for given parameters: errors as for a spec with these values as
     /// defaults. The values are in the order of [`Model::parameters`], in the units declared there;
     /// NaN if unknown.
-    pub fn refused_values(&self, parameters: &[f64]) -> Vec<Diagnostic> {
+    pub fn parameter_diagnostics(&self, parameters: &[f64]) -> Vec<Diagnostic> {
         let value = |symbol| {
             let mut known = self.parameters.iter().zip(parameters);
             let found = known.find(|(parameter, _)| parameter.symbol.as_symbol() == Some(symbol));
             found.map_or(f64::NAN, |(_, value)| *value)
         };
-        let broken = broken(self.dag, &self.bounds, value).into_iter();
-        broken
+        let found = violations(self.dag, &self.bounds, value).into_iter();
+        found
             .map(|(place, code, message)| {
-                let diagnostic = Diagnostic::new(code, self.bounds[place].said, message);
-                if self.bounds[place].kind.may_be_meant() {
-                    diagnostic.help(MEANT)
+                let diagnostic = Diagnostic::new(code, self.bounds[place].span, message);
+                if self.bounds[place].kind.may_be_intentional() {
+                    diagnostic.help(INTENTIONAL_HELP)
                 } else {
                     diagnostic
                 }
@@ -196,7 +196,7 @@ impl<'d> Model<'d> {
 }
 
 /// The help text for a negative coefficient that is intended.
-pub(crate) const MEANT: &str =
+pub(crate) const INTENTIONAL_HELP: &str =
     "if this is intended, name the coefficient and declare it: `assume { c < 0 }`";
 
 impl Bound<'_> {

@@ -8,7 +8,7 @@ use crate::identity;
 use crate::model::{Body, Circle, Model, Place, PoseId, Rotation, Surface, Touching};
 
 /// The relative position and motion of two circles.
-pub struct Contact<'d> {
+pub struct RelativeMotion<'d> {
     /// The distance between them, in m: 0 if they touch.
     pub gap: Expr<'d>,
     /// The velocity of the point of the first circle that is nearest to the other, relative to the
@@ -17,8 +17,11 @@ pub struct Contact<'d> {
 }
 
 /// The centre of a circle and the axes of what it is fixed to, in ground axes.
-pub fn placed<'d>(model: &Model<'d>, circle: &Circle<'d>) -> (Vec<Expr<'d>>, Vec<Vec<Expr<'d>>>) {
-    fixed(model, circle.on, &circle.center)
+pub fn centre_and_axes<'d>(
+    model: &Model<'d>,
+    circle: &Circle<'d>,
+) -> (Vec<Expr<'d>>, Vec<Vec<Expr<'d>>>) {
+    point_and_axes(model, circle.on, &circle.center)
 }
 
 /// The corners of a body's outline, in ground axes.
@@ -29,12 +32,12 @@ pub fn outline<'d>(model: &Model<'d>, body: usize) -> Vec<Vec<Expr<'d>>> {
     };
     let corners = model.bodies[body].outline.iter();
     corners
-        .map(|corner| fixed(model, place, corner).0)
+        .map(|corner| point_and_axes(model, place, corner).0)
         .collect()
 }
 
 /// A point that is fixed to a frame or a body, given in its axes, and these axes; both in ground axes.
-pub(super) fn fixed<'d>(
+pub(super) fn point_and_axes<'d>(
     model: &Model<'d>,
     on: Place,
     point: &[Expr<'d>],
@@ -72,11 +75,11 @@ pub fn body_axes<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Vec<Vec<Expr<
 
 /// The angle of a body in the plane.
 pub fn planar_angle<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Expr<'d>> {
-    planar_turn(model, body.rotation)
+    rotation_angle(model, body.rotation)
 }
 
 /// The angle of a rotation in the plane.
-pub fn planar_turn<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<'d>> {
+pub fn rotation_angle<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<'d>> {
     match rotation {
         Rotation::Unspecified => None,
         Rotation::Angle(angle) => Some(angle),
@@ -85,7 +88,11 @@ pub fn planar_turn<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr
 }
 
 /// The angular velocity of what a circle is fixed to.
-fn turning<'d>(model: &Model<'d>, circle: &Circle<'d>, rate: &mut Tangent<'d>) -> Expr<'d> {
+fn angular_velocity<'d>(
+    model: &Model<'d>,
+    circle: &Circle<'d>,
+    rate: &mut Tangent<'d>,
+) -> Expr<'d> {
     let angle = match circle.on {
         Place::Frame(pose) => Some(model.poses[pose.index()].angle),
         Place::Body(body) => planar_angle(model, &model.bodies[body]),
@@ -94,8 +101,12 @@ fn turning<'d>(model: &Model<'d>, circle: &Circle<'d>, rate: &mut Tangent<'d>) -
 }
 
 /// The contact of a circle with the surface that it touches.
-pub fn contact<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d>) -> Contact<'d> {
-    touch(
+pub fn contact_motion<'d>(
+    model: &Model<'d>,
+    touching: &Touching,
+    rate: &mut Tangent<'d>,
+) -> RelativeMotion<'d> {
+    relative_motion(
         model,
         &model.circles[touching.circle],
         touching.surface,
@@ -104,11 +115,15 @@ pub fn contact<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d
 }
 
 /// The angular velocity of a circle relative to what it touches, in rad/s.
-pub fn rolling<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d>) -> Expr<'d> {
-    let own = turning(model, &model.circles[touching.circle], rate);
+pub fn rolling_rate<'d>(
+    model: &Model<'d>,
+    touching: &Touching,
+    rate: &mut Tangent<'d>,
+) -> Expr<'d> {
+    let own = angular_velocity(model, &model.circles[touching.circle], rate);
     let other = match touching.surface {
         Surface::Inside(other) | Surface::Outside(other) => {
-            turning(model, &model.circles[other], rate)
+            angular_velocity(model, &model.circles[other], rate)
         }
         Surface::Along(pose) => rate.of(model.poses[pose.index()].angle),
     };
@@ -116,16 +131,20 @@ pub fn rolling<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d
 }
 
 /// The contact of a circle, which need not be one of the machine's, with a surface.
-pub fn touch<'d>(
+pub fn relative_motion<'d>(
     model: &Model<'d>,
     circle: &Circle<'d>,
     surface: Surface,
     rate: &mut Tangent<'d>,
-) -> Contact<'d> {
+) -> RelativeMotion<'d> {
     match surface {
-        Surface::Inside(other) => with_circle(model, [circle, &model.circles[other]], true, rate),
-        Surface::Outside(other) => with_circle(model, [circle, &model.circles[other]], false, rate),
-        Surface::Along(pose) => with_line(model, circle, pose, rate),
+        Surface::Inside(other) => {
+            relative_to_circle(model, [circle, &model.circles[other]], true, rate)
+        }
+        Surface::Outside(other) => {
+            relative_to_circle(model, [circle, &model.circles[other]], false, rate)
+        }
+        Surface::Along(pose) => relative_to_line(model, circle, pose, rate),
     }
 }
 
@@ -138,14 +157,14 @@ pub fn touch<'d>(
 ///
 /// A point of the line moves perpendicular to it, whatever the angular velocity of the frame; `c·n`
 /// is taken as `r` for this.
-fn with_line<'d>(
+fn relative_to_line<'d>(
     model: &Model<'d>,
     circle: &Circle<'d>,
     pose: PoseId,
     rate: &mut Tangent<'d>,
-) -> Contact<'d> {
+) -> RelativeMotion<'d> {
     let frame = &model.poses[pose.index()];
-    let (centre, _) = placed(model, circle);
+    let (centre, _) = centre_and_axes(model, circle);
     let line: Vec<Expr<'d>> = centre
         .iter()
         .zip(&frame.origin)
@@ -154,8 +173,8 @@ fn with_line<'d>(
     let along =
         |axis: &[Expr<'d>], u: &[Expr<'d>]| model.dag.sum(axis.iter().zip(u).map(|(&e, &u)| e * u));
     let velocity: Vec<Expr<'d>> = line.iter().map(|&c| rate.of(c)).collect();
-    let omega = turning(model, circle, rate);
-    Contact {
+    let omega = angular_velocity(model, circle, rate);
+    RelativeMotion {
         gap: along(&frame.axes[1], &line) - circle.radius,
         slip: along(&frame.axes[0], &velocity) + circle.radius * omega,
     }
@@ -169,13 +188,13 @@ fn with_line<'d>(
 /// inside    gap = R − r − d,    slip = ċ·τ + r ω − R Ω
 /// outside   gap = d − r − R,    slip = ċ·τ − r ω − R Ω
 /// ```
-fn with_circle<'d>(
+fn relative_to_circle<'d>(
     model: &Model<'d>,
     [first, other]: [&Circle<'d>; 2],
     is_inside: bool,
     rate: &mut Tangent<'d>,
-) -> Contact<'d> {
-    let centres = [first, other].map(|circle| placed(model, circle).0);
+) -> RelativeMotion<'d> {
+    let centres = [first, other].map(|circle| centre_and_axes(model, circle).0);
     let [a, b] = &centres;
     let line: Vec<Expr<'d>> = a.iter().zip(b).map(|(&a, &b)| difference(a, b)).collect();
     let facts = model.assumptions.iter().map(|fact| fact.excess);
@@ -184,10 +203,11 @@ fn with_circle<'d>(
     // ċ·τ = (c × ċ)/d.
     let velocity = [rate.of(line[0]), rate.of(line[1])];
     let sweep = line[0] * velocity[1] - line[1] * velocity[0];
-    let [omega, omega_of_other] = [first, other].map(|circle| turning(model, circle, rate));
+    let [omega, omega_of_other] =
+        [first, other].map(|circle| angular_velocity(model, circle, rate));
     let (r, big) = (first.radius, other.radius);
     let sign = if is_inside { 1 } else { -1 };
-    Contact {
+    RelativeMotion {
         gap: if is_inside {
             big - r - distance
         } else {

@@ -49,9 +49,9 @@ pub enum Contribution<'d> {
     Sliding(Sliding<'d>),
     /// Energy stored in first-order states, in J, as a function of these, coordinates, parameters and time: a part of E
     /// that enters only the energy balance.
-    OfStates(Expr<'d>),
+    StateEnergy(Expr<'d>),
     /// Power lost by other means than dissipation, in W, which enters only the energy balance.
-    Lost(Expr<'d>),
+    PowerLoss(Expr<'d>),
 }
 
 /// A term of the potential energy, or of the dissipation function.
@@ -150,7 +150,7 @@ pub struct Sliding<'d> {
     /// The side on which the body is, as given; the direction turned left if none is given. For a surface its normal, as given.
     pub normal: Option<Vec<Expr<'d>>>,
     /// Which of the two tangents of a surface the direction is, in space; none for a line or a curve.
-    pub tangent: Option<Tangent>,
+    pub tangent: Option<SurfaceTangent>,
     /// The coefficient of friction.
     pub friction: Expr<'d>,
     /// The coefficient of static friction, if it differs.
@@ -161,7 +161,7 @@ pub struct Sliding<'d> {
 
 /// The tangents of a surface. Sliding on a surface is two contacts, one after the other, which obey one friction law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tangent {
+pub enum SurfaceTangent {
     /// The tangent with the name of the element.
     First,
     /// The tangent perpendicular to it, with `.across` after its name. The reaction belongs to the first.
@@ -248,7 +248,7 @@ impl<'d> Model<'d> {
     /// Energies stored in first-order states.
     pub fn energies_of_states(&self) -> impl Iterator<Item = Expr<'d>> {
         self.contributions().filter_map(|(_, one)| match one {
-            Contribution::OfStates(energy) => Some(*energy),
+            Contribution::StateEnergy(energy) => Some(*energy),
             _ => None,
         })
     }
@@ -256,7 +256,7 @@ impl<'d> Model<'d> {
     /// Powers lost by other means than dissipation.
     pub fn losses(&self) -> impl Iterator<Item = Expr<'d>> {
         self.contributions().filter_map(|(_, one)| match one {
-            Contribution::Lost(power) => Some(*power),
+            Contribution::PowerLoss(power) => Some(*power),
             _ => None,
         })
     }
@@ -283,11 +283,11 @@ impl<'d> Model<'d> {
 impl Sliding<'_> {
     /// Whether this is the second tangent of a surface.
     pub fn is_second(&self) -> bool {
-        self.tangent == Some(Tangent::Second)
+        self.tangent == Some(SurfaceTangent::Second)
     }
 
     /// The name in the spec.
-    pub fn said(&self) -> String {
+    pub fn name_in_spec(&self) -> String {
         let name = self.name.to_string();
         if self.is_second() {
             name.trim_end_matches(ACROSS).to_owned()
@@ -353,7 +353,7 @@ impl<'d> Contribution<'d> {
             Contribution::Load(Load::Along { measure, force, .. }) => vec![measure, force],
             Contribution::Load(Load::Torque { torque, .. }) => torque.iter_mut().collect(),
             Contribution::Gravity(gravity) => gravity.iter_mut().collect(),
-            Contribution::OfStates(value) | Contribution::Lost(value) => vec![value],
+            Contribution::StateEnergy(value) | Contribution::PowerLoss(value) => vec![value],
             Contribution::Constraint(constraint) => vec![&mut constraint.expression],
             Contribution::Rolling(rolling) => rolling.friction.iter_mut().collect(),
             Contribution::Sliding(sliding) => {

@@ -21,7 +21,7 @@ use std::rc::Rc;
 
 use lagrangian_symbolic::{Expr, Tangent};
 
-use super::circles::{difference, fixed};
+use super::circles::{difference, point_and_axes};
 use crate::model::{Model, Place};
 
 /// The largest number of corners of a polygon that touches another: each is compared with every face, and the choices among
@@ -43,13 +43,13 @@ pub struct Corner<'d> {
     /// The index of the corner in its polygon.
     pub corner: usize,
     /// The polygon that it is a corner of.
-    pub own: Rc<Polygon<'d>>,
+    pub polygon: Rc<Polygon<'d>>,
     /// The polygon that it may touch.
-    pub other: Rc<Polygon<'d>>,
+    pub other_polygon: Rc<Polygon<'d>>,
 }
 
 /// The position and motion of a corner relative to a polygon.
-pub struct Contact<'d> {
+pub struct RelativeMotion<'d> {
     /// The distance of the corner outside the polygon, in m.
     pub gap: Expr<'d>,
     /// The distance of the corner outside the face that it touches, in m; equal to the gap if it touches.
@@ -106,7 +106,7 @@ impl<'d> Polygon<'d> {
 }
 
 /// The position of a corner, and the directions of the face that it touches, all in ground axes.
-pub struct Site<'d> {
+pub struct ContactFrame<'d> {
     /// The corner.
     pub point: Vec<Expr<'d>>,
     /// Unit vectors: out of the face, and along it in the direction of positive slip.
@@ -114,16 +114,21 @@ pub struct Site<'d> {
 }
 
 /// The site of the contact of a corner with the polygon that it may touch.
-pub fn site<'d>(model: &Model<'d>, corner: &Corner<'d>) -> Site<'d> {
+pub fn contact_frame<'d>(model: &Model<'d>, corner: &Corner<'d>) -> ContactFrame<'d> {
     let dag = model.dag;
-    let (_, axes) = fixed(model, corner.other.on, &[dag.zero(); 2]);
+    let (_, axes) = point_and_axes(model, corner.other_polygon.on, &[dag.zero(); 2]);
     let [x, y] = Face::of(model, corner).normal;
     let in_ground = |along: [Expr<'d>; 2]| -> Vec<Expr<'d>> {
         let both = axes[0].iter().zip(&axes[1]);
         both.map(|(&e, &f)| along[0] * e + along[1] * f).collect()
     };
-    Site {
-        point: fixed(model, corner.own.on, &corner.own.corners[corner.corner]).0,
+    ContactFrame {
+        point: point_and_axes(
+            model,
+            corner.polygon.on,
+            &corner.polygon.corners[corner.corner],
+        )
+        .0,
         directions: [in_ground([x, y]), in_ground([y, -x])],
     }
 }
@@ -135,7 +140,7 @@ struct Face<'d> {
     /// The offset of the face along it.
     offset: Expr<'d>,
     /// The corner.
-    place: [Expr<'d>; 2],
+    corner: [Expr<'d>; 2],
     /// The distance of the corner outside the polygon.
     gap: Expr<'d>,
     /// The distance of the corner beyond the ends of the face.
@@ -143,17 +148,21 @@ struct Face<'d> {
 }
 
 /// The contact of a corner with the polygon that it may touch.
-pub fn touch<'d>(model: &Model<'d>, corner: &Corner<'d>, rate: &mut Tangent<'d>) -> Contact<'d> {
+pub fn relative_motion<'d>(
+    model: &Model<'d>,
+    corner: &Corner<'d>,
+    rate: &mut Tangent<'d>,
+) -> RelativeMotion<'d> {
     let Face {
         normal,
         offset,
-        place,
+        corner: place,
         gap,
         beyond,
     } = Face::of(model, corner);
     // The polygon may turn, so these are velocities relative to its own points.
     let velocity = place.map(|x| rate.of(x));
-    Contact {
+    RelativeMotion {
         gap,
         height: normal[0] * place[0] + normal[1] * place[1] - offset,
         rate: normal[0] * velocity[0] + normal[1] * velocity[1],
@@ -165,18 +174,22 @@ pub fn touch<'d>(model: &Model<'d>, corner: &Corner<'d>, rate: &mut Tangent<'d>)
 impl<'d> Face<'d> {
     fn of(model: &Model<'d>, corner: &Corner<'d>) -> Self {
         let dag = model.dag;
-        let Corner { corner, own, other } = corner;
+        let Corner {
+            corner,
+            polygon,
+            other_polygon: other,
+        } = corner;
         // All corners in the axes of the other polygon, from their origin.
         let zeros = vec![dag.zero(); 2];
-        let (origin, axes) = fixed(model, other.on, &zeros);
+        let (origin, axes) = point_and_axes(model, other.on, &zeros);
         let along = |point: &[Expr<'d>]| {
-            let (at, _) = fixed(model, own.on, point);
+            let (at, _) = point_and_axes(model, polygon.on, point);
             let arm: Vec<Expr<'d>> = (at.iter().zip(&origin))
                 .map(|(&a, &b)| difference(a, b))
                 .collect();
             [0, 1].map(|k| dag.sum(axes[k].iter().zip(&arm).map(|(&e, &r)| e * r)))
         };
-        let corners: Vec<[Expr<'d>; 2]> = own.corners.iter().map(|at| along(at)).collect();
+        let corners: Vec<[Expr<'d>; 2]> = polygon.corners.iter().map(|at| along(at)).collect();
         let Faces { normals, offsets } = other.faces();
         let faces = normals.len();
         let outside =
@@ -223,7 +236,7 @@ impl<'d> Face<'d> {
         Face {
             normal,
             offset,
-            place,
+            corner: place,
             gap: greatest(&mut distances.iter().copied()),
             beyond,
         }

@@ -49,7 +49,7 @@ impl<'d> Quaternion<'d> {
     }
 
     /// `u`, half the logarithm of `s`.
-    pub fn size(&self) -> Expr<'d> {
+    pub fn log_length(&self) -> Expr<'d> {
         square(&self.e).ln() / 2
     }
 
@@ -57,7 +57,7 @@ impl<'d> Quaternion<'d> {
     pub fn load(&self, rates: &[Expr<'d>; 4]) -> Expr<'d> {
         let dag = self.inertia.dag();
         let s = square(&self.e);
-        let growing = along(&self.e, rates) / s;
+        let growing = radial_rate(&self.e, rates) / s;
         let fast = dag.int(RATE * RATE) + square(rates) / s;
         let off = (s - 1) / (s + 1);
         -(self.inertia * (2 * RATE * growing + fast * off))
@@ -70,12 +70,12 @@ pub fn square<'d>(e: &[Expr<'d>; 4]) -> Expr<'d> {
 }
 
 /// `e·ė`, which is `s u̇`.
-pub fn along<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> Expr<'d> {
+pub fn radial_rate<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> Expr<'d> {
     e[0].dag().sum((0..4).map(|k| e[k] * rates[k]))
 }
 
 /// The vector of `ē∘ė`, which is half of `s ω`.
-pub fn vector<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> [Expr<'d>; 3] {
+pub fn vector_part<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> [Expr<'d>; 3] {
     let [w, x, y, z] = *e;
     let [dw, dx, dy, dz] = *rates;
     let dag = w.dag();
@@ -112,27 +112,27 @@ pub fn axes<'d>(e: &[Expr<'d>; 4]) -> [[Expr<'d>; 3]; 3] {
 
 /// The angular velocity of such a rotation, in the rotated axes: `2/s` times the vector of `ē∘ė`. If second derivatives are passed
 /// instead of rates, it is their part of the angular acceleration.
-pub fn turning<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> [Expr<'d>; 3] {
+pub fn angular_velocity<'d>(e: &[Expr<'d>; 4], rates: &[Expr<'d>; 4]) -> [Expr<'d>; 3] {
     let p = 2 / square(e);
-    vector(e, rates).map(|part| p * part)
+    vector_part(e, rates).map(|part| p * part)
 }
 
-/// The derivative of [`turning`] along a motion with these second derivatives.
-pub fn turning_faster<'d>(
+/// The derivative of [`angular_velocity`] along a motion with these second derivatives.
+pub fn angular_acceleration<'d>(
     e: &[Expr<'d>; 4],
     rates: &[Expr<'d>; 4],
     second: &[Expr<'d>; 4],
 ) -> [Expr<'d>; 3] {
     // The derivative of ē∘ė has the vector of ē∘ë, and 1/s changes at the rate −2 u̇/s.
-    let growing = along(e, rates) / square(e);
-    let (faster, now) = (turning(e, second), turning(e, rates));
+    let growing = radial_rate(e, rates) / square(e);
+    let (faster, now) = (angular_velocity(e, second), angular_velocity(e, rates));
     [0, 1, 2].map(|k| faster[k] - 2 * growing * now[k])
 }
 
 impl<'d> Step<'d> {
     /// The parts of the angular velocity that this step adds, each about an axis of the resulting frame; `rate` differentiates
     /// the quantities of the step. `None` if the rate of one is unknown.
-    pub fn turning(
+    pub fn angular_velocity_parts(
         &self,
         mut rate: impl FnMut(Expr<'d>) -> Option<Expr<'d>>,
     ) -> Option<Vec<(usize, Expr<'d>)>> {
@@ -141,7 +141,7 @@ impl<'d> Step<'d> {
             Step::Turn { axis, angle } => Some(vec![(*axis, rate(*angle)?)]),
             Step::Quaternion(e) => {
                 let [a, b, c, d] = e.map(&mut rate);
-                let spin = turning(e, &[a?, b?, c?, d?]);
+                let spin = angular_velocity(e, &[a?, b?, c?, d?]);
                 Some(spin.into_iter().enumerate().collect())
             }
         }

@@ -4,11 +4,11 @@
 
 use lagrangian_symbolic::{Expr, Tangent};
 
-use super::circles::{difference, distance, placed};
+use super::circles::{centre_and_axes, difference, distance};
 use super::{Circle, Model, Place, PoseId, Rotation, Surface};
 
 /// The position and motion of a sphere relative to what it touches.
-pub struct Contact<'d> {
+pub struct RelativeMotion<'d> {
     /// The distance between them, in m: 0 if they touch.
     pub gap: Expr<'d>,
     /// The velocity of the nearest point of the sphere relative to the nearest point of the other body, along both tangents.
@@ -16,22 +16,26 @@ pub struct Contact<'d> {
 }
 
 /// The contact of a sphere, which need not be one of the machine's, with a surface.
-pub fn touch<'d>(
+pub fn relative_motion<'d>(
     model: &Model<'d>,
     sphere: &Circle<'d>,
     surface: Surface,
     rate: &mut Tangent<'d>,
-) -> Contact<'d> {
+) -> RelativeMotion<'d> {
     match surface {
-        Surface::Inside(other) => with_sphere(model, [sphere, &model.circles[other]], true, rate),
-        Surface::Outside(other) => with_sphere(model, [sphere, &model.circles[other]], false, rate),
-        Surface::Along(pose) => with_plane(model, sphere, pose, rate),
+        Surface::Inside(other) => {
+            relative_to_sphere(model, [sphere, &model.circles[other]], true, rate)
+        }
+        Surface::Outside(other) => {
+            relative_to_sphere(model, [sphere, &model.circles[other]], false, rate)
+        }
+        Surface::Along(pose) => relative_to_plane(model, sphere, pose, rate),
     }
 }
 
 /// The angular velocity of what a sphere is fixed to, in ground axes: each turn of a frame about one of its own axes,
 /// which it leaves unchanged, adds its rate along that axis.
-fn turning<'d>(model: &Model<'d>, place: Place, rate: &mut Tangent<'d>) -> Vec<Expr<'d>> {
+fn angular_velocity<'d>(model: &Model<'d>, place: Place, rate: &mut Tangent<'d>) -> Vec<Expr<'d>> {
     let mut terms = vec![Vec::new(); 3];
     let mut at = match place {
         Place::Frame(pose) => pose,
@@ -43,7 +47,11 @@ fn turning<'d>(model: &Model<'d>, place: Place, rate: &mut Tangent<'d>) -> Vec<E
     };
     while at != PoseId::GROUND {
         let pose = &model.poses[at.index()];
-        for (axis, speed) in pose.step.turning(|x| Some(rate.of(x))).unwrap_or_default() {
+        for (axis, speed) in pose
+            .step
+            .angular_velocity_parts(|x| Some(rate.of(x)))
+            .unwrap_or_default()
+        {
             for (terms, &along) in terms.iter_mut().zip(&pose.axes[axis]) {
                 terms.push(speed * along);
             }
@@ -62,18 +70,19 @@ fn turning<'d>(model: &Model<'d>, place: Place, rate: &mut Tangent<'d>) -> Vec<E
 /// ```text
 /// gap = c·n − r,    slip = ċ − r ω × n − Ω × (c − r n),  along e₁ and e₂
 /// ```
-fn with_plane<'d>(
+fn relative_to_plane<'d>(
     model: &Model<'d>,
     sphere: &Circle<'d>,
     pose: PoseId,
     rate: &mut Tangent<'d>,
-) -> Contact<'d> {
+) -> RelativeMotion<'d> {
     let frame = &model.poses[pose.index()];
-    let (centre, _) = placed(model, sphere);
+    let (centre, _) = centre_and_axes(model, sphere);
     let pairs = centre.iter().zip(&frame.origin);
     let line: Vec<Expr<'d>> = pairs.map(|(&a, &b)| difference(a, b)).collect();
     let velocity: Vec<Expr<'d>> = line.iter().map(|&c| rate.of(c)).collect();
-    let [spin, of_plane] = [sphere.on, Place::Frame(pose)].map(|place| turning(model, place, rate));
+    let [spin, of_plane] =
+        [sphere.on, Place::Frame(pose)].map(|place| angular_velocity(model, place, rate));
     let normal = &frame.axes[2];
     let arm: Vec<Expr<'d>> = normal.iter().map(|&n| sphere.radius * n).collect();
     let foot: Vec<Expr<'d>> = line.iter().zip(&arm).map(|(&c, &a)| c - a).collect();
@@ -81,7 +90,7 @@ fn with_plane<'d>(
     let slip: Vec<Expr<'d>> = (0..3)
         .map(|k| model.dag.sum([velocity[k], -turned[k], -carried[k]]))
         .collect();
-    Contact {
+    RelativeMotion {
         gap: dot(normal, &line) - sphere.radius,
         slip: [0, 1].map(|axis| dot(&frame.axes[axis], &slip)),
     }
@@ -96,13 +105,13 @@ fn with_plane<'d>(
 /// ```
 ///
 /// along both [`tangents`] of the direction in which the gap opens.
-fn with_sphere<'d>(
+fn relative_to_sphere<'d>(
     model: &Model<'d>,
     [first, other]: [&Circle<'d>; 2],
     is_inside: bool,
     rate: &mut Tangent<'d>,
-) -> Contact<'d> {
-    let centres = [first, other].map(|sphere| placed(model, sphere).0);
+) -> RelativeMotion<'d> {
+    let centres = [first, other].map(|sphere| centre_and_axes(model, sphere).0);
     let [a, b] = &centres;
     let line: Vec<Expr<'d>> = a.iter().zip(b).map(|(&a, &b)| difference(a, b)).collect();
     let facts = model.assumptions.iter().map(|fact| fact.excess);
@@ -110,7 +119,7 @@ fn with_sphere<'d>(
     let distance = distance(&line, &facts);
     let direction: Vec<Expr<'d>> = line.iter().map(|&c| c / distance).collect();
     let velocity: Vec<Expr<'d>> = line.iter().map(|&c| rate.of(c)).collect();
-    let [spin, of_other] = [first, other].map(|sphere| turning(model, sphere.on, rate));
+    let [spin, of_other] = [first, other].map(|sphere| angular_velocity(model, sphere.on, rate));
     let (r, big) = (first.radius, other.radius);
     let sign = if is_inside { 1 } else { -1 };
     let both: Vec<Expr<'d>> = spin
@@ -121,7 +130,7 @@ fn with_sphere<'d>(
     let turned = cross(&both, &direction);
     let slip: Vec<Expr<'d>> = velocity.iter().zip(&turned).map(|(&v, &t)| v + t).collect();
     let normal: Vec<Expr<'d>> = direction.iter().map(|&e| -e * sign).collect();
-    Contact {
+    RelativeMotion {
         gap: if is_inside {
             big - r - distance
         } else {

@@ -6,14 +6,14 @@ use rustc_hash::FxHashMap;
 use super::Resolver;
 use super::value::MemberId;
 use crate::diagnostic::Diagnostic;
-use crate::model::bounds::{Bound, BoundKind, MEANT, broken};
+use crate::model::bounds::{Bound, BoundKind, INTENTIONAL_HELP, violations};
 use crate::model::{Assumption, Parameter, stage};
 use crate::source::Span;
 
 impl<'d> Resolver<'_, 'd, '_> {
     /// Records a bounded number, if it depends on parameters alone.
-    pub fn bound(&mut self, kind: BoundKind<'d>, value: Expr<'d>, said: Span) {
-        let bound = Bound { kind, value, said };
+    pub fn bound(&mut self, kind: BoundKind<'d>, value: Expr<'d>, span: Span) {
+        let bound = Bound { kind, value, span };
         if bound.is_of_parameters() {
             self.bounds.push(bound);
         }
@@ -27,8 +27,8 @@ impl<'d> Resolver<'_, 'd, '_> {
     ) -> Vec<Bound<'d>> {
         let mut bounds = std::mem::take(&mut self.bounds);
         // A negative stiffness is allowed if the spec assumes it.
-        let is_meant = |value: Expr<'d>| assumptions.iter().any(|fact| fact.excess == -value);
-        bounds.retain(|bound| !bound.kind.may_be_meant() || !is_meant(bound.value));
+        let is_intentional = |value: Expr<'d>| assumptions.iter().any(|fact| fact.excess == -value);
+        bounds.retain(|bound| !bound.kind.may_be_intentional() || !is_intentional(bound.value));
         let mut values = FxHashMap::default();
         for (_, parameter) in parameters {
             let default = parameter.default;
@@ -36,20 +36,20 @@ impl<'d> Resolver<'_, 'd, '_> {
             values.extend(parameter.symbol.as_symbol().map(|symbol| (symbol, number)));
         }
         let value = |symbol| values.get(&symbol).copied().unwrap_or(f64::NAN);
-        for (place, code, message) in broken(self.dag, &bounds, value) {
-            let Bound { kind, value, said } = bounds[place];
-            // Blame the default if the number is that parameter alone, and not a formula of several.
+        for (place, code, message) in violations(self.dag, &bounds, value) {
+            let Bound { kind, value, span } = bounds[place];
+            // The message is about the default if the number is that parameter alone, and not a formula of several.
             let mut parameters = parameters.iter();
             let alone = parameters.find(|(_, parameter)| parameter.symbol == value);
             let default =
                 alone.and_then(|(parameter, _)| self.quantity(*parameter)?.value.as_ref());
             let diagnostic = match default {
                 Some(default) => Diagnostic::new(code, default.span, message)
-                    .note(said, "this is where it is used"),
-                None => Diagnostic::new(code, said, message),
+                    .note(span, "this is where it is used"),
+                None => Diagnostic::new(code, span, message),
             };
-            self.push(match (kind.may_be_meant(), default) {
-                (true, _) => diagnostic.help(MEANT),
+            self.push(match (kind.may_be_intentional(), default) {
+                (true, _) => diagnostic.help(INTENTIONAL_HELP),
                 (false, None) if value.stage() > stage::CONSTANT => {
                     diagnostic.help("this is its value for the defaults of the parameters")
                 }

@@ -30,7 +30,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             if self.is_left_over(member) {
                 continue;
             }
-            let found = self.settle(|resolver| resolver.end(member));
+            let found = self.repeat_until_resolved(|resolver| resolver.end(member));
             failed |= found.as_ref().is_none_or(Vec::is_empty);
             for (coordinate, end) in found.into_iter().flatten() {
                 if let Some(place) = ends.get_mut(coordinate) {
@@ -91,8 +91,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         for coordinate in self.coordinates_named(member) {
             let scope = self.scope(member, &limits::DESTINATION);
             let unit = self.unit_of(coordinate)?;
-            let why = "it has the unit of its coordinate";
-            let end = self.scalar_in(written, unit, why, scope)?.expr;
+            let reason = "it has the unit of its coordinate";
+            let end = self.scalar_in(written, unit, reason, scope)?.expr;
             ends.extend(self.ordinal(coordinate).map(|coordinate| (coordinate, end)));
         }
         Some(ends)

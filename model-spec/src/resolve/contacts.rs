@@ -18,12 +18,12 @@ use lagrangian_symbolic::Expr;
 const VELOCITY: Unit = Unit::base(0, 1, -1);
 
 /// The fields that give the geometry.
-const GEOMETRY: [&str; 7] = [
+const GEOMETRY_FIELDS: [&str; 7] = [
     "circle", "sphere", "point", "on", "inside", "outside", "along",
 ];
 
 /// The fields that describe the impact, which a compliant contact does not have.
-const BOUNCING: [&str; 5] = [
+const IMPACT_FIELDS: [&str; 5] = [
     "restitution",
     "tangential_restitution",
     "law",
@@ -86,7 +86,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         {
             for field in ["gap", "slip", "corners", "against", "of"]
                 .iter()
-                .chain(&GEOMETRY)
+                .chain(&GEOMETRY_FIELDS)
             {
                 self.conflict(record, field, family);
             }
@@ -114,7 +114,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .iter()
             .any(|field| record.field(field).is_some())
         {
-            for field in GEOMETRY.iter().chain(&["of"]) {
+            for field in GEOMETRY_FIELDS.iter().chain(&["of"]) {
                 self.conflict(record, field, "gap");
             }
             let geometry = self.gap_and_slip(member, record);
@@ -131,17 +131,17 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             touching.map(|touching| vec![(name, ContactGeometry::Circles(touching))])
         };
         let response = match record.get("compliance") {
-            Some(said) => {
-                for field in BOUNCING {
+            Some(written) => {
+                for field in IMPACT_FIELDS {
                     self.conflict(record, field, "compliance");
                 }
-                self.compliance(member, said)
+                self.compliance(member, written)
             }
             None => self.rigid(member, record),
         };
         let friction = record
             .get("friction")
-            .map(|said| self.friction(member, said));
+            .map(|written| self.friction(member, written));
         for field in ["tangential_restitution", "static_friction"] {
             if let (None, Some(field)) = (&friction, record.field(field)) {
                 let name = &field.name.text;
@@ -150,14 +150,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 self.push(diagnostic.help("add `friction`, or leave it out"));
             }
         }
-        let sticking = record.get("static_friction").map(|said| {
-            let sticking = self.friction(member, said);
+        let sticking = record.get("static_friction").map(|written| {
+            let sticking = self.friction(member, written);
             if let (Some(sticking), Some(Some(friction))) = (sticking, friction) {
-                self.bound(BoundKind::StaticFriction(friction), sticking, said.span);
+                self.bound(BoundKind::StaticFriction(friction), sticking, written.span);
             }
             sticking
         });
-        let rolling = record.get("rolling_resistance").map(|said| {
+        let rolling = record.get("rolling_resistance").map(|written| {
             for other in [
                 "gap", "slip", "point", "corners", "against", "sphere", "spheres",
             ] {
@@ -166,13 +166,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 }
             }
             let scope = self.scope(member, &limits::FRICTION);
-            let why = "a coefficient of rolling resistance is a length, in m";
-            let scalar = self.scalar_in(said, Unit::METRE, why, scope)?;
-            self.bound(BoundKind::RollingResistance, scalar.expr, said.span);
+            let reason = "a coefficient of rolling resistance is a length, in m";
+            let scalar = self.scalar_in(written, Unit::METRE, reason, scope)?;
+            self.bound(BoundKind::RollingResistance, scalar.expr, written.span);
             Some(scalar.expr)
         });
         // A field that is present but wrong has been reported.
-        let good = |said: Option<Option<Expr<'d>>>| match said {
+        let good = |written: Option<Option<Expr<'d>>>| match written {
             Some(value) => value.map(Some),
             None => Some(None),
         };
@@ -198,18 +198,18 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         record: &'a Record,
         family: &str,
     ) -> Option<Vec<(Name, ContactGeometry<'d>)>> {
-        let said = self.field(member, record, family)?;
-        let one = self.round_word();
-        let reference = match &said.kind {
+        let written = self.field(member, record, family)?;
+        let one = self.circle_or_sphere_word();
+        let reference = match &written.kind {
             ExpressionKind::Name(reference) if reference.index.is_none() => reference,
             ExpressionKind::Error => return None,
             _ => {
                 let message = format!("the name of a family of {family} is expected here");
-                self.error(Code::WrongKind, said.span, message);
+                self.error(Code::WrongKind, written.span, message);
                 return None;
             }
         };
-        let (namespace, none) = self.round_names();
+        let (namespace, none) = self.circle_or_sphere_namespace();
         let group = self.known_group(namespace, none, &reference.base)?;
         let mut circles: Vec<(Option<i64>, usize)> = Vec::new();
         for circle in self.members_under(group, None) {
@@ -218,7 +218,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let count = circles.len() * circles.len().saturating_sub(1) / 2;
         if count > MOST_UNILATERAL {
             let message = format!("{} {family} make {count} pairs", circles.len());
-            let diagnostic = Diagnostic::new(Code::TooLarge, said.span, message);
+            let diagnostic = Diagnostic::new(Code::TooLarge, written.span, message);
             let help = format!("a machine may have at most {MOST_UNILATERAL} contacts");
             self.push(diagnostic.help(help));
             return None;
@@ -228,7 +228,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 "`{}` is one {one}, and a pair needs two",
                 reference.base.text
             );
-            let diagnostic = Diagnostic::new(Code::WrongKind, said.span, message);
+            let diagnostic = Diagnostic::new(Code::WrongKind, written.span, message);
             self.push(diagnostic.help(format!(
                 "`{family}` names a family: `disc`, where `disc[i in 1..N]` are {family}"
             )));
@@ -257,12 +257,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         member: MemberId,
         record: &'a Record,
     ) -> Option<Vec<(Name, ContactGeometry<'d>)>> {
-        let said = self.field(member, record, "corners")?;
+        let written = self.field(member, record, "corners")?;
         let base = self.name(member).to_string();
-        let points = match &said.kind {
+        let points = match &written.kind {
             ExpressionKind::Tuple(corners) => self.points_on(member, record, corners)?,
             ExpressionKind::Name(name) if name.index.is_none() && name.base.text == "outline" => {
-                self.outline_on(member, record, said.span)?
+                self.outline_on(member, record, written.span)?
             }
             ExpressionKind::Error => return None,
             _ => {
@@ -272,7 +272,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     }
                     Space::Space => "corners are a list of points, `((-a, -b, -c), (a, -b, -c))`",
                 };
-                self.error(Code::WrongKind, said.span, message);
+                self.error(Code::WrongKind, written.span, message);
                 return None;
             }
         };
@@ -315,8 +315,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let corner = |corner| {
                 ContactGeometry::Corner(Corner {
                     corner,
-                    own: own.clone(),
-                    other: other.clone(),
+                    polygon: own.clone(),
+                    other_polygon: other.clone(),
                 })
             };
             (0..own.corners.len()).map(corner).collect::<Vec<_>>()
@@ -340,11 +340,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         record: &'a Record,
         [corners, field]: [&str; 2],
     ) -> Option<Rc<Polygon<'d>>> {
-        let said = self.field(member, record, corners);
+        let written = self.field(member, record, corners);
         let place = self.field(member, record, field);
         let place = place.and_then(|on| self.place(member, on));
-        let (said, on) = (said?, place?);
-        let corners: Vec<Vec<Expr<'d>>> = match &said.kind {
+        let (written, on) = (written?, place?);
+        let corners: Vec<Vec<Expr<'d>>> = match &written.kind {
             ExpressionKind::Tuple(points) => {
                 let scope = self.scope(member, &limits::OUTLINE);
                 let points: Vec<_> = (points.iter())
@@ -354,12 +354,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 points.collect::<Option<_>>()?
             }
             ExpressionKind::Name(name) if name.index.is_none() && name.base.text == "outline" => {
-                self.outline_at(on, field, said.span)?
+                self.outline_at(on, field, written.span)?
             }
             ExpressionKind::Error => return None,
             _ => {
                 let message = "corners are a list of points, `((-b, -h), (b, -h), (0, h))`, or `outline`, those of the body";
-                self.error(Code::WrongKind, said.span, message);
+                self.error(Code::WrongKind, written.span, message);
                 return None;
             }
         };
@@ -368,13 +368,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 "a polygon has at least three corners, found {}",
                 corners.len()
             );
-            let diagnostic = Diagnostic::new(Code::WrongKind, said.span, message);
+            let diagnostic = Diagnostic::new(Code::WrongKind, written.span, message);
             self.push(diagnostic.help("a single point of a body can be in contact as a `point`"));
             return None;
         }
         if corners.len() > MOST_CORNERS {
             let message = format!("a polygon with {} corners is too large", corners.len());
-            let diagnostic = Diagnostic::new(Code::TooLarge, said.span, message);
+            let diagnostic = Diagnostic::new(Code::TooLarge, written.span, message);
             self.push(diagnostic.help(format!(
                 "it may have at most {MOST_CORNERS}: use a circle for rounder shapes"
             )));
@@ -382,7 +382,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         let polygon = Polygon { on, corners };
         for turn in polygon.turns() {
-            self.bound(BoundKind::Convex, turn, said.span);
+            self.bound(BoundKind::Convex, turn, written.span);
         }
         Some(Rc::new(polygon))
     }
@@ -454,17 +454,17 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 self.field(member, record, "slip");
                 (None, None)
             }
-            (Some(said), _) => match &said.kind {
+            (Some(written), _) => match &written.kind {
                 ExpressionKind::Tuple(parts) => {
                     if self.space == Space::Plane || parts.len() != 2 {
                         let message = "a slip is one velocity, and in space one or two: `(a, b)`";
-                        self.error(Code::WrongDimension, said.span, message);
+                        self.error(Code::WrongDimension, written.span, message);
                         return None;
                     }
                     let [slip, across] = [0, 1].map(|k| self.slip(member, &parts[k]));
                     (slip, Some(across?))
                 }
-                _ => (self.slip(member, said), None),
+                _ => (self.slip(member, written), None),
             },
         };
         Some(ContactGeometry::Expressions {
@@ -475,17 +475,17 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// A slip velocity in one direction.
-    fn slip(&mut self, member: MemberId, said: &'a Expression) -> Option<Expr<'d>> {
+    fn slip(&mut self, member: MemberId, written: &'a Expression) -> Option<Expr<'d>> {
         let scope = self.scope(member, &limits::SLIP);
-        let why = "a slip is a velocity, in m/s";
-        let slip = self.scalar_in(said, VELOCITY, why, scope)?.expr;
+        let reason = "a slip is a velocity, in m/s";
+        let slip = self.scalar_in(written, VELOCITY, reason, scope)?.expr;
         let help = "a slip is a sum of terms a(q, t)*der(q)";
-        if self.refuse_states(slip, said.span, "a slip", help) {
+        if self.refuse_states(slip, written.span, "a slip", help) {
             return None;
         }
         if !is_linear(slip) {
             let message = "this slip is not linear in the velocities";
-            let diagnostic = Diagnostic::new(Code::NotLinear, said.span, message);
+            let diagnostic = Diagnostic::new(Code::NotLinear, written.span, message);
             self.push(diagnostic.help(help));
         }
         Some(slip)
@@ -500,12 +500,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             None => Some(self.dag.zero()),
         };
         let law = match record.get("law") {
-            Some(law) => self.one_of(law, "law of impact", &ImpactLaw::ALL, ImpactLaw::name),
+            Some(law) => self.keyword(law, "law of impact", &ImpactLaw::ALL, ImpactLaw::name),
             None => Some(ImpactLaw::default()),
         };
         let order = match record.get("order") {
-            Some(said) => self.one_of(
-                said,
+            Some(written) => self.keyword(
+                written,
                 "order of impacts",
                 &ImpactOrder::ALL,
                 ImpactOrder::name,
@@ -513,8 +513,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             None => Some(ImpactOrder::default()),
         };
         let painleve = match record.get("painleve") {
-            Some(said) => self.one_of(
-                said,
+            Some(written) => self.keyword(
+                written,
                 "treatment of paradoxes",
                 &Painleve::ALL,
                 Painleve::name,
@@ -530,8 +530,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// `linear(k, b)`: a force law with its parameters.
-    fn compliance(&mut self, member: MemberId, said: &'a Expression) -> Option<Response<'d>> {
-        let call = match &said.kind {
+    fn compliance(&mut self, member: MemberId, written: &'a Expression) -> Option<Response<'d>> {
+        let call = match &written.kind {
             ExpressionKind::Error => return None,
             ExpressionKind::Call(call) => Some(call),
             _ => None,
@@ -549,7 +549,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                         format!("no force law is called `{name}`"),
                     )
                 }
-                None => (said.span, "a force law is expected here".to_owned()),
+                None => (written.span, "a force law is expected here".to_owned()),
             };
             let forms = Compliance::ALL.map(|law| format!("`{}`", form(law)));
             let diagnostic = Diagnostic::new(Code::UnknownName, span, message);
@@ -568,16 +568,16 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 },
                 call.arguments.len()
             );
-            let diagnostic = Diagnostic::new(Code::WrongArguments, said.span, message);
+            let diagnostic = Diagnostic::new(Code::WrongArguments, written.span, message);
             self.push(diagnostic.help(format!("write `{}`", form(law))));
             return None;
         }
         let mut parameters = [Some(self.dag.zero()); 2];
         let places = parameters.iter_mut().zip(&call.arguments);
         let words = units.iter().zip(law.parameters());
-        for ((parameter, argument), ((unit, why), kind)) in places.zip(words) {
+        for ((parameter, argument), ((unit, reason), kind)) in places.zip(words) {
             let scope = self.scope(member, &limits::COMPLIANCE);
-            let scalar = self.scalar_in(argument, *unit, why, scope);
+            let scalar = self.scalar_in(argument, *unit, reason, scope);
             *parameter = scalar.map(|scalar| scalar.expr);
             if let Some(value) = *parameter
                 && *kind != "unloading"
@@ -603,21 +603,21 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     fn restitution(&mut self, member: MemberId, value: &'a Expression) -> Option<Expr<'d>> {
         let scope = self.scope(member, &limits::RESTITUTION);
-        let why = "a coefficient of restitution has no unit";
-        let scalar = self.scalar_in(value, Unit::ONE, why, scope)?;
+        let reason = "a coefficient of restitution has no unit";
+        let scalar = self.scalar_in(value, Unit::ONE, reason, scope)?;
         self.bound(BoundKind::Restitution, scalar.expr, value.span);
         Some(scalar.expr)
     }
 
     /// One of the words that a field allows.
-    fn one_of<T: Copy>(
+    fn keyword<T: Copy>(
         &mut self,
-        said: &'a Expression,
+        written: &'a Expression,
         what: &str,
         all: &[T],
         name: fn(T) -> &'static str,
     ) -> Option<T> {
-        let word = match &said.kind {
+        let word = match &written.kind {
             ExpressionKind::Name(reference) if reference.index.is_none() => {
                 reference.base.text.as_str()
             }
@@ -631,7 +631,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 word => format!("no {what} is called `{word}`"),
             };
             let names: Vec<String> = all.iter().map(|one| format!("`{}`", name(*one))).collect();
-            let diagnostic = Diagnostic::new(Code::UnknownName, said.span, message);
+            let diagnostic = Diagnostic::new(Code::UnknownName, written.span, message);
             self.push(diagnostic.help(format!("it is one of {}", names.join(", "))));
         }
         known

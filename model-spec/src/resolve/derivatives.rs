@@ -58,7 +58,7 @@ impl Resolver<'_, '_, '_> {
         for member in members {
             let section = self.declaration(member).section;
             if self.is_derived(member) {
-                self.derivative_by_derived(member, name.span);
+                self.refuse_derivative_by_derived(member, name.span);
                 continue;
             }
             if section == SectionKind::Parameters {

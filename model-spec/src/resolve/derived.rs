@@ -97,7 +97,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let Some(mut scalar) = self.quantity_value(value, measure.as_ref(), scope) else {
             return Value::Unknown;
         };
-        self.measured_in_si(&mut scalar, measure);
+        self.convert_to_si(&mut scalar, measure);
         Value::Scalar(scalar)
     }
 
@@ -112,8 +112,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         };
         self.check_symbol_name(member);
         let quantity = self.quantity(member)?;
-        let said = quantity.value.as_ref().map_or(span, |value| value.span);
-        self.bound(BoundKind::Derived, scalar.expr, said);
+        let written = quantity.value.as_ref().map_or(span, |value| value.span);
+        self.bound(BoundKind::Derived, scalar.expr, written);
         let measure = declared_measure(quantity)?;
         let unit = scalar.unit.unwrap_or(Unit::ONE);
         Some(DerivedParameter {
@@ -131,11 +131,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// Refuses derivatives by a parameter that follows from others.
-    pub fn derivative_by_derived(&mut self, member: MemberId, said: Span) {
+    pub fn refuse_derivative_by_derived(&mut self, member: MemberId, written: Span) {
         let name = self.name(member).to_string();
         let message =
             format!("`{name}` follows from other parameters and cannot vary independently");
-        let diagnostic = Diagnostic::new(Code::WrongKind, said, message);
+        let diagnostic = Diagnostic::new(Code::WrongKind, written, message);
         let diagnostic = diagnostic.note(self.span(member), "by this formula");
         self.push(diagnostic.help(
             "name the parameters in its formula: derivatives with respect to them include it by the chain rule",

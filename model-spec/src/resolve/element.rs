@@ -58,7 +58,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             match row.meaning {
                 Meaning::Items(resolve) => {
                     let section = SectionKind::Element(row.section);
-                    elements.extend(self.each(section, |resolver, member| {
+                    elements.extend(self.resolve_each(section, |resolver, member| {
                         let Resolved {
                             contributions,
                             drawing,
@@ -88,27 +88,27 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         section: &'static Section,
         resolve: impl Fn(&mut Self, &'a Expression) -> Option<Resolved<'d>>,
     ) -> Option<Element<'d>> {
-        let mut said = None;
+        let mut written = None;
         for spec in layers {
             let mut removed = spec.remove.iter().map(|remove| remove.section.value);
             if removed.any(|kind| kind == SectionKind::Element(section)) {
-                said = None;
+                written = None;
             }
-            said = spec.statement(section.word).or(said);
+            written = spec.statement(section.word).or(written);
         }
-        let said = said?;
-        let value = said.value.as_ref()?;
-        let resolved = self.settle(|resolver| resolve(resolver, value))?;
+        let written = written?;
+        let value = written.value.as_ref()?;
+        let resolved = self.repeat_until_resolved(|resolver| resolve(resolver, value))?;
         Some(Element {
             section,
             name: Name {
                 base: section.word.to_owned(),
                 index: None,
             },
-            docs: said.docs.clone(),
+            docs: written.docs.clone(),
             contributions: resolved.contributions,
             drawing: resolved.drawing,
-            span: said.span,
+            span: written.span,
         })
     }
 }

@@ -7,7 +7,7 @@
 use lagrangian_symbolic::{Expr, Function, Node, Rational, Symbol, Tangent};
 
 use super::Resolver;
-use super::items::is_worth;
+use super::items::equals_unit;
 use super::names::{Namespace, suggestion, with_help};
 use super::value::{Scalar, Scope, Value, Vector, dependence, dimension_text};
 use super::work::{Need, State};
@@ -37,13 +37,15 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             ExpressionKind::Number(text) => self.number(text, span),
             ExpressionKind::Name(reference) => self.name_value(reference, span, scope),
             ExpressionKind::Sum(terms) => self.sum(terms, scope),
-            ExpressionKind::Product(factors) => self.product(factors, span, scope.hinting(None)),
+            ExpressionKind::Product(factors) => {
+                self.product(factors, span, scope.with_expected_unit(None))
+            }
             ExpressionKind::Negative(inner) => self.negative(inner, scope),
             ExpressionKind::Power(base, exponent) => {
-                self.power(base, exponent, span, scope.hinting(None))
+                self.power(base, exponent, span, scope.with_expected_unit(None))
             }
-            ExpressionKind::Call(call) => self.call(call, span, scope.hinting(None)),
-            ExpressionKind::Chain(chain) => self.chain(chain, span, scope.hinting(None)),
+            ExpressionKind::Call(call) => self.call(call, span, scope.with_expected_unit(None)),
+            ExpressionKind::Chain(chain) => self.chain(chain, span, scope.with_expected_unit(None)),
             ExpressionKind::Tuple(components) => self.tuple(components, span, scope),
             ExpressionKind::Text(_) => {
                 let message = "a file name is allowed only in `table(\"…\", x)`";
@@ -88,14 +90,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         &mut self,
         expression: &'a Expression,
         unit: Unit,
-        why: &str,
+        reason: &str,
         scope: Scope<'a>,
     ) -> Option<Scalar<'d>> {
-        let scalar = self.scalar(expression, scope.hinting(unit))?;
-        self.demand(scalar.unit, unit, expression.span, why);
-        self.no_hidden_unit(expression, scalar.unit, unit);
+        let scalar = self.scalar(expression, scope.with_expected_unit(unit))?;
+        self.require_unit(scalar.unit, unit, expression.span, reason);
+        self.refuse_hidden_unit(expression, scalar.unit, unit);
         if scalar.unit.is_none() {
-            self.notice_angle(&scalar, unit, expression.span);
+            self.warn_about_degrees(&scalar, unit, expression.span);
         }
         Some(scalar)
     }
@@ -106,12 +108,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         expression: &'a Expression,
         what: &str,
         unit: Unit,
-        why: &str,
+        reason: &str,
         scope: Scope<'a>,
     ) -> Option<Vector<'d>> {
-        let vector = self.vector(expression, what, scope.hinting(unit))?;
-        self.demand(vector.unit, unit, expression.span, why);
-        self.no_hidden_unit(expression, vector.unit, unit);
+        let vector = self.vector(expression, what, scope.with_expected_unit(unit))?;
+        self.require_unit(vector.unit, unit, expression.span, reason);
+        self.refuse_hidden_unit(expression, vector.unit, unit);
         Some(vector)
     }
 
@@ -146,7 +148,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// Reports a unit other than the one required; a bare number takes any unit.
-    pub fn demand(&mut self, found: Option<Unit>, expected: Unit, span: Span, why: &str) {
+    pub fn require_unit(&mut self, found: Option<Unit>, expected: Unit, span: Span, reason: &str) {
         if let Some(found) = found.filter(|found| !found.fits(expected)) {
             let message = format!(
                 "expected {}, found {}",
@@ -154,7 +156,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 unit_text(found)
             );
             let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
-            self.push(diagnostic.help(with_factors(why, found, expected)));
+            self.push(diagnostic.help(unit_factor_help(reason, found, expected)));
         }
     }
 
@@ -193,12 +195,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The value, if its place admits its dependencies.
-    pub fn admit(&mut self, value: Value<'d>, span: Span, scope: Scope<'a>) -> Value<'d> {
+    pub fn check_stage(&mut self, value: Value<'d>, span: Span, scope: Scope<'a>) -> Value<'d> {
         let (found, limit) = (value.stage(), scope.limit);
         if found <= limit.stage {
             return value;
         }
-        let message = format!("{} cannot depend on {}", limit.what, dependence(found));
+        let message = format!("{} cannot depend on {}", limit.subject, dependence(found));
         let diagnostic = Diagnostic::new(limit.code, span, message);
         self.push(diagnostic.help(limit.help));
         Value::Unknown
@@ -216,7 +218,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let word = name.text.as_str();
         let known = match scope.index {
             Some((variable, index)) if variable == word => {
-                Some(Value::Scalar(self.bare(Rational::from(index))))
+                Some(Value::Scalar(self.bare_number(Rational::from(index))))
             }
             _ if word == "t" => Some(Value::Scalar(Scalar {
                 expr: self.time,
@@ -235,7 +237,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 self.not_a_family(name, index.span);
                 return Value::Unknown;
             }
-            return self.admit(value, span, scope);
+            return self.check_stage(value, span, scope);
         }
         let group = [Namespace::Values, Namespace::FRAMES, Namespace::BODIES]
             .into_iter()
@@ -250,7 +252,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     Namespace::BODIES => Value::Body(member),
                     _ => self.value_of(member, span),
                 };
-                self.admit(value, span, scope)
+                self.check_stage(value, span, scope)
             }
             None if word == "ground" => Value::Frame(PoseId::GROUND),
             None => {
@@ -261,7 +263,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// A bare number.
-    pub fn bare(&self, value: Rational) -> Scalar<'d> {
+    pub fn bare_number(&self, value: Rational) -> Scalar<'d> {
         let number = Some(value.to_f64());
         Scalar {
             expr: self.dag.constant(value),
@@ -299,18 +301,18 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             values
                 .iter()
                 .map(|(value, term)| (value.unit(), term.value.span)),
-            scope.hint,
+            scope.expected_unit,
             "terms that are added or subtracted must have the same unit",
         );
         let parts = values.iter();
-        self.no_bare_number(
+        self.refuse_bare_numbers(
             parts.map(|(value, term)| (value.is_bare(), term.value.span)),
             unit,
         );
         if let Some(unit) = unit {
             for (value, term) in &values {
                 if !value.is_unknown() {
-                    self.no_hidden_unit(&term.value, value.unit(), unit);
+                    self.refuse_hidden_unit(&term.value, value.unit(), unit);
                 }
             }
         }
@@ -381,7 +383,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         &mut self,
         parts: impl Iterator<Item = (Option<Unit>, Span)>,
         hint: Option<Unit>,
-        why: &str,
+        reason: &str,
     ) -> Option<Unit> {
         let parts: Vec<(Unit, Span)> = parts
             .filter_map(|(unit, span)| Some((unit?, span)))
@@ -401,7 +403,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             if !other.fits(unit) {
                 let message = format!("expected {}, found {}", unit_text(unit), unit_text(other));
                 let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
-                let diagnostic = diagnostic.help(with_factors(why, other, unit));
+                let diagnostic = diagnostic.help(unit_factor_help(reason, other, unit));
                 self.push(diagnostic.note(example, format!("this is in {}", unit_text(unit))));
             }
         }
@@ -411,7 +413,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     /// Refuses bare numbers beside quantities that are not given in SI units, since their unit is
     /// ambiguous. Zero is zero in any unit.
-    pub fn no_bare_number(
+    pub fn refuse_bare_numbers(
         &mut self,
         parts: impl Iterator<Item = (bool, Span)>,
         unit: Option<Unit>,
@@ -432,7 +434,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// Warns about a number that looks like degrees where radians are expected, or vice versa.
-    pub fn notice_angle(&mut self, bare: &Scalar<'d>, unit: Unit, span: Span) {
+    pub fn warn_about_degrees(&mut self, bare: &Scalar<'d>, unit: Unit, span: Span) {
         if !unit.is_angle() || self.remarks.is_some() {
             return;
         }
@@ -467,7 +469,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     /// Refuses a bare number that would be a quantity in the unit of its place if a name in it were that of a unit: `5*N` with a
     /// constant `N`, where a force is expected. No unit can tell the two apart, because a bare number takes any.
-    pub fn no_hidden_unit(
+    pub fn refuse_hidden_unit(
         &mut self,
         expression: &'a Expression,
         found: Option<Unit>,
@@ -478,7 +480,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         let names = hidden_unit(expression, expected);
         // `1500*rpm` with a constant `rpm = 2*pi/60` is the same either way.
-        let Some(name) = names.into_iter().find(|name| !self.is_as_unit(name)) else {
+        let Some(name) = names
+            .into_iter()
+            .find(|name| !self.equals_unit_of_same_name(name))
+        else {
             return;
         };
         let unit = name.text.as_str();
@@ -490,20 +495,20 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// Whether a name is declared with the value of the unit of the same name.
-    fn is_as_unit(&mut self, name: &'a Ident) -> bool {
+    fn equals_unit_of_same_name(&mut self, name: &'a Ident) -> bool {
         let group = self.find_group(Namespace::Values, &name.text);
         let member = group.and_then(|group| self.groups[group].members.get(&None).copied());
         let (Some(member), Some(measure)) = (member, Measure::named(&name.text)) else {
             return false;
         };
         match self.value_of(member, name.span) {
-            Value::Scalar(scalar) => is_worth(scalar.expr, &measure),
+            Value::Scalar(scalar) => equals_unit(scalar.expr, &measure),
             _ => false,
         }
     }
 
     /// Reports a unit that stands after a declared name instead of a number: the second one in `9.81*m/s^2` if `m` is a mass.
-    fn unit_behind_name(&mut self, name: &'a Ident, declared: &str) {
+    fn refuse_unit_after_name(&mut self, name: &'a Ident, declared: &str) {
         let message = format!("nothing is named `{}`", name.text);
         let diagnostic = Diagnostic::new(Code::UnknownName, name.span, message);
         self.push(diagnostic.help(format!(
@@ -533,7 +538,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 && self.unit_factor(&factor.value, scope).is_some()
             {
                 if complete {
-                    self.unit_behind_name(name, declared);
+                    self.refuse_unit_after_name(name, declared);
                 }
                 complete = false;
                 continue;
@@ -721,16 +726,16 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let parts = values.iter().zip(components);
         let unit = self.common_unit(
             parts.map(|(value, part)| (value.and_then(|value| value.unit), part.span)),
-            scope.hint,
+            scope.expected_unit,
             "the components of a vector must have the same unit",
         );
         let parts = values.iter().zip(components);
         let is_bare = |value: &Option<Scalar<'d>>| value.is_some_and(|value| value.is_bare());
-        self.no_bare_number(parts.map(|(value, part)| (is_bare(value), part.span)), unit);
+        self.refuse_bare_numbers(parts.map(|(value, part)| (is_bare(value), part.span)), unit);
         if let Some(unit) = unit {
             for (value, part) in values.iter().zip(components) {
                 if let Some(value) = value {
-                    self.no_hidden_unit(part, value.unit, unit);
+                    self.refuse_hidden_unit(part, value.unit, unit);
                 }
             }
         }
@@ -833,14 +838,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             Function::Sign => x.unit.map(|_| Unit::ONE),
             Function::Sqrt => self.unit_of_root(x.unit, argument.span),
             Function::Sin | Function::Cos | Function::Tan => {
-                self.demand_pure(x.unit, "an angle in rad", argument.span);
+                self.require_dimensionless(x.unit, "an angle in rad", argument.span);
                 if x.unit.is_none() {
-                    self.notice_angle(&x, Unit::RADIAN, argument.span);
+                    self.warn_about_degrees(&x, Unit::RADIAN, argument.span);
                 }
                 x.unit.map(|_| Unit::ONE)
             }
             _ => {
-                self.demand_pure(x.unit, "a pure number", argument.span);
+                self.require_dimensionless(x.unit, "a pure number", argument.span);
                 x.unit.map(|_| Unit::ONE)
             }
         };
@@ -868,11 +873,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         root
     }
 
-    fn demand_pure(&mut self, unit: Option<Unit>, expected: &str, span: Span) {
+    fn require_dimensionless(&mut self, unit: Option<Unit>, expected: &str, span: Span) {
         if let Some(unit) = unit.filter(|unit| !unit.is_one()) {
             let message = format!("expected {expected}, found {}", unit_text(unit));
             let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
-            self.push(with_help(diagnostic, about_turns(unit, Unit::ONE)));
+            self.push(with_help(diagnostic, cycles_help(unit, Unit::ONE)));
         }
     }
 
@@ -888,14 +893,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let (Some(x), Some(y)) = (x, y) else {
             return Value::Unknown;
         };
-        let why = format!(
+        let reason = format!(
             "both arguments of `{}` must have the same unit",
             function.name()
         );
         let parts = [(x.unit, first.span), (y.unit, second.span)];
-        let common = self.common_unit(parts.into_iter(), None, &why);
+        let common = self.common_unit(parts.into_iter(), None, &reason);
         let parts = [(x.is_bare(), first.span), (y.is_bare(), second.span)];
-        self.no_bare_number(parts.into_iter(), common);
+        self.refuse_bare_numbers(parts.into_iter(), common);
         let unit = match function {
             Function::Atan2 => common.map(|_| Unit::RADIAN),
             _ => common,
@@ -917,7 +922,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     fn derivative(&mut self, argument: &'a Expression, span: Span, scope: Scope<'a>) -> Value<'d> {
         // An argument that is not allowed here by itself may be allowed inside `der`, and vice
         // versa: the derivative decides.
-        let value = self.value(argument, scope.within(&super::value::limits::DEFINITION));
+        let value = self.value(
+            argument,
+            scope.with_limit(&super::value::limits::DEFINITION),
+        );
         let found = value.stage();
         if found >= stage::INPUT {
             let of = dependence(found);
@@ -953,7 +961,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 return Value::Unknown;
             }
         };
-        self.admit(derivative, span, scope)
+        self.check_stage(derivative, span, scope)
     }
 
     /// The total time derivative: q ↦ q̇, q̇ ↦ q̈, t ↦ 1.
@@ -996,7 +1004,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
         }
         for guide in &self.guides {
-            for [q, v, a] in guide.by.iter().copied() {
+            for [q, v, a] in guide.displacement.iter().copied() {
                 rates.push((q.as_symbol()?, v));
                 rates.push((v.as_symbol()?, a));
             }
@@ -1061,8 +1069,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         scope: Scope<'a>,
     ) -> Value<'d> {
         let radius = radius.map(|radius| self.scalar(radius, scope));
-        let why = "an angle is in rad, or a pure number";
-        let angle = self.scalar_in(angle, Unit::RADIAN, why, scope);
+        let reason = "an angle is in rad, or a pure number";
+        let angle = self.scalar_in(angle, Unit::RADIAN, reason, scope);
         if self.space == Space::Space {
             let message = format!("`{word}` exists only in the plane");
             let diagnostic = Diagnostic::new(Code::WrongSpace, span, message);
@@ -1288,7 +1296,7 @@ fn power_of_pi(constant: Expr<'_>) -> i32 {
 }
 
 /// The help for cycles where radians are expected, or vice versa.
-fn about_turns(found: Unit, expected: Unit) -> Option<String> {
+fn cycles_help(found: Unit, expected: Unit) -> Option<String> {
     let help = match found.cycles_beyond(expected)? {
         1.. => {
             "a hertz is a cycle per second: multiply by `2*pi` for radians; a rate of anything \
@@ -1300,16 +1308,16 @@ fn about_turns(found: Unit, expected: Unit) -> Option<String> {
 }
 
 /// A help line, with a hint about the most common cause of a missing unit.
-fn with_factors(why: &str, found: Unit, expected: Unit) -> String {
-    if let Some(help) = about_turns(found, expected) {
+fn unit_factor_help(reason: &str, found: Unit, expected: Unit) -> String {
+    if let Some(help) = cycles_help(found, expected) {
         return help;
     }
     if found.to_string() == "1" {
         format!(
-            "{why}; a bare number as a factor has no unit: declare it, `constants {{ l: m = 2 }}`"
+            "{reason}; a bare number as a factor has no unit: declare it, `constants {{ l: m = 2 }}`"
         )
     } else {
-        why.to_owned()
+        reason.to_owned()
     }
 }
 

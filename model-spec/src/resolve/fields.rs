@@ -3,7 +3,7 @@
 use lagrangian_symbolic::Expr;
 
 use super::Resolver;
-use super::motion::to_point;
+use super::motion::vector_between;
 use super::names::{Content, Namespace, declared_unit, suggestion, with_help};
 use super::value::{Limit, MemberId, Scope, Value, limits};
 use crate::diagnostic::{Code, Diagnostic};
@@ -209,7 +209,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The body that an expression names, which must have an orientation.
-    pub fn turning_body(&mut self, member: MemberId, on: &'a Expression) -> Option<MemberId> {
+    pub fn oriented_body(&mut self, member: MemberId, on: &'a Expression) -> Option<MemberId> {
         let body = self.body_at(member, on)?;
         let turns = self.record(body).is_some_and(|record| {
             record.field("frame").is_some() || record.field("angle").is_some()
@@ -224,12 +224,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// A frame, or a body with an orientation.
-    pub fn turning_place(&mut self, member: MemberId, on: &'a Expression) -> Option<Place> {
+    pub fn oriented_place(&mut self, member: MemberId, on: &'a Expression) -> Option<Place> {
         let place = self.place(member, on)?;
         let Place::Body(_) = place else {
             return Some(place);
         };
-        let body = self.turning_body(member, on)?;
+        let body = self.oriented_body(member, on)?;
         let has_frame = self.record(body)?.field("frame").is_some();
         if has_frame {
             self.frame_of_body(body, on.span).map(Place::Frame)
@@ -241,7 +241,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// The angle between two places, in the plane, with common terms cancelled.
     pub fn angle_between(&mut self, from: Place, to: Place) -> Option<Expr<'d>> {
         let [from, to] = [from, to].map(|place| self.angle_of_place(place));
-        to_point(&[from?], &[to?]).pop()
+        vector_between(&[from?], &[to?]).pop()
     }
 
     /// The angle of a frame or of a body that has one, in the plane.
@@ -329,10 +329,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<([Expr<'d>; 2], Unit)> {
         let first = self.scalar(left, scope);
         let hint = first.and_then(|first| first.unit);
-        let second = self.scalar(right, scope.hinting(hint));
+        let second = self.scalar(right, scope.with_expected_unit(hint));
         let (first, second) = (first?, second?);
         if let Some(unit) = first.unit {
-            self.demand(
+            self.require_unit(
                 second.unit,
                 unit,
                 right.span,
@@ -342,7 +342,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let scaled = [first, second].into_iter().filter_map(|side| side.unit);
         let scaled = scaled.into_iter().find(|unit| unit.is_scaled());
         let sides = [(first.is_bare(), left.span), (second.is_bare(), right.span)];
-        self.no_bare_number(sides.into_iter(), scaled);
+        self.refuse_bare_numbers(sides.into_iter(), scaled);
         let unit = first.unit.or(second.unit).unwrap_or(Unit::ONE);
         Some(([first.expr, second.expr], unit))
     }
@@ -360,14 +360,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         limit: &'static Limit,
     ) -> Option<Expr<'d>> {
         let scope = self.scope(member, limit);
-        let why = "a coefficient of friction has no unit";
-        let scalar = self.scalar_in(friction, Unit::ONE, why, scope)?;
+        let reason = "a coefficient of friction has no unit";
+        let scalar = self.scalar_in(friction, Unit::ONE, reason, scope)?;
         self.bound(BoundKind::Friction, scalar.expr, friction.span);
         Some(scalar.expr)
     }
 
     /// The word for a round object: `circle`, or `sphere` in space.
-    pub fn round_word(&self) -> &'static str {
+    pub fn circle_or_sphere_word(&self) -> &'static str {
         match self.space {
             Space::Plane => "circle",
             Space::Space => "sphere",
@@ -376,7 +376,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     /// `circle` or `sphere` with `inside`, `outside` or `along`: the objects in contact.
     pub fn touching(&mut self, member: MemberId, record: &'a Record) -> Option<Touching> {
-        let circle = self.field(member, record, self.round_word());
+        let circle = self.field(member, record, self.circle_or_sphere_word());
         let circle = circle.map(|circle| self.circle_at(member, circle));
         let surface = self.surface(member, record, circle.flatten());
         Some(Touching {
@@ -408,13 +408,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let base = self.base_name(member);
             let message = format!(
                 "`{base}` needs the {} that it is `inside` or `outside`, or the frame `along` which it moves",
-                self.round_word()
+                self.circle_or_sphere_word()
             );
             self.missing_field(member, message);
         }
         let other_member = other.and_then(|other| self.circle_at(member, other))?;
         if circle == Some(other_member) {
-            let message = format!("a {} does not touch itself", self.round_word());
+            let message = format!("a {} does not touch itself", self.circle_or_sphere_word());
             self.error(Code::ConflictingFields, other?.span, message);
         }
         let other = self.ordinal(other_member)?;
@@ -429,12 +429,15 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let scope = self.scope(member, &limits::DEFINITION);
         match &circle.kind {
             ExpressionKind::Name(reference) => {
-                let (namespace, none) = self.round_names();
+                let (namespace, none) = self.circle_or_sphere_namespace();
                 self.named_member(namespace, none, reference, scope)
             }
             ExpressionKind::Error => None,
             _ => {
-                let message = format!("the name of a {} is expected here", self.round_word());
+                let message = format!(
+                    "the name of a {} is expected here",
+                    self.circle_or_sphere_word()
+                );
                 self.error(Code::WrongKind, circle.span, message);
                 None
             }
@@ -442,7 +445,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The namespace of circles or spheres, and the beginning of the message for an unknown one.
-    pub(super) fn round_names(&self) -> (Namespace, &'static str) {
+    pub(super) fn circle_or_sphere_namespace(&self) -> (Namespace, &'static str) {
         match self.space {
             Space::Plane => (Namespace::CIRCLES, "no circle is"),
             Space::Space => (Namespace::SPHERES, "no sphere is"),

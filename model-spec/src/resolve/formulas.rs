@@ -11,7 +11,7 @@ pub struct Formula<'a> {
     /// The name of the output; not a valid name in a spec, so that it cannot clash with other outputs.
     pub name: &'a str,
     /// The name of the text in messages.
-    pub said: &'a str,
+    pub source_name: &'a str,
     /// An expression in anything that an output may depend on, and in the outputs of the spec, which are in SI units.
     pub text: &'a str,
     /// The required unit; if none is given, the formula's own unit in SI.
@@ -27,7 +27,7 @@ pub(crate) fn items(
     let item = |formula: &Formula<'_>| {
         let texts = [
             ("the unit", formula.unit.unwrap_or("1")),
-            (formula.said, formula.text),
+            (formula.source_name, formula.text),
         ];
         let [unit, value] = texts.map(|(name, text)| {
             let source = sources.add(name, text);

@@ -136,7 +136,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The frame that is turned by a quaternion.
-    fn turned_by_four(&mut self, parent: PoseId, e: [Expr<'d>; 4]) -> PoseId {
+    fn turned_by_quaternion(&mut self, parent: PoseId, e: [Expr<'d>; 4]) -> PoseId {
         // A number beyond those of the three axes.
         let key = (parent, Some(3), e.map(|e| e.id()).to_vec());
         self.add_pose(key, |resolver| {
@@ -276,12 +276,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     Value::Unknown
                 }
             };
-            value = self.admit(value, so_far, scope);
+            value = self.check_stage(value, so_far, scope);
         }
         if value.is_unknown() {
             return Value::Unknown;
         }
-        self.admit(value, span, scope)
+        self.check_stage(value, span, scope)
     }
 
     fn body_member(
@@ -361,25 +361,25 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 }
                 None => Value::Unknown,
             },
-            "shift" => match self.components(link, Some(Unit::METRE), Self::placing(scope)) {
+            "shift" => match self.components(link, Some(Unit::METRE), Self::frame_scope(scope)) {
                 Some(by) => Value::Frame(self.shifted(frame, by.components)),
                 None => Value::Unknown,
             },
             "turn" => match link.arguments.as_deref() {
                 Some(four) if four.len() == 4 => {
-                    match self.four_numbers(link, four, Self::placing(scope)) {
-                        Some(e) => Value::Frame(self.turned_by_four(frame, e)),
+                    match self.quaternion_components(link, four, Self::frame_scope(scope)) {
+                        Some(e) => Value::Frame(self.turned_by_quaternion(frame, e)),
                         None => Value::Unknown,
                     }
                 }
-                _ => match self.turn(link, Self::placing(scope)) {
+                _ => match self.turn(link, Self::frame_scope(scope)) {
                     Some((axis, angle)) => Value::Frame(self.turned(frame, axis, angle)),
                     None => Value::Unknown,
                 },
             },
-            "with_origin" => match self.point_of_link(link, Self::placing(scope)) {
+            "with_origin" => match self.point_of_link(link, Self::frame_scope(scope)) {
                 Some(point) => {
-                    let by = self.seen_from(frame, &point);
+                    let by = self.local_coordinates(frame, &point);
                     Value::Frame(self.shifted(frame, by))
                 }
                 None => Value::Unknown,
@@ -400,9 +400,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The scope of the arguments that make a frame: in any context, a frame is placed by positions.
-    fn placing(scope: Scope<'a>) -> Scope<'a> {
+    fn frame_scope(scope: Scope<'a>) -> Scope<'a> {
         if scope.limit.stage > stage::POSITION {
-            scope.within(&limits::FRAME)
+            scope.with_limit(&limits::FRAME)
         } else {
             scope
         }
@@ -439,18 +439,18 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let mut units = Vec::with_capacity(dimension);
         let mut bare = Vec::with_capacity(dimension);
         for argument in arguments {
-            let scalar = self.scalar(argument, scope.hinting(unit));
+            let scalar = self.scalar(argument, scope.with_expected_unit(unit));
             if let (Some(scalar), Some(unit)) = (scalar, unit) {
-                let why = "a frame measures lengths along its axes";
-                self.demand(scalar.unit, unit, argument.span, why);
+                let reason = "a frame measures lengths along its axes";
+                self.require_unit(scalar.unit, unit, argument.span, reason);
             }
             components.push(scalar.map(|scalar| scalar.expr));
             units.push((scalar.and_then(|scalar| scalar.unit), argument.span));
             bare.push((scalar.is_some_and(|scalar| scalar.is_bare()), argument.span));
         }
-        let mut said = units.iter().filter_map(|(unit, _)| *unit);
-        let scaled = said.find(|unit| unit.is_scaled());
-        self.no_bare_number(bare.into_iter(), scaled);
+        let mut written = units.iter().filter_map(|(unit, _)| *unit);
+        let scaled = written.find(|unit| unit.is_scaled());
+        self.refuse_bare_numbers(bare.into_iter(), scaled);
         let unit = match unit {
             Some(unit) => Some(unit),
             None => self.common_unit(
@@ -493,8 +493,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
         };
         let axis = axis?;
-        let why = "a frame turns by an angle in rad";
-        let angle = self.scalar_in(angle, Unit::RADIAN, why, scope)?;
+        let reason = "a frame turns by an angle in rad";
+        let angle = self.scalar_in(angle, Unit::RADIAN, reason, scope)?;
         Some((axis, angle.expr))
     }
 
@@ -502,7 +502,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ///
     /// Formulas of coordinates are refused, because the length of the quaternion has an equation of motion of its own,
     /// which could not be separated from other effects of these coordinates.
-    fn four_numbers(
+    fn quaternion_components(
         &mut self,
         link: &'a Link,
         arguments: &'a [Expression],
@@ -514,10 +514,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.push(diagnostic.help("write `turn(angle)`"));
             return None;
         }
-        let why = "a frame turns by four pure numbers, or about an axis by an angle";
+        let reason = "a frame turns by four pure numbers, or about an axis by an angle";
         let all: Vec<_> = arguments
             .iter()
-            .map(|argument| self.scalar_in(argument, Unit::ONE, why, scope))
+            .map(|argument| self.scalar_in(argument, Unit::ONE, reason, scope))
             .collect();
         let mut e = Vec::with_capacity(4);
         for (scalar, argument) in all.into_iter().zip(arguments) {

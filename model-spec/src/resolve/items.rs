@@ -19,7 +19,7 @@ use crate::unit::{Measure, Unit};
 const INERTIA: Unit = Unit::base(1, 2, 0);
 
 /// Whether a value is a constant that equals a unit, to rounding.
-pub(super) fn is_worth(value: Expr<'_>, measure: &Measure) -> bool {
+pub(super) fn equals_unit(value: Expr<'_>, measure: &Measure) -> bool {
     value.stage() == stage::CONSTANT
         && (nearest(value) - measure.to_f64()).abs() <= 1e-15 * measure.to_f64()
 }
@@ -33,7 +33,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let name = self.name(member).to_string();
         let set = self.overrides.iter().find(|(known, _)| *known == name);
         let mut scalar = match (set, &quantity.value) {
-            (Some((_, value)), _) => self.bare(value.clone()),
+            (Some((_, value)), _) => self.bare_number(value.clone()),
             (None, Some(value)) => {
                 let scope = self.scope(member, &limits::CONSTANT);
                 let Some(scalar) = self.quantity_value(value, measure.as_ref(), scope) else {
@@ -43,12 +43,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             (None, None) => return Value::Unknown, // the parser has reported that it is missing
         };
-        self.measured_in_si(&mut scalar, measure);
+        self.convert_to_si(&mut scalar, measure);
         Value::Scalar(scalar)
     }
 
     /// Converts a value in a declared unit to SI units, which formulas use.
-    pub(super) fn measured_in_si(&self, scalar: &mut Scalar<'d>, measure: Option<Measure>) {
+    pub(super) fn convert_to_si(&self, scalar: &mut Scalar<'d>, measure: Option<Measure>) {
         let unit = measure.as_ref().map(|measure| measure.unit);
         if let Some(measure) = measure.filter(|measure| !measure.is_si()) {
             scalar.expr = measure.in_si(self.dag) * scalar.expr;
@@ -68,16 +68,16 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return self.scalar(value, scope);
         };
         let unit = measure.unit;
-        let mut scalar = self.scalar(value, scope.hinting(unit))?;
-        self.demand(
+        let mut scalar = self.scalar(value, scope.with_expected_unit(unit))?;
+        self.require_unit(
             scalar.unit,
             unit,
             value.span,
             "the expected unit is that of the declaration",
         );
-        self.no_hidden_unit(value, scalar.unit, unit);
+        self.refuse_hidden_unit(value, scalar.unit, unit);
         if scalar.unit.is_none() {
-            self.notice_angle(&scalar, unit, value.span);
+            self.warn_about_degrees(&scalar, unit, value.span);
         } else if !measure.is_si() {
             scalar.expr = measure.of_si(self.dag) * scalar.expr;
             scalar.number = scalar.number.map(|number| number / measure.to_f64());
@@ -95,7 +95,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         };
         let alike = value.unit.unwrap_or(Unit::ONE) == measure.unit;
         // A declaration `deg = pi/180` agrees with the meaning of the unit.
-        if alike && !is_worth(value.expr, &measure) {
+        if alike && !equals_unit(value.expr, &measure) {
             let unit = name.text.as_str();
             let message = format!(
                 "`{unit}` is also the name of a unit of the same kind as the quantity declared here"
@@ -300,8 +300,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     pub fn mass_centre(&mut self, member: MemberId, record: &'a Record) -> Value<'d> {
         if let Some(at) = record.get("at") {
             let scope = self.scope(member, &limits::POSITION);
-            let why = "a point is in m";
-            return match self.vector_in(at, "a point", Unit::METRE, why, scope) {
+            let reason = "a point is in m";
+            return match self.vector_in(at, "a point", Unit::METRE, reason, scope) {
                 Some(centre) => Value::Vector(self.relaxed_centre(
                     member,
                     Vector {
@@ -376,7 +376,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             rotation: rotation?,
             outline: outline?,
             span,
-            place: record
+            position_span: record
                 .get("at")
                 .or_else(|| record.get("frame"))
                 .map_or(span, |place| place.span),
@@ -410,9 +410,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             (Space::Space, _) => {
                 // A single number is a habit from the plane, and deserves a better message than
                 // "found a number".
-                match self.value(inertia, scope.hinting(INERTIA)) {
+                match self.value(inertia, scope.with_expected_unit(INERTIA)) {
                     Value::Vector(moments) => {
-                        self.demand(
+                        self.require_unit(
                             moments.unit,
                             INERTIA,
                             inertia.span,
@@ -511,8 +511,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return None;
         }
         let scope = self.scope(member, &limits::ROTATION);
-        let why = "a body turns by an angle in rad";
-        let angle = self.scalar_in(&angle.value, Unit::RADIAN, why, scope)?;
+        let reason = "a body turns by an angle in rad";
+        let angle = self.scalar_in(&angle.value, Unit::RADIAN, reason, scope)?;
         Some(Rotation::Angle(angle.expr))
     }
 
@@ -529,7 +529,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             );
             return None;
         }
-        self.round(member, record)
+        self.circle_or_sphere(member, record)
     }
 
     pub fn sphere(&mut self, member: MemberId) -> Option<Circle<'d>> {
@@ -543,11 +543,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             );
             return None;
         }
-        self.round(member, record)
+        self.circle_or_sphere(member, record)
     }
 
     /// A circle or a sphere.
-    fn round(&mut self, member: MemberId, record: &'a Record) -> Option<Circle<'d>> {
+    fn circle_or_sphere(&mut self, member: MemberId, record: &'a Record) -> Option<Circle<'d>> {
         let on = self.field(member, record, "on");
         let center = self.field(member, record, "center");
         let radius = self.field(member, record, "radius");
@@ -586,9 +586,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let mut found = Vec::new();
         for coordinate in self.coordinates_named(member) {
             if kind == ApproximationKind::Frozen {
-                let why =
+                let reason =
                     "`frozen` replaces sin θ by 0 and cos θ by 1, so it applies only to angles";
-                self.demand(self.unit_of(coordinate), Unit::RADIAN, span, why);
+                self.require_unit(self.unit_of(coordinate), Unit::RADIAN, span, reason);
             }
             found.extend(self.ordinal(coordinate).map(|coordinate| Approximation {
                 coordinate,

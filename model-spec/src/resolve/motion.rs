@@ -31,7 +31,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         };
         let lever = match &point.local {
             Some((local, along)) if *local == frame => self.vector_of(frame, along),
-            _ => to_point(&self.pose(frame).origin, &point.components),
+            _ => vector_between(&self.pose(frame).origin, &point.components),
         };
         let origin = self.pose(frame).origin.clone();
         self.velocity_at(&origin, &spin, &lever, link.span)
@@ -77,7 +77,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let (Value::Vector(at), Some(spin)) = (self.value_of(body, span), spin) else {
             return Value::Unknown;
         };
-        let lever = to_point(&at.components, &point.components);
+        let lever = vector_between(&at.components, &point.components);
         self.velocity_at(&at.components, &spin, &lever, span)
     }
 
@@ -93,7 +93,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let pose = self.pose(at);
             let (parent, step, axes) = (pose.parent, pose.step.clone(), pose.axes.clone());
             // A turn leaves its own axis unchanged.
-            for (axis, rate) in step.turning(|x| self.rate(x, span))? {
+            for (axis, rate) in step.angular_velocity_parts(|x| self.rate(x, span))? {
                 for (terms, &along) in turning.iter_mut().zip(&axes[axis]) {
                     terms.push(rate * along);
                 }
@@ -133,7 +133,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let Some(rates) = rates.collect::<Option<Vec<_>>>() else {
             return Value::Unknown;
         };
-        let swept = swept(spin, lever);
+        let swept = rotational_velocity(spin, lever);
         let sums = rates.into_iter().zip(swept);
         let components = sums.map(|(rate, swept)| rate + swept).collect();
         Value::Vector(Vector::new(components, Some(Unit::METRE.rate())))
@@ -151,17 +151,17 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.push(diagnostic.help(help));
             return None;
         };
-        let scope = scope.hinting(Unit::METRE);
+        let scope = scope.with_expected_unit(Unit::METRE);
         self.vector_in(point, "a point", Unit::METRE, "a point is in m", scope)
     }
 
     /// A point in a frame: its coordinates in the axes of the frame, from its origin.
-    pub(super) fn seen_from(&self, frame: PoseId, point: &Vector<'d>) -> Vec<Expr<'d>> {
+    pub(super) fn local_coordinates(&self, frame: PoseId, point: &Vector<'d>) -> Vec<Expr<'d>> {
         match &point.local {
             Some((local, along)) if *local == frame => along.clone(),
             _ => {
                 let pose = self.pose(frame);
-                let line = to_point(&pose.origin, &point.components);
+                let line = vector_between(&pose.origin, &point.components);
                 let along = pose.axes.iter().map(|axis| {
                     let parts = axis.iter().zip(&line).map(|(&e, &x)| e * x);
                     self.dag.sum(parts)
@@ -173,7 +173,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 }
 
 /// ω × r: in the plane ω is one number.
-pub(crate) fn swept<'d>(spin: &[Expr<'d>], lever: &[Expr<'d>]) -> Vec<Expr<'d>> {
+pub(crate) fn rotational_velocity<'d>(spin: &[Expr<'d>], lever: &[Expr<'d>]) -> Vec<Expr<'d>> {
     match (spin, lever) {
         (&[spin], &[x, y]) => vec![-spin * y, spin * x],
         (&[a, b, c], &[x, y, z]) => vec![b * z - c * y, c * x - a * z, a * y - b * x],
@@ -182,7 +182,7 @@ pub(crate) fn swept<'d>(spin: &[Expr<'d>], lever: &[Expr<'d>]) -> Vec<Expr<'d>> 
 }
 
 /// The vector from one point to another, with common terms cancelled.
-pub(crate) fn to_point<'d>(from: &[Expr<'d>], to: &[Expr<'d>]) -> Vec<Expr<'d>> {
+pub(crate) fn vector_between<'d>(from: &[Expr<'d>], to: &[Expr<'d>]) -> Vec<Expr<'d>> {
     let less = |(&to, &from): (&Expr<'d>, &Expr<'d>)| {
         let from = terms(from).into_iter().map(|term| -term);
         to.dag().sum(terms(to).into_iter().chain(from))

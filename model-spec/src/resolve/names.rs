@@ -8,7 +8,7 @@ use super::Resolver;
 use super::text::show;
 use super::value::{MemberId, Scalar, Scope, Value, limits};
 use super::work::{Need, State};
-use crate::diagnostic::{Code, Diagnostic, nearest};
+use crate::diagnostic::{Code, Diagnostic, most_similar};
 use crate::model::{Name, stage};
 use crate::source::Span;
 use crate::syntax::{
@@ -100,7 +100,7 @@ pub(super) struct Group<'a> {
     pub removals: Vec<(usize, &'a Remove)>,
     pub state: State,
     /// Whether its members could not be determined, so that a missing one need not be reported.
-    pub broken: bool,
+    pub incomplete: bool,
     pub members: BTreeMap<Option<i64>, MemberId>,
 }
 
@@ -124,7 +124,7 @@ pub(super) struct Member<'d> {
 
 /// A member before it is numbered.
 #[derive(Clone, Copy)]
-struct Found {
+struct UnnumberedMember {
     declaration: usize,
     place: (usize, i64),
 }
@@ -310,8 +310,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 base,
                 declarations: Vec::new(),
                 removals: Vec::new(),
-                state: State::Untouched,
-                broken: false,
+                state: State::Pending,
+                incomplete: false,
                 members: BTreeMap::new(),
             });
             self.groups.len() - 1
@@ -344,7 +344,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let Group {
             declarations,
             removals,
-            broken,
+            incomplete: broken,
             ..
         } = &self.groups[group];
         let is_family = |&declaration: &usize| {
@@ -367,7 +367,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if !self.needs.is_empty() {
             return; // a size that depends on something not yet resolved
         }
-        let mut found: BTreeMap<Option<i64>, Found> = BTreeMap::new();
+        let mut found: BTreeMap<Option<i64>, UnnumberedMember> = BTreeMap::new();
         let mut broken = false;
         for layer in 0..self.layer_count {
             for (_, remove) in removals.iter().filter(|(at, _)| *at == layer) {
@@ -387,14 +387,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .map(|(index, found)| (index, self.add_member(group, index, found)))
             .collect();
         self.groups[group].members = members;
-        self.groups[group].broken = broken;
+        self.groups[group].incomplete = broken;
     }
 
     /// The indices of a declaration; `None` if an error was reported.
     fn indices(&mut self, index: &'a Index) -> Option<Vec<Option<i64>>> {
         match index {
             Index::None => Some(vec![None]),
-            Index::One(index) => Some(vec![Some(self.whole(index, None)?)]),
+            Index::One(index) => Some(vec![Some(self.integer(index, None)?)]),
             Index::Range(range) => {
                 let range = self.range(range)?;
                 Some(range.map(Some).collect())
@@ -404,8 +404,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     /// The indices of a range, both ends included; none if it ends before it begins.
     pub fn range(&mut self, range: &'a Range) -> Option<std::ops::RangeInclusive<i64>> {
-        let low = self.whole(&range.low, None);
-        let high = self.whole(&range.high, None);
+        let low = self.integer(&range.low, None);
+        let high = self.integer(&range.high, None);
         let (low, high) = (low?, high?);
         let size = i128::from(high) - i128::from(low) + 1;
         if size > MEMBER_LIMIT as i128 {
@@ -422,7 +422,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     fn add_members(
         &mut self,
-        found: &mut BTreeMap<Option<i64>, Found>,
+        found: &mut BTreeMap<Option<i64>, UnnumberedMember>,
         declaration: usize,
     ) -> Option<()> {
         let Declaration {
@@ -455,7 +455,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     place = before.place;
                 }
             }
-            found.insert(index, Found { declaration, place });
+            found.insert(index, UnnumberedMember { declaration, place });
         }
         Some(())
     }
@@ -470,12 +470,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     fn remove_members(
         &mut self,
-        found: &mut BTreeMap<Option<i64>, Found>,
+        found: &mut BTreeMap<Option<i64>, UnnumberedMember>,
         remove: &'a Remove,
         broken: bool,
     ) -> Option<()> {
         let section = remove.section.value;
-        let keep = |resolver: &Self, found: &Found| {
+        let keep = |resolver: &Self, found: &UnnumberedMember| {
             resolver.declarations[found.declaration].section != section
         };
         let named = remove.name.as_ref();
@@ -499,7 +499,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(())
     }
 
-    fn add_member(&mut self, group: usize, index: Option<i64>, found: Found) -> MemberId {
+    fn add_member(
+        &mut self,
+        group: usize,
+        index: Option<i64>,
+        found: UnnumberedMember,
+    ) -> MemberId {
         if self.members.len() == MEMBER_LIMIT {
             let span = self.declarations[found.declaration].name.span;
             let message = "with this the machine has too many members";
@@ -512,9 +517,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             declaration: found.declaration,
             index,
             place: found.place,
-            state: State::Untouched,
+            state: State::Pending,
             value: Value::Unknown,
-            frame_state: State::Untouched,
+            frame_state: State::Pending,
             frame: Value::Unknown,
             symbols: None,
         });
@@ -602,7 +607,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Scope {
             index,
             limit,
-            hint: None,
+            expected_unit: None,
         }
     }
 
@@ -631,7 +636,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.need(Need::Group(group), name.span);
             // A wrong index is reported, whatever the members of the family turn out to be.
             if let Some(index) = index {
-                self.whole(index, Some(scope));
+                self.integer(index, Some(scope));
             }
             return None;
         }
@@ -643,7 +648,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             return alone;
         };
-        let whole = self.whole(index, Some(scope));
+        let whole = self.integer(index, Some(scope));
         if alone.is_some() {
             self.not_a_family(name, index.span);
             return None;
@@ -657,7 +662,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     fn missing_index(&mut self, group: usize, name: &'a Ident) {
-        if self.groups[group].broken {
+        if self.groups[group].incomplete {
             return;
         }
         let base = &name.text;
@@ -692,7 +697,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     fn index_out_of_range(&mut self, group: usize, span: Span, index: i64) {
-        if self.groups[group].broken {
+        if self.groups[group].incomplete {
             return;
         }
         let base = self.groups[group].base;
@@ -716,14 +721,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// An integer that is known when the machine is derived: an index, or the end of a range.
-    pub fn whole(&mut self, expression: &'a Expression, scope: Option<Scope<'a>>) -> Option<i64> {
+    pub fn integer(&mut self, expression: &'a Expression, scope: Option<Scope<'a>>) -> Option<i64> {
         let scope = Scope {
             index: scope.and_then(|scope| scope.index),
             limit: &limits::INDEX,
-            hint: Some(Unit::ONE),
+            expected_unit: Some(Unit::ONE),
         };
         let scalar = self.scalar(expression, scope)?;
-        self.demand(
+        self.require_unit(
             scalar.unit,
             Unit::ONE,
             expression.span,
@@ -765,7 +770,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .filter(|group| namespaces.contains(&group.namespace))
             .map(|group| group.base);
         let habit = if namespaces.contains(&Namespace::Values) {
-            self.habit(&name.text)
+            self.foreign_word_help(&name.text)
         } else {
             None
         };
@@ -782,7 +787,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 let is_value = namespaces.contains(&Namespace::Values);
                 let unit = Measure::named(word).filter(|_| is_value && word.len() > 1);
                 let candidates: Vec<&str> = candidates.take(COMPARED).collect();
-                let near = nearest(word, candidates.iter().copied());
+                let near = most_similar(word, candidates.iter().copied());
                 match (unit, near) {
                     (Some(_), Some(near)) => Some(format!(
                         "did you mean `{near}`? `{word}` is a unit too: it is written after a number, `2*{word}`"
@@ -803,7 +808,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The help for a word that is common in other languages.
-    fn habit(&self, word: &str) -> Option<String> {
+    fn foreign_word_help(&self, word: &str) -> Option<String> {
         let is_coordinate = |base: &str| {
             let mut declarations = self.declarations.iter();
             declarations.any(|declaration| {
@@ -865,7 +870,7 @@ pub(super) fn suggestion<'n>(
     let mut names: Vec<&str> = candidates.into_iter().take(COMPARED).collect();
     let mut seen = std::collections::BTreeSet::new();
     names.retain(|name| seen.insert(*name));
-    if let Some(near) = nearest(word, names.iter().copied()) {
+    if let Some(near) = most_similar(word, names.iter().copied()) {
         return Some(format!("did you mean `{near}`?"));
     }
     match names.len() {
@@ -880,7 +885,7 @@ fn with_unit(word: &str, help: Option<String>) -> Option<String> {
     let unit = match word.chars().count() {
         // One different letter out of two is no similarity.
         0..=2 => None,
-        _ => nearest(word, Measure::names()),
+        _ => most_similar(word, Measure::names()),
     };
     match (unit, help) {
         (Some(unit), Some(help)) => Some(format!(

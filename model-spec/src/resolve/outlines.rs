@@ -47,13 +47,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.error(Code::WrongSpace, field.name.span, message);
             return None;
         }
-        let said = &field.value;
-        let corners = match &said.kind {
+        let written = &field.value;
+        let corners = match &written.kind {
             ExpressionKind::Tuple(corners) => corners,
             ExpressionKind::Error => return None,
             _ => {
                 let message = "an outline is a list of points, `((0, 0), (b, 0), (0, h))`";
-                self.error(Code::WrongKind, said.span, message);
+                self.error(Code::WrongKind, written.span, message);
                 return None;
             }
         };

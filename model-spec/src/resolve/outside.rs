@@ -47,10 +47,11 @@ pub fn value_in(text: &str, unit: &str, sources: &mut Sources, report: &mut Repo
     let scope = Scope {
         index: None,
         limit: &limits::DEFAULT,
-        hint: None,
+        expected_unit: None,
     };
     let written = content.value.as_ref()?;
-    let value = resolver.settle(|resolver| resolver.quantity_value(written, Some(&measure), scope));
+    let value = resolver
+        .repeat_until_resolved(|resolver| resolver.quantity_value(written, Some(&measure), scope));
     let value = value.map(|value| nearest(value.expr))?;
     (!report.has_errors()).then_some(value)
 }

@@ -29,9 +29,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 let scope = Scope {
                     index: variable(relation.range.as_ref(), index),
                     limit: &limits::ASSUMPTION,
-                    hint: None,
+                    expected_unit: None,
                 };
-                assumptions.extend(self.settle(|resolver| resolver.assumption(relation, scope)));
+                assumptions.extend(
+                    self.repeat_until_resolved(|resolver| resolver.assumption(relation, scope)),
+                );
             }
         }
         assumptions
@@ -43,7 +45,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return vec![None];
         };
         self.check_index_variable(range);
-        match self.settle(|resolver| resolver.range(range)) {
+        match self.repeat_until_resolved(|resolver| resolver.range(range)) {
             Some(indices) => indices.map(Some).collect(),
             None => Vec::new(),
         }
@@ -108,9 +110,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 let scope = Scope {
                     index: variable(range, index),
                     limit: &limits::PUBLISHED,
-                    hint: None,
+                    expected_unit: None,
                 };
-                let found = self.settle(|resolver| {
+                let found = self.repeat_until_resolved(|resolver| {
                     resolver.remarks = Some(Vec::new());
                     let found = resolver.published_item(item, index, scope);
                     let remarks = resolver.remarks.take().unwrap_or_default();
@@ -135,7 +137,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let of = item.of.as_ref();
         let shown = of.map(|of| {
             let index = index.or(match &of.index {
-                Index::One(one) => self.whole(one, Some(scope)),
+                Index::One(one) => self.integer(one, Some(scope)),
                 _ => None,
             });
             (of, index)
@@ -159,8 +161,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 self.printed_vector(value, Unit::METRE, "a position is in m", scope)?
             }
             (Statement::Value(value), _) => {
-                let why = format!("it is in {}", unit_text(unit));
-                vec![self.scalar_in(value, unit, &why, scope)?.expr]
+                let reason = format!("it is in {}", unit_text(unit));
+                vec![self.scalar_in(value, unit, &reason, scope)?.expr]
             }
             (Statement::Equation(equation), _) => {
                 vec![self.difference(&equation.left, &equation.right, scope)?]
@@ -268,10 +270,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         &mut self,
         value: &'a Expression,
         unit: Unit,
-        why: &str,
+        reason: &str,
         scope: Scope<'a>,
     ) -> Option<Vec<Expr<'d>>> {
-        let Vector { components, .. } = self.vector_in(value, "a vector", unit, why, scope)?;
+        let Vector { components, .. } = self.vector_in(value, "a vector", unit, reason, scope)?;
         Some(components)
     }
 
@@ -347,7 +349,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 let scope = Scope {
                     index: None,
                     limit: &limits::PUBLISHED,
-                    hint: None,
+                    expected_unit: None,
                 };
                 self.member(group, &name.base, index_of(name), scope)?
             }

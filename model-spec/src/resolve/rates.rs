@@ -13,7 +13,7 @@ use crate::source::Span;
 use crate::syntax::{Index, Item, Quantity, SectionKind, Spec};
 
 /// Appends the documentation of a rate to that of its coordinate.
-fn document(docs: &mut String, more: &str) {
+fn append_docs(docs: &mut String, more: &str) {
     if !docs.is_empty() && !more.is_empty() {
         docs.push('\n');
     }
@@ -36,17 +36,18 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     let scope = Scope {
                         index: variable(range, index),
                         limit: &limits::START_RATE,
-                        hint: None,
+                        expected_unit: None,
                     };
-                    let rates = self
-                        .settle(|resolver| resolver.start_rate(item, index, scope, is_inherited));
+                    let rates = self.repeat_until_resolved(|resolver| {
+                        resolver.start_rate(item, index, scope, is_inherited)
+                    });
                     for (coordinate, rate) in rates.into_iter().flatten() {
                         if let Some(first) = said.insert(coordinate, item.span) {
-                            self.said_twice(item, first);
+                            self.duplicate_rate(item, first);
                         }
                         if let Some(coordinate) = coordinates.get_mut(coordinate) {
                             coordinate.start_rate = rate;
-                            document(&mut coordinate.docs, &item.docs);
+                            append_docs(&mut coordinate.docs, &item.docs);
                         }
                     }
                 }
@@ -65,7 +66,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<Vec<(usize, Expr<'d>)>> {
         let name = &item.name.base;
         let index = match &item.name.index {
-            Index::One(one) => Some(self.whole(one, Some(scope))?),
+            Index::One(one) => Some(self.integer(one, Some(scope))?),
             _ => index,
         };
         let Some(group) = self.find_group(Namespace::Values, &name.text) else {
@@ -97,12 +98,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             let rate = self.unit_of(member)?.rate();
             if let Some(written) = &item.content.unit {
-                let why = "a rate has the unit of its coordinate over s";
-                self.demand(unit, rate, written.span, why);
+                let reason = "a rate has the unit of its coordinate over s";
+                self.require_unit(unit, rate, written.span, reason);
             }
             let value = item.content.value.as_ref()?;
-            let why = "the expected unit is that of the declaration";
-            let value = self.scalar_in(value, rate, why, scope)?.expr;
+            let reason = "the expected unit is that of the declaration";
+            let value = self.scalar_in(value, rate, reason, scope)?.expr;
             rates.extend(self.ordinal(member).map(|coordinate| (coordinate, value)));
         }
         Some(rates)
@@ -112,7 +113,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.declaration(member).section == SectionKind::Coordinates
     }
 
-    fn said_twice(&mut self, item: &Item<Quantity>, first: Span) {
+    fn duplicate_rate(&mut self, item: &Item<Quantity>, first: Span) {
         let message = format!("the rate of `{}` is given twice", item.name.base.text);
         let diagnostic = Diagnostic::new(Code::SaidTwice, item.name.span, message);
         self.push(diagnostic.note(first, "it is given here"));

@@ -16,7 +16,7 @@ use crate::source::Span;
 use crate::unit::{Unit, rate_name};
 
 /// A relaxed guide.
-pub(super) struct Guide<'d> {
+pub(super) struct RelaxedGuide<'d> {
     name: String,
     span: Span,
     /// The frame that moves off, with everything built on it.
@@ -24,18 +24,18 @@ pub(super) struct Guide<'d> {
     /// The index of the body whose mass centre moves off by itself, because it is not built on that frame.
     body: Option<usize>,
     /// The displacement in ground axes: symbols of each component, of its rate, and of its acceleration.
-    pub by: Vec<[Expr<'d>; 3]>,
+    pub displacement: Vec<[Expr<'d>; 3]>,
 }
 
 /// The guides of a machine, in the order of its contacts; a surface is one guide with two contacts.
-pub(super) fn guides<'d>(model: &Model<'d>) -> Vec<Guide<'d>> {
+pub(super) fn guides<'d>(model: &Model<'d>) -> Vec<RelaxedGuide<'d>> {
     let sliding = model.sliding().into_iter();
     // Both tangents of a surface belong to one guide.
     let sliding = sliding.filter(|one| !one.is_second());
     sliding.map(|one| guide(model, one)).collect()
 }
 
-fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
+fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> RelaxedGuide<'d> {
     let body = &model.bodies[sliding.body];
     let frame = match body.rotation {
         Rotation::Frame(pose) if pose != PoseId::GROUND => Some(pose),
@@ -60,11 +60,11 @@ fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
         ]
     };
     let axes = ["x", "y", "z"].iter().take(model.space.dimension());
-    Guide {
+    RelaxedGuide {
         span: sliding.span,
         frame,
         body: (!is_carried).then_some(sliding.body),
-        by: axes.map(|axis| component(axis)).collect(),
+        displacement: axes.map(|axis| component(axis)).collect(),
         name,
     }
 }
@@ -108,7 +108,7 @@ impl<'d> Resolver<'_, 'd, '_> {
             .guides
             .iter()
             .filter(move |guide| guide.frame == Some(id));
-        own.map(|guide| guide.by.iter().map(|&[by, ..]| by).collect())
+        own.map(|guide| guide.displacement.iter().map(|&[by, ..]| by).collect())
     }
 
     /// The mass centre of a body, displaced by the guides of the body unless its frame carries it.
@@ -117,7 +117,7 @@ impl<'d> Resolver<'_, 'd, '_> {
         for guide in &self.guides {
             if guide.body.is_some() && guide.body == body {
                 centre.local = None;
-                for (x, &[by, ..]) in centre.components.iter_mut().zip(&guide.by) {
+                for (x, &[by, ..]) in centre.components.iter_mut().zip(&guide.displacement) {
                     *x = *x + by;
                 }
             }
@@ -127,7 +127,7 @@ impl<'d> Resolver<'_, 'd, '_> {
 
     /// The displacements, as coordinates.
     pub(super) fn relaxed_coordinates(&self) -> Vec<Coordinate<'d>> {
-        let of_guide = |guide: &Guide<'d>| {
+        let of_guide = |guide: &RelaxedGuide<'d>| {
             let coordinate = |&[q, v, a]: &[Expr<'d>; 3]| Coordinate {
                 name: Name {
                     base: guide.name.clone(),
@@ -144,7 +144,11 @@ impl<'d> Resolver<'_, 'd, '_> {
                 a,
                 span: guide.span,
             };
-            guide.by.iter().map(coordinate).collect::<Vec<_>>()
+            guide
+                .displacement
+                .iter()
+                .map(coordinate)
+                .collect::<Vec<_>>()
         };
         self.guides.iter().flat_map(of_guide).collect()
     }

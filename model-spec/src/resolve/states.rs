@@ -30,7 +30,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// variant removes a state, its rate in the base is dropped too.
     pub fn states(&mut self, layers: &'a [Spec]) -> Vec<Coordinate<'d>> {
         let members = self.members_of(SectionKind::States);
-        let mut states = self.each(SectionKind::States, |resolver, member| {
+        let mut states = self.resolve_each(SectionKind::States, |resolver, member| {
             Some((member, resolver.first_order(member)?))
         });
         let mut rates: FxHashMap<MemberId, Expr<'d>> = FxHashMap::default();
@@ -47,14 +47,15 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     let scope = Scope {
                         index: variable(range, index),
                         limit: &RATE,
-                        hint: None,
+                        expected_unit: None,
                     };
-                    let found = self
-                        .settle(|resolver| resolver.state_rate(item, index, scope, is_inherited));
+                    let found = self.repeat_until_resolved(|resolver| {
+                        resolver.state_rate(item, index, scope, is_inherited)
+                    });
                     failed |= found.is_none();
                     for (member, rate) in found.into_iter().flatten() {
                         if let Some(first) = said.insert(member, item.span) {
-                            self.state_rate_said_twice(item, first);
+                            self.duplicate_state_rate(item, first);
                         }
                         rates.insert(member, rate);
                     }
@@ -119,7 +120,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<Vec<(MemberId, Expr<'d>)>> {
         let name = &item.name.base;
         let index = match &item.name.index {
-            Index::One(one) => Some(self.whole(one, Some(scope))?),
+            Index::One(one) => Some(self.integer(one, Some(scope))?),
             _ => index,
         };
         let Some(group) = self.find_group(Namespace::Values, &name.text) else {
@@ -156,12 +157,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let rate = self.unit_of(member)?.rate();
             if let Some(written) = &item.content.unit {
                 let unit = declared_measure(&item.content).map(|measure| measure.unit);
-                let why = "the rate of a state has its unit over s";
-                self.demand(unit, rate, written.span, why);
+                let reason = "the rate of a state has its unit over s";
+                self.require_unit(unit, rate, written.span, reason);
             }
             let value = item.content.value.as_ref()?;
-            let why = "the units of a state and its rate must agree";
-            rates.push((member, self.scalar_in(value, rate, why, scope)?.expr));
+            let reason = "the units of a state and its rate must agree";
+            rates.push((member, self.scalar_in(value, rate, reason, scope)?.expr));
         }
         Some(rates)
     }
@@ -183,7 +184,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.push(with_help(unknown, help));
     }
 
-    fn state_rate_said_twice(&mut self, item: &Item<Quantity>, first: Span) {
+    fn duplicate_state_rate(&mut self, item: &Item<Quantity>, first: Span) {
         let message = format!("the rate of `{}` is given twice", item.name.base.text);
         let diagnostic = Diagnostic::new(Code::SaidTwice, item.name.span, message);
         self.push(diagnostic.note(first, "it is given here"));

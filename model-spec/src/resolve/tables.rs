@@ -19,7 +19,7 @@ use super::Resolver;
 use super::names::declared_measure;
 use super::text;
 use super::value::{Scope, Value, dependence};
-use crate::diagnostic::{Code, Diagnostic, Report, nearest};
+use crate::diagnostic::{Code, Diagnostic, Report, most_similar};
 use crate::model::{Assumption, stage};
 use crate::source::{Files, SourceId, Sources, Span};
 use crate::syntax::{Expression, ExpressionKind, Quantity, Spec};
@@ -55,11 +55,11 @@ impl Tables {
     /// Reads every file that the specs name.
     pub fn load(specs: &[Spec], files: &mut dyn Files, sources: &mut Sources) -> Tables {
         let mut tables = FxHashMap::default();
-        for said in specs.iter().flat_map(|spec| &spec.tables) {
-            let (file, _) = file_and_column(&said.value);
-            let key = (said.span.source, file.to_owned());
+        for written in specs.iter().flat_map(|spec| &spec.tables) {
+            let (file, _) = file_and_column(&written.value);
+            let key = (written.span.source, file.to_owned());
             tables.entry(key).or_insert_with(|| {
-                let from = sources.name(said.span.source).to_owned();
+                let from = sources.name(written.span.source).to_owned();
                 match files.read(file, Some(&from)) {
                     Err(reason) => Err(format!("cannot read `{file}`: {reason}")),
                     Ok((name, text)) => {
@@ -76,13 +76,13 @@ impl Tables {
 }
 
 /// Splits `motor.csv:torque`.
-fn file_and_column(said: &str) -> (&str, Option<&str>) {
-    match said.rsplit_once(':') {
+fn file_and_column(written: &str) -> (&str, Option<&str>) {
+    match written.rsplit_once(':') {
         // A single letter before the colon is the drive of a path.
         Some((file, column)) if file.len() > 1 && !column.contains(['/', '\\']) => {
             (file, Some(column))
         }
-        _ => (said, None),
+        _ => (written, None),
     }
 }
 
@@ -101,7 +101,7 @@ impl Table {
         let separator = if header.contains(';') { ';' } else { ',' };
         let columns = header
             .split(separator)
-            .map(|cell| Column::headed(cell.trim(), number));
+            .map(|cell| Column::from_header(cell.trim(), number));
         let mut columns = columns.collect::<Result<Vec<_>, _>>()?;
         if columns.len() < 2 {
             return Err(format!(
@@ -167,7 +167,7 @@ impl Table {
             .find(|column| column.name == asked)
             .ok_or_else(|| {
                 let message = format!("this table has no column `{asked}` after its first");
-                let help = match nearest(asked, names()) {
+                let help = match most_similar(asked, names()) {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => format!(
                         "its columns are `{}`",
@@ -181,7 +181,7 @@ impl Table {
 
 impl Column {
     /// A column with a header: `torque`, `torque [N*m]`.
-    fn headed(header: &str, line: usize) -> Result<Column, String> {
+    fn from_header(header: &str, line: usize) -> Result<Column, String> {
         let (name, unit) = match header.split_once('[') {
             None => (header, None),
             Some((name, rest)) => {
@@ -238,11 +238,11 @@ fn measure(unit: &str) -> Option<Measure> {
         (source, lex(source, text, &mut report))
     });
     let [unit, zero] = &texts;
-    let said = Quantity::parse([(unit.0, &unit.1), (zero.0, &zero.1)], &mut report);
+    let written = Quantity::parse([(unit.0, &unit.1), (zero.0, &zero.1)], &mut report);
     if report.has_errors() {
         None
     } else {
-        declared_measure(&said)
+        declared_measure(&written)
     }
 }
 
@@ -262,7 +262,7 @@ fn cubics(x: &[Rational], y: &[Rational]) -> Option<Vec<[Rational; 3]>> {
     let mut tangents = Vec::with_capacity(x.len());
     tangents.push(match last {
         0 => slopes[0].clone(),
-        _ => at_end([&widths[0], &widths[1]], [&slopes[0], &slopes[1]])?,
+        _ => end_slope([&widths[0], &widths[1]], [&slopes[0], &slopes[1]])?,
     });
     for k in 1..=last {
         let ([h0, h1], [s0, s1]) = ([&widths[k - 1], &widths[k]], [&slopes[k - 1], &slopes[k]]);
@@ -278,7 +278,7 @@ fn cubics(x: &[Rational], y: &[Rational]) -> Option<Vec<[Rational; 3]>> {
     }
     tangents.push(match last {
         0 => slopes[0].clone(),
-        _ => at_end(
+        _ => end_slope(
             [&widths[last], &widths[last - 1]],
             [&slopes[last], &slopes[last - 1]],
         )?,
@@ -298,7 +298,7 @@ fn cubics(x: &[Rational], y: &[Rational]) -> Option<Vec<[Rational; 3]>> {
 }
 
 /// The slope at an end, from the parabola through three rows, limited to avoid overshoot.
-fn at_end([h0, h1]: [&Rational; 2], [s0, s1]: [&Rational; 2]) -> Option<Rational> {
+fn end_slope([h0, h1]: [&Rational; 2], [s0, s1]: [&Rational; 2]) -> Option<Rational> {
     let (two, three) = (Rational::from(2), Rational::from(3));
     let first = &(&(&two * h0) + h1) * s0;
     let slope = (&first - &(h0 * s1)).checked_div(&(h0 + h1))?;
@@ -331,7 +331,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 return Value::Unknown;
             }
         };
-        let ExpressionKind::Text(said) = &file.kind else {
+        let ExpressionKind::Text(written) = &file.kind else {
             if file.kind != ExpressionKind::Error {
                 let message = "the file of a table is expected here, in quotes";
                 let diagnostic = Diagnostic::new(Code::WrongArguments, file.span, message);
@@ -350,7 +350,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 return Value::Unknown;
             }
         }
-        let (path, asked) = file_and_column(said);
+        let (path, asked) = file_and_column(written);
         let tables: Option<&Tables> = self.tables;
         let found = tables.and_then(|all| all.0.get(&(file.span.source, path.to_owned())));
         let table = match found {
@@ -376,13 +376,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
         };
         let unit = first.unit.as_ref().map(|(measure, _)| measure.unit);
-        let Some(x) = self.scalar(argument, scope.hinting(unit)) else {
+        let Some(x) = self.scalar(argument, scope.with_expected_unit(unit)) else {
             return Value::Unknown;
         };
         let mut at = x.expr;
         if let Some((measure, _)) = &first.unit {
             let why = format!("`{}` of `{path}` is in this unit", first.name);
-            self.demand(x.unit, measure.unit, argument.span, &why);
+            self.require_unit(x.unit, measure.unit, argument.span, &why);
             // A bare number is in the unit of the table.
             if x.unit.is_some() && !measure.is_si() {
                 at = measure.of_si(self.dag) * at;

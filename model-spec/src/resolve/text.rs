@@ -22,7 +22,7 @@ pub(super) fn shown(expression: &Expression, index: Option<(&str, i64)>) -> Stri
         text: &mut text,
         index,
     }
-    .expression(expression, Strength::Sum);
+    .expression(expression, Precedence::Sum);
     text
 }
 
@@ -33,13 +33,13 @@ pub(super) fn shown_factor(expression: &Expression, index: Option<(&str, i64)>) 
         text: &mut text,
         index,
     }
-    .expression(expression, Strength::Power);
+    .expression(expression, Precedence::Power);
     text
 }
 
 /// The binding strength of a position: an expression that binds more weakly is put in brackets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Strength {
+enum Precedence {
     Sum,
     Product,
     Sign,
@@ -53,24 +53,24 @@ struct Writer<'t, 'i> {
 }
 
 impl Writer<'_, '_> {
-    fn expression(&mut self, expression: &Expression, place: Strength) {
+    fn expression(&mut self, expression: &Expression, place: Precedence) {
         let strength = match &expression.kind {
-            ExpressionKind::Sum(_) => Strength::Sum,
-            ExpressionKind::Product(_) => Strength::Product,
-            ExpressionKind::Negative(_) => Strength::Sign,
-            ExpressionKind::Power(..) => Strength::Power,
-            _ => Strength::Operand,
+            ExpressionKind::Sum(_) => Precedence::Sum,
+            ExpressionKind::Product(_) => Precedence::Product,
+            ExpressionKind::Negative(_) => Precedence::Sign,
+            ExpressionKind::Power(..) => Precedence::Power,
+            _ => Precedence::Operand,
         };
         if strength < place {
             self.text.push('(');
-            self.bare(expression);
+            self.without_brackets(expression);
             self.text.push(')');
         } else {
-            self.bare(expression);
+            self.without_brackets(expression);
         }
     }
 
-    fn bare(&mut self, expression: &Expression) {
+    fn without_brackets(&mut self, expression: &Expression) {
         match &expression.kind {
             ExpressionKind::Number(number) => self.text.push_str(number),
             ExpressionKind::Name(reference) => self.reference(reference),
@@ -82,7 +82,7 @@ impl Writer<'_, '_> {
                         (_, false) => self.text.push_str(" + "),
                         (_, true) => self.text.push_str(" - "),
                     }
-                    self.expression(&term.value, Strength::Product);
+                    self.expression(&term.value, Precedence::Product);
                 }
             }
             ExpressionKind::Product(factors) => {
@@ -90,24 +90,24 @@ impl Writer<'_, '_> {
                     if i > 0 {
                         self.text.push(if factor.divides { '/' } else { '*' });
                     }
-                    self.expression(&factor.value, Strength::Sign);
+                    self.expression(&factor.value, Precedence::Sign);
                 }
             }
             ExpressionKind::Negative(inner) => {
                 self.text.push('-');
-                self.expression(inner, Strength::Sign);
+                self.expression(inner, Precedence::Sign);
             }
             ExpressionKind::Power(base, exponent) => {
-                self.expression(base, Strength::Operand);
+                self.expression(base, Precedence::Operand);
                 self.text.push('^');
-                self.expression(exponent, Strength::Sign);
+                self.expression(exponent, Precedence::Sign);
             }
             ExpressionKind::Call(call) => {
                 self.text.push_str(&call.function.text);
                 self.list(&call.arguments);
             }
             ExpressionKind::Chain(chain) => {
-                self.expression(&chain.root, Strength::Operand);
+                self.expression(&chain.root, Precedence::Operand);
                 for link in &chain.links {
                     self.text.push('.');
                     self.text.push_str(&link.name.text);
@@ -135,19 +135,19 @@ impl Writer<'_, '_> {
         }
         if let Some(index) = &reference.index {
             self.text.push('[');
-            match self.whole(index) {
+            match self.integer(index) {
                 // Writing to a String cannot fail.
                 Some(index) => {
                     let _ = write!(self.text, "{index}");
                 }
-                None => self.expression(index, Strength::Sum),
+                None => self.expression(index, Precedence::Sum),
             }
             self.text.push(']');
         }
     }
 
     /// The value of an index such as `i + 1`, which is shown as the member that it refers to.
-    fn whole(&self, index: &Expression) -> Option<i64> {
+    fn integer(&self, index: &Expression) -> Option<i64> {
         match &index.kind {
             ExpressionKind::Number(number) => number.parse().ok(),
             ExpressionKind::Name(name) => {
@@ -155,7 +155,7 @@ impl Writer<'_, '_> {
                 (variable == name.base.text && name.index.is_none()).then_some(value)
             }
             ExpressionKind::Sum(terms) => terms.iter().try_fold(0_i64, |sum, term| {
-                let value = self.whole(&term.value)?;
+                let value = self.integer(&term.value)?;
                 if term.negative {
                     sum.checked_sub(value)
                 } else {
@@ -172,7 +172,7 @@ impl Writer<'_, '_> {
             if i > 0 {
                 self.text.push_str(", ");
             }
-            self.expression(item, Strength::Sum);
+            self.expression(item, Precedence::Sum);
         }
         self.text.push(')');
     }

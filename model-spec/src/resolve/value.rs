@@ -96,23 +96,26 @@ pub(crate) struct Scope<'a> {
     /// The limit of dependencies.
     pub limit: &'static Limit,
     /// The unit that the place requires, to decide which of two terms is wrong.
-    pub hint: Option<Unit>,
+    pub expected_unit: Option<Unit>,
 }
 
 impl Scope<'_> {
     /// This scope with another limit.
-    pub fn within(self, limit: &'static Limit) -> Self {
+    pub fn with_limit(self, limit: &'static Limit) -> Self {
         Scope {
             limit,
-            hint: None,
+            expected_unit: None,
             ..self
         }
     }
 
     /// This scope with a required unit.
-    pub fn hinting(self, hint: impl Into<Option<Unit>>) -> Self {
+    pub fn with_expected_unit(self, hint: impl Into<Option<Unit>>) -> Self {
         let hint = hint.into();
-        Scope { hint, ..self }
+        Scope {
+            expected_unit: hint,
+            ..self
+        }
     }
 }
 
@@ -121,7 +124,7 @@ pub(crate) struct Limit {
     /// The latest stage.
     pub stage: Stage,
     /// The subject of the place, at the beginning of a sentence.
-    pub what: &'static str,
+    pub subject: &'static str,
     /// The code of a violation.
     pub code: Code,
     /// Why it is forbidden, or what to do instead.
@@ -133,7 +136,7 @@ pub(crate) const fn limit(stage: Stage, what: &'static str, help: &'static str) 
     let code = Code::ForbiddenDependence;
     Limit {
         stage,
-        what,
+        subject: what,
         code,
         help,
     }
@@ -142,7 +145,7 @@ pub(crate) const fn limit(stage: Stage, what: &'static str, help: &'static str) 
 const fn constant_mass(what: &'static str) -> Limit {
     Limit {
         stage: stage::PARAMETER,
-        what,
+        subject: what,
         code: Code::VariableMass,
         help: "the equations hold for bodies of constant mass and inertia; what flows in or out \
                would carry momentum that they do not include",

@@ -21,7 +21,7 @@ const MOST_PAIRS: usize = 4096;
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// Reports parameters, constants, inputs, definitions and frames that nothing uses. A name that
     /// begins with an underscore is unused on purpose.
-    pub fn notice_unused(&mut self, layers: &'a [Spec]) {
+    pub fn warn_about_unused(&mut self, layers: &'a [Spec]) {
         let has_gravity = layers.iter().any(|spec| spec.statement(GRAVITY).is_some());
         let mut unused = Vec::new();
         for (index, group) in self.groups.iter().enumerate() {
@@ -39,7 +39,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         for (base, declaration) in unused {
             let section = declaration.section;
-            let message = format!("nothing uses {} `{base}`", the(section));
+            let message = format!("nothing uses {} `{base}`", item_with_article(section));
             let span = declaration.name.base.span;
             let diagnostic = Diagnostic::new(Code::Unused, span, message);
             let acceleration = Unit::METRE.rate().rate();
@@ -60,7 +60,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// Reports a machine whose bodies hang or are carried by springs, but that has no gravity.
-    pub fn notice_weight(&mut self, model: &Model<'d>, layers: &'a [Spec]) {
+    pub fn warn_about_missing_gravity(&mut self, model: &Model<'d>, layers: &'a [Spec]) {
         let says = |spec: &Spec| {
             let mut removed = spec.remove.iter().map(|remove| remove.section.value);
             spec.statement(GRAVITY).is_some() || removed.any(|section| section.as_str() == GRAVITY)
@@ -75,7 +75,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if layers.iter().any(says) || model.contributions().any(|(_, one)| is_weight(one)) {
             return;
         }
-        let Some((span, what)) = hanging(model).or_else(|| carried(model)) else {
+        let Some((span, what)) = hanging_body(model).or_else(|| body_on_springs(model)) else {
             return;
         };
         let message = format!("{what}, and the machine has no gravity");
@@ -91,7 +91,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 }
 
 /// An item of a section, with its article.
-fn the(section: SectionKind) -> &'static str {
+fn item_with_article(section: SectionKind) -> &'static str {
     match section {
         SectionKind::Parameters => "the parameter",
         SectionKind::Constants => "the constant",
@@ -109,7 +109,7 @@ fn height<'a, 'd>(at: &'a [Expr<'d>]) -> Option<(Expr<'d>, &'a [Expr<'d>])> {
 /// A body whose height is stationary where an angle is zero, and is not constant: it hangs or
 /// stands there. A body that turns in a horizontal plane, with an angle measured from an axis, does
 /// not do so.
-fn hanging<'d>(model: &Model<'d>) -> Option<(crate::source::Span, String)> {
+fn hanging_body<'d>(model: &Model<'d>) -> Option<(crate::source::Span, String)> {
     if model.bodies.len() * model.coordinates.len() > MOST_PAIRS {
         return None;
     }
@@ -127,7 +127,7 @@ fn hanging<'d>(model: &Model<'d>) -> Option<(crate::source::Span, String)> {
                     if other == symbol {
                         0.0
                     } else {
-                        identity::number(point, other)
+                        identity::sample_value(point, other)
                     }
                 };
                 let values = evaluate(model.dag, &[slope, curvature], value);
@@ -146,7 +146,7 @@ fn hanging<'d>(model: &Model<'d>) -> Option<(crate::source::Span, String)> {
 }
 
 /// A machine whose bodies move only vertically, carried by springs.
-fn carried(model: &Model<'_>) -> Option<(crate::source::Span, String)> {
+fn body_on_springs(model: &Model<'_>) -> Option<(crate::source::Span, String)> {
     let moves = |e: Expr<'_>| e.stage() >= stage::POSITION;
     let mut bodies = model.bodies.iter();
     let rests = bodies.all(|body| {

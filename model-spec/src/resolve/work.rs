@@ -13,9 +13,9 @@ use crate::source::Span;
 /// The progress of resolving something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
-    Untouched,
+    Pending,
     /// Attempted, and waiting for what it needs.
-    Busy,
+    InProgress,
     Done,
 }
 
@@ -40,19 +40,19 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// Repeats an attempt until it needs nothing more.
-    pub fn settle<T>(&mut self, mut attempt: impl FnMut(&mut Self) -> T) -> T {
+    pub fn repeat_until_resolved<T>(&mut self, mut attempt: impl FnMut(&mut Self) -> T) -> T {
         loop {
             self.needs.clear();
             let result = attempt(self);
             if self.needs.is_empty() {
                 return result;
             }
-            self.provide();
+            self.resolve_needs();
         }
     }
 
     /// Resolves what is recorded as needed, and what that needs in turn.
-    fn provide(&mut self) {
+    fn resolve_needs(&mut self) {
         let mut stack: Vec<Need> = Vec::new();
         // The definitions in progress, each needing the next.
         let mut path: Vec<Need> = Vec::new();
@@ -62,8 +62,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 stack.pop();
                 continue;
             }
-            if *self.state(top) == State::Untouched {
-                *self.state(top) = State::Busy;
+            if *self.state(top) == State::Pending {
+                *self.state(top) = State::InProgress;
                 path.push(top);
             }
             self.attempt(top);
@@ -74,8 +74,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 continue;
             }
             for (need, span) in std::mem::take(&mut self.needs).into_iter().rev() {
-                if *self.state(need) == State::Busy {
-                    self.circular(&path, need, span);
+                if *self.state(need) == State::InProgress {
+                    self.report_cycle(&path, need, span);
                     // It stays unknown, so that the definitions waiting for it can proceed.
                     *self.state(need) = State::Done;
                     path.retain(|&other| other != need);
@@ -113,10 +113,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// Reports a circular definition.
-    fn circular(&mut self, path: &[Need], need: Need, span: Span) {
+    fn report_cycle(&mut self, path: &[Need], need: Need, span: Span) {
         let begin = path.iter().position(|&other| other == need).unwrap_or(0);
-        let names: Vec<String> = path[begin..].iter().map(|&need| self.title(need)).collect();
-        let first = self.title(need);
+        let names: Vec<String> = path[begin..]
+            .iter()
+            .map(|&need| self.need_name(need))
+            .collect();
+        let first = self.need_name(need);
         let message = match names.as_slice() {
             [] | [_] => format!("`{first}` is defined in terms of itself"),
             names => {
@@ -131,12 +134,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
         };
         if let Need::Group(group) = need {
-            self.groups[group].broken = true;
+            self.groups[group].incomplete = true;
         }
         self.push(Diagnostic::new(Code::CircularDefinition, span, message));
     }
 
-    fn title(&self, need: Need) -> String {
+    fn need_name(&self, need: Need) -> String {
         match need {
             Need::Group(group) => self.groups[group].base.to_owned(),
             Need::Member(member) | Need::Frame(member) => {

@@ -19,7 +19,7 @@ pub(crate) struct Word<'t> {
     /// The index of the closing bracket; meaningless for other tokens.
     pub partner: usize,
     /// Whether this bracket is missing in the text, or is the partner of one that is.
-    pub mended: bool,
+    pub repaired: bool,
 }
 
 /// The number of brackets that one message shows.
@@ -43,7 +43,7 @@ pub(crate) fn balance<'t>(
         words: Vec::with_capacity(tokens.len()),
         open: Vec::new(),
         count: [0; 3],
-        mending: !is_balanced(tokens),
+        repairing: !is_balanced(tokens),
     };
     let mut ignored = Report::new();
     balance.run(if swallowed { &mut ignored } else { report });
@@ -72,13 +72,13 @@ struct Balance<'t> {
     /// search them all.
     count: [usize; 3],
     /// Whether the text is unbalanced, so that the language has to show what was meant.
-    mending: bool,
+    repairing: bool,
 }
 
 impl<'t> Balance<'t> {
     fn run(&mut self, report: &mut Report) {
         for (at, token) in self.tokens.iter().enumerate() {
-            if self.mending && self.open.len() > 1 && self.is_heading(at) {
+            if self.repairing && self.open.len() > 1 && self.is_heading(at) {
                 // Sections do not nest: brackets still open in the preceding one were never closed.
                 self.close_down_to(1, token.span, report);
             }
@@ -103,14 +103,14 @@ impl<'t> Balance<'t> {
             span: token.span,
             joint: token.joint,
             partner: 0,
-            mended: false,
+            repaired: false,
         });
     }
 
     /// The bracket at `at` closes the last one of its kind; brackets opened inside that were never closed.
     fn close(&mut self, at: usize, delimiter: Delimiter, report: &mut Report) {
         let token = &self.tokens[at];
-        let ends_machine_early = self.mending
+        let ends_machine_early = self.repairing
             && delimiter == Delimiter::Brace
             && self.open.len() == 1
             && self.is_heading_after_docs(at + 1);
@@ -187,7 +187,7 @@ impl<'t> Balance<'t> {
                 span: place,
                 joint: false,
                 partner: 0,
-                mended: true,
+                repaired: true,
             };
             self.pair_last(made_up);
         }
@@ -203,7 +203,7 @@ impl<'t> Balance<'t> {
             span,
             joint: false,
             partner: 0,
-            mended,
+            repaired: mended,
         });
     }
 
@@ -212,7 +212,7 @@ impl<'t> Balance<'t> {
         if let Some((open, kind)) = self.open.pop() {
             self.count[kind as usize] -= 1;
             self.words[open].partner = self.words.len();
-            self.words[open].mended = word.mended;
+            self.words[open].repaired = word.repaired;
             self.words.push(word);
         }
     }

@@ -70,7 +70,7 @@ impl Parser<'_> {
 
     /// `-a`, or a power.
     fn signed(&mut self) -> Expression {
-        let start = self.here();
+        let start = self.next_span();
         if !self.is_mark('-') {
             return self.power();
         }
@@ -91,7 +91,7 @@ impl Parser<'_> {
     /// `a^b^c = a^(b^c)`.
     fn power(&mut self) -> Expression {
         let base = self.chain();
-        let sign = self.here();
+        let sign = self.next_span();
         if self.failed || !self.is_mark('^') {
             return base;
         }
@@ -122,7 +122,7 @@ impl Parser<'_> {
             } else {
                 None
             };
-            let span = name.span.to(self.before());
+            let span = name.span.to(self.previous_span());
             links.push(Link {
                 name,
                 arguments,
@@ -142,7 +142,7 @@ impl Parser<'_> {
 
     /// A number, a name, a call, or something in brackets.
     fn operand(&mut self) -> Expression {
-        let start = self.here();
+        let start = self.next_span();
         match self.peek().map(|word| word.kind) {
             Some(TokenKind::Number) => {
                 let number = self.peek().map_or("", |word| word.text).to_owned();
@@ -210,7 +210,7 @@ impl Parser<'_> {
             };
             return Expression {
                 kind: ExpressionKind::Call(call),
-                span: start.to(self.before()),
+                span: start.to(self.previous_span()),
             };
         }
         if self.is_open(Delimiter::Bracket) {
@@ -220,18 +220,23 @@ impl Parser<'_> {
             index = Some(Box::new(self.expression()));
             if !self.failed && self.is_pair('.', '.') {
                 let message = "a range is allowed only where a family is declared";
-                let range = Diagnostic::new(Code::MisplacedIndex, self.here_all(), message);
+                let range =
+                    Diagnostic::new(Code::MisplacedIndex, self.next_operator_span(), message);
                 self.fail(range.help("name one member: `q[1]`, or `q[i]` in a family"));
             }
             self.leave_nested(group, "`]`");
             if self.is_open(Delimiter::Bracket) {
                 let message = "a family has one index";
-                self.fail(Diagnostic::new(Code::MisplacedIndex, self.here(), message));
+                self.fail(Diagnostic::new(
+                    Code::MisplacedIndex,
+                    self.next_span(),
+                    message,
+                ));
             }
         }
         Expression {
             kind: ExpressionKind::Name(Reference { base, index }),
-            span: start.to(self.before()),
+            span: start.to(self.previous_span()),
         }
     }
 
@@ -240,13 +245,13 @@ impl Parser<'_> {
         let Some(mut list) = self.arguments() else {
             return self.error(start);
         };
-        let span = start.to(self.before());
+        let span = start.to(self.previous_span());
         let kind = match list.len() {
             0 => {
                 let message = "expected an expression, found `)`";
                 self.fail(Diagnostic::new(
                     Code::UnexpectedToken,
-                    self.before(),
+                    self.previous_span(),
                     message,
                 ));
                 ExpressionKind::Error
@@ -268,7 +273,7 @@ impl Parser<'_> {
 
     /// Enters a bracket, one level deeper.
     pub(super) fn enter_nested(&mut self, delimiter: Delimiter) -> Option<Group> {
-        let start = self.here();
+        let start = self.next_span();
         if !self.descend(start) {
             return None;
         }

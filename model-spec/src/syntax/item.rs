@@ -1,6 +1,6 @@
 //! Parses items of sections, by their content.
 
-use crate::diagnostic::{Code, Diagnostic, nearest, one_of};
+use crate::diagnostic::{Code, Diagnostic, most_similar, one_of};
 use crate::source::Span;
 use crate::syntax::ast::*;
 use crate::syntax::brackets::Word;
@@ -19,10 +19,10 @@ impl Parser<'_> {
         mut content: impl FnMut(&mut Self, &Declared) -> Option<C>,
     ) {
         self.each_item(kind, |parser, docs| {
-            let start = parser.here();
+            let start = parser.next_span();
             let name = parser.declared(&format!("the name of {}", kind.item()))?;
             let content = content(parser, &name)?;
-            let span = start.to(parser.before());
+            let span = start.to(parser.previous_span());
             items.push(Item {
                 docs,
                 name,
@@ -46,7 +46,7 @@ impl Parser<'_> {
         self.list(group, Parser::begins_item, |parser| {
             let docs = parser.docs();
             if parser.at >= close {
-                return parser.complain_of_docs();
+                return parser.report_misplaced_docs();
             }
             item(parser, docs);
         });
@@ -108,7 +108,11 @@ impl Parser<'_> {
         }
         if self.is_open(Delimiter::Bracket) {
             let message = "a family has one index";
-            self.fail(Diagnostic::new(Code::MisplacedIndex, self.here(), message));
+            self.fail(Diagnostic::new(
+                Code::MisplacedIndex,
+                self.next_span(),
+                message,
+            ));
         }
         Some(declared)
     }
@@ -154,8 +158,8 @@ impl Parser<'_> {
         self.at += 2;
         if self.is_mark('=') || self.is_mark('.') {
             let message = "a range is written `1..N` and includes both ends";
-            let wrong = Diagnostic::new(Code::UnexpectedToken, self.here(), message);
-            self.complain(wrong.help("write `1..N`"));
+            let wrong = Diagnostic::new(Code::UnexpectedToken, self.next_span(), message);
+            self.report_error(wrong.help("write `1..N`"));
             self.at += 1;
         }
         let high = self.expression();
@@ -180,7 +184,7 @@ impl Parser<'_> {
     pub(super) fn coordinates(&mut self, spec: &mut Spec) {
         let kind = SectionKind::Coordinates;
         self.each_item(kind, |parser, docs| {
-            let start = parser.here();
+            let start = parser.next_span();
             let is_rate = parser.begins_rate();
             let name = if is_rate {
                 parser.rate_of()?
@@ -202,7 +206,7 @@ impl Parser<'_> {
                 docs,
                 name,
                 content,
-                span: start.to(parser.before()),
+                span: start.to(parser.previous_span()),
             });
             Some(())
         });
@@ -212,7 +216,7 @@ impl Parser<'_> {
     pub(super) fn states(&mut self, spec: &mut Spec) {
         let kind = SectionKind::States;
         self.each_item(kind, |parser, docs| {
-            let start = parser.here();
+            let start = parser.next_span();
             let is_rate = parser.begins_rate();
             let (name, content) = if is_rate {
                 let name = parser.rate_of()?;
@@ -238,7 +242,7 @@ impl Parser<'_> {
                 docs,
                 name,
                 content,
-                span: start.to(parser.before()),
+                span: start.to(parser.previous_span()),
             });
             Some(())
         });
@@ -246,12 +250,12 @@ impl Parser<'_> {
 
     /// `der(phi)`, `der(q[1..N])`: the coordinate; its span covers the whole.
     fn rate_of(&mut self) -> Option<Declared> {
-        let start = self.here();
+        let start = self.next_span();
         self.at += 1;
         let group = self.enter(Delimiter::Parenthesis)?;
         let declared = self.declared("the name of a coordinate");
         self.leave(group, "`)`");
-        let span = start.to(self.before());
+        let span = start.to(self.previous_span());
         declared.map(|declared| Declared { span, ..declared })
     }
 
@@ -280,7 +284,7 @@ impl Parser<'_> {
             let message = format!("`{word}` has no unit");
             let missing = Diagnostic::new(Code::MissingUnit, name, message);
             let is_rate = kind == SectionKind::Coordinates && needs_value;
-            self.complain(missing.help(if is_rate {
+            self.report_error(missing.help(if is_rate {
                 format!("write `{word}: m/s`, or the unit of its coordinate over `s`")
             } else {
                 format!("write `{word}: m`, or whatever its unit is; a pure number is `{word}: 1`")
@@ -293,7 +297,7 @@ impl Parser<'_> {
             if needs_value && !self.failed {
                 let message = format!("`{word}` has no value");
                 let missing = Diagnostic::new(Code::MissingValue, name, message);
-                self.complain(missing.help(format!("write `{word}: unit = expression`")));
+                self.report_error(missing.help(format!("write `{word}: unit = expression`")));
             }
             None
         };
@@ -342,8 +346,8 @@ impl Parser<'_> {
                 .is_some_and(|word| word.kind == TokenKind::Open(Delimiter::Brace))
         {
             let message = format!("expected `{{`, found {}", self.found());
-            let wrong = Diagnostic::new(Code::UnexpectedToken, self.here(), message);
-            self.complain(wrong.help(format!("{} is `name {{ … }}`", kind.item())));
+            let wrong = Diagnostic::new(Code::UnexpectedToken, self.next_span(), message);
+            self.report_error(wrong.help(format!("{} is `name {{ … }}`", kind.item())));
             self.at += 1;
         }
     }
@@ -360,7 +364,7 @@ impl Parser<'_> {
         if !kind.fields().contains(&name.text.as_str()) {
             let message = format!("{} has no field {}", kind.item(), shown(&name.text));
             let mut unknown = Diagnostic::new(Code::UnknownField, name.span, message);
-            let near = nearest(&name.text, known.clone());
+            let near = most_similar(&name.text, known.clone());
             unknown.help = Some(match near {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("its fields are {}", one_of(known)),
@@ -376,7 +380,7 @@ impl Parser<'_> {
             None => fields.push(Field { name: meant, value }),
             Some(first) if meant == name => {
                 let first = first.name.span;
-                self.complain_twice(name.span, &format!("`{}`", name.text), first);
+                self.report_duplicate(name.span, &format!("`{}`", name.text), first);
             }
             Some(_) => {}
         }
@@ -436,11 +440,11 @@ impl Parser<'_> {
                 other => {
                     let message = format!("there is no approximation {}", shown(other));
                     let unknown = Diagnostic::new(Code::UnknownApproximation, word.span, message);
-                    let help = match nearest(other, ["frozen", "small"]) {
+                    let help = match most_similar(other, ["frozen", "small"]) {
                         Some(near) => format!("did you mean `{near}`?"),
                         None => "a coordinate can be `frozen` or `small`".to_owned(),
                     };
-                    parser.complain(unknown.help(help));
+                    parser.report_error(unknown.help(help));
                     return None;
                 }
             };
@@ -459,7 +463,7 @@ impl Parser<'_> {
     /// Items `theta`, `der(theta)`, `q[1..N]`.
     pub(super) fn kept(&mut self, items: &mut Vec<Item<()>>) {
         self.each_item(SectionKind::Keep, |parser, docs| {
-            let start = parser.here();
+            let start = parser.next_span();
             let name = parser.kept_start()?;
             if parser.is_mark('=') || parser.is_mark(':') {
                 let help = "start values belong under `coordinates`: `theta: rad = 0.3`, \
@@ -467,7 +471,7 @@ impl Parser<'_> {
                 parser.unexpected_because("`,` or `}`", Some(help.to_owned()));
                 return None;
             }
-            let span = start.to(parser.before());
+            let span = start.to(parser.previous_span());
             items.push(Item {
                 docs,
                 name,
@@ -521,7 +525,7 @@ impl Parser<'_> {
         } else {
             None
         };
-        let span = left.span.to(self.before());
+        let span = left.span.to(self.previous_span());
         Some(Relation {
             left,
             operator,
@@ -533,7 +537,7 @@ impl Parser<'_> {
 
     /// `>`, `>=`, `<` or `<=`
     fn comparison(&mut self) -> Option<Spanned<Comparison>> {
-        let start = self.here();
+        let start = self.next_span();
         let strict = match self.peek().map(|word| word.kind) {
             Some(TokenKind::Punct('>')) => Comparison::Greater,
             Some(TokenKind::Punct('<')) => Comparison::Less,
@@ -555,7 +559,7 @@ impl Parser<'_> {
             (Comparison::Less, true) => Comparison::LessOrEqual,
             (strict, _) => strict,
         };
-        let span = start.to(self.before());
+        let span = start.to(self.previous_span());
         Some(Spanned { value, span })
     }
 
@@ -594,7 +598,7 @@ impl Parser<'_> {
         let span = self.list(group, begins, |parser| {
             let docs = parser.docs();
             if parser.at >= close {
-                return parser.complain_of_docs();
+                return parser.report_misplaced_docs();
             }
             items.extend(parser.published_item(docs));
         });
@@ -617,7 +621,7 @@ impl Parser<'_> {
         let Some(&kind) = kind else {
             let message = format!("no quantity {} is derived", shown(&word.text));
             let mut unknown = Diagnostic::new(Code::UnknownQuantity, word.span, message);
-            unknown.help = Some(match nearest(&word.text, names()) {
+            unknown.help = Some(match most_similar(&word.text, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("these can be published: {}", one_of(names())),
             });
@@ -641,7 +645,7 @@ impl Parser<'_> {
             self.expect_mark_not('=', ':', "write `kinetic_energy = …`");
             Statement::Value(self.expression())
         };
-        let span = word.span.to(self.before());
+        let span = word.span.to(self.previous_span());
         let kind = Spanned {
             value: kind,
             span: word.span,

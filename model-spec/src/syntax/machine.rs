@@ -1,6 +1,6 @@
 //! Parses the machine: its heading, its sections, and the statements between them.
 
-use crate::diagnostic::{Code, Diagnostic, nearest, one_of};
+use crate::diagnostic::{Code, Diagnostic, most_similar, one_of};
 use crate::source::Span;
 use crate::syntax::ast::*;
 use crate::syntax::parse::Parser;
@@ -21,8 +21,8 @@ impl Parser<'_> {
         self.docs();
         if self.is_word("machine") {
             let message = "this is a second machine";
-            let second = Diagnostic::new(Code::SecondMachine, self.here(), message);
-            self.complain(
+            let second = Diagnostic::new(Code::SecondMachine, self.next_span(), message);
+            self.report_error(
                 second.help("a spec contains only one machine: move this one to a file of its own"),
             );
         } else if self.peek().is_some() {
@@ -42,15 +42,15 @@ impl Parser<'_> {
             if !self.report.has_errors() {
                 let message = "there is no machine here";
                 let nothing = Diagnostic::new(Code::NoMachine, self.end, message);
-                self.complain(nothing.help(help));
+                self.report_error(nothing.help(help));
             }
             return false;
         };
         let message = format!("expected `machine`, found {}", self.found());
         let wrong = Diagnostic::new(Code::NoMachine, word.span, message);
-        let is_slip = nearest(word.text, ["machine"]).is_some();
+        let is_slip = most_similar(word.text, ["machine"]).is_some();
         let is_variant = word.text == "extends";
-        self.complain(wrong.help(match (is_slip, is_variant) {
+        self.report_error(wrong.help(match (is_slip, is_variant) {
             (true, _) => "did you mean `machine`?",
             (_, true) => "give it a name: `machine Name extends \"base.machine\" { … }`",
             _ => help,
@@ -64,7 +64,7 @@ impl Parser<'_> {
     }
 
     fn machine(&mut self, docs: String) -> Spec {
-        let start = self.before();
+        let start = self.previous_span();
         let mut spec = Spec {
             docs,
             ..Spec::default()
@@ -93,7 +93,7 @@ impl Parser<'_> {
                 "write `machine {} in plane {{ … }}`, or `in space`",
                 spec.name.text
             );
-            self.complain(missing.help(help));
+            self.report_error(missing.help(help));
         }
         let Some(group) = self.enter(Delimiter::Brace) else {
             self.failed = false;
@@ -107,7 +107,7 @@ impl Parser<'_> {
         if self.at >= group.close && spec.extends.is_none() {
             let message = "this machine is empty";
             let empty = Diagnostic::new(Code::EmptyMachine, group.span, message);
-            self.complain(empty.help("a machine has `coordinates { … }` and `bodies { … }`"));
+            self.report_error(empty.help("a machine has `coordinates { … }` and `bodies { … }`"));
         }
         while self.at < group.close {
             self.entry(&mut spec, group.close);
@@ -118,15 +118,15 @@ impl Parser<'_> {
 
     /// `in plane`, `in space` or `extends "…"`.
     fn header_clause(&mut self, spec: &mut Spec) -> bool {
-        let start = self.here();
+        let start = self.next_span();
         if self.eat_word("in") {
             let Some(value) = self.space() else {
                 return false;
             };
-            let span = start.to(self.before());
+            let span = start.to(self.previous_span());
             match spec.space {
                 Some(first) => {
-                    self.complain_twice(span, "the choice between plane and space", first.span)
+                    self.report_duplicate(span, "the choice between plane and space", first.span)
                 }
                 None => spec.space = Some(Spanned { value, span }),
             }
@@ -141,7 +141,7 @@ impl Parser<'_> {
             self.at += 1;
             let (value, span) = (word.text.to_owned(), word.span);
             match &spec.extends {
-                Some(first) => self.complain_twice(span, "the base", first.span),
+                Some(first) => self.report_duplicate(span, "the base", first.span),
                 None => spec.extends = Some(Spanned { value, span }),
             }
             return true;
@@ -159,7 +159,7 @@ impl Parser<'_> {
             Some("plane") => Space::Plane,
             Some("space") => Space::Space,
             other => {
-                let near = other.and_then(|word| nearest(word, ["plane", "space"]));
+                let near = other.and_then(|word| most_similar(word, ["plane", "space"]));
                 let help = near.map(|near| format!("did you mean `{near}`?"));
                 self.unexpected_because("`plane` or `space`", help);
                 return None;
@@ -173,7 +173,7 @@ impl Parser<'_> {
     fn entry(&mut self, spec: &mut Spec, close: usize) {
         let docs = self.docs();
         if self.at >= close {
-            return self.complain_of_docs();
+            return self.report_misplaced_docs();
         }
         if self.is_mark(',') || self.is_mark(';') {
             let help = "nothing is allowed between sections".to_owned();
@@ -218,12 +218,12 @@ impl Parser<'_> {
         let sections = self.sections;
         let names = || sections.iter().map(|kind| kind.as_str());
         let meant = SectionKind::meant_by(&heading.text).map(SectionKind::as_str);
-        let near = meant.or_else(|| nearest(&heading.text, names().chain(["remove"])));
+        let near = meant.or_else(|| most_similar(&heading.text, names().chain(["remove"])));
         unknown.help = Some(match near {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the sections are {}", one_of(names())),
         });
-        self.complain(unknown);
+        self.report_error(unknown);
         near.and_then(|near| SectionKind::named_among(sections, near))
     }
 
@@ -295,9 +295,9 @@ impl Parser<'_> {
         } else {
             Some(self.expression())
         };
-        let span = heading.to(self.before());
+        let span = heading.to(self.previous_span());
         match spec.statement(section.word) {
-            Some(first) => self.complain_twice(heading, section.item, first.span),
+            Some(first) => self.report_duplicate(heading, section.item, first.span),
             None => spec.statements.push(SectionStatement {
                 section,
                 docs,
@@ -325,7 +325,7 @@ impl Parser<'_> {
         if spec.extends.is_none() {
             let message = "this machine extends nothing from which anything could be removed";
             let wrong = Diagnostic::new(Code::NothingToRemove, start, message);
-            self.complain(
+            self.report_error(
                 wrong.help("`machine Variant extends \"base.machine\" { … }` has a base"),
             );
         }
@@ -348,7 +348,7 @@ impl Parser<'_> {
                 let message = format!("the items of `{kind}` have no names and cannot be removed");
                 self.fail(Diagnostic::new(
                     Code::NothingToRemove,
-                    self.before(),
+                    self.previous_span(),
                     message,
                 ));
             }
@@ -365,7 +365,7 @@ impl Parser<'_> {
             }
         }
         self.end_of_statement(help);
-        let span = start.to(self.before());
+        let span = start.to(self.previous_span());
         if self.failed {
             return self.skip_to_heading(close);
         }

@@ -113,12 +113,12 @@ impl<'t> Parser<'t> {
     }
 
     /// The place of the next word.
-    pub(super) fn here(&self) -> Span {
+    pub(super) fn next_span(&self) -> Span {
         self.peek().map_or(self.end, |word| word.span)
     }
 
     /// The place of the preceding word.
-    pub(super) fn before(&self) -> Span {
+    pub(super) fn previous_span(&self) -> Span {
         let before = self.at.checked_sub(1).and_then(|at| self.words.get(at));
         before.map_or(self.end, |word| word.span)
     }
@@ -162,7 +162,7 @@ impl<'t> Parser<'t> {
     }
 
     /// Reports an error after which parsing continues normally.
-    pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
+    pub(super) fn report_error(&mut self, diagnostic: Diagnostic) {
         if !self.failed && self.quiet == 0 {
             self.report.push(diagnostic);
         }
@@ -176,14 +176,14 @@ impl<'t> Parser<'t> {
     }
 
     /// Reports a duplicate where only one is allowed.
-    pub(super) fn complain_twice(&mut self, span: Span, what: &str, first: Span) {
+    pub(super) fn report_duplicate(&mut self, span: Span, what: &str, first: Span) {
         let again = Diagnostic::new(Code::SaidTwice, span, format!("{what} is given twice"));
-        self.complain(again.help("keep one of them").note(first, "the first"));
+        self.report_error(again.help("keep one of them").note(first, "the first"));
     }
 
     /// Reports an error that makes the rest of the list element meaningless.
     pub(super) fn fail(&mut self, diagnostic: Diagnostic) {
-        self.complain(diagnostic);
+        self.report_error(diagnostic);
         self.failed = true;
     }
 
@@ -196,12 +196,13 @@ impl<'t> Parser<'t> {
     pub(super) fn unexpected_because(&mut self, expected: &str, help: Option<String>) {
         let known = self
             .peek()
-            .is_some_and(|word| word.mended || word.kind == TokenKind::Unknown);
+            .is_some_and(|word| word.repaired || word.kind == TokenKind::Unknown);
         if !known {
             let message = format!("expected {expected}, found {}", self.found());
-            let mut diagnostic = Diagnostic::new(Code::UnexpectedToken, self.here_all(), message);
+            let mut diagnostic =
+                Diagnostic::new(Code::UnexpectedToken, self.next_operator_span(), message);
             diagnostic.help = help;
-            self.complain(diagnostic);
+            self.report_error(diagnostic);
         }
         // A word that was already reported needs no second message.
         self.failed = true;
@@ -233,10 +234,10 @@ impl<'t> Parser<'t> {
     }
 
     /// The place of the next word, or of the operator that it begins.
-    pub(super) fn here_all(&self) -> Span {
+    pub(super) fn next_operator_span(&self) -> Span {
         match (self.operator(), self.peek_second()) {
-            (Some(_), Some(second)) => self.here().to(second.span),
-            _ => self.here(),
+            (Some(_), Some(second)) => self.next_span().to(second.span),
+            _ => self.next_span(),
         }
     }
 
@@ -250,8 +251,8 @@ impl<'t> Parser<'t> {
     pub(super) fn expect_mark_not(&mut self, mark: char, other: char, help: &str) {
         if self.is_mark(other) && !self.is_pair(other, other) {
             let message = format!("expected `{mark}`, found `{other}`");
-            let wrong = Diagnostic::new(Code::UnexpectedToken, self.here(), message);
-            self.complain(wrong.help(help));
+            let wrong = Diagnostic::new(Code::UnexpectedToken, self.next_span(), message);
+            self.report_error(wrong.help(help));
             self.at += 1;
         } else if !self.eat_mark(mark) {
             self.unexpected_because(&format!("`{mark}`"), Some(help.to_owned()));
@@ -261,11 +262,11 @@ impl<'t> Parser<'t> {
     /// `=`; `==` is reported, and parsing continues.
     pub(super) fn expect_equals(&mut self) {
         if self.is_pair('=', '=') {
-            let first = self.here();
+            let first = self.next_span();
             self.at += 1;
-            let wrong = first.to(self.here());
+            let wrong = first.to(self.next_span());
             let message = "expected `=`, found `==`";
-            self.complain(Diagnostic::new(Code::UnexpectedToken, wrong, message));
+            self.report_error(Diagnostic::new(Code::UnexpectedToken, wrong, message));
         }
         self.expect_mark('=');
     }
@@ -298,7 +299,7 @@ impl<'t> Parser<'t> {
         };
         // An unclosed brace was closed where a section or the text ends, so its content is
         // reliable; other brackets may have been closed anywhere.
-        let quiet = word.mended && delimiter != Delimiter::Brace;
+        let quiet = word.repaired && delimiter != Delimiter::Brace;
         self.quiet += usize::from(quiet);
         self.at += 1;
         let close = self.words.get(word.partner);
@@ -338,14 +339,14 @@ impl<'t> Parser<'t> {
                 if self.at > start && begins(self) {
                     let message = format!("expected `,`, found {}", self.found());
                     let help = format!("put a comma before {}", self.found());
-                    let missing = Diagnostic::new(Code::UnexpectedToken, self.here(), message);
-                    self.complain(missing.help(help));
+                    let missing = Diagnostic::new(Code::UnexpectedToken, self.next_span(), message);
+                    self.report_error(missing.help(help));
                     continue;
                 }
                 if self.is_mark(';') {
                     let message = "expected `,`, found `;`";
-                    let wrong = Diagnostic::new(Code::UnexpectedToken, self.here(), message);
-                    self.complain(wrong.help("the elements of a list are separated by commas"));
+                    let wrong = Diagnostic::new(Code::UnexpectedToken, self.next_span(), message);
+                    self.report_error(wrong.help("the elements of a list are separated by commas"));
                 } else {
                     self.unexpected_between();
                 }
@@ -464,10 +465,12 @@ impl<'t> Parser<'t> {
     }
 
     /// Reports documentation that precedes nothing.
-    pub(super) fn complain_of_docs(&mut self) {
+    pub(super) fn report_misplaced_docs(&mut self) {
         let message = "this documents nothing";
-        let lost = Diagnostic::new(Code::UnexpectedToken, self.before(), message);
-        self.complain(lost.help("documentation goes before an item; a comment begins with `//`"));
+        let lost = Diagnostic::new(Code::UnexpectedToken, self.previous_span(), message);
+        self.report_error(
+            lost.help("documentation goes before an item; a comment begins with `//`"),
+        );
     }
 }
 

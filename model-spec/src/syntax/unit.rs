@@ -1,6 +1,6 @@
 //! Parses units: `kg*m^2/s`.
 
-use crate::diagnostic::{Code, Diagnostic, nearest};
+use crate::diagnostic::{Code, Diagnostic, most_similar};
 use crate::syntax::ast::{Unit, UnitFactor};
 use crate::syntax::parse::Parser;
 use crate::token::{Delimiter, TokenKind, shown};
@@ -9,11 +9,11 @@ use crate::unit::Measure;
 impl Parser<'_> {
     /// `kg*m^2/s`; none if a part of it is unknown.
     pub(super) fn unit(&mut self) -> Option<Unit> {
-        let start = self.here();
+        let start = self.next_span();
         let mut factors = Vec::new();
         let mut known = self.unit_product(1, &mut factors);
         known &= !self.failed;
-        let span = start.to(self.before());
+        let span = start.to(self.previous_span());
         known.then_some(Unit { factors, span })
     }
 
@@ -52,7 +52,7 @@ impl Parser<'_> {
                 let message = format!("{} cannot have this power here", shown(name));
                 let unknown = Diagnostic::new(Code::UnknownUnit, factor.name.span, message);
                 let help = "only SI units can have half-integer powers: `N/m^(3/2)`";
-                self.complain(unknown.help(help));
+                self.report_error(unknown.help(help));
                 return false;
             }
             factor.halved = true;
@@ -88,7 +88,7 @@ impl Parser<'_> {
         if !known {
             let message = format!("there is no unit {}", shown(&name.text));
             let unknown = Diagnostic::new(Code::UnknownUnit, name.span, message);
-            self.complain(unknown.help(unit_help(&name.text)));
+            self.report_error(unknown.help(unit_help(&name.text)));
         }
         factors.push(UnitFactor {
             name,
@@ -166,7 +166,7 @@ fn unit_help(name: &str) -> String {
         "degC" | "celsius" | "Celsius" => "temperatures are in `K`",
         "Ohm" => "write `ohm`",
         _ => {
-            return match nearest(name, known()) {
+            return match most_similar(name, known()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => {
                     let names: Vec<&str> = Measure::names().collect();

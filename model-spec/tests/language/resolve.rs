@@ -339,7 +339,7 @@ fn values_for_which_a_derived_parameter_is_no_number_are_refused() {
     }";
     let model = sound(&dag, text);
     let refused = |values: &[f64]| -> Vec<String> {
-        let said = model.refused_values(values).into_iter();
+        let said = model.parameter_diagnostics(values).into_iter();
         said.map(|diagnostic| diagnostic.message).collect()
     };
     assert_eq!(refused(&[2.0, 1.0]), Vec::<String>::new());

@@ -22,19 +22,19 @@ const FEWEST_COPIES: usize = 4;
 
 /// An element of an array: the text before its index, the index, and the text after it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
-    before: String,
+pub struct ArrayElement {
+    prefix: String,
     index: usize,
-    after: String,
+    suffix: String,
 }
 
-impl Place {
-    /// The element with the text `before`, an index, and the text `after`.
-    pub fn new(before: impl Into<String>, index: usize, after: impl Into<String>) -> Place {
-        Place {
-            before: before.into(),
+impl ArrayElement {
+    /// The element with the text `prefix`, an index, and the text `suffix`.
+    pub fn new(before: impl Into<String>, index: usize, after: impl Into<String>) -> ArrayElement {
+        ArrayElement {
+            prefix: before.into(),
             index,
-            after: after.into(),
+            suffix: after.into(),
         }
     }
 
@@ -45,12 +45,12 @@ impl Place {
 
     /// Another element of the same array.
     fn at(&self, index: &str) -> String {
-        format!("{}{index}{}", self.before, self.after)
+        format!("{}{index}{}", self.prefix, self.suffix)
     }
 
     /// The distance to another element of the same array.
-    fn to(&self, other: &Place) -> Option<i64> {
-        let is_same = self.before == other.before && self.after == other.after;
+    fn to(&self, other: &ArrayElement) -> Option<i64> {
+        let is_same = self.prefix == other.prefix && self.suffix == other.suffix;
         is_same.then(|| other.index as i64 - self.index as i64)
     }
 }
@@ -63,7 +63,7 @@ pub struct Run {
     /// The number of its elements.
     pub count: usize,
     /// The first element and the distance from each to the next; `None` for a single element that is in no array.
-    pub first: Option<(Place, i64)>,
+    pub first: Option<(ArrayElement, i64)>,
 }
 
 impl Run {
@@ -89,7 +89,7 @@ fn counted(first: usize, step: i64, counter: &str) -> String {
 }
 
 /// Splits a list of elements into runs, each the longest that starts at its first element.
-pub fn runs(list: &[Vec<Place>]) -> Vec<Run> {
+pub fn runs(list: &[Vec<ArrayElement>]) -> Vec<Run> {
     let mut runs = Vec::new();
     let mut start = 0;
     while start < list.len() {
@@ -106,14 +106,14 @@ pub fn runs(list: &[Vec<Place>]) -> Vec<Run> {
 }
 
 /// The longest run at the beginning of a list, with at least two elements.
-fn longest(list: &[Vec<Place>]) -> Option<Run> {
+fn longest(list: &[Vec<ArrayElement>]) -> Option<Run> {
     let (first, second) = (list.first()?, list.get(1)?);
     let pairs = first
         .iter()
         .flat_map(|a| second.iter().map(move |b| (a, b)));
     let all = pairs.filter_map(|(a, b)| {
         let step = a.to(b)?;
-        let is_next = |(i, places): (usize, &Vec<Place>)| {
+        let is_next = |(i, places): (usize, &Vec<ArrayElement>)| {
             places
                 .iter()
                 .any(|place| a.to(place) == Some(step * i as i64))
@@ -131,7 +131,7 @@ fn longest(list: &[Vec<Place>]) -> Option<Run> {
 /// How a language writes loops and arrays.
 pub trait Loops: Language {
     /// The array elements that an argument is, if any.
-    fn places(&self, source: Source) -> Vec<Place>;
+    fn places(&self, source: Source) -> Vec<ArrayElement>;
     /// An array of numbers.
     fn array(&self, writer: &mut Writer, name: &str, items: Layout);
     /// An array of `count` numbers, to be set.
@@ -146,7 +146,13 @@ pub trait Loops: Language {
     fn guard_of(&self, writer: &mut Writer, guard: &Guard, names: [&str; 2], coordinate: &str);
     /// Writes the sines and cosines of all angles of an array; returns the elements that hold those of the
     /// angle at an index.
-    fn all_circular(&self, writer: &mut Writer, name: &str, angles: &str, at: usize) -> [Place; 2];
+    fn all_circular(
+        &self,
+        writer: &mut Writer,
+        name: &str,
+        angles: &str,
+        at: usize,
+    ) -> [ArrayElement; 2];
 }
 
 /// The loops of a function.
@@ -207,9 +213,9 @@ pub fn statements_with_loops(
     function: &Function,
     scope: Scope,
     plan: &Plan,
-) -> Vec<(Expression, Vec<Place>)> {
+) -> Vec<(Expression, Vec<ArrayElement>)> {
     let mut body = Body::new(writer, language, function, scope, &[]);
-    body.leaves();
+    body.set_leaf_texts();
     let used_outside = plan.used_outside(function);
     let mut repeats = plan.repeats.iter().peekable();
     let mut index = 0;
@@ -266,7 +272,7 @@ impl Plan {
 
 impl<L: Loops> Body<'_, L> {
     /// Sets the texts of arguments and constants.
-    fn leaves(&mut self) {
+    fn set_leaf_texts(&mut self) {
         for index in 0..self.function.code.len() {
             let value = Value(index as u32);
             match self.function.op(value) {
@@ -318,21 +324,21 @@ impl<L: Loops> Body<'_, L> {
             let places = self.language.all_circular(writer, &circular, &name, at);
             for (value, place) in pair.iter().zip(places) {
                 if let Some(value) = value {
-                    self.put(*value, place);
+                    self.record_element(*value, place);
                 }
             }
         }
     }
 
     /// Records the array element that holds a value.
-    fn put(&mut self, value: Value, place: Place) {
+    fn record_element(&mut self, value: Value, place: ArrayElement) {
         self.texts[value.index()] = Some(Expression::leaf(place.text()));
         self.places[value.index()] = vec![place];
     }
 
     /// Writes an array of values.
     fn fill(&mut self, name: &str, values: &[Value]) {
-        let places: Vec<Vec<Place>> = values
+        let places: Vec<Vec<ArrayElement>> = values
             .iter()
             .map(|value| self.places[value.index()].clone())
             .collect();
@@ -390,7 +396,7 @@ impl<L: Loops> Body<'_, L> {
                 }
                 Operand::Column(column) => {
                     counts = true;
-                    let places: Vec<Vec<Place>> = column
+                    let places: Vec<Vec<ArrayElement>> = column
                         .iter()
                         .map(|value| self.places[value.index()].clone())
                         .collect();
@@ -412,7 +418,7 @@ impl<L: Loops> Body<'_, L> {
         }
 
         // Which iterations of each value are kept: all, or the last.
-        let mut kept: Vec<(Value, Kept)> = Vec::new();
+        let mut kept: Vec<(Value, StoredValue)> = Vec::new();
         for (offset, step) in steps[start..start + period].iter().enumerate() {
             for (which, value) in step.defines.iter().enumerate() {
                 let Some(value) = *value else { continue };
@@ -427,14 +433,14 @@ impl<L: Loops> Body<'_, L> {
                     [] => continue,
                     [only] if *only + 1 == count => {
                         if let Some((_, name)) = carried.iter().find(|(of, _)| *of == value) {
-                            kept.push((value, Kept::Carried(name.clone(), all[count - 1])));
+                            kept.push((value, StoredValue::Carried(name.clone(), all[count - 1])));
                             continue;
                         }
                         let name =
                             language.identifier(&mut self.scope, &format!("c{}", self.names));
                         let zero = language.constant(&Rational::ZERO).text;
                         language.variable_to_set(self.writer, &name, &zero);
-                        kept.push((value, Kept::Last(name, all[count - 1])));
+                        kept.push((value, StoredValue::Last(name, all[count - 1])));
                         self.names += 1;
                         continue;
                     }
@@ -444,7 +450,7 @@ impl<L: Loops> Body<'_, L> {
                 counts = true;
                 let zero = language.constant(&Rational::ZERO).text;
                 language.array_to_set(self.writer, &name, &zero, count);
-                kept.push((value, Kept::All(name, all)));
+                kept.push((value, StoredValue::All(name, all)));
             }
         }
         let guards = steps[start..start + period].iter();
@@ -502,11 +508,11 @@ impl<L: Loops> Body<'_, L> {
         for (value, kept) in &kept {
             let name = self.bound(*value);
             match kept {
-                Kept::All(array, _) => {
+                StoredValue::All(array, _) => {
                     language.set(self.writer, &format!("{array}[{counter}]"), &name)
                 }
-                Kept::Last(variable, _) => language.set(self.writer, variable, &name),
-                Kept::Carried(..) => {}
+                StoredValue::Last(variable, _) => language.set(self.writer, variable, &name),
+                StoredValue::Carried(..) => {}
             }
         }
         let new: Vec<String> = carried
@@ -523,12 +529,15 @@ impl<L: Loops> Body<'_, L> {
 
         for (_, kept) in kept {
             match kept {
-                Kept::All(array, values) => {
+                StoredValue::All(array, values) => {
                     for (iteration, value) in values.into_iter().enumerate() {
-                        self.put(value, Place::new(format!("{array}["), iteration, "]"));
+                        self.record_element(
+                            value,
+                            ArrayElement::new(format!("{array}["), iteration, "]"),
+                        );
                     }
                 }
-                Kept::Last(name, value) | Kept::Carried(name, value) => {
+                StoredValue::Last(name, value) | StoredValue::Carried(name, value) => {
                     self.texts[value.index()] = Some(Expression::leaf(name));
                 }
             }
@@ -558,7 +567,7 @@ impl<L: Loops> Body<'_, L> {
 }
 
 /// How a value that a loop computes is kept.
-enum Kept {
+enum StoredValue {
     /// In an array, with the values of all iterations.
     All(String, Vec<Value>),
     /// In a variable, with the value of the last iteration.

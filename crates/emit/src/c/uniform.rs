@@ -138,7 +138,7 @@ impl Emitter<'_> {
     }
 
     /// Fills a struct of the machine from an array, where a function reads it.
-    fn filled(
+    fn fill_struct(
         &self,
         writer: &mut Writer,
         what: &str,
@@ -188,19 +188,19 @@ impl Emitter<'_> {
         writer.open(format!(
             "static void {name}(const double *x, {of}Prepared *p) {{"
         ));
-        self.filled_parameters(writer);
+        self.fill_parameters(writer);
         writer.line(format!("{}_prepare(&of_parameters, p);", self.prefix));
         writer.close("}");
     }
 
-    fn filled_parameters(&self, writer: &mut Writer) {
+    fn fill_parameters(&self, writer: &mut Writer) {
         let slots = &self.program.parameters;
-        self.filled(writer, "parameters", slots, &self.parameters, "x");
+        self.fill_struct(writer, "parameters", slots, &self.parameters, "x");
         writer.line("(void)x;");
     }
 
-    fn filled_inputs(&self, writer: &mut Writer) {
-        self.filled(writer, "inputs", &self.program.inputs, &self.inputs, "u");
+    fn fill_inputs(&self, writer: &mut Writer) {
+        self.fill_struct(writer, "inputs", &self.program.inputs, &self.inputs, "u");
     }
 
     /// A function that solves the equations.
@@ -212,15 +212,15 @@ impl Emitter<'_> {
         match self.program.function(role) {
             Some(function) => {
                 let reads = self.read_by(function);
-                self.unread(writer, reads, &[]);
+                self.mark_unused(writer, reads, &[]);
                 if reads.inputs {
-                    self.filled_inputs(writer);
+                    self.fill_inputs(writer);
                 }
                 let call = self.call(reads, role, &["to"]);
                 writer.line(format!("return {call};"));
             }
             None => {
-                self.unread(writer, Reads::default(), &["to"]);
+                self.mark_unused(writer, Reads::default(), &["to"]);
                 writer.line("return 0;");
             }
         }
@@ -237,9 +237,9 @@ impl Emitter<'_> {
         match function.filter(|_| !program.constraints.is_empty()) {
             Some(function) if self.is_written(function) => {
                 let reads = self.read_by(function);
-                self.unread(writer, reads, &[]);
+                self.mark_unused(writer, reads, &[]);
                 if reads.inputs {
-                    self.filled_inputs(writer);
+                    self.fill_inputs(writer);
                 }
                 let to = match function.shape {
                     Shape::Symmetric(n) => format!("(double (*)[{n}])to"),
@@ -248,7 +248,7 @@ impl Emitter<'_> {
                 writer.line(format!("{};", self.call(reads, role, &[&to])));
             }
             function => {
-                self.unread(writer, Reads::default(), &["to"]);
+                self.mark_unused(writer, Reads::default(), &["to"]);
                 let len = function.map_or(0, |f| f.results.len());
                 for i in 0..len {
                     writer.line(format!("to[{i}] = 0.0;"));
@@ -291,11 +291,11 @@ impl Emitter<'_> {
         writer.open(format!(
             "static void unitAdjointOutput({arguments}, const double *a, int k, double *to) {{"
         ));
-        self.unread(writer, Reads::default(), &["a", "to"]);
+        self.mark_unused(writer, Reads::default(), &["a", "to"]);
         let is_gradient = |function: &&Function| matches!(function.role, Role::Gradient(_));
         let gradients = || self.program.functions.iter().filter(is_gradient);
         if gradients().any(|function| function.reads().inputs) {
-            self.filled_inputs(writer);
+            self.fill_inputs(writer);
         }
         writer.open("switch (k) {");
         for function in gradients() {
@@ -319,7 +319,7 @@ impl Emitter<'_> {
         for i in given..2 * program.dimension() {
             writer.line(format!("to[{i}] = 0.0;"));
         }
-        self.filled_parameters(writer);
+        self.fill_parameters(writer);
         writer.line(format!("{}_start(&of_parameters, to);", self.prefix));
         writer.close("}");
         self.uniform_solving(writer, "Unit", "unitAccelerations", Role::Accelerations);
@@ -345,14 +345,14 @@ impl Emitter<'_> {
             match function {
                 Some(function) => {
                     let reads = self.read_by(function);
-                    self.unread(writer, reads, &[]);
+                    self.mark_unused(writer, reads, &[]);
                     if reads.inputs {
-                        self.filled_inputs(writer);
+                        self.fill_inputs(writer);
                     }
                     writer.line(format!("return {};", self.call(reads, role, &[])));
                 }
                 None => {
-                    self.unread(writer, Reads::default(), &[]);
+                    self.mark_unused(writer, Reads::default(), &[]);
                     writer.line("return 0.0;");
                 }
             }
@@ -394,9 +394,9 @@ impl Emitter<'_> {
             .iter()
             .flatten()
             .any(|function| function.reads().inputs);
-        self.unread(writer, Reads::default(), &["a", "to"]);
+        self.mark_unused(writer, Reads::default(), &["a", "to"]);
         if reads_inputs {
-            self.filled_inputs(writer);
+            self.fill_inputs(writer);
         }
         for (i, function) in functions.into_iter().enumerate() {
             let value = match function {
@@ -409,7 +409,7 @@ impl Emitter<'_> {
     }
 
     /// Marks unused arguments, so that compilers do not warn.
-    fn unread(&self, writer: &mut Writer, reads: Reads, further: &[&str]) {
+    fn mark_unused(&self, writer: &mut Writer, reads: Reads, further: &[&str]) {
         let all = [
             ("p", reads.prepared),
             ("t", reads.time),

@@ -217,7 +217,7 @@ impl<'a> Emitter<'a> {
         self.writer
             .signature(&head, &arguments, fails.then_some(result.as_str()));
         let texts = self.statements(&piece.function, &[], false);
-        for (slot, text) in piece.keeps.iter().zip(texts) {
+        for (slot, text) in piece.result_slots.iter().zip(texts) {
             self.writer.line(format!("w[{slot}] = {};", text.text));
         }
         if fails {
@@ -373,7 +373,7 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// What at least one of two functions reads.
+/// PackedOperation at least one of two functions reads.
 pub(super) fn union(a: Reads, b: Reads) -> Reads {
     Reads {
         parameters: a.parameters || b.parameters,

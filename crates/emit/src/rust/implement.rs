@@ -431,10 +431,10 @@ impl Emitter<'_> {
                 ("order", format!("{runtime}::ImpactOrder::{order}")),
                 ("painleve", format!("{runtime}::Painleve::{painleve}")),
                 ("compliance", compliance),
-                ("rubs", contact.rubs.to_string()),
-                ("rolls", contact.rolls.to_string()),
-                ("across", contact.across.to_string()),
-                ("faced", contact.faced.to_string()),
+                ("rubs", contact.has_friction.to_string()),
+                ("rolls", contact.is_rolling_resistance.to_string()),
+                ("across", contact.is_second_tangent.to_string()),
+                ("faced", contact.has_face.to_string()),
             ];
             let fields = fields.map(|(name, value)| (name.to_owned(), Layout::Atom(value)));
             Layout::Struct(format!("{runtime}::UnilateralContact"), fields.to_vec())

@@ -11,7 +11,7 @@
 use super::Emitter;
 use super::language::Rust;
 use super::types::Types;
-use crate::body::{self, Binding, Plan, Unchecked};
+use crate::body::{self, Plan, Precedence, Unchecked};
 use crate::cut::{self, Cut, Piece};
 use crate::layout;
 use lagrangian_program::{Function, Guard, Op, Reads, Role, Shape, Source};
@@ -155,12 +155,13 @@ impl Emitter<'_> {
                 let wanted = self.result_names(function);
                 let body = self.unchecked(function, &wanted, None);
                 let texts = body.results.iter();
-                let texts: Vec<String> = texts.map(|text| text.at_least(Binding::Atom)).collect();
+                let texts: Vec<String> =
+                    texts.map(|text| text.at_least(Precedence::Atom)).collect();
                 self.checks(function, &body, &texts);
                 texts
             }
         };
-        let name = self.kept(function, &texts);
+        let name = self.stored_results(function, &texts);
         self.writer.line(if self.fails(function) {
             format!("Ok({name})")
         } else {
@@ -252,7 +253,7 @@ impl Emitter<'_> {
     }
 
     /// Converts the results to their stored form; returns the name of the variable.
-    fn kept(&mut self, function: &Function, results: &[String]) -> String {
+    fn stored_results(&mut self, function: &Function, results: &[String]) -> String {
         let name = self.function_name(function.role);
         let kept: Vec<String> = results
             .iter()
@@ -360,7 +361,7 @@ impl Emitter<'_> {
         };
         self.writer.gap();
         self.docs(&format!(
-            "What the pieces of [`{}`] are given.",
+            "PackedOperation the pieces of [`{}`] are given.",
             self.function_name(role)
         ));
         self.writer.open(format!(
@@ -416,7 +417,7 @@ impl Emitter<'_> {
             self.writer.line(format!("let n = {register}::load;"));
         }
         let texts = self.statements(&piece.function, &[], true);
-        for (slot, text) in piece.keeps.iter().zip(texts) {
+        for (slot, text) in piece.result_slots.iter().zip(texts) {
             self.writer.line(format!("w[{slot}] = {};", text.text));
         }
         if fails {

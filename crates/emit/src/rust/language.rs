@@ -3,10 +3,10 @@
 use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::Emitter;
-use crate::body::{Angle, Binding, Expression as Text, Language, Loops, Place, Rounded};
+use crate::body::{Angle, ArrayElement, Expression as Text, Language, Loops, Precedence, Rounded};
 use crate::layout::{Layout, Writer};
 use crate::names::{Scope, flat};
-use lagrangian_program::{Contracted, Guard, Source, What};
+use lagrangian_program::{Contracted, Guard, PackedOperation, Source};
 
 /// The Rust implementation of `Language`.
 pub(super) struct Rust<'a> {
@@ -76,7 +76,7 @@ impl Language for Rust<'_> {
     fn unary(&self, function: symbolic::Function, argument: &Text) -> Text {
         Text::call(format!(
             "{}.{}()",
-            argument.at_least(Binding::Atom),
+            argument.at_least(Precedence::Atom),
             method(function)
         ))
     }
@@ -84,7 +84,7 @@ impl Language for Rust<'_> {
     fn binary(&self, function: symbolic::Function, a: &Text, b: &Text) -> Text {
         Text::call(format!(
             "{}.{}({})",
-            a.at_least(Binding::Atom),
+            a.at_least(Precedence::Atom),
             method(function),
             b.text
         ))
@@ -95,7 +95,7 @@ impl Language for Rust<'_> {
     }
 
     fn sin_cos(&self, writer: &mut Writer, sin: Option<&str>, cos: Option<&str>, angle: &Text) {
-        let angle = angle.at_least(Binding::Atom);
+        let angle = angle.at_least(Precedence::Atom);
         match (sin, cos) {
             (Some(sin), Some(cos)) => {
                 writer.line(format!("let ({sin}, {cos}) = {angle}.sin_cos();"))
@@ -118,7 +118,7 @@ impl Language for Rust<'_> {
         };
         Text::call(format!(
             "{}.{method}({})",
-            a.at_least(Binding::Atom),
+            a.at_least(Precedence::Atom),
             b.text
         ))
     }
@@ -133,19 +133,19 @@ impl Language for Rust<'_> {
             Contracted::Sub => "mul_sub",
             Contracted::SubFrom => "neg_mul_add",
         };
-        let a = a.at_least(Binding::Atom);
+        let a = a.at_least(Precedence::Atom);
         Some(Text::call(format!("{a}.{method}({}, {})", b.text, c.text)))
     }
 
-    fn pack(&self, what: What, operands: &[[Text; 2]]) -> Option<String> {
+    fn pack(&self, what: PackedOperation, operands: &[[Text; 2]]) -> Option<String> {
         let method = match what {
-            What::Add => "add_each",
-            What::Sub => "sub_each",
-            What::Mul => "mul_each",
-            What::Div => "div_each",
-            What::Contraction(Contracted::Add) => "mul_add_each",
-            What::Contraction(Contracted::Sub) => "mul_sub_each",
-            What::Contraction(Contracted::SubFrom) => "neg_mul_add_each",
+            PackedOperation::Add => "add_each",
+            PackedOperation::Sub => "sub_each",
+            PackedOperation::Mul => "mul_each",
+            PackedOperation::Div => "div_each",
+            PackedOperation::Contraction(Contracted::Add) => "mul_add_each",
+            PackedOperation::Contraction(Contracted::Sub) => "mul_sub_each",
+            PackedOperation::Contraction(Contracted::SubFrom) => "neg_mul_add_each",
         };
         let both = |[a, b]: &[Text; 2]| format!("[{}, {}]", a.text, b.text);
         let operands: Vec<String> = operands.iter().map(both).collect();
@@ -160,7 +160,7 @@ impl Language for Rust<'_> {
         let values = angles.iter().map(|angle| angle.angle.text.clone());
         writer.expression("let angles = ", &Layout::array(values), ";");
         let number = self.number();
-        writer.line(if self.emitter.asks_once {
+        writer.line(if self.emitter.defers_angle_check {
             format!("let (circular, are_near) = {number}::sin_cos_all_near(angles);")
         } else {
             format!("let circular = {number}::sin_cos_all(angles);")
@@ -199,12 +199,12 @@ impl Language for Rust<'_> {
 }
 
 impl Loops for Rust<'_> {
-    fn places(&self, source: Source) -> Vec<Place> {
+    fn places(&self, source: Source) -> Vec<ArrayElement> {
         let emitter = self.emitter;
         let element = |array: &str, index: u32| {
             let whole = self.loaded(format!("{array}[@]"));
             let (before, after) = whole.split_once('@').unwrap_or((&whole, ""));
-            Place::new(before, index as usize, after)
+            ArrayElement::new(before, index as usize, after)
         };
         match source {
             Source::Coordinate(i) => vec![element("q", i)],
@@ -264,12 +264,18 @@ impl Loops for Rust<'_> {
         ));
     }
 
-    fn all_circular(&self, writer: &mut Writer, name: &str, angles: &str, at: usize) -> [Place; 2] {
+    fn all_circular(
+        &self,
+        writer: &mut Writer,
+        name: &str,
+        angles: &str,
+        at: usize,
+    ) -> [ArrayElement; 2] {
         writer.line(format!(
             "let {name} = {}::sin_cos_all({angles});",
             self.number()
         ));
-        [0, 1].map(|which| Place::new(format!("{name}["), at, format!("].{which}")))
+        [0, 1].map(|which| ArrayElement::new(format!("{name}["), at, format!("].{which}")))
     }
 }
 

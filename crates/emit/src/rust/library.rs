@@ -4,8 +4,8 @@
 use super::kernel::with_lifetime;
 use super::language::number;
 use super::types::{Group, Types, literal};
-use super::{Emitter, OF_CONTACTS, in_pairs};
-use crate::body::Binding;
+use super::{CONTACT_ROLES, Emitter, in_pairs};
+use crate::body::Precedence;
 use crate::layout::Layout;
 use crate::names::Field;
 use lagrangian_program::{Function, Role, Shape, Slot, Unilateral, early_angles};
@@ -57,7 +57,7 @@ impl Emitter<'_> {
                 Some(law) => law.name(),
                 None => contact.law.name(),
             };
-            let leans = match (contact.rolls, contact.across) {
+            let leans = match (contact.is_rolling_resistance, contact.is_second_tangent) {
                 (true, _) => 1,
                 (_, true) => 2,
                 _ => 0,
@@ -186,7 +186,7 @@ impl Emitter<'_> {
             prepared, machine, ..
         } = self.types.clone();
         self.writer.gap();
-        self.docs("What is prepared of parameters in the order of the description.");
+        self.docs("PackedOperation is prepared of parameters in the order of the description.");
         let row = format!("row: &[{f64}; {}]", self.program.parameters.len());
         self.writer.signature(
             "pub fn prepared",
@@ -215,7 +215,7 @@ impl Emitter<'_> {
         self.docs("");
         self.docs(
             "They don't where the mass matrix is singular; nor may they where an angle of one of several lanes is so \
-             large that it has to be evaluated alone. What is in `result` then is of no use.",
+             large that it has to be evaluated alone. PackedOperation is in `result` then is of no use.",
         );
         self.writer.line("#[inline(always)]");
         self.writer.signature(
@@ -304,13 +304,13 @@ impl Emitter<'_> {
             .line(format!("let Self {{ {} }} = self;", names.join(", ")));
         self.writer.line(format!("let n = {register}::load;"));
         let has_far = !early_angles(function).is_empty();
-        self.asks_once = true;
+        self.defers_angle_check = true;
         let wanted = self.result_names(function);
         let packs = in_pairs(function, self.options);
         let body = self.unchecked(function, &wanted, packs.as_deref());
-        self.asks_once = false;
+        self.defers_angle_check = false;
         for (i, text) in body.results.iter().enumerate() {
-            let text = text.at_least(Binding::Atom);
+            let text = text.at_least(Precedence::Atom);
             self.writer.line(format!("result[{i}] = {text}.store();"));
         }
         let mut conditions = self.exceeding(function, &body);

@@ -27,8 +27,8 @@ use lagrangian_program::series::{
 use super::Emitter;
 use super::types::Types;
 use crate::layout::Layout;
-use arithmetic::Symbolic;
-use code::{Code, Part, X};
+use arithmetic::Recorder;
+use code::{Code, Operand, Part};
 
 /// The number of lists in a pack.
 const WIDTH: usize = 24;
@@ -65,19 +65,19 @@ impl Carried {
 }
 
 /// The code of a series.
-struct Written {
+struct SeriesCode {
     code: Code,
     /// The rows that depend on parameters alone.
     constants: Vec<RowId>,
     packs: Vec<Pack>,
     /// For each carried variable its initial value, and its value after each order.
-    carried: BTreeMap<Carried, [X; 2]>,
+    carried: BTreeMap<Carried, [Operand; 2]>,
     /// For each list of products what is stored of both factors: at the start, and after each order.
-    kept: [[Vec<[X; 2]>; 2]; 2],
+    kept: [[Vec<[Operand; 2]>; 2]; 2],
     /// The coefficients of order 2 of the coordinates, and those of each order.
-    motion: [Vec<X>; 2],
+    motion: [Vec<Operand>; 2],
     /// The matrix of the effect of accelerations on forces, column by column.
-    applied: Option<Vec<Vec<X>>>,
+    applied: Option<Vec<Vec<Operand>>>,
 }
 
 /// The lists of up to [`WIDTH`] products side by side: of their first factors, and of their second.
@@ -150,7 +150,7 @@ impl Emitter<'_> {
         Some(series.series().clone())
     }
 
-    fn written(&self, series: &Series) -> Written {
+    fn written(&self, series: &Series) -> SeriesCode {
         written(series, &self.types.register, &self.inputs.paths)
     }
 
@@ -168,9 +168,9 @@ impl Emitter<'_> {
         }
         let scalar = self.types.scalar.clone();
         let paths = self.parameters.paths.clone();
-        let mut symbolic = Symbolic::of_constants(&series, &scalar, &paths);
-        let texts: Vec<X> = constants.iter().map(|row| symbolic.first(*row)).collect();
-        let Symbolic { mut code, .. } = symbolic;
+        let mut symbolic = Recorder::of_constants(&series, &scalar, &paths);
+        let texts: Vec<Operand> = constants.iter().map(|row| symbolic.first(*row)).collect();
+        let Recorder { mut code, .. } = symbolic;
         code.prune(texts.iter().copied());
         code.write(&mut self.writer, Part::Start, "", 0);
         let values = texts.iter().map(|x| code.text(*x));
@@ -186,7 +186,7 @@ impl Emitter<'_> {
 
     /// The packs of the series.
     fn packs_of_series(&self, series: &Series) -> Vec<Pack> {
-        Pack::all(&Symbolic::new(series, &self.types.register, &self.inputs.paths).lanes)
+        Pack::all(&Recorder::new(series, &self.types.register, &self.inputs.paths).lanes)
     }
 
     /// The type of the packs of the series for a number type; the unit type if there are none.
@@ -209,7 +209,7 @@ impl Emitter<'_> {
         let [copy, default] = ["Copy", "Default"].map(|name| self.types.known(name));
         self.writer.gap();
         self.docs(
-            "The coefficients of which products are made, order by order, while the Taylor series is computed. What they hold \
+            "The coefficients of which products are made, order by order, while the Taylor series is computed. PackedOperation they hold \
              before that does not matter.",
         );
         self.writer.open(format!("pub struct {lists}<{scalar}> {{"));
@@ -335,11 +335,11 @@ impl Emitter<'_> {
         Some(Layout::Struct(self.types.series.clone(), fields.collect()))
     }
 
-    fn series_code(&mut self, written: &Written) {
+    fn series_code(&mut self, written: &SeriesCode) {
         let runtime = self.options.runtime.clone();
         let register = self.types.register.clone();
         let n = self.program.dimension();
-        let Written { code, packs, .. } = written;
+        let SeriesCode { code, packs, .. } = written;
         code.write(&mut self.writer, Part::Start, &runtime, n);
         if let Some(columns) = &written.applied {
             let columns = columns.iter().map(|column| code.kept(column, 0));
@@ -366,7 +366,7 @@ impl Emitter<'_> {
             }
         }
         for pack in packs.iter().filter(|pack| pack.kind == 0) {
-            self.keep(written, pack, "2", |[first, _]| first);
+            self.write_stored(written, pack, "2", |[first, _]| first);
         }
         for (carried, [first, _]) in &written.carried {
             let (name, first) = (carried.name(), code.text(*first));
@@ -401,7 +401,7 @@ impl Emitter<'_> {
         self.writer.close("}");
         for pack in packs {
             let at = ["order", "order - 1"][pack.kind];
-            self.keep(written, pack, at, |[_, kept]| kept);
+            self.write_stored(written, pack, at, |[_, kept]| kept);
         }
         for (carried, [_, last]) in &written.carried {
             let (name, last) = (carried.name(), code.text(*last));
@@ -411,12 +411,18 @@ impl Emitter<'_> {
     }
 
     /// Writes what both sides of a pack store at the start, or after each order.
-    fn keep(&mut self, written: &Written, pack: &Pack, at: &str, which: fn([X; 2]) -> X) {
+    fn write_stored(
+        &mut self,
+        written: &SeriesCode,
+        pack: &Pack,
+        at: &str,
+        which: fn([Operand; 2]) -> Operand,
+    ) {
         let register = &self.types.register;
         let runtime = &self.options.runtime;
         for (side, name) in pack.names().iter().enumerate() {
             let kept = written.kept[pack.kind][side][pack.range.clone()].iter();
-            let kept: Vec<X> = kept.copied().map(which).collect();
+            let kept: Vec<Operand> = kept.copied().map(which).collect();
             let call = Layout::List(
                 format!("{runtime}::series::keep::<{register}, {}>(", pack.sizes()),
                 vec![
@@ -441,8 +447,8 @@ fn padded(lanes: usize) -> usize {
 }
 
 /// Generates the code of a series.
-fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
-    let mut to = Symbolic::new(series, number, inputs);
+fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
+    let mut to = Recorder::new(series, number, inputs);
     let rows = || (0..series.rows.len() as u32).map(RowId);
     let at = |level: Level| -> Vec<RowId> {
         let rows = rows().filter(|row| series.level(*row) == level);
@@ -470,21 +476,21 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
     let matrices = to.matrices();
     let a = to.accelerations(&matrices);
     let applied = to.matrix_of_forces();
-    let half = to.made("from_f64(0.5)");
-    let start = to.finals(&a, [X::One, half], false);
+    let half = to.constructed("from_f64(0.5)");
+    let start = to.final_coefficients(&a, [Operand::One, half], false);
     let lanes = to.lanes.clone();
     let factors = |kind: usize, side: usize| -> Vec<Stream> {
         let lanes = lanes[kind].iter();
         lanes.map(|convolution| convolution.factors[side]).collect()
     };
-    let mut kept: [[Vec<[X; 2]>; 2]; 2] = Default::default();
+    let mut kept: [[Vec<[Operand; 2]>; 2]; 2] = Default::default();
     for (kind, sides) in kept.iter_mut().enumerate() {
         for (side, list) in sides.iter_mut().enumerate() {
             to.is_of_positions = kind == 0;
             for stream in factors(kind, side) {
                 let first = match kind {
                     0 => to.kept(&start, stream, 2),
-                    _ => X::Zero,
+                    _ => Operand::Zero,
                 };
                 list.push([first, first]);
             }
@@ -506,9 +512,9 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
         to.coefficient(*row, Order::Later);
     }
     let a = to.accelerations(&matrices);
-    let over_v = to.made("from_ratio(1, order as i64 - 1)");
-    let over_q = to.made("from_ratio(1, order as i64)");
-    let later = to.finals(&a, [over_v, over_q], applied.is_some());
+    let over_v = to.constructed("from_ratio(1, order as i64 - 1)");
+    let over_q = to.constructed("from_ratio(1, order as i64)");
+    let later = to.final_coefficients(&a, [over_v, over_q], applied.is_some());
     for (kind, sides) in kept.iter_mut().enumerate() {
         to.is_of_positions = kind == 0;
         for (side, list) in sides.iter_mut().enumerate() {
@@ -533,7 +539,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
         variables.insert(which, [first, to.carried_by(which, &later, 3)]);
     }
     let motion = [start.motion, later.motion];
-    let Symbolic {
+    let Recorder {
         mut code,
         constants,
         ..
@@ -541,11 +547,11 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
     let all = motion.iter().flatten().copied();
     let all = all.chain(kept.iter().flatten().flatten().flatten().copied());
     let all = all.chain(variables.values().flatten().copied());
-    let all: Vec<X> = all
+    let all: Vec<Operand> = all
         .chain(applied.iter().flatten().flatten().copied())
         .collect();
     code.prune(all.into_iter());
-    Written {
+    SeriesCode {
         code,
         constants,
         packs: Pack::all(&lanes),
@@ -557,8 +563,8 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> Written {
 }
 
 /// Final coefficients: of rows, and of coordinates and their rates.
-struct Finals {
-    rows: Vec<Option<X>>,
-    motion: Vec<X>,
-    rates: Vec<X>,
+struct FinalCoefficients {
+    rows: Vec<Option<Operand>>,
+    motion: Vec<Operand>,
+    rates: Vec<Operand>,
 }

@@ -16,15 +16,15 @@ pub fn stub(spec: &Spec, options: &Options) -> String {
     if spec.name.text.is_empty() {
         String::new()
     } else {
-        unproved_expansion(&standstill(spec), options)
+        unproved_expansion(&placeholder_program(spec), options)
     }
 }
 
 /// A machine with the names of a spec, as far as they can be determined, that does not move.
-fn standstill(spec: &Spec) -> Program {
+fn placeholder_program(spec: &Spec) -> Program {
     let slots = |items: &[Item<Quantity>]| {
         let mut slots: Vec<Slot> = Vec::new();
-        for slot in items.iter().flat_map(|item| standing(spec, item)) {
+        for slot in items.iter().flat_map(|item| placeholder_slots(spec, item)) {
             // A duplicate declaration is one of the reported errors.
             let clashes = |known: &Slot| {
                 known.name == slot.name
@@ -111,7 +111,7 @@ fn standstill(spec: &Spec) -> Program {
 }
 
 /// The members of an item, if their number is evident; otherwise one.
-fn standing(spec: &Spec, item: &Item<Quantity>) -> Vec<Slot> {
+fn placeholder_slots(spec: &Spec, item: &Item<Quantity>) -> Vec<Slot> {
     /// The most members of a family in a placeholder.
     const MOST: i64 = 1000;
     let number = |expression: &Expression| integer(spec, expression);

@@ -3,7 +3,7 @@
 use lagrangian_symbolic::{Function, Rational};
 
 use super::{Entries, Syntax, Table, quoted};
-use crate::body::{Binding, Expression, Rounded};
+use crate::body::{Expression, Precedence, Rounded};
 use crate::layout::Writer;
 
 pub struct Sympy;
@@ -86,7 +86,7 @@ impl Syntax for Sympy {
             _ if text.contains('/') => Expression::leaf(format!("sp.Rational({})", quoted(&text))),
             Some(_) => Expression {
                 text,
-                binding: Binding::Sign,
+                precedence: Precedence::Sign,
                 is_leaf: false,
             },
             None => Expression::leaf(format!("sp.Integer({text})")),

@@ -27,13 +27,13 @@ pub struct Brachistochronic<'d> {
     /// `c_α = −Q_α`, inertia forces included.
     pub slope: Vec<Expr<'d>>,
     /// The guides that slide.
-    pub guides: Vec<Guided<'d>>,
+    pub guides: Vec<SlidingGuide<'d>>,
 }
 
 /// A guide that slides, with its normal reaction `N = ν + ρ·a + Σ κ F`, where `F = −μ N` is the
 /// friction of each guide.
 #[derive(Clone, Debug)]
-pub struct Guided<'d> {
+pub struct SlidingGuide<'d> {
     /// Its name.
     pub name: String,
     /// `τ`.
@@ -50,32 +50,35 @@ pub struct Guided<'d> {
 
 /// A condition that a machine does not meet.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Unmet {
+pub enum UnmetCondition {
     /// A coefficient depends on something that changes along the motion.
     Varies {
         /// The coefficient.
-        what: String,
+        coefficient: String,
         /// The coordinate, its rate as `der(q)`, the input, or `t`.
-        with: String,
+        variable: String,
     },
     /// The normal reaction of a guide in space is the magnitude of a vector.
-    Presses {
+    SpatialGuide {
         /// The guide.
         guide: String,
     },
     /// The machine has constraints, so its coordinates are not independent.
     Constrained,
     /// A quaternion turns a frame, and its length is not part of the motion.
-    Turned,
+    Quaternion,
     /// There are no coordinates.
-    Empty,
+    NoCoordinates,
 }
 
-impl fmt::Display for Unmet {
+impl fmt::Display for UnmetCondition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Varies { what, with } => write!(f, "{what} depends on `{with}`"),
-            Self::Presses { guide } => write!(
+            Self::Varies {
+                coefficient: what,
+                variable: with,
+            } => write!(f, "{what} depends on `{with}`"),
+            Self::SpatialGuide { guide } => write!(
                 f,
                 "friction of the guide `{guide}` is proportional to the magnitude of a vector, and not to a force along one normal"
             ),
@@ -85,11 +88,11 @@ impl fmt::Display for Unmet {
                     "the machine has constraints, so its coordinates are not independent"
                 )
             }
-            Self::Turned => write!(
+            Self::Quaternion => write!(
                 f,
                 "a frame is turned by four numbers, whose norm is not part of the motion: turn it by angles"
             ),
-            Self::Empty => write!(f, "the machine has no coordinates"),
+            Self::NoCoordinates => write!(f, "the machine has no coordinates"),
         }
     }
 }
@@ -99,8 +102,8 @@ impl<'d> Brachistochronic<'d> {
     ///
     /// # Errors
     /// Every condition that is not met, each with the first variable on which a coefficient depends.
-    pub fn of(model: &Model<'d>, equations: &Equations<'d>) -> Result<Self, Vec<Unmet>> {
-        Self::within(model, equations, [Reach::Parameters; 2])
+    pub fn of(model: &Model<'d>, equations: &Equations<'d>) -> Result<Self, Vec<UnmetCondition>> {
+        Self::with_dependences(model, equations, [Dependence::Parameters; 2])
     }
 
     /// The problem with masses and friction that depend on coordinates, and forces and loads that depend on velocities too.
@@ -108,25 +111,32 @@ impl<'d> Brachistochronic<'d> {
     /// # Errors
     /// As for [`of`](Self::of): constraints, explicit time, inputs, and friction that depends
     /// on velocities.
-    pub fn anywhere(model: &Model<'d>, equations: &Equations<'d>) -> Result<Self, Vec<Unmet>> {
-        Self::within(model, equations, [Reach::Coordinates, Reach::Rates])
-    }
-
-    fn within(
+    pub fn position_dependent(
         model: &Model<'d>,
         equations: &Equations<'d>,
-        [of_place, of_motion]: [Reach; 2],
-    ) -> Result<Self, Vec<Unmet>> {
+    ) -> Result<Self, Vec<UnmetCondition>> {
+        Self::with_dependences(
+            model,
+            equations,
+            [Dependence::Coordinates, Dependence::Rates],
+        )
+    }
+
+    fn with_dependences(
+        model: &Model<'d>,
+        equations: &Equations<'d>,
+        [of_place, of_motion]: [Dependence; 2],
+    ) -> Result<Self, Vec<UnmetCondition>> {
         let mut unmet = Vec::new();
         let n = model.coordinates.len();
         if n == 0 {
-            unmet.push(Unmet::Empty);
+            unmet.push(UnmetCondition::NoCoordinates);
         }
         if !equations.constraints.is_empty() || !model.contacts.is_empty() {
-            unmet.push(Unmet::Constrained);
+            unmet.push(UnmetCondition::Constrained);
         }
         if !model.quaternions.is_empty() {
-            unmet.push(Unmet::Turned);
+            unmet.push(UnmetCondition::Quaternion);
         }
         let name = |i: usize| model.coordinates[i].name.to_string();
         let mass = (0..n).map(|i| {
@@ -153,7 +163,7 @@ impl<'d> Brachistochronic<'d> {
         let slope = slope.collect();
         let guides = equations.sliding.iter();
         let guides = guides
-            .filter_map(|sliding| guided(model, sliding, [of_place, of_motion], &mut unmet))
+            .filter_map(|sliding| sliding_guide(model, sliding, [of_place, of_motion], &mut unmet))
             .collect();
         // The matrix is symmetric, and each entry is reported once.
         let mut told = Vec::new();
@@ -174,20 +184,20 @@ impl<'d> Brachistochronic<'d> {
     }
 }
 
-fn guided<'d>(
+fn sliding_guide<'d>(
     model: &Model<'d>,
     sliding: &SlidingEquation<'d>,
-    [of_place, of_motion]: [Reach; 2],
-    unmet: &mut Vec<Unmet>,
-) -> Option<Guided<'d>> {
+    [of_place, of_motion]: [Dependence; 2],
+    unmet: &mut Vec<UnmetCondition>,
+) -> Option<SlidingGuide<'d>> {
     let name = &sliding.name;
     let [normal] = &sliding.reactions[..] else {
-        unmet.push(Unmet::Presses {
+        unmet.push(UnmetCondition::SpatialGuide {
             guide: name.clone(),
         });
         return None;
     };
-    let mut of = |value: Expr<'d>, what: &str, reach: Reach| {
+    let mut of = |value: Expr<'d>, what: &str, reach: Dependence| {
         checked(model, value, &format!("{what} of `{name}`"), reach, unmet)
     };
     let mut each = |list: &[Expr<'d>], what: &str| -> Vec<Expr<'d>> {
@@ -204,12 +214,12 @@ fn guided<'d>(
     let moving = model.coordinates.iter().zip(&sliding.row);
     let moving = model.dag.sum(moving.map(|(c, &row)| row * c.v));
     if identity::equal(sliding.slip, moving) != Some(true) {
-        unmet.push(Unmet::Varies {
-            what: format!("the slip of `{name}` while the machine is at rest"),
-            with: "t".to_owned(),
+        unmet.push(UnmetCondition::Varies {
+            coefficient: format!("the slip of `{name}` while the machine is at rest"),
+            variable: "t".to_owned(),
         });
     }
-    Some(Guided {
+    Some(SlidingGuide {
         name: name.clone(),
         along,
         load,
@@ -221,7 +231,7 @@ fn guided<'d>(
 
 /// The variables that a coefficient may depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Reach {
+enum Dependence {
     Parameters,
     Coordinates,
     Rates,
@@ -232,8 +242,8 @@ fn checked<'d>(
     model: &Model<'d>,
     value: Expr<'d>,
     what: &str,
-    reach: Reach,
-    unmet: &mut Vec<Unmet>,
+    reach: Dependence,
+    unmet: &mut Vec<UnmetCondition>,
 ) -> Expr<'d> {
     if let Some(settled) = identity::as_function_of_parameters(value) {
         return settled;
@@ -251,15 +261,15 @@ fn checked<'d>(
     let inputs = model.inputs.iter();
     let inputs = inputs.map(|input| (input.symbol, input.name.to_string()));
     let named = coordinates
-        .filter(|_| reach < Reach::Coordinates)
-        .chain(rates.filter(|_| reach < Reach::Rates))
+        .filter(|_| reach < Dependence::Coordinates)
+        .chain(rates.filter(|_| reach < Dependence::Rates))
         .chain(inputs)
         .chain([(model.time, "t".to_owned())]);
     let found = named.into_iter().find(|(symbol, _)| changes(symbol));
-    if found.is_some() || reach == Reach::Parameters {
-        unmet.push(Unmet::Varies {
-            what: what.to_owned(),
-            with: found.map_or_else(|| "the motion".to_owned(), |(_, name)| name),
+    if found.is_some() || reach == Dependence::Parameters {
+        unmet.push(UnmetCondition::Varies {
+            coefficient: what.to_owned(),
+            variable: found.map_or_else(|| "the motion".to_owned(), |(_, name)| name),
         });
     }
     value

@@ -38,7 +38,7 @@ use super::guide;
 use super::kinematics::{Variables, gradient};
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
-use lagrangian_spec::model::circles::planar_turn;
+use lagrangian_spec::model::circles::rotation_angle;
 use lagrangian_spec::model::element::{Contribution, Element, Energy, Load, Sliding};
 use lagrangian_spec::model::{Inertia, Model, Place, PoseId, Rotation, Space};
 use lagrangian_spec::source::Span;
@@ -49,17 +49,17 @@ const TRIALS: u64 = 256;
 
 /// The numbers of points that are tried for forces without a value at the first point: in the prime
 /// field, and then, for those without values there, in ordinary numbers.
-const TRIALS_OF_ACTIONS: [u64; 2] = [16, 4];
+const FORCE_TRIALS: [u64; 2] = [16, 4];
 
 /// The largest number of multiplications for testing (E38), if nothing is zero: some seconds.
-const WORK: usize = 500_000_000;
+const WORK_LIMIT: usize = 500_000_000;
 
-/// The largest number of multiplications for finding the body to blame.
-const WORK_OF_BLAME: usize = 100_000_000;
+/// The largest number of multiplications for finding the bodies that the spec does not connect.
+const BODY_SEARCH_WORK_LIMIT: usize = 100_000_000;
 
 /// Ordinary numbers count as zero below this, relative to the largest of their kind. They replace
 /// the prime field only if that has no values.
-const CLEAR: f64 = 1e-9;
+const ZERO_TOLERANCE: f64 = 1e-9;
 
 /// The bodies that the guides of a machine carry, and the bodies on which forces on its coordinates act.
 ///
@@ -79,9 +79,9 @@ pub struct Carrying {
     /// moves other bodies too in a way that forces on the carried ones alone cannot, it pushes through a tie
     /// whose pull across the guide is unknown, and the reaction is undetermined while a force acts on that
     /// coordinate. None if (E38) does not hold.
-    pub pushed_by: Vec<Option<Vec<usize>>>,
-    /// For each guide, those among `pushed_by` for which the reaction is undetermined.
-    unsaid: Vec<Vec<usize>>,
+    pub coordinates_along: Vec<Option<Vec<usize>>>,
+    /// For each guide, those among `coordinates_along` for which the reaction is undetermined.
+    undetermined: Vec<Vec<usize>>,
 }
 
 impl Carrying {
@@ -94,20 +94,20 @@ impl Carrying {
 
     /// The coordinates on which a force would push what a guide carries through a tie whose pull
     /// across the guide the spec does not determine.
-    pub fn unsaid(&self, guide: usize) -> &[usize] {
-        &self.unsaid[guide]
+    pub fn undetermined(&self, guide: usize) -> &[usize] {
+        &self.undetermined[guide]
     }
 }
 
 /// Reports for every guide what leaves its reaction undetermined. Returns true if anything does.
-pub(super) fn refuse_untied(model: &Model<'_>, report: &mut Report) -> bool {
-    let mut looked_at = Vec::new();
+pub(super) fn refuse_undetermined_reactions(model: &Model<'_>, report: &mut Report) -> bool {
+    let mut tested = Vec::new();
     let mut found = Motion::<Residue>::of(model)
-        .map_or_else(Vec::new, |motion| motion.refused(model, &mut looked_at));
+        .map_or_else(Vec::new, |motion| motion.errors(model, &mut tested));
     // Ordinary numbers are used if the prime field has no values for the motion, or for some of the forces.
-    if found.is_empty() && (looked_at.is_empty() || looked_at.contains(&false)) {
+    if found.is_empty() && (tested.is_empty() || tested.contains(&false)) {
         found = Motion::<f64>::of(model)
-            .map_or_else(Vec::new, |motion| motion.refused(model, &mut looked_at));
+            .map_or_else(Vec::new, |motion| motion.errors(model, &mut tested));
     }
     let refused = !found.is_empty();
     found.into_iter().for_each(|found| report.push(found));
@@ -117,34 +117,34 @@ pub(super) fn refuse_untied(model: &Model<'_>, report: &mut Report) -> bool {
 /// Numbers in which (E38) is tested.
 trait Number: Scalar {
     /// The number of points that are tried for forces.
-    const TRIALS_OF_ACTIONS: u64;
+    const FORCE_TRIALS: u64;
     /// A value for a symbol.
     fn random(point: u64, symbol: Symbol) -> Self;
     /// Its magnitude, or 0 if it counts as zero beside numbers of this size.
-    fn size_beside(self, size: f64) -> f64;
+    fn size_relative_to(self, size: f64) -> f64;
 }
 
 impl Number for Residue {
-    const TRIALS_OF_ACTIONS: u64 = TRIALS_OF_ACTIONS[0];
+    const FORCE_TRIALS: u64 = FORCE_TRIALS[0];
 
     fn random(point: u64, symbol: Symbol) -> Residue {
-        identity::random(point, symbol)
+        identity::random_value(point, symbol)
     }
 
-    fn size_beside(self, _: f64) -> f64 {
+    fn size_relative_to(self, _: f64) -> f64 {
         f64::from(self != Residue::ZERO)
     }
 }
 
 impl Number for f64 {
-    const TRIALS_OF_ACTIONS: u64 = TRIALS_OF_ACTIONS[1];
+    const FORCE_TRIALS: u64 = FORCE_TRIALS[1];
 
     fn random(point: u64, symbol: Symbol) -> f64 {
-        identity::number(point as u32 + 1, symbol)
+        identity::sample_value(point as u32 + 1, symbol)
     }
 
-    fn size_beside(self, size: f64) -> f64 {
-        if self.abs() > CLEAR * size {
+    fn size_relative_to(self, size: f64) -> f64 {
+        if self.abs() > ZERO_TOLERANCE * size {
             self.abs()
         } else {
             0.0
@@ -154,12 +154,12 @@ impl Number for f64 {
 
 /// A moving part: a body, or the frame that a guide is on, with its rows.
 struct Part {
-    what: What,
+    kind: PartKind,
     rows: std::ops::Range<usize>,
 }
 
 #[derive(Clone, Copy)]
-enum What {
+enum PartKind {
     Body(usize),
     /// The base on which the body of this guide slides.
     Base(usize),
@@ -175,7 +175,7 @@ struct Motion<T> {
     /// The normals of surfaces, unnormalized, as in the spec.
     normals: Vec<Option<Vec<T>>>,
     /// The guide of each contact: a surface has two contacts, one for each tangent.
-    numbers: Vec<usize>,
+    guide_of_contact: Vec<usize>,
     coordinates: usize,
     /// The number of components of a vector.
     dimension: usize,
@@ -185,12 +185,12 @@ struct Motion<T> {
 }
 
 /// A displacement along a guide as a motion of the machine: the coefficient of each column, minus the displacement itself.
-struct Along<T>(Vec<T>);
+struct DisplacementAlongGuide<T>(Vec<T>);
 
-impl<T: Scalar> Along<T> {
+impl<T: Scalar> DisplacementAlongGuide<T> {
     /// The difference between the change of an expression by the displacement along the guide and
     /// its change by the motion of the machine, given its derivatives.
-    fn amiss(&self, derivatives: impl Iterator<Item = T>) -> T {
+    fn mismatch(&self, derivatives: impl Iterator<Item = T>) -> T {
         let pairs = self.0.iter().zip(derivatives);
         pairs.fold(T::ZERO, |sum, (&c, x)| sum + c * x)
     }
@@ -198,13 +198,13 @@ impl<T: Scalar> Along<T> {
 
 /// The positions of the guides.
 #[derive(Clone, Copy, PartialEq)]
-enum Guides {
+enum GuideDisplacements {
     /// At zero.
-    Shut,
+    Zero,
     /// At arbitrary displacements. Whatever moves off with a body moves by the displacement itself, so
     /// (E38) holds with the same `c` and `α`. A force between two points shows that it depends on both,
-    /// even if it does no work while the guides are shut, like a spring straight across one.
-    Ajar,
+    /// even if it does no work while the guides are at zero, like a spring straight across one.
+    Arbitrary,
 }
 
 /// The machine with relaxed guides, and the values of its symbols at a point.
@@ -224,10 +224,10 @@ impl<'m, 'd> Relaxed<'m, 'd> {
         })
     }
 
-    /// The value of a symbol with all guides shut, or ajar.
-    fn value<T: Number>(&self, (point, guides): (u64, Guides), symbol: Symbol) -> T {
+    /// The value of a symbol with all guides at zero, or displaced.
+    fn value<T: Number>(&self, (point, guides): (u64, GuideDisplacements), symbol: Symbol) -> T {
         let open = |symbols: &[Symbol]| symbols[self.coordinates..].contains(&symbol);
-        if guides == Guides::Shut && (open(&self.x.q) || open(&self.x.v)) {
+        if guides == GuideDisplacements::Zero && (open(&self.x.q) || open(&self.x.v)) {
             T::ZERO
         } else {
             T::random(point, symbol)
@@ -238,7 +238,7 @@ impl<'m, 'd> Relaxed<'m, 'd> {
     /// list for each column.
     fn derivatives<T: Number>(
         &self,
-        point: (u64, Guides),
+        point: (u64, GuideDisplacements),
         expressions: &[Expr<'d>],
         by: &[Symbol],
     ) -> Vec<Vec<T>> {
@@ -258,16 +258,24 @@ impl<'m, 'd> Relaxed<'m, 'd> {
 }
 
 impl Relaxed<'_, '_> {
-    /// The guides along which (E38) also holds if they are ajar: bodies that are not built from frames
+    /// The guides along which (E38) also holds if the guides are displaced: bodies that are not built from frames
     /// and points alone may move off by more than the displacement.
-    fn hold_ajar<T: Number>(&self, motion: &Motion<T>, alongs: &[(usize, Along<T>)]) -> Vec<usize> {
+    fn guides_that_may_be_displaced<T: Number>(
+        &self,
+        motion: &Motion<T>,
+        displacements: &[(usize, DisplacementAlongGuide<T>)],
+    ) -> Vec<usize> {
         let (_, places) = parts(self.model);
-        let columns = self.derivatives::<T>((motion.point, Guides::Ajar), &places, &self.x.q);
-        let is_met = |along: &Along<T>, row: usize| {
-            let amiss = along.amiss(columns.iter().map(|column| column[row]));
-            amiss.is_finite() && amiss.size_beside(motion.size) == 0.0
+        let columns = self.derivatives::<T>(
+            (motion.point, GuideDisplacements::Arbitrary),
+            &places,
+            &self.x.q,
+        );
+        let is_met = |along: &DisplacementAlongGuide<T>, row: usize| {
+            let mismatch = along.mismatch(columns.iter().map(|column| column[row]));
+            mismatch.is_finite() && mismatch.size_relative_to(motion.size) == 0.0
         };
-        let hold = alongs
+        let hold = displacements
             .iter()
             .filter(|(_, along)| (0..places.len()).all(|row| is_met(along, row)));
         hold.map(|(guide, _)| *guide).collect()
@@ -276,11 +284,14 @@ impl Relaxed<'_, '_> {
 
 impl<T: Number> Motion<T> {
     fn of(model: &Model<'_>) -> Option<Motion<T>> {
-        Motion::among(model, 0..TRIALS)
+        Motion::at_first_valid_point(model, 0..TRIALS)
     }
 
     /// The motion at the first of some points where everything has a value.
-    fn among(model: &Model<'_>, mut points: std::ops::Range<u64>) -> Option<Motion<T>> {
+    fn at_first_valid_point(
+        model: &Model<'_>,
+        mut points: std::ops::Range<u64>,
+    ) -> Option<Motion<T>> {
         if model.sliding().is_empty() {
             return None;
         }
@@ -299,21 +310,21 @@ impl<T: Number> Motion<T> {
         let all: Vec<Expr<'_>> = all.copied().collect();
         let values = |point| {
             evaluate(model.dag, &all, |s| {
-                relaxed.value::<T>((point, Guides::Shut), s)
+                relaxed.value::<T>((point, GuideDisplacements::Zero), s)
             })
         };
         let (point, values) = points
             .by_ref()
             .map(|point| (point, values(point)))
             .find(|(_, values)| values.iter().all(|x| x.is_finite()))?;
-        let shut = (point, Guides::Shut);
-        let columns = relaxed.derivatives::<T>(shut, &expressions, &relaxed.x.q);
+        let at_zero = (point, GuideDisplacements::Zero);
+        let columns = relaxed.derivatives::<T>(at_zero, &expressions, &relaxed.x.q);
         let entries = columns.iter().flatten();
-        let size = entries.map(|x| x.size_beside(0.0)).fold(0.0, f64::max);
+        let size = entries.map(|x| x.size_relative_to(0.0)).fold(0.0, f64::max);
         Some(Motion {
             parts,
             columns,
-            numbers: guide::guides_of(model),
+            guide_of_contact: guide::guides_of(model),
             normals: {
                 let of_surfaces = &values[expressions.len() + directions.len()..];
                 let mut of_surfaces = of_surfaces.chunks_exact(model.space.dimension());
@@ -333,14 +344,14 @@ impl<T: Number> Motion<T> {
     }
 
     /// The columns of the displacements of a guide, which are the same for both tangents of a surface.
-    fn own(&self, guide: usize) -> Vec<usize> {
-        let first = self.coordinates + self.dimension * self.numbers[guide];
+    fn columns_of(&self, guide: usize) -> Vec<usize> {
+        let first = self.coordinates + self.dimension * self.guide_of_contact[guide];
         (first..first + self.dimension).collect()
     }
 
     /// A combination of the displacements of a guide.
     fn displaced(&self, guide: usize, by: &[T], row: usize) -> T {
-        let own = self.own(guide).into_iter().zip(by);
+        let own = self.columns_of(guide).into_iter().zip(by);
         own.map(|(column, &by)| by * self.columns[column][row])
             .fold(T::ZERO, |sum, term| sum + term)
     }
@@ -362,12 +373,14 @@ impl<T: Number> Motion<T> {
     /// Whether a pull has a component across a guide.
     fn is_across(&self, guide: usize, pull: &[T]) -> bool {
         let across = self.across(guide);
-        across.iter().any(|n| dot(n, pull).size_beside(1.0) != 0.0)
+        across
+            .iter()
+            .any(|n| dot(n, pull).size_relative_to(1.0) != 0.0)
     }
 
     /// The displacement along a guide as a motion of the machine with guides that may open,
     /// compared in some rows; none if it is not such a motion.
-    fn along(&self, guide: usize, rows: &[usize]) -> Option<Along<T>> {
+    fn along(&self, guide: usize, rows: &[usize]) -> Option<DisplacementAlongGuide<T>> {
         let e = &self.directions[guide];
         let target: Vec<T> = rows
             .iter()
@@ -387,7 +400,7 @@ impl<T: Number> Motion<T> {
             let opened = |&row: &usize| self.displaced(*other, normal, row);
             columns.push(rows.iter().map(opened).collect());
         }
-        let solved = match self.by_one(&columns, &target) {
+        let solved = match self.by_single_coordinate(&columns, &target) {
             Some(solved) => solved,
             None => combination(columns, target, self.size)?,
         };
@@ -395,19 +408,19 @@ impl<T: Number> Motion<T> {
         let mut all = solved[..self.coordinates].to_vec();
         all.resize(self.columns.len(), T::ZERO);
         for ((other, normal), &alpha) in normals.iter().zip(&solved[self.coordinates..]) {
-            for (column, &n) in self.own(*other).into_iter().zip(normal) {
+            for (column, &n) in self.columns_of(*other).into_iter().zip(normal) {
                 all[column] = all[column] + alpha * n;
             }
         }
-        for (column, &e) in self.own(guide).into_iter().zip(e) {
+        for (column, &e) in self.columns_of(guide).into_iter().zip(e) {
             all[column] = all[column] - e;
         }
-        Some(Along(all))
+        Some(DisplacementAlongGuide(all))
     }
 
     /// The common case: the displacement is that of a single coordinate.
-    fn by_one(&self, columns: &[Vec<T>], target: &[T]) -> Option<Vec<T>> {
-        let is_zero = |x: T| x.size_beside(self.size) == 0.0;
+    fn by_single_coordinate(&self, columns: &[Vec<T>], target: &[T]) -> Option<Vec<T>> {
+        let is_zero = |x: T| x.size_relative_to(self.size) == 0.0;
         let row = target.iter().position(|&x| !is_zero(x))?;
         let fits = |column: &Vec<T>| {
             if is_zero(column[row]) {
@@ -433,15 +446,15 @@ impl<T: Number> Motion<T> {
     fn moves(&self, part: &Part, columns: &[usize]) -> bool {
         columns.iter().any(|&column| {
             let mut rows = self.columns[column][part.rows.clone()].iter();
-            rows.any(|x| x.size_beside(self.size) != 0.0)
+            rows.any(|x| x.size_relative_to(self.size) != 0.0)
         })
     }
 
     fn bodies_moved_by(&self, columns: &[usize]) -> Vec<usize> {
         let moving = self.parts.iter().filter(|part| self.moves(part, columns));
-        let bodies = moving.filter_map(|part| match part.what {
-            What::Body(body) => Some(body),
-            What::Base(_) => None,
+        let bodies = moving.filter_map(|part| match part.kind {
+            PartKind::Body(body) => Some(body),
+            PartKind::Base(_) => None,
         });
         bodies.collect()
     }
@@ -455,32 +468,32 @@ impl<T: Number> Motion<T> {
     fn carrying(&self, model: &Model<'_>) -> Carrying {
         let guides = 0..model.sliding().len();
         let rows = self.rows(|_| true);
-        let is_in = |x: T| x.size_beside(self.size) != 0.0;
+        let is_in = |x: T| x.size_relative_to(self.size) != 0.0;
         Carrying {
             carried: guides
                 .clone()
-                .map(|k| self.bodies_moved_by(&self.own(k)))
+                .map(|k| self.bodies_moved_by(&self.columns_of(k)))
                 .collect(),
             moved: (0..self.coordinates)
                 .map(|i| self.bodies_moved_by(&[i]))
                 .collect(),
-            pushed_by: guides
+            coordinates_along: guides
                 .clone()
                 .map(|k| {
-                    let Along(along) = self.along(k, &rows)?;
+                    let DisplacementAlongGuide(along) = self.along(k, &rows)?;
                     Some((0..self.coordinates).filter(|&i| is_in(along[i])).collect())
                 })
                 .collect(),
-            unsaid: guides
+            undetermined: guides
                 .map(|k| {
                     let along = self.along(k, &rows);
-                    let unsaid = |i: &usize| {
+                    let undetermined = |i: &usize| {
                         let mut forces = vec![T::ZERO; self.coordinates];
                         forces[*i] = T::ONE;
-                        let unsaid = |along| self.is_unsaid(k, along, &forces);
-                        along.as_ref().is_some_and(unsaid)
+                        let undetermined = |along| self.is_undetermined(k, along, &forces);
+                        along.as_ref().is_some_and(undetermined)
                     };
-                    (0..self.coordinates).filter(unsaid).collect()
+                    (0..self.coordinates).filter(undetermined).collect()
                 })
                 .collect(),
         }
@@ -490,12 +503,17 @@ impl<T: Number> Motion<T> {
     /// across the guide; `along` gives the coordinates by which it moves. This is so if such a coordinate
     /// moves nothing that is carried, or if it moves other bodies too and the forces are not equivalent
     /// to forces on the carried bodies alone, so that an unknown part of them acts on the others.
-    fn is_unsaid(&self, guide: usize, along: &Along<T>, forces: &[T]) -> bool {
-        let carried = self.bodies_moved_by(&self.own(guide));
+    fn is_undetermined(
+        &self,
+        guide: usize,
+        along: &DisplacementAlongGuide<T>,
+        forces: &[T],
+    ) -> bool {
+        let carried = self.bodies_moved_by(&self.columns_of(guide));
         let is_carried = |body: &usize| carried.contains(body);
-        let is_in = |x: T| x.size_beside(self.size) != 0.0;
+        let is_in = |x: T| x.size_relative_to(self.size) != 0.0;
         // Scaled to the size of the entries of the matrix.
-        let sizes = forces.iter().map(|x| x.size_beside(0.0));
+        let sizes = forces.iter().map(|x| x.size_relative_to(0.0));
         let scale = T::from_f64(self.size / sizes.fold(f64::MIN_POSITIVE, f64::max));
         let forces: Vec<T> = forces.iter().map(|&x| scale * x).collect();
         let mut moves_others = false;
@@ -510,9 +528,9 @@ impl<T: Number> Motion<T> {
             return false;
         }
         // Forces on the carried bodies are combinations of the derivatives of their positions.
-        let rows = self.rows(|k| match self.parts[k].what {
-            What::Body(body) => carried.contains(&body),
-            What::Base(_) => false,
+        let rows = self.rows(|k| match self.parts[k].kind {
+            PartKind::Body(body) => carried.contains(&body),
+            PartKind::Base(_) => false,
         });
         let places = rows.iter().map(|&row| {
             let columns = self.columns[..self.coordinates].iter();
@@ -521,22 +539,22 @@ impl<T: Number> Motion<T> {
         combination(places.collect(), forces, self.size).is_none()
     }
 
-    /// A message for each thing that leaves a reaction undetermined. `looked_at` records which forces
+    /// A message for each thing that leaves a reaction undetermined. `tested` records which forces
     /// were tested; those without a value at any point were not.
-    fn refused(&self, model: &Model<'_>, looked_at: &mut Vec<bool>) -> Vec<Diagnostic> {
+    fn errors(&self, model: &Model<'_>, tested: &mut Vec<bool>) -> Vec<Diagnostic> {
         let mut found = Vec::new();
         let Some(relaxed) = Relaxed::of(model) else {
             return found;
         };
         let rows = self.rows(|_| true);
-        let mut alongs = Vec::new();
+        let mut displacements = Vec::new();
         for (guide, sliding) in model.sliding().into_iter().enumerate() {
             match self.along(guide, &rows) {
-                Some(along) => alongs.push((guide, along)),
-                None if self.work() > WORK => {
+                Some(along) => displacements.push((guide, along)),
+                None if self.work() > WORK_LIMIT => {
                     let message = format!(
                         "what the guide `{}` carries cannot be determined: there are too many bodies",
-                        sliding.said()
+                        sliding.name_in_spec()
                     );
                     found.push(Diagnostic::new(Code::TooLarge, sliding.span, message).help(
                         "it can be determined if everything that moves with the guided body is built on its frame",
@@ -544,43 +562,45 @@ impl<T: Number> Motion<T> {
                 }
                 // For a surface it was reported with the first tangent.
                 None if sliding.is_second() && !found.is_empty() => {}
-                None => found.extend(self.blame(model, guide, sliding)),
+                None => found.extend(self.unconnected_parts(model, guide, sliding)),
             }
         }
-        // The remaining tests may pass once the bodies are tied, so they wait.
+        // The remaining tests may pass once the bodies are connected, so they wait.
         if found.is_empty() {
-            found = self.loose(model);
+            found = self.free_bodies(model);
         }
         if !found.is_empty() {
             return found;
         }
-        let written = |motion: &Self, alongs: &[(usize, Along<T>)], looked_at: &mut Vec<bool>| {
-            let written = Written {
+        let written = |motion: &Self,
+                       displacements: &[(usize, DisplacementAlongGuide<T>)],
+                       tested: &mut Vec<bool>| {
+            let written = CoordinateTests {
                 motion,
                 relaxed: &relaxed,
                 model,
-                alongs,
-                ajar: relaxed.hold_ajar(motion, alongs),
+                displacements,
+                displaceable: relaxed.guides_that_may_be_displaced(motion, displacements),
             };
-            written.refused(looked_at)
+            written.errors(tested)
         };
-        found = written(self, &alongs, looked_at);
+        found = written(self, &displacements, tested);
         // A distance has a value at every second point.
         let mut next = self.point + 1;
-        for _ in 0..T::TRIALS_OF_ACTIONS {
-            if !found.is_empty() || !looked_at.contains(&false) {
+        for _ in 0..T::FORCE_TRIALS {
+            if !found.is_empty() || !tested.contains(&false) {
                 break;
             }
-            let Some(motion) = Motion::<T>::among(model, next..next + TRIALS) else {
+            let Some(motion) = Motion::<T>::at_first_valid_point(model, next..next + TRIALS) else {
                 break;
             };
             next = motion.point + 1;
-            let alongs: Option<Vec<(usize, Along<T>)>> = alongs
+            let displacements: Option<Vec<(usize, DisplacementAlongGuide<T>)>> = displacements
                 .iter()
                 .map(|(guide, _)| Some((*guide, motion.along(*guide, &rows)?)))
                 .collect();
-            if let Some(alongs) = alongs {
-                found = written(&motion, &alongs, looked_at);
+            if let Some(displacements) = displacements {
+                found = written(&motion, &displacements, tested);
             }
         }
         found
@@ -588,21 +608,24 @@ impl<T: Number> Motion<T> {
 
     /// Bodies that are free along a guide, have positions expressed by its coordinate, and are held
     /// across it by something that the spec does not name.
-    fn loose(&self, model: &Model<'_>) -> Vec<Diagnostic> {
+    fn free_bodies(&self, model: &Model<'_>) -> Vec<Diagnostic> {
         let sliding = model.sliding();
         let guides: Vec<usize> = (0..sliding.len()).collect();
-        let slides: Vec<Vec<bool>> = guides.iter().map(|&k| slides_by(model, k)).collect();
-        let is_carried = |part: &Part, guide: usize| self.moves(part, &self.own(guide));
+        let slides: Vec<Vec<bool>> = guides
+            .iter()
+            .map(|&k| coordinates_in_slip(model, k))
+            .collect();
+        let is_carried = |part: &Part, guide: usize| self.moves(part, &self.columns_of(guide));
         let base_moves = |guide: usize, i: usize| {
-            let base = self.parts.iter().find(|part| match part.what {
-                What::Body(body) => sliding[guide].on == Place::Body(body),
-                What::Base(of) => of == guide,
+            let base = self.parts.iter().find(|part| match part.kind {
+                PartKind::Body(body) => sliding[guide].on == Place::Body(body),
+                PartKind::Base(of) => of == guide,
             });
             base.is_some_and(|base| self.moves(base, &[i]))
         };
         let mut found: Vec<(usize, usize)> = Vec::new();
         for (index, part) in self.parts.iter().enumerate() {
-            let What::Body(body) = part.what else {
+            let PartKind::Body(body) = part.kind else {
                 continue;
             };
             if is_a_base(model, body) {
@@ -627,8 +650,9 @@ impl<T: Number> Motion<T> {
             !self.is_free_across(guide, &[part]) && !self.is_free_across(guide, &all)
         });
         found.dedup_by_key(|(part, _)| *part);
-        let untied = |(part, guide): (usize, usize)| untied(model, guide, self.parts[part].what);
-        found.into_iter().map(untied).collect()
+        let to_diagnostic =
+            |(part, guide): (usize, usize)| unconnected_part(model, guide, self.parts[part].kind);
+        found.into_iter().map(to_diagnostic).collect()
     }
 
     /// Whether some parts can be moved across a guide as one while everything else rests and no guide opens.
@@ -652,34 +676,39 @@ impl<T: Number> Motion<T> {
     }
 
     /// The bodies that the spec does not tie to what a guide carries: without them (E38) holds.
-    fn blame(&self, model: &Model<'_>, guide: usize, sliding: &Sliding<'_>) -> Vec<Diagnostic> {
+    fn unconnected_parts(
+        &self,
+        model: &Model<'_>,
+        guide: usize,
+        sliding: &Sliding<'_>,
+    ) -> Vec<Diagnostic> {
         let body = &model.bodies[sliding.body].name;
-        let name = sliding.said();
-        let own = self.own(guide);
-        let is_own = |part: &Part| matches!(part.what, What::Body(b) if b == sliding.body);
-        let mut blamed: Vec<bool> = self.parts.iter().map(|part| !is_own(part)).collect();
-        let is_right = |blamed: &[bool]| {
-            let rows = self.rows(|k| !blamed[k]);
+        let name = sliding.name_in_spec();
+        let own = self.columns_of(guide);
+        let is_own = |part: &Part| matches!(part.kind, PartKind::Body(b) if b == sliding.body);
+        let mut unconnected: Vec<bool> = self.parts.iter().map(|part| !is_own(part)).collect();
+        let is_right = |unconnected: &[bool]| {
+            let rows = self.rows(|k| !unconnected[k]);
             self.along(guide, &rows).is_some()
         };
-        let affordable = self.work().saturating_mul(self.parts.len()) <= WORK_OF_BLAME;
-        if affordable && is_right(&blamed) {
-            // Parts that the guide carries are blamed last.
+        let affordable = self.work().saturating_mul(self.parts.len()) <= BODY_SEARCH_WORK_LIMIT;
+        if affordable && is_right(&unconnected) {
+            // Parts that the guide carries are named last.
             let mut order: Vec<usize> = (0..self.parts.len()).collect();
             order.sort_by_key(|&k| !self.moves(&self.parts[k], &own));
             for k in order {
-                let before = std::mem::replace(&mut blamed[k], false);
-                if before && !is_right(&blamed) {
-                    blamed[k] = true;
+                let before = std::mem::replace(&mut unconnected[k], false);
+                if before && !is_right(&unconnected) {
+                    unconnected[k] = true;
                 }
             }
         } else {
-            blamed.fill(false);
+            unconnected.fill(false);
         }
-        let pairs = self.parts.iter().zip(&blamed);
+        let pairs = self.parts.iter().zip(&unconnected);
         let found: Vec<Diagnostic> = pairs
-            .filter(|(_, blamed)| **blamed)
-            .map(|(part, _)| untied(model, guide, part.what))
+            .filter(|(_, unconnected)| **unconnected)
+            .map(|(part, _)| unconnected_part(model, guide, part.kind))
             .collect();
         if !found.is_empty() {
             return found;
@@ -693,26 +722,26 @@ impl<T: Number> Motion<T> {
 }
 
 /// The message for a part that moves with the body of a guide without being tied to it.
-fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
+fn unconnected_part(model: &Model<'_>, guide: usize, what: PartKind) -> Diagnostic {
     let sliding = model.sliding()[guide];
-    let (body, name) = (&model.bodies[sliding.body].name, sliding.said());
+    let (body, name) = (&model.bodies[sliding.body].name, sliding.name_in_spec());
     let message = |what: &str| {
         format!(
             "{what} moves with `{body}`, but the spec does not state what connects them: what the guide `{name}` carries is not determined"
         )
     };
     let diagnostic = match what {
-        What::Body(other) => {
+        PartKind::Body(other) => {
             let other = &model.bodies[other];
             let message = message(&format!("`{}`", other.name));
-            Diagnostic::new(Code::Untied, other.place, message).help(format!(
+            Diagnostic::new(Code::Untied, other.position_span, message).help(format!(
                 "build `{}` on the frame of `{body}`, so that the guide carries it; or give it coordinates of its own, and connect it by `constraints`",
                 other.name
             ))
         }
-        What::Base(other) => {
+        PartKind::Base(other) => {
             let other = model.sliding()[other];
-            let message = message(&format!("what `{}` slides on", other.said()));
+            let message = message(&format!("what `{}` slides on", other.name_in_spec()));
             Diagnostic::new(Code::Untied, other.span, message).help(format!(
                 "write `on: {body}`, or build that frame on the frame of `{body}`"
             ))
@@ -722,7 +751,7 @@ fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
 }
 
 /// The result of testing a force: nothing if it has no value, otherwise the error in it, if any.
-type Looked = Option<Option<Diagnostic>>;
+type TestResult = Option<Option<Diagnostic>>;
 
 /// The terms of a sum; an expression that is not a sum is its only term.
 fn addends(value: Expr<'_>) -> Vec<Expr<'_>> {
@@ -733,28 +762,28 @@ fn addends(value: Expr<'_>) -> Vec<Expr<'_>> {
 }
 
 /// Tests what is written in coordinates against the motion along the guides.
-struct Written<'s, 'm, 'd, T> {
+struct CoordinateTests<'s, 'm, 'd, T> {
     motion: &'s Motion<T>,
     relaxed: &'s Relaxed<'m, 'd>,
     model: &'m Model<'d>,
-    alongs: &'s [(usize, Along<T>)],
-    /// The guides along which (E38) also holds if they are ajar.
-    ajar: Vec<usize>,
+    displacements: &'s [(usize, DisplacementAlongGuide<T>)],
+    /// The guides along which (E38) also holds if the guides are displaced.
+    displaceable: Vec<usize>,
 }
 
-impl<'d, T: Number> Written<'_, '_, 'd, T> {
+impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
     /// The errors in everything that has values at this point and was not tested before.
-    fn refused(&self, looked_at: &mut Vec<bool>) -> Vec<Diagnostic> {
+    fn errors(&self, tested: &mut Vec<bool>) -> Vec<Diagnostic> {
         let mut found = Vec::new();
         let mut number = 0;
-        let mut look = |refused: &dyn Fn() -> Looked| {
-            if looked_at.len() <= number {
-                looked_at.push(false);
+        let mut test = |refused: &dyn Fn() -> TestResult| {
+            if tested.len() <= number {
+                tested.push(false);
             }
-            if !looked_at[number]
+            if !tested[number]
                 && let Some(refused) = refused()
             {
-                looked_at[number] = true;
+                tested[number] = true;
                 found.extend(refused);
             }
             number += 1;
@@ -762,26 +791,26 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         let relaxed = self.relaxed.model;
         let equations = constraints::constraints(relaxed);
         for (equation, span) in equations.iter().zip(constraints::spans(self.model)) {
-            look(&|| self.constraint(equation, span));
+            test(&|| self.constraint(equation, span));
         }
         for (element, one) in relaxed.contributions() {
-            self.look_at(element, one, &mut look);
+            self.test_element(element, one, &mut test);
         }
         found
     }
 
     /// Tests what an element contributes other than constraints.
-    fn look_at(
+    fn test_element(
         &self,
         element: &Element<'d>,
         contribution: &Contribution<'d>,
-        look: &mut impl FnMut(&dyn Fn() -> Looked),
+        test: &mut impl FnMut(&dyn Fn() -> TestResult),
     ) {
         let Element { name, span, .. } = element;
         let by_place = &self.relaxed.x.q;
         let what = format!("the {} `{name}`", element.section.noun);
         let mut acting = |expression, by, what: &str| {
-            look(&|| self.acting((expression, by), what, *span));
+            test(&|| self.force_of_expression((expression, by), what, *span));
         };
         match contribution {
             Contribution::Stored(Energy::Quadratic(of))
@@ -790,7 +819,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
                     acting(of.measure, by_place, &format!("the twist of `{name}`"))
                 } else {
                     let what = format!("the stretch of {what}");
-                    look(&|| self.stretch(of.measure, &what, *span));
+                    test(&|| self.stretch(of.measure, &what, *span));
                 }
             }
             Contribution::Stored(Energy::Given(value)) => {
@@ -802,7 +831,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
                 parts.for_each(|part| acting(part, &self.relaxed.x.v, &what));
             }
             Contribution::Load(Load::Point { at, force }) => {
-                look(&|| self.force(&what, (at, force), *span));
+                test(&|| self.force_at_point(&what, (at, force), *span));
             }
             Contribution::Load(Load::Coordinate { coordinate, .. }) => {
                 let on = self.relaxed.model.coordinates[*coordinate].q;
@@ -814,7 +843,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
                 if *torsional {
                     acting(*measure, by_place, &what)
                 } else {
-                    look(&|| self.stretch(*measure, &what, *span))
+                    test(&|| self.stretch(*measure, &what, *span))
                 }
             }
             // A torque acts on a body that is known to turn; the others act on bodies directly.
@@ -822,23 +851,28 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             | Contribution::Gravity(_)
             | Contribution::Constraint(_)
             | Contribution::Rolling(_)
-            | Contribution::OfStates(_)
-            | Contribution::Lost(_)
+            | Contribution::StateEnergy(_)
+            | Contribution::PowerLoss(_)
             | Contribution::Sliding(_) => {}
         }
     }
 
     fn is_zero(&self, x: T) -> bool {
-        x.size_beside(1.0) == 0.0
+        x.size_relative_to(1.0) == 0.0
     }
 
-    /// The derivatives of an expression with respect to all columns, with the guides shut; nothing if
+    /// The derivatives of an expression with respect to all columns, with the guides at zero; nothing if
     /// it has none.
-    fn slopes(&self, expression: Expr<'d>, by: &[Symbol]) -> Option<Vec<T>> {
-        self.slopes_where(Guides::Shut, expression, by)
+    fn derivatives(&self, expression: Expr<'d>, by: &[Symbol]) -> Option<Vec<T>> {
+        self.derivatives_at(GuideDisplacements::Zero, expression, by)
     }
 
-    fn slopes_where(&self, guides: Guides, expression: Expr<'d>, by: &[Symbol]) -> Option<Vec<T>> {
+    fn derivatives_at(
+        &self,
+        guides: GuideDisplacements,
+        expression: Expr<'d>,
+        by: &[Symbol],
+    ) -> Option<Vec<T>> {
         let of = |list: Vec<T>| list[0];
         let point = (self.motion.point, guides);
         let columns = self.relaxed.derivatives::<T>(point, &[expression], by);
@@ -847,35 +881,35 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
     }
 
     /// The guides along which an expression does not change as the bodies do, with the difference.
-    fn amiss<'w>(&'w self, slopes: &'w [T]) -> impl Iterator<Item = (usize, T)> + 'w {
-        self.alongs.iter().filter_map(|(guide, along)| {
-            let amiss = along.amiss(slopes.iter().copied());
-            (!self.is_zero(amiss)).then_some((*guide, amiss))
+    fn mismatches<'w>(&'w self, slopes: &'w [T]) -> impl Iterator<Item = (usize, T)> + 'w {
+        self.displacements.iter().filter_map(|(guide, along)| {
+            let mismatch = along.mismatch(slopes.iter().copied());
+            (!self.is_zero(mismatch)).then_some((*guide, mismatch))
         })
     }
 
     /// The first guide along which the force of an expression does not change as the bodies do and
-    /// acts across it on what is carried, or for which `unsaid` holds of its change along the guide.
-    fn first_unsaid(
+    /// acts across it on what is carried, or for which `undetermined` holds of its change along the guide.
+    fn first_undetermined(
         &self,
         expression: Expr<'d>,
         by: &[Symbol],
-        unsaid: impl Fn(&[T], usize, T) -> bool,
+        undetermined: impl Fn(&[T], usize, T) -> bool,
     ) -> Option<Option<usize>> {
-        let slopes = self.slopes(expression, by)?;
+        let slopes = self.derivatives(expression, by)?;
         let on_bodies = &slopes[self.motion.coordinates..];
         let depends_on_bodies = on_bodies.iter().any(|&pull| !self.is_zero(pull));
         let mut otherwise: Vec<usize> = Vec::new();
         if depends_on_bodies {
-            let ajar = self.slopes_where(Guides::Ajar, expression, by)?;
-            otherwise.extend(self.amiss(&slopes).map(|(guide, _)| guide));
-            let amiss = self.amiss(&ajar).map(|(guide, _)| guide);
-            otherwise.extend(amiss.filter(|guide| self.ajar.contains(guide)));
+            let displaced = self.derivatives_at(GuideDisplacements::Arbitrary, expression, by)?;
+            otherwise.extend(self.mismatches(&slopes).map(|(guide, _)| guide));
+            let mismatch = self.mismatches(&displaced).map(|(guide, _)| guide);
+            otherwise.extend(mismatch.filter(|guide| self.displaceable.contains(guide)));
         }
         let pulls_across = |&guide: &usize| {
             let mut pulls = on_bodies.chunks_exact(self.motion.dimension).enumerate();
             pulls.any(|(other, pull)| {
-                if other == self.motion.numbers[guide] {
+                if other == self.motion.guide_of_contact[guide] {
                     self.motion.is_across(guide, pull)
                 } else {
                     pull.iter().any(|&pull| !self.is_zero(pull))
@@ -884,8 +918,8 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         };
         let across = otherwise.into_iter().find(pulls_across);
         Some(across.or_else(|| {
-            let mut amiss = self.amiss(&slopes);
-            let found = amiss.find(|&(guide, amiss)| unsaid(&slopes, guide, amiss));
+            let mut mismatch = self.mismatches(&slopes);
+            let found = mismatch.find(|&(guide, mismatch)| undetermined(&slopes, guide, mismatch));
             found.map(|(guide, _)| guide)
         }))
     }
@@ -895,7 +929,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         let body = &self.model.bodies[sliding.body].name;
         let message = format!(
             "{what} moves with `{body}` but is not expressed by the position of `{body}`: its force across the guide `{}` is not determined",
-            sliding.said()
+            sliding.name_in_spec()
         );
         let diagnostic = Diagnostic::new(Code::Untied, span, message);
         diagnostic.help(help).note(sliding.span, "this guide")
@@ -903,13 +937,13 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
 
     /// Tests a constraint in coordinates. With constant coefficients it is a rope or a gear; with
     /// varying ones it is the geometry of something that pulls in a direction.
-    fn constraint(&self, equation: &ConstraintEquation<'d>, span: Span) -> Looked {
+    fn constraint(&self, equation: &ConstraintEquation<'d>, span: Span) -> TestResult {
         let x = &self.relaxed.x;
         let slopes = match equation.position {
-            Some(position) => self.slopes(position, &x.q),
-            None => self.slopes(equation.rate, &x.v),
+            Some(position) => self.derivatives(position, &x.q),
+            None => self.derivatives(equation.rate, &x.v),
         }?;
-        let Some((guide, _)) = self.amiss(&slopes).next() else {
+        let Some((guide, _)) = self.mismatches(&slopes).next() else {
             return Some(None);
         };
         let mut entries = equation.row.iter().filter(|entry| !entry.is_zero());
@@ -927,11 +961,12 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
 
     /// Tests a stretch in coordinates: along a spring that lies along the guide it grows by a metre
     /// for each metre of displacement.
-    fn stretch(&self, stretch: Expr<'d>, what: &str, span: Span) -> Looked {
-        let across = self.first_unsaid(stretch, &self.relaxed.x.q, |_, guide, amiss| {
-            let e = &self.motion.directions[guide];
-            !self.is_zero(amiss * amiss - dot(e, e))
-        })?;
+    fn stretch(&self, stretch: Expr<'d>, what: &str, span: Span) -> TestResult {
+        let across =
+            self.first_undetermined(stretch, &self.relaxed.x.q, |_, guide, mismatch| {
+                let e = &self.motion.directions[guide];
+                !self.is_zero(mismatch * mismatch - dot(e, e))
+            })?;
         let help = "give it `from` and `to`, points of bodies; or, if it acts only along the guide, give its energy under `potentials`";
         Some(across.map(|guide| self.diagnostic(guide, span, what, help)))
     }
@@ -940,33 +975,43 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
     /// coordinate on which a force acts. Written in coordinates it acts along the guides, and must act on
     /// what the guide carries directly, not through something else. A force between a body and a place in
     /// coordinates pulls on that place too, and what holds the place across the guide is unknown.
-    fn acting(&self, (expression, by): (Expr<'d>, &[Symbol]), what: &str, span: Span) -> Looked {
-        let unsaid = self.first_unsaid(expression, by, |slopes, guide, _| {
-            let along = self.alongs.iter().find(|(k, _)| *k == guide);
+    fn force_of_expression(
+        &self,
+        (expression, by): (Expr<'d>, &[Symbol]),
+        what: &str,
+        span: Span,
+    ) -> TestResult {
+        let undetermined = self.first_undetermined(expression, by, |slopes, guide, _| {
+            let along = self.displacements.iter().find(|(k, _)| *k == guide);
             let forces = &slopes[..self.motion.coordinates];
-            along.is_some_and(|(_, along)| self.motion.is_unsaid(guide, along, forces))
+            along.is_some_and(|(_, along)| self.motion.is_undetermined(guide, along, forces))
         })?;
         let help = "express it by positions of bodies; or build one body on the frame of the other, so that the guide carries what acts between them";
-        Some(unsaid.map(|guide| self.diagnostic(guide, span, what, help)))
+        Some(undetermined.map(|guide| self.diagnostic(guide, span, what, help)))
     }
 
     /// Tests a force at a point in coordinates, which must act along the guide.
-    fn force(&self, what: &str, (at, value): (&[Expr<'d>], &[Expr<'d>]), span: Span) -> Looked {
+    fn force_at_point(
+        &self,
+        what: &str,
+        (at, value): (&[Expr<'d>], &[Expr<'d>]),
+        span: Span,
+    ) -> TestResult {
         let slopes: Vec<Vec<T>> = at
             .iter()
-            .map(|&x| self.slopes(x, &self.relaxed.x.q))
+            .map(|&x| self.derivatives(x, &self.relaxed.x.q))
             .collect::<Option<_>>()?;
         let value = evaluate(self.model.dag, value, |symbol| {
             self.relaxed
-                .value::<T>((self.motion.point, Guides::Shut), symbol)
+                .value::<T>((self.motion.point, GuideDisplacements::Zero), symbol)
         });
         if !value.iter().all(|x: &T| x.is_finite()) {
             return None;
         }
-        let across = self.alongs.iter().find(|(guide, along)| {
+        let across = self.displacements.iter().find(|(guide, along)| {
             let moves = slopes
                 .iter()
-                .any(|slopes| !self.is_zero(along.amiss(slopes.iter().copied())));
+                .any(|slopes| !self.is_zero(along.mismatch(slopes.iter().copied())));
             moves && self.motion.is_across(*guide, &value)
         });
         let what = format!("the point of {what}");
@@ -977,11 +1022,17 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
 }
 
 /// For each coordinate whether its rate occurs in the slip of a guide.
-fn slides_by(model: &Model<'_>, guide: usize) -> Vec<bool> {
+fn coordinates_in_slip(model: &Model<'_>, guide: usize) -> Vec<bool> {
     let x = Variables::of(model);
     let sliding = model.sliding()[guide];
     let directions = guide::guide(model, sliding);
-    let slip = guide::relative(model, sliding, &directions, &mut x.coasting(model)).slip;
+    let slip = guide::relative(
+        model,
+        sliding,
+        &directions,
+        &mut x.without_acceleration(model),
+    )
+    .slip;
     let row = gradient(model.dag, slip, &x.v);
     row.into_iter()
         .map(|entry| identity::is_zero(entry) != Some(true))
@@ -1016,28 +1067,32 @@ fn parts<'d>(model: &Model<'d>) -> (Vec<Part>, Vec<Expr<'d>>) {
         let first = places.len();
         places.extend(place.iter().copied().chain(turned));
         let rows = first..places.len();
-        parts.push(Part { what, rows });
+        parts.push(Part { kind: what, rows });
     };
     for (index, body) in model.bodies.iter().enumerate() {
         let turned = match body.inertia {
             Inertia::Particle => Vec::new(),
-            Inertia::Planar(_) | Inertia::Tensor(_) => turned(model, body.rotation),
+            Inertia::Planar(_) | Inertia::Tensor(_) => orientation_components(model, body.rotation),
         };
-        add(What::Body(index), &body.at, turned);
+        add(PartKind::Body(index), &body.at, turned);
     }
     for (index, sliding) in model.sliding().into_iter().enumerate() {
         if let Place::Frame(pose) = sliding.on {
-            let turned = turned(model, Rotation::Frame(pose));
-            add(What::Base(index), &model.poses[pose.index()].origin, turned);
+            let turned = orientation_components(model, Rotation::Frame(pose));
+            add(
+                PartKind::Base(index),
+                &model.poses[pose.index()].origin,
+                turned,
+            );
         }
     }
     (parts, places)
 }
 
 /// The orientation: an angle in the plane; in space the axes.
-fn turned<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Vec<Expr<'d>> {
+fn orientation_components<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Vec<Expr<'d>> {
     match (model.space, rotation) {
-        (Space::Plane, rotation) => planar_turn(model, rotation).into_iter().collect(),
+        (Space::Plane, rotation) => rotation_angle(model, rotation).into_iter().collect(),
         (Space::Space, Rotation::Frame(pose)) => model.poses[pose.index()].axes.concat(),
         (Space::Space, Rotation::Angle(angle)) => vec![angle],
         (Space::Space, Rotation::Unspecified) => Vec::new(),
@@ -1054,7 +1109,7 @@ fn dot<T: Scalar>(u: &[T], v: &[T]) -> T {
 fn combination<T: Number>(columns: Vec<Vec<T>>, target: Vec<T>, size: f64) -> Option<Vec<T>> {
     let width = columns.len();
     let height = target.len();
-    if height.saturating_mul(width).saturating_mul(width) > WORK {
+    if height.saturating_mul(width).saturating_mul(width) > WORK_LIMIT {
         return None;
     }
     let mut rows: Vec<Vec<T>> = (0..height)
@@ -1066,7 +1121,7 @@ fn combination<T: Number>(columns: Vec<Vec<T>>, target: Vec<T>, size: f64) -> Op
     let mut pivots = Vec::new();
     for column in 0..width {
         let done = pivots.len();
-        let candidates = (done..height).map(|row| (row, rows[row][column].size_beside(size)));
+        let candidates = (done..height).map(|row| (row, rows[row][column].size_relative_to(size)));
         let most = candidates.fold(
             (done, 0.0),
             |most, next| if next.1 > most.1 { next } else { most },
@@ -1077,7 +1132,7 @@ fn combination<T: Number>(columns: Vec<Vec<T>>, target: Vec<T>, size: f64) -> Op
         rows.swap(done, most.0);
         let own = rows[done].clone();
         for (_, row) in rows.iter_mut().enumerate().filter(|(row, _)| *row != done) {
-            if row[column].size_beside(0.0) == 0.0 {
+            if row[column].size_relative_to(0.0) == 0.0 {
                 continue;
             }
             let factor = row[column] / own[column];
@@ -1087,7 +1142,7 @@ fn combination<T: Number>(columns: Vec<Vec<T>>, target: Vec<T>, size: f64) -> Op
         }
         pivots.push(column);
     }
-    let is_met = |row: &Vec<T>| row[width].size_beside(size) == 0.0;
+    let is_met = |row: &Vec<T>| row[width].size_relative_to(size) == 0.0;
     if !rows[pivots.len()..].iter().all(is_met) {
         return None;
     }

@@ -13,7 +13,9 @@
 
 use lagrangian_symbolic::{Dag, Expr, Stage};
 
-use super::kinematics::{Turning, Twist, Vector, add, apply_tensor, cross, others, vector};
+use super::kinematics::{
+    AccelerationMatrix, Twist, Vector, add, apply_tensor, cross, others, vector,
+};
 use lagrangian_spec::model::{Model, PoseId, Step};
 
 /// A part's inertia about the origin of a frame, along its axes:
@@ -29,7 +31,7 @@ pub(super) struct Composite<'d> {
 }
 
 impl<'d> Composite<'d> {
-    fn nothing(dag: &'d Dag) -> Composite<'d> {
+    fn zero(dag: &'d Dag) -> Composite<'d> {
         let zero = dag.zero();
         Composite {
             mass: zero,
@@ -42,7 +44,7 @@ impl<'d> Composite<'d> {
     pub fn of_body(mass: Expr<'d>, centre: &Vector<'d>, tensor: &[Expr<'d>; 6]) -> Composite<'d> {
         let at_centre = Composite {
             mass,
-            moment: Composite::nothing(mass.dag()).moment,
+            moment: Composite::zero(mass.dag()).moment,
             tensor: *tensor,
         };
         at_centre.shifted(centre)
@@ -61,14 +63,14 @@ impl<'d> Composite<'d> {
     }
 
     /// Whether its inertia depends on the motion of the origin.
-    pub fn moves(&self) -> bool {
+    pub fn depends_on_origin_motion(&self) -> bool {
         [self.mass]
             .into_iter()
             .chain(self.moment)
             .any(|x| !x.is_zero())
     }
 
-    pub fn is_nothing(&self) -> bool {
+    pub fn is_zero(&self) -> bool {
         self.components().all(|x| x.is_zero())
     }
 
@@ -109,7 +111,7 @@ impl<'d> Composite<'d> {
     fn split(&self, axis: usize) -> [Composite<'d>; 2] {
         let (next, last) = others(axis);
         let zero = self.mass.dag().zero();
-        let mut symmetric = Composite::nothing(zero.dag());
+        let mut symmetric = Composite::zero(zero.dag());
         let mut rest = *self;
         (symmetric.mass, rest.mass) = (self.mass, zero);
         (symmetric.moment[axis], rest.moment[axis]) = (self.moment[axis], zero);
@@ -136,10 +138,14 @@ impl<'d> Composite<'d> {
 
     /// Force and moment required by inertia, about the origin: `m a + W s` with
     /// `W s = α×s + ω×(ω×s)`, and `J α + ω×J ω + s×a`, eq. (E15).
-    pub fn demand(&self, turning: &Turning<'d>, a: &Vector<'d>) -> [Vector<'d>; 2] {
+    pub fn inertia_wrench(
+        &self,
+        turning: &AccelerationMatrix<'d>,
+        a: &Vector<'d>,
+    ) -> [Vector<'d>; 2] {
         let carried = turning.apply(&self.moment);
         let moment = cross(&self.moment, a);
-        let spun = turning.demand(&self.tensor);
+        let spun = turning.inertia_moment(&self.tensor);
         [
             [0, 1, 2].map(|k| self.mass * a[k] + carried[k]),
             add(&[&spun, &moment]),
@@ -166,11 +172,11 @@ impl<'d> Composite<'d> {
 /// The composites by pose: adds up bodies that are fixed together, and hands the part that is
 /// symmetric about a hinge on to its carrier, if that carries something else or is the ground, where
 /// the part is dropped.
-pub(super) fn gathered<'d>(
+pub(super) fn composites_by_pose<'d>(
     model: &Model<'d>,
     bodies: impl Iterator<Item = (PoseId, Composite<'d>)>,
 ) -> Vec<Composite<'d>> {
-    let mut composites = vec![Composite::nothing(model.dag); model.poses.len()];
+    let mut composites = vec![Composite::zero(model.dag); model.poses.len()];
     for (pose, composite) in bodies {
         composites[pose.index()] = composites[pose.index()].plus(&composite);
     }
@@ -183,7 +189,7 @@ pub(super) fn gathered<'d>(
         {
             let parent = pose.parent.index();
             composites[parent] = composites[parent].plus(&composites[index].shifted(&vector(r)));
-            composites[index] = Composite::nothing(model.dag);
+            composites[index] = Composite::zero(model.dag);
         }
     }
     for index in (1..composites.len()).rev() {
@@ -199,8 +205,8 @@ pub(super) fn gathered<'d>(
             shifts.push(r);
             carrier = model.poses[carrier.index()].parent;
         }
-        let takes = carrier == PoseId::GROUND || !composites[carrier.index()].is_nothing();
-        if takes && !composites[index].is_nothing() {
+        let takes = carrier == PoseId::GROUND || !composites[carrier.index()].is_zero();
+        if takes && !composites[index].is_zero() {
             let [symmetric, rest] = composites[index].split(*axis);
             let handed = shifts
                 .iter()
@@ -209,6 +215,6 @@ pub(super) fn gathered<'d>(
             composites[carrier.index()] = composites[carrier.index()].plus(&handed);
         }
     }
-    composites[PoseId::GROUND.index()] = Composite::nothing(model.dag);
+    composites[PoseId::GROUND.index()] = Composite::zero(model.dag);
     composites
 }

@@ -15,7 +15,7 @@ use lagrangian_symbolic::{Expr, normal, substitute};
 use super::kinematics::Variables;
 use super::kinematics::gradient;
 use lagrangian_spec::identity;
-use lagrangian_spec::model::circles::{self, Contact};
+use lagrangian_spec::model::circles::{self, RelativeMotion};
 use lagrangian_spec::model::element::Rolling;
 use lagrangian_spec::model::{Model, stage};
 use lagrangian_spec::source::Span;
@@ -91,7 +91,7 @@ pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
         if !rates.is_empty() {
             // Rates that cancel do not count, whatever the form of the expression.
             let gone = identity::irrelevant(model.dag, &[said], rates);
-            said = identity::without(model.dag, vec![said], &gone)[0];
+            said = identity::with_zeros_for(model.dag, vec![said], &gone)[0];
         }
         let statement = if standing(said).is_empty() {
             Statement::Position(said)
@@ -140,7 +140,7 @@ fn equation<'d>(
     statement: Statement<'d>,
     unit: Unit,
 ) -> ConstraintEquation<'d> {
-    let mut coasting = x.coasting(model);
+    let mut coasting = x.without_acceleration(model);
     let (position, rate) = match statement {
         Statement::Position(g) => (Some(g), coasting.of(g)),
         Statement::Rate(rate) => (None, rate),
@@ -171,7 +171,8 @@ fn of_rolling<'d>(
     x: &Variables<'d>,
     rolling: &Rolling<'d>,
 ) -> [ConstraintEquation<'d>; 2] {
-    let Contact { gap, slip } = circles::contact(model, &rolling.circles, &mut x.coasting(model));
+    let RelativeMotion { gap, slip } =
+        circles::contact_motion(model, &rolling.circles, &mut x.without_acceleration(model));
     let plain = |e: Expr<'d>| match normal::expand(e, TERMS) {
         Some(expanded) => normal::readable(expanded.to_expr(), TERMS),
         None => e,

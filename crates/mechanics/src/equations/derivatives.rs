@@ -20,7 +20,7 @@ use lagrangian_spec::model::{Model, Variable};
 
 /// The residual of the equations of a machine with constraints: `f − M a + Gᵀ λ`, followed by
 /// `γ − G a`.
-pub(super) fn constrained<'d>(
+pub(super) fn constrained_residual<'d>(
     model: &Model<'d>,
     unbalanced: &[Expr<'d>],
     constraints: &[ConstraintEquation<'d>],
@@ -39,7 +39,7 @@ pub(super) fn constrained<'d>(
 }
 
 /// `f − M a`, eq. (E25), if there is no projection that gives it directly.
-pub(super) fn unbalanced<'d>(
+pub(super) fn residual<'d>(
     model: &Model<'d>,
     mass_matrix: &Symmetric<Expr<'d>>,
     forces: &[Expr<'d>],
@@ -56,7 +56,10 @@ pub(super) fn unbalanced<'d>(
 
 /// The right-hand sides of (E26), one column for each of [`Model::derivatives`]; nothing if they
 /// become too large.
-pub(super) fn slopes<'d>(model: &Model<'d>, unbalanced: &[Expr<'d>]) -> Option<Vec<Vec<Expr<'d>>>> {
+pub(super) fn residual_derivatives<'d>(
+    model: &Model<'d>,
+    unbalanced: &[Expr<'d>],
+) -> Option<Vec<Vec<Expr<'d>>>> {
     let mut columns = Vec::with_capacity(model.derivatives.len());
     for &variable in &model.derivatives {
         if model.dag.is_exhausted() {

@@ -21,7 +21,7 @@ use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
 
 /// The number of places that are examined besides the start.
-const PLACES: usize = 5;
+const CONFIGURATIONS: usize = 5;
 
 /// The largest product of the numbers of constraints and coordinates for which the rank is computed;
 /// a place then takes milliseconds.
@@ -36,7 +36,7 @@ const STEPS: usize = 120;
 const DEPENDENT: f64 = 1e-10;
 
 /// The tolerance of residuals, relative to the size of their rows: double-double rounds at 1e-32.
-const MET: f64 = 1e-26;
+const RESIDUAL_TOLERANCE: f64 = 1e-26;
 
 /// The degrees of freedom of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +80,7 @@ pub fn freedom<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Freedom {
     let independent = if constraints.is_empty() || !is_small {
         None
     } else {
-        Places::new(model, constraints).independent()
+        Configurations::new(model, constraints).independent()
     };
     Freedom {
         coordinates,
@@ -93,20 +93,20 @@ pub fn freedom<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Freedom {
 type Row = Vec<DoubleDouble>;
 
 /// Evaluates the constraints of a machine at places.
-struct Places<'m, 'd> {
+struct Configurations<'m, 'd> {
     model: &'m Model<'d>,
     /// The residuals, then the rows of `G`; constraints of positions come first.
     formulas: Vec<Expr<'d>>,
     /// The number of constraints of positions.
-    of_places: usize,
+    position_constraints: usize,
     rows: usize,
     known: FxHashMap<Symbol, DoubleDouble>,
     /// The state of the random numbers.
     seed: u64,
 }
 
-impl<'m, 'd> Places<'m, 'd> {
-    fn new(model: &'m Model<'d>, constraints: &[ConstraintEquation<'d>]) -> Places<'m, 'd> {
+impl<'m, 'd> Configurations<'m, 'd> {
+    fn new(model: &'m Model<'d>, constraints: &[ConstraintEquation<'d>]) -> Configurations<'m, 'd> {
         let of_places = constraints.iter().filter(|c| c.position.is_some());
         let of_rates = constraints.iter().filter(|c| c.position.is_none());
         let residuals = of_places.clone().filter_map(|c| c.position);
@@ -119,7 +119,7 @@ impl<'m, 'd> Places<'m, 'd> {
             let Some(symbol) = parameter.symbol.as_symbol() else {
                 continue;
             };
-            let unknown = || DoubleDouble::from_f64(identity::number(0, symbol));
+            let unknown = || DoubleDouble::from_f64(identity::sample_value(0, symbol));
             let default = parameter.default.map(|default| {
                 evaluate(model.dag, &[default], |_| DoubleDouble::from_f64(f64::NAN))[0]
             });
@@ -131,10 +131,10 @@ impl<'m, 'd> Places<'m, 'd> {
                 .as_symbol()
                 .map(|t| (t, DoubleDouble::from_f64(0.0))),
         );
-        Places {
+        Configurations {
             model,
             formulas: residuals.chain(rows).collect(),
-            of_places: of_places.count(),
+            position_constraints: of_places.count(),
             rows: constraints.len(),
             known,
             seed: 0x9E37_79B9_7F4A_7C15,
@@ -160,10 +160,10 @@ impl<'m, 'd> Places<'m, 'd> {
     }
 
     fn independent(&mut self) -> Option<Independent> {
-        let mut place = self.met_near(self.start()?)?;
+        let mut place = self.consistent_configuration(self.start()?)?;
         let at_start = self.rank(&place)?;
         let mut generic = at_start;
-        for _ in 0..PLACES {
+        for _ in 0..CONFIGURATIONS {
             // Take a shorter step if a longer one leads to where the constraints cannot be satisfied.
             let found = [0.3, 0.03, 0.003].into_iter().find_map(|length| {
                 let step: Row = place
@@ -174,9 +174,9 @@ impl<'m, 'd> Places<'m, 'd> {
                     })
                     .collect();
                 let (_, rows) = self.at(&place)?;
-                let along = free_part(&orthogonal(&rows), step);
+                let along = orthogonal_part(&orthonormalized(&rows), step);
                 let moved = place.iter().zip(along).map(|(&q, d)| q + d).collect();
-                self.met_near(moved)
+                self.consistent_configuration(moved)
             });
             let Some(found) = found else { break };
             place = found;
@@ -186,7 +186,7 @@ impl<'m, 'd> Places<'m, 'd> {
     }
 
     /// The values of the symbols at a place.
-    fn known_at(&self, place: &[DoubleDouble]) -> FxHashMap<Symbol, DoubleDouble> {
+    fn symbol_values(&self, place: &[DoubleDouble]) -> FxHashMap<Symbol, DoubleDouble> {
         let coordinates = self.model.coordinates.iter().zip(place);
         let mut values = self.known.clone();
         values.extend(coordinates.filter_map(|(q, &value)| Some((q.q.as_symbol()?, value))));
@@ -195,14 +195,14 @@ impl<'m, 'd> Places<'m, 'd> {
 
     /// The residuals of the constraints at a place, and the rows of `G`; none if they have no value.
     fn at(&self, place: &[DoubleDouble]) -> Option<(Row, Vec<Row>)> {
-        let values = self.known_at(place);
+        let values = self.symbol_values(place);
         let zero = DoubleDouble::from_f64(0.0);
         let value = |symbol| values.get(&symbol).copied().unwrap_or(zero);
         let mut residuals = evaluate(self.model.dag, &self.formulas, value);
         if !residuals.iter().all(|value| value.is_finite()) {
             return None;
         }
-        let entries = residuals.split_off(self.of_places);
+        let entries = residuals.split_off(self.position_constraints);
         let rows = entries.chunks(place.len()).map(<[DoubleDouble]>::to_vec);
         Some((residuals, rows.collect()))
     }
@@ -210,24 +210,26 @@ impl<'m, 'd> Places<'m, 'd> {
     fn rank(&self, place: &[DoubleDouble]) -> Option<usize> {
         let (_, rows) = self.at(place)?;
         debug_assert_eq!(rows.len(), self.rows);
-        Some(orthogonal(&rows).len())
+        Some(orthonormalized(&rows).len())
     }
 
     /// A place near this one that satisfies the constraints.
-    fn met_near(&self, mut place: Row) -> Option<Row> {
-        if self.of_places == 0 {
+    fn consistent_configuration(&self, mut place: Row) -> Option<Row> {
+        if self.position_constraints == 0 {
             return Some(place);
         }
         for _ in 0..STEPS {
             let (residuals, mut rows) = self.at(&place)?;
-            rows.truncate(self.of_places);
+            rows.truncate(self.position_constraints);
             let sizes: Vec<f64> = rows.iter().map(|row| length(row).max(1e-300)).collect();
             let size = place.iter().map(|q| q.to_f64().abs()).fold(1.0, f64::max);
             let mut pairs = residuals.iter().zip(&sizes);
-            if pairs.all(|(off, row)| off.to_f64().abs() <= MET * row.max(1.0) * size) {
+            if pairs
+                .all(|(off, row)| off.to_f64().abs() <= RESIDUAL_TOLERANCE * row.max(1.0) * size)
+            {
                 return Some(place);
             }
-            let step = least_step(&rows, &residuals);
+            let step = minimum_norm_step(&rows, &residuals);
             let longest = step.iter().map(|d| d.to_f64().abs()).fold(0.0, f64::max);
             // Far from the constraints a full step may lead anywhere.
             let damped = (0.5 * size / longest.max(1e-300)).min(1.0);
@@ -252,7 +254,7 @@ fn length(row: &[DoubleDouble]) -> f64 {
 }
 
 /// A vector minus its components along orthonormal rows.
-fn free_part(rows: &[Row], mut vector: Row) -> Row {
+fn orthogonal_part(rows: &[Row], mut vector: Row) -> Row {
     // Twice is enough: W. Kahan, in B. N. Parlett, The Symmetric Eigenvalue Problem (1980) §6.9.
     for row in rows.iter().chain(rows) {
         let part = dot(row, &vector);
@@ -265,12 +267,15 @@ fn free_part(rows: &[Row], mut vector: Row) -> Row {
 
 /// Orthonormal rows that span the same space, as many as are independent. The row with the largest
 /// remainder relative to its length is taken first.
-fn orthogonal(rows: &[Row]) -> Vec<Row> {
-    pivoted(rows).into_iter().map(|(_, row)| row).collect()
+fn orthonormalized(rows: &[Row]) -> Vec<Row> {
+    orthonormalized_with_indices(rows)
+        .into_iter()
+        .map(|(_, row)| row)
+        .collect()
 }
 
-/// The rows of [`orthogonal`], each with the index of the row that it comes from.
-fn pivoted(rows: &[Row]) -> Vec<(usize, Row)> {
+/// The rows of [`orthonormalized`], each with the index of the row that it comes from.
+fn orthonormalized_with_indices(rows: &[Row]) -> Vec<(usize, Row)> {
     let unit = |row: &Row| {
         let length = dot(row, row).sqrt();
         row.iter().map(|&entry| entry / length).collect::<Row>()
@@ -289,13 +294,13 @@ fn pivoted(rows: &[Row]) -> Vec<(usize, Row)> {
     }) {
         let (place, row) = left.swap_remove(next);
         let known: Vec<Row> = found.iter().map(|(_, row)| row.clone()).collect();
-        let row = free_part(&known, row);
+        let row = orthogonal_part(&known, row);
         if length(&row) <= DEPENDENT {
             break;
         }
         let row = unit(&row);
         for (_, other) in &mut left {
-            *other = free_part(std::slice::from_ref(&row), std::mem::take(other));
+            *other = orthogonal_part(std::slice::from_ref(&row), std::mem::take(other));
         }
         found.push((place, row));
     }
@@ -303,12 +308,12 @@ fn pivoted(rows: &[Row]) -> Vec<(usize, Row)> {
 }
 
 /// The shortest step that satisfies, to first order, as many constraints as are independent.
-fn least_step(rows: &[Row], residuals: &[DoubleDouble]) -> Row {
+fn minimum_norm_step(rows: &[Row], residuals: &[DoubleDouble]) -> Row {
     let zero = DoubleDouble::from_f64(0.0);
     let width = rows.first().map_or(0, Vec::len);
     let mut step = vec![zero; width];
     // Along each new direction in turn: its row has no component along later ones, so it stays satisfied.
-    for (place, direction) in pivoted(rows) {
+    for (place, direction) in orthonormalized_with_indices(rows) {
         let missing = residuals[place] - dot(&rows[place], &step);
         let gain = dot(&rows[place], &direction);
         for (entry, &along) in step.iter_mut().zip(&direction) {

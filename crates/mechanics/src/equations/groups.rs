@@ -79,7 +79,7 @@ pub fn shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
     }
 
     // Dissipation functions: −∂D/∂v.
-    let rate = &mut x.coasting(model);
+    let rate = &mut x.without_acceleration(model);
     let mut dissipations = Vec::new();
     for (index, element) in elements() {
         let dissipated = element
@@ -115,12 +115,12 @@ pub fn shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
             forces: projection.project(&loads, 0..x.q.len()),
         });
     }
-    settle(model, &mut shares);
+    replace_zero_forces(model, &mut shares);
     shares
 }
 
 /// The forces on the lengths of quaternions, eq. (E75), one for each coordinate: a part of `Q` that comes from no element.
-pub fn on_lengths<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
+pub fn length_forces<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     if model.quaternions.is_empty() {
         return vec![model.dag.zero(); model.coordinates.len()];
     }
@@ -132,10 +132,10 @@ pub fn on_lengths<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
 }
 
 /// Replaces forces that are identically zero by 0.
-fn settle<'d>(model: &Model<'d>, shares: &mut [Share<'d>]) {
+fn replace_zero_forces<'d>(model: &Model<'d>, shares: &mut [Share<'d>]) {
     let forces = shares.iter().flat_map(|c| c.forces.iter().copied());
     let mut forces: Vec<Expr<'d>> = forces.collect();
-    identity::settle(model.dag, &mut forces);
+    identity::remove_spurious_symbols(model.dag, &mut forces);
     let places = shares.iter_mut().flat_map(|c| c.forces.iter_mut());
     places.zip(forces).for_each(|(place, force)| *place = force);
 }
@@ -227,7 +227,7 @@ pub fn equation<'d>(
     for (kind, term) in velocity_terms(model, equations.bias[i]) {
         add(kind, term);
     }
-    let on_lengths = on_lengths(model);
+    let on_lengths = length_forces(model);
     for kind in [
         Kind::Gravity,
         Kind::Springs,

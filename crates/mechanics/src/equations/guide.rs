@@ -1,7 +1,7 @@
 //! Directions of guides, and velocities along and across them.
 
 use lagrangian_spec::identity;
-use lagrangian_spec::model::circles::planar_turn;
+use lagrangian_spec::model::circles::rotation_angle;
 use lagrangian_spec::model::element::Sliding;
 use lagrangian_spec::model::{Model, Place, PoseId, Rotation, Space};
 use lagrangian_symbolic::{Expr, Tangent};
@@ -29,7 +29,7 @@ pub(crate) fn guides_of(model: &Model<'_>) -> Vec<usize> {
 
 /// Whether the reaction of contact `other` occurs in the equation for the reaction of contact `own`: each guide occurs once, by
 /// its first contact, and the guide of `own` by that contact itself.
-pub(crate) fn counts(guides: &[usize], own: usize, other: usize) -> bool {
+pub(crate) fn occurs_in_equation(guides: &[usize], own: usize, other: usize) -> bool {
     if guides[own] == guides[other] {
         own == other
     } else {
@@ -42,7 +42,7 @@ pub(super) struct Relative<'d> {
     /// Along the guide.
     pub slip: Expr<'d>,
     /// Along each of the directions of the reaction's components.
-    pub off: Vec<Expr<'d>>,
+    pub normal_velocity: Vec<Expr<'d>>,
 }
 
 /// The velocity of a guided body relative to its base; `rate` differentiates.
@@ -55,7 +55,7 @@ pub(super) fn relative<'d>(
     let velocity = velocity(model, sliding, rate);
     Relative {
         slip: dot(&guide.along, &velocity),
-        off: guide.axes.iter().map(|axis| dot(axis, &velocity)).collect(),
+        normal_velocity: guide.axes.iter().map(|axis| dot(axis, &velocity)).collect(),
     }
 }
 
@@ -95,22 +95,30 @@ pub(super) fn base<'m, 'd>(
     let rotation = model.rotation(sliding.on);
     let turning = match (model.space, rotation) {
         (Space::Plane, rotation) => {
-            let angle = planar_turn(model, rotation).into_iter();
+            let angle = rotation_angle(model, rotation).into_iter();
             angle.map(|angle| rate.of(angle)).collect()
         }
-        (Space::Space, Rotation::Frame(pose)) => turning(model, pose, rate),
+        (Space::Space, Rotation::Frame(pose)) => angular_velocity(model, pose, rate),
         (Space::Space, Rotation::Angle(_) | Rotation::Unspecified) => Vec::new(),
     };
     (origin, turning)
 }
 
 /// The angular velocity of a frame in space, in ground axes: the sum over all turns that lead to it, each rate about its own axis.
-fn turning<'d>(model: &Model<'d>, mut pose: PoseId, rate: &mut Tangent<'d>) -> Vec<Expr<'d>> {
+fn angular_velocity<'d>(
+    model: &Model<'d>,
+    mut pose: PoseId,
+    rate: &mut Tangent<'d>,
+) -> Vec<Expr<'d>> {
     let mut terms = vec![Vec::new(); 3];
     while pose != PoseId::GROUND {
         let here = &model.poses[pose.index()];
         // A turn leaves its own axis unchanged.
-        for (axis, rate) in here.step.turning(|x| Some(rate.of(x))).unwrap_or_default() {
+        for (axis, rate) in here
+            .step
+            .angular_velocity_parts(|x| Some(rate.of(x)))
+            .unwrap_or_default()
+        {
             for (terms, &along) in terms.iter_mut().zip(&here.axes[axis]) {
                 terms.push(rate * along);
             }
@@ -139,7 +147,7 @@ pub(super) fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
             // lengths need not be compared.
             let times = dot(given, &[-y, x]) / model.dag.sum([x.square(), y.square()]);
             // The direction turned left has the same components and is shorter to write than the given normal.
-            match identity::steady_sign(times) {
+            match identity::constant_sign(times) {
                 Some(true) => left,
                 Some(false) => left.into_iter().map(|x| -x).collect(),
                 // The sign changes with parameters or coordinates.

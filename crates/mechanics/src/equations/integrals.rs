@@ -12,11 +12,11 @@ use lagrangian_spec::model::{Model, stage};
 
 /// Facts about the equations of a machine.
 #[derive(Clone, Debug)]
-pub struct Facts<'d> {
+pub struct EquationProperties<'d> {
     /// Coordinates on which neither kinetic nor potential energy depends.
     pub cyclic: Vec<Cyclic<'d>>,
     /// The balance of energy.
-    pub energy: Energy<'d>,
+    pub energy: EnergyBalance<'d>,
     /// Whether neither an energy, nor the dissipation, nor an applied force depends on explicit time.
     pub autonomous: bool,
     /// Whether the mass matrix depends on nothing but parameters.
@@ -39,7 +39,7 @@ pub struct Cyclic<'d> {
 
 /// The balance of energy along every motion.
 #[derive(Clone, Debug)]
-pub enum Energy<'d> {
+pub enum EnergyBalance<'d> {
     /// `T + V`, with the energy stored in first-order states, is conserved.
     Conserved,
     /// `Σ vᵢ ∂T/∂vᵢ − T + V`, Jacobi's integral, is conserved, but `T + V` is not: something is driven in a way that
@@ -49,10 +49,10 @@ pub enum Energy<'d> {
     Balance,
 }
 
-impl<'d> Facts<'d> {
+impl<'d> EquationProperties<'d> {
     /// The facts about a machine.
-    pub fn of(model: &Model<'d>, equations: &Equations<'d>) -> Facts<'d> {
-        Facts {
+    pub fn of(model: &Model<'d>, equations: &Equations<'d>) -> EquationProperties<'d> {
+        EquationProperties {
             cyclic: cyclic(model, equations),
             energy: energy(model, equations),
             autonomous: is_autonomous(model, equations),
@@ -93,19 +93,19 @@ fn cyclic<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Cyclic<'d>> {
 
 /// `d/dt (Σ vᵢ ∂T/∂vᵢ − T + V) = Σ vᵢ Fᵢ − ∂T/∂t + ∂V/∂t`, where F are the forces that come neither from V nor from
 /// inertia; by (E20) `d(T + V)/dt = P − R`. Goldstein, §2.7.
-fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Energy<'d> {
+fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> EnergyBalance<'d> {
     let dag = model.dag;
     let x = Variables::of(model);
     if is_zero(equations.work_rate) && is_zero(equations.dissipation_rate) {
-        return Energy::Conserved;
+        return EnergyBalance::Conserved;
     }
     if model.energies_of_states().next().is_some() || model.losses().next().is_some() {
-        return Energy::Balance;
+        return EnergyBalance::Balance;
     }
     // A rheonomic constraint does work that no potential accounts for.
     let still = constraints::rates_at_rest(model, &equations.constraints);
     if !still.into_iter().all(is_zero) {
-        return Energy::Balance;
+        return EnergyBalance::Balance;
     }
     let (kinetic, potential) = (equations.kinetic_energy, equations.potential_energy);
     let momenta = kinematics::gradient(dag, kinetic, &x.v);
@@ -120,21 +120,21 @@ fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Energy<'d> {
     let power = rates.clone().zip(others).zip(is_state);
     let power = power.filter(|(_, is_state)| !is_state);
     let power = power.map(|((v, force), _)| v * force);
-    let mut explicit = x.explicit(model);
+    let mut explicit = x.explicit_time(model);
     let change = [-explicit.of(kinetic), explicit.of(potential)];
     if !is_zero(dag.sum(power.chain(change))) {
-        return Energy::Balance;
+        return EnergyBalance::Balance;
     }
     let products = rates.zip(momenta).map(|(v, momentum)| v * momentum);
     let integral = dag.sum(products.chain([-kinetic, potential]));
     match identity::equal(integral, kinetic + potential) {
-        Some(true) => Energy::Conserved,
-        _ => Energy::Jacobi(integral),
+        Some(true) => EnergyBalance::Conserved,
+        _ => EnergyBalance::Jacobi(integral),
     }
 }
 
 fn is_autonomous(model: &Model<'_>, equations: &Equations<'_>) -> bool {
-    let mut explicit = Variables::of(model).explicit(model);
+    let mut explicit = Variables::of(model).explicit_time(model);
     let energies = [
         equations.kinetic_energy,
         equations.potential_energy,

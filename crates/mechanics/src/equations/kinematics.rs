@@ -49,7 +49,7 @@ impl<'d> Variables<'d> {
     ///
     /// For an expression in `q` and `t` only it *is* the total derivative; applied twice it gives
     /// the acceleration without the terms linear in `a`.
-    pub fn coasting(&self, model: &Model<'d>) -> Tangent<'d> {
+    pub fn without_acceleration(&self, model: &Model<'d>) -> Tangent<'d> {
         Tangent::new(model.dag, &self.kinematic(model).collect::<Vec<_>>())
     }
 
@@ -64,7 +64,7 @@ impl<'d> Variables<'d> {
     }
 
     /// `∂/∂t`, with `q` held.
-    pub fn explicit(&self, model: &Model<'d>) -> Tangent<'d> {
+    pub fn explicit_time(&self, model: &Model<'d>) -> Tangent<'d> {
         Tangent::new(model.dag, &[(self.t, model.dag.one())])
     }
 
@@ -138,7 +138,7 @@ pub(super) fn literal_motion<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> V
 /// The angular velocity of every body that has an orientation: in the plane one number, in space its components in the
 /// axes of the body's own frame, eq. (E10). Empty if the spec gives no orientation.
 pub fn angular_velocities<'d>(model: &Model<'d>) -> Vec<Vec<Expr<'d>>> {
-    let rate = &mut Variables::of(model).coasting(model);
+    let rate = &mut Variables::of(model).without_acceleration(model);
     let frame = |body: &Body<'d>| match body.rotation {
         Rotation::Frame(pose) => Some(pose),
         Rotation::Angle(_) | Rotation::Unspecified => None,
@@ -292,10 +292,10 @@ impl Chains {
                 Step::Quaternion(e) if self.needed[index] => {
                     let axes = quaternion::axes(e);
                     if self.needed_origin[index] {
-                        twist.linear = along(&axes, &twist.linear);
+                        twist.linear = components_along(&axes, &twist.linear);
                     }
-                    let own = quaternion::turning(e, &e.map(|e| rate.of(e)));
-                    twist.angular = add(&[&along(&axes, &twist.angular), &own]);
+                    let own = quaternion::angular_velocity(e, &e.map(|e| rate.of(e)));
+                    twist.angular = add(&[&components_along(&axes, &twist.angular), &own]);
                 }
                 Step::Ground | Step::Shift(_) | Step::Turn { .. } | Step::Quaternion(_) => {}
             }
@@ -333,7 +333,7 @@ impl Chains {
             let omega = &velocities[index].angular;
             match &pose.step {
                 Step::Shift(r) if self.needed_origin[index] => {
-                    let turning = Turning::of(omega, &here.angular);
+                    let turning = AccelerationMatrix::of(omega, &here.angular);
                     here.linear = shifted_acceleration(&here, omega, &turning, &vector(r), rate);
                 }
                 &Step::Turn { axis, angle } if self.needed[index] => {
@@ -351,13 +351,15 @@ impl Chains {
                 Step::Quaternion(e) if self.needed[index] => {
                     let axes = quaternion::axes(e);
                     if self.needed_origin[index] {
-                        here.linear = along(&axes, &here.linear);
+                        here.linear = components_along(&axes, &here.linear);
                     }
                     let rates = e.map(|e| rate.of(e));
-                    let own = quaternion::turning(e, &rates);
-                    let faster = quaternion::turning_faster(e, &rates, &e.map(|e| rate.twice(e)));
+                    let own = quaternion::angular_velocity(e, &rates);
+                    let faster =
+                        quaternion::angular_acceleration(e, &rates, &e.map(|e| rate.twice(e)));
                     let carried = cross(omega, &own);
-                    here.angular = add(&[&along(&axes, &here.angular), &faster, &carried]);
+                    here.angular =
+                        add(&[&components_along(&axes, &here.angular), &faster, &carried]);
                 }
                 Step::Ground | Step::Shift(_) | Step::Turn { .. } | Step::Quaternion(_) => {}
             }
@@ -367,13 +369,19 @@ impl Chains {
     }
 
     /// A vector of the ground in the axes of every requested frame.
-    pub fn carried<'d>(&self, model: &Model<'d>, ground: Vector<'d>) -> Vec<Vector<'d>> {
+    pub fn ground_vector_in_axes<'d>(
+        &self,
+        model: &Model<'d>,
+        ground: Vector<'d>,
+    ) -> Vec<Vector<'d>> {
         let mut vectors: Vec<Vector<'d>> = Vec::with_capacity(model.poses.len());
         for (index, pose) in model.poses.iter().enumerate() {
             let parent = vectors.get(pose.parent.index()).copied().unwrap_or(ground);
             vectors.push(match pose.step {
                 Step::Turn { axis, angle } if self.needed[index] => turned(&parent, axis, angle),
-                Step::Quaternion(e) if self.needed[index] => along(&quaternion::axes(&e), &parent),
+                Step::Quaternion(e) if self.needed[index] => {
+                    components_along(&quaternion::axes(&e), &parent)
+                }
                 _ => parent,
             });
         }
@@ -385,10 +393,10 @@ impl Chains {
 /// from the ground, its products with the axes, so that a vector on every link of a long chain does
 /// not take as many traversals of the chain.
 pub(super) fn along_axes<'d>(model: &Model<'d>, pose: PoseId, ground: &[Expr<'d>]) -> Vector<'d> {
-    const FAR: usize = 64;
+    const MOST_ROTATIONS: usize = 64;
     let mut turns = Vec::new();
     let mut here = pose;
-    while here != PoseId::GROUND && turns.len() <= FAR {
+    while here != PoseId::GROUND && turns.len() <= MOST_ROTATIONS {
         let Pose { parent, step, .. } = &model.poses[here.index()];
         turns.extend(match step {
             Step::Turn { .. } | Step::Quaternion(_) => Some(step),
@@ -406,7 +414,7 @@ pub(super) fn along_axes<'d>(model: &Model<'d>, pose: PoseId, ground: &[Expr<'d>
     }
     let turn = |vector, step: &Step<'d>| match step {
         &Step::Turn { axis, angle } => turned(&vector, axis, angle),
-        Step::Quaternion(e) => along(&quaternion::axes(e), &vector),
+        Step::Quaternion(e) => components_along(&quaternion::axes(e), &vector),
         Step::Ground | Step::Shift(_) => vector,
     };
     turns.into_iter().rev().fold(vector(ground), turn)
@@ -446,7 +454,7 @@ pub(super) fn acceleration_at<'d>(
 fn shifted_acceleration<'d>(
     here: &Twist<'d>,
     omega: &Vector<'d>,
-    turning: &Turning<'d>,
+    turning: &AccelerationMatrix<'d>,
     r: &Vector<'d>,
     rate: &mut Tangent<'d>,
 ) -> Vector<'d> {
@@ -460,7 +468,7 @@ fn shifted_acceleration<'d>(
 
 /// The rotation of a frame, as the matrix `W = α× + ω×ω×` that gives the acceleration `W r` of its
 /// points, entry by entry, so that common parts of several points and tensors are computed once.
-pub(super) struct Turning<'d> {
+pub(super) struct AccelerationMatrix<'d> {
     /// `α`.
     alpha: Vector<'d>,
     /// `ωᵢ²`.
@@ -469,9 +477,9 @@ pub(super) struct Turning<'d> {
     products: Vector<'d>,
 }
 
-impl<'d> Turning<'d> {
-    pub fn of(omega: &Vector<'d>, alpha: &Vector<'d>) -> Turning<'d> {
-        Turning {
+impl<'d> AccelerationMatrix<'d> {
+    pub fn of(omega: &Vector<'d>, alpha: &Vector<'d>) -> AccelerationMatrix<'d> {
+        AccelerationMatrix {
             alpha: *alpha,
             squares: omega.map(|w| w.square()),
             products: [0, 1, 2].map(|k| {
@@ -509,7 +517,7 @@ impl<'d> Turning<'d> {
     /// ```text
     /// J_xx α_x + (J_zz − J_yy) ω_y ω_z + J_yz (ω_y² − ω_z²) + J_xz W_yx − J_xy W_zx
     /// ```
-    pub fn demand(&self, tensor: &[Expr<'d>; 6]) -> Vector<'d> {
+    pub fn inertia_moment(&self, tensor: &[Expr<'d>; 6]) -> Vector<'d> {
         let [xx, yy, zz, xy, xz, yz] = *tensor;
         let (diagonal, off) = ([xx, yy, zz], [yz, xz, xy]);
         [0, 1, 2].map(|k| {
@@ -541,7 +549,7 @@ fn turned<'d>(u: &Vector<'d>, axis: usize, angle: Expr<'d>) -> Vector<'d> {
 }
 
 /// The components of a vector in other axes, which are given in the present ones.
-fn along<'d>(axes: &[Vector<'d>; 3], u: &Vector<'d>) -> Vector<'d> {
+fn components_along<'d>(axes: &[Vector<'d>; 3], u: &Vector<'d>) -> Vector<'d> {
     axes.map(|axis| u[0].dag().sum((0..3).map(|k| axis[k] * u[k])))
 }
 

@@ -13,11 +13,11 @@ use lagrangian_symbolic::{Expr, Symbol, Tangent, substitute};
 use super::approximation::Approximations;
 use super::constraints::{self, ConstraintEquation};
 use super::energy;
-use super::guide::{counts, guide, guides_of, relative, unit};
+use super::guide::{guide, guides_of, occurs_in_equation, relative, unit};
 use super::kinematics::{self, Variables, gradient};
 use super::projected::with_state;
 use super::symmetric::Symmetric;
-use lagrangian_spec::model::circles::planar_turn;
+use lagrangian_spec::model::circles::rotation_angle;
 use lagrangian_spec::model::element::Load;
 use lagrangian_spec::model::{Model, Place, Rotation, Space};
 
@@ -66,7 +66,7 @@ pub struct OracleSliding<'d> {
     /// `dw/dt` with the accelerations in it.
     pub slip_rate: Expr<'d>,
     /// In space the unit vector that determines the pressing part of the reaction: the normal of a surface, or the tangent of a curve.
-    pub telling: Vec<Expr<'d>>,
+    pub reference_direction: Vec<Expr<'d>>,
     /// For each component of the reaction the equation of the displacement that opens the guide in that direction.
     pub reactions: Vec<OracleReaction<'d>>,
     /// `μ` and `μ₀`.
@@ -76,7 +76,7 @@ pub struct OracleSliding<'d> {
 /// The equation of a displacement that opens a guide.
 pub struct OracleReaction<'d> {
     /// The residual of inertia and applied forces.
-    pub unbalanced: Expr<'d>,
+    pub residual: Expr<'d>,
     /// The coefficients of the multipliers of the constraints along that displacement.
     pub by_multipliers: Vec<Expr<'d>>,
     /// The coefficients of the friction forces of the contacts.
@@ -104,13 +104,13 @@ impl<'d> Oracle<'d> {
         let applied = applied(model, &x, potential_energy, dissipation);
         // The lengths of quaternions have inertia as bodies do, eq. (E74), but no energy of the machine.
         let lengths = model.quaternions.iter();
-        let lengths = lengths.map(|four| four.inertia * total.of(four.size()).square() / 2);
+        let lengths = lengths.map(|four| four.inertia * total.of(four.log_length()).square() / 2);
         let resisting = dag.sum([kinetic_energy].into_iter().chain(lengths));
         let momenta: Vec<Expr<'d>> = x.v.iter().map(|&v_i| resisting.diff(v_i)).collect();
         let inertia = |momentum_rate: &mut Tangent<'d>, i: usize| {
             momentum_rate.of(momenta[i]) - resisting.diff(x.q[i])
         };
-        let coasting = &mut x.coasting(model);
+        let coasting = &mut x.without_acceleration(model);
         let along = |e: Expr<'d>| {
             let explicit = std::iter::once(e.diff(x.t));
             let moving = model.coordinates.iter().zip(&x.q);
@@ -170,7 +170,7 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
     let guides: Vec<_> = sliding.iter().map(|s| guide(model, s)).collect();
     let numbers = guides_of(model);
     let pairs = || relaxed.sliding().into_iter().zip(&guides);
-    let mut coasting = x.coasting(relaxed);
+    let mut coasting = x.without_acceleration(relaxed);
     let rates: Vec<_> = pairs()
         .map(|(sliding, guide)| relative(relaxed, sliding, guide, &mut coasting))
         .collect();
@@ -181,7 +181,7 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
             closed(dag.sum(pairs.map(|(i, &normal)| normal * column(i))))
         };
         let reaction = |axis: &Vec<Expr<'d>>| OracleReaction {
-            unbalanced: along(axis, &|i| oracle.residual[i]),
+            residual: along(axis, &|i| oracle.residual[i]),
             by_multipliers: oracle
                 .constraints
                 .iter()
@@ -193,9 +193,9 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
                 .collect(),
             // The two contacts of a surface share one reaction, which counts once.
             by_normals: (rates.iter().enumerate())
-                .flat_map(|(j, rate)| rate.off.iter().map(move |off| (j, off)))
+                .flat_map(|(j, rate)| rate.normal_velocity.iter().map(move |off| (j, off)))
                 .map(|(j, off)| {
-                    if counts(&numbers, k, j) {
+                    if occurs_in_equation(&numbers, k, j) {
                         along(axis, &|i| off.diff(x.v[i]))
                     } else {
                         dag.zero()
@@ -217,7 +217,7 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
             _ => guides[k].along.clone(),
         };
         OracleSliding {
-            telling,
+            reference_direction: telling,
             slip,
             slip_rate: dag.sum(accelerating.chain([drift])),
             drift,
@@ -261,7 +261,7 @@ fn applied<'d>(
         for four in &model.quaternions {
             let place = |e: Expr<'d>| model.coordinates.iter().find(|c| c.q == e);
             let rates = four.e.map(|e| place(e).map_or(model.dag.zero(), |c| c.v));
-            terms.push(four.load(&rates) * four.size().diff(x.q[i]));
+            terms.push(four.load(&rates) * four.log_length().diff(x.q[i]));
         }
         for load in model.loads() {
             match load {
@@ -288,7 +288,7 @@ fn power<'d>(
 ) -> Vec<Expr<'d>> {
     match (model.space, model.rotation(on)) {
         (Space::Plane, rotation) => {
-            let angle = planar_turn(model, rotation).into_iter();
+            let angle = rotation_angle(model, rotation).into_iter();
             angle.map(|angle| torque[0] * rate.of(angle)).collect()
         }
         (Space::Space, Rotation::Frame(pose)) => {
@@ -325,7 +325,7 @@ pub(super) fn inertia<'d>(
         }
         rows.push(gradient(dag, momentum, &x.v[..=i]));
     }
-    let rate = &mut x.coasting(model);
+    let rate = &mut x.without_acceleration(model);
     let bias = momenta
         .iter()
         .zip(slopes)

@@ -39,12 +39,12 @@ pub(super) fn refuse(model: &Model<'_>, report: &mut Report) -> bool {
             let pairs = places.iter().zip(four.e).map(|(&i, e)| (symbols[i], e));
             Tangent::new(model.dag, &pairs.collect::<Vec<_>>())
         };
-        let mut longer = Longer {
-            places: along(&x.q),
+        let mut longer = LengthVariation {
+            positions: along(&x.q),
             rates: along(&x.v),
         };
         let name = &model.coordinates[places[0]].name;
-        for (what, span) in longer.found(model, &places) {
+        for (what, span) in longer.dependent_expressions(model, &places) {
             let message =
                 format!("{what} depends on the norm of the four numbers that begin with `{name}`");
             let help = "they turn a frame, and only their ratios have a meaning: express it by the frame, its `point`, `vector` or `spin`";
@@ -58,29 +58,33 @@ pub(super) fn refuse(model: &Model<'_>, report: &mut Report) -> bool {
 }
 
 /// Variations of expressions if a quaternion becomes longer.
-struct Longer<'d> {
-    places: Tangent<'d>,
+struct LengthVariation<'d> {
+    positions: Tangent<'d>,
     /// The variation if its rates grow along it.
     rates: Tangent<'d>,
 }
 
-impl<'d> Longer<'d> {
-    fn moves(&mut self, e: Expr<'d>) -> bool {
-        identity::is_zero(self.places.of(e)) == Some(false)
+impl<'d> LengthVariation<'d> {
+    fn depends_on_length(&mut self, e: Expr<'d>) -> bool {
+        identity::is_zero(self.positions.of(e)) == Some(false)
     }
 
-    fn is_slowed(&mut self, e: Expr<'d>) -> bool {
+    fn depends_on_length_rate(&mut self, e: Expr<'d>) -> bool {
         identity::is_zero(self.rates.of(e)) == Some(false)
     }
 
     /// The expressions that depend on the length, with their spans in the spec.
-    fn found(&mut self, model: &Model<'d>, four: &[usize; 4]) -> Vec<(String, Span)> {
+    fn dependent_expressions(
+        &mut self,
+        model: &Model<'d>,
+        four: &[usize; 4],
+    ) -> Vec<(String, Span)> {
         let mut found = Vec::new();
         for (index, pose) in model.poses.iter().enumerate() {
             let moves = match &pose.step {
                 Step::Ground | Step::Quaternion(_) => false,
-                Step::Shift(by) => by.iter().any(|&x| self.moves(x)),
-                Step::Turn { angle, .. } => self.moves(*angle),
+                Step::Shift(by) => by.iter().any(|&x| self.depends_on_length(x)),
+                Step::Turn { angle, .. } => self.depends_on_length(*angle),
             };
             if !moves {
                 continue;
@@ -98,21 +102,24 @@ impl<'d> Longer<'d> {
         }
         for body in &model.bodies {
             let turns = match body.rotation {
-                Rotation::Angle(angle) => self.moves(angle),
+                Rotation::Angle(angle) => self.depends_on_length(angle),
                 Rotation::Frame(_) | Rotation::Unspecified => false,
             };
-            if turns || body.at.iter().any(|&x| self.moves(x)) {
-                found.push((format!("the pose of the body `{}`", body.name), body.place));
+            if turns || body.at.iter().any(|&x| self.depends_on_length(x)) {
+                found.push((
+                    format!("the pose of the body `{}`", body.name),
+                    body.position_span,
+                ));
             }
         }
         for (element, contribution) in model.contributions() {
-            if self.is_of(contribution, four) {
+            if self.works_on_length(contribution, four) {
                 let what = element.section.item;
                 found.push((format!("{what} `{}`", element.name), element.span));
             }
         }
         for circle in &model.circles {
-            if circle.center.iter().any(|&x| self.moves(x)) {
+            if circle.center.iter().any(|&x| self.depends_on_length(x)) {
                 found.push((format!("the position of `{}`", circle.name), circle.span));
             }
         }
@@ -120,10 +127,16 @@ impl<'d> Longer<'d> {
             let moves = match &contact.geometry {
                 // Polygons exist only in the plane, where no quaternion turns anything.
                 ContactGeometry::Circles(_) | ContactGeometry::Corner(_) => false,
-                ContactGeometry::Point { point, .. } => point.center.iter().any(|&x| self.moves(x)),
+                ContactGeometry::Point { point, .. } => {
+                    point.center.iter().any(|&x| self.depends_on_length(x))
+                }
                 ContactGeometry::Expressions { gap, slip, across } => {
                     let slips = [Some(*slip), *across];
-                    self.moves(*gap) || slips.into_iter().flatten().any(|x| self.is_slowed(x))
+                    self.depends_on_length(*gap)
+                        || slips
+                            .into_iter()
+                            .flatten()
+                            .any(|x| self.depends_on_length_rate(x))
                 }
             };
             if moves {
@@ -134,25 +147,27 @@ impl<'d> Longer<'d> {
     }
 
     /// Whether a contribution would do work on the length.
-    fn is_of(&mut self, contribution: &Contribution<'d>, four: &[usize; 4]) -> bool {
+    fn works_on_length(&mut self, contribution: &Contribution<'d>, four: &[usize; 4]) -> bool {
         match contribution {
             Contribution::Stored(Energy::Quadratic(of)) => {
-                self.moves(of.measure) || self.moves(of.coefficient)
+                self.depends_on_length(of.measure) || self.depends_on_length(of.coefficient)
             }
-            Contribution::Stored(Energy::Given(energy)) => self.moves(*energy),
+            Contribution::Stored(Energy::Given(energy)) => self.depends_on_length(*energy),
             Contribution::Dissipated(Energy::Quadratic(of)) => {
-                self.moves(of.measure) || self.is_slowed(of.coefficient)
+                self.depends_on_length(of.measure) || self.depends_on_length_rate(of.coefficient)
             }
-            Contribution::Dissipated(Energy::Given(power)) => self.is_slowed(*power),
-            Contribution::Load(Load::Point { at, .. }) => at.iter().any(|&x| self.moves(x)),
-            Contribution::Load(Load::Along { measure, .. }) => self.moves(*measure),
+            Contribution::Dissipated(Energy::Given(power)) => self.depends_on_length_rate(*power),
+            Contribution::Load(Load::Point { at, .. }) => {
+                at.iter().any(|&x| self.depends_on_length(x))
+            }
+            Contribution::Load(Load::Along { measure, .. }) => self.depends_on_length(*measure),
             Contribution::Load(Load::Coordinate { coordinate, .. }) => four.contains(coordinate),
             Contribution::Constraint(constraint) => {
                 let said = constraint.expression;
                 if said.stage() > stage::POSITION {
-                    self.is_slowed(said)
+                    self.depends_on_length_rate(said)
                 } else {
-                    self.moves(said)
+                    self.depends_on_length(said)
                 }
             }
             // These act on frames and bodies, or are not part of the equations of motion.
@@ -160,8 +175,8 @@ impl<'d> Longer<'d> {
             | Contribution::Gravity(_)
             | Contribution::Rolling(_)
             | Contribution::Sliding(_)
-            | Contribution::OfStates(_)
-            | Contribution::Lost(_) => false,
+            | Contribution::StateEnergy(_)
+            | Contribution::PowerLoss(_) => false,
         }
     }
 }

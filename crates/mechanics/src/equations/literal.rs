@@ -74,13 +74,13 @@ pub(crate) struct Literal<R> {
     /// `d(T + V + E)/dt` along the motion, on which states change at their given rates.
     pub energy_rate: R,
     /// The power lost in addition to dissipation.
-    pub lost: R,
+    pub power_loss: R,
     /// `w·(d/dt ∂T/∂v − ∂T/∂q)`.
     pub inertia: R,
     /// `w·Q`, eq. (E6).
     pub applied: R,
     /// The share of the lengths of quaternions in `v·(M a − f)`, which is not power.
-    pub of_lengths: R,
+    pub length_power: R,
     pub constraints: Vec<LiteralConstraint<R>>,
     pub sliding: Vec<LiteralSliding<R>>,
     pub unilateral: Vec<LiteralUnilateral<R>>,
@@ -90,7 +90,7 @@ pub(crate) struct Literal<R> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LiteralUnilateral<R> {
     /// The distance by which it is open.
-    pub open: LiteralConstraint<R>,
+    pub opening: LiteralConstraint<R>,
     /// The gap, as a constraint of positions that would hold it at 0; for a polygon the gap to the face that touches.
     pub gap: LiteralConstraint<R>,
     /// For a polygon, the distance of the corner outside the face, its distance beyond the ends of the face, and
@@ -136,7 +136,7 @@ pub(crate) struct LiteralSliding<R> {
     /// `μ` and `μ₀`.
     pub coefficients: [R; 2],
     /// In space the unit vector that determines the pressing part of the reaction: the normal of a surface, or the tangent of a curve.
-    pub telling: Vec<R>,
+    pub reference_direction: Vec<R>,
 }
 
 /// Numbers with τ outside and ε inside.
@@ -180,13 +180,13 @@ pub(crate) struct Lagrange<'m, 'd> {
 /// A number along a motion: a value and its rate.
 trait Path: Scalar {
     type Base: Scalar;
-    fn here(self) -> Self::Base;
+    fn value(self) -> Self::Base;
     fn rate(self) -> Self::Base;
 }
 
 impl<S: Scalar> Path for Dual<S> {
     type Base = S;
-    fn here(self) -> S {
+    fn value(self) -> S {
         self.value
     }
     fn rate(self) -> S {
@@ -196,7 +196,7 @@ impl<S: Scalar> Path for Dual<S> {
 
 impl<S: Scalar> Path for Frozen<S> {
     type Base = S;
-    fn here(self) -> S {
+    fn value(self) -> S {
         self.moving.value
     }
     fn rate(self) -> S {
@@ -258,7 +258,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 Some(&Meaning::Rate(i)) => at.v[i],
                 Some(&Meaning::Acceleration(i)) => at.a[i],
                 Some(&Meaning::Input(i)) => at.u[i],
-                None => unknown(),
+                None => undefined(),
             }
         })
     }
@@ -295,10 +295,10 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             dissipation: d.value.value,
             state_energy: stored.value,
             energy_rate: t.derivative.value + v.derivative.value + stored.derivative,
-            lost: sum(model.losses().map(|power| x(power).value.value.value)),
+            power_loss: sum(model.losses().map(|power| x(power).value.value.value)),
             inertia: sum(changing) + t.derivative.derivative + of_length,
             applied: v.derivative.derivative - d.value.derivative + force + sum(rates) + on_length,
-            of_lengths,
+            length_power: of_lengths,
             constraints: self.constraints(&x),
             sliding: model
                 .sliding()
@@ -343,7 +343,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 Some(&Meaning::Parameter(i)) => Dual::constant(at.parameters[i]),
                 Some(&Meaning::Input(i)) => Dual::constant(at.u[i]),
                 Some(&Meaning::Acceleration(i)) => Dual::constant(at.a[i]),
-                None => unknown(),
+                None => undefined(),
             }
         });
         energies
@@ -385,7 +385,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             Some(&Meaning::Parameter(i)) => fixed(at.parameters[i]),
             Some(&Meaning::Input(i)) => fixed(at.u[i]),
             Some(&Meaning::Acceleration(i)) => fixed(at.a[i]),
-            None => unknown(),
+            None => undefined(),
         }
     }
 
@@ -397,7 +397,10 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 Some(&Meaning::Coordinate(i)) if self.frozen[i] => S::ZERO,
                 _ => moving.value,
             };
-            Frozen { moving, still }
+            Frozen {
+                moving,
+                at_zero: still,
+            }
         });
         kinetic_energy(self.model, &|e: Expr<'d>| values[&e.id()])
     }
@@ -465,7 +468,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             let mut work = R::ZERO;
             match (model.space, model.rotation(on)) {
                 (Space::Plane, rotation) => {
-                    if let Some(angle) = turned_by(model, rotation) {
+                    if let Some(angle) = rotation_angle(model, rotation) {
                         work = here(torque[0]) * moved(angle);
                     }
                 }
@@ -535,7 +538,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 (gap, slip.value, None)
             }
             Space::Space => {
-                let (gap, [slip, across]) = in_space::touch(model, round, surface, x);
+                let (gap, [slip, across]) = in_space::gap_and_slip(model, round, surface, x);
                 (gap, slip, Some(across))
             }
         };
@@ -543,7 +546,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let (gap, slip, across) = match &contact.geometry {
             ContactGeometry::Corner(corner) => {
                 let found = on_polygon(model, corner, x);
-                of_face = Some((found.open, found.beyond));
+                of_face = Some((found.opening, found.beyond));
                 (found.height, found.slip, None)
             }
             ContactGeometry::Circles(touching) => {
@@ -561,7 +564,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let friction = contact.friction;
         let nothing = Varied::<R>::ZERO;
         let mut all = vec![LiteralUnilateral {
-            open: of_position(of_face.map_or(gap, |(open, _)| open)),
+            opening: of_position(of_face.map_or(gap, |(open, _)| open)),
             gap: of_position(gap),
             face: of_face.map(|(_, beyond)| {
                 let rate = beyond.derivative.value.value;
@@ -585,15 +588,15 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         if let (ContactGeometry::Circles(touching), Some(resistance)) =
             (&contact.geometry, contact.rolling_resistance)
         {
-            let (_, own) = placed(model, &model.circles[touching.circle], x);
+            let (_, own) = centre_and_angular_velocity(model, &model.circles[touching.circle], x);
             let other = match touching.surface {
                 Surface::Inside(other) | Surface::Outside(other) => {
-                    placed(model, &model.circles[other], x).1
+                    centre_and_angular_velocity(model, &model.circles[other], x).1
                 }
                 Surface::Along(pose) => x(model.poses[pose.index()].angle).derivative,
             };
             all.push(LiteralUnilateral {
-                open: of_position(gap),
+                opening: of_position(gap),
                 gap: of_position(gap),
                 face: None,
                 slip: of_rate(own - other),
@@ -626,7 +629,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let rotation = model.rotation(sliding.on);
         let carried: Vec<Varied<R>> = match (model.space, rotation) {
             (Space::Plane, rotation) => {
-                let turned = turned_by(model, rotation);
+                let turned = rotation_angle(model, rotation);
                 let turning = turned.map_or(Varied::<R>::ZERO, |angle| x(angle).derivative);
                 vec![-(turning * arm[1]), turning * arm[0]]
             }
@@ -681,7 +684,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             _ => along.iter().map(|e| e.value.value).collect(),
         };
         LiteralSliding {
-            telling,
+            reference_direction: telling,
             slip: slip.value.value,
             slip_rate: slip.derivative.value,
             slip_along: slip.value.derivative,
@@ -711,7 +714,7 @@ fn expanded<R: Scalar>(f: Small<R>) -> Varied<R> {
 }
 
 /// An undefined value.
-fn unknown<S: Scalar>() -> S {
+fn undefined<S: Scalar>() -> S {
     S::ONE / S::ZERO
 }
 
@@ -934,7 +937,11 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
                 surface: Surface::Along(frame),
                 ..
             } => pose(*frame, &mut roots),
-            ContactGeometry::Corner(Corner { own, other, .. }) => {
+            ContactGeometry::Corner(Corner {
+                polygon: own,
+                other_polygon: other,
+                ..
+            }) => {
                 for polygon in [own, other] {
                     place(polygon.on, &mut roots);
                     roots.extend(polygon.corners.iter().flatten());
@@ -973,10 +980,10 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
 
 /// The angle of a body in the plane.
 fn angle<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Expr<'d>> {
-    turned_by(model, body.rotation)
+    rotation_angle(model, body.rotation)
 }
 
-fn turned_by<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<'d>> {
+fn rotation_angle<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<'d>> {
     match rotation {
         Rotation::Unspecified => None,
         Rotation::Angle(angle) => Some(angle),
@@ -1000,7 +1007,7 @@ fn kinetic_energy<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) ->
             (&Inertia::Planar(inertia), _) => match angle(model, body) {
                 Some(angle) => {
                     let rate = x(angle).rate();
-                    x(inertia).here() * rate * rate
+                    x(inertia).value() * rate * rate
                 }
                 None => P::Base::ZERO,
             },
@@ -1008,10 +1015,10 @@ fn kinetic_energy<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) ->
                 let e = &model.poses[pose.index()].axes;
                 let dot = |k: usize, l: usize| {
                     let pairs = e[k].iter().zip(&e[l]);
-                    sum(pairs.map(|(&a, &b)| x(a).here() * x(b).rate()))
+                    sum(pairs.map(|(&a, &b)| x(a).value() * x(b).rate()))
                 };
                 let w = [dot(2, 1), dot(0, 2), dot(1, 0)];
-                let [xx, yy, zz, xy, xz, yz] = tensor.map(|entry| x(entry).here());
+                let [xx, yy, zz, xy, xz, yz] = tensor.map(|entry| x(entry).value());
                 let twice = |e| e + e;
                 xx * w[0] * w[0]
                     + yy * w[1] * w[1]
@@ -1022,14 +1029,14 @@ fn kinetic_energy<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) ->
             }
             (Inertia::Tensor(_), _) => P::Base::ZERO,
         };
-        x(body.mass).here() * speed + turning
+        x(body.mass).value() * speed + turning
     };
     sum(model.bodies.iter().map(of_body)) * P::Base::from_ratio(1, 2)
 }
 
 /// `Σ ½ c s² + Σ U − Σ m g·x`.
 fn potential_energy<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P::Base {
-    let here = |e: Expr<'d>| x(e).here();
+    let here = |e: Expr<'d>| x(e).value();
     let half = P::Base::from_ratio(1, 2);
     let stored = model.stored().map(|energy| match energy {
         Energy::Quadratic(of) => {
@@ -1053,24 +1060,24 @@ fn dissipation<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P:
     sum(model.dissipated().map(|energy| match energy {
         Energy::Quadratic(of) => {
             let rate = x(of.measure).rate();
-            half * x(of.coefficient).here() * rate * rate
+            half * x(of.coefficient).value() * rate * rate
         }
-        Energy::Given(value) => x(*value).here(),
+        Energy::Given(value) => x(*value).value(),
     }))
 }
 
 /// The centre of a circle, and the angular velocity of what it is fixed to.
-fn placed<'d, R: Scalar>(
+fn centre_and_angular_velocity<'d, R: Scalar>(
     model: &Model<'d>,
     circle: &Circle<'d>,
     x: &impl Fn(Expr<'d>) -> Moving<R>,
 ) -> ([Moving<R>; 2], Varied<R>) {
     let [c, d] = [0, 1].map(|k| circle.center[k]);
-    fixed(model, circle.on, [c, d], x)
+    point_and_angular_velocity(model, circle.on, [c, d], x)
 }
 
 /// The position of a point fixed to a frame or a body, and the angular velocity of that.
-fn fixed<'d, R: Scalar>(
+fn point_and_angular_velocity<'d, R: Scalar>(
     model: &Model<'d>,
     on: Place,
     point: [Expr<'d>; 2],
@@ -1109,9 +1116,9 @@ fn fixed<'d, R: Scalar>(
 }
 
 /// The position of a corner of a polygon relative to another polygon.
-struct OnPolygon<R> {
+struct CornerOnPolygon<R> {
     /// Its distance outside the polygon.
-    open: Moving<R>,
+    opening: Moving<R>,
     /// Its distance outside the face that separates best.
     height: Moving<R>,
     /// Its distance beyond the ends of that face.
@@ -1126,14 +1133,19 @@ fn on_polygon<'d, R: Scalar>(
     model: &Model<'d>,
     corner: &Corner<'d>,
     x: &impl Fn(Expr<'d>) -> Moving<R>,
-) -> OnPolygon<R> {
-    let Corner { corner, own, other } = corner;
+) -> CornerOnPolygon<R> {
+    let Corner {
+        corner,
+        polygon: own,
+        other_polygon: other,
+    } = corner;
     let corners = |polygon: &Polygon<'d>| -> Vec<[Moving<R>; 2]> {
-        let place = |at: &Vec<Expr<'d>>| fixed(model, polygon.on, [at[0], at[1]], x).0;
+        let place =
+            |at: &Vec<Expr<'d>>| point_and_angular_velocity(model, polygon.on, [at[0], at[1]], x).0;
         polygon.corners.iter().map(place).collect()
     };
     let (points, ends) = (corners(own), corners(other));
-    let (_, turning) = fixed(
+    let (_, turning) = point_and_angular_velocity(
         model,
         other.on,
         [other.corners[0][0], other.corners[0][1]],
@@ -1182,8 +1194,8 @@ fn on_polygon<'d, R: Scalar>(
     }
     weights[0] = left;
     let place = points[*corner];
-    let mut found = OnPolygon {
-        open: fold(
+    let mut found = CornerOnPolygon {
+        opening: fold(
             (0..faces).map(|k| distance(k, place)).collect(),
             Moving::max,
         ),
@@ -1231,8 +1243,8 @@ fn on_circle<'d, R: Scalar>(
     is_inside: bool,
     x: &impl Fn(Expr<'d>) -> Moving<R>,
 ) -> [Moving<R>; 2] {
-    let (centre, omega) = placed(model, first, x);
-    let (other_centre, other_omega) = placed(model, other, x);
+    let (centre, omega) = centre_and_angular_velocity(model, first, x);
+    let (other_centre, other_omega) = centre_and_angular_velocity(model, other, x);
     let line = [0, 1].map(|k| centre[k] - other_centre[k]);
     let distance = (line[0] * line[0] + line[1] * line[1]).sqrt();
     let (small, large) = (x(first.radius), x(other.radius));
@@ -1258,7 +1270,7 @@ fn on_line<'d, R: Scalar>(
     x: &impl Fn(Expr<'d>) -> Moving<R>,
 ) -> [Moving<R>; 2] {
     let frame = &model.poses[pose.index()];
-    let (centre, omega) = placed(model, circle, x);
+    let (centre, omega) = centre_and_angular_velocity(model, circle, x);
     let line = [0, 1].map(|k| centre[k] - x(frame.origin[k]));
     let [along, across] = [0, 1].map(|k| [0, 1].map(|l| x(frame.axes[k][l])));
     let radius = x(circle.radius);

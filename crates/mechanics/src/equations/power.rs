@@ -48,7 +48,7 @@ pub(super) fn work_rate<'d>(
     projection: &Projection<'_, 'd>,
     potential_energy: Expr<'d>,
 ) -> Expr<'d> {
-    let explicit = x.explicit(model).of(potential_energy);
+    let explicit = x.explicit_time(model).of(potential_energy);
     model.dag.sum([
         force_power(projection),
         explicit,
@@ -68,7 +68,7 @@ pub(super) fn work_rate_of_energies<'d>(
     projection: &Projection<'_, 'd>,
     [kinetic_energy, potential_energy, driven]: [Expr<'d>; 3],
 ) -> Expr<'d> {
-    let mut explicit = x.explicit(model);
+    let mut explicit = x.explicit_time(model);
     let change = explicit.of(potential_energy) - explicit.of(kinetic_energy);
     model.dag.sum([
         force_power(projection),

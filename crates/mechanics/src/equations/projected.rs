@@ -32,10 +32,11 @@ use super::InertialPair;
 use super::composite::{self, Composite};
 use super::energy;
 use super::kinematics::{
-    self, Chains, Motion, Turning, Twist, Variables, Vector, add, apply_tensor, cross, vector,
+    self, AccelerationMatrix, Chains, Motion, Twist, Variables, Vector, add, apply_tensor, cross,
+    vector,
 };
 use super::symmetric::Symmetric;
-use lagrangian_spec::model::circles::{planar_angle, planar_turn};
+use lagrangian_spec::model::circles::{planar_angle, rotation_angle};
 use lagrangian_spec::model::element::{Energy, Load};
 use lagrangian_spec::model::quaternion::Quaternion;
 use lagrangian_spec::model::{Body, Inertia, Model, Place, PoseId, Rotation, Space};
@@ -45,14 +46,14 @@ pub(super) struct Projection<'a, 'd> {
     model: &'a Model<'d>,
     x: &'a Variables<'d>,
     chains: Chains,
-    bodies: Vec<Carrier<'d>>,
+    bodies: Vec<InertiaNodes<'d>>,
     /// The inertia of the same bodies, grouped by carrier: points, or frames to which it is fixed.
-    inertial: Vec<Carrier<'d>>,
+    inertial: Vec<InertiaNodes<'d>>,
     composites: Vec<(PoseId, Composite<'d>)>,
 }
 
 /// The nodes that carry the inertia of one body.
-struct Carrier<'d> {
+struct InertiaNodes<'d> {
     /// Scalar positions with their weights: `T = ½ Σ w (Dp)²`.
     points: Vec<Weighted<'d>>,
     /// Mass, and the mass centre in the axes of a frame in space; such a centre is not among the points.
@@ -70,8 +71,8 @@ struct Weighted<'d> {
     gravity: Option<Expr<'d>>,
 }
 
-/// The motion of a body at some rate, or the loads on it, in the order of its [`Carrier`].
-struct Carried<'d> {
+/// The motion of a body at some rate, or the loads on it, in the order of its [`InertiaNodes`].
+struct NodeValues<'d> {
     points: Vec<Expr<'d>>,
     linear: Option<Vector<'d>>,
     angular: Option<Vector<'d>>,
@@ -90,7 +91,11 @@ pub(super) struct Loads<'d> {
 
 impl<'a, 'd> Projection<'a, 'd> {
     pub fn of(model: &'a Model<'d>, x: &'a Variables<'d>) -> Projection<'a, 'd> {
-        let bodies: Vec<Carrier<'d>> = model.bodies.iter().map(|b| carrier(model, b)).collect();
+        let bodies: Vec<InertiaNodes<'d>> = model
+            .bodies
+            .iter()
+            .map(|b| inertia_nodes(model, b))
+            .collect();
         let turning = bodies
             .iter()
             .filter_map(|body| body.tensor.map(|(_, pose)| pose));
@@ -101,10 +106,12 @@ impl<'a, 'd> Projection<'a, 'd> {
         let moving = bodies
             .iter()
             .filter_map(|body| body.centre.map(|(_, pose, _)| pose));
-        let (mut inertial, composites) = gather(model, &bodies);
+        let (mut inertial, composites) = group_by_frame(model, &bodies);
         inertial.extend(lengths(model));
         let carried_by_frames = composites.iter().map(|(pose, _)| *pose);
-        let carried = composites.iter().filter(|(_, composite)| composite.moves());
+        let carried = composites
+            .iter()
+            .filter(|(_, composite)| composite.depends_on_origin_motion());
         let moving = moving.chain(carried.map(|(pose, _)| *pose));
         let chains = Chains::to(
             model,
@@ -126,7 +133,7 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// Column `j` is the projected momentum of a machine that moves with `vⱼ = 1`, one reverse
     /// sweep. Nothing if they become too large.
     pub fn mass_matrix(&self) -> Option<Symmetric<Expr<'d>>> {
-        let coasting = &mut self.x.coasting(self.model);
+        let coasting = &mut self.x.without_acceleration(self.model);
         let (actual, twists) = (
             self.velocities_of(&self.inertial, coasting),
             self.twists(coasting),
@@ -167,13 +174,13 @@ impl<'a, 'd> Projection<'a, 'd> {
     ///
     /// With `gravity` the loads include it, as an acceleration of the ground.
     pub fn bias_loads(&self, sign: i64, gravity: bool) -> Loads<'d> {
-        self.inertia_loads(&mut self.x.coasting(self.model), sign, gravity)
+        self.inertia_loads(&mut self.x.without_acceleration(self.model), sign, gravity)
     }
 
     /// The residual of the equations of motion at given accelerations, `f − M a`, eq. (E25): inertia and
     /// gravity reversed, and the applied loads, in one sweep. This is recursive Newton–Euler, linear in the
     /// number of links.
-    pub fn unbalanced(&self) -> Vec<Expr<'d>> {
+    pub fn residual(&self) -> Vec<Expr<'d>> {
         let mut loads = self.inertia_loads(&mut self.x.total(self.model), -1, true);
         self.add_applied(&mut loads);
         let coordinates = self.model.coordinates.iter().enumerate();
@@ -194,8 +201,8 @@ impl<'a, 'd> Projection<'a, 'd> {
         let (twists, accelerations) = self.motion(rate, gravity);
         for (pose, composite) in &self.composites {
             let (twist, here) = (&twists[pose.index()], &accelerations[pose.index()]);
-            let turning = Turning::of(&twist.angular, &here.angular);
-            let demand = composite.demand(&turning, &here.linear);
+            let turning = AccelerationMatrix::of(&twist.angular, &here.angular);
+            let demand = composite.inertia_wrench(&turning, &here.linear);
             loads.on_frame(twist, demand.map(|vector| vector.map(|x| sign * x)));
         }
         loads
@@ -206,7 +213,7 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// A spring pulls with `−c s` along its deformation, a damper with `−b ṡ`; forces and torques act at
     /// their points and bodies. A coefficient that depends on coordinates or rates gives a term of its own.
     pub fn add_applied(&self, loads: &mut Loads<'d>) {
-        let (model, rate) = (self.model, &mut self.x.coasting(self.model));
+        let (model, rate) = (self.model, &mut self.x.without_acceleration(self.model));
         for energy in model.stored() {
             match energy {
                 Energy::Quadratic(deformed) => {
@@ -234,10 +241,10 @@ impl<'a, 'd> Projection<'a, 'd> {
 
     /// Adds the load that restores the lengths of quaternions, eq. (E75). It acts on the lengths alone, and has no power.
     pub fn add_lengths(&self, loads: &mut Loads<'d>) {
-        let rate = &mut self.x.coasting(self.model);
+        let rate = &mut self.x.without_acceleration(self.model);
         for four in &self.model.quaternions {
             let load = four.load(&four.e.map(|e| rate.of(e)));
-            loads.on_positions.push((four.size(), load));
+            loads.on_positions.push((four.log_length(), load));
         }
     }
 
@@ -254,11 +261,11 @@ impl<'a, 'd> Projection<'a, 'd> {
         let Some(g) = self.model.gravity() else {
             return;
         };
-        let coasting = &mut self.x.coasting(self.model);
+        let coasting = &mut self.x.without_acceleration(self.model);
         let velocities = self.velocities_of(&self.inertial, coasting);
         let along = match self.model.space {
             Space::Plane => Vec::new(),
-            Space::Space => self.chains.carried(self.model, vector(g)),
+            Space::Space => self.chains.ground_vector_in_axes(self.model, vector(g)),
         };
         let twists = self.twists(coasting);
         for (pose, composite) in &self.composites {
@@ -323,14 +330,15 @@ impl<'a, 'd> Projection<'a, 'd> {
         let rotation = self.model.rotation(on);
         match self.model.space {
             Space::Plane => {
-                let angle = planar_turn(self.model, rotation);
+                let angle = rotation_angle(self.model, rotation);
                 loads
                     .on_positions
                     .extend(angle.map(|angle| (angle, torque[0])));
             }
             Space::Space => {
-                let twists =
-                    twists.get_or_insert_with(|| self.twists(&mut self.x.coasting(self.model)));
+                let twists = twists.get_or_insert_with(|| {
+                    self.twists(&mut self.x.without_acceleration(self.model))
+                });
                 if let Some(pose) = frame_of(rotation) {
                     let turning = twists[pose.index()].angular;
                     let along = kinematics::along_axes(self.model, pose, torque);
@@ -375,7 +383,7 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// a motion without accelerations are a load, computed from the ground to the tips in axes that
     /// turn, and only the contribution of the accelerations remains to be solved for.
     pub fn unprojected(&self, applied: &Loads<'d>, forces: &Loads<'d>) -> super::Unprojected<'d> {
-        let rate = &mut self.x.coasting(self.model);
+        let rate = &mut self.x.without_acceleration(self.model);
         let drifts = self.model.space == Space::Plane;
         let loads = if drifts { applied } else { forces };
         let velocities = self.velocities_of(&self.inertial, rate);
@@ -383,11 +391,11 @@ impl<'a, 'd> Projection<'a, 'd> {
         for (body, velocity) in self.inertial.iter().zip(&velocities) {
             let points = body.points.iter().zip(&velocity.points);
             inertia.extend(points.map(|(point, &u)| InertialPair {
-                fall: point.gravity.filter(|g| drifts && !g.is_zero()),
-                ..InertialPair::weightless(u, u, point.weight)
+                free_fall: point.gravity.filter(|g| drifts && !g.is_zero()),
+                ..InertialPair::without_gravity(u, u, point.weight)
             }));
             let mut add = |[u, w, weight]: [Expr<'d>; 3]| {
-                inertia.push(InertialPair::weightless(u, w, weight));
+                inertia.push(InertialPair::without_gravity(u, w, weight));
             };
             if let (Some((mass, ..)), Some(linear)) = (body.centre, velocity.linear) {
                 linear.into_iter().for_each(|u| add([u, u, mass]));
@@ -402,11 +410,11 @@ impl<'a, 'd> Projection<'a, 'd> {
         let twists = self.twists(rate);
         for (pose, composite) in &self.composites {
             let pairs = composite.pairs(&twists[pose.index()]).into_iter();
-            inertia.extend(pairs.map(|[u, w, weight]| InertialPair::weightless(u, w, weight)));
+            inertia.extend(pairs.map(|[u, w, weight]| InertialPair::without_gravity(u, w, weight)));
         }
         let states = self.model.coordinates.iter().filter(|c| c.rate.is_some());
         let one = self.model.dag.one();
-        inertia.extend(states.map(|c| InertialPair::weightless(c.v, c.v, one)));
+        inertia.extend(states.map(|c| InertialPair::without_gravity(c.v, c.v, one)));
         let mut acting = Vec::new();
         acting.extend(
             loads
@@ -427,7 +435,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         super::Unprojected {
             inertia,
             loads: acting,
-            drifts,
+            has_bias_accelerations: drifts,
         }
     }
 
@@ -460,10 +468,11 @@ impl<'a, 'd> Projection<'a, 'd> {
 
     /// Kinetic energy of every body, eq. (E1), in the axes that are cheapest.
     pub fn kinetic_energies(&self) -> Vec<Expr<'d>> {
-        let velocities = self.velocities(&mut self.x.coasting(self.model));
-        let energy = |((body, carrier), velocity): ((&Body<'d>, &Carrier<'d>), &Carried<'d>)| {
-            energy::kinetic_energy(body, &carrier.motion(self.model, velocity))
-        };
+        let velocities = self.velocities(&mut self.x.without_acceleration(self.model));
+        let energy =
+            |((body, carrier), velocity): ((&Body<'d>, &InertiaNodes<'d>), &NodeValues<'d>)| {
+                energy::kinetic_energy(body, &carrier.motion(self.model, velocity))
+            };
         self.model
             .bodies
             .iter()
@@ -476,8 +485,8 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// Power of everything that is driven by explicit time, eq. (E19): `Σ w (D²p) ∂p/∂t`, the inertia
     /// force of what is driven times the velocity at which it is driven. It contains accelerations.
     pub fn drive_power(&self) -> Expr<'d> {
-        let driven = self.velocities(&mut self.x.explicit(self.model));
-        if driven.iter().all(Carried::is_at_rest) {
+        let driven = self.velocities(&mut self.x.explicit_time(self.model));
+        if driven.iter().all(NodeValues::is_at_rest) {
             return self.model.dag.zero();
         }
         let rate = &mut self.x.total(self.model);
@@ -492,13 +501,17 @@ impl<'a, 'd> Projection<'a, 'd> {
     }
 
     /// The motion of every body at a rate.
-    fn velocities(&self, rate: &mut Tangent<'d>) -> Vec<Carried<'d>> {
+    fn velocities(&self, rate: &mut Tangent<'d>) -> Vec<NodeValues<'d>> {
         self.velocities_of(&self.bodies, rate)
     }
 
-    fn velocities_of(&self, list: &[Carrier<'d>], rate: &mut Tangent<'d>) -> Vec<Carried<'d>> {
+    fn velocities_of(
+        &self,
+        list: &[InertiaNodes<'d>],
+        rate: &mut Tangent<'d>,
+    ) -> Vec<NodeValues<'d>> {
         let twists = self.twists(rate);
-        let velocity = |body: &Carrier<'d>| Carried {
+        let velocity = |body: &InertiaNodes<'d>| NodeValues {
             points: body
                 .points
                 .iter()
@@ -539,19 +552,19 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// are included depends on the rate; with `gravity` the ground accelerates by `−g`.
     fn inertia(
         &self,
-        list: &[Carrier<'d>],
+        list: &[InertiaNodes<'d>],
         rate: &mut Tangent<'d>,
         gravity: bool,
-    ) -> Vec<Carried<'d>> {
+    ) -> Vec<NodeValues<'d>> {
         let (twists, accelerations) = self.motion(rate, gravity);
         let gravity = self.model.gravity().filter(|_| gravity);
-        let mut load = |body: &Carrier<'d>| {
+        let mut load = |body: &InertiaNodes<'d>| {
             let points = body.points.iter().map(|point| {
                 let (acceleration, weight) =
                     (rate.twice(point.position), gravity.and(point.gravity));
                 point.weight * weight.map_or(acceleration, |g| acceleration - g)
             });
-            Carried {
+            NodeValues {
                 points: points.collect(),
                 linear: body.centre.map(|(mass, pose, r)| {
                     let (here, omega) =
@@ -572,11 +585,11 @@ impl<'a, 'd> Projection<'a, 'd> {
     }
 }
 
-impl<'d> Carrier<'d> {
+impl<'d> InertiaNodes<'d> {
     /// `w u`, `m u` and `I ω`.
-    fn momentum(&self, motion: &Carried<'d>) -> Carried<'d> {
+    fn momentum(&self, motion: &NodeValues<'d>) -> NodeValues<'d> {
         let points = self.points.iter().zip(&motion.points);
-        Carried {
+        NodeValues {
             points: points.map(|(point, &rate)| point.weight * rate).collect(),
             linear: self
                 .centre
@@ -590,7 +603,7 @@ impl<'d> Carrier<'d> {
     }
 
     /// The motion in the form that [`energy`] expects: linear, then angular.
-    fn motion(&self, model: &Model<'d>, carried: &Carried<'d>) -> Motion<'d> {
+    fn motion(&self, model: &Model<'d>, carried: &NodeValues<'d>) -> Motion<'d> {
         let dimension = model.space.dimension();
         let in_points = if carried.linear.is_some() {
             0
@@ -605,9 +618,9 @@ impl<'d> Carrier<'d> {
     }
 }
 
-impl<'d> Carried<'d> {
-    fn scaled(self, factor: i64) -> Carried<'d> {
-        Carried {
+impl<'d> NodeValues<'d> {
+    fn scaled(self, factor: i64) -> NodeValues<'d> {
+        NodeValues {
             points: self.points.into_iter().map(|x| factor * x).collect(),
             linear: self.linear.map(|vector| vector.map(|x| factor * x)),
             angular: self.angular.map(|vector| vector.map(|x| factor * x)),
@@ -626,7 +639,12 @@ impl<'d> Carried<'d> {
 
 impl<'d> Loads<'d> {
     /// Adds loads at the nodes that carry the inertia of a body that moves with the given velocity.
-    fn on_body(&mut self, body: &Carrier<'d>, velocity: &Carried<'d>, load: Carried<'d>) {
+    fn on_body(
+        &mut self,
+        body: &InertiaNodes<'d>,
+        velocity: &NodeValues<'d>,
+        load: NodeValues<'d>,
+    ) {
         let positions = body.points.iter().map(|point| point.position);
         self.on_positions.extend(positions.zip(load.points));
         let vectors = [
@@ -669,7 +687,7 @@ pub(super) fn with_state<'d>(model: &Model<'d>, i: usize, entry: Expr<'d>) -> Ex
 
 /// The carrier of a body. In the plane everything is a scalar position; in space whatever moves
 /// with frames is described in their axes.
-fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
+fn inertia_nodes<'d>(model: &Model<'d>, body: &Body<'d>) -> InertiaNodes<'d> {
     let centre = match model.space {
         Space::Plane => None,
         Space::Space => body.local.as_ref(),
@@ -696,7 +714,7 @@ fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
         Inertia::Tensor(tensor) => frame_of(body.rotation).map(|pose| (tensor, pose)),
     };
     let centre = centre.map(|local| (body.mass, local.pose, vector(&local.point)));
-    Carrier {
+    InertiaNodes {
         points,
         centre,
         tensor,
@@ -704,10 +722,10 @@ fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
 }
 
 /// The lengths of quaternions, eq. (E74), which have an inertia of their own that belongs to no body.
-fn lengths<'d>(model: &Model<'d>) -> impl Iterator<Item = Carrier<'d>> {
-    let length = |four: &Quaternion<'d>| Carrier {
+fn lengths<'d>(model: &Model<'d>) -> impl Iterator<Item = InertiaNodes<'d>> {
+    let length = |four: &Quaternion<'d>| InertiaNodes {
         points: vec![Weighted {
-            position: four.size(),
+            position: four.log_length(),
             weight: four.inertia,
             gravity: None,
         }],
@@ -718,10 +736,10 @@ fn lengths<'d>(model: &Model<'d>) -> impl Iterator<Item = Carrier<'d>> {
 }
 
 /// The inertia that is fixed to frames, gathered, and the rest.
-fn gather<'d>(
+fn group_by_frame<'d>(
     model: &Model<'d>,
-    bodies: &[Carrier<'d>],
-) -> (Vec<Carrier<'d>>, Vec<(PoseId, Composite<'d>)>) {
+    bodies: &[InertiaNodes<'d>],
+) -> (Vec<InertiaNodes<'d>>, Vec<(PoseId, Composite<'d>)>) {
     let zero = model.dag.zero();
     let mut others = Vec::new();
     let mut fixed = Vec::new();
@@ -737,7 +755,7 @@ fn gather<'d>(
                 .is_some_and(|(_, composite)| composite.is_constant())
         };
         let is_constant = [constant(&centre), constant(&tensor)];
-        others.push(Carrier {
+        others.push(InertiaNodes {
             points: body.points.to_vec(),
             centre: body.centre.filter(|_| !is_constant[0]),
             tensor: body.tensor.filter(|_| !is_constant[1]),
@@ -748,12 +766,12 @@ fn gather<'d>(
     if fixed.is_empty() {
         return (others, Vec::new());
     }
-    let composites = composite::gathered(model, fixed.into_iter());
+    let composites = composite::composites_by_pose(model, fixed.into_iter());
     let composites = (0..).map(PoseId).zip(composites);
     (
         others,
         composites
-            .filter(|(_, composite)| !composite.is_nothing())
+            .filter(|(_, composite)| !composite.is_zero())
             .collect(),
     )
 }

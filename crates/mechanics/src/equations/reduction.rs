@@ -159,7 +159,7 @@ fn dependent<'d>(
             (dag.sum([offset, shared]), Some([offset, meaning]))
         }
     };
-    let rate = x.coasting(model).of(position);
+    let rate = x.without_acceleration(model).of(position);
     let acceleration = x.total(model).of(rate);
     let parts = [position, rate, acceleration];
     let has_value = !parts.iter().any(|part| part.is_undefined());

@@ -55,7 +55,7 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
     for contact in model
         .contacts
         .iter()
-        .filter(|c| c.slips_across(model.space))
+        .filter(|c| c.has_two_tangents(model.space))
     {
         let law = contact.response.impact_law();
         if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
@@ -94,7 +94,7 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
         }
         if let ContactGeometry::Circles(touching) = &contact.geometry {
             let x = Variables::of(model);
-            let rate = circles::rolling(model, touching, &mut x.coasting(model));
+            let rate = circles::rolling_rate(model, touching, &mut x.without_acceleration(model));
             if identity::is_zero(rate) == Some(true) {
                 let message = "neither of these circles turns".to_owned();
                 let help =
@@ -108,7 +108,7 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
         + model
             .contacts
             .iter()
-            .filter(|c| c.slips_across(model.space))
+            .filter(|c| c.has_two_tangents(model.space))
             .count();
     let most = MOST_UNILATERAL - leaning.min(MOST_UNILATERAL);
     if let Some(contact) = model.contacts.get(most) {
@@ -207,7 +207,7 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
 }
 
 /// Refuses bodies that roll or rub without a given orientation. Returns true if anything is refused.
-pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
+pub(super) fn refuse_unoriented(model: &Model<'_>, report: &mut Report) -> bool {
     let mut refused = false;
     let mut refuse = |circle: &Circle<'_>, surface: Surface, span: Span| {
         let other = match surface {
@@ -255,14 +255,19 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
             | ContactGeometry::Expressions { .. } => {}
         }
     }
-    refuse_unturned_polygons(model, report) || refused
+    refuse_unoriented_polygons(model, report) || refused
 }
 
 /// Refuses polygons on bodies without a given orientation, once for each pair. Returns true if anything is refused.
-fn refuse_unturned_polygons(model: &Model<'_>, report: &mut Report) -> bool {
+fn refuse_unoriented_polygons(model: &Model<'_>, report: &mut Report) -> bool {
     let mut refused = false;
     for contact in &model.contacts {
-        let ContactGeometry::Corner(Corner { corner, own, .. }) = &contact.geometry else {
+        let ContactGeometry::Corner(Corner {
+            corner,
+            polygon: own,
+            ..
+        }) = &contact.geometry
+        else {
             continue;
         };
         // Each polygon is checked at the contact of its own first corner.
@@ -335,7 +340,7 @@ pub(super) fn refuse_undefined(
         ("potential energy", equations.potential_energy),
         ("dissipation", equations.dissipation),
     ];
-    let slopes = equations.slopes.iter().flatten();
+    let slopes = equations.residual_derivatives.iter().flatten();
     let undefined = energies.iter().find(|(_, energy)| energy.is_undefined());
     let all = equations.forces.iter().chain(equations.mass_matrix.lower());
     let what = match undefined {

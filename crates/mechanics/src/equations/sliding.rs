@@ -53,7 +53,7 @@ pub struct SlidingEquation<'d> {
     pub direction: Vec<Expr<'d>>,
     /// The normal `n(q, t)` of the surface on which it slides, of any length, and which of its tangents the direction is; none
     /// if it slides along a line or a curve.
-    pub surface: Option<(Vec<Expr<'d>>, element::Tangent)>,
+    pub surface: Option<(Vec<Expr<'d>>, element::SurfaceTangent)>,
     /// The components of the normal reaction: one in the plane, along the normal; three in space, in ground axes.
     pub reactions: Vec<Reaction<'d>>,
     /// `μ`.
@@ -78,7 +78,7 @@ pub struct Reaction<'d> {
 impl<'d> SlidingEquation<'d> {
     /// The unit vector that determines the pressing part of the reaction: the normal of a surface, along which all of it presses, or
     /// the tangent of a curve, along which nothing presses.
-    pub fn telling(&self) -> Vec<Expr<'d>> {
+    pub fn reference_direction(&self) -> Vec<Expr<'d>> {
         match &self.surface {
             Some((normal, _)) => unit(normal),
             None => self.direction.clone(),
@@ -87,7 +87,7 @@ impl<'d> SlidingEquation<'d> {
 
     /// Whether it is the second tangent of the surface of the preceding contact.
     pub fn is_second(&self) -> bool {
-        matches!(self.surface, Some((_, element::Tangent::Second)))
+        matches!(self.surface, Some((_, element::SurfaceTangent::Second)))
     }
 
     /// The components of the normal reaction over the symbols of the accelerations and of the multipliers, in their order: in space
@@ -102,14 +102,14 @@ impl<'d> SlidingEquation<'d> {
                 return part;
             }
             if self.surface.is_some() {
-                let mut part = vec![dot(&self.telling(), &part)];
-                identity::settle(dag, &mut part);
+                let mut part = vec![dot(&self.reference_direction(), &part)];
+                identity::remove_spurious_symbols(dag, &mut part);
                 return part;
             }
             let along = dot(&self.direction, &part);
             let pairs = part.into_iter().zip(&self.direction);
             let mut part: Vec<Expr<'d>> = pairs.map(|(x, &e)| x - along * e).collect();
-            identity::settle(dag, &mut part);
+            identity::remove_spurious_symbols(dag, &mut part);
             part
         };
         let part = |of: &dyn Fn(&Reaction<'d>) -> Expr<'d>| {
@@ -162,7 +162,7 @@ pub(super) fn sliding<'d>(
     let guides: Vec<Guide<'d>> = all.iter().map(|s| guide(model, s)).collect();
     let mut refused = false;
     for (sliding, guide) in all.iter().zip(&guides) {
-        if let Some(diagnostic) = what_is_wrong(model, sliding, guide) {
+        if let Some(diagnostic) = guide_error(model, sliding, guide) {
             report.push(diagnostic);
             refused = true;
         }
@@ -185,15 +185,15 @@ pub(super) fn sliding<'d>(
         }));
         return None;
     };
-    if carrying::refuse_untied(model, report) {
+    if carrying::refuse_undetermined_reactions(model, report) {
         return None;
     }
-    let mut coasting = x.coasting(model);
+    let mut coasting = x.without_acceleration(model);
     let mut equations = Vec::with_capacity(guides.len());
     let mut solved = solved.into_iter();
     for (sliding, guide) in all.iter().zip(&guides) {
         let slip = relative(model, sliding, guide, &mut coasting).slip;
-        let (slip, row) = settled(model, &x, slip);
+        let (slip, row) = simplified(model, &x, slip);
         let reactions = if sliding.is_second() {
             // Both tangents share one reaction.
             equations
@@ -221,13 +221,17 @@ pub(super) fn sliding<'d>(
 
 /// A slip and its derivatives by the rates. Constant or zero parts are written as constants: a body at
 /// rest on a moving rail has the slip 0, and not the round-off of differences.
-fn settled<'d>(model: &Model<'d>, x: &Variables<'d>, slip: Expr<'d>) -> (Expr<'d>, Vec<Expr<'d>>) {
+fn simplified<'d>(
+    model: &Model<'d>,
+    x: &Variables<'d>,
+    slip: Expr<'d>,
+) -> (Expr<'d>, Vec<Expr<'d>>) {
     let dag = model.dag;
     let derived = gradient(dag, slip, &x.v);
     let at_rest: Vec<_> = x.v.iter().map(|&v| (v, dag.zero())).collect();
     let of_base = substitute(dag, &[slip], &at_rest)[0];
     let mut parts: Vec<Expr<'d>> = derived.iter().copied().chain([of_base]).collect();
-    identity::settle(dag, &mut parts);
+    identity::remove_spurious_symbols(dag, &mut parts);
     let rows = &parts[..x.v.len()];
     let is_constant = rows.iter().all(|entry| entry.stage() <= stage::PARAMETER);
     if !is_constant && rows == &derived[..] && parts[x.v.len()] == of_base {
@@ -240,7 +244,7 @@ fn settled<'d>(model: &Model<'d>, x: &Variables<'d>, slip: Expr<'d>) -> (Expr<'d
 }
 
 /// Why a contact is not a valid guide.
-fn what_is_wrong<'d>(
+fn guide_error<'d>(
     model: &Model<'d>,
     sliding: &Sliding<'d>,
     guide: &Guide<'d>,
@@ -251,9 +255,9 @@ fn what_is_wrong<'d>(
     };
     if let (Some(tangent), Some(normal)) = (sliding.tangent, &sliding.normal) {
         return match tangent {
-            element::Tangent::First => what_is_wrong_on_surface(model, sliding, normal),
+            element::SurfaceTangent::First => surface_error(model, sliding, normal),
             // It was reported for the first tangent.
-            element::Tangent::Second => None,
+            element::SurfaceTangent::Second => None,
         };
     }
     if is_zero(model.dag.sum(sliding.direction.iter().map(|x| x.square()))) {
@@ -270,9 +274,12 @@ fn what_is_wrong<'d>(
             "it only determines on which side of the guide the body is",
         );
     }
-    let mut coasting = Variables::of(model).coasting(model);
+    let mut coasting = Variables::of(model).without_acceleration(model);
     let relative = relative(model, sliding, guide, &mut coasting);
-    let (slip, off) = (relative.slip, across(&sliding.direction, &relative.off));
+    let (slip, off) = (
+        relative.slip,
+        across(&sliding.direction, &relative.normal_velocity),
+    );
     if !off.into_iter().all(is_zero) {
         return error(
             format!("the coordinates let the body of `{name}` leave its guide"),
@@ -287,25 +294,25 @@ fn what_is_wrong<'d>(
             "friction acts only where something moves or could move",
         );
     }
-    if is_alone(model, sliding) && follows(model, sliding, slip, &mut coasting) {
+    if is_only_guide(model, sliding) && is_base_motion(model, sliding, slip, &mut coasting) {
         return error(
             format!("the body of `{name}` is held by more than this guide"),
-            HELD_BY_MORE,
+            FURTHER_GUIDES_HELP,
         );
     }
     None
 }
 
-const HELD_BY_MORE: &str = "its position on the guide follows from the motion of the guide: declare under `sliding` the other guides in which it slides, with `friction: 0` where they are smooth";
+const FURTHER_GUIDES_HELP: &str = "its position on the guide follows from the motion of the guide: declare under `sliding` the other guides in which it slides, with `friction: 0` where they are smooth";
 
 /// Whether this is the only guide of its body.
-fn is_alone(model: &Model<'_>, sliding: &Sliding<'_>) -> bool {
+fn is_only_guide(model: &Model<'_>, sliding: &Sliding<'_>) -> bool {
     let guides = model.sliding().into_iter().filter(|s| !s.is_second());
     guides.filter(|s| s.body == sliding.body).count() == 1
 }
 
 /// Why a contact given by a normal is not a valid surface for a body to slide on.
-fn what_is_wrong_on_surface<'d>(
+fn surface_error<'d>(
     model: &Model<'d>,
     sliding: &Sliding<'d>,
     normal: &[Expr<'d>],
@@ -321,7 +328,7 @@ fn what_is_wrong_on_surface<'d>(
         );
     }
     let x = Variables::of(model);
-    let mut coasting = x.coasting(model);
+    let mut coasting = x.without_acceleration(model);
     let velocity = super::guide::velocity(model, sliding, &mut coasting);
     if !is_zero(dot(normal, &velocity)) {
         return error(
@@ -347,14 +354,14 @@ fn what_is_wrong_on_surface<'d>(
             "something else holds it that the spec does not describe: for sliding along a curve give `direction` in place of `normal`",
         );
     }
-    if is_alone(model, sliding)
+    if is_only_guide(model, sliding)
         && velocity
             .iter()
-            .any(|&along| !is_zero(along) && follows(model, sliding, along, &mut coasting))
+            .any(|&along| !is_zero(along) && is_base_motion(model, sliding, along, &mut coasting))
     {
         return error(
             format!("the body of `{name}` is held by more than this surface"),
-            HELD_BY_MORE,
+            FURTHER_GUIDES_HELP,
         );
     }
     None
@@ -371,7 +378,7 @@ fn across<'d>(direction: &[Expr<'d>], off: &[Expr<'d>]) -> Vec<Expr<'d>> {
 
 /// Whether the motion of the base alone determines a slip: then something else, which is unknown,
 /// holds the body.
-fn follows<'d>(
+fn is_base_motion<'d>(
     model: &Model<'d>,
     sliding: &Sliding<'d>,
     slip: Expr<'d>,
@@ -403,9 +410,9 @@ impl<'d> Reactions<'d> {
         let numbers = super::guide::guides_of(model);
         let own = |k: usize| n + dimension * numbers[k]..n + dimension * (numbers[k] + 1);
 
-        let unbalanced = Projection::of(relaxed, &x).unbalanced();
+        let unbalanced = Projection::of(relaxed, &x).residual();
         let constraints = constraints::constraints(relaxed);
-        let mut coasting = x.coasting(relaxed);
+        let mut coasting = x.without_acceleration(relaxed);
         let (mut slips, mut offs) = (Vec::new(), Vec::new());
         for (sliding, guide) in relaxed.sliding().into_iter().zip(guides) {
             let relative = relative(relaxed, sliding, guide, &mut coasting);
@@ -415,7 +422,7 @@ impl<'d> Reactions<'d> {
             }
             offs.extend(
                 relative
-                    .off
+                    .normal_velocity
                     .into_iter()
                     .map(|rate| gradient(dag, rate, &x.v)),
             );
@@ -453,12 +460,12 @@ impl<'d> Reactions<'d> {
             shares.push(share.collect());
         }
         let mut reactions = Reactions { rows, shares };
-        reactions.settle();
+        reactions.simplify_coefficients();
         reactions
     }
 
     /// Replaces coefficients that are identically 0 or 1 by these constants.
-    fn settle(&mut self) {
+    fn simplify_coefficients(&mut self) {
         let known = |e: &mut Expr<'d>| {
             let dag = e.dag();
             for value in [dag.zero(), dag.one()] {
@@ -503,7 +510,7 @@ impl<'d> Reactions<'d> {
             let pivot = self.shares[k][k];
             self.rows[k].parts().for_each(|part| *part = *part / pivot);
         }
-        self.settle();
+        self.simplify_coefficients();
         Some(self.rows)
     }
 }

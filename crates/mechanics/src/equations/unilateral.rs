@@ -18,7 +18,7 @@ use lagrangian_symbolic::{Expr, normal};
 use super::kinematics::Variables;
 use super::kinematics::gradient;
 use lagrangian_spec::identity;
-use lagrangian_spec::model::circles::{self, Contact};
+use lagrangian_spec::model::circles::{self, RelativeMotion};
 use lagrangian_spec::model::{
     self, Circle, Compliance, ContactGeometry, ImpactLaw, ImpactOrder, Model, Painleve, Space,
     Surface, polygons, spheres,
@@ -47,11 +47,11 @@ pub struct UnilateralEquation<'d> {
     /// The force law, if it is compliant.
     pub compliance: Option<Compliance>,
     /// Whether there is friction.
-    pub rubs: bool,
+    pub has_friction: bool,
     /// Whether it is the rolling resistance of the preceding contact: see [`Unilateral`](lagrangian_program::Unilateral).
-    pub rolls: bool,
+    pub is_rolling_resistance: bool,
     /// Whether it is the second tangent of the preceding contact, in space: see [`Unilateral`](lagrangian_program::Unilateral).
-    pub across: bool,
+    pub is_second_tangent: bool,
     /// For a corner on a face of a polygon, its distance outside the face, its distance beyond the ends of the face, and the
     /// rate of the latter.
     pub face: Option<[Expr<'d>; 3]>,
@@ -72,23 +72,25 @@ pub struct DirectionEquation<'d> {
 pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
     let x = Variables::of(model);
     let of_contact = |contact: &model::Contact<'d>| -> Vec<UnilateralEquation<'d>> {
-        let mut coasting = x.coasting(model);
+        let mut coasting = x.without_acceleration(model);
         let mut touch = |round: &Circle<'d>, surface: Surface| match model.space {
             Space::Plane => {
-                let Contact { gap, slip } = circles::touch(model, round, surface, &mut coasting);
+                let RelativeMotion { gap, slip } =
+                    circles::relative_motion(model, round, surface, &mut coasting);
                 (gap, slip, None)
             }
             Space::Space => {
-                let spheres::Contact { gap, slip } =
-                    spheres::touch(model, round, surface, &mut coasting);
+                let spheres::RelativeMotion { gap, slip } =
+                    spheres::relative_motion(model, round, surface, &mut coasting);
                 (gap, slip[0], Some(slip[1]))
             }
         };
         let mut of_face = None;
         let (gap, slip, across) = match &contact.geometry {
             ContactGeometry::Corner(corner) => {
-                let touching = polygons::touch(model, corner, &mut x.coasting(model));
-                let beyond_rate = x.coasting(model).of(touching.beyond);
+                let touching =
+                    polygons::relative_motion(model, corner, &mut x.without_acceleration(model));
+                let beyond_rate = x.without_acceleration(model).of(touching.beyond);
                 of_face = Some((
                     touching.rate,
                     [touching.height, touching.beyond, beyond_rate],
@@ -113,7 +115,7 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             None => {
                 let gap = plain(gap);
                 let slip = if rubs { plain(slip) } else { zero };
-                (gap, x.coasting(model).of(gap), slip)
+                (gap, x.without_acceleration(model).of(gap), slip)
             }
         };
         let friction = contact.friction.unwrap_or(zero);
@@ -132,9 +134,9 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             order: contact.response.order().unwrap_or_default(),
             painleve: contact.response.painleve(),
             compliance: contact.response.compliance(),
-            rubs,
-            rolls: false,
-            across: false,
+            has_friction: rubs,
+            is_rolling_resistance: false,
+            is_second_tangent: false,
             face: of_face.map(|(_, face)| face),
         };
         if let (true, Some(across)) = (rubs, across) {
@@ -145,7 +147,7 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
                 directions: [normal, direction(model, &x, plain(across))],
                 painleve: Painleve::default(),
                 compliance: None,
-                across: true,
+                is_second_tangent: true,
                 ..own.clone()
             };
             return vec![own, second];
@@ -156,15 +158,19 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             return vec![own];
         };
         // It shares the gap and the normal of the preceding contact; only an angular velocity is its own.
-        let rate = plain(circles::rolling(model, touching, &mut x.coasting(model)));
+        let rate = plain(circles::rolling_rate(
+            model,
+            touching,
+            &mut x.without_acceleration(model),
+        ));
         let rolling = UnilateralEquation {
             name: format!("{}.rolling", contact.name),
             directions: [own.directions[0].clone(), direction(model, &x, rate)],
             coefficients: [zero, zero, resistance, resistance],
             painleve: Painleve::default(),
             compliance: None,
-            rubs: true,
-            rolls: true,
+            has_friction: true,
+            is_rolling_resistance: true,
             ..own.clone()
         };
         vec![own, rolling]
@@ -178,6 +184,6 @@ fn direction<'d>(model: &Model<'d>, x: &Variables<'d>, rate: Expr<'d>) -> Direct
     DirectionEquation {
         rate,
         row,
-        drift: x.coasting(model).of(rate),
+        drift: x.without_acceleration(model).of(rate),
     }
 }

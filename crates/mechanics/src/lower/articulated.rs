@@ -43,7 +43,7 @@ use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
 
 /// The largest number of terms that may enter the form. Beyond it, elimination of the mass matrix is better.
-const BUDGET: usize = 40_000;
+const TERM_LIMIT: usize = 40_000;
 
 /// The largest number of nodes and operands that may be created on the way. A machine that needs
 /// more is coupled too densely to be eliminated along its structure.
@@ -94,13 +94,16 @@ fn eliminated<'d>(
 ) -> Option<Solution<'d>> {
     let mut front = Front::of(model, machine, true);
     front.order = order;
-    let mut steps = front.places();
+    let mut steps = front.replaced_velocities();
     while let Some(mut left) = front.next()? {
         steps.append(&mut left);
     }
     let mut known: FxHashMap<Id, Expr<'d>> = FxHashMap::default();
     for Step {
-        of, alone, parts, ..
+        of,
+        offset: alone,
+        parts,
+        ..
     } in steps.iter().rev()
     {
         let terms = parts.iter().map(|(part, c)| *c * known[part]);
@@ -157,7 +160,7 @@ fn composite_inertia<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option
     let unloaded = Unprojected {
         inertia: machine.inertia.clone(),
         loads: Vec::new(),
-        drifts: false,
+        has_bias_accelerations: false,
     };
     let mut front = Front::of(model, &unloaded, false);
     front.totals.expands = false;
@@ -179,13 +182,13 @@ fn composite_inertia<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option
     Some(entries)
 }
 
-/// A velocity that has left the front: its acceleration is `alone + Σ c·part`.
+/// A velocity that has left the front: its acceleration is `offset + Σ c·part`.
 ///
 /// For another right-hand side at zero velocities, `Σ G ẍ = r`, it is `r/pivot + Σ c·part`, where
 /// the first term is 0 without a pivot; and `c r` is added to the load on each part.
 pub(super) struct Step<'d> {
     pub(super) of: Id,
-    alone: Expr<'d>,
+    offset: Expr<'d>,
     pub(super) parts: Vec<(Id, Expr<'d>)>,
     /// Its pivot, if it was eliminated.
     pub(super) pivot: Option<Expr<'d>>,
@@ -199,7 +202,7 @@ struct Composition<'d> {
 
 /// A velocity that takes the place of a coordinate's: `u = ±v + Σ c·part + rest`, and nothing else
 /// is built from `v`.
-struct Place<'d> {
+struct Substitute<'d> {
     id: Id,
     /// `v`.
     velocity: Id,
@@ -231,13 +234,13 @@ struct Front<'d> {
     dag: &'d Dag,
     order: Order,
     /// Pending updates.
-    late: Vec<Update<'d>>,
+    pending: Vec<Update<'d>>,
     /// The coordinates by the nodes of their velocities, or of the velocities in their places.
     coordinates: BTreeMap<Id, usize>,
     /// The velocities that take the places of the coordinates' velocities.
-    places: Vec<Option<Place<'d>>>,
+    substitutes: Vec<Option<Substitute<'d>>>,
     /// The coordinates on whose velocities a node depends, if it is linear in them.
-    touches: FxHashMap<Id, BTreeSet<usize>>,
+    coordinates_of_node: FxHashMap<Id, BTreeSet<usize>>,
     /// The number of nodes of which a node is a part.
     parents: FxHashMap<Id, usize>,
     /// `d/dt` of expressions in coordinates and time.
@@ -250,12 +253,12 @@ struct Front<'d> {
     /// that depend on its velocity.
     uses: Vec<usize>,
     /// Whether velocities have accelerations when all coordinate accelerations are zero.
-    drifts: bool,
+    has_bias_accelerations: bool,
     /// The velocities that fall freely in the accelerated frame in which the machine is described,
     /// with their accelerations there.
-    falls: FxHashMap<Id, Expr<'d>>,
+    free_falls: FxHashMap<Id, Expr<'d>>,
     /// Whether coefficients may be given names.
-    may_name: bool,
+    names_coefficients: bool,
     /// Named coefficients and their meanings.
     names: Vec<(Expr<'d>, Expr<'d>)>,
     totals: Totals<'d>,
@@ -264,8 +267,8 @@ struct Front<'d> {
 }
 
 impl<'d> Front<'d> {
-    /// The initial front. With `places`, velocities may take the places of coordinates' velocities.
-    fn of(model: &Model<'d>, machine: &Unprojected<'d>, places: bool) -> Front<'d> {
+    /// The initial front. With `with_substitutes`, velocities may take the places of coordinates' velocities.
+    fn of(model: &Model<'d>, machine: &Unprojected<'d>, with_substitutes: bool) -> Front<'d> {
         let dag = model.dag;
         let coordinates = model.coordinates.iter().enumerate();
         let rates = model
@@ -276,22 +279,22 @@ impl<'d> Front<'d> {
         let mut front = Front {
             dag,
             order: Order::Short,
-            late: Vec::new(),
+            pending: Vec::new(),
             coordinates: coordinates.map(|(index, c)| (c.v.id(), index)).collect(),
-            places: model.coordinates.iter().map(|_| None).collect(),
-            touches: FxHashMap::default(),
+            substitutes: model.coordinates.iter().map(|_| None).collect(),
+            coordinates_of_node: FxHashMap::default(),
             parents: FxHashMap::default(),
             rate: Tangent::new(dag, &rates.chain(time).collect::<Vec<_>>()),
             form: BTreeMap::new(),
             loads: BTreeMap::new(),
             uses: vec![0; model.coordinates.len()],
-            drifts: machine.drifts,
-            falls: FxHashMap::default(),
-            may_name: machine.drifts && places,
+            has_bias_accelerations: machine.has_bias_accelerations,
+            free_falls: FxHashMap::default(),
+            names_coefficients: machine.has_bias_accelerations && with_substitutes,
             names: Vec::new(),
             totals: Totals {
                 dag,
-                made: FxHashSet::default(),
+                own_sums: FxHashSet::default(),
                 expands: true,
             },
             terms: 0,
@@ -301,11 +304,11 @@ impl<'d> Front<'d> {
         let machine = replaced.as_ref().unwrap_or(machine);
         let roots = front.roots(model, machine);
         if replaced.is_some() {
-            front.forget();
+            front.discard_linear();
             front.find_linear(&roots);
         }
-        if places {
-            front.find_places(&roots, machine);
+        if with_substitutes {
+            front.find_substitutes(&roots, machine);
         }
         for id in front.coordinates.keys().copied().collect::<Vec<_>>() {
             front.enter(id);
@@ -324,14 +327,14 @@ impl<'d> Front<'d> {
     ///
     /// So each bar of a chain gets an angular velocity of its own, whatever its angle is measured
     /// from, and a joint in space the angular velocity about its axis.
-    fn find_places(&mut self, roots: &[Expr<'d>], machine: &Unprojected<'d>) {
+    fn find_substitutes(&mut self, roots: &[Expr<'d>], machine: &Unprojected<'d>) {
         let inert: FxHashSet<Id> = machine
             .inertia
             .iter()
             .flat_map(|pair| [pair.u.id(), pair.w.id()])
             .collect();
         let mut candidates: BTreeMap<Id, Vec<usize>> = BTreeMap::new();
-        for (&id, touched) in &self.touches {
+        for (&id, touched) in &self.coordinates_of_node {
             let Node::Sum(terms) = self.dag.node(id) else {
                 continue;
             };
@@ -368,9 +371,9 @@ impl<'d> Front<'d> {
             let (moving, resting): (Vec<_>, Vec<_>) = parts
                 .into_iter()
                 .filter(|(part, _)| *part != own)
-                .partition(|(part, _)| self.touches.contains_key(part));
+                .partition(|(part, _)| self.coordinates_of_node.contains_key(part));
             let resting = resting.into_iter().map(|(part, c)| c * self.dag.expr(part));
-            self.places[index] = Some(Place {
+            self.substitutes[index] = Some(Substitute {
                 id,
                 velocity: own,
                 sign,
@@ -378,13 +381,13 @@ impl<'d> Front<'d> {
                 rest: self.dag.sum(resting),
             });
         }
-        for (index, place) in self.places.iter().enumerate() {
+        for (index, place) in self.substitutes.iter().enumerate() {
             if let Some(place) = place {
                 self.coordinates.retain(|_, other| *other != index);
                 self.coordinates.insert(place.id, index);
             }
         }
-        self.forget();
+        self.discard_linear();
         self.find_linear(roots);
     }
 
@@ -400,7 +403,7 @@ impl<'d> Front<'d> {
     /// distance across the bar.
     fn arms(&self) -> BTreeMap<Id, Arm<'d>> {
         let mut arms: BTreeMap<Id, Arm<'d>> = BTreeMap::new();
-        let mut nodes: Vec<Id> = self.touches.keys().copied().collect();
+        let mut nodes: Vec<Id> = self.coordinates_of_node.keys().copied().collect();
         nodes.sort_unstable();
         // The parts of a node come before it, so each node is visited once.
         let mut linear: FxHashSet<Id> = FxHashSet::default();
@@ -409,7 +412,7 @@ impl<'d> Front<'d> {
                 continue;
             }
             let is_settled = |(part, _): &(Id, Expr<'d>)| {
-                !self.touches.contains_key(part)
+                !self.coordinates_of_node.contains_key(part)
                     || self.coordinates.contains_key(part)
                     || linear.contains(part)
             };
@@ -431,39 +434,47 @@ impl<'d> Front<'d> {
             }
             // Measured from the joint, if it was given from another point of the bar.
             let arm = match arms.get(&joint) {
-                Some(inner) if inner.turning == turning => Arm {
+                Some(inner) if inner.angular_velocity == turning => Arm {
                     joint: inner.joint,
-                    across: inner.across + across,
+                    lever: inner.lever + across,
                     ..*inner
                 },
                 _ => Arm {
                     joint,
-                    turning,
-                    across,
-                    carries: false,
+                    angular_velocity: turning,
+                    lever: across,
+                    has_dependents: false,
                 },
             };
             let carries = self.parents.contains_key(&id);
-            arms.insert(id, Arm { carries, ..arm });
+            arms.insert(
+                id,
+                Arm {
+                    has_dependents: carries,
+                    ..arm
+                },
+            );
         }
         arms
     }
 
     /// Discards the results of [`find_linear`](Self::find_linear).
-    fn forget(&mut self) {
-        self.touches.clear();
+    fn discard_linear(&mut self) {
+        self.coordinates_of_node.clear();
         self.parents.clear();
     }
 
     /// The velocities whose places others took, in terms of these: `v = ±(u − Σ c·part − rest)`.
-    fn places(&mut self) -> Vec<Step<'d>> {
-        let places = std::mem::take(&mut self.places);
+    fn replaced_velocities(&mut self) -> Vec<Step<'d>> {
+        let places = std::mem::take(&mut self.substitutes);
         let steps = places.iter().flatten().map(|place| {
             let sign = self.dag.constant(place.sign.clone());
             let parts = place.parts.iter().map(|(part, c)| (*part, -(sign * *c)));
             Step {
                 of: place.velocity,
-                alone: -(sign * (self.drift(&[], place.rest) + self.fall(place.id, &place.parts))),
+                offset: -(sign
+                    * (self.bias_acceleration(&[], place.rest)
+                        + self.free_fall(place.id, &place.parts))),
                 parts: std::iter::once((place.id, sign)).chain(parts).collect(),
                 pivot: None,
             }
@@ -478,14 +489,14 @@ impl<'d> Front<'d> {
             let mut touched: BTreeSet<usize> =
                 self.coordinates.get(&id).copied().into_iter().collect();
             if !touched.is_empty() {
-                self.touches.insert(id, touched);
+                self.coordinates_of_node.insert(id, touched);
                 continue;
             }
             node.for_each_child(|child| {
-                touched.extend(self.touches.get(&child).into_iter().flatten())
+                touched.extend(self.coordinates_of_node.get(&child).into_iter().flatten())
             });
             if !touched.is_empty() {
-                self.touches.insert(id, touched);
+                self.coordinates_of_node.insert(id, touched);
                 node.for_each_child(|child| *self.parents.entry(child).or_default() += 1);
             }
         }
@@ -493,7 +504,7 @@ impl<'d> Front<'d> {
 
     /// Adds `½ weight u w` to the energy.
     fn add_inertia(&mut self, u: Expr<'d>, w: Expr<'d>, weight: Expr<'d>) {
-        let moves = |x: Expr<'d>| self.touches.contains_key(&x.id());
+        let moves = |x: Expr<'d>| self.coordinates_of_node.contains_key(&x.id());
         match (moves(u), moves(w)) {
             (true, true) => {
                 self.enter(u.id());
@@ -502,7 +513,7 @@ impl<'d> Front<'d> {
             }
             // The other one depends on time alone.
             (true, false) => {
-                let load = -(weight / 2 * self.drift(&[], w));
+                let load = -(weight / 2 * self.bias_acceleration(&[], w));
                 self.enter(u.id());
                 self.add_load(u.id(), load);
             }
@@ -527,7 +538,7 @@ impl<'d> Front<'d> {
         // Several loads on one velocity become one, which stays a whole.
         let mut sums: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
         for (u, load) in linear.into_iter().chain(direct) {
-            let place = self.places.iter().zip(&model.coordinates);
+            let place = self.substitutes.iter().zip(&model.coordinates);
             let place = place
                 .filter(|(_, c)| c.v == u)
                 .find_map(|(p, _)| p.as_ref());
@@ -540,14 +551,18 @@ impl<'d> Front<'d> {
                         sums.entry(*part).or_default().push(-(*c * load));
                     }
                 }
-                None if self.touches.contains_key(&u.id()) => {
+                None if self.coordinates_of_node.contains_key(&u.id()) => {
                     sums.entry(u.id()).or_default().push(load);
                 }
                 None => {}
             }
         }
         // Their accelerations are needed, with or without loads.
-        let parts = self.places.iter().flatten().flat_map(|place| &place.parts);
+        let parts = self
+            .substitutes
+            .iter()
+            .flatten()
+            .flat_map(|place| &place.parts);
         for id in parts.map(|(part, _)| *part).collect::<Vec<_>>() {
             self.enter(id);
         }
@@ -570,7 +585,7 @@ impl<'d> Front<'d> {
 
     fn count_uses(&mut self, id: Id, change: fn(&mut usize)) {
         if !self.coordinates.contains_key(&id) {
-            for &coordinate in &self.touches[&id] {
+            for &coordinate in &self.coordinates_of_node[&id] {
                 change(&mut self.uses[coordinate]);
             }
         }
@@ -629,7 +644,7 @@ impl<'d> Front<'d> {
 
     /// Whether the elimination has exceeded the size up to which it can be the better way.
     fn is_too_long(&self) -> bool {
-        self.terms > BUDGET || self.dag.is_exhausted()
+        self.terms > TERM_LIMIT || self.dag.is_exhausted()
     }
 
     /// The next step; the inner `None` means that the front is empty.
@@ -666,13 +681,13 @@ impl<'d> Front<'d> {
         let (coordinate, _) =
             used.min_by_key(|(index, uses)| (**uses, std::cmp::Reverse(*index)))?;
         built()
-            .find(|id| self.touches[*id].contains(&coordinate))
+            .find(|id| self.coordinates_of_node[*id].contains(&coordinate))
             .copied()
     }
 
     fn eliminate(&mut self, id: Id) -> Option<Step<'d>> {
         let (mut pivot, mut row, load) = self.take(id);
-        self.catch_up(id, &mut pivot, &mut row);
+        self.apply_pending_updates(id, &mut pivot, &mut row);
         if pivot.is_zero() {
             return None;
         }
@@ -687,20 +702,20 @@ impl<'d> Front<'d> {
             pivot,
         };
         match self.order {
-            Order::Short => self.make(&update),
-            Order::Ahead => self.late.push(update),
+            Order::Short => self.apply_update(&update),
+            Order::Ahead => self.pending.push(update),
         }
         let parts = ratios.into_iter().map(|(x, ratio)| (x, -ratio)).collect();
         Some(Step {
             of: id,
-            alone: load / pivot,
+            offset: load / pivot,
             parts,
             pivot: Some(pivot),
         })
     }
 
     /// `G −= w wᵀ/d`.
-    fn make(&mut self, update: &Update<'d>) {
+    fn apply_update(&mut self, update: &Update<'d>) {
         for (position, (x, value)) in update.column.iter().enumerate() {
             let ratio = *value / update.pivot;
             for (y, other) in update.column.iter().take(position + 1) {
@@ -710,11 +725,11 @@ impl<'d> Front<'d> {
     }
 
     /// Makes all pending updates that involve a row taken from the form; `own` and `row` receive its share.
-    fn catch_up(&mut self, id: Id, own: &mut Expr<'d>, row: &mut Vec<(Id, Expr<'d>)>) {
-        let (due, others) = std::mem::take(&mut self.late)
+    fn apply_pending_updates(&mut self, id: Id, own: &mut Expr<'d>, row: &mut Vec<(Id, Expr<'d>)>) {
+        let (due, others) = std::mem::take(&mut self.pending)
             .into_iter()
             .partition::<Vec<_>, _>(|update| update.column.contains_key(&id));
-        self.late = others;
+        self.pending = others;
         let mut row_terms: BTreeMap<Id, Vec<Expr<'d>>> =
             row.drain(..).map(|(x, value)| (x, vec![value])).collect();
         let mut own_terms = vec![*own];
@@ -727,7 +742,7 @@ impl<'d> Front<'d> {
                 let terms = row_terms.entry(*x).or_default();
                 terms.push(-(value / update.pivot * *other));
             }
-            self.make(&update);
+            self.apply_update(&update);
         }
         *own = self.dag.sum(own_terms);
         for (x, terms) in row_terms {
@@ -743,18 +758,19 @@ impl<'d> Front<'d> {
     fn group(&self, first: Id) -> Option<Vec<(Id, Composition<'d>)>> {
         let own = self.composition(first)?;
         let parts: BTreeSet<Id> = own.parts.iter().map(|(part, _)| *part).collect();
-        let touched = &self.touches[&first];
+        let touched = &self.coordinates_of_node[&first];
         let mut group = vec![(first, own)];
         let built = self.form.keys().rev().copied();
         let others: Vec<Id> = built
             .filter(|id| *id != first && !self.coordinates.contains_key(id))
-            .filter(|id| !touched.is_disjoint(&self.touches[id]))
+            .filter(|id| !touched.is_disjoint(&self.coordinates_of_node[id]))
             .collect();
         let both = |update: &Update<'d>, id: &Id| {
             update.column.contains_key(&first) && update.column.contains_key(id)
         };
         let coupled = |id: &&Id| {
-            self.form[&first].contains_key(*id) || self.late.iter().any(|update| both(update, id))
+            self.form[&first].contains_key(*id)
+                || self.pending.iter().any(|update| both(update, id))
         };
         for &id in others.iter().filter(coupled) {
             let composition = self.composition(id)?;
@@ -784,7 +800,7 @@ impl<'d> Front<'d> {
             }
             if id > part && !self.coordinates.contains_key(&id) && seen.insert(id) {
                 self.dag.node(id).for_each_child(|child| {
-                    if child >= part && self.touches.contains_key(&child) {
+                    if child >= part && self.coordinates_of_node.contains_key(&child) {
                         open.push(child);
                     }
                 });
@@ -799,7 +815,7 @@ impl<'d> Front<'d> {
         let mut drifts: Vec<Expr<'d>> = group
             .iter()
             .map(|(id, Composition { parts, rest })| {
-                self.drift(parts, *rest) + self.fall(*id, parts)
+                self.bias_acceleration(parts, *rest) + self.free_fall(*id, parts)
             })
             .collect();
         let position: BTreeMap<Id, usize> = group
@@ -826,7 +842,7 @@ impl<'d> Front<'d> {
             }
             loads.push(load);
         }
-        if self.may_name && self.is_full(&group, &inner) {
+        if self.names_coefficients && self.is_full(&group, &inner) {
             self.name_coefficients(&mut group, &mut drifts);
         }
         for (k, mut load) in loads.into_iter().enumerate() {
@@ -835,7 +851,8 @@ impl<'d> Front<'d> {
                 .enumerate()
                 .filter(|(_, drift)| !drift.is_zero());
             load.extend(
-                drifting.map(|(l, drift)| -(self.with_late(&group, &inner, k, l) * *drift)),
+                drifting
+                    .map(|(l, drift)| -(self.with_pending_updates(&group, &inner, k, l) * *drift)),
             );
             let load = self.totals.total(load);
             for (x, c) in &group[k].1.parts {
@@ -852,7 +869,7 @@ impl<'d> Front<'d> {
             }
         }
         self.congruence(&group, &inner);
-        for update in &mut self.late {
+        for update in &mut self.pending {
             // The drift loads every velocity outside the group that the update couples to it.
             let drifting = group.iter().zip(&drifts).filter_map(|((id, _), drift)| {
                 let value = *update.column.get(id)?;
@@ -884,7 +901,7 @@ impl<'d> Front<'d> {
         steps
             .map(|((of, Composition { parts, .. }), alone)| Step {
                 of,
-                alone,
+                offset: alone,
                 parts,
                 pivot: None,
             })
@@ -895,7 +912,7 @@ impl<'d> Front<'d> {
     /// cosines shortens `Cᵀ G C`.
     fn is_full(&self, group: &[(Id, Composition<'d>)], inner: &[Vec<(usize, Expr<'d>)>]) -> bool {
         let couples = |(k, l): (usize, usize)| {
-            k != l && self.with_late(group, inner, k, l).stage() > Stage::PARAMETER
+            k != l && self.with_pending_updates(group, inner, k, l).stage() > Stage::PARAMETER
         };
         (0..group.len()).any(|k| (0..k).any(|l| couples((k, l))))
     }
@@ -952,7 +969,7 @@ impl<'d> Front<'d> {
     }
 
     /// An entry of G for two velocities of a group, including pending updates.
-    fn with_late(
+    fn with_pending_updates(
         &self,
         group: &[(Id, Composition<'d>)],
         inner: &[Vec<(usize, Expr<'d>)>],
@@ -960,7 +977,7 @@ impl<'d> Front<'d> {
         l: usize,
     ) -> Expr<'d> {
         let made = inner[k].iter().filter(|(other, _)| *other == l);
-        let late = self.late.iter().filter_map(|update| {
+        let late = self.pending.iter().filter_map(|update| {
             let [w_k, w_l] = [k, l].map(|k| update.column.get(&group[k].0));
             Some(-(*w_k? * *w_l? / update.pivot))
         });
@@ -969,8 +986,8 @@ impl<'d> Front<'d> {
 
     /// Adds `Cᵀ G C`.
     fn congruence(&mut self, group: &[(Id, Composition<'d>)], inner: &[Vec<(usize, Expr<'d>)>]) {
-        if let Some((parts, cos, sin)) = self.turn(group) {
-            return self.turn_inertia(parts, cos, sin, inner);
+        if let Some((parts, cos, sin)) = self.as_rotation(group) {
+            return self.rotate_inertia(parts, cos, sin, inner);
         }
         let mut columns: BTreeMap<Id, Vec<(usize, Expr<'d>)>> = BTreeMap::new();
         for (k, (_, composition)) in group.iter().enumerate() {
@@ -1008,7 +1025,10 @@ impl<'d> Front<'d> {
 
     /// Recognizes two velocities that are two others in rotated axes: `u = c w + s w'`,
     /// `u' = c w' − s w`. Returns `w` and `w'`, the cosine, and the sine with its sign.
-    fn turn(&self, group: &[(Id, Composition<'d>)]) -> Option<([Id; 2], Expr<'d>, Expr<'d>)> {
+    fn as_rotation(
+        &self,
+        group: &[(Id, Composition<'d>)],
+    ) -> Option<([Id; 2], Expr<'d>, Expr<'d>)> {
         let [(_, first), (_, second)] = group else {
             return None;
         };
@@ -1037,7 +1057,7 @@ impl<'d> Front<'d> {
 
     /// Adds `Cᵀ G C` for a rotation with fewer operations: for `G = [x z; z y]` and
     /// `α = s (y − x) − 2 c z` it is `[x + s α, −c α − z; ·, y − s α]`, since `c² + s² = 1`.
-    fn turn_inertia(
+    fn rotate_inertia(
         &mut self,
         [a, b]: [Id; 2],
         cos: Expr<'d>,
@@ -1063,8 +1083,8 @@ impl<'d> Front<'d> {
     }
 
     /// `β = Σ ċ w + ė`: the part of the acceleration of `Σ c w + e` besides `Σ c ẇ`.
-    fn drift(&mut self, parts: &[(Id, Expr<'d>)], rest: Expr<'d>) -> Expr<'d> {
-        if !self.drifts {
+    fn bias_acceleration(&mut self, parts: &[(Id, Expr<'d>)], rest: Expr<'d>) -> Expr<'d> {
+        if !self.has_bias_accelerations {
             return self.dag.zero();
         }
         let mut terms = vec![self.rate.of(rest)];
@@ -1076,14 +1096,14 @@ impl<'d> Front<'d> {
             terms.extend(terms_of(rate).into_iter().map(|term| term * w));
         }
         let drift = self.dag.sum(terms);
-        self.totals.made(drift);
+        self.totals.record_sum(drift);
         drift
     }
 
     /// The part of the acceleration of `Σ c w`, besides those of its parts, that arises because all of
     /// them are measured relative to [free fall](Front::falls).
-    fn fall(&self, id: Id, parts: &[(Id, Expr<'d>)]) -> Expr<'d> {
-        let of = |id: &Id| self.falls.get(id).copied().unwrap_or(self.dag.zero());
+    fn free_fall(&self, id: Id, parts: &[(Id, Expr<'d>)]) -> Expr<'d> {
+        let of = |id: &Id| self.free_falls.get(id).copied().unwrap_or(self.dag.zero());
         let terms = parts.iter().map(|(part, c)| *c * of(part));
         self.dag.sum(terms.chain([-of(&id)]))
     }
@@ -1094,16 +1114,16 @@ impl<'d> Front<'d> {
     /// gravity, and no sum of weights that the ground bears anyway is rounded.
     fn gravity(&mut self, machine: &Unprojected<'d>) -> Vec<(Expr<'d>, Expr<'d>)> {
         for pair in &machine.inertia {
-            let (id, Some(g)) = (pair.u.id(), pair.fall) else {
+            let (id, Some(g)) = (pair.u.id(), pair.free_fall) else {
                 continue;
             };
-            let moves = self.touches.contains_key(&id) && self.is_linear(id);
+            let moves = self.coordinates_of_node.contains_key(&id) && self.is_linear(id);
             if moves && !self.coordinates.contains_key(&id) {
-                self.falls.entry(id).or_insert(g);
+                self.free_falls.entry(id).or_insert(g);
             }
         }
         // The velocities from which these are built fall too.
-        let mut open: BTreeSet<Id> = self.falls.keys().copied().collect();
+        let mut open: BTreeSet<Id> = self.free_falls.keys().copied().collect();
         while let Some(id) = open.pop_last() {
             let Some(Composition { parts, .. }) = self.composition(id) else {
                 continue;
@@ -1113,9 +1133,9 @@ impl<'d> Front<'d> {
             };
             let carriers: Vec<Id> = parts.iter().filter(unit).map(|(part, _)| *part).collect();
             if let [carrier] = carriers.as_slice()
-                && !self.falls.contains_key(carrier)
+                && !self.free_falls.contains_key(carrier)
             {
-                self.falls.insert(*carrier, self.falls[&id]);
+                self.free_falls.insert(*carrier, self.free_falls[&id]);
                 open.insert(*carrier);
             }
         }
@@ -1123,8 +1143,11 @@ impl<'d> Front<'d> {
         // differently along it, so each pair has its own.
         let zero = self.dag.zero();
         let load = |pair: &InertialPair<'d>| {
-            let seen = self.falls.get(&pair.u.id()).copied().unwrap_or(zero);
-            (pair.u, pair.weight * (pair.fall.unwrap_or(zero) - seen))
+            let seen = self.free_falls.get(&pair.u.id()).copied().unwrap_or(zero);
+            (
+                pair.u,
+                pair.weight * (pair.free_fall.unwrap_or(zero) - seen),
+            )
         };
         machine.inertia.iter().map(load).collect()
     }
@@ -1141,7 +1164,7 @@ impl<'d> Front<'d> {
         let mut rest = Vec::new();
         let mut open = self.direct_parts(id)?;
         while let Some((part, c)) = open.pop() {
-            if !self.touches.contains_key(&part) {
+            if !self.coordinates_of_node.contains_key(&part) {
                 rest.push(c * self.dag.expr(part));
                 continue;
             }
@@ -1181,7 +1204,7 @@ impl<'d> Front<'d> {
             Node::Product(factors) => {
                 let mut moving = factors
                     .iter()
-                    .filter(|(factor, _)| self.touches.contains_key(factor));
+                    .filter(|(factor, _)| self.coordinates_of_node.contains_key(factor));
                 let (part, power) = *moving.next()?;
                 if power != 1 || moving.next().is_some() {
                     return None;
@@ -1201,7 +1224,8 @@ impl<'d> Front<'d> {
         let mut open = vec![id];
         let mut seen = FxHashSet::default();
         while let Some(id) = open.pop() {
-            let is_built = self.touches.contains_key(&id) && !self.coordinates.contains_key(&id);
+            let is_built =
+                self.coordinates_of_node.contains_key(&id) && !self.coordinates.contains_key(&id);
             if is_built && seen.insert(id) {
                 match self.direct_parts(id) {
                     Some(parts) => open.extend(parts.into_iter().map(|(part, _)| part)),
@@ -1218,7 +1242,7 @@ const LONGEST_EXPANSION: usize = 24;
 
 /// The sums that are multiplied out.
 #[derive(Clone, Copy)]
-enum Reach {
+enum Expansion {
     /// Earlier totals that are factors of products.
     TotalsInProducts,
     /// Earlier totals that are factors of products, and those in the resulting products.
@@ -1229,12 +1253,12 @@ enum Reach {
     Sums,
 }
 
-impl Reach {
-    const ALL: [Reach; 4] = [
-        Reach::TotalsInProducts,
-        Reach::Deep,
-        Reach::Totals,
-        Reach::Sums,
+impl Expansion {
+    const ALL: [Expansion; 4] = [
+        Expansion::TotalsInProducts,
+        Expansion::Deep,
+        Expansion::Totals,
+        Expansion::Sums,
     ];
 }
 
@@ -1242,7 +1266,7 @@ impl Reach {
 struct Totals<'d> {
     dag: &'d Dag,
     /// The sums made here.
-    made: FxHashSet<Id>,
+    own_sums: FxHashSet<Id>,
     /// Whether any are multiplied out.
     expands: bool,
 }
@@ -1256,7 +1280,7 @@ impl<'d> Totals<'d> {
             return shortest;
         }
         if terms.len() > 1 {
-            for reach in Reach::ALL {
+            for reach in Expansion::ALL {
                 if let Some(candidate) = self.partly_expanded(&terms, reach)
                     && work(candidate) < work(shortest)
                 {
@@ -1269,7 +1293,7 @@ impl<'d> Totals<'d> {
 
     /// The sum with those terms multiplied out that can cancel something; `None` if there are none,
     /// or if it is long.
-    fn partly_expanded(&self, terms: &[Expr<'d>], reach: Reach) -> Option<Expr<'d>> {
+    fn partly_expanded(&self, terms: &[Expr<'d>], reach: Expansion) -> Option<Expr<'d>> {
         let mut parts: Vec<Vec<Expr<'d>>> = Vec::with_capacity(terms.len());
         let mut len = 0;
         for &term in terms {
@@ -1294,18 +1318,18 @@ impl<'d> Totals<'d> {
     }
 
     /// The term with sums among its factors multiplied out, unless the result is long.
-    fn expanded(&self, term: Expr<'d>, reach: Reach) -> Option<Vec<Expr<'d>>> {
+    fn expanded(&self, term: Expr<'d>, reach: Expansion) -> Option<Vec<Expr<'d>>> {
         let mut done = Vec::new();
         let mut open = vec![term];
         while let Some(term) = open.pop() {
             let (coefficient, factors) = factors_of(term);
             let alone = factors.len() == 1;
             let may_expand = |&(factor, power): &(Id, i32)| {
-                let total = power == 1 && self.made.contains(&factor);
+                let total = power == 1 && self.own_sums.contains(&factor);
                 match reach {
-                    Reach::TotalsInProducts | Reach::Deep => total && !alone,
-                    Reach::Totals => total,
-                    Reach::Sums => {
+                    Expansion::TotalsInProducts | Expansion::Deep => total && !alone,
+                    Expansion::Totals => total,
+                    Expansion::Sums => {
                         let is_sum = matches!(self.dag.node(factor), Node::Sum(_));
                         let varies = self.dag.expr(factor).stage() > Stage::PARAMETER;
                         (1..=2).contains(&power) && is_sum && varies
@@ -1329,7 +1353,7 @@ impl<'d> Totals<'d> {
                     }
                 }
             }
-            let again = matches!(reach, Reach::Deep) && !sums.is_empty();
+            let again = matches!(reach, Expansion::Deep) && !sums.is_empty();
             if again {
                 open.append(&mut products)
             } else {
@@ -1356,7 +1380,7 @@ impl<'d> Totals<'d> {
             });
         }
         if terms.len() < 2 || common.is_empty() {
-            self.made(total);
+            self.record_sum(total);
             return total;
         }
         let common = self.dag.product(
@@ -1365,14 +1389,14 @@ impl<'d> Totals<'d> {
                 .map(|(id, power)| self.dag.expr(id).powi(power)),
         );
         let rest = self.dag.sum(terms.into_iter().map(|term| term / common));
-        self.made(rest);
+        self.record_sum(rest);
         common * rest
     }
 
     /// Records that a sum may be multiplied out again.
-    fn made(&mut self, sum: Expr<'d>) {
+    fn record_sum(&mut self, sum: Expr<'d>) {
         if matches!(sum.node(), Node::Sum(terms) if terms.len() > 1) {
-            self.made.insert(sum.id());
+            self.own_sums.insert(sum.id());
         }
     }
 }

@@ -37,11 +37,11 @@ pub(super) struct Arm<'d> {
     /// `u_H`.
     pub joint: Id,
     /// `ω`.
-    pub turning: Id,
+    pub angular_velocity: Id,
     /// `c`.
-    pub across: Expr<'d>,
+    pub lever: Expr<'d>,
     /// Whether other velocities are built from it.
-    pub carries: bool,
+    pub has_dependents: bool,
 }
 
 /// Replaces bodies by masses at the joints of their bars.
@@ -52,11 +52,11 @@ pub(super) fn replaced<'d>(
     arms: &BTreeMap<Id, Arm<'d>>,
     assumptions: &[Assumption<'d>],
 ) -> Option<Unprojected<'d>> {
-    if !machine.drifts {
+    if !machine.has_bias_accelerations {
         return None;
     }
     let mut replaced = machine.clone();
-    let carried = carried(arms);
+    let carried = dependents_of_bars(arms);
     let mut gone: Vec<Bar<'d>> = Vec::new();
     replaced.inertia.clear();
     let mut rest = machine.inertia.as_slice();
@@ -74,21 +74,21 @@ pub(super) fn replaced<'d>(
         let dag = mass.dag();
         let (near, far) = (mass * (1 - bar.share), mass * bar.share);
         // A load on the body, including its fall, is divided between the ends in these proportions.
-        let falls = [first.fall, others[0].fall];
+        let falls = [first.free_fall, others[0].free_fall];
         for ((joint, tip), fall) in bar.joint.iter().zip(&bar.tip).zip(falls) {
             for (end, mass) in [(joint, near), (tip, far)] {
                 let end = dag.expr(*end);
                 replaced.inertia.push(InertialPair {
-                    fall,
-                    ..InertialPair::weightless(end, end, mass)
+                    free_fall: fall,
+                    ..InertialPair::without_gravity(end, end, mass)
                 });
             }
         }
-        let turning = dag.expr(bar.turning);
+        let turning = dag.expr(bar.angular_velocity);
         // λ² l² and λ l² are products of lengths, without a quotient.
         let [squared, single] = [2, 1].map(|power| bar.share.powi(power) * bar.length_squared);
         let left = mass * (squared - single);
-        let left = InertialPair::weightless(turning, turning, left);
+        let left = InertialPair::without_gravity(turning, turning, left);
         replaced.inertia.push(left);
         gone.push(bar);
     }
@@ -120,7 +120,7 @@ struct Bar<'d> {
     body: [Id; 2],
     joint: [Id; 2],
     tip: [Id; 2],
-    turning: Id,
+    angular_velocity: Id,
     /// `λ`.
     share: Expr<'d>,
     /// `l²`.
@@ -128,11 +128,11 @@ struct Bar<'d> {
 }
 
 /// The points on each bar that carry something, with one component each.
-fn carried(arms: &BTreeMap<Id, Arm<'_>>) -> BTreeMap<(Id, Id), Vec<Id>> {
+fn dependents_of_bars(arms: &BTreeMap<Id, Arm<'_>>) -> BTreeMap<(Id, Id), Vec<Id>> {
     let mut carried: BTreeMap<(Id, Id), Vec<Id>> = BTreeMap::new();
-    for (id, arm) in arms.iter().filter(|(_, arm)| arm.carries) {
+    for (id, arm) in arms.iter().filter(|(_, arm)| arm.has_dependents) {
         carried
-            .entry((arm.joint, arm.turning))
+            .entry((arm.joint, arm.angular_velocity))
             .or_default()
             .push(*id);
     }
@@ -154,30 +154,30 @@ fn bar<'d>(
     }
     let body = [x.id(), y.id()];
     let [at_x, at_y] = [arms.get(&body[0])?, arms.get(&body[1])?];
-    if at_x.turning != at_y.turning || at_x.joint == at_y.joint {
+    if at_x.angular_velocity != at_y.angular_velocity || at_x.joint == at_y.joint {
         return None;
     }
     let fixed = |e: Expr<'d>| e.stage() <= Stage::PARAMETER;
     let others = |arm: &Arm<'d>| {
-        let points = carried.get(&(arm.joint, arm.turning));
+        let points = carried.get(&(arm.joint, arm.angular_velocity));
         points.into_iter().flatten().copied()
     };
     for tip_x in others(at_x).filter(|id| !body.contains(id)) {
-        let share = at_x.across / arms[&tip_x].across;
+        let share = at_x.lever / arms[&tip_x].lever;
         if !is_share(share, assumptions) {
             continue;
         }
-        let is_tip = |id: &Id| at_y.across == share * arms[id].across;
+        let is_tip = |id: &Id| at_y.lever == share * arms[id].lever;
         let Some(tip_y) = others(at_y).filter(|id| !body.contains(id)).find(is_tip) else {
             continue;
         };
-        let length_squared = arms[&tip_x].across.square() + arms[&tip_y].across.square();
+        let length_squared = arms[&tip_x].lever.square() + arms[&tip_y].lever.square();
         if fixed(length_squared) {
             return Some(Bar {
                 body,
                 joint: [at_x.joint, at_y.joint],
                 tip: [tip_x, tip_y],
-                turning: at_x.turning,
+                angular_velocity: at_x.angular_velocity,
                 share,
                 length_squared,
             });

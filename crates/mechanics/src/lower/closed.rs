@@ -41,7 +41,7 @@ pub(super) fn solve<'d>(
         matrix: matrix.to_vec(),
         forces: forces.to_vec(),
         coordinates: n,
-        held: Vec::new(),
+        held_constraints: Vec::new(),
     };
     let solved = derivatives::along_the_machine(lowering, model, &open, machine)?;
     let rows: Vec<&[Scaled]> = (n..n + count)
@@ -50,13 +50,14 @@ pub(super) fn solve<'d>(
 
     let graph = &mut lowering.graph;
     let inverses = derivatives::inverses(graph, &solved);
-    let respond = |row: &&[Scaled]| derivatives::respond(graph, &solved, &inverses, row.to_vec());
+    let respond =
+        |row: &&[Scaled]| derivatives::solve_by_steps(graph, &solved, &inverses, row.to_vec());
     let columns: Vec<Vec<Scaled>> = rows.iter().map(respond).collect();
     let mut closing = System {
         matrix: Vec::new(),
         forces: Vec::new(),
         coordinates: count,
-        held: Vec::new(),
+        held_constraints: Vec::new(),
     };
     for ((k, row), drift) in rows.iter().enumerate().zip(drifts) {
         for column in &columns[..=k] {
@@ -92,5 +93,5 @@ fn with_products(graph: &mut Graph, x: Scaled, y: &[Scaled], z: &[Scaled]) -> Sc
         terms.push(graph.product(&[(*y, 1), (*z, 1)]));
     }
     let sum = graph.sum(&terms);
-    graph.whole(sum)
+    graph.opaque(sum)
 }

@@ -9,7 +9,7 @@ use lagrangian_symbolic::Expr;
 
 use crate::Unprojected;
 use crate::lower::articulated::Order;
-use crate::lower::{Draft, Lowering, Planned, turned};
+use crate::lower::{Draft, Lowering, PlannedFunction, turned};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination, Pivot, System};
 use lagrangian_program::{Basis, Role, Shape};
@@ -25,8 +25,8 @@ struct Step {
 
 /// The coordinates of a quaternion that turns a frame, whose rates ė = ½ e∘ω + e u̇ were replaced by ω and u̇
 /// in the equations.
-struct Turn {
-    places: [usize; 4],
+struct QuaternionTurn {
+    coordinates: [usize; 4],
     e: [Scaled; 4],
     /// ½ e.
     halves: [Scaled; 4],
@@ -38,27 +38,30 @@ pub(super) struct Solved {
     pub multipliers: Vec<Scaled>,
     steps: Vec<Step>,
     /// The turns whose velocities the steps refer to.
-    turns: Vec<Turn>,
+    turns: Vec<QuaternionTurn>,
     pub pivots: Vec<Pivot>,
     /// The number of unknowns; the first are the accelerations.
     unknowns: usize,
 }
 
 /// The inputs of the function.
-pub(super) struct Asked<'a, 'd> {
+pub(super) struct DerivativeInput<'a, 'd> {
     pub system: &'a System,
     /// The symbols of the multipliers.
     pub multipliers: &'a [Expr<'d>],
     pub unprojected: Option<&'a Unprojected<'d>>,
     /// The right-hand sides, column by column, which may contain the symbols of the accelerations; in
     /// one form or several.
-    pub slopes: &'a [Vec<Vec<Expr<'d>>>],
+    pub residual_derivatives: &'a [Vec<Vec<Expr<'d>>>],
     /// Pivots that are checked once parameters are known.
     pub known_pivots: &'a [Pivot],
 }
 
 /// The function of the accelerations and their derivatives, in the form that is cheapest to run.
-pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_, 'd>) -> Draft {
+pub(super) fn derivatives<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    asked: &DerivativeInput<'_, 'd>,
+) -> Draft {
     let elimination = Elimination::of(&lowering.graph, asked.system);
     let along = asked
         .unprojected
@@ -81,12 +84,12 @@ pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_,
 /// The functions that give the same numbers by one elimination, one for each form of the right-hand sides.
 fn functions<'d>(
     lowering: &mut Lowering<'_, 'd>,
-    asked: &Asked<'_, 'd>,
+    asked: &DerivativeInput<'_, 'd>,
     solved: Option<&Solved>,
 ) -> Vec<Draft> {
     let forms = solved.into_iter().flat_map(|solved| {
         asked
-            .slopes
+            .residual_derivatives
             .iter()
             .map(move |slopes| (solved, slopes.as_slice()))
     });
@@ -95,14 +98,18 @@ fn functions<'d>(
         .collect()
 }
 
-impl Asked<'_, '_> {
+impl DerivativeInput<'_, '_> {
     /// The number of columns, including the accelerations.
     fn columns(&self) -> usize {
-        1 + self.slopes.first().map_or(0, Vec::len)
+        1 + self.residual_derivatives.first().map_or(0, Vec::len)
     }
 }
 
-fn by_matrix(graph: &mut Graph, asked: &Asked<'_, '_>, elimination: Elimination) -> Solved {
+fn by_matrix(
+    graph: &mut Graph,
+    asked: &DerivativeInput<'_, '_>,
+    elimination: Elimination,
+) -> Solved {
     of_elimination(solve::solve(graph, asked.system, elimination), asked.system)
 }
 
@@ -142,11 +149,11 @@ pub(super) fn along_the_machine<'d>(
     system: &System,
     machine: &Unprojected<'d>,
 ) -> Option<Solved> {
-    let turned::Along {
+    let turned::TurnSolution {
         accelerations,
         pivots: own_pivots,
         solution,
-        fours,
+        quaternions: fours,
     } = turned::solve(model, machine, Order::Short)?;
     lowering.name(&solution.names);
     lowering.lower(&accelerations);
@@ -190,8 +197,8 @@ pub(super) fn along_the_machine<'d>(
         let all: Vec<Expr<'d>> = e.into_iter().chain(e.map(|e| e / 2)).collect();
         lowering.lower(&all);
         let values = lowering.values(&all);
-        turns.push(Turn {
-            places,
+        turns.push(QuaternionTurn {
+            coordinates: places,
             e: std::array::from_fn(|i| values[i]),
             halves: std::array::from_fn(|i| values[4 + i]),
         });
@@ -209,7 +216,7 @@ pub(super) fn along_the_machine<'d>(
 /// The function: the accelerations first, then one column for each variable, row by row.
 fn function<'d>(
     lowering: &mut Lowering<'_, 'd>,
-    asked: &Asked<'_, 'd>,
+    asked: &DerivativeInput<'_, 'd>,
     solved: &Solved,
     slopes: &[Vec<Expr<'d>>],
 ) -> Draft {
@@ -219,10 +226,10 @@ fn function<'d>(
     let inverses = inverses(graph, solved);
     let mut columns = vec![solved.accelerations.clone()];
     for right in rights {
-        columns.push(respond(graph, solved, &inverses, right));
+        columns.push(solve_by_steps(graph, solved, &inverses, right));
     }
     let rows = (0..n).flat_map(|i| columns.iter().map(move |column| column[i]));
-    let planned = Planned {
+    let planned = PlannedFunction {
         role: Role::Derivatives,
         rows: asked.system.forces.len(),
         shape: Shape::Matrix(n, columns.len()),
@@ -242,7 +249,7 @@ fn function<'d>(
 fn right_hand_sides<'d>(
     lowering: &mut Lowering<'_, 'd>,
     slopes: &[Vec<Expr<'d>>],
-    asked: &Asked<'_, 'd>,
+    asked: &DerivativeInput<'_, 'd>,
     solved: &Solved,
 ) -> Vec<Vec<Scaled>> {
     // Values that were lowered earlier, such as outputs, may contain the accelerations as arguments.
@@ -257,7 +264,7 @@ fn right_hand_sides<'d>(
     for column in slopes {
         lowering.lower(column);
         let mut right = lowering.values(column);
-        for &(k, weight) in &asked.system.held {
+        for &(k, weight) in &asked.system.held_constraints {
             let closing = right[asked.system.coordinates + k];
             for (to, g) in right.iter_mut().zip(asked.system.row(k)) {
                 let graph = &mut lowering.graph;
@@ -276,7 +283,7 @@ pub(super) fn inverses(graph: &mut Graph, solved: &Solved) -> Vec<Scaled> {
     let inverse = |step: &Step| match step.pivot {
         Some(pivot) => {
             let inverse = graph.product(&[(pivot, -1)]);
-            graph.whole(inverse)
+            graph.opaque(inverse)
         }
         None => Scaled::ZERO,
     };
@@ -284,14 +291,14 @@ pub(super) fn inverses(graph: &mut Graph, solved: &Solved) -> Vec<Scaled> {
 }
 
 /// Solves `M x = r` by the steps that gave the accelerations; for rows of constraints the solution is `−λ`.
-pub(super) fn respond(
+pub(super) fn solve_by_steps(
     graph: &mut Graph,
     solved: &Solved,
     inverses: &[Scaled],
     right: Vec<Scaled>,
 ) -> Vec<Scaled> {
     let n = right.len();
-    let right = onto_turns(graph, solved, right);
+    let right = loads_on_turns(graph, solved, right);
     let mut loads: Vec<Vec<Scaled>> = right.into_iter().map(|load| vec![load]).collect();
     loads.resize(solved.unknowns, Vec::new());
     let mut totals = Vec::with_capacity(solved.steps.len());
@@ -311,22 +318,22 @@ pub(super) fn respond(
         answers[step.of] = total(graph, &terms);
     }
     answers.truncate(n);
-    of_turns(graph, solved, answers)
+    rates_of_quaternions(graph, solved, answers)
 }
 
 /// The rates of a quaternion in terms of the velocities of its turn, one row for each rate: the component of ½ e or e that multiplies
 /// each velocity, and whether it is subtracted. The last velocity is the growth.
-const OF_TURN: [[(usize, bool); 4]; 4] = [
+const QUATERNION_RATES: [[(usize, bool); 4]; 4] = [
     [(1, true), (2, true), (3, true), (0, false)],
     [(0, false), (3, true), (2, false), (1, false)],
     [(3, false), (0, false), (1, true), (2, false)],
     [(2, true), (1, false), (0, false), (3, false)],
 ];
 
-impl Turn {
-    /// The entry of a row and a column of [`OF_TURN`].
+impl QuaternionTurn {
+    /// The entry of a row and a column of [`QUATERNION_RATES`].
     fn entry(&self, row: usize, column: usize) -> Scaled {
-        let (which, is_negative) = OF_TURN[row][column];
+        let (which, is_negative) = QUATERNION_RATES[row][column];
         let value = match column {
             3 => self.e[which],
             _ => self.halves[which],
@@ -336,10 +343,10 @@ impl Turn {
 }
 
 /// Converts loads on the rates of quaternions to loads on the velocities of their turns.
-fn onto_turns(graph: &mut Graph, solved: &Solved, mut loads: Vec<Scaled>) -> Vec<Scaled> {
+fn loads_on_turns(graph: &mut Graph, solved: &Solved, mut loads: Vec<Scaled>) -> Vec<Scaled> {
     for turn in &solved.turns {
-        let own = turn.places.map(|i| loads[i]);
-        for (column, place) in turn.places.into_iter().enumerate() {
+        let own = turn.coordinates.map(|i| loads[i]);
+        for (column, place) in turn.coordinates.into_iter().enumerate() {
             let terms: Vec<Scaled> = (0..4)
                 .map(|row| graph.product(&[(turn.entry(row, column), 1), (own[row], 1)]))
                 .collect();
@@ -350,10 +357,14 @@ fn onto_turns(graph: &mut Graph, solved: &Solved, mut loads: Vec<Scaled>) -> Vec
 }
 
 /// Converts solutions from the velocities of turns to the rates of quaternions.
-fn of_turns(graph: &mut Graph, solved: &Solved, mut answers: Vec<Scaled>) -> Vec<Scaled> {
+fn rates_of_quaternions(
+    graph: &mut Graph,
+    solved: &Solved,
+    mut answers: Vec<Scaled>,
+) -> Vec<Scaled> {
     for turn in &solved.turns {
-        let own = turn.places.map(|i| answers[i]);
-        for (row, place) in turn.places.into_iter().enumerate() {
+        let own = turn.coordinates.map(|i| answers[i]);
+        for (row, place) in turn.coordinates.into_iter().enumerate() {
             let terms: Vec<Scaled> = (0..4)
                 .map(|column| graph.product(&[(turn.entry(row, column), 1), (own[column], 1)]))
                 .collect();
@@ -366,5 +377,5 @@ fn of_turns(graph: &mut Graph, solved: &Solved, mut answers: Vec<Scaled>) -> Vec
 /// The sum, as one value that is computed once.
 fn total(graph: &mut Graph, terms: &[Scaled]) -> Scaled {
     let sum = graph.sum(terms);
-    graph.whole(sum)
+    graph.opaque(sum)
 }

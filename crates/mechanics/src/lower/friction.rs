@@ -7,14 +7,17 @@
 //! pivot that depends on one.
 
 use crate::SlidingEquation;
-use crate::lower::derivatives::{Solved, inverses, of_elimination, respond};
-use crate::lower::{Draft, Lowering, Origin, Planned};
+use crate::lower::derivatives::{Solved, inverses, of_elimination, solve_by_steps};
+use crate::lower::{Draft, Lowering, LoweringInput, PlannedFunction};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination};
 use lagrangian_program::{Basis, FrictionLayout, Role, Shape};
 
 /// The drafts for [`Role::Friction`], from the equations as derived and multiplied out.
-pub(super) fn friction<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, 'd>) -> Vec<Draft> {
+pub(super) fn friction<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: LoweringInput<'_, 'd>,
+) -> Vec<Draft> {
     let contacts: Vec<Contact> = source
         .sliding
         .iter()
@@ -44,7 +47,7 @@ pub(super) fn friction<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, '
         let results = results(&mut lowering.graph, layout, &solved, &contacts);
         let known = |pivot: &solve::Pivot| pivot.pivot.is_known() && pivot.scale.is_known();
         let (known_pivots, pivots): (Vec<_>, Vec<_>) = solved.pivots.into_iter().partition(known);
-        let planned = Planned {
+        let planned = PlannedFunction {
             role: Role::Friction,
             shape: Shape::Vector(layout.len()),
             results,
@@ -68,7 +71,7 @@ struct Contact {
     friction: Scaled,
     static_friction: Scaled,
     /// In space the unit vector that determines the pressing part of the reaction.
-    telling: Vec<Scaled>,
+    reference_direction: Vec<Scaled>,
 }
 
 /// A component of the reaction of a contact.
@@ -87,14 +90,14 @@ impl Contact {
         };
         let telling = match sliding.reactions.len() {
             1 => Vec::new(),
-            _ => many(&sliding.telling()),
+            _ => many(&sliding.reference_direction()),
         };
         let mut one = |expression| many(&[expression])[0];
         Contact {
             drift: one(sliding.drift),
             friction: one(sliding.friction),
             static_friction: one(sliding.static_friction),
-            telling,
+            reference_direction: telling,
             row: many(&sliding.row),
             reactions: sliding
                 .reactions
@@ -125,7 +128,7 @@ fn results(
             Some(k) => {
                 let mut right = contacts[k].row.clone();
                 right.resize(layout.coordinates + layout.constraints, Scaled::ZERO);
-                let mut answers = respond(graph, solved, &inverses, right);
+                let mut answers = solve_by_steps(graph, solved, &inverses, right);
                 let multipliers = answers.split_off(layout.coordinates);
                 // The system is symmetric in a and −λ.
                 let multipliers = multipliers.into_iter().map(Scaled::negated);
@@ -139,7 +142,7 @@ fn results(
                 terms.extend(products.map(|(&c, &x)| graph.product(&[(c, 1), (x, 1)])));
             }
             let sum = graph.sum(&terms);
-            graph.whole(sum)
+            graph.opaque(sum)
         };
         let slips: Vec<Scaled> = contacts
             .iter()
@@ -177,7 +180,11 @@ fn results(
     all.extend(contacts.iter().map(|contact| contact.friction));
     all.extend(contacts.iter().map(|contact| contact.static_friction));
     if layout.axes != 1 {
-        all.extend(contacts.iter().flat_map(|contact| &contact.telling));
+        all.extend(
+            contacts
+                .iter()
+                .flat_map(|contact| &contact.reference_direction),
+        );
     }
     all
 }

@@ -1,6 +1,6 @@
 //! The accelerations in stages, from the elimination that leaves the least work to the repeated stage.
 
-use crate::lower::{Candidate, Choice, Draft, Lowering, Origin, Planned, roundings};
+use crate::lower::{Candidate, Choice, Draft, Lowering, LoweringInput, PlannedFunction, roundings};
 use crate::lower::{articulated, turned};
 use lagrangian_program::rounding::States;
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution};
@@ -30,7 +30,7 @@ impl Staged {
 /// The requested stages. The form with the lowest cost of the last stage, the one that is repeated, is chosen.
 pub(super) fn staged<'d>(
     lowering: &mut Lowering<'_, 'd>,
-    source: Origin<'_, 'd>,
+    source: LoweringInput<'_, 'd>,
     at_once: &Draft,
     states: &States,
     choose: &dyn Fn(&[Candidate]) -> usize,
@@ -40,7 +40,7 @@ pub(super) fn staged<'d>(
     for (basis, solution) in solutions(lowering, source, at_once) {
         for factored in [false, true] {
             let known = &at_once.known_pivots;
-            let way = way(lowering, &solution, known, (basis, factored), apart);
+            let way = staged_functions(lowering, &solution, known, (basis, factored), apart);
             ways.extend(way);
         }
     }
@@ -85,7 +85,7 @@ pub(super) fn staged<'d>(
 /// The accelerations by every elimination that may be the shortest.
 fn solutions<'d>(
     lowering: &mut Lowering<'_, 'd>,
-    source: Origin<'_, 'd>,
+    source: LoweringInput<'_, 'd>,
     at_once: &Draft,
 ) -> Vec<(Basis, Solution)> {
     let mut solutions = Vec::new();
@@ -141,7 +141,7 @@ fn solutions<'d>(
 }
 
 /// The functions of one solution; none if there are no factors to take out.
-fn way(
+fn staged_functions(
     lowering: &mut Lowering<'_, '_>,
     solution: &Solution,
     known_pivots: &[Pivot],
@@ -149,7 +149,7 @@ fn way(
     apart: Stages,
 ) -> Option<Staged> {
     let pivots = solution.pivots.iter().copied();
-    let planned = Planned {
+    let planned = PlannedFunction {
         role: Role::AccelerationsAt,
         rows: solution.accelerations.len() + solution.multipliers.len(),
         shape: Shape::Vector(solution.accelerations.len()),
@@ -162,7 +162,7 @@ fn way(
     if factored && !net.factor() {
         return None;
     }
-    net.set_apart(apart);
+    net.separate_stages(apart);
     let whole = planned.draft(Some(&mut lowering.graph), net, basis, factored);
     let draft = |function: Function| Draft {
         form: Form {

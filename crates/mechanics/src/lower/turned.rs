@@ -20,7 +20,7 @@ use lagrangian_spec::model::quaternion;
 use lagrangian_spec::model::{Model, stage};
 
 /// A machine whose velocities are those of turns.
-struct Turned<'d> {
+struct TurnVelocities<'d> {
     /// The machine, with the velocities of turns as those of its coordinates.
     model: Model<'d>,
     machine: Unprojected<'d>,
@@ -29,14 +29,14 @@ struct Turned<'d> {
 }
 
 /// The accelerations along a machine, solved in the velocities of its turns if it has any.
-pub(super) struct Along<'d> {
+pub(super) struct TurnSolution<'d> {
     pub accelerations: Vec<Expr<'d>>,
     /// The pivots of the mass matrix, each with its coordinate.
     pub pivots: Vec<(usize, Expr<'d>)>,
     /// The steps, in those velocities.
     pub solution: Solution<'d>,
     /// The quaternions whose rates were replaced: their coordinates, and their components.
-    pub fours: Vec<([usize; 4], [Expr<'d>; 4])>,
+    pub quaternions: Vec<([usize; 4], [Expr<'d>; 4])>,
 }
 
 /// [`articulated::solve`], extended to machines with quaternions.
@@ -44,31 +44,34 @@ pub(super) fn solve<'d>(
     model: &Model<'d>,
     machine: &Unprojected<'d>,
     order: Order,
-) -> Option<Along<'d>> {
-    let Some(turned) = turned(model, machine) else {
+) -> Option<TurnSolution<'d>> {
+    let Some(turned) = in_turn_velocities(model, machine) else {
         let solution = articulated::solve(model, machine, order)?;
-        return Some(Along {
+        return Some(TurnSolution {
             accelerations: solution.accelerations.clone(),
             pivots: solution.pivots.clone(),
             solution,
-            fours: Vec::new(),
+            quaternions: Vec::new(),
         });
     };
     let solution = articulated::solve(&turned.model, &turned.machine, order)?;
     let fours = model.quaternions.iter();
-    Some(Along {
+    Some(TurnSolution {
         accelerations: turned.accelerations(model, solution.accelerations.clone()),
         pivots: turned.pivots(model, solution.pivots.clone()),
         solution,
-        fours: fours
+        quaternions: fours
             .map(|four| (four.coordinates(model), four.e))
             .collect(),
     })
 }
 
 /// The machine in the velocities of its turns; `None` if it has no quaternion, or if something depends on the rates of one in another way.
-fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>> {
-    if model.quaternions.is_empty() || machine.drifts {
+fn in_turn_velocities<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+) -> Option<TurnVelocities<'d>> {
+    if model.quaternions.is_empty() || machine.has_bias_accelerations {
         return None;
     }
     let dag = model.dag;
@@ -83,7 +86,7 @@ fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>
         let symbol = |of: &str| dag.symbol(&format!("{of} of {name}"), stage::VELOCITY);
         let velocities = ["turn x", "turn y", "turn z", "growth"].map(symbol);
         let s = quaternion::square(&four.e);
-        for (sum, velocity) in quaternion::vector(&four.e, &rates)
+        for (sum, velocity) in quaternion::vector_part(&four.e, &rates)
             .into_iter()
             .zip(velocities)
         {
@@ -93,12 +96,15 @@ fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>
         let pairs = pairs.filter_map(|(e, rate)| Some((e.as_symbol()?, rate)));
         let growing = Tangent::new(dag, &pairs.collect::<Vec<_>>()).of(s);
         known.insert(growing.id(), 2 * s * velocities[3]);
-        known.insert(quaternion::along(&four.e, &rates).id(), s * velocities[3]);
+        known.insert(
+            quaternion::radial_rate(&four.e, &rates).id(),
+            s * velocities[3],
+        );
         for (i, velocity) in places.into_iter().zip(velocities) {
             other.coordinates[i].v = velocity;
         }
-        let turn = quaternion::turning(&four.e, &rates);
-        let growth = quaternion::along(&four.e, &rates) / s;
+        let turn = quaternion::angular_velocity(&four.e, &rates);
+        let growth = quaternion::radial_rate(&four.e, &rates) / s;
         let values = turn.into_iter().chain([growth]);
         let pairs = velocities.into_iter().zip(values);
         meanings.extend(pairs.filter_map(|(velocity, value)| Some((velocity.as_symbol()?, value))));
@@ -133,9 +139,9 @@ fn turned<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Turned<'d>
     let machine = Unprojected {
         inertia,
         loads,
-        drifts: false,
+        has_bias_accelerations: false,
     };
-    Some(Turned {
+    Some(TurnVelocities {
         model: other,
         machine,
         meanings,
@@ -172,7 +178,7 @@ fn rewritten<'d>(
     Some(all.collect())
 }
 
-impl<'d> Turned<'d> {
+impl<'d> TurnVelocities<'d> {
     /// The accelerations of the coordinates of the machine from those of its turns, without the part that remains if neither accelerates.
     fn accelerations(&self, model: &Model<'d>, mut of: Vec<Expr<'d>>) -> Vec<Expr<'d>> {
         let dag = model.dag;

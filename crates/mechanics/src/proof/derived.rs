@@ -12,8 +12,8 @@ use lagrangian_spec::model::Model;
 
 use super::number::Number;
 use super::{
-    Disagreement, Found, MOST_POINTS, MOST_STATES, MOST_VALUES, Proved, STATES, Sum, Unproved,
-    Verdict, Witness, equal, told,
+    ComparisonResult, Disagreement, MOST_POINTS, MOST_STATES, MOST_VALUES, Proved, STATES, Sum,
+    Unproved, Verdict, Witness, equal, subject_text,
 };
 use crate::POINTS;
 use crate::equations::literal::{Lagrange, State};
@@ -43,7 +43,7 @@ impl Proved {
         match validate(&self.0, &part, model) {
             Ok(()) => Ok(Proved(part)),
             Err((disagreement, witness)) => Err(Unproved {
-                what: told(&disagreement, &part),
+                description: subject_text(&disagreement, &part),
                 disagreement,
                 witness,
             }),
@@ -64,7 +64,7 @@ fn validate(
     };
     let mut roles = part.functions.iter().map(|function| function.role);
     if let Some(role) = roles.find(|role| !is_known(*role)) {
-        return Err((Disagreement::Unseen { role }, Witness::Field));
+        return Err((Disagreement::NotCompared { role }, Witness::Field));
     }
     let holonomic = |k: usize| whole.constraints.get(k).is_some_and(|c| c.holonomic);
     let machine = Lagrange::of(model, holonomic);
@@ -74,16 +74,19 @@ fn validate(
     // As for the program itself, the field alone decides only about sines and cosines.
     let is_smooth = !code().any(|op| matches!(op, Op::Unary(..) | Op::Binary(..)));
     let in_field = Comparison::<Residue>::new(whole, part).run(&machine, POINTS, most);
-    if in_field == Found::Equal && is_smooth {
+    if in_field == ComparisonResult::Equal && is_smooth {
         return Ok(());
     }
     let at_states = Comparison::<Ball>::new(whole, part).run(&machine, STATES, MOST_STATES);
     match (in_field, at_states) {
-        (Found::Equal | Found::Nothing | Found::Exhausted(_), Found::Wrong(wrong)) => {
-            Err((wrong, Witness::States))
-        }
-        (_, Found::Equal) | (Found::Equal, _) => Ok(()),
-        (Found::Wrong(wrong), _) => Err((wrong, Witness::Field)),
+        (
+            ComparisonResult::Equal
+            | ComparisonResult::Inconclusive
+            | ComparisonResult::Exhausted(_),
+            ComparisonResult::Wrong(wrong),
+        ) => Err((wrong, Witness::States)),
+        (_, ComparisonResult::Equal) | (ComparisonResult::Equal, _) => Ok(()),
+        (ComparisonResult::Wrong(wrong), _) => Err((wrong, Witness::Field)),
         (_, _) => Err((Disagreement::Undefined, Witness::States)),
     }
 }
@@ -113,7 +116,7 @@ impl<'p, R: Number> Comparison<'p, R> {
 
     /// Compares every function at `points` points out of at most `most`. An output that rarely has a value is compared
     /// wherever it has one, as in the proof of the program itself.
-    fn run(mut self, machine: &Lagrange<'_, '_>, points: usize, most: u64) -> Found {
+    fn run(mut self, machine: &Lagrange<'_, '_>, points: usize, most: u64) -> ComparisonResult {
         let start = (self.part.start != self.whole.start).then_some(Role::Start);
         let functions = self.part.functions.iter().map(|function| function.role);
         let roles: Vec<Role> = start.into_iter().chain(functions).collect();
@@ -124,37 +127,39 @@ impl<'p, R: Number> Comparison<'p, R> {
             for (role, good) in roles.iter().zip(&mut good) {
                 match self.check(*role, &state) {
                     Ok(()) => *good += 1,
-                    Err(Verdict::Elsewhere) => {}
-                    Err(Verdict::Wrong(disagreement)) => return Found::Wrong(disagreement),
+                    Err(Verdict::Undefined) => {}
+                    Err(Verdict::Wrong(disagreement)) => {
+                        return ComparisonResult::Wrong(disagreement);
+                    }
                 }
             }
             if good.iter().all(|&good| good >= points) {
-                return Found::Equal;
+                return ComparisonResult::Equal;
             }
         }
         let is_needed = |role: &Role| !matches!(role, Role::Output(_) | Role::Gradient(_));
         let mut needed = roles.iter().zip(&good).filter(|(role, _)| is_needed(role));
         if needed.all(|(_, &good)| good >= points) {
-            Found::Equal
+            ComparisonResult::Equal
         } else {
-            Found::Nothing
+            ComparisonResult::Inconclusive
         }
     }
 
     /// Random numbers for this point; those of different kinds are independent.
-    fn many(&self, kind: u64, len: usize) -> Vec<R> {
+    fn random_numbers(&self, kind: u64, len: usize) -> Vec<R> {
         let one = |i: usize| R::random(self.number, (kind << 32) + 1 + i as u64);
         (0..len).map(one).collect()
     }
 
     fn check(&mut self, role: Role, at: &State<R>) -> Result<(), Verdict> {
         let changes = State {
-            parameters: self.many(11, at.parameters.len()),
+            parameters: self.random_numbers(11, at.parameters.len()),
             t: R::ZERO,
-            q: self.many(12, at.q.len()),
-            v: self.many(13, at.v.len()),
-            u: self.many(14, at.u.len()),
-            a: self.many(15, at.a.len()),
+            q: self.random_numbers(12, at.q.len()),
+            v: self.random_numbers(13, at.v.len()),
+            u: self.random_numbers(14, at.u.len()),
+            a: self.random_numbers(15, at.a.len()),
         };
         match role {
             Role::Adjoint => self.check_adjoint(at, &changes),
@@ -184,7 +189,7 @@ impl<'p, R: Number> Comparison<'p, R> {
         let mut results = vec![Dual::ZERO; len];
         match self.dual.call(role, arguments, &mut results) {
             Ok(()) if results.iter().all(|x| x.is_finite()) => Ok(results),
-            _ => Err(Verdict::Elsewhere),
+            _ => Err(Verdict::Undefined),
         }
     }
 
@@ -202,7 +207,7 @@ impl<'p, R: Number> Comparison<'p, R> {
         let mut results = vec![R::ZERO; len];
         match self.interpreter.call(role, arguments, &mut results) {
             Ok(()) if results.iter().all(|x| x.is_finite()) => Ok(results),
-            _ => Err(Verdict::Elsewhere),
+            _ => Err(Verdict::Undefined),
         }
     }
 
@@ -243,7 +248,7 @@ impl<'p, R: Number> Comparison<'p, R> {
     }
 
     fn check_adjoint(&mut self, at: &State<R>, by: &State<R>) -> Result<(), Verdict> {
-        let weights = self.many(16, at.q.len());
+        let weights = self.random_numbers(16, at.q.len());
         let duals = self.duals(Role::Accelerations, at, by)?;
         let rates: Vec<R> = duals.iter().map(|x| x.derivative).collect();
         let weighted = State {

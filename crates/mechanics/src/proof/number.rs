@@ -9,11 +9,11 @@ use lagrangian_program::rounding::SplitMix;
 
 /// The result of testing a number that ought to be 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sight {
+pub(crate) enum ZeroTest {
     Zero,
     NotZero,
     /// Round-off hides it.
-    Hidden,
+    Undecided,
 }
 
 /// A number in which values can be compared.
@@ -26,7 +26,7 @@ pub(crate) trait Number: Scalar<Stored = Self> {
     fn random(seed: u64, index: u64) -> Self;
 
     /// Whether it is 0, given the size of the numbers that it was computed from.
-    fn look(self, size: f64) -> Sight;
+    fn test_zero(self, size: f64) -> ZeroTest;
 
     /// Whether it is positive, or the analogue of that in a field.
     fn is_positive(self) -> bool;
@@ -47,11 +47,11 @@ impl Number for Residue {
         Residue::random(seed, index)
     }
 
-    fn look(self, _: f64) -> Sight {
+    fn test_zero(self, _: f64) -> ZeroTest {
         if self == Residue::ZERO {
-            Sight::Zero
+            ZeroTest::Zero
         } else {
-            Sight::NotZero
+            ZeroTest::NotZero
         }
     }
 
@@ -92,18 +92,18 @@ impl Number for Ball {
 
     /// Different numbers are detected whatever their radii are. Equal ones are accepted up to
     /// round-off, if that is far below the effect of a wrong sign or factor.
-    fn look(self, size: f64) -> Sight {
+    fn test_zero(self, size: f64) -> ZeroTest {
         const SHARE: f64 = 1.0 / (1u64 << 40) as f64;
         if !self.is_finite() {
-            return Sight::Hidden;
+            return ZeroTest::Undecided;
         }
         if !self.contains(0.0) {
-            return Sight::NotZero;
+            return ZeroTest::NotZero;
         }
         if self.radius() <= SHARE * size.max(SHARE) {
-            Sight::Zero
+            ZeroTest::Zero
         } else {
-            Sight::Hidden
+            ZeroTest::Undecided
         }
     }
 

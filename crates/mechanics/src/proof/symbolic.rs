@@ -61,7 +61,7 @@ pub enum Disagreement {
         point: u64,
     },
     /// A coordinate was eliminated by a constraint that does not determine it.
-    Settled {
+    Eliminated {
         /// The index of the coordinate.
         coordinate: usize,
         /// The index of the constraint.
@@ -79,7 +79,7 @@ pub enum Disagreement {
     /// No point was found at which everything has a value.
     Undefined,
     /// The proof does not compare this function.
-    Unseen {
+    NotCompared {
         /// The function.
         role: Role,
     },
@@ -115,7 +115,7 @@ impl fmt::Display for Disagreement {
             Disagreement::Reaction { contact, point } => {
                 write!(f, "the normal reaction {contact} differs at point {point}")
             }
-            Disagreement::Settled {
+            Disagreement::Eliminated {
                 coordinate,
                 constraint,
                 point,
@@ -134,7 +134,7 @@ impl fmt::Display for Disagreement {
             Disagreement::Singular(singular) => {
                 write!(f, "called singular in coordinate {}", singular.coordinate)
             }
-            Disagreement::Unseen { role } => {
+            Disagreement::NotCompared { role } => {
                 write!(f, "nothing is compared with {}", role.name())
             }
             Disagreement::Undefined => {
@@ -227,7 +227,7 @@ pub fn prove(
     let dependents = dependents(model, &crate::equations::constraints(model));
     at_points(program, model, |point| {
         point.check_values(&quantities)?;
-        point.follow(&dependents);
+        point.satisfy_constraints(&dependents);
         point.check_pivots()?;
         point.check_motion(oracle)?;
         point.check_derivatives()?;
@@ -247,7 +247,7 @@ pub fn prove_quantities(
 /// Why a check is inconclusive or has failed.
 enum Verdict {
     /// Something has no value at this point.
-    Elsewhere,
+    Undefined,
     Wrong(Disagreement),
 }
 
@@ -267,7 +267,7 @@ fn at_points<'d>(
     for number in 0..MOST_TRIES {
         match check(&mut Point::new(number, program, model)) {
             Ok(()) => good += 1,
-            Err(Verdict::Elsewhere) => {}
+            Err(Verdict::Undefined) => {}
             Err(Verdict::Wrong(disagreement)) => return Err(disagreement),
         }
         if good == POINTS {
@@ -286,7 +286,7 @@ struct Point<'a, 'd> {
     /// Runs the accelerations for the values of their guards.
     guards: Interpreter<Residue>,
     /// The coordinates that constraints determine.
-    settled: Vec<usize>,
+    eliminated: Vec<usize>,
     t: Residue,
     q: Vec<Residue>,
     v: Vec<Residue>,
@@ -310,7 +310,7 @@ impl<'a, 'd> Point<'a, 'd> {
             model,
             interpreter: Interpreter::new(program, &parameters),
             guards: Interpreter::new(&with_guarded_values(program), &parameters),
-            settled: Vec::new(),
+            eliminated: Vec::new(),
             t: many(1)[0],
             q: many(n),
             v: many(n),
@@ -321,8 +321,8 @@ impl<'a, 'd> Point<'a, 'd> {
 
     /// Sets the coordinates that constraints determine, and their rates, to the values that they determine,
     /// since a program may not read them. Constants of the start keep their values at this point.
-    fn follow(&mut self, dependents: &[Dependent<'d>]) {
-        self.settled = dependents.iter().map(|d| d.coordinate).collect();
+    fn satisfy_constraints(&mut self, dependents: &[Dependent<'d>]) {
+        self.eliminated = dependents.iter().map(|d| d.coordinate).collect();
         let offsets = dependents.iter().filter_map(|d| d.offset);
         let meant = offsets.filter_map(|[offset, meaning]| Some((offset.as_symbol()?, meaning)));
         let meant: Vec<_> = meant.collect();
@@ -352,7 +352,7 @@ impl<'a, 'd> Point<'a, 'd> {
         if !results.iter().all(|result| result.is_finite())
             || called.is_err_and(|singular| singular.ratio.is_nan())
         {
-            return Err(Verdict::Elsewhere);
+            return Err(Verdict::Undefined);
         }
         called.map_err(Disagreement::Singular)?;
         Ok(results)
@@ -364,7 +364,7 @@ impl<'a, 'd> Point<'a, 'd> {
         if results.iter().all(|result| result.is_finite()) {
             Ok(results)
         } else {
-            Err(Verdict::Elsewhere)
+            Err(Verdict::Undefined)
         }
     }
 
@@ -510,7 +510,7 @@ impl<'a, 'd> Point<'a, 'd> {
                     (&reaction.by_friction_forces, &friction_forces[..]),
                     (&reaction.by_normals, normals),
                 ];
-                let mut open = self.evaluate(&[reaction.unbalanced], a)?[0];
+                let mut open = self.evaluate(&[reaction.residual], a)?[0];
                 for (coefficients, values) in terms {
                     for (c, x) in self.evaluate(coefficients, a)?.into_iter().zip(values) {
                         open = open - c * *x;
@@ -521,7 +521,7 @@ impl<'a, 'd> Point<'a, 'd> {
                 }
             }
             if layout.axes != 1 {
-                let expected = self.evaluate(&contact.telling, a)?;
+                let expected = self.evaluate(&contact.reference_direction, a)?;
                 for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
                     let place = layout.directions() + 3 * k;
                     let told = responses[place + i] * responses[place + j];
@@ -612,7 +612,7 @@ impl<'a, 'd> Point<'a, 'd> {
                 interpreter.prepare(&arguments[3]);
             }
             if called.is_err() || !a.iter().all(|a| a.is_finite()) {
-                return Err(Verdict::Elsewhere);
+                return Err(Verdict::Undefined);
             }
             let slopes: Vec<Residue> = a.iter().map(|a| a.derivative).collect();
             check(column, &slopes)?;
@@ -674,7 +674,7 @@ impl<'a, 'd> Point<'a, 'd> {
             if role == Role::AccelerationsAt {
                 results.truncate(len);
             } else {
-                self.interpreter.stand(role, &results);
+                self.interpreter.set_stage_results(role, &results);
             }
         }
         Ok(results)
@@ -693,7 +693,7 @@ impl<'a, 'd> Point<'a, 'd> {
         // A coordinate that a constraint determines may have no pivot; then the pivot of the
         // constraint is divided by.
         let missing: Vec<usize> = (0..n).filter(|i| !sorted.contains(i)).collect();
-        let is_settled = |i: &usize| self.settled.contains(i);
+        let is_settled = |i: &usize| self.eliminated.contains(i);
         if sorted.len() + missing.len() != n || !missing.iter().all(is_settled) {
             return Err(wrong.into());
         }
@@ -739,7 +739,7 @@ impl<'a, 'd> Point<'a, 'd> {
             || by_coordinates.all(|(i, [pivot, scale])| *scale == diagonal(i) || scale == pivot);
         let determinant = determinant(lower, n);
         if !determinant.is_finite() {
-            return Err(Verdict::Elsewhere);
+            return Err(Verdict::Undefined);
         }
         if pairs.len() == n && product == determinant && scales {
             Ok(())

@@ -29,7 +29,7 @@ pub(super) fn series(model: &Model<'_>) -> Result<Series, NoSeries> {
         parameters: model.parameters.len(),
         inputs: model.inputs.len(),
     };
-    series.pruned().in_time().with_dependences()
+    series.pruned().ordered_by_time().with_dependences()
 }
 
 /// Converts expressions to rows.
@@ -91,7 +91,10 @@ impl<'m, 'd> Lowering<'m, 'd> {
             Node::Pi => self.push(Row::Pi),
             Node::Symbol(symbol) => match self.derivatives.get(&symbol) {
                 // Positions contain no derivatives, so this recursion is one level deep.
-                Some(&Derivative { of, twice }) => {
+                Some(&Derivative {
+                    of,
+                    is_second: twice,
+                }) => {
                     let of = self.expression(of)?;
                     self.push(if twice {
                         Row::Second(of)

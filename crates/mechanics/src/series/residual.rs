@@ -31,7 +31,7 @@ pub(super) struct Residual<'d> {
 #[derive(Clone, Copy)]
 pub(super) struct Derivative<'d> {
     pub of: Expr<'d>,
-    pub twice: bool,
+    pub is_second: bool,
 }
 
 /// The residuals of a machine's equations of motion.
@@ -56,7 +56,7 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
             let fall = model.gravity().map_or(dag.zero(), |g| g[k]);
             on_positions.push((at, body.mass * (rates.second(at) - fall)));
         }
-        turning(model, body, &mut rates, &mut on_positions);
+        rotation_loads(model, body, &mut rates, &mut on_positions);
     }
     for energy in model.stored() {
         match energy {
@@ -80,7 +80,7 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
         }
     }
     for four in &model.quaternions {
-        let size = four.size();
+        let size = four.log_length();
         let e_rates = four.e.map(|e| rates.first(e));
         on_positions.push((
             size,
@@ -150,7 +150,7 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
 }
 
 /// The inertia loads on the rotation of a body.
-fn turning<'d>(
+fn rotation_loads<'d>(
     model: &Model<'d>,
     body: &Body<'d>,
     rates: &mut Rates<'_, 'd>,
@@ -266,7 +266,13 @@ impl<'m, 'd> Rates<'m, 'd> {
         let name = format!("{mark} of {}", of.id().index());
         let symbol = self.model.dag.symbol(&name, stage);
         if let Some(key) = symbol.as_symbol() {
-            self.derivatives.insert(key, Derivative { of, twice });
+            self.derivatives.insert(
+                key,
+                Derivative {
+                    of,
+                    is_second: twice,
+                },
+            );
         }
         symbol
     }

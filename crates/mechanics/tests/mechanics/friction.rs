@@ -88,7 +88,7 @@ fn the_bracket_that_the_paper_drops_is_found() {
         let right = m("mu2") * m("m") * model.coordinates[1].a * m("alpha").tan();
         let printed = -(m("m") * model.coordinates[1].a * m("alpha").tan());
         let sum = |terms: &[Expr<'_>]| terms.len();
-        let mend = &found[1].mend[0];
+        let mend = &found[1].corrections[0];
         assert_eq!((sum(&mend.add), sum(&mend.drop)), (1, 1));
         assert_equal(
             model,
@@ -427,16 +427,16 @@ fn what_guides_carry_and_coordinates_move_is_known() {
     let built = carrying(&text_of("prisms"));
     assert_eq!(built.carried, [vec![0, 1], vec![1]]);
     assert_eq!(built.moved, [vec![0, 1], vec![1]]);
-    assert_eq!(built.pushed_by, [Some(vec![0]), Some(vec![1])]);
-    assert!((0..2).all(|guide| built.unsaid(guide).is_empty()));
+    assert_eq!(built.coordinates_along, [Some(vec![0]), Some(vec![1])]);
+    assert!((0..2).all(|guide| built.undetermined(guide).is_empty()));
     let absolute = text_of("prisms").replace("wedge.shift(-q2", "ground.shift(q1 - q2");
     assert!(codes(&absolute).is_empty());
     let absolute = carrying(&absolute);
     assert_eq!(absolute.carried, [vec![0], vec![1]]);
     assert_eq!(absolute.moved, built.moved);
     // The force on the slider also acts on the wedge, and the spec does not determine its component across the floor.
-    assert_eq!(absolute.unsaid(0), [1]);
-    assert!(absolute.unsaid(1).is_empty());
+    assert_eq!(absolute.undetermined(0), [1]);
+    assert!(absolute.undetermined(1).is_empty());
     let forced = text_of("prisms")
         .replace("wedge.shift(-q2", "ground.shift(q1 - q2")
         .replace(

@@ -48,7 +48,7 @@ fn mistakes(comparison: &Comparison<'_>) -> Vec<[String; 3]> {
     let line = |printed: &str, right: &str| {
         [&comparison.item, printed, right].map(|cell: &str| cell.to_owned())
     };
-    let undotted = comparison.undotted.iter();
+    let undotted = comparison.superfluous_dots.iter();
     let mut lines: Vec<_> = undotted.map(|u| line(&u.from, &u.to)).collect();
     lines.extend(changes.iter().map(|&(i, j)| line(&drop[i], &add[j])));
     let alone = |k: &usize, side: fn(&(usize, usize)) -> usize| {
@@ -189,7 +189,10 @@ fn mended(item: &PublishedItem, comparison: &Comparison) -> String {
         [one] => one.clone(),
         several => format!("({})", several.join(", ")),
     };
-    let undotted = comparison.undotted.iter().map(|undotted| &undotted.term);
+    let undotted = comparison
+        .superfluous_dots
+        .iter()
+        .map(|undotted| &undotted.term);
     comparison
         .add()
         .iter()
@@ -500,7 +503,7 @@ fn one_more_wrong_sign_anywhere_is_found() {
     let comparisons = compare(&model, &equations);
     let (originals, flipped) = comparisons.split_at(31);
     assert_eq!(flipped.len(), mutants.len());
-    let said = |c: &Comparison<'_>| (c.agrees, c.add(), c.drop(), c.undotted.clone());
+    let said = |c: &Comparison<'_>| (c.agrees, c.add(), c.drop(), c.superfluous_dots.clone());
     let mut survivors = Vec::new();
     for ((k, place, _), (comparison, block)) in mutants
         .iter()

@@ -188,7 +188,7 @@ fn derivatives_are_slopes_of_the_accelerations() {
 fn only_what_is_asked_for_is_there() {
     machine("double_pendulum", &[], |machine| {
         assert!(machine.program.function(Role::Derivatives).is_none());
-        assert!(machine.equations.unbalanced.is_empty());
+        assert!(machine.equations.residual.is_empty());
     });
     let of = |asked: &str| {
         let text = format!(

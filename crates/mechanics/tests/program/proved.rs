@@ -103,7 +103,7 @@ fn a_function_that_nothing_is_compared_with_is_stopped() {
         program.functions.push(unknown);
         let unproved = Proved::new(program, &machine.model, &machine.equations)
             .expect_err("nothing is known of it");
-        assert_eq!(unproved.disagreement, Disagreement::Unseen { role });
+        assert_eq!(unproved.disagreement, Disagreement::NotCompared { role });
         assert_eq!(unproved.diagnostic(&machine.model).code, Code::Internal);
     });
 }

@@ -219,7 +219,7 @@ fn numbers_in_stages_are_the_numbers_at_once() {
                         .call(role, at, &mut found)
                         .expect("it has accelerations");
                     if role != Role::AccelerationsAt {
-                        interpreter.stand(role, &found);
+                        interpreter.set_stage_results(role, &found);
                     }
                 }
                 let scale = expected

@@ -3,10 +3,10 @@
 use lagrangian_symbolic::{Expr, Math, math_as_built, substitute};
 
 use super::kinematics::particles;
-use super::{Chapter, READABLE, capital, code, counted, listed, words};
+use super::{Chapter, READABLE, capitalized, code, counted, listed, words};
 use crate::document::{Block, Row, Words};
 use lagrangian_mechanics::equations::groups::{Term, compact};
-use lagrangian_mechanics::equations::integrals::{Cyclic, Energy};
+use lagrangian_mechanics::equations::integrals::{Cyclic, EnergyBalance};
 use lagrangian_spec::model::{Space, stage};
 
 /// The most names in a sentence.
@@ -15,14 +15,17 @@ const LONGEST_LIST: usize = 12;
 impl<'d> Chapter<'_, 'd> {
     pub(super) fn conserved(&self) -> Vec<Block> {
         let mut blocks = self.energy_balance();
-        for cyclic in self.facts.cyclic.iter().take(LONGEST_LIST) {
+        for cyclic in self.properties.cyclic.iter().take(LONGEST_LIST) {
             blocks.extend(self.cyclic(cyclic));
         }
-        if self.facts.cyclic.len() > LONGEST_LIST {
-            let more = counted(self.facts.cyclic.len() - LONGEST_LIST, "more coordinate");
+        if self.properties.cyclic.len() > LONGEST_LIST {
+            let more = counted(
+                self.properties.cyclic.len() - LONGEST_LIST,
+                "more coordinate",
+            );
             blocks.push(Block::Paragraph(words![format!("Cyclic as well: {more}.")]));
         }
-        let absent = self.absent();
+        let absent = self.absent_terms();
         if !absent.is_empty() {
             blocks.push(Block::Paragraph(words![
                 "What is absent costs nothing to compute:"
@@ -43,9 +46,9 @@ impl<'d> Chapter<'_, 'd> {
                 letter('T') + letter('V')
             }
         };
-        match &self.facts.energy {
-            Energy::Conserved => {
-                if let Some(touching) = self.touching() {
+        match &self.properties.energy {
+            EnergyBalance::Conserved => {
+                if let Some(touching) = self.extra_forces() {
                     let text = format!(
                         "Energy is changed by {touching} alone: nothing else drives or damps the machine."
                     );
@@ -56,8 +59,8 @@ impl<'d> Chapter<'_, 'd> {
                 let constant = sum().equals(Math::text("constant"));
                 vec![Block::Paragraph(words![text]), Block::formula(&constant)]
             }
-            Energy::Jacobi(integral) => {
-                let conserved = match self.touching() {
+            EnergyBalance::Jacobi(integral) => {
+                let conserved = match self.extra_forces() {
                     None => "conserved".to_owned(),
                     Some(touching) => format!("changed by {touching} alone"),
                 };
@@ -68,7 +71,7 @@ impl<'d> Chapter<'_, 'd> {
                 let rows = self.equality(Math::letter('E'), *integral, "");
                 vec![Block::Paragraph(words![text]), Block::Formula(rows)]
             }
-            Energy::Balance => {
+            EnergyBalance::Balance => {
                 let rate = Math::fraction(letter('d'), letter('d') * letter('t'));
                 let mut rows = Vec::new();
                 let mut right = Math::default();
@@ -94,7 +97,7 @@ impl<'d> Chapter<'_, 'd> {
                 let balance = (rate * sum().in_parentheses()).equals(right);
                 let mut lines = Row::lines(&balance, 0, "");
                 lines.extend(rows);
-                let text = match self.touching() {
+                let text = match self.extra_forces() {
                     None => "Energy is not conserved. Along every motion".to_owned(),
                     Some(touching) => {
                         format!(
@@ -114,8 +117,8 @@ impl<'d> Chapter<'_, 'd> {
         let (t, v) = (Math::letter('T'), Math::letter('V'));
         let mut words = words![q(), " is cyclic: neither ", t, " nor ", v, " depends on it"];
         let touching = self
-            .touching()
-            .filter(|_| self.is_touched(cyclic.coordinate));
+            .extra_forces()
+            .filter(|_| self.has_extra_force(cyclic.coordinate));
         words.extend(match (cyclic.force.is_zero(), touching) {
             (true, Some(touching)) => {
                 words![format!(
@@ -156,14 +159,14 @@ impl<'d> Chapter<'_, 'd> {
 
     /// Forces besides those in the equations, such as sliding friction. Unilateral contacts are not mentioned here: their own
     /// section states that the rest of the chapter applies while they are open.
-    fn touching(&self) -> Option<&'static str> {
+    fn extra_forces(&self) -> Option<&'static str> {
         let mut sliding = self.compiled.equations.sliding.iter();
         let rubs = sliding.any(|one| !one.friction.is_zero());
         rubs.then_some("friction in the guides")
     }
 
     /// Whether they act on a coordinate.
-    fn is_touched(&self, coordinate: usize) -> bool {
+    fn has_extra_force(&self, coordinate: usize) -> bool {
         let mut sliding = self.compiled.equations.sliding.iter();
         sliding.any(|one| !one.friction.is_zero() && !one.row[coordinate].is_zero())
     }
@@ -217,7 +220,7 @@ impl<'d> Chapter<'_, 'd> {
     }
 
     /// What the machine lacks, and what is at rest.
-    fn absent(&self) -> Vec<Words> {
+    fn absent_terms(&self) -> Vec<Words> {
         let model = self.model;
         let equations = &self.compiled.equations;
         let matrix = equations.mass_matrix.lower();
@@ -228,26 +231,26 @@ impl<'d> Chapter<'_, 'd> {
             .filter(|entry| entry.stage() <= stage::PARAMETER)
             .count()
             - zeros;
-        if self.facts.constant_mass_matrix {
+        if self.properties.constant_mass_matrix {
             items.push(words![
                 "The mass matrix is constant: it is known when the parameters are."
             ]);
         } else if constants > 0 {
             let verb = if constants == 1 { "depends" } else { "depend" };
-            let entries = capital(&counted(constants, "entry"));
+            let entries = capitalized(&counted(constants, "entry"));
             items.push(words![format!(
                 "{entries} of the mass matrix, on and below the diagonal, {verb} on parameters only."
             )]);
         }
         if zeros > 0 {
             let verb = if zeros == 1 { "is" } else { "are" };
-            let entries = capital(&counted(zeros, "entry"));
+            let entries = capitalized(&counted(zeros, "entry"));
             items.push(words![format!(
                 "{entries} of the mass matrix, out of {} on and below the diagonal, {verb} zero.",
                 matrix.len()
             )]);
         }
-        if self.facts.blocks.len() > 1 {
+        if self.properties.blocks.len() > 1 {
             items.push(self.blocks());
         }
         if equations.bias.iter().all(|h| h.is_zero()) {
@@ -266,7 +269,7 @@ impl<'d> Chapter<'_, 'd> {
                 items.push(words);
             }
         }
-        if self.facts.autonomous {
+        if self.properties.autonomous {
             items.push(words![
                 "No explicit time: neither energies nor forces depend on it."
             ]);
@@ -301,8 +304,11 @@ impl<'d> Chapter<'_, 'd> {
 
     /// Which accelerations are coupled.
     fn blocks(&self) -> Words {
-        let (alone, together): (Vec<&Vec<usize>>, Vec<_>) =
-            self.facts.blocks.iter().partition(|block| block.len() == 1);
+        let (alone, together): (Vec<&Vec<usize>>, Vec<_>) = self
+            .properties
+            .blocks
+            .iter()
+            .partition(|block| block.len() == 1);
         let mut sentences: Vec<Words> = Vec::new();
         for block in together {
             let mut words = words!["the accelerations of "];

@@ -76,7 +76,7 @@ impl<'d> Chapter<'_, 'd> {
                     rows.extend(self.equality(of_body(&bodies[index].name), energy, ""));
                     of_body(&bodies[index].name)
                 }
-                Shown::LeftOut(..) => Math::sign(Sign::Dots),
+                Shown::Omitted(..) => Math::sign(Sign::Dots),
             };
             sum = if position == 0 { term } else { sum + term };
         }
@@ -114,7 +114,7 @@ impl<'d> Chapter<'_, 'd> {
                     let left = Math::letter(letter).with_index(label(&element.name));
                     rows.extend(self.equality(left, energy, element.section.noun));
                 }
-                Shown::LeftOut(from, count) => {
+                Shown::Omitted(from, count) => {
                     let text = format!("and {count} more of {}", parts[from].0.name.base);
                     rows.extend(Row::lines(&Math::text(text), 0, ""));
                 }
@@ -157,7 +157,7 @@ impl<'d> Chapter<'_, 'd> {
                         rows.extend(self.equality(left, *force, note));
                     }
                 }
-                Shown::LeftOut(from, count) => {
+                Shown::Omitted(from, count) => {
                     let text = format!("and {count} more of {}", parts[from].0.name.base);
                     rows.extend(Row::lines(&Math::text(text), 0, ""));
                 }

@@ -17,7 +17,7 @@ impl<'d> Chapter<'_, 'd> {
             let frames = &self.model.frames;
             let item = |shown| match shown {
                 Shown::Item(index) => self.frame(&frames[index]),
-                Shown::LeftOut(from, count) => {
+                Shown::Omitted(from, count) => {
                     words![format!(
                         "… and {count} more of {}, built in the same way",
                         frames[from].name.base
@@ -53,7 +53,7 @@ impl<'d> Chapter<'_, 'd> {
         for shown in shown(self.model.bodies.iter().map(|body| &body.name)) {
             match shown {
                 Shown::Item(index) => blocks.extend(self.body(index, &angular[index])),
-                Shown::LeftOut(from, count) => {
+                Shown::Omitted(from, count) => {
                     let base = &self.model.bodies[from].name.base;
                     let text = format!(
                         "{count} more bodies of the family {base} follow in the same way; they are left out here, and \

@@ -202,7 +202,7 @@ impl<'d> Chapter<'_, 'd> {
             .into_iter()
             .map(|shown| match shown {
                 Shown::Item(index) => row(&entries[index]),
-                Shown::LeftOut(from, count) => {
+                Shown::Omitted(from, count) => {
                     let base = &entries[from].name.base;
                     let text = format!("{count} more of {base}");
                     vec![words!["…"], words![text], words![], words![], words![]]
@@ -293,7 +293,7 @@ impl<'d> Chapter<'_, 'd> {
                         items.push(item);
                     }
                 }
-                Shown::LeftOut(from, count) => {
+                Shown::Omitted(from, count) => {
                     let text = format!("and {count} more of {}", outputs[from].name.base);
                     rows.extend(Row::lines(&Math::text(text), 0, ""));
                 }

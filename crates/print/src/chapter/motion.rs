@@ -54,7 +54,7 @@ impl<'d> Chapter<'_, 'd> {
         for shown in shown(model.coordinates.iter().map(|coordinate| &coordinate.name)) {
             match shown {
                 Shown::Item(index) => blocks.extend(self.equation(index)),
-                Shown::LeftOut(from, count) => {
+                Shown::Omitted(from, count) => {
                     let base = &model.coordinates[from].name.base;
                     let text = format!(
                         "{count} more equations, of the family {base}, are left out here; "
@@ -210,7 +210,7 @@ impl<'d> Chapter<'_, 'd> {
             Kind::Inertia => "inertia",
             Kind::Centrifugal => "centrifugal",
             Kind::Coriolis => "Coriolis",
-            Kind::Velocity if self.facts.autonomous => "velocity terms",
+            Kind::Velocity if self.properties.autonomous => "velocity terms",
             Kind::Velocity => "velocity terms, drive",
             Kind::Drive => "drive",
             Kind::Gravity => "gravity",

@@ -48,12 +48,12 @@ impl Chapter<'_, '_> {
             " is called once for each set of parameters:",
         ];
         let mut blocks = vec![Block::Paragraph(words), Block::Table(head, rows.collect())];
-        blocks.extend(self.ways_to_accelerations());
+        blocks.extend(self.acceleration_candidates());
         blocks
     }
 
     /// The candidates among which the program of the accelerations was chosen.
-    fn ways_to_accelerations(&self) -> Vec<Block> {
+    fn acceleration_candidates(&self) -> Vec<Block> {
         let program = &self.compiled.program;
         let Some(choice) = program.choice(program.solving()) else {
             return Vec::new();
@@ -78,7 +78,7 @@ impl Chapter<'_, '_> {
                 counts.multiplications.to_string(),
                 counts.additions.to_string(),
                 counts.divisions.to_string(),
-                cycles(cost.alone()),
+                cycles(cost.single_call()),
                 cycles(cost.throughput),
                 rounding.map_or_else(|| "–".to_owned(), |rounding| rounding.to_string()),
             ];

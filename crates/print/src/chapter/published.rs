@@ -3,8 +3,8 @@
 use lagrangian_symbolic::print::Sign;
 use lagrangian_symbolic::{Expr, Math, math_as_built};
 
-use super::{Chapter, READABLE, capital, code, counted, listed, paragraph, words};
-use crate::compare::{Comparison, Quoted, Undotted, compare};
+use super::{Chapter, READABLE, capitalized, code, counted, listed, paragraph, words};
+use crate::compare::{Comparison, Quoted, SuperfluousDot, compare};
 use crate::document::{Block, Row};
 
 impl<'d> Chapter<'_, 'd> {
@@ -17,7 +17,7 @@ impl<'d> Chapter<'_, 'd> {
             blocks.push(Block::Heading(words![block.title.clone()]));
             let text = format!(
                 "{} compared with the derivation, of which {} to be changed.",
-                capital(&counted(block.items.len(), "formula")),
+                capitalized(&counted(block.items.len(), "formula")),
                 match wrong.len() {
                     0 => "none has".to_owned(),
                     1 => "one has".to_owned(),
@@ -49,8 +49,8 @@ impl<'d> Chapter<'_, 'd> {
     fn changes(&self, comparison: &Comparison<'d>) -> Vec<Row> {
         // Terms with the component to which they belong, in the order of the comparison.
         let (mut drop, mut add) = (Vec::new(), Vec::new());
-        for (k, mend) in comparison.mend.iter().enumerate() {
-            let axis = match comparison.mend.len() {
+        for (k, mend) in comparison.corrections.iter().enumerate() {
+            let axis = match comparison.corrections.len() {
                 1 => "",
                 _ => [", x", ", y", ", z"][k % 3],
             };
@@ -65,7 +65,7 @@ impl<'d> Chapter<'_, 'd> {
             (true, false) => ", on the left",
         };
         let mut rows = Vec::new();
-        for Undotted { from, to, .. } in &comparison.undotted {
+        for SuperfluousDot { from, to, .. } in &comparison.superfluous_dots {
             let change = Math::text(from.clone()).then(Sign::To, Math::text(to.clone()));
             rows.extend(Row::lines(&change, 0, "change"));
         }

@@ -21,7 +21,7 @@ impl Chapter<'_, '_> {
         ])];
         for (k, contact) in contacts.iter().enumerate().take(MOST) {
             // The second tangent of a contact is described with the first.
-            if contact.across {
+            if contact.is_second_tangent {
                 continue;
             }
             if contact.face.is_some() {
@@ -35,10 +35,10 @@ impl Chapter<'_, '_> {
             let rate = |index: &'static str| Math::letter('γ').with_index(Math::text(index));
             let mut rows = self.equality(Math::letter('g'), contact.gap, "gap");
             rows.extend(self.equality(rate("n"), normal.rate, "rate of opening"));
-            if contact.rubs {
+            if contact.has_friction {
                 rows.extend(self.equality(rate("t"), tangent.rate, "rate of slip"));
             }
-            if let Some(second) = contacts.get(k + 1).filter(|next| next.across) {
+            if let Some(second) = contacts.get(k + 1).filter(|next| next.is_second_tangent) {
                 let [_, tangent] = &second.directions;
                 rows.extend(self.equality(rate("s"), tangent.rate, "slip along a second tangent"));
             }

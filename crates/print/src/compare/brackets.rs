@@ -69,7 +69,7 @@ struct Sides<'d> {
     /// The terms with brackets, of both.
     brackets: [Vec<Expr<'d>>; 2],
     /// The other terms, of both.
-    rest: [Vec<Expr<'d>>; 2],
+    other_terms: [Vec<Expr<'d>>; 2],
 }
 
 impl<'d> Sides<'d> {
@@ -83,7 +83,7 @@ impl<'d> Sides<'d> {
         let (right, right_rest): (Vec<_>, Vec<_>) = split(right);
         Sides {
             brackets: [without(&printed, &right), without(&right, &printed)],
-            rest: [printed_rest, right_rest],
+            other_terms: [printed_rest, right_rest],
         }
     }
 
@@ -107,14 +107,14 @@ impl<'d> Sides<'d> {
                 .filter_map(move |(k, term)| (kept.contains(&(side, k)) == is_kept).then_some(term))
         };
         let dag = self
-            .rest
+            .other_terms
             .iter()
             .chain(&self.brackets)
             .flatten()
             .next()?
             .dag();
         let open = [PRINTED, RIGHT]
-            .map(|side| dag.sum(part(side, false).chain(self.rest[side].iter().copied())));
+            .map(|side| dag.sum(part(side, false).chain(self.other_terms[side].iter().copied())));
         let rest = normal::difference(open[PRINTED], open[RIGHT], budget)?;
         Some(Difference {
             add: part(RIGHT, true).chain(rest.add).collect(),

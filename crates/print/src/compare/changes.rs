@@ -23,7 +23,7 @@ use lagrangian_symbolic::{Expr, Function, Node, Rational};
 use lagrangian_spec::model::stage;
 
 /// The largest distance of a change.
-const SLIPS: u64 = 2;
+const MISPRINTS: u64 = 2;
 
 /// The most terms that are assigned: the time grows with the cube of their number.
 const TERMS: usize = 150;
@@ -36,16 +36,16 @@ pub(super) fn pairs(drop: &[Expr<'_>], add: &[Expr<'_>]) -> Vec<(usize, usize)> 
     let [from, to] = [drop, add].map(|list| list.iter().map(|&e| Term::of(e)).collect::<Vec<_>>());
     // Criteria are ordered by weight: each outweighs the largest total of the later ones, which is that of `TERMS`
     // misprints or `TERMS²` positions.
-    const SLIP: u64 = 1 << 32;
+    const MISPRINT: u64 = 1 << 32;
     const MOVING: u64 = 1 << 16;
     const { assert!(TERMS * TERMS < MOVING as usize) };
     let cost = |i: usize, j: usize| match to.get(j) {
         Some(to) => match from[i].distance(to) {
-            Some((slips, moving)) => slips * SLIP + moving * MOVING + i.abs_diff(j) as u64,
-            None => 3 * SLIPS * SLIP,
+            Some((slips, moving)) => slips * MISPRINT + moving * MOVING + i.abs_diff(j) as u64,
+            None => 3 * MISPRINTS * MISPRINT,
         },
         // The cost of staying alone.
-        None => (SLIPS + 1) * SLIP,
+        None => (MISPRINTS + 1) * MISPRINT,
     };
     let places = assignment(drop.len(), add.len() + drop.len(), cost);
     let joined = places.into_iter().enumerate();
@@ -96,7 +96,7 @@ impl<'d> Term<'d> {
         let alike: [fn(&Factor<'d>, &Factor<'d>) -> bool; 3] = [
             |a, b| a == b,
             |a, b| a.0 == b.0,
-            |a, b| a.1 == b.1 && differ_by_a_slip(a.0, b.0),
+            |a, b| a.1 == b.1 && differ_by_a_misprint(a.0, b.0),
         ];
         for (alike, price) in alike.into_iter().zip([0, 1, 1]) {
             here.retain(|factor| {
@@ -113,12 +113,12 @@ impl<'d> Term<'d> {
         let (fewer, more) = (here.len().min(there.len()), here.len().max(there.len()));
         slips += (2 * fewer + (more - fewer)) as u64;
         moving += here.iter().chain(&there).map(moves).sum::<u64>();
-        (common > 0 && slips <= SLIPS).then_some((slips, moving))
+        (common > 0 && slips <= MISPRINTS).then_some((slips, moving))
     }
 }
 
 /// Whether two factors differ by a single misprint.
-pub(super) fn differ_by_a_slip(a: Expr<'_>, b: Expr<'_>) -> bool {
+pub(super) fn differ_by_a_misprint(a: Expr<'_>, b: Expr<'_>) -> bool {
     let dag = a.dag();
     match (a.node(), b.node()) {
         (Node::Symbol(a), Node::Symbol(b)) => {

@@ -4,7 +4,7 @@ use lagrangian_symbolic::normal::Difference;
 use lagrangian_symbolic::{Expr, Node, Rational, text};
 
 use super::Quoted;
-use super::changes::{Factor, Term, differ_by_a_slip};
+use super::changes::{Factor, Term, differ_by_a_misprint};
 use lagrangian_spec::model::PrintedTerm;
 use lagrangian_spec::model::product;
 
@@ -139,7 +139,7 @@ fn in_the_order_of<'d>(printed: &PrintedTerm<'d>, term: Expr<'d>) -> Option<Stri
     }
     // A factor that differs by a misprint takes the place of the printed one; then any other factor does.
     let alike: [fn(&Factor<'d>, &Factor<'d>) -> bool; 2] = [
-        |a, b| a.0 == b.0 || (a.1 == b.1 && differ_by_a_slip(a.0, b.0)),
+        |a, b| a.0 == b.0 || (a.1 == b.1 && differ_by_a_misprint(a.0, b.0)),
         |a, b| (a.1 > 0) == (b.1 > 0),
     ];
     for alike in alike {

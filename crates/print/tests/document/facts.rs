@@ -3,7 +3,7 @@
 
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Oracle;
-use lagrangian_mechanics::equations::integrals::{Energy, Facts};
+use lagrangian_mechanics::equations::integrals::{EnergyBalance, EquationProperties};
 use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_spec::model::stage;
 use lagrangian_symbolic::{Expr, Symbol, Tangent, evaluate};
@@ -28,7 +28,7 @@ fn cyclic_coordinates_are_those_that_no_energy_depends_on() {
     every_machine(|name, compiled| {
         let model = &compiled.model;
         let oracle = Oracle::derive(model);
-        let facts = Facts::of(model, &compiled.equations);
+        let facts = EquationProperties::of(model, &compiled.equations);
         let slopes = model.coordinates.iter().flat_map(|c| {
             [oracle.kinetic_energy, oracle.potential_energy].map(|energy| energy.diff(symbol(c.q)))
         });
@@ -63,7 +63,7 @@ fn momenta_are_conserved_exactly_where_it_is_said() {
         if compiled.equations.constraints.len() >= model.coordinates.len() {
             return;
         }
-        let facts = Facts::of(model, &compiled.equations);
+        let facts = EquationProperties::of(model, &compiled.equations);
         let rate = &mut total(model);
         let rates = facts
             .cyclic
@@ -103,22 +103,22 @@ fn energy_is_conserved_exactly_where_it_is_said() {
     every_machine(|name, compiled| {
         let model = &compiled.model;
         let oracle = Oracle::derive(model);
-        let facts = Facts::of(model, &compiled.equations);
+        let facts = EquationProperties::of(model, &compiled.equations);
         let mut rate = total(model);
         let stored = compiled.equations.state_energy;
         let sum = rate.of(oracle.kinetic_energy + oracle.potential_energy + stored);
         let conserved = vanish(compiled, &[sum], true)[0];
         match &facts.energy {
-            Energy::Conserved => {
+            EnergyBalance::Conserved => {
                 kinds[0] += 1;
                 assert!(conserved, "{name}");
             }
-            Energy::Jacobi(integral) => {
+            EnergyBalance::Jacobi(integral) => {
                 kinds[1] += 1;
                 assert!(!conserved, "{name}");
                 assert!(vanish(compiled, &[rate.of(*integral)], true)[0], "{name}");
             }
-            Energy::Balance => {
+            EnergyBalance::Balance => {
                 kinds[2] += 1;
                 assert!(!conserved, "{name}");
                 let balance = compiled.equations.work_rate - compiled.equations.dissipation_rate;
@@ -139,7 +139,9 @@ fn what_is_driven_without_showing_it_has_an_integral_of_jacobi() {
     }";
     crate::compiled(text, |compiled| {
         let model = &compiled.model;
-        let Energy::Jacobi(integral) = Facts::of(model, &compiled.equations).energy else {
+        let EnergyBalance::Jacobi(integral) =
+            EquationProperties::of(model, &compiled.equations).energy
+        else {
             panic!("no integral");
         };
         let [m, w] = [0, 1].map(|k| model.parameters[k].symbol);
@@ -155,7 +157,7 @@ fn time_and_the_mass_matrix_are_free_of_what_is_said() {
         let model = &compiled.model;
         let dag = model.dag;
         let oracle = Oracle::derive(model);
-        let facts = Facts::of(model, &compiled.equations);
+        let facts = EquationProperties::of(model, &compiled.equations);
         let mut explicit = Tangent::new(dag, &[(symbol(model.time), dag.one())]);
         let energies = [
             oracle.kinetic_energy,

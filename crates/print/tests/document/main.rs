@@ -86,7 +86,7 @@ fn sources_add_up_to_energies_and_forces() {
                     .starts_with("integral(")
             };
             // The terms that keep quaternions at unit length belong to no element.
-            let on_lengths = groups::on_lengths(model);
+            let on_lengths = groups::length_forces(model);
             let mut differences = vec![
                 energy(&|kind| !damps(kind)) - equations.potential_energy,
                 energy(&damps) - equations.dissipation,

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use lagrangian_scalar::{Scalar, series as steps};
 use lagrangian_symbolic::{Function as Call, Rational};
 
-use super::{Along, Arithmetic, Coefficient, Level, Order, Row, RowId, Series};
+use super::{Arithmetic, Coefficient, Level, Order, Row, RowId, Series, TermOrder};
 use crate::Singular;
 use crate::interpret::{binary, unary};
 
@@ -28,7 +28,7 @@ pub struct Expander<T> {
     /// The rows that vary, by level.
     by_level: [Vec<u32>; 3],
     /// Rows of positions and forces that the newest accelerations change.
-    repaired: [Vec<u32>; 2],
+    changed_by_newest: [Vec<u32>; 2],
     /// Rows whose coefficients are needed multiplied by their orders.
     scaled: Vec<bool>,
     /// Where these multiples begin for each row, if sums need them.
@@ -66,7 +66,7 @@ pub struct Expander<T> {
 #[derive(Clone, Copy, Debug)]
 struct Sum {
     factors: [(usize, bool); 2],
-    along: Along,
+    along: TermOrder,
 }
 
 #[derive(Clone, Debug)]
@@ -148,7 +148,7 @@ impl<T: Scalar<Stored = T>> Expander<T> {
         };
         let mut expander = Expander {
             by_level: [Level::Position, Level::Rate, Level::Acceleration].map(at_level),
-            repaired,
+            changed_by_newest: repaired,
             scaled,
             sums: sums.collect(),
             parameters: parameters.to_vec(),
@@ -195,19 +195,24 @@ impl<T: Copy> Expander<T> {
     }
 
     /// The `order + 2` coefficients of a coordinate.
-    pub fn of_coordinate(&self, coordinate: usize) -> &[T] {
+    pub fn coordinate(&self, coordinate: usize) -> &[T] {
         &self.motion[coordinate * self.width..][..self.width]
     }
 
     /// The `order` coefficients of the multiplier of a constraint.
-    pub fn of_multiplier(&self, constraint: usize) -> &[T] {
+    pub fn multiplier(&self, constraint: usize) -> &[T] {
         &self.multipliers[constraint * self.order..][..self.order]
     }
 
     #[inline(always)]
-    fn at<N: Scalar<Stored = T>>(&mut self, level: usize, m: usize, t: N) -> At<'_, T, N> {
-        At {
-            of: self,
+    fn at<N: Scalar<Stored = T>>(
+        &mut self,
+        level: usize,
+        m: usize,
+        t: N,
+    ) -> OrderArithmetic<'_, T, N> {
+        OrderArithmetic {
+            expander: self,
             level,
             m,
             t,
@@ -246,7 +251,7 @@ impl<T: Copy> Expander<T> {
             self.coefficients[row.index() * width] = value.store();
         }
         self.advance::<N>(&series, 0, 1);
-        self.keep_weighted::<N>(0, 1);
+        self.store_weighted::<N>(0, 1);
         for round in 0..self.order {
             self.advance::<N>(&series, 0, round + 2);
             for level in 1..3 {
@@ -257,9 +262,9 @@ impl<T: Copy> Expander<T> {
                 self.factor::<N>(&series)?;
             }
             self.solve::<N>(&series, round);
-            self.keep_weighted::<N>(0, round + 2);
+            self.store_weighted::<N>(0, round + 2);
             for level in 1..3 {
-                self.keep_weighted::<N>(level, round);
+                self.store_weighted::<N>(level, round);
             }
         }
         Ok(())
@@ -289,7 +294,7 @@ impl<T: Copy> Expander<T> {
 
     /// Multiplies final coefficients of one order by the order.
     #[inline(always)]
-    fn keep_weighted<N: Scalar<Stored = T>>(&mut self, level: usize, m: usize) {
+    fn store_weighted<N: Scalar<Stored = T>>(&mut self, level: usize, m: usize) {
         for at in 0..self.by_level[level].len() {
             let index = self.by_level[level][at] as usize;
             let Some(place) = self.weighted_places[index] else {
@@ -311,7 +316,7 @@ impl<T: Copy> Expander<T> {
     }
 
     #[inline(always)]
-    fn over<N: Scalar<Stored = T>>(&self, j: usize) -> N {
+    fn reciprocal<N: Scalar<Stored = T>>(&self, j: usize) -> N {
         N::load(self.numbers[j][1])
     }
 
@@ -358,7 +363,7 @@ impl<T: Copy> Expander<T> {
         of: RowId,
         slope: N,
     ) {
-        if !series.passes(to, of) {
+        if !series.propagates(to, of) {
             return;
         }
         let (to, of) = (to.index(), of.index());
@@ -420,10 +425,13 @@ impl<T: Copy> Expander<T> {
                 self.unknowns[*member as usize] = x[at];
             }
         }
-        let [over_v, over_q] = [self.over::<N>(round + 1), self.over::<N>(round + 2)];
+        let [over_v, over_q] = [
+            self.reciprocal::<N>(round + 1),
+            self.reciprocal::<N>(round + 2),
+        ];
         let share = over_v * over_q;
-        for at in 0..self.repaired[1].len() {
-            let index = self.repaired[1][at] as usize;
+        for at in 0..self.changed_by_newest[1].len() {
+            let index = self.changed_by_newest[1][at] as usize;
             let change = self.change::<N>(index);
             let place = &mut self.coefficients[index * width + round];
             *place = (N::load(*place) + change).store();
@@ -437,8 +445,8 @@ impl<T: Copy> Expander<T> {
             self.rates[i * width + round + 1] = rate.store();
             self.motion[i * width + round + 2] = (rate * over_q).store();
         }
-        for at in 0..self.repaired[0].len() {
-            let index = self.repaired[0][at] as usize;
+        for at in 0..self.changed_by_newest[0].len() {
+            let index = self.changed_by_newest[0][at] as usize;
             let known = N::load(self.coefficients[index * width + round + 2]);
             let changed = match (&series.rows[index], &series.depends[index][..]) {
                 (Row::Coordinate(i), _) => N::load(self.motion[*i as usize * width + round + 2]),
@@ -466,8 +474,8 @@ impl<T: Copy> Expander<T> {
 }
 
 /// The recurrences at one order, in numbers `N`.
-struct At<'e, T, N> {
-    of: &'e mut Expander<T>,
+struct OrderArithmetic<'e, T, N> {
+    expander: &'e mut Expander<T>,
     /// 0 for rows of positions.
     level: usize,
     m: usize,
@@ -475,14 +483,14 @@ struct At<'e, T, N> {
     numbers: PhantomData<N>,
 }
 
-impl<T: Copy, N: Scalar<Stored = T>> At<'_, T, N> {
+impl<T: Copy, N: Scalar<Stored = T>> OrderArithmetic<'_, T, N> {
     #[inline(always)]
     fn read(&self, row: RowId, m: usize) -> N {
-        N::load(self.of.coefficients[row.index() * self.of.width + m])
+        N::load(self.expander.coefficients[row.index() * self.expander.width + m])
     }
 }
 
-impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
+impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for OrderArithmetic<'_, T, N> {
     type X = N;
 
     #[inline(always)]
@@ -503,11 +511,11 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
     }
     #[inline(always)]
     fn parameter(&mut self, index: u32) -> N {
-        N::load(self.of.parameters[index as usize])
+        N::load(self.expander.parameters[index as usize])
     }
     #[inline(always)]
     fn input(&mut self, index: u32) -> N {
-        N::load(self.of.inputs[index as usize])
+        N::load(self.expander.inputs[index as usize])
     }
     #[inline(always)]
     fn time(&mut self) -> N {
@@ -515,11 +523,11 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
     }
     #[inline(always)]
     fn motion(&mut self, coordinate: u32, is_rate: bool) -> N {
-        let place = coordinate as usize * self.of.width + self.m;
+        let place = coordinate as usize * self.expander.width + self.m;
         N::load(if is_rate {
-            self.of.rates[place]
+            self.expander.rates[place]
         } else {
-            self.of.motion[place]
+            self.expander.motion[place]
         })
     }
     #[inline(always)]
@@ -536,42 +544,45 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
     }
     #[inline(always)]
     fn weighted(&mut self, row: RowId) -> N {
-        match self.of.weighted_places[row.index()] {
+        match self.expander.weighted_places[row.index()] {
             // For positions, whose own order is higher by two, this coefficient is final.
-            Some(place) if self.level > 0 && self.of.series.level(row) == Level::Position => {
-                N::load(self.of.weighted[place + self.m])
+            Some(place) if self.level > 0 && self.expander.series.level(row) == Level::Position => {
+                N::load(self.expander.weighted[place + self.m])
             }
-            _ => N::load(self.of.newest[row.index()]),
+            _ => N::load(self.expander.newest[row.index()]),
         }
     }
     #[inline(always)]
     fn derivative(&mut self, row: RowId) -> N {
         let m = self.m + 1;
-        self.of.number::<N>(m) * self.read(row, m)
+        self.expander.number::<N>(m) * self.read(row, m)
     }
     #[inline(always)]
     fn second_derivative(&mut self, row: RowId) -> N {
         let m = self.m + 1;
-        self.of.number::<N>(m) * N::load(self.of.newest[row.index()])
+        self.expander.number::<N>(m) * N::load(self.expander.newest[row.index()])
     }
     #[inline(always)]
     fn second_factors(&mut self, row: RowId) -> [N; 2] {
         let m = self.m + 1;
-        let order = self.of.number::<N>(m);
-        if self.of.series.is_integral(row) {
-            [order, N::load(self.of.newest[row.index()])]
+        let order = self.expander.number::<N>(m);
+        if self.expander.series.is_integral(row) {
+            [order, N::load(self.expander.newest[row.index()])]
         } else {
-            [order * self.of.number::<N>(m + 1), self.read(row, m + 1)]
+            [
+                order * self.expander.number::<N>(m + 1),
+                self.read(row, m + 1),
+            ]
         }
     }
     #[inline(always)]
     fn convolution(&mut self, row: RowId, number: usize) -> N {
-        let Sum { factors, along } = self.of.sums[row.index()][number];
+        let Sum { factors, along } = self.expander.sums[row.index()][number];
         let [a, b] = factors.map(|(place, weighted)| {
             if weighted {
-                &self.of.weighted[place..place + self.of.width]
+                &self.expander.weighted[place..place + self.expander.width]
             } else {
-                &self.of.coefficients[place..place + self.of.width]
+                &self.expander.coefficients[place..place + self.expander.width]
             }
         });
         convolve(a, b, self.m, along)
@@ -579,10 +590,10 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
     #[inline(always)]
     fn sin_cos(&mut self, row: RowId) -> [N; 2] {
         let (sin, cos) = self.first(row).sin_cos();
-        if !self.of.series.exact[row.index()] {
+        if !self.expander.series.exact[row.index()] {
             return [sin, cos];
         }
-        let low = N::load(self.of.low[row.index()]);
+        let low = N::load(self.expander.low[row.index()]);
         [low.mul_add(cos, sin), low.neg_mul_add(sin, cos)]
     }
     #[inline(always)]
@@ -600,8 +611,8 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
         let (mut sum, mut low) = (N::ZERO, N::ZERO);
         for (coefficient, of) in terms {
             let x = self.first(*of);
-            let x_low = if self.of.series.exact[of.index()] {
-                N::load(self.of.low[of.index()])
+            let x_low = if self.expander.series.exact[of.index()] {
+                N::load(self.expander.low[of.index()])
             } else {
                 N::ZERO
             };
@@ -615,12 +626,12 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
             low = low + (term_low + sum.sum_error(term));
             sum = sum + term;
         }
-        self.of.low[row.index()] = low.store();
+        self.expander.low[row.index()] = low.store();
         sum
     }
     #[inline(always)]
     fn over_order(&mut self) -> N {
-        self.of.over(self.m)
+        self.expander.reciprocal(self.m)
     }
 
     #[inline(always)]
@@ -649,23 +660,23 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
     }
 }
 
-/// The sum of a [`Convolution`](super::Convolution) at order `m`, in the order given by [`Along`].
+/// The sum of a [`Convolution`](super::Convolution) at order `m`, in the order given by [`TermOrder`].
 #[inline(always)]
-fn convolve<T: Copy, N: Scalar<Stored = T>>(a: &[T], b: &[T], m: usize, along: Along) -> N {
+fn convolve<T: Copy, N: Scalar<Stored = T>>(a: &[T], b: &[T], m: usize, along: TermOrder) -> N {
     let x = |list: &[T], j: usize| N::load(list[j]);
     match along {
-        Along::Position if m < 2 => N::ZERO,
-        Along::Position if m == 2 => x(a, 1) * x(b, 1),
-        Along::Position => {
+        TermOrder::Position if m < 2 => N::ZERO,
+        TermOrder::Position if m == 2 => x(a, 1) * x(b, 1),
+        TermOrder::Position => {
             let sum = dot::<T, N>(&a[2..m - 1], &b[2..m - 1]);
             let sum = x(a, m - 1).mul_add(x(b, 1), sum);
             x(a, 1).mul_add(x(b, m - 1), sum)
         }
-        Along::Force => {
+        TermOrder::Force => {
             let sum = dot::<T, N>(&a[..m - 1], &b[2..m + 1]);
             x(a, m - 1).mul_add(x(b, 1), sum)
         }
-        Along::Rest => dot(&a[1..m], &b[1..m]),
+        TermOrder::Other => dot(&a[1..m], &b[1..m]),
     }
 }
 

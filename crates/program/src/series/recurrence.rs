@@ -21,10 +21,10 @@ pub struct Stream {
 /// The terms of the orders 0 and m are not included: each recurrence adds them in its own way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Convolution {
-    /// The factors; if they are added up [by force](Along::Force), the one that depends on accelerations comes first.
+    /// The factors; if they are added up [by force](TermOrder::Force), the one that depends on accelerations comes first.
     pub factors: [Stream; 2],
     /// The order in which the terms are added.
-    pub along: Along,
+    pub along: TermOrder,
 }
 
 /// The order in which the terms of a sum over orders are added: the latest known comes last.
@@ -32,13 +32,13 @@ pub struct Convolution {
 /// Each is a sum from the middle outwards ([`convolve_all`](lagrangian_scalar::series::convolve_all)), followed by the
 /// terms listed after it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Along {
+pub enum TermOrder {
     /// For positions: `2 ≤ j ≤ m − 2`, then `j = m − 1`, then `j = 1`.
     Position,
     /// For a force and a position: `0 ≤ j ≤ m − 2`, then `j = m − 1`, including the term of order 0.
     Force,
     /// For everything else: `1 ≤ j ≤ m − 1`.
-    Rest,
+    Other,
 }
 
 /// The operations of recurrences. `m` is the order of the coefficient that is computed.
@@ -148,19 +148,19 @@ impl Series {
             match (level, &self.rows[row.index()], levels) {
                 (Level::Position, ..) => Convolution {
                     factors,
-                    along: Along::Position,
+                    along: TermOrder::Position,
                 },
                 (_, Row::Product(..), [Level::Acceleration, Level::Position]) => Convolution {
                     factors,
-                    along: Along::Force,
+                    along: TermOrder::Force,
                 },
                 (_, Row::Product(..), [Level::Position, Level::Acceleration]) => Convolution {
                     factors: [factors[1], factors[0]],
-                    along: Along::Force,
+                    along: TermOrder::Force,
                 },
                 _ => Convolution {
                     factors,
-                    along: Along::Rest,
+                    along: TermOrder::Other,
                 },
             }
         };
@@ -256,7 +256,7 @@ impl Series {
 
     /// Whether a change of one row at its own level changes another: positions also change their second derivatives;
     /// rows of other levels stay.
-    pub fn passes(&self, to: RowId, of: RowId) -> bool {
+    pub fn propagates(&self, to: RowId, of: RowId) -> bool {
         let is_second = matches!(self.rows[to.index()], Row::Second(_));
         self.level(of) == self.level(to) || is_second
     }

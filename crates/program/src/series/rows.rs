@@ -81,7 +81,7 @@ impl Series {
     }
 
     /// The series with the terms of each sum in the order in which they become known, so that the latest is added last.
-    pub fn in_time(mut self) -> Series {
+    pub fn ordered_by_time(mut self) -> Series {
         let mut ready = vec![0_u32; self.rows.len()];
         for index in 0..self.rows.len() {
             if let Row::Sum(terms) = &mut self.rows[index] {

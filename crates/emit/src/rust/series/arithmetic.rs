@@ -3,16 +3,16 @@
 use std::collections::{BTreeSet, HashMap};
 
 use lagrangian_program::series::{
-    Along, Arithmetic, Coefficient, Convolution, Level, Order, Row, RowId, Series, Stream,
+    Arithmetic, Coefficient, Convolution, Level, Order, Row, RowId, Series, Stream, TermOrder,
 };
 use lagrangian_symbolic::{Function as Call, Rational};
 
-use super::code::{Code, Op, Part, X};
-use super::{Carried, FEWEST_APPLIED, Finals, MOST_STRAIGHT, WIDTH};
+use super::code::{Code, Op, Operand, Part};
+use super::{Carried, FEWEST_APPLIED, FinalCoefficients, MOST_STRAIGHT, WIDTH};
 use crate::rust::language;
 
 /// A recorder of the code of a series.
-pub struct Symbolic<'s> {
+pub struct Recorder<'s> {
     series: &'s Series,
     pub code: Code,
     /// The part to which code is added.
@@ -28,16 +28,16 @@ pub struct Symbolic<'s> {
     inputs: Vec<String>,
     /// The rows that depend on parameters alone and are needed by the rest.
     pub constants: Vec<RowId>,
-    pub first: Vec<Option<X>>,
+    pub first: Vec<Option<Operand>>,
     /// Coefficients of order 1 of positions.
-    pub linear: Vec<Option<X>>,
-    pub newest: Vec<Option<X>>,
+    pub linear: Vec<Option<Operand>>,
+    pub newest: Vec<Option<Operand>>,
     /// The coefficients times their order, where known.
-    scaled: Vec<Option<X>>,
-    low: Vec<Option<X>>,
-    circular: HashMap<RowId, [X; 2]>,
+    scaled: Vec<Option<Operand>>,
+    low: Vec<Option<Operand>>,
+    circular: HashMap<RowId, [Operand; 2]>,
     /// The gradients of rows by coordinates, at the start.
-    gradients: Vec<Vec<X>>,
+    gradients: Vec<Vec<Operand>>,
     pub lanes: [Vec<Convolution>; 2],
     places: HashMap<Convolution, (usize, usize)>,
     pub carried: BTreeSet<Carried>,
@@ -45,8 +45,8 @@ pub struct Symbolic<'s> {
     forces: Vec<RowId>,
 }
 
-impl<'s> Symbolic<'s> {
-    pub fn new(series: &'s Series, number: &str, inputs: &[String]) -> Symbolic<'s> {
+impl<'s> Recorder<'s> {
+    pub fn new(series: &'s Series, number: &str, inputs: &[String]) -> Recorder<'s> {
         let none = || vec![None; series.rows.len()];
         let streams = series.streams();
         let rows = (0..series.rows.len() as u32).map(RowId);
@@ -55,7 +55,7 @@ impl<'s> Symbolic<'s> {
                 && streams[row.index()] != [false; 2]
                 && !series.depends[row.index()].is_empty()
         };
-        let mut symbolic = Symbolic {
+        let mut symbolic = Recorder {
             series,
             code: Code::new(number, 'x'),
             part: Part::Start,
@@ -85,11 +85,11 @@ impl<'s> Symbolic<'s> {
     }
 
     /// Records the constants, from parameters with these names.
-    pub fn of_constants(series: &'s Series, number: &str, parameters: &[String]) -> Symbolic<'s> {
-        Symbolic {
+    pub fn of_constants(series: &'s Series, number: &str, parameters: &[String]) -> Recorder<'s> {
+        Recorder {
             code: Code::new(number, 'c'),
             parameters: Some(parameters.to_vec()),
-            ..Symbolic::new(series, number, &[])
+            ..Recorder::new(series, number, &[])
         }
     }
 
@@ -97,14 +97,14 @@ impl<'s> Symbolic<'s> {
         if self.places.contains_key(&convolution) {
             return;
         }
-        let kind = usize::from(convolution.along == Along::Rest);
+        let kind = usize::from(convolution.along == TermOrder::Rest);
         self.places
             .insert(convolution, (kind, self.lanes[kind].len()));
         self.lanes[kind].push(convolution);
         if kind == 0 {
             let [a, b] = convolution.factors;
             self.carry(a);
-            if convolution.along == Along::Position {
+            if convolution.along == TermOrder::Position {
                 self.carry(b);
             }
         }
@@ -118,28 +118,28 @@ impl<'s> Symbolic<'s> {
         });
     }
 
-    fn push(&mut self, op: Op) -> X {
+    fn push(&mut self, op: Op) -> Operand {
         self.code.push(op, self.part)
     }
 
     /// A value that exists already, whenever it is needed.
-    fn given(&mut self, text: String) -> X {
+    fn given(&mut self, text: String) -> Operand {
         self.push(Op::Given(text))
     }
 
     /// `of::<N>(…)`.
-    pub fn made(&mut self, function: &str) -> X {
+    pub fn constructed(&mut self, function: &str) -> Operand {
         let text = format!("{}::{function}", self.code.number());
         self.given(text)
     }
 
-    fn variable(&mut self, carried: Carried) -> X {
+    fn variable(&mut self, carried: Carried) -> Operand {
         self.carried.insert(carried);
         self.given(carried.name())
     }
 
     /// The current order plus `more`, as a number.
-    fn order(&mut self, more: usize) -> X {
+    fn order(&mut self, more: usize) -> Operand {
         match self.m {
             3 => {
                 // The order of accelerations is two less than that of positions.
@@ -149,12 +149,12 @@ impl<'s> Symbolic<'s> {
                     0 => format!("from_f64((order + {}) as f64)", more - less),
                     less => format!("from_f64((order - {less}) as f64)"),
                 };
-                self.made(&function)
+                self.constructed(&function)
             }
             m => match m + more {
-                0 => X::Zero,
-                1 => X::One,
-                m => self.made(&format!("from_f64({m}.0)")),
+                0 => Operand::Zero,
+                1 => Operand::One,
+                m => self.constructed(&format!("from_f64({m}.0)")),
             },
         }
     }
@@ -162,17 +162,17 @@ impl<'s> Symbolic<'s> {
     /// Begins an order of positions.
     pub fn begin(&mut self, part: Part, m: usize) {
         (self.part, self.m, self.is_of_positions) = (part, m, true);
-        self.forget(Level::Position);
+        self.clear_level(Level::Position);
     }
 
     /// Begins an order of rows that depend on rates and accelerations.
     pub fn begin_others(&mut self, m: usize) {
         (self.m, self.is_of_positions) = (m, false);
-        self.forget(Level::Rate);
-        self.forget(Level::Acceleration);
+        self.clear_level(Level::Rate);
+        self.clear_level(Level::Acceleration);
     }
 
-    fn forget(&mut self, level: Level) {
+    fn clear_level(&mut self, level: Level) {
         for index in 0..self.series.rows.len() {
             if self.series.levels[index] == level {
                 (self.newest[index], self.scaled[index]) = (None, None);
@@ -207,12 +207,12 @@ impl<'s> Symbolic<'s> {
         for row in early {
             self.value(row);
         }
-        let values: Vec<X> = angles.iter().map(|row| self.first(*row)).collect();
+        let values: Vec<Operand> = angles.iter().map(|row| self.first(*row)).collect();
         if !values.is_empty() {
             let all = self.push(Op::Circular(values));
             for (at, row) in angles.into_iter().enumerate() {
                 let [sin, cos] = [false, true].map(|cos| self.push(Op::Member(all, at, cos)));
-                let turned = self.turned(row, [sin, cos]);
+                let turned = self.corrected_sin_cos(row, [sin, cos]);
                 self.circular.insert(row, turned);
             }
         }
@@ -233,14 +233,14 @@ impl<'s> Symbolic<'s> {
     }
 
     /// Corrects sine and cosine for the rounding error of the angle.
-    fn turned(&mut self, row: RowId, [sin, cos]: [X; 2]) -> [X; 2] {
+    fn corrected_sin_cos(&mut self, row: RowId, [sin, cos]: [Operand; 2]) -> [Operand; 2] {
         let low = if self.series.exact[row.index()] {
-            self.low[row.index()].unwrap_or(X::Zero)
+            self.low[row.index()].unwrap_or(Operand::Zero)
         } else {
-            X::Zero
+            Operand::Zero
         };
         match low {
-            X::Zero => [sin, cos],
+            Operand::Zero => [sin, cos],
             _ => [
                 self.multiply_add(low, cos, sin),
                 self.push(Op::Method("neg_mul_add", vec![low, sin, cos])),
@@ -264,12 +264,14 @@ impl<'s> Symbolic<'s> {
             if count == 0 {
                 continue;
             }
-            self.gradients[index] = vec![X::Zero; count];
+            self.gradients[index] = vec![Operand::Zero; count];
             match &series.rows[index] {
-                Row::Coordinate(_) | Row::Acceleration(_) => self.gradients[index][0] = X::One,
+                Row::Coordinate(_) | Row::Acceleration(_) => {
+                    self.gradients[index][0] = Operand::One
+                }
                 Row::Sum(terms) => {
                     for (c, of) in terms {
-                        let slope = c.map_or(X::One, |c| self.first(c));
+                        let slope = c.map_or(Operand::One, |c| self.first(c));
                         self.add_gradient(row, *of, slope);
                     }
                 }
@@ -282,8 +284,8 @@ impl<'s> Symbolic<'s> {
         }
     }
 
-    fn add_gradient(&mut self, to: RowId, of: RowId, slope: X) {
-        if !self.series.passes(to, of) {
+    fn add_gradient(&mut self, to: RowId, of: RowId, slope: Operand) {
+        if !self.series.propagates(to, of) {
             return;
         }
         let (to, of) = (to.index(), of.index());
@@ -297,7 +299,7 @@ impl<'s> Symbolic<'s> {
     }
 
     /// Records the factored matrices of coupled unknowns.
-    pub fn matrices(&mut self) -> Vec<(Vec<u32>, X)> {
+    pub fn matrices(&mut self) -> Vec<(Vec<u32>, Operand)> {
         let mut matrices = Vec::new();
         for members in self.series.blocks() {
             let mut entries = Vec::new();
@@ -308,7 +310,7 @@ impl<'s> Symbolic<'s> {
                     let depends = &self.series.depends[row.index()];
                     entries.push(match depends.binary_search(column) {
                         Ok(at) if is_solved_for => self.gradients[row.index()][at],
-                        _ => X::Zero,
+                        _ => Operand::Zero,
                     });
                 }
             }
@@ -323,8 +325,8 @@ impl<'s> Symbolic<'s> {
     }
 
     /// Records the solution for the accelerations of the current order.
-    pub fn accelerations(&mut self, matrices: &[(Vec<u32>, X)]) -> Vec<X> {
-        let mut all = vec![X::Zero; self.series.unknowns()];
+    pub fn accelerations(&mut self, matrices: &[(Vec<u32>, Operand)]) -> Vec<Operand> {
+        let mut all = vec![Operand::Zero; self.series.unknowns()];
         for (members, matrix) in matrices {
             let residuals = members
                 .iter()
@@ -335,10 +337,10 @@ impl<'s> Symbolic<'s> {
                 right.push(self.negate(residual));
             }
             let count = members.len();
-            let found: Vec<X> = match count {
+            let found: Vec<Operand> = match count {
                 ..=MOST_STRAIGHT => (0..count)
                     .map(|i| {
-                        let mut sum = X::Zero;
+                        let mut sum = Operand::Zero;
                         for (j, known) in right.iter().enumerate() {
                             let part = std::mem::replace(&mut self.part, Part::Start);
                             let element = self.push(Op::Element(*matrix, j * count + i));
@@ -363,7 +365,7 @@ impl<'s> Symbolic<'s> {
     }
 
     /// Records the effect of accelerations on forces as the columns of a matrix, if that is worthwhile.
-    pub fn matrix_of_forces(&mut self) -> Option<Vec<Vec<X>>> {
+    pub fn matrix_of_forces(&mut self) -> Option<Vec<Vec<Operand>>> {
         let count = self
             .forces
             .iter()
@@ -371,12 +373,12 @@ impl<'s> Symbolic<'s> {
         if count.sum::<usize>() <= FEWEST_APPLIED {
             return None;
         }
-        let column = |unknown: u32| -> Vec<X> {
+        let column = |unknown: u32| -> Vec<Operand> {
             let entry = |row: &RowId| {
                 let depends = &self.series.depends[row.index()];
                 match depends.binary_search(&unknown) {
                     Ok(at) => self.gradients[row.index()][at],
-                    Err(_) => X::Zero,
+                    Err(_) => Operand::Zero,
                 }
             };
             self.forces.iter().map(entry).collect()
@@ -387,9 +389,14 @@ impl<'s> Symbolic<'s> {
 
     /// The final coefficients of an order, once the accelerations are known; `over` holds the reciprocals of the orders
     /// of rates and coordinates.
-    pub fn finals(&mut self, a: &[X], [over_v, over_q]: [X; 2], is_applied: bool) -> Finals {
+    pub fn final_coefficients(
+        &mut self,
+        a: &[Operand],
+        [over_v, over_q]: [Operand; 2],
+        is_applied: bool,
+    ) -> FinalCoefficients {
         let series = self.series;
-        let mut finals = Finals {
+        let mut finals = FinalCoefficients {
             rows: self.newest.clone(),
             motion: Vec::new(),
             rates: Vec::new(),
@@ -422,7 +429,7 @@ impl<'s> Symbolic<'s> {
             finals.rows[index] = Some(match series.rows[index] {
                 Row::Coordinate(i) => finals.motion[i as usize],
                 _ => {
-                    let known = self.newest[index].unwrap_or(X::Zero);
+                    let known = self.newest[index].unwrap_or(Operand::Zero);
                     match series.depends[index][..] {
                         // This order of factors shortens the dependency chain by one multiplication.
                         [i] => {
@@ -441,9 +448,9 @@ impl<'s> Symbolic<'s> {
     }
 
     /// The gradient of a row times the newest accelerations.
-    fn change(&mut self, row: RowId, a: &[X]) -> X {
+    fn change(&mut self, row: RowId, a: &[Operand]) -> Operand {
         let series = self.series;
-        let mut sum = X::Zero;
+        let mut sum = Operand::Zero;
         for (at, i) in series.depends[row.index()].iter().enumerate() {
             let g = self.gradients[row.index()][at];
             sum = self.multiply_add(g, a[*i as usize], sum);
@@ -452,11 +459,16 @@ impl<'s> Symbolic<'s> {
     }
 
     /// What a stream stores of an order that is final; the order of positions began as `m`.
-    pub fn kept(&mut self, finals: &Finals, Stream { row, weighted }: Stream, m: usize) -> X {
+    pub fn kept(
+        &mut self,
+        finals: &FinalCoefficients,
+        Stream { row, weighted }: Stream,
+        m: usize,
+    ) -> Operand {
         if !self.is_of_positions && self.series.level(row) == Level::Position {
             return self.variable(Carried::Older(row, weighted));
         }
-        let plain = finals.rows[row.index()].unwrap_or(X::Zero);
+        let plain = finals.rows[row.index()].unwrap_or(Operand::Zero);
         if !weighted {
             return plain;
         }
@@ -474,14 +486,19 @@ impl<'s> Symbolic<'s> {
     }
 }
 
-impl Symbolic<'_> {
+impl Recorder<'_> {
     /// The value of a carried variable once an order is final.
-    pub fn carried_by(&mut self, carried: Carried, finals: &Finals, m: usize) -> X {
+    pub fn carried_by(
+        &mut self,
+        carried: Carried,
+        finals: &FinalCoefficients,
+        m: usize,
+    ) -> Operand {
         let stream = |row: RowId, weighted: bool| Stream { row, weighted };
         match carried {
             Carried::Plain(row) => self.kept(finals, stream(row, false), m),
             Carried::Weighted(row) => self.kept(finals, stream(row, true), m),
-            Carried::Older(row, _) if m < 3 => self.linear[row.index()].unwrap_or(X::Zero),
+            Carried::Older(row, _) if m < 3 => self.linear[row.index()].unwrap_or(Operand::Zero),
             Carried::Older(row, weighted) => self.variable(if weighted {
                 Carried::Weighted(row)
             } else {
@@ -492,57 +509,57 @@ impl Symbolic<'_> {
     }
 }
 
-impl Arithmetic for Symbolic<'_> {
-    type X = X;
+impl Arithmetic for Recorder<'_> {
+    type X = Operand;
 
-    fn zero(&mut self) -> X {
-        X::Zero
+    fn zero(&mut self) -> Operand {
+        Operand::Zero
     }
-    fn one(&mut self) -> X {
-        X::One
+    fn one(&mut self) -> Operand {
+        Operand::One
     }
-    fn rational(&mut self, value: &Rational) -> X {
+    fn rational(&mut self, value: &Rational) -> Operand {
         if value.is_zero() {
-            X::Zero
+            Operand::Zero
         } else if value.is_one() {
-            X::One
+            Operand::One
         } else if *value == Rational::MINUS_ONE {
-            X::MinusOne
+            Operand::MinusOne
         } else {
             let text = language::rational(self.code.number(), value).text;
             self.given(text)
         }
     }
-    fn pi(&mut self) -> X {
-        self.made("pi()")
+    fn pi(&mut self) -> Operand {
+        self.constructed("pi()")
     }
-    fn parameter(&mut self, index: u32) -> X {
+    fn parameter(&mut self, index: u32) -> Operand {
         let names = self.parameters.as_ref();
         let name = names.map_or("", |names| names[index as usize].as_str());
         self.given(format!("self.{name}"))
     }
-    fn input(&mut self, index: u32) -> X {
+    fn input(&mut self, index: u32) -> Operand {
         let text = format!("n(u.{})", self.inputs[index as usize]);
         self.given(text)
     }
-    fn time(&mut self) -> X {
+    fn time(&mut self) -> Operand {
         self.given("n(t[0])".into())
     }
-    fn motion(&mut self, coordinate: u32, is_rate: bool) -> X {
+    fn motion(&mut self, coordinate: u32, is_rate: bool) -> Operand {
         match (self.m, is_rate) {
             (0, false) => self.given(format!("n(q[{coordinate}])")),
             (0, true) | (1, false) => self.given(format!("n(v[{coordinate}])")),
-            (_, false) => X::Zero,
+            (_, false) => Operand::Zero,
             (_, true) => self.variable(Carried::Rate(coordinate)),
         }
     }
-    fn first(&mut self, row: RowId) -> X {
+    fn first(&mut self, row: RowId) -> Operand {
         if let Some(known) = self.first[row.index()] {
             return known;
         }
         if self.series.varies(row) {
             // No row needs a value before it is known.
-            return X::Zero;
+            return Operand::Zero;
         }
         let value = match (&self.series.rows[row.index()], &self.parameters) {
             (Row::Number(number), _) if is_plain(number) => self.rational(number),
@@ -559,23 +576,23 @@ impl Arithmetic for Symbolic<'_> {
         self.first[row.index()] = Some(value);
         value
     }
-    fn newest(&mut self, row: RowId) -> X {
+    fn newest(&mut self, row: RowId) -> Operand {
         match self.series.level(row) {
-            Level::Constant => X::Zero,
+            Level::Constant => Operand::Zero,
             // Its own order is higher by two.
             Level::Position if !self.is_of_positions && self.m == 0 => self.first(row),
             Level::Position if !self.is_of_positions => self.variable(Carried::Older(row, false)),
-            _ => self.newest[row.index()].unwrap_or(X::Zero),
+            _ => self.newest[row.index()].unwrap_or(Operand::Zero),
         }
     }
-    fn before(&mut self, row: RowId) -> X {
+    fn before(&mut self, row: RowId) -> Operand {
         match self.m {
             1 => self.first(row),
-            2 => self.linear[row.index()].unwrap_or(X::Zero),
+            2 => self.linear[row.index()].unwrap_or(Operand::Zero),
             _ => self.variable(Carried::Plain(row)),
         }
     }
-    fn weighted(&mut self, row: RowId) -> X {
+    fn weighted(&mut self, row: RowId) -> Operand {
         let is_older = self.series.level(row) == Level::Position && !self.is_of_positions;
         match self.scaled[row.index()] {
             _ if is_older => self.variable(Carried::Older(row, true)),
@@ -586,20 +603,20 @@ impl Arithmetic for Symbolic<'_> {
             }
         }
     }
-    fn derivative(&mut self, row: RowId) -> X {
+    fn derivative(&mut self, row: RowId) -> Operand {
         let coefficient = match self.m {
-            0 => self.linear[row.index()].unwrap_or(X::Zero),
+            0 => self.linear[row.index()].unwrap_or(Operand::Zero),
             _ => self.variable(Carried::Plain(row)),
         };
         let order = self.order(1);
         self.multiply(order, coefficient)
     }
-    fn second_derivative(&mut self, row: RowId) -> X {
+    fn second_derivative(&mut self, row: RowId) -> Operand {
         // The row was computed at an order higher by two.
         let scaled = match self.scaled[row.index()] {
             Some(scaled) => scaled,
             None => {
-                let newest = self.newest[row.index()].unwrap_or(X::Zero);
+                let newest = self.newest[row.index()].unwrap_or(Operand::Zero);
                 let order = self.order(2);
                 self.multiply(order, newest)
             }
@@ -607,25 +624,25 @@ impl Arithmetic for Symbolic<'_> {
         let order = self.order(1);
         self.multiply(order, scaled)
     }
-    fn second_factors(&mut self, row: RowId) -> [X; 2] {
+    fn second_factors(&mut self, row: RowId) -> [Operand; 2] {
         let order = self.order(1);
         if self.series.is_integral(row) {
-            [order, self.scaled[row.index()].unwrap_or(X::Zero)]
+            [order, self.scaled[row.index()].unwrap_or(Operand::Zero)]
         } else {
             let both = self.order(2);
             let both = self.multiply(order, both);
-            [both, self.newest[row.index()].unwrap_or(X::Zero)]
+            [both, self.newest[row.index()].unwrap_or(Operand::Zero)]
         }
     }
-    fn convolution(&mut self, row: RowId, number: usize) -> X {
+    fn convolution(&mut self, row: RowId, number: usize) -> Operand {
         let convolution = self.series.convolutions(row)[number];
         let [a, b] = convolution.factors;
         if self.m < 3 {
             // For positions alone: one term of the second order, none of the first.
             let of =
                 |symbolic: &Self, stream: Stream| match symbolic.series.rows[stream.row.index()] {
-                    _ if symbolic.m < 2 => X::Zero,
-                    _ => symbolic.linear[stream.row.index()].unwrap_or(X::Zero),
+                    _ if symbolic.m < 2 => Operand::Zero,
+                    _ => symbolic.linear[stream.row.index()].unwrap_or(Operand::Zero),
                 };
             let [a, b] = [a, b].map(|stream| of(self, stream));
             return self.multiply(a, b);
@@ -641,15 +658,15 @@ impl Arithmetic for Symbolic<'_> {
             }
         };
         let linear = |symbolic: &Self, stream: Stream| {
-            symbolic.linear[stream.row.index()].unwrap_or(X::Zero)
+            symbolic.linear[stream.row.index()].unwrap_or(Operand::Zero)
         };
         match convolution.along {
-            Along::Rest => sum,
-            Along::Force => {
+            TermOrder::Rest => sum,
+            TermOrder::Force => {
                 let (a, b) = (self.variable(carried(a)), linear(self, b));
                 self.multiply_add(a, b, sum)
             }
-            Along::Position => {
+            TermOrder::Position => {
                 let [first_a, first_b] = [linear(self, a), linear(self, b)];
                 let a = self.variable(carried(a));
                 let sum = self.multiply_add(a, first_b, sum);
@@ -658,18 +675,18 @@ impl Arithmetic for Symbolic<'_> {
             }
         }
     }
-    fn sin_cos(&mut self, row: RowId) -> [X; 2] {
+    fn sin_cos(&mut self, row: RowId) -> [Operand; 2] {
         if let Some(known) = self.circular.get(&row) {
             return *known;
         }
         let angle = self.first(row);
         let pair = self.push(Op::Circular(vec![angle]));
         let both = [false, true].map(|cos| self.push(Op::Member(pair, 0, cos)));
-        let turned = self.turned(row, both);
+        let turned = self.corrected_sin_cos(row, both);
         self.circular.insert(row, turned);
         turned
     }
-    fn call(&mut self, call: Call, a: X, b: X) -> X {
+    fn call(&mut self, call: Call, a: Operand, b: Operand) -> Operand {
         match call {
             Call::Pow => self.push(Op::Method("powf", vec![a, b])),
             Call::Atan2 => self.push(Op::Method("atan2", vec![a, b])),
@@ -678,31 +695,31 @@ impl Arithmetic for Symbolic<'_> {
             _ => self.push(Op::Method(call.name(), vec![a])),
         }
     }
-    fn exact_sum(&mut self, row: RowId, terms: &[(Option<RowId>, RowId)]) -> X {
-        let (mut sum, mut low) = (X::Zero, X::Zero);
+    fn exact_sum(&mut self, row: RowId, terms: &[(Option<RowId>, RowId)]) -> Operand {
+        let (mut sum, mut low) = (Operand::Zero, Operand::Zero);
         for (coefficient, of) in terms {
             let x = self.first(*of);
             let x_low = if self.series.exact[of.index()] {
-                self.low[of.index()].unwrap_or(X::Zero)
+                self.low[of.index()].unwrap_or(Operand::Zero)
             } else {
-                X::Zero
+                Operand::Zero
             };
             let (term, term_low) = match coefficient {
                 None => (x, x_low),
                 Some(c) => {
                     let c = self.first(*c);
                     let error = match (c, x) {
-                        (X::Value(_), X::Value(_)) => {
+                        (Operand::Value(_), Operand::Value(_)) => {
                             self.push(Op::Method("product_error", vec![c, x]))
                         }
-                        _ => X::Zero,
+                        _ => Operand::Zero,
                     };
                     let low = self.multiply_add(c, x_low, error);
                     (self.multiply(c, x), low)
                 }
             };
             let error = match (sum, term) {
-                (X::Zero, _) | (_, X::Zero) => X::Zero,
+                (Operand::Zero, _) | (_, Operand::Zero) => Operand::Zero,
                 _ => self.push(Op::Method("sum_error", vec![sum, term])),
             };
             let more = self.add(term_low, error);
@@ -712,61 +729,61 @@ impl Arithmetic for Symbolic<'_> {
         self.low[row.index()] = Some(low);
         sum
     }
-    fn over_order(&mut self) -> X {
+    fn over_order(&mut self) -> Operand {
         match (self.m, self.is_of_positions) {
-            (1, _) => X::One,
-            (2, _) => self.made("from_f64(0.5)"),
-            (_, true) => self.made("from_ratio(1, order as i64)"),
-            (_, false) => self.made("from_ratio(1, order as i64 - 2)"),
+            (1, _) => Operand::One,
+            (2, _) => self.constructed("from_f64(0.5)"),
+            (_, true) => self.constructed("from_ratio(1, order as i64)"),
+            (_, false) => self.constructed("from_ratio(1, order as i64 - 2)"),
         }
     }
 
-    fn add(&mut self, a: X, b: X) -> X {
+    fn add(&mut self, a: Operand, b: Operand) -> Operand {
         match (a, b) {
-            (X::Zero, x) | (x, X::Zero) => x,
-            (x, X::MinusOne) => self.push(Op::Infix("-", x, X::One)),
+            (Operand::Zero, x) | (x, Operand::Zero) => x,
+            (x, Operand::MinusOne) => self.push(Op::Infix("-", x, Operand::One)),
             _ => self.push(Op::Infix("+", a, b)),
         }
     }
-    fn subtract(&mut self, a: X, b: X) -> X {
+    fn subtract(&mut self, a: Operand, b: Operand) -> Operand {
         match (a, b) {
-            (x, X::Zero) => x,
-            (X::Zero, x) => self.negate(x),
-            (x, X::MinusOne) => self.push(Op::Infix("+", x, X::One)),
+            (x, Operand::Zero) => x,
+            (Operand::Zero, x) => self.negate(x),
+            (x, Operand::MinusOne) => self.push(Op::Infix("+", x, Operand::One)),
             _ => self.push(Op::Infix("-", a, b)),
         }
     }
-    fn multiply(&mut self, a: X, b: X) -> X {
+    fn multiply(&mut self, a: Operand, b: Operand) -> Operand {
         match (a, b) {
-            (X::Zero, _) | (_, X::Zero) => X::Zero,
-            (X::One, x) | (x, X::One) => x,
-            (X::MinusOne, x) | (x, X::MinusOne) => self.negate(x),
+            (Operand::Zero, _) | (_, Operand::Zero) => Operand::Zero,
+            (Operand::One, x) | (x, Operand::One) => x,
+            (Operand::MinusOne, x) | (x, Operand::MinusOne) => self.negate(x),
             _ => self.push(Op::Infix("*", a, b)),
         }
     }
-    fn divide(&mut self, a: X, b: X) -> X {
+    fn divide(&mut self, a: Operand, b: Operand) -> Operand {
         match (a, b) {
-            (X::Zero, _) => X::Zero,
-            (x, X::One) => x,
-            (x, X::MinusOne) => self.negate(x),
+            (Operand::Zero, _) => Operand::Zero,
+            (x, Operand::One) => x,
+            (x, Operand::MinusOne) => self.negate(x),
             _ => self.push(Op::Infix("/", a, b)),
         }
     }
-    fn negate(&mut self, a: X) -> X {
+    fn negate(&mut self, a: Operand) -> Operand {
         match a {
-            X::Zero => X::Zero,
-            X::One => X::MinusOne,
-            X::MinusOne => X::One,
+            Operand::Zero => Operand::Zero,
+            Operand::One => Operand::MinusOne,
+            Operand::MinusOne => Operand::One,
             _ => self.push(Op::Negative(a)),
         }
     }
-    fn multiply_add(&mut self, a: X, b: X, c: X) -> X {
+    fn multiply_add(&mut self, a: Operand, b: Operand, c: Operand) -> Operand {
         match (a, b, c) {
-            (X::Zero, _, c) | (_, X::Zero, c) => c,
-            (a, b, X::Zero) => self.multiply(a, b),
-            (X::One, x, c) | (x, X::One, c) => self.add(x, c),
-            (X::MinusOne, x, c) | (x, X::MinusOne, c) => self.subtract(c, x),
-            (a, b, X::MinusOne) => self.push(Op::Method("mul_sub", vec![a, b, X::One])),
+            (Operand::Zero, _, c) | (_, Operand::Zero, c) => c,
+            (a, b, Operand::Zero) => self.multiply(a, b),
+            (Operand::One, x, c) | (x, Operand::One, c) => self.add(x, c),
+            (Operand::MinusOne, x, c) | (x, Operand::MinusOne, c) => self.subtract(c, x),
+            (a, b, Operand::MinusOne) => self.push(Op::Method("mul_sub", vec![a, b, Operand::One])),
             _ => self.push(Op::Method("mul_add", vec![a, b, c])),
         }
     }

@@ -6,7 +6,7 @@ use crate::layout::{Layout, Writer};
 
 /// A number in the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum X {
+pub enum Operand {
     /// 0.
     Zero,
     /// 1.
@@ -32,30 +32,30 @@ pub enum Op {
     /// A value that exists already, by its text.
     Given(String),
     /// An infix operation such as `a + b`.
-    Infix(&'static str, X, X),
+    Infix(&'static str, Operand, Operand),
     /// `−a`.
-    Negative(X),
+    Negative(Operand),
     /// `a.method(b, c)`.
-    Method(&'static str, Vec<X>),
+    Method(&'static str, Vec<Operand>),
     /// Sines and cosines of several angles.
-    Circular(Vec<X>),
+    Circular(Vec<Operand>),
     /// A sine or cosine of several: the index of the angle, and whether it is the cosine.
-    Member(X, usize, bool),
+    Member(Operand, usize, bool),
     /// The factored matrix of coupled unknowns: its entries row by row, how many of the unknowns are coordinates,
     /// and their indices.
-    Factored(Vec<X>, usize, Vec<u32>),
+    Factored(Vec<Operand>, usize, Vec<u32>),
     /// The solution for a matrix and right-hand sides.
-    Solved(X, Vec<X>),
+    Solved(Operand, Vec<Operand>),
     /// An element of a matrix or of a solution.
-    Element(X, usize),
+    Element(Operand, usize),
     /// The matrix of forces times numbers, and the length of its columns.
-    Applied(usize, Vec<X>),
+    Applied(usize, Vec<Operand>),
     /// An element of that product.
-    OfApplied(X, usize),
+    OfApplied(Operand, usize),
 }
 
 impl Op {
-    fn operands(&self) -> Vec<X> {
+    fn operands(&self) -> Vec<Operand> {
         match self {
             Op::Given(_) => Vec::new(),
             Op::Infix(_, a, b) => vec![*a, *b],
@@ -98,22 +98,22 @@ impl Code {
         &self.number
     }
 
-    pub fn push(&mut self, op: Op, part: Part) -> X {
+    pub fn push(&mut self, op: Op, part: Part) -> Operand {
         if let Some(known) = self.known.get(&op) {
-            return X::Value(*known);
+            return Operand::Value(*known);
         }
         let id = self.ops.len() as u32;
         self.known.insert(op.clone(), id);
         self.ops.push((op, part));
-        X::Value(id)
+        Operand::Value(id)
     }
 
     /// Marks the operations that these values need; others are not written.
-    pub fn prune(&mut self, wanted: impl Iterator<Item = X>) {
+    pub fn prune(&mut self, wanted: impl Iterator<Item = Operand>) {
         self.is_needed = vec![false; self.ops.len()];
-        let mut open: Vec<X> = wanted.collect();
+        let mut open: Vec<Operand> = wanted.collect();
         while let Some(x) = open.pop() {
-            if let X::Value(id) = x
+            if let Operand::Value(id) = x
                 && !std::mem::replace(&mut self.is_needed[id as usize], true)
             {
                 open.extend(self.ops[id as usize].0.operands());
@@ -122,38 +122,38 @@ impl Code {
     }
 
     /// The text of a number.
-    pub fn text(&self, x: X) -> String {
+    pub fn text(&self, x: Operand) -> String {
         match x {
-            X::Zero => format!("{}::ZERO", self.number),
-            X::One => format!("{}::ONE", self.number),
-            X::MinusOne => format!("-{}::ONE", self.number),
-            X::Value(id) => format!("{}{id}", self.letter),
+            Operand::Zero => format!("{}::ZERO", self.number),
+            Operand::One => format!("{}::ONE", self.number),
+            Operand::MinusOne => format!("-{}::ONE", self.number),
+            Operand::Value(id) => format!("{}{id}", self.letter),
         }
     }
 
     /// The text of a number as the receiver of a method call.
-    fn receiver(&self, x: X) -> String {
+    fn receiver(&self, x: Operand) -> String {
         match x {
             // A method call binds more tightly than the sign.
-            X::MinusOne => format!("(-{}::ONE)", self.number),
+            Operand::MinusOne => format!("(-{}::ONE)", self.number),
             _ => self.text(x),
         }
     }
 
     /// An array of stored numbers, padded with zeros to a length.
-    pub fn kept(&self, all: &[X], length: usize) -> Layout {
+    pub fn kept(&self, all: &[Operand], length: usize) -> Layout {
         let rest = length.saturating_sub(all.len());
         let all = all
             .iter()
             .copied()
-            .chain(std::iter::repeat_n(X::Zero, rest));
+            .chain(std::iter::repeat_n(Operand::Zero, rest));
         Layout::array(all.map(|x| format!("{}.store()", self.receiver(x))))
     }
 
     /// Writes the operations of a part, for a machine with this number of coordinates.
     pub fn write(&self, writer: &mut Writer, part: Part, runtime: &str, coordinates: usize) {
-        let text = |x: &X| self.text(*x);
-        let list = |all: &[X]| -> Vec<String> { all.iter().map(text).collect() };
+        let text = |x: &Operand| self.text(*x);
+        let list = |all: &[Operand]| -> Vec<String> { all.iter().map(text).collect() };
         let number = &self.number;
         for (id, (op, at)) in self.ops.iter().enumerate() {
             if *at != part || !self.is_needed[id] {

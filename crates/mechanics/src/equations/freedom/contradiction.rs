@@ -10,7 +10,7 @@ use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::evaluate;
 
-use super::{MOST_ENTRIES, Places, Row, dot, length};
+use super::{Configurations, MOST_ENTRIES, Row, dot, length};
 use crate::equations::Equations;
 use crate::equations::constraints::{rates_at_rest, spans};
 
@@ -19,14 +19,14 @@ const STEPS: usize = 300;
 
 /// Residuals at least this large, as distances relative to the largest coordinate or 1, are a contradiction.
 /// Numbers of a spec are rounded at 2e-16.
-const APART: f64 = 1e-11;
+const MIN_CONTRADICTION: f64 = 1e-11;
 
 /// The residuals cannot be decreased if `Gᵀ r` is at most this fraction of them. At places that satisfy the constraints,
 /// even tangentially like two touching circles, it decreases no faster than the square root of the residuals.
 const STATIONARY: f64 = 1e-8;
 
 /// A constraint takes part in a contradiction if its residual is at least this fraction of the largest one.
-const TAKES_PART: f64 = 1e-4;
+const PARTICIPATION: f64 = 1e-4;
 
 /// Warns if constraints contradict each other at the start, with the default parameters. Machines with a
 /// parameter without a default are skipped, and so are those too large for counting their freedom.
@@ -37,7 +37,7 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
     if !is_known || entries == 0 || entries > MOST_ENTRIES {
         return;
     }
-    let places = Places::new(model, constraints);
+    let places = Configurations::new(model, constraints);
     let Some(start) = places.start() else {
         return;
     };
@@ -45,10 +45,10 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
     let of_places = (0..constraints.len()).filter(|k| constraints[*k].position.is_some());
     let of_rates = (0..constraints.len()).filter(|k| constraints[*k].position.is_none());
     let order: Vec<usize> = of_places.chain(of_rates).collect();
-    let found = match places.met_near(start.clone()) {
+    let found = match places.consistent_configuration(start.clone()) {
         Some(place) => places.contradicting_rates(&place, {
             let at_rest = rates_at_rest(model, constraints);
-            let values = places.known_at(&place);
+            let values = places.symbol_values(&place);
             let zero = DoubleDouble::from_f64(0.0);
             let value = |symbol| values.get(&symbol).copied().unwrap_or(zero);
             let rates = evaluate(model.dag, &at_rest, value);
@@ -59,8 +59,8 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
     let Some(mut found) = found else {
         return;
     };
-    found.misses.sort_unstable_by_key(|miss| order[miss.0]);
-    let Some(&(last, miss)) = found.misses.last() else {
+    found.residuals.sort_unstable_by_key(|miss| order[miss.0]);
+    let Some(&(last, miss)) = found.residuals.last() else {
         return;
     };
     let name = |k: usize| format!("`{}`", constraints[order[k]].name);
@@ -70,7 +70,7 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
     } else {
         constraints[order[last]].unit
     };
-    let others: Vec<String> = found.misses.iter().map(|(k, _)| name(*k)).collect();
+    let others: Vec<String> = found.residuals.iter().map(|(k, _)| name(*k)).collect();
     let others = &others[..others.len() - 1];
     let miss = format!("{:.2e} {}", miss.abs(), unit);
     let miss = miss.trim_end_matches(" 1");
@@ -92,7 +92,7 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
         ),
     };
     let mut warning = Diagnostic::new(Code::Contradiction, spans[order[last]], message).help(help);
-    for (k, _) in &found.misses[..others.len()] {
+    for (k, _) in &found.residuals[..others.len()] {
         if spans[order[*k]] != spans[order[last]] {
             warning = warning.note(spans[order[*k]], "what it contradicts");
         }
@@ -104,15 +104,15 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
 struct Contradiction {
     of_rates: bool,
     /// Constraints, those of positions first, and their residuals, each in its unit.
-    misses: Vec<(usize, f64)>,
+    residuals: Vec<(usize, f64)>,
 }
 
-impl Places<'_, '_> {
+impl Configurations<'_, '_> {
     /// The contradiction at the minimum of the sum of squares, if that is not 0.
     fn contradicting_positions(&self, mut place: Row) -> Option<Contradiction> {
         let look = |place: &Row| {
             let (residuals, mut rows) = self.at(place)?;
-            rows.truncate(self.of_places);
+            rows.truncate(self.position_constraints);
             Some((residuals, rows))
         };
         let (mut residuals, mut rows) = look(&place)?;
@@ -133,15 +133,15 @@ impl Places<'_, '_> {
                 let reach = place.iter().map(|q| q.to_f64().abs()).fold(1.0, f64::max);
                 let most = largest(&residuals);
                 let misses = residuals.iter().zip(&sizes).enumerate();
-                let misses = misses.filter(|(_, (r, _))| r.to_f64().abs() > TAKES_PART * most);
+                let misses = misses.filter(|(_, (r, _))| r.to_f64().abs() > PARTICIPATION * most);
                 let misses = misses.map(|(k, (&r, &size))| (k, (r * size).to_f64()));
-                return (most > APART * reach).then(|| Contradiction {
+                return (most > MIN_CONTRADICTION * reach).then(|| Contradiction {
                     of_rates: false,
-                    misses: misses.collect(),
+                    residuals: misses.collect(),
                 });
             }
             // K. Levenberg, A method for the solution of certain non-linear problems in least squares, 1944.
-            let step = damped(&rows, &residuals, &gradient, damping)?;
+            let step = damped_step(&rows, &residuals, &gradient, damping)?;
             let there: Row = place.iter().zip(step).map(|(&q, d)| q - d).collect();
             let seen = look(&there).map(|(mut residuals, mut rows)| {
                 scale(&mut residuals, &mut rows);
@@ -174,15 +174,15 @@ impl Places<'_, '_> {
             entries.map(|(row, &size)| row[j] / size).collect::<Row>()
         };
         let columns: Vec<Row> = (0..width).map(column).collect();
-        let left = super::free_part(&super::orthogonal(&columns), rates);
+        let left = super::orthogonal_part(&super::orthonormalized(&columns), rates);
         let worst = largest(&left);
         // Places are known to 1e-14 if rows depend on each other only there.
         (worst > 1e-9 * most).then(|| {
             let misses = left.iter().zip(&sizes).enumerate();
-            let misses = misses.filter(|(_, (r, _))| r.to_f64().abs() > TAKES_PART * worst);
+            let misses = misses.filter(|(_, (r, _))| r.to_f64().abs() > PARTICIPATION * worst);
             Contradiction {
                 of_rates: true,
-                misses: misses.map(|(k, (&r, &s))| (k, (r * s).to_f64())).collect(),
+                residuals: misses.map(|(k, (&r, &s))| (k, (r * s).to_f64())).collect(),
             }
         })
     }
@@ -210,7 +210,7 @@ fn transposed_times(rows: &[Row], residuals: &Row) -> Row {
 }
 
 /// `(Gᵀ G + μ)⁻¹ Gᵀ r`, or the equal `Gᵀ (G Gᵀ + μ)⁻¹ r` if there are fewer rows than columns.
-fn damped(rows: &[Row], residuals: &Row, gradient: &Row, damping: f64) -> Option<Row> {
+fn damped_step(rows: &[Row], residuals: &Row, gradient: &Row, damping: f64) -> Option<Row> {
     if rows.len() < gradient.len() {
         let weights = solved(rows, residuals, damping)?;
         return Some(transposed_times(rows, &weights));

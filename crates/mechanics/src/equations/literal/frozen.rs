@@ -10,7 +10,7 @@ use lagrangian_scalar::{Dual, Scalar};
 pub(super) struct Frozen<S> {
     pub moving: Dual<S>,
     /// The value where the frozen coordinates are 0.
-    pub still: S,
+    pub at_zero: S,
 }
 
 macro_rules! operators {
@@ -20,7 +20,7 @@ macro_rules! operators {
             fn $method(self, other: Self) -> Self {
                 Frozen {
                     moving: self.moving.$method(other.moving),
-                    still: self.still.$method(other.still),
+                    at_zero: self.at_zero.$method(other.at_zero),
                 }
             }
         }
@@ -34,7 +34,7 @@ impl<S: Scalar> Neg for Frozen<S> {
     fn neg(self) -> Self {
         Frozen {
             moving: -self.moving,
-            still: -self.still,
+            at_zero: -self.at_zero,
         }
     }
 }
@@ -44,7 +44,7 @@ macro_rules! functions {
         fn $method(self) -> Self {
             Frozen {
                 moving: self.moving.$method(),
-                still: self.still.$method(),
+                at_zero: self.at_zero.$method(),
             }
         }
     )*};
@@ -55,7 +55,7 @@ macro_rules! functions_of_two {
         fn $method(self, other: Self) -> Self {
             Frozen {
                 moving: self.moving.$method(other.moving),
-                still: self.still.$method(other.still),
+                at_zero: self.at_zero.$method(other.at_zero),
             }
         }
     )*};
@@ -73,41 +73,41 @@ impl<S: Scalar> Scalar for Frozen<S> {
 
     const ZERO: Self = Frozen {
         moving: Dual::<S>::ZERO,
-        still: S::ZERO,
+        at_zero: S::ZERO,
     };
     const ONE: Self = Frozen {
         moving: Dual::<S>::ONE,
-        still: S::ONE,
+        at_zero: S::ONE,
     };
 
     fn from_f64(x: f64) -> Self {
         Frozen {
             moving: Dual::from_f64(x),
-            still: S::from_f64(x),
+            at_zero: S::from_f64(x),
         }
     }
     fn from_ratio(numerator: i64, denominator: i64) -> Self {
         Frozen {
             moving: Dual::from_ratio(numerator, denominator),
-            still: S::from_ratio(numerator, denominator),
+            at_zero: S::from_ratio(numerator, denominator),
         }
     }
     fn pi() -> Self {
         Frozen {
             moving: Dual::pi(),
-            still: S::pi(),
+            at_zero: S::pi(),
         }
     }
 
     fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = self.still.sin_cos();
+        let (sin, cos) = self.at_zero.sin_cos();
         let rate = self.moving.derivative;
         let with = |value, slope: S| Frozen {
             moving: Dual {
                 value,
                 derivative: slope * rate,
             },
-            still: value,
+            at_zero: value,
         };
         (with(sin, cos), with(cos, -sin))
     }
@@ -118,7 +118,7 @@ impl<S: Scalar> Scalar for Frozen<S> {
     fn powi(self, exponent: i32) -> Self {
         Frozen {
             moving: self.moving.powi(exponent),
-            still: self.still.powi(exponent),
+            at_zero: self.at_zero.powi(exponent),
         }
     }
 

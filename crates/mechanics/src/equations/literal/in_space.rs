@@ -17,7 +17,7 @@ use super::{Moving, Varied};
 type Point<R> = [Moving<R>; 3];
 
 /// The gap between a sphere and a surface, and the slip velocity of the touching points along both tangents.
-pub(super) fn touch<'d, R: Scalar>(
+pub(super) fn gap_and_slip<'d, R: Scalar>(
     model: &Model<'d>,
     sphere: &Circle<'d>,
     surface: Surface,
@@ -31,7 +31,7 @@ pub(super) fn touch<'d, R: Scalar>(
 }
 
 /// Origin and axes of a frame or a body.
-fn placed<'d, R: Scalar>(
+fn origin_and_axes<'d, R: Scalar>(
     model: &Model<'d>,
     place: Place,
     x: &impl Fn(Expr<'d>) -> Moving<R>,
@@ -68,7 +68,7 @@ fn centre<'d, R: Scalar>(
     sphere: &Circle<'d>,
     x: &impl Fn(Expr<'d>) -> Moving<R>,
 ) -> (Point<R>, [Point<R>; 3]) {
-    let (origin, axes) = placed(model, sphere.on, x);
+    let (origin, axes) = origin_and_axes(model, sphere.on, x);
     let along = [0, 1, 2].map(|k| x(sphere.center[k]));
     let centre = [0, 1, 2]
         .map(|l| origin[l] + along[0] * axes[0][l] + along[1] * axes[1][l] + along[2] * axes[2][l]);
@@ -76,7 +76,7 @@ fn centre<'d, R: Scalar>(
 }
 
 /// The velocity of a point that is carried along at `lever` from `origin` by these axes.
-fn carried<R: Scalar>(
+fn point_velocity<R: Scalar>(
     origin: &Point<R>,
     axes: &[Point<R>; 3],
     lever: [Varied<R>; 3],
@@ -101,7 +101,7 @@ fn on_plane<'d, R: Scalar>(
     pose: PoseId,
     x: &impl Fn(Expr<'d>) -> Moving<R>,
 ) -> (Moving<R>, [Varied<R>; 2]) {
-    let (origin, frame) = placed(model, Place::Frame(pose), x);
+    let (origin, frame) = origin_and_axes(model, Place::Frame(pose), x);
     let (centre, axes) = centre(model, sphere, x);
     let radius = x(sphere.radius);
     let line = [0, 1, 2].map(|k| centre[k] - origin[k]);
@@ -110,8 +110,8 @@ fn on_plane<'d, R: Scalar>(
     let lever = normal.map(|n| -(radius.value * n));
     let foot = [0, 1, 2].map(|k| line[k].value + lever[k]);
     let (own, of_plane) = (
-        carried(&centre, &axes, lever),
-        carried(&origin, &frame, foot),
+        point_velocity(&centre, &axes, lever),
+        point_velocity(&origin, &frame, foot),
     );
     let slip = [0, 1, 2].map(|k| own[k] - of_plane[k]);
     let along = [0, 1].map(|axis| dot(frame[axis].map(|e| e.value), slip));
@@ -137,8 +137,8 @@ fn on_sphere<'d, R: Scalar>(
     };
     let e = line.map(|c| c.value / distance.value);
     let arm = if is_inside { small.value } else { -small.value };
-    let at = carried(&own, &axes, e.map(|e| arm * e));
-    let past = carried(&theirs, &other_axes, e.map(|e| large.value * e));
+    let at = point_velocity(&own, &axes, e.map(|e| arm * e));
+    let past = point_velocity(&theirs, &other_axes, e.map(|e| large.value * e));
     let slip = [0, 1, 2].map(|k| at[k] - past[k]);
     let n = if is_inside { e.map(|e| -e) } else { e };
     // Selects one of the two fields of tangents: see `lagrangian_spec::model::spheres`.
