@@ -23,7 +23,12 @@ pub fn greatest_force(crusher: &InterpretedMachine) -> Result<f64, Error> {
 
 /// Prints the largest force for four speeds.
 pub fn main() -> Result<(), Error> {
-    let mut crusher = InterpretedMachine::from_file("machines/cushioned_crusher.machine")?;
+    // The library's file, whatever the folder in which this program runs.
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../machines/cushioned_crusher.machine"
+    );
+    let mut crusher = InterpretedMachine::from_file(file)?;
     println!("omega [rad/s]  greatest crushing force [kN]");
     for omega in [100.0, 120.0, 140.0, 160.0] {
         crusher.set("omega", omega)?;

@@ -55,12 +55,19 @@ fn every_example_is_here() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
     for entry in std::fs::read_dir(folder).expect("the examples") {
         let entry = entry.expect("an entry");
-        if entry.path().is_dir() {
-            continue; // scripts of commands, which the tests of the command run
-        }
         let name = entry.file_name();
-        let line = format!("#[path = \"../../examples/{}\"]", name.to_string_lossy());
-        assert!(include_str!("examples.rs").contains(&line), "{name:?}");
+        let name = name.to_str().expect("plain names");
+        // The rest are the manifest and scripts of commands, which the tests of the command run.
+        let Some(example) = name.strip_suffix(".rs") else {
+            continue;
+        };
+        let line = format!("#[path = \"../../examples/{name}\"]");
+        assert!(include_str!("examples.rs").contains(&line), "{name}");
+        let row = format!("name = \"{example}\"\npath = \"{name}\"\n");
+        assert!(
+            include_str!("../../examples/Cargo.toml").contains(&row),
+            "{name}"
+        );
     }
 }
 
@@ -218,10 +225,8 @@ fn single_steps_follow_the_cosine() {
 #[test]
 fn a_spec_runs_without_a_compiler() {
     variants::main().unwrap();
-    let mut crusher = lagrangian::interpreted::InterpretedMachine::from_file(
-        "machines/cushioned_crusher.machine",
-    )
-    .unwrap();
+    let file = crate::support::library::path("cushioned_crusher");
+    let mut crusher = lagrangian::interpreted::InterpretedMachine::from_file(file).unwrap();
     // The same spec compiled performs the same operations in the same order.
     let machine = lagrangian_machines::CushionedCrusher {
         omega: 110.0,

@@ -102,7 +102,10 @@ where
 
 #[test]
 fn a_chain_is_the_program_to_the_last_bit() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../benches/peers/chain.machine");
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../benches/peers/chain.machine"
+    );
     let text = std::fs::read_to_string(path).expect("it is there");
     let program = library::compile(path, &text, &[("N", 16)]);
     // No two links are alike.

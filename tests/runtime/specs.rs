@@ -37,7 +37,8 @@ fn a_text_is_read_with_its_constants() {
 
 #[test]
 fn a_file_is_read_as_the_library_has_it() {
-    let crusher = InterpretedMachine::from_file("machines/vibrating_crusher.machine").unwrap();
+    let crusher =
+        InterpretedMachine::from_file(crate::support::library::path("vibrating_crusher")).unwrap();
     let compiled = lagrangian_machines::VibratingCrusher::default();
     let run = Simulation::new(&crusher)
         .until(0.05)

@@ -18,5 +18,8 @@ use std::path::Path;
 /// The folder of the project: the one above the tests' package, and that of the package whose benches share this code.
 pub fn root() -> &'static Path {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
-    package.parent().filter(|_| package.ends_with("tests")).unwrap_or(package)
+    package
+        .parent()
+        .filter(|_| package.ends_with("tests"))
+        .unwrap_or(package)
 }
