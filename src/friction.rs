@@ -28,14 +28,18 @@
 //! The states of all contacts have to be determined together. This is done only when a contact comes to rest, breaks away, or changes
 //! the side on which it presses. Then all combinations are examined, which shows whether there is exactly one solution. (F. Pfeiffer, C.
 //! Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996, chapters 5 and 6, state the same as a linear complementarity problem.)
-//! In between, the states are kept: the motion is smooth, and sticking contacts are held at `w = 0` itself.
+//! In between, the states are kept: the motion is smooth, and sticking contacts are held at `w = 0` itself. In the plane contacts that stick
+//! and depend on each other hold as long as any distribution of their forces permits it (`shares`); then they break away together.
 
 mod law;
+pub(crate) mod shares;
 
 #[cfg(feature = "std")]
 use law::ROUNDING;
 use law::{Each, Layout, OpenStates, Paradox, Parts, length, solve};
 pub(crate) use law::{Mode, Motion};
+#[cfg(feature = "std")]
+use shares::Limit;
 
 use crate::system::MOST_CONTACTS;
 use crate::{Pivot, Singular, StepError, System, Vector};
@@ -442,7 +446,8 @@ impl Contacts {
     ) -> Result<(), Singular> {
         let slips = slips(system, t, q, v);
         with_parts(system, t, q, v, u, |parts, _| {
-            let friction_forces = friction_forces(parts, &self.mode_of(&slips))?;
+            let shared = parts.shared_forces(&self.mode_of(&slips));
+            let (friction_forces, _) = shared.map_err(Paradox::singular)?;
             results(parts, &friction_forces, &mut [], multipliers);
             in_contacts(parts, &self.mode, &friction_forces, &slips, forces);
             Ok(())
@@ -486,7 +491,8 @@ impl Contacts {
     ) -> Result<[[Margin; 2]; MOST_CONTACTS], StepError> {
         let slips = slips(system, t, q, v);
         let margins = with_parts(system, t, q, v, u, |parts, _| {
-            let friction_forces = friction_forces(parts, &self.mode_of(&slips))?;
+            let shared = parts.shared_forces(&self.mode_of(&slips));
+            let (friction_forces, shared) = shared.map_err(Paradox::singular)?;
             let mut margins = [[Margin::ENDLESS; 2]; MOST_CONTACTS];
             for (k, margin) in margins[..self.count].iter_mut().enumerate() {
                 // The margins along both tangents are those of the first.
@@ -497,9 +503,16 @@ impl Contacts {
                 *margin = match self.mode.motion[k] {
                     Motion::Sticks => {
                         let coefficient = parts.static_friction(k);
-                        let reserve = Margin {
-                            value: coefficient * normal.abs() - parts.used(k, &friction_forces),
-                            rounding: ROUNDING * coefficient * terms,
+                        let reserve = match shared.margin[k] {
+                            // What depends on others holds as long as all of them can hold together.
+                            Some(value) => Margin {
+                                value,
+                                rounding: parts.rounding_of_shared(k, &friction_forces, &shared),
+                            },
+                            None => Margin {
+                                value: coefficient * normal.abs() - parts.used(k, &friction_forces),
+                                rounding: ROUNDING * coefficient * terms,
+                            },
                         };
                         [reserve, Margin::ENDLESS]
                     }
@@ -622,6 +635,8 @@ impl Contacts {
         let mut motion: [Option<Motion>; MOST_CONTACTS] =
             core::array::from_fn(|k| (!resting[k]).then_some(self.mode.motion[k]));
         let own = (k, self.mode.motion[k]);
+        // Which contacts break away together.
+        let mut together = [false; MOST_CONTACTS];
         let mut slip_direction = self.mode_of(&now).slip_direction;
         let at = |singular| StepError::Singular { singular, t };
         if change.cause == Cause::BrokeAway && self.seconds >> (k + 1) & 1 != 0 {
@@ -630,12 +645,25 @@ impl Contacts {
             (slip_direction[k], slip_direction[k + 1]) = (0.0, 0.0);
         } else if change.cause == Cause::BrokeAway {
             let held = with_parts(system, t, q, v, u, |parts, _| {
-                friction_forces(parts, &self.mode)
+                parts.shared_forces(&self.mode).map_err(Paradox::singular)
             });
-            let held = held.map_err(at)?;
+            let (held, shared) = held.map_err(at)?;
             // It slides against the force that held it. At this instant its slip may not even grow, since the friction of sticking and
-            // of sliding may be equal.
-            motion[k] = Some(Motion::Slides(-held[k].signum()));
+            // of sliding may be equal. What depends on others breaks away with those that limit what all of them can hold.
+            let breaks = |j: usize| match shared.limit[j] {
+                Some(Limit::Friction(direction)) if shared.group[j] == shared.group[k] => {
+                    Some(Motion::Slides(-direction))
+                }
+                _ => None,
+            };
+            if shared.margin[k].is_some() && (0..self.count).any(|j| breaks(j).is_some()) {
+                for (j, motion) in motion[..self.count].iter_mut().enumerate() {
+                    together[j] = motion.is_none() && breaks(j).is_some();
+                    *motion = motion.or(breaks(j));
+                }
+            } else {
+                motion[k] = Some(Motion::Slides(-held[k].signum()));
+            }
         }
         // A contact that has come to rest may continue in any direction.
         for k in 0..self.count {
@@ -658,7 +686,17 @@ impl Contacts {
             turned: (change.cause == Cause::Turned).then_some((own.0, own.1, -self.mode.press[k])),
         };
         let decided = with_parts(system, t, q, v, u, |parts, _| {
-            open_states.answer(parts).map_err(Paradox::singular)
+            let mut answer = open_states.answer(parts);
+            if answer.is_err() && together.contains(&true) {
+                // Reactions that change with the friction may let some of them go on sticking.
+                let is_open = |k: usize| motion[k].filter(|_| !together[k]);
+                let all_open = OpenStates {
+                    motion: core::array::from_fn(is_open),
+                    ..open_states
+                };
+                answer = all_open.answer(parts);
+            }
+            answer.map_err(Paradox::singular)
         });
         (self.mode, _) = decided.map_err(at)?;
         Ok(false)

@@ -48,7 +48,7 @@ pub fn unilateral_forces<S: System>(
     let (touches, _) = touching.near(system, (t, q, v), true);
     let closed = touching.persisting(system, (t, q, v), &touches, true);
     let resting = touching.resting(system, (t, q, v), &closed);
-    let (modes, shares) = touching.settled_by_forces(system, at, &closed, &resting, None)?;
+    let (modes, shares) = touching.settled_by_forces(system, at, &closed, &resting, &[])?;
     touching.set_modes(modes);
     touching.load_layers(system, t, q, v);
     touching.forces_shared(system, at, a, Some(&shares))

@@ -279,6 +279,35 @@ fn residual(m: &[f64], q: &[f64], z: &[f64]) -> f64 {
 /// Solves `A x = b` by elimination with a full search for pivots. What depends on the rest is 0; the second result
 /// is how much does not.
 pub(super) fn solve(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, usize) {
+    let (x, order) = eliminate(a, b);
+    (x, order.rank)
+}
+
+/// The order in which [`eliminate`] has left the unknowns: those that depend on the rest come behind the others.
+pub(super) struct Order {
+    columns: Vec<usize>,
+    pub rank: usize,
+}
+
+impl Order {
+    /// What a unit of each unknown that depends on the rest does to all of them, from the matrix that has been eliminated.
+    pub fn null_space(&self, a: &[f64]) -> Vec<Vec<f64>> {
+        let n = self.columns.len();
+        let of_unit = |free: usize| {
+            let mut x = vec![0.0; n];
+            x[self.columns[free]] = 1.0;
+            for i in (0..self.rank).rev() {
+                let known = (i + 1..self.rank).map(|j| a[i * n + j] * x[self.columns[j]]);
+                x[self.columns[i]] = -(a[i * n + free] + known.sum::<f64>()) / a[i * n + i];
+            }
+            x
+        };
+        (self.rank..n).map(of_unit).collect()
+    }
+}
+
+/// As [`solve`], with the order of the unknowns in what is left of the matrix.
+pub(super) fn eliminate(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, Order) {
     let n = b.len();
     let mut columns: Vec<usize> = (0..n).collect();
     let greatest = a.iter().fold(0.0_f64, |size, a| size.max(a.abs()));
@@ -321,7 +350,7 @@ pub(super) fn solve(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, usize) {
         let known: f64 = (i + 1..rank).map(|j| a[i * n + j] * x[columns[j]]).sum();
         x[columns[i]] = (b[i] - known) / a[i * n + i];
     }
-    (x, rank)
+    (x, Order { columns, rank })
 }
 
 #[cfg(test)]

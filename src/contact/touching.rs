@@ -58,6 +58,7 @@ impl Mode {
 }
 
 pub(crate) use crate::friction::Margin;
+use crate::friction::shares::{self, Limit, Sharer, Tableau};
 
 /// What a run knows of its unilateral contacts.
 #[derive(Clone, Debug)]
@@ -266,6 +267,36 @@ pub(crate) struct Reaction {
     slip_terms: Vec<f64>,
     /// Whether the forces are the only ones that go with the accelerations.
     pub is_only: bool,
+    /// The equations that leave forces open, where they do.
+    open_equations: Option<OpenEquations>,
+}
+
+/// Equations of forces that depend on each other.
+struct OpenEquations {
+    /// The closed contacts.
+    closed: Vec<usize>,
+    /// The unknown forces: of which of these, along its normal (0) or its tangent (1).
+    unknowns: Vec<(usize, usize)>,
+    /// The matrix after elimination.
+    matrix: Vec<f64>,
+    order: lcp::Order,
+}
+
+/// How contacts share forces so that all of them hold best.
+struct SharedLoad {
+    /// Of each contact that shares forces.
+    margins: Vec<Option<SharedMargin>>,
+    /// Along normal and tangent, of every contact.
+    forces: Vec<[f64; 2]>,
+}
+
+/// How a contact that shares forces with others holds.
+struct SharedMargin {
+    margin: Margin,
+    /// Whether its normal force is among what is shared.
+    shares_normal: bool,
+    /// What it does where all of them let go.
+    limit: Option<Limit>,
 }
 
 impl Reaction {
@@ -277,6 +308,7 @@ impl Reaction {
             slip_terms: vec![0.0; forces.len()],
             forces,
             is_only: true,
+            open_equations: None,
         }
     }
 }
@@ -585,6 +617,7 @@ impl UnilateralState {
             sizes: vec![0.0; self.modes.len()],
             slip_terms: vec![0.0; self.modes.len()],
             is_only: true,
+            open_equations: None,
             a,
         };
         let Some(here) = here.filter(|_| !self.is_free()) else {
@@ -605,11 +638,7 @@ impl UnilateralState {
             [_, reaction.slip_terms[k]] = here.acceleration(2 * k + 1, &reaction.a);
         }
         // Of what slides the tangential force is a share of the normal one; what sticks has two unknowns.
-        let share = |k: usize| match self.modes[k] {
-            Mode::Slides(sign) => -sign * here.friction(k)[0],
-            Mode::Skids(_) => -self.slip_direction(here, k) * here.friction(k)[0],
-            _ => 0.0,
-        };
+        let share = |k: usize| self.share(here, k);
         let mut unknowns: Vec<(usize, usize)> = Vec::new();
         for (place, &k) in closed.iter().enumerate() {
             if let Some(pressed) = self.compliant_force(here, k) {
@@ -683,8 +712,8 @@ impl UnilateralState {
                 *known = known.max(terms / own);
             }
         }
-        let (values, rank) = lcp::solve(&mut left, &mut right);
-        reaction.is_only = rank == size;
+        let (values, order) = lcp::eliminate(&mut left, &mut right);
+        reaction.is_only = order.rank == size;
         let mut found = vec![[0.0; 2]; closed.len()];
         for (&(place, part), value) in unknowns.iter().zip(&values) {
             found[place][part] += value;
@@ -704,7 +733,202 @@ impl UnilateralState {
         for (a, by) in reaction.a.iter_mut().zip(response) {
             *a += by;
         }
+        if !reaction.is_only {
+            reaction.open_equations = Some(OpenEquations {
+                closed,
+                unknowns,
+                matrix: left,
+                order,
+            });
+        }
         Ok(reaction)
+    }
+
+    /// What the tangential force of a contact is of its normal one: where it slips, in its direction.
+    fn share(&self, here: &ContactKinematics, contact: usize) -> f64 {
+        match self.modes[contact] {
+            Mode::Slides(sign) => -sign * here.friction(contact)[0],
+            Mode::Skids(_) => -self.slip_direction(here, contact) * here.friction(contact)[0],
+            Mode::Open | Mode::Sticks => 0.0,
+        }
+    }
+
+    /// How contacts that share forces do this so that all of them hold best. Nothing where friction acts along two tangents: that problem is
+    /// not linear.
+    fn shared_load(&self, here: &ContactKinematics, reaction: &Reaction) -> Option<SharedLoad> {
+        let OpenEquations {
+            closed,
+            unknowns,
+            matrix,
+            order,
+        } = reaction.open_equations.as_ref()?;
+        if closed.iter().any(|k| self.has_two_tangents(*k)) {
+            return None;
+        }
+        let mut of_unit = order.null_space(matrix);
+        for of_unit in &mut of_unit {
+            let most = of_unit.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let is_rounding = |x: &&mut f64| x.abs() <= SATURATED * most;
+            of_unit
+                .iter_mut()
+                .filter(is_rounding)
+                .for_each(|x| *x = 0.0);
+        }
+        let free = of_unit.len();
+        let mut by = vec![0.0; 2 * free * closed.len()];
+        let mut sharers = vec![Sharer::default(); closed.len()];
+        for (place, (&k, own)) in closed.iter().zip(by.chunks_exact_mut(2 * free)).enumerate() {
+            // What leans on a contact has the normal force of that, which stands before it.
+            let pressing = place - usize::from(self.carrier[k].is_some());
+            let unknown = |wanted: (usize, usize)| unknowns.iter().position(|u| *u == wanted);
+            for (part, pressed) in [(0, pressing), (1, place)] {
+                let Some(unknown) = unknown((pressed, part)) else {
+                    continue;
+                };
+                for (x, of_unit) in own[part * free..].iter_mut().zip(&of_unit) {
+                    *x = of_unit[unknown];
+                }
+            }
+            let sticks = self.modes[k] == Mode::Sticks && self.has_friction[k];
+            sharers[place] = Sharer {
+                static_friction: sticks.then(|| here.friction(k)[1]),
+                presses: self.carrier[k].is_none() && !self.is_compliant(k),
+                normal: reaction.forces[closed[pressing]][0],
+                tangential: reaction.forces[k][1],
+            };
+        }
+        let mut groups = vec![0; free];
+        shares::group(&by, &mut groups);
+        let mut load = SharedLoad {
+            margins: self.modes.iter().map(|_| None).collect(),
+            forces: reaction.forces.clone(),
+        };
+        let mut numbers = vec![0.0; shares::tableau_length(closed.len(), free)];
+        let (mut basic, mut outside) = (vec![0; 2 * closed.len()], vec![0; free + 1]);
+        for group in (0..free).filter(|group| groups[*group] == *group) {
+            let work = (&mut numbers[..], &mut basic[..], &mut outside[..]);
+            let mut tableau = Tableau::new(&sharers, (&by, &groups, group), work);
+            let Some(value) = tableau.solve() else {
+                continue;
+            };
+            let of_group = |place: &usize| {
+                let own = &by[2 * free * place..][..2 * free];
+                shares::is_in(own, &groups, group)
+            };
+            let size = |place: usize| {
+                let own = reaction.sizes[closed[place]];
+                match sharers[place].static_friction {
+                    Some(friction) if friction > 0.0 => own * (1.0 + 1.0 / friction),
+                    _ => own,
+                }
+            };
+            let members = (0..closed.len()).filter(of_group);
+            let size = members.clone().map(size).fold(0.0, f64::max);
+            let rounding = ROUNDING_OF_FORCES * size;
+            let undetermined: Vec<f64> = (0..free)
+                .map(|i| {
+                    if groups[i] == group {
+                        tableau.force(i)
+                    } else {
+                        0.0
+                    }
+                })
+                .collect();
+            for place in members {
+                let (normals, tangentials) = by[2 * free * place..][..2 * free].split_at(free);
+                let added = |by: &[f64]| {
+                    by.iter()
+                        .zip(&undetermined)
+                        .map(|(x, y)| x * y)
+                        .sum::<f64>()
+                };
+                let normal = added(normals);
+                let [of_normal, of_tangent] = &mut load.forces[closed[place]];
+                if self.carrier[closed[place]].is_none() {
+                    *of_normal += normal;
+                }
+                *of_tangent += added(tangentials) + self.share(here, closed[place]) * normal;
+                load.margins[closed[place]] = Some(SharedMargin {
+                    margin: Margin { value, rounding },
+                    shares_normal: normals.iter().any(|x| *x != 0.0),
+                    limit: tableau.limit(place, &sharers[place]),
+                });
+            }
+        }
+        Some(load)
+    }
+
+    /// That contacts which touch and are at rest stay so, and the forces with which they do, where the complementarity problem has let
+    /// some of them go although a distribution of the forces that they share permits rest.
+    fn rests_together<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        here: &ContactKinematics,
+        resting: &[bool],
+        modes: &[Mode],
+    ) -> Option<(Vec<Mode>, Vec<[f64; 2]>)> {
+        let at_rest = |k: usize| match self.has_friction[k] {
+            true => Mode::Sticks,
+            false => Mode::Slides(0.0),
+        };
+        let held: Vec<Mode> = (modes.iter().enumerate())
+            .map(|(k, mode)| if resting[k] { at_rest(k) } else { *mode })
+            .collect();
+        let mut touching = self.clone();
+        touching.set_modes(held);
+        let reaction = touching.reaction_here(system, at, Some(here)).ok()?;
+        let load = touching.shared_load(here, &reaction)?;
+        let free = Self::free(system, at).ok()?;
+        let is_still = |direction: &usize| {
+            // Forces cancel the terms that there are without them.
+            let [rate, terms] = here.acceleration(*direction, &reaction.a);
+            let [_, of_free] = here.acceleration(*direction, &free);
+            rate.abs() <= ROUNDING_OF_FORCES * (terms + of_free)
+        };
+        let holds = |k: usize| match &load.margins[k] {
+            Some(SharedMargin { margin, .. }) => margin.value > margin.rounding,
+            None if touching.modes[k] == Mode::Open => true,
+            None => {
+                let normal = load.forces[self.carrier[k].unwrap_or(k)][0];
+                let rounding = ROUNDING_OF_FORCES * reaction.sizes[k];
+                let used = match touching.modes[k] {
+                    Mode::Sticks => load.forces[k][1].abs(),
+                    _ => 0.0,
+                };
+                normal >= -rounding && used <= here.friction(k)[1] * normal + rounding
+            }
+        };
+        let is_held = touching.held.iter().all(is_still) && (0..modes.len()).all(holds);
+        is_held.then_some((touching.modes, load.forces))
+    }
+
+    /// What contacts do that share forces and can hold no more, each being one that limits what they hold together.
+    pub fn let_go<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+    ) -> Result<Vec<(usize, Mode)>, StepError> {
+        let (t, q, v, _) = at;
+        let here = ContactKinematics::of(system, t, q, v);
+        let reaction = self.reaction_here(system, at, Some(&here))?;
+        let shared = self.shared_load(&here, &reaction);
+        let shared = shared.map_or_else(Vec::new, |load| load.margins);
+        let limits = |(k, shared): (usize, Option<SharedMargin>)| {
+            let SharedMargin { margin, limit, .. } = shared?;
+            let mode = match limit? {
+                Limit::Friction(direction) => Mode::Slides(-direction),
+                Limit::Pressing => Mode::Open,
+            };
+            (margin.value < 0.0).then_some((k, mode))
+        };
+        let mut known: Vec<(usize, Mode)> =
+            shared.into_iter().enumerate().filter_map(limits).collect();
+        // Where others slip, what presses no more goes with them, or lifts later.
+        if known.iter().any(|(_, mode)| *mode != Mode::Open) {
+            known.retain(|(_, mode)| *mode != Mode::Open);
+        }
+        Ok(known)
     }
 
     /// The multipliers of the constraints of the machine, with what the contacts press.
@@ -886,23 +1110,56 @@ impl UnilateralState {
                 }
             };
         }
+        let in_plane = !self.across.contains(&true);
         let is_doubtful = |(k, margin): (usize, &[Margin; 4])| {
             let shared = if self.is_compliant(k) { 1..2 } else { 0..2 };
-            margin[shared].iter().any(|m| m.value < -m.rounding)
+            margin[shared].iter().any(|m| match in_plane {
+                // Also where it is rounding, so that no search for an instant ends where it is 0 with these forces.
+                true => m.value <= m.rounding,
+                false => m.value < -m.rounding,
+            })
         };
-        if !reaction.is_only && margins.iter().enumerate().any(is_doubtful) {
-            // Forces that share a load may share it otherwise: only all together can tell.
+        let shared_kinds = |k: usize| [!self.is_compliant(k), self.modes[k] == Mode::Sticks];
+        if reaction.is_only {
+            // Each margin is that of the contact.
+        } else if !margins.iter().enumerate().any(is_doubtful) {
+            // Every contact holds with these forces, also one that has none of those that are shared: 0 is not where it lets go.
+            for (k, margin) in margins.iter_mut().enumerate() {
+                let kinds = margin.iter_mut().zip(shared_kinds(k));
+                for (margin, _) in kinds.filter(|(_, shared)| *shared) {
+                    if margin.value <= margin.rounding {
+                        *margin = Margin::ENDLESS;
+                    }
+                }
+            }
+        } else if let Some(load) = self.shared_load(&here, &reaction) {
+            // Forces that share a load may share it otherwise: contacts hold as long as all of them can hold with some of these.
+            for (k, (margin, shared)) in margins.iter_mut().zip(load.margins).enumerate() {
+                let Some(shared) = shared else {
+                    continue;
+                };
+                if shared.shares_normal && self.carrier[k].is_none() && !self.is_compliant(k) {
+                    margin[0] = shared.margin;
+                }
+                if self.modes[k] == Mode::Sticks && self.has_friction[k] {
+                    margin[1] = shared.margin;
+                }
+            }
+        } else {
+            // In space only the complementarity problem of all together can tell.
             let resting: Vec<bool> = self.modes.iter().map(|m| *m == Mode::Sticks).collect();
             let closed: Vec<bool> = self.modes.iter().map(|m| *m != Mode::Open).collect();
-            let settled = self.settled(system, at, &closed, &resting, None)?;
+            let settled = self.settled(system, at, &closed, &resting, &[])?;
             let mut pairs = settled.iter().zip(&self.modes);
-            if pairs.all(|(settled, mode)| settled.is_like(*mode)) {
-                for (k, (margin, mode)) in margins.iter_mut().zip(&self.modes).enumerate() {
-                    if !self.is_compliant(k) {
-                        margin[0] = Margin::ENDLESS;
-                    }
-                    if *mode == Mode::Sticks {
-                        margin[1] = Margin::ENDLESS;
+            let all_hold = pairs.all(|(settled, mode)| settled.is_like(*mode));
+            for (k, margin) in margins.iter_mut().enumerate() {
+                let kinds = margin.iter_mut().zip(shared_kinds(k));
+                for (margin, _) in kinds.filter(|(_, shared)| *shared) {
+                    if all_hold {
+                        *margin = Margin::ENDLESS;
+                    } else if margin.value < -margin.rounding {
+                        // By how much it is lost with these forces says nothing of the instant, which is looked for by the sign.
+                        margin.value = f64::NEG_INFINITY;
                     }
                 }
             }
@@ -916,15 +1173,15 @@ impl UnilateralState {
     /// What contacts that touch do next: which of `closed` stay so, and what those of them that are at rest do.
     ///
     /// A contact that slips has a direction, and friction along it. One at rest sticks if it can with its static
-    /// friction; if not it slips, with its friction, in the direction in which it is pulled. Of one contact it may
-    /// be known what it does: where its force has just vanished, or its friction is used up, nothing else says so.
+    /// friction; if not it slips, with its friction, in the direction in which it is pulled. Of some contacts it may
+    /// be known what they do: where a force has just vanished, or friction is used up, nothing else says so.
     pub fn settled<S: System>(
         &self,
         system: &S,
         at: At<'_, S>,
         closed: &[bool],
         resting: &[bool],
-        known: Option<(usize, Mode)>,
+        known: &[(usize, Mode)],
     ) -> Result<Vec<Mode>, StepError> {
         let settled = self.settled_by_forces(system, at, closed, resting, known);
         settled.map(|(modes, _)| modes)
@@ -938,14 +1195,21 @@ impl UnilateralState {
         at: At<'_, S>,
         closed: &[bool],
         resting: &[bool],
-        known: Option<(usize, Mode)>,
+        known_modes: &[(usize, Mode)],
     ) -> Result<(Vec<Mode>, Vec<[f64; 2]>), StepError> {
         let (t, q, v, _) = at;
         let mut modes = vec![Mode::Open; closed.len()];
         let mut forces = vec![[0.0; 2]; closed.len()];
         let solved_contacts: Vec<usize> = (0..closed.len())
-            .filter(|k| closed[*k] && known != Some((self.carrier[*k].unwrap_or(*k), Mode::Open)))
+            .filter(|k| {
+                let pressing = self.carrier[*k].unwrap_or(*k);
+                closed[*k] && !known_modes.contains(&(pressing, Mode::Open))
+            })
             .collect();
+        let known_mode = |k: usize| {
+            let own = known_modes.iter().find(|(contact, _)| *contact == k);
+            own.map(|(_, mode)| *mode)
+        };
         // Where among them what a contact leans on stands: before it.
         let carrier = |place: usize| self.carrier[solved_contacts[place]].map(|_| place - 1);
         if solved_contacts.is_empty() {
@@ -985,8 +1249,8 @@ impl UnilateralState {
             .enumerate()
             .map(|(place, &k)| match (self.has_friction[k], resting[k]) {
                 (false, _) => Some(0.0),
-                _ if known.is_some_and(|(known, _)| known == k) => match known {
-                    Some((_, Mode::Slides(sign))) => Some(sign),
+                _ if known_mode(k).is_some() => match known_mode(k) {
+                    Some(Mode::Slides(sign)) => Some(sign),
                     _ => None,
                 },
                 (true, true) => None,
@@ -1012,10 +1276,7 @@ impl UnilateralState {
             .collect();
         // Which contacts with two tangents are at rest and will skid: in which direction is for their friction to say.
         let mut breaks: Vec<bool> = (solved_contacts.iter())
-            .map(|&k| match known {
-                Some((known, Mode::Skids(_))) => known == k,
-                _ => false,
-            })
+            .map(|&k| matches!(known_mode(k), Some(Mode::Skids(_))))
             .collect();
         for _ in 0..=solved_contacts.len() {
             let mut unknowns = Vec::with_capacity(solved_contacts.len());
@@ -1189,6 +1450,18 @@ impl UnilateralState {
                 let parts = known.iter().zip(&answer.forces);
                 for (&k, (known, found)) in solved_contacts.iter().zip(parts) {
                     forces[k] = [known[0] + found[0], known[1] + found[1]];
+                }
+                let lets_go = |k: usize| match modes[k] {
+                    Mode::Open => closed[k],
+                    Mode::Slides(sign) => self.has_friction[k] && sign != 0.0,
+                    Mode::Skids(_) | Mode::Sticks => false,
+                };
+                let is_asked = known_modes.is_empty();
+                let some_let_go = is_asked && (0..modes.len()).any(|k| resting[k] && lets_go(k));
+                if some_let_go
+                    && let Some(held) = self.rests_together(system, at, &here, resting, &modes)
+                {
+                    return Ok(held);
                 }
                 return Ok((modes, forces));
             }

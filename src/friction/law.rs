@@ -1,6 +1,7 @@
 //! Coulomb's law for contacts in given states, and the search for the states that are possible.
 
 use super::MOST_CONTACTS;
+use super::shares::{self, Limit, Sharer, Tableau};
 use crate::scalar::Scalar;
 use crate::{Pivot, Singular};
 
@@ -212,10 +213,16 @@ impl Parts<'_> {
     }
 
     /// The friction forces of contacts in given states.
+    /// Of guides that depend on each other these are forces with the right sums, which give the right accelerations; those that every guide
+    /// allows are in [`shared_forces`](Self::shared_forces).
     ///
     /// # Errors
     /// If no such motion exists, or several may.
     pub fn friction_forces(&self, mode: &Mode) -> Result<Each, Paradox> {
+        if self.layout.axes == 1 {
+            let (forces, _) = self.along_normals(mode).ok_or(NO_MOTION)?;
+            return Ok(forces);
+        }
         let (mut found, mut several) = (None, false);
         let known = self.each_solution(mode, &mut |friction_forces| {
             several |= found.is_some();
@@ -232,11 +239,27 @@ impl Parts<'_> {
         }
     }
 
+    /// The friction forces of contacts in given states, and of guides that depend on each other how they share theirs so that all of them
+    /// hold best.
+    ///
+    /// # Errors
+    /// As [`friction_forces`](Self::friction_forces).
+    #[cfg(feature = "std")]
+    pub fn shared_forces(&self, mode: &Mode) -> Result<(Each, Shared), Paradox> {
+        if self.layout.axes != 1 {
+            return Ok((self.friction_forces(mode)?, Shared::NONE));
+        }
+        let (forces, undetermined) = self.along_normals(mode).ok_or(NO_MOTION)?;
+        Ok(self.share(mode, forces, &undetermined))
+    }
+
     /// Calls `look` with all friction forces that contacts in given states may have; returns false if there may be others.
     fn each_solution(&self, mode: &Mode, look: &mut dyn FnMut(Each)) -> bool {
         match self.layout.axes {
             1 => {
-                self.along_normals(mode).into_iter().for_each(look);
+                if let Some((forces, undetermined)) = self.along_normals(mode) {
+                    look(self.share(mode, forces, &undetermined).0);
+                }
                 true
             }
             _ => self.by_sizes(mode, look),
@@ -244,7 +267,7 @@ impl Parts<'_> {
     }
 
     /// In the plane the side to which each contact presses is given, and the equations are linear.
-    fn along_normals(&self, mode: &Mode) -> Option<Each> {
+    fn along_normals(&self, mode: &Mode) -> Option<(Each, Undetermined)> {
         let count = self.layout.k;
         let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
         for (k, row) in rows[..count].iter_mut().enumerate() {
@@ -265,7 +288,82 @@ impl Parts<'_> {
             row[k] += own;
             row[count] = -factor * self.at(0, entry);
         }
-        solve(&mut rows, count)
+        let (forces, column_of) = eliminate(&mut rows, count)?;
+        Some((forces, Undetermined::of(&rows, count, column_of)))
+    }
+
+    /// Replaces forces that the equations leave undetermined, which are 0 in `forces`, by those that sticking guides allow best.
+    fn share(&self, mode: &Mode, mut forces: Each, undetermined: &Undetermined) -> (Each, Shared) {
+        let (free, count) = (undetermined.number, self.layout.k);
+        // Where friction of what slides is undetermined, so is the motion, and nothing is shared.
+        let slides = |of_unit: &Each| {
+            (0..count).any(|k| mode.motion[k] != Motion::Sticks && of_unit[k] != 0.0)
+        };
+        if free == 0 || undetermined.of_unit[..free].iter().any(slides) {
+            return (forces, Shared::NONE);
+        }
+        let mut shared = Shared::NONE;
+        // What each undetermined force adds to normal and friction force of each contact.
+        let mut by = [0.0; 2 * MOST_CONTACTS * MOST_CONTACTS];
+        let by = &mut by[..2 * free * count];
+        let mut sharers = [Sharer::default(); MOST_CONTACTS];
+        for (k, (sharer, by)) in sharers
+            .iter_mut()
+            .zip(by.chunks_exact_mut(2 * free))
+            .enumerate()
+        {
+            let [normal, _] = self.reaction(k, &forces);
+            if mode.motion[k] != Motion::Sticks {
+                continue;
+            }
+            *sharer = Sharer {
+                static_friction: Some(self.static_friction(k)),
+                presses: false,
+                normal,
+                tangential: forces[k],
+            };
+            let entry = self.components(k).start;
+            let (normals, tangentials) = by.split_at_mut(free);
+            for (i, of_unit) in undetermined.of_unit[..free].iter().enumerate() {
+                let terms = (0..count).map(|j| self.at(1 + j, entry) * of_unit[j]);
+                let size = terms.clone().fold(0.0, |sum, term| sum + f64::abs(term));
+                normals[i] = beyond(terms.sum(), SAME * size);
+                tangentials[i] = of_unit[k];
+            }
+        }
+        let mut groups = [0; MOST_CONTACTS];
+        let groups = &mut groups[..free];
+        shares::group(by, groups);
+        let (by, groups) = (&*by, &*groups);
+        for group in 0..free {
+            if groups[group] == group {
+                share_group((&sharers[..count], by, groups, group), &mut shared);
+            }
+        }
+        for (of_unit, y) in undetermined.of_unit[..free].iter().zip(shared.undetermined) {
+            for (force, x) in forces[..count].iter_mut().zip(of_unit) {
+                *force += y * x;
+            }
+        }
+        (forces, shared)
+    }
+
+    /// The round-off of the margin of a contact that shares forces with others.
+    #[cfg(feature = "std")]
+    pub fn rounding_of_shared(&self, contact: usize, forces: &Each, shared: &Shared) -> f64 {
+        let shares =
+            |k: &usize| shared.margin[*k].is_some() && shared.group[*k] == shared.group[contact];
+        let terms = |k: usize| {
+            let friction = self.static_friction(k);
+            let by_friction = if friction > 0.0 {
+                forces[k].abs() / friction
+            } else {
+                0.0
+            };
+            self.reaction(k, forces)[1] + by_friction
+        };
+        let all = (0..self.layout.k).filter(shares).map(terms);
+        ROUNDING * all.fold(0.0, f64::max)
     }
 
     /// In space a friction force `f = μ |N|` depends on the length of a vector. The forces of sticking contacts depend linearly on
@@ -518,6 +616,141 @@ impl Parts<'_> {
         }
         apart <= SAME * most
     }
+}
+
+/// Shares the forces of a group. A guide presses to either side, so all combinations are tried for contacts whose normal reactions depend on
+/// what is shared.
+fn share_group(
+    (sharers, by, groups, group): (&[Sharer], &[f64], &[usize], usize),
+    shared: &mut Shared,
+) {
+    let (count, free) = (sharers.len(), groups.len());
+    let of_contact = |k: usize| &by[2 * free * k..][..2 * free];
+    let (mut turning, mut number) = ([0; MOST_CONTACTS], 0);
+    for k in (0..count).filter(|k| shares::is_in(of_contact(*k), groups, group)) {
+        if of_contact(k)[..free].iter().any(|x| *x != 0.0) {
+            turning[number] = k;
+            number += 1;
+        }
+    }
+    let mut best = f64::NEG_INFINITY;
+    for combination in 0..1_usize << number {
+        let mut sided = [Sharer::default(); MOST_CONTACTS];
+        sided[..count].copy_from_slice(sharers);
+        let mut sided_by = [0.0; 2 * MOST_CONTACTS * MOST_CONTACTS];
+        sided_by[..by.len()].copy_from_slice(by);
+        for (k, sharer) in sided[..count].iter_mut().enumerate() {
+            let side = match turning[..number].iter().position(|turning| *turning == k) {
+                Some(place) if combination >> place & 1 != 0 => -1.0,
+                Some(_) => 1.0,
+                None => sharer.normal.signum(),
+            };
+            sharer.normal *= side;
+            let normals = &mut sided_by[2 * free * k..][..free];
+            normals.iter_mut().for_each(|x| *x *= side);
+        }
+        let mut numbers = [0.0; shares::tableau_length(MOST_CONTACTS, MOST_CONTACTS)];
+        let (mut basic, mut outside) = ([0; 2 * MOST_CONTACTS], [0; MOST_CONTACTS + 1]);
+        let mut tableau = Tableau::new(
+            &sided[..count],
+            (&sided_by[..by.len()], groups, group),
+            (
+                &mut numbers[..shares::tableau_length(count, free)],
+                &mut basic[..2 * count],
+                &mut outside[..free + 1],
+            ),
+        );
+        let Some(margin) = tableau.solve() else {
+            continue;
+        };
+        if margin <= best {
+            continue;
+        }
+        best = margin;
+        for i in (0..free).filter(|i| groups[*i] == group) {
+            shared.undetermined[i] = tableau.force(i);
+        }
+        for (k, sharer) in sided[..count].iter().enumerate() {
+            if shares::is_in(of_contact(k), groups, group) {
+                shared.margin[k] = Some(margin);
+                shared.limit[k] = tableau.limit(k, sharer);
+                shared.group[k] = group;
+            }
+        }
+    }
+}
+
+/// That no forces satisfy the equations.
+const NO_MOTION: Paradox = Paradox {
+    contact: 0,
+    several: false,
+};
+
+/// Friction forces that the equations of contacts in given states leave open.
+struct Undetermined {
+    /// How many of the forces are undetermined.
+    number: usize,
+    /// What a unit of each of them adds to all friction forces.
+    of_unit: [Each; MOST_CONTACTS],
+}
+
+impl Undetermined {
+    /// From equations that [`eliminate`] has solved.
+    fn of(
+        rows: &[[f64; MOST_CONTACTS + 1]; MOST_CONTACTS],
+        count: usize,
+        column_of: [Option<usize>; MOST_CONTACTS],
+    ) -> Undetermined {
+        let mut undetermined = Undetermined {
+            number: 0,
+            of_unit: [[0.0; MOST_CONTACTS]; MOST_CONTACTS],
+        };
+        for free in (0..count).filter(|j| !column_of.contains(&Some(*j))) {
+            let of_unit = &mut undetermined.of_unit[undetermined.number];
+            of_unit[free] = 1.0;
+            for (row, column) in rows.iter().zip(column_of) {
+                if let Some(j) = column {
+                    of_unit[j] = beyond(-row[free] / row[j], SINGULAR);
+                }
+            }
+            undetermined.number += 1;
+        }
+        undetermined
+    }
+}
+
+/// A number, or 0 if it is no more than its rounding.
+fn beyond(x: f64, rounding: f64) -> f64 {
+    if x.abs() > rounding { x } else { 0.0 }
+}
+
+/// How guides that depend on each other share their forces: by (E78).
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    not(feature = "std"),
+    expect(
+        dead_code,
+        reason = "only runs look for the instants at which guides let go"
+    )
+)]
+pub(super) struct Shared {
+    /// The undetermined forces.
+    undetermined: Each,
+    /// The margin of each contact that shares forces with others: by how much the normal reactions of all of them could be smaller.
+    pub margin: [Option<f64>; MOST_CONTACTS],
+    /// How each contact limits the margin.
+    pub limit: [Option<Limit>; MOST_CONTACTS],
+    /// With which others it shares: contacts with the same number.
+    pub group: [usize; MOST_CONTACTS],
+}
+
+impl Shared {
+    const NONE: Shared = Shared {
+        undetermined: [0.0; MOST_CONTACTS],
+        margin: [None; MOST_CONTACTS],
+        limit: [None; MOST_CONTACTS],
+        group: [0; MOST_CONTACTS],
+    };
 }
 
 /// The state that a contact enters when its normal reaction is zero: its index, its motion, and the side to which it presses.
@@ -847,6 +1080,14 @@ pub(super) fn solve(
     rows: &mut [[f64; MOST_CONTACTS + 1]; MOST_CONTACTS],
     count: usize,
 ) -> Option<Each> {
+    eliminate(rows, count).map(|(solution, _)| solution)
+}
+
+/// As [`solve`], with the unknown for which each row is solved in the end.
+fn eliminate(
+    rows: &mut [[f64; MOST_CONTACTS + 1]; MOST_CONTACTS],
+    count: usize,
+) -> Option<(Each, [Option<usize>; MOST_CONTACTS])> {
     let rows = &mut rows[..count];
     for row in rows.iter_mut() {
         let most = row[..count]
@@ -898,5 +1139,5 @@ pub(super) fn solve(
         }
     }
     let is_finite = solution.iter().all(|x| x.is_finite());
-    is_finite.then_some(solution)
+    is_finite.then_some((solution, column_of))
 }

@@ -260,13 +260,21 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         for (k, resting) in resting.iter_mut().enumerate() {
             *resting |= stops(k) || touching.modes()[k] == Mode::Sticks;
         }
-        let modes = touching.settled(
-            model.system.get(),
-            (t, &now.q, &now.v, &model.inputs),
-            &closed,
-            &resting,
-            known,
-        )?;
+        let at = (t, &now.q, &now.v, &model.inputs);
+        let known: Vec<(usize, Mode)> = known.into_iter().collect();
+        let system = model.system.get();
+        let mut modes = touching.settled(system, at, &closed, &resting, &known)?;
+        let is_same = |modes: &[Mode]| {
+            let mut pairs = modes.iter().zip(touching.modes());
+            pairs.all(|(after, before)| after.is_like(*before))
+        };
+        if cause == Cause::Unspecified && is_same(&modes) {
+            // What contacts hold together may be used up by so little that the forces do not tell yet.
+            let let_go = touching.let_go(system, at)?;
+            if !let_go.is_empty() {
+                modes = touching.settled(system, at, &closed, &resting, &let_go)?;
+            }
+        }
         touching.set_modes(modes);
         touching.record_slips(model.system.get(), t, &now.q, &now.v);
         if !matches!(cause, Cause::Turns(_)) || !changes_at_instant.impacts.is_empty() {
