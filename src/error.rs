@@ -404,6 +404,7 @@ impl Error {
             StepError::NotExplicit { .. }
             | StepError::Unsuited { .. }
             | StepError::NotSolved { .. }
+            | StepError::Jump { .. }
             | StepError::FewDigits { .. }
             | StepError::NotFree { .. }
             | StepError::TooManySteps { .. } => Self::Stepper {

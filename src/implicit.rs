@@ -51,6 +51,8 @@ pub(crate) struct Implicit {
     n: usize,
     jacobian: Jacobian,
     age: JacobianAge,
+    /// The derivatives at the beginning of the step are those this time later, in s, because the accelerations jump there; otherwise 0.
+    ahead: f64,
     /// `I − h μ a_v − h² μ² a_q` for all eigenvalues, factorized, and their `h`; 0 for none.
     real: Lu<f64>,
     complex: Vec<Lu<Complex>>,
@@ -79,6 +81,8 @@ pub(crate) struct Implicit {
     shorter: f64,
     /// The error estimate of positions and of velocities.
     error: [Vec<f64>; 2],
+    /// The size of the estimate of velocities before it is filtered, relative to the tolerance.
+    unfiltered: f64,
     /// Length and error of the last good step; length 0 if there is none.
     step_before: f64,
     error_before: f64,
@@ -123,6 +127,7 @@ impl Implicit {
             n,
             jacobian: Jacobian::new(system),
             age: JacobianAge::None,
+            ahead: 0.0,
             real: Lu::new(n),
             complex: std::vec![Lu::new(n); pairs],
             factored: 0.0,
@@ -140,6 +145,7 @@ impl Implicit {
             rounds: 0,
             shorter: 0.5,
             error: [zeros(), zeros()],
+            unfiltered: 0.0,
             step_before: 0.0,
             error_before: 0.0,
         }
@@ -161,6 +167,18 @@ impl Implicit {
         self.known_length = 0.0;
         self.step_before = 0.0;
         self.left = 1.0;
+        self.ahead = 0.0;
+    }
+
+    /// Whether no step was solved since the accelerations have jumped.
+    pub fn begins_anew(&self) -> bool {
+        self.known_length == 0.0 && self.ahead == 0.0
+    }
+
+    /// Takes the derivatives at the beginning of the step from a time `ahead` later, since the accelerations jump there.
+    pub fn begin_beyond_jump(&mut self, ahead: f64) {
+        self.ahead = ahead;
+        self.age = JacobianAge::None;
     }
 
     /// Solves for the accelerations `k` of the stages of a step. `scratch` holds a state; `accelerations(t, q, v, a)` evaluates those of
@@ -177,11 +195,11 @@ impl Implicit {
     ) -> Result<bool, StepError> {
         loop {
             if self.age == JacobianAge::None {
-                let [.., here, there] = k;
-                q.clone_from(&task.before.q);
-                v.clone_from(&task.before.v);
+                let [start, .., here, there] = k;
+                task.before
+                    .state_ahead(self.ahead, start, [&mut *q, &mut *v]);
                 let scratch = [&mut *q, &mut *v, here, there];
-                let at = (task.before.t, task.h);
+                let at = (task.before.t + self.ahead, task.h);
                 self.jacobian.find(at, scratch, &mut accelerations)?;
                 self.age = JacobianAge::Fresh;
                 self.factored = 0.0;
@@ -277,7 +295,7 @@ impl Implicit {
         mut accelerations: impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
     ) -> f64 {
         let row = &task.method.scheme.error;
-        self.estimate(row, task.h, k);
+        self.estimate(task, row, k);
         let error = self.size_of_error(task, now);
         if !(again && error >= 1.0 && error.is_finite()) {
             return error;
@@ -306,12 +324,41 @@ impl Implicit {
         self.size_of_error(task, now)
     }
 
+    /// Replaces the acceleration at the beginning of the step just accepted by that of the polynomial through its stages, if the difference
+    /// is an error that only the filter has removed: a transient that the step has damped, or round-off of a stiff part. Otherwise the
+    /// motion within the step, of which it is a slope, would follow it.
+    pub fn smooth_start<V: Vector>(&self, task: &StepProblem<'_, V>, k: &mut [V; MAX_STAGES]) {
+        if self.unfiltered <= 1.0 {
+            return;
+        }
+        // The estimate is `h γ₀ (k₀ − p(0))`.
+        let [start, stages @ ..] = k;
+        let [of_start, of_stages @ ..] = task.method.scheme.error.terms() else {
+            return;
+        };
+        for (i, start) in start.as_mut_slice().iter_mut().enumerate() {
+            let weighted = of_stages.iter();
+            let sum: f64 = weighted
+                .map(|term| term.velocity * stages[term.stage - 1].as_slice()[i])
+                .sum();
+            *start = -sum / of_start.velocity;
+        }
+    }
+
     /// Writes the error estimate to `error`.
-    fn estimate<V: Vector>(&mut self, row: &Row, h: f64, k: &[V; MAX_STAGES]) {
+    fn estimate<V: Vector>(&mut self, task: &StepProblem<'_, V>, row: &Row, k: &[V; MAX_STAGES]) {
         for change in &mut self.change {
             change.fill(0.0);
         }
-        self.estimate_again(row, h, k);
+        let mut sum = 0.0;
+        for (i, v) in task.before.v.as_slice().iter().enumerate() {
+            let [_, velocity] = weigh_one(row, k, i);
+            let tolerance = task.tolerance;
+            let tolerable = tolerance.absolute.as_slice()[i] + tolerance.relative * v.abs();
+            sum += (task.h * velocity / tolerable) * (task.h * velocity / tolerable);
+        }
+        self.unfiltered = sqrt(sum / (2 * self.n.max(1)) as f64);
+        self.estimate_again(row, task.h, k);
     }
 
     /// Adds `change[0]` and `change[1]` to the error estimate and filters it: `(I − h μ J)⁻¹ e` with `J` of the first-order system,
@@ -383,6 +430,7 @@ impl Implicit {
             let growth = rough_power(self.error_before / (error * error), exponent);
             factor = factor.min(SAFETY * (h / self.step_before).abs() * growth);
         }
+        self.ahead = 0.0;
         self.step_before = h;
         self.error_before = error.max(1e-2);
         let mut stays = self.contraction <= FAST;

@@ -61,6 +61,16 @@ impl<N: StepNumber, V: Vector<N>> Point<V, N> {
 }
 
 impl<V: Vector> Point<V> {
+    /// The state a time `ahead` later, with the acceleration `a`.
+    #[cfg(feature = "std")]
+    pub fn state_ahead(&self, ahead: f64, a: &V, [q, v]: [&mut V; 2]) {
+        for (i, a) in a.as_slice().iter().enumerate() {
+            let rate = self.v.as_slice()[i];
+            q.as_mut_slice()[i] = self.q.as_slice()[i] + ahead * (rate + 0.5 * ahead * a);
+            v.as_mut_slice()[i] = rate + ahead * a;
+        }
+    }
+
     /// The state as one that can be projected.
     pub fn place(&mut self) -> Place<'_, V> {
         Place {

@@ -101,6 +101,13 @@ pub enum StepError {
         /// Its length, in s.
         step: f64,
     },
+    /// The accelerations jump where a step of fixed length ends, and its equations have no solution on either side, however short it is.
+    Jump {
+        /// Time at the beginning of the step, in s.
+        t: f64,
+        /// Its length, in s.
+        step: f64,
+    },
     /// The method is implicit or by series, and the stepper takes explicit methods only.
     NotExplicit {
         /// Time, in s.
@@ -196,6 +203,12 @@ impl Display for StepError {
                 f,
                 "the equations of a step of {step:e} s cannot be solved at t = {t:e} s: take shorter steps, or `radau5` where the \
                  machine is stiff"
+            ),
+            Self::Jump { t, step } => write!(
+                f,
+                "an acceleration jumps within the step of {step:e} s from t = {t:e} s, as it does with `sign` of a rate, and no value on either \
+                 side satisfies the equations of the step, which shorter steps do not change: describe dry friction by `sliding`, take a \
+                 smooth function such as `tanh` in place of the jump, or take a method that chooses its steps"
             ),
             Self::NotExplicit { t } => write!(
                 f,

@@ -4,6 +4,8 @@
 #[cfg(feature = "std")]
 mod along_dense_output;
 #[cfg(feature = "std")]
+mod beyond_jump;
+#[cfg(feature = "std")]
 mod changing;
 #[cfg(feature = "std")]
 mod contact_changes;

@@ -12,6 +12,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Tries a step of length `h` from `before` to `now`. Returns its error relative to the
     /// tolerance, which is infinite if its stages could not be found.
     pub(super) fn attempt_implicitly(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
+        let ahead = match &self.implicit {
+            Some(implicit) if implicit.begins_anew() => self.look_beyond_jump(h),
+            _ => 0.0,
+        };
         let Self {
             method,
             tolerance,
@@ -28,6 +32,9 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let Some(implicit) = implicit else {
             return Ok(f64::INFINITY);
         };
+        if ahead != 0.0 {
+            implicit.begin_beyond_jump(ahead);
+        }
         let task = StepProblem {
             method,
             before,
@@ -62,6 +69,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if error > 1.0 {
             return Ok(error);
         }
+        implicit.smooth_start(&task, k);
 
         if quadratures.integrals().is_some() {
             for i in 1..stages {

@@ -408,6 +408,91 @@ fn generalized_alpha_damps_what_is_too_fast_for_its_steps() {
     assert!(!run("rk4").is_ok_and(|x| x.abs() <= 1.0));
 }
 
+/// The force `push`, in N, on a mass of 1 kg that dry friction of 0.1 N brakes.
+fn rubbed(push: f64, rate: f64) -> Toy<1> {
+    Toy {
+        p: push,
+        ..Toy::new(([0.0], [rate]), |t, _, v, _, push| {
+            let sign = if v[0] == 0.0 { 0.0 } else { v[0].signum() };
+            [push * (0.2 * t).cos() - 0.1 * sign]
+        })
+    }
+}
+
+/// Generalized-α from rest where the force jumps: `x' = 5 p sin 0.2t − 0.1 t` while that is positive. At the jump a difference quotient is that
+/// of a very stiff damper, and no iteration with it moves anything: the mass stayed behind by its whole motion.
+#[test]
+fn generalized_alpha_keeps_its_order_from_a_force_that_jumps_at_rest() {
+    let errors = [0.1, 0.05].map(|h| {
+        let run = Simulation::new(&rubbed(0.3, 0.0))
+            .method(method("generalized-alpha"))
+            .longest_step(h)
+            .tolerance(1e-9)
+            .until(5.0)
+            .run(rubbed(0.3, 0.0).start())
+            .unwrap();
+        let exact = 7.5 * (1.0 - 1.0_f64.cos()) - 1.25;
+        (run.end().q[0] - exact).abs()
+    });
+    check_order("generalized-alpha", "from a jump", 2, errors);
+}
+
+/// Dry friction of 0.1 N holds a mass that 0.05 N push, and one that 0.3 N brake turns with other accelerations before and after. No step of
+/// any length ends on a jump, and the message does not ask for shorter ones.
+#[test]
+fn generalized_alpha_says_that_it_cannot_end_a_step_on_a_jump() {
+    let run = |machine: Toy<1>, h: f64| {
+        Simulation::new(&machine)
+            .method(method("generalized-alpha"))
+            .longest_step(h)
+            .until(5.0)
+            .run(machine.start())
+            .map(|run| run.end().q[0])
+    };
+    for h in [1e-1, 1e-2, 1e-3] {
+        let said = run(rubbed(0.05, 0.0), h).unwrap_err().to_string();
+        assert!(
+            said.contains("`sliding`") && !said.contains("take shorter"),
+            "{h}: {said}"
+        );
+    }
+    // Whether a step ends where no acceleration satisfies its equations depends on where steps end.
+    let mut refused = 0;
+    for part in 0..20 {
+        let machine = rubbed(-0.3, 1.0 + 1e-4 * f64::from(part));
+        match run(machine, 1e-2) {
+            Err(error) => {
+                assert!(error.to_string().contains("`sliding`"), "{error}");
+                refused += 1;
+            }
+            Ok(x) => {
+                // Turns at the root of v₀ − 1.5 sin 0.2t − 0.1 t, and then goes back with friction the other way.
+                let v = machine.start.1[0];
+                let rate = |t: f64| v - 1.5 * (0.2 * t).sin() - 0.1 * t;
+                let turn = (0..60).fold([0.0, 5.0], |[a, b], _| {
+                    let middle = 0.5 * (a + b);
+                    if rate(middle) > 0.0 {
+                        [middle, b]
+                    } else {
+                        [a, middle]
+                    }
+                })[0];
+                let place = |t: f64, v: f64, friction: f64| {
+                    v * t + 7.5 * ((0.2 * t).cos() - 1.0) + 0.5 * friction * t * t
+                };
+                let left = 5.0 - turn;
+                let exact = place(turn, v, -0.1)
+                    + 7.5 * (1.0_f64.cos() - (0.2 * turn).cos())
+                    + 1.5 * (0.2 * turn).sin() * left
+                    + 0.05 * left * left;
+                // The step in which it turns has the wrong friction for a part of it: 0.2 h for 5 s at most.
+                assert!((x - exact).abs() <= 0.2 * 1e-2 * 5.0, "{part}: {x} {exact}");
+            }
+        }
+    }
+    assert!(refused > 0);
+}
+
 #[test]
 fn what_a_method_of_fixed_steps_cannot_follow_is_refused() {
     let refused = |machine: &Constrained<2, 1, 4>, name: &str| {

@@ -244,19 +244,112 @@ fn what_a_damper_drags_along_takes_no_more_steps_however_strong_it_is() {
     }
 }
 
-/// A force that jumps at rest, `x'' = 0.3 cos 0.2t − 0.1 sign x'`: at the start its difference quotient is that of a very stiff damper. While x'
-/// is positive, which it is for 5 s, `x' = 1.5 sin 0.2t − 0.1 t`.
-#[test]
-fn a_force_that_jumps_where_a_run_starts_is_not_taken_for_a_stiff_one() {
-    let rubbed = Toy {
+/// A force that jumps at rest, `x'' = 0.3 cos 0.2t − 0.1 sign x'`: at the start its difference quotient is that of a very stiff damper.
+fn rubbed() -> Toy<1> {
+    Toy {
         work_rate: |t, _, v, _, _| 0.3 * (0.2 * t).cos() * v[0] - 0.1 * v[0].abs(),
         ..Toy::new(([0.0], [0.0]), |t, _, v, _, _| {
             let sign = if v[0] == 0.0 { 0.0 } else { v[0].signum() };
             [0.3 * (0.2 * t).cos() - 0.1 * sign]
         })
-    };
+    }
+}
+
+/// Its motion while x' is positive, which it is for 5 s: `x' = 1.5 sin 0.2t − 0.1 t`.
+fn rubbed_exactly(t: f64) -> [f64; 2] {
+    [
+        7.5 * (1.0 - (0.2 * t).cos()) - 0.05 * t * t,
+        1.5 * (0.2 * t).sin() - 0.1 * t,
+    ]
+}
+
+/// The first step by `method`, of length `h` at most.
+fn first_step<'m>(
+    machine: &'m Toy<1>,
+    method: &'static Method,
+    tolerance: f64,
+    h: f64,
+) -> Stepper<'m, Toy<1>> {
+    let absolute = [tolerance];
+    let relative = tolerance;
+    let start = (0.0, machine.start.0, machine.start.1);
+    let tolerance = Tolerance { relative, absolute };
+    let mut stepper = Stepper::new(
+        machine,
+        DefaultInputs,
+        NoBalance,
+        method,
+        tolerance,
+        start,
+        5.0,
+    )
+    .unwrap();
+    stepper.set_first_step(h);
+    stepper.step().unwrap();
+    stepper
+}
+
+fn radau_methods() -> [&'static Method; 3] {
     let [nine, thirteen] = &RADAU_OF_HIGH_ORDER;
-    for method in [radau5(), nine, thirteen] {
+    [radau5(), nine, thirteen]
+}
+
+/// The acceleration at the start itself, 0.3 m/s², belongs to neither side of the jump, and does not count in the motion that follows.
+#[test]
+fn the_motion_within_a_first_step_from_a_jump_is_as_accurate_as_its_end() {
+    let rubbed = rubbed();
+    for method in radau_methods() {
+        for tolerance in [1e-3, 1e-6, 1e-9] {
+            for h in [0.01, 0.1, 1.0] {
+                let mut stepper = first_step(&rubbed, method, tolerance, h);
+                let (step, interpolant) = (stepper.last_step(), stepper.interpolant().unwrap());
+                for i in 0..=100 {
+                    let theta = 0.01 * f64::from(i);
+                    let (q, v) = interpolant.state_at(theta);
+                    let [x, rate] = rubbed_exactly(theta * step);
+                    // The root mean square of two errors is at most the tolerance, at sizes of at most 1.
+                    let limit = 2.0_f64.sqrt() * 2.0 * tolerance;
+                    let name = method.tableau.name;
+                    assert!(
+                        (q[0] - x).abs() <= limit && (v[0] - rate).abs() <= limit,
+                        "{name} {tolerance} {h} {theta}: {q:?} {v:?}, and not {x} {rate}"
+                    );
+                }
+                // 0.3 − 0.1, and nothing evaluated across the jump.
+                assert!((stepper.a_before()[0] - 0.2).abs() <= 1e-9);
+                assert!(stepper.work().evaluations <= 30);
+            }
+        }
+    }
+}
+
+/// The rate of a block that a damper brakes falls from 1 to 0. In a step far longer than this takes, the motion between its ends cannot follow,
+/// but it does not leave these bounds by more than the polynomial through rates at the stages that are 0: `(1 − θ/c₁)(1 − θ/c₂) …`, which is
+/// between −1 and 1.
+#[test]
+fn a_transient_in_a_first_step_does_not_swing_the_motion_within_it() {
+    for p in [1e6, 1e8, 1e10] {
+        let damped = Toy {
+            p,
+            ..Toy::new(([0.0], [1.0]), |_, _, v, _, p| [-p * v[0]])
+        };
+        for method in radau_methods() {
+            let mut stepper = first_step(&damped, method, 1e-3, 1.0);
+            let interpolant = stepper.interpolant().unwrap();
+            for i in 0..=100 {
+                let (q, v) = interpolant.state_at(0.01 * f64::from(i));
+                assert!(v[0].abs() <= 1.0 && q[0].abs() <= 1.0, "{p}: {q:?} {v:?}");
+                let (q, _) = stepper.hermite(0.01 * f64::from(i));
+                assert!(q[0].abs() <= 1.0, "{p}: {q:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_force_that_jumps_where_a_run_starts_is_not_taken_for_a_stiff_one() {
+    let rubbed = rubbed();
+    for method in radau_methods() {
         for tolerance in [1e-2, 1e-3, 1e-4, 1e-5, 1e-7] {
             let run = run_by(method, &rubbed, tolerance, 5.0);
             let end = run.end();

@@ -16,6 +16,7 @@ use crate::balance::Quadratures;
 use crate::implicit::jacobian::Jacobian;
 use crate::implicit::lu::Lu;
 use crate::methods::MAX_STAGES;
+use crate::stages::Point;
 use crate::{InputLaw, StepError, System, Vector};
 
 /// The number of iterations within which Newton's method converges; otherwise the step is too long.
@@ -30,6 +31,12 @@ const ROUNDOFF: f64 = 8.0;
 /// An iteration that leaves more than this fraction of the change stagnates.
 const STAGNATES: f64 = 0.5;
 
+/// So many halvings leave round-off of a distance.
+const HALVINGS: usize = 50;
+
+/// What is left of a change of the acceleration over so small a distance is a jump if it is more than this fraction of the whole change.
+const JUMP: f64 = 1e-3;
+
 /// State that the method keeps from step to step.
 #[derive(Clone, Debug)]
 pub(crate) struct GeneralizedAlpha {
@@ -38,6 +45,8 @@ pub(crate) struct GeneralizedAlpha {
     matrix: Lu<f64>,
     /// The step length of the matrix; 0 if there is none.
     factored: f64,
+    /// Whether iterations with this matrix have converged, and not only begun with a small change.
+    contracts: bool,
     /// `α` at the end of the last step and at its beginning; empty if it equals the acceleration of the machine.
     alpha: [Vec<f64>; 2],
     change: Vec<f64>,
@@ -67,6 +76,7 @@ impl GeneralizedAlpha {
             jacobian: Jacobian::new(system),
             matrix: Lu::new(n),
             factored: 0.0,
+            contracts: false,
             alpha: [Vec::new(), Vec::new()],
             change: std::vec![0.0; n],
         }
@@ -112,6 +122,7 @@ impl GeneralizedAlpha {
             one - by_rate * jacobian.by_rates[at] - by_position * jacobian.by_coordinates[at]
         });
         self.factored = if found { h } else { 0.0 };
+        self.contracts = false;
         found
     }
 }
@@ -119,6 +130,15 @@ impl GeneralizedAlpha {
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Takes a step of length `h` from `before` to `now`.
     pub(super) fn attempt_by_alpha(&mut self, h: f64, last: bool) -> Result<(), StepError> {
+        let begins = match self.fixed.as_deref() {
+            Some(Fixed::GeneralizedAlpha(alpha)) => alpha.alpha[0].is_empty(),
+            _ => false,
+        };
+        let ahead = if begins {
+            self.look_beyond_jump(h)
+        } else {
+            0.0
+        };
         let Some(Fixed::GeneralizedAlpha(alpha)) = self.fixed.as_deref_mut() else {
             return Ok(());
         };
@@ -141,9 +161,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 ..
             } = self;
             if let Some(Fixed::GeneralizedAlpha(alpha)) = fixed.as_deref_mut() {
-                let [.., here, there] = k;
-                q.clone_from(&before.q);
-                v.clone_from(&before.v);
+                let [start, .., here, there] = k;
+                before.state_ahead(ahead, start, [&mut *q, &mut *v]);
                 let mut accelerations =
                     |t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector| {
                         model.accelerations(t, q, v, a, &mut control.work)
@@ -151,15 +170,17 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 let scratch = [&mut *q, &mut *v, here, there];
                 alpha
                     .jacobian
-                    .find((before.t, h), scratch, &mut accelerations)?;
+                    .find((before.t + ahead, h), scratch, &mut accelerations)?;
                 solved = alpha.factor(h);
             }
             solved = solved && self.newton_of_alpha(h)?;
         }
         if !solved {
-            return Err(StepError::NotSolved {
-                t: self.before.t,
-                step: h,
+            let (t, step) = (self.before.t, h);
+            return Err(if self.jumps_at_end(h) {
+                StepError::Jump { t, step }
+            } else {
+                StepError::NotSolved { t, step }
             });
         }
 
@@ -216,23 +237,27 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let [by_position, by_rate] = alpha.factors(h);
         let t = before.t + (before.t_low + h);
         let (first, rest) = k.split_at_mut(1);
-        let (from, rest) = (first[0].as_slice(), &mut rest[stages - 1..]);
+        let (from, rest) = (&first[0], &mut rest[stages - 1..]);
         let (to, rest) = rest.split_at_mut(1);
         let (to, scratch) = (&mut to[0], &mut rest[MAX_STAGES - 2 - stages]);
-        to.as_mut_slice().copy_from_slice(from);
+        to.clone_from(from);
         let mut size_before = f64::INFINITY;
         for round in 1..=ROUNDS {
-            for (i, to) in to.as_slice().iter().enumerate() {
-                let ahead = alpha.ahead(i, from[i], *to);
-                let [by_q, by_v] = alpha.rises(i, h, before.v.as_slice()[i], ahead);
-                q.as_mut_slice()[i] = before.q.as_slice()[i] + (before.q_low.as_slice()[i] + by_q);
-                v.as_mut_slice()[i] = before.v.as_slice()[i] + (before.v_low.as_slice()[i] + by_v);
-            }
+            alpha.end((before, h), [from, &*to], [&mut *q, &mut *v]);
             model.accelerations(t, q, v, scratch, &mut control.work)?;
             let pairs = scratch.as_slice().iter().zip(to.as_slice());
             for (change, (a, to)) in alpha.change.iter_mut().zip(pairs) {
                 *change = a - to;
             }
+            // A small change alone does not show that the acceleration is found: where a force jumps, its difference quotient is as large
+            // as that of a very stiff part, and any residual causes hardly a change.
+            let is_small = |(i, residual): (usize, &f64)| {
+                let relative = tolerance.relative * before.v.as_slice()[i].abs();
+                let tolerable = LEFT * (tolerance.absolute.as_slice()[i] + relative);
+                let roundoff = 4.0 * f64::EPSILON * alpha.jacobian.noise[i];
+                residual.abs() <= (tolerable / h.abs()).max(roundoff)
+            };
+            let are_small = alpha.change.iter().enumerate().all(is_small);
             alpha.matrix.solve(&mut alpha.change);
             let mut size = 0.0_f64;
             for (i, change) in alpha.change.iter().enumerate() {
@@ -257,8 +282,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             if !size.is_finite() {
                 return Ok(false);
             }
+            alpha.contracts |= round > 1 && size <= STAGNATES * size_before;
+            let is_confirmed = are_small || alpha.contracts;
             let stands = round > 2 && size > STAGNATES * size_before;
-            if size <= 1.0 || (stands && LEFT * size <= 1.0) {
+            if is_confirmed && (size <= 1.0 || (stands && LEFT * size <= 1.0)) {
                 return Ok(true);
             }
             if stands {
@@ -268,9 +295,72 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         Ok(false)
     }
+
+    /// Whether the acceleration jumps between the end of a step that could not be solved and the end with the acceleration there. Then no
+    /// acceleration may satisfy the equations, however short the step is: on each side of the jump they lead to the other one.
+    fn jumps_at_end(&mut self, h: f64) -> bool {
+        let Self {
+            method,
+            model,
+            before,
+            k,
+            stage: (q, v),
+            control,
+            fixed,
+            ..
+        } = self;
+        let Some(Fixed::GeneralizedAlpha(alpha)) = fixed.as_deref_mut() else {
+            return false;
+        };
+        let t = before.t + (before.t_low + h);
+        let (from, to) = (&k[0], k[method.tableau.stages].clone());
+        let mut at = |to: &S::Vector| {
+            let mut a = to.zeros_like();
+            alpha.end((before, h), [from, to], [&mut *q, &mut *v]);
+            let found = model.accelerations(t, q, v, &mut a, &mut control.work);
+            found.ok().map(|()| a)
+        };
+        let change = |one: &S::Vector, other: &S::Vector| {
+            let pairs = one.as_slice().iter().zip(other.as_slice());
+            pairs.fold(0.0_f64, |most, (one, other)| most.max((other - one).abs()))
+        };
+        let mut find = || {
+            let here = at(&to)?;
+            let there = at(&here)?;
+            let whole = change(&here, &there);
+            let mut ends = [(to.clone(), here.clone()), (here.clone(), there)];
+            for _ in 0..HALVINGS {
+                let mut middle = ends[0].0.clone();
+                let pairs = middle.as_mut_slice().iter_mut().zip(ends[1].0.as_slice());
+                pairs.for_each(|(x, other)| *x = 0.5 * (*x + other));
+                let a = at(&middle)?;
+                let is_first = change(&ends[0].1, &a) > change(&a, &ends[1].1);
+                ends[usize::from(is_first)] = (middle, a);
+            }
+            let [(_, before), (_, after)] = &ends;
+            Some(whole > 0.0 && change(before, after) > JUMP * whole)
+        };
+        find().unwrap_or(false)
+    }
 }
 
 impl GeneralizedAlpha {
+    /// The state at the end of a step in which the acceleration of the machine changes from `from` to `to`.
+    fn end<V: Vector>(
+        &self,
+        (before, h): (&Point<V>, f64),
+        [from, to]: [&V; 2],
+        [q, v]: [&mut V; 2],
+    ) {
+        let pairs = from.as_slice().iter().zip(to.as_slice());
+        for (i, (from, to)) in pairs.enumerate() {
+            let ahead = self.ahead(i, *from, *to);
+            let [by_q, by_v] = self.rises(i, h, before.v.as_slice()[i], ahead);
+            q.as_mut_slice()[i] = before.q.as_slice()[i] + (before.q_low.as_slice()[i] + by_q);
+            v.as_mut_slice()[i] = before.v.as_slice()[i] + (before.v_low.as_slice()[i] + by_v);
+        }
+    }
+
     /// The changes of a position and its rate in a step that ends with `ahead`.
     fn rises(&self, i: usize, h: f64, rate: f64, ahead: f64) -> [f64; 2] {
         let Weights { beta, gamma, .. } = self.weights;
