@@ -451,8 +451,7 @@ fn made(
     }
     for (k, variation) in variations.iter().enumerate() {
         if is_held {
-            [from.q.by[k].values, from.v.by[k].values] =
-                change_of_start(call, machine, &start, variation)?;
+            [from.q.by[k].values, from.v.by[k].values] = change_of_start(call, machine, variation)?;
             continue;
         }
         // A start that the spec computes from a parameter changes with it, unless the call sets it.
@@ -690,7 +689,6 @@ fn start_on_constraints(
 fn change_of_start(
     call: &call::Sensitivities,
     machine: &InterpretedMachine,
-    start: &State<Named>,
     variation: &Variation,
 ) -> Result<Change, Failure> {
     let from = |machine: &InterpretedMachine| {
@@ -705,7 +703,7 @@ fn change_of_start(
             _ => "there is no start".to_owned(),
         })
     };
-    starts::change(machine, start, variation.by.cause(), from, brought)
+    starts::change(machine, variation.by.cause(), from, brought)
         .map_err(|why| Failure::Run(format!("--by {}: {why}", variation.name)))
 }
 

@@ -70,6 +70,7 @@ pub fn sensitivities<'py>(
         let mut from = own.start();
         (from.t, from.q.values, from.v.values) = start;
         let causes: Vec<Cause> = by.iter().map(|of| cause(machine, of)).collect();
+        let given = from.clone();
         if is_held {
             from = brought(own, from, keep.as_deref()).map_err(Lost::Held)?;
             if let Some(constraint) = starts::dependent_constraint(own, &from) {
@@ -78,12 +79,11 @@ pub fn sensitivities<'py>(
                 )));
             }
         }
-        let on = from.clone();
         let mut from = sensitive.start_from(from);
         if is_held {
             for (k, cause) in causes.iter().enumerate() {
                 let bring = |machine: &InterpretedMachine, from| brought(machine, from, keep.as_deref());
-                let change = starts::change(own, &on, *cause, |_| on.clone(), bring);
+                let change = starts::change(own, *cause, |_| given.clone(), bring);
                 let said = |why| Lost::Held(format!("{}({}): {why}", by[k].0, by[k].1));
                 [from.q.by[k].values, from.v.by[k].values] = change.map_err(said)?;
             }

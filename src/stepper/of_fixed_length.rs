@@ -59,10 +59,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             Rule::Explicit | Rule::SemiImplicitEuler => return Ok(()),
             Rule::Gauss => {
                 if system.constraints().len() != 0 {
-                    return Err(StepError::Unsuited {
-                        reason: "it has constraints, which `rattle` enforces",
-                        t: now.t,
-                    });
+                    let reason = if system.constraints().all(|one| one.holonomic) {
+                        "it has constraints, which `rattle` enforces"
+                    } else {
+                        "it has constraints on rates, which `generalized-alpha` enforces in steps of a fixed length"
+                    };
+                    return Err(StepError::Unsuited { reason, t: now.t });
                 }
                 Fixed::Gauss(Gauss::new(system, now, self.method)?)
             }

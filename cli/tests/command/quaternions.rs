@@ -238,6 +238,11 @@ fn a_ball_rolls_round_on_a_turntable() {
         close(row[x], cos * first[0] - sin * first[1], 1e-9);
         close(row[y], sin * first[0] + cos * first[1], 1e-9);
     }
+    // The centre moves in two directions and the ball turns in three, of which rolling ties two.
+    let output = lagrangian(&["derive", spec.path()]);
+    let chapter = String::from_utf8_lossy(&output.stdout);
+    let said = "It has six generalized coordinates and two constraints: three degrees of freedom.";
+    assert!(chapter.contains(said), "{chapter}");
 }
 
 /// A top that hangs at rest swings at √(m g l/A) in both directions and rotates freely about its axis; the norm of the quaternion is not

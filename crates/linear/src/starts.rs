@@ -51,13 +51,12 @@ pub enum Cause {
 pub const DRIFT: f64 = 1e-5;
 
 /// The derivative of a start on the constraints by its cause. `from` returns the start of a machine before the projection onto the
-/// constraints, and `brought` the projected one; `start` is the projected start of the machine itself.
+/// constraints, in which a cause changes a number, and `brought` the projected one.
 ///
 /// # Errors
 /// Those of `brought`, or that the start has no derivative.
 pub fn change(
     machine: &InterpretedMachine,
-    start: &State<Named>,
     cause: Cause,
     from: impl Fn(&InterpretedMachine) -> State<Named>,
     brought: impl Fn(&InterpretedMachine, State<Named>) -> Result<State<Named>, String>,
@@ -68,7 +67,8 @@ pub fn change(
         let mut sizes = [own.abs(), largest].into_iter();
         sizes.find(|size| *size > 0.0).unwrap_or(1.0)
     };
-    let (q, v) = (&start.q.values, &start.v.values);
+    let given = from(machine);
+    let (q, v) = (&given.q.values, &given.v.values);
     let (size, parameter) = match cause {
         Cause::Parameter(index) => {
             let own = machine.parameter_values().get(index).copied();
@@ -80,15 +80,12 @@ pub fn change(
     };
     let at = |by: f64| -> Result<State<Named>, String> {
         let mut machine = machine.clone();
-        let mut there = match cause {
-            Cause::Parameter(index) => {
-                if let Some(own) = machine.parameter_mut(index) {
-                    *own += by;
-                }
-                from(&machine)
-            }
-            _ => start.clone(),
-        };
+        if let Cause::Parameter(index) = cause
+            && let Some(own) = machine.parameter_mut(index)
+        {
+            *own += by;
+        }
+        let mut there = from(&machine);
         match cause {
             Cause::Start(k) => there.q.values[k] += by,
             Cause::Rate(k) => there.v.values[k] += by,

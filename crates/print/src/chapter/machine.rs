@@ -316,7 +316,7 @@ fn constrained(freedom: Freedom) -> String {
             "It has {coordinates} and {constraints}; it is not known how many of these are independent."
         );
     };
-    let left = counted(freedom.coordinates.saturating_sub(generic), "degree");
+    let left = counted(freedom.degrees().unwrap_or_default(), "degree");
     let mut text = format!("It has {coordinates} and {constraints}");
     if generic < freedom.constraints {
         text.push_str(&format!(", of which {} independent", of_all(generic)));

@@ -5,7 +5,8 @@ use crate::print::math::{Form, Mark, Math, Sign};
 /// A name as a person would typeset it.
 ///
 /// Greek letters by their names; digits, anything after an underscore or in brackets, and the
-/// second of two letters as subscripts; longer words upright; `der(…)` as a dot.
+/// second of two letters as subscripts; longer words upright; `der(…)` as a dot; `lambda(…)`, the multiplier
+/// of a constraint, as λ with the parts of the constraint's name as subscripts.
 ///
 /// ```
 /// use lagrangian_symbolic::math_name;
@@ -21,9 +22,17 @@ pub fn math_name(name: &str) -> Math {
     {
         (inner, dots) = (below, dots + 1);
     }
-    let mut parts = inner
+    let constraint = name
+        .strip_prefix("lambda(")
+        .and_then(|rest| rest.strip_suffix(')'));
+    let mut parts = constraint
+        .unwrap_or(inner)
         .split(['_', '[', ']', ',', '.', ' '])
         .filter(|part| !part.is_empty());
+    if constraint.is_some() {
+        let index = Math::joined(parts.map(subscript), Sign::Comma);
+        return Math::letter('λ').with_index(index);
+    }
     let first = parts.next().unwrap_or("");
     let letters = first.trim_end_matches(|c: char| c.is_ascii_digit());
     let digits = &first[letters.len()..];

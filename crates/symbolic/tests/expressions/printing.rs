@@ -304,4 +304,8 @@ fn names_of_any_kind_can_be_set() {
     assert_eq!(math_name("θ").latex(), r"\theta");
     assert_eq!(math_name("Ä").latex(), r"\text{Ä}");
     assert_eq!(math_name("der(q[2])").squared().latex(), r"\dot{q}_{2}^{2}");
+    assert_eq!(
+        math_name("lambda(ball.x)").latex(),
+        r"\lambda_{\mathrm{ball}, x}"
+    );
 }
