@@ -242,11 +242,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let mut held = vec![Mode::Open; closed.len()];
         let rests = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
         for (k, _) in closed.iter().enumerate().filter(|(_, closed)| **closed) {
-            // A compliant contact has no impulse that would stop it again after an impact elsewhere has made it slip.
-            let pressed = touching.carrier(k).unwrap_or(k);
-            let is_torn = touching.is_compliant(pressed)
-                && !rests[k]
-                && !changes_at_instant.impacts.is_empty();
+            // An impact elsewhere may have made it slip, beyond what the impulse of its friction could prevent.
+            let is_torn = !rests[k] && !changes_at_instant.impacts.is_empty();
             held[k] = match touching.modes()[k] {
                 _ if stops(k) => Mode::Sticks,
                 Mode::Open => Mode::Slides(0.0),
@@ -298,11 +295,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if !changes_at_instant.ended.is_empty() {
             changes_at_instant.lost_at_end = energy_after - energy(model, now);
         }
-        let lost = impact_losses + changes_at_instant.lost_at_end;
-        // The energy that impulses add beyond the losses is work of prescribed motion.
-        let gained = energy(model, now) - energy_before;
         if !changes_at_instant.impacts.is_empty() {
-            self.quadratures.add_at_once(gained + lost, lost);
+            // The energy that impulses add beyond the losses is work of prescribed motion. Whatever else changes energy at this instant is
+            // neither work nor a loss, and shows in the energy balance.
+            let work = energy_after - energy_before + impact_losses;
+            let lost = impact_losses + changes_at_instant.lost_at_end;
+            self.quadratures.add_at_once(work, lost);
         }
         for impact in &changes_at_instant.impacts {
             let part = PartOfContact {

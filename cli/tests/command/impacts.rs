@@ -98,6 +98,60 @@ fn a_jammed_rod_is_stopped_by_an_impact_without_a_collision() {
     close(number(&run["v"]["x"]), -5.0, 1e-13);
 }
 
+/// A block that rests on rough ground is struck by a ball, level or from above, and slips: with n = (cos φ, −sin φ), the impulse P along n and
+/// μ P sin φ from the ground, M V = P (cos φ − μ sin φ) and V cos φ + P/m − v = e v, until after V/(μ g) friction has stopped it.
+#[test]
+fn what_rests_with_friction_is_knocked_away() {
+    let (m, mass, v, e, mu, g) = (1.0, 2.0, 2.0, 0.5, 0.3, 9.81);
+    let [plane, space] = [
+        "machine Struck in plane {
+            parameters { m: kg = 1, M: kg = 2, phi: rad, v: m/s = 2, e: 1 = 0.5, mu: 1 = 0.3, g: m/s^2 = 9.81 }
+            coordinates { X: m, Y: m, s: m, der(s): m/s = v }
+            define { n = (cos(phi), -sin(phi)) }
+            bodies { block { mass: M, at: (X, Y) }, ball { mass: m, at: s*n } }
+            forces { held { at: block.at, force: (0, -M*g) } }
+            contacts {
+                floor { gap: Y, slip: der(X), restitution: 0, friction: mu },
+                ball { gap: dot((X, Y), n) - s + 0.5, restitution: e },
+            }
+        }",
+        "machine Struck in space {
+            parameters { m: kg = 1, M: kg = 2, phi: rad, v: m/s = 2, e: 1 = 0.5, mu: 1 = 0.3, g: m/s^2 = 9.81 }
+            coordinates { X: m, Z: m, Y: m, s: m, der(s): m/s = v }
+            define { n = (cos(phi), 0, -sin(phi)) }
+            frames { block = ground.shift(X, Z, Y) }
+            bodies { block { mass: M, frame: block }, ball { mass: m, at: s*n } }
+            forces { held { at: block.origin, force: (0, 0, -M*g) } }
+            contacts {
+                floor { point: (0, 0, 0), on: block, along: ground, restitution: 0, friction: mu },
+                ball { gap: dot((X, Z, Y), n) - s + 0.5, restitution: e },
+            }
+        }",
+    ];
+    for (text, phi) in [(plane, 0.0), (plane, 0.4), (space, 0.0), (space, 0.4_f64)] {
+        let spec = Scratch::new("struck.machine", text);
+        let run = simulate(spec.path(), 0.4, &[&format!("phi={phi}")]);
+        is_good(&run);
+        let (sin, cos) = phi.sin_cos();
+        let impulse = (1.0 + e) * v / ((cos - mu * sin) * cos / mass + 1.0 / m);
+        let speed = impulse * (cos - mu * sin) / mass;
+        let impact = events(&run, "impact")[0];
+        close(number(&impact["t"]), 0.25, 1e-14);
+        close(number(&impact["v"]["X"]), speed, 1e-13);
+        close(number(&impact["v"]["s"]), v - impulse / m, 1e-13);
+        let t = 0.15;
+        assert!(t < speed / (mu * g));
+        close(number(&run["v"]["X"]), speed - mu * g * t, 1e-12);
+        close(
+            number(&run["q"]["X"]),
+            speed * t - mu * g * t * t / 2.0,
+            1e-12,
+        );
+        // The ground does not move: its friction takes energy, and nothing gives any.
+        close(number(&run["work"]), 0.0, 1e-12);
+    }
+}
+
 /// In a circle all chords are equal: the ball meets the wall at equal intervals and angles, a hundred times in a row.
 #[test]
 fn a_billiard_ball_keeps_its_angle() {

@@ -735,7 +735,8 @@ impl<'m> Passing<'_, 'm> {
             let mut sought = Vec::new();
             for k in (0..after.modes.len()).filter(|k| after.is_closed(*k)) {
                 let rigid = after.compliances[after.presses(k)].is_none();
-                let stuck = before.modes[k] == ContactMode::Sticks && after.has_friction[k];
+                let sticks = |phase: &Phase| phase.modes[k] == ContactMode::Sticks;
+                let stuck = after.has_friction[k] && sticks(before) && sticks(after);
                 for (part, is_held) in [(0, rigid && !after.rolls[k]), (1, rigid && stuck)] {
                     if is_held {
                         let row = place.row(2 * k + part).to_vec();
