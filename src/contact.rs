@@ -31,10 +31,10 @@ mod stepping;
 mod touching;
 
 pub use event::{ContactEvent, ContactEventKind, ContactImpact, ImpactAcross};
-pub use force::{UnilateralForce, unilateral_forces};
+pub use force::{UnilateralForce, penetrations, unilateral_forces};
 pub(crate) use impact::{Impact, ParadoxResolution};
 pub(crate) use stepping::SteppedContacts;
 pub use touching::Mode;
-pub(crate) use touching::UnilateralState;
+pub(crate) use touching::{ROUNDING, UnilateralState};
 
 use crate::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};

@@ -12,6 +12,12 @@
 //! A function that is 0 to rounding at the start of a run has no sign there: a run that continues from an event starts at the root or
 //! within rounding of it. Its sign is the one just after the start, sought at fractions of the first step that grow by factors of four
 //! from the rounding of time. So the root at the start is not found again, and a bounce is found even if it is much shorter than the step.
+//!
+//! Where contacts change, rates and forces jump, and a function may be 0 exactly there: a height that an impact turns around. Whether it is 0 is decided
+//! within the rounding that the contacts themselves allow for gaps and rates at rest. If it is, its sign just after that instant decides: a function
+//! with the same sign on both sides touches zero and has no event, one with the other sign, or that stays at zero, has one event at that instant. A
+//! function that jumps over zero has one, too. A step of time stepping in which contacts close counts like such an instant: only its ends are looked at,
+//! since impacts are not located within it.
 
 use std::boxed::Box;
 use std::string::String;
@@ -42,6 +48,13 @@ const TOUCH: f64 = 1e-6;
 /// of some ten operations.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// Where contacts change, coordinates and rates are known to this share of themselves: what contacts allow for a gap that is closed and for rest.
+pub(crate) const ROUNDING_AT_CHANGE: f64 = crate::contact::ROUNDING;
+
+/// A value at the end of a step may be zero to rounding if it is at most this share of the greatest values in the step, or of how it changes in the
+/// last hundredth of the step; only then is its rounding estimated.
+const SUSPECT: f64 = 1e-6;
+
 /// Which changes of sign count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -52,6 +65,22 @@ pub enum Crossing {
     Falling,
     /// Either way.
     Any,
+}
+
+impl Crossing {
+    /// The way through zero, forward in time, of a function that had this sign before in the order of the run.
+    fn from(side_before: f64, forward: bool) -> Self {
+        if (side_before < 0.0) == forward {
+            Self::Rising
+        } else {
+            Self::Falling
+        }
+    }
+
+    /// Whether a way through zero is one of those that count.
+    pub(crate) fn counts(self, way: Self) -> bool {
+        self == Self::Any || self == way
+    }
 }
 
 /// An event that happened.
@@ -78,10 +107,14 @@ pub(crate) struct Watch<'a, M: Machine> {
     pub function: Box<dyn Watched<'a, M> + 'a>,
     /// The sign that the function has had last, 0 from where it was zero.
     pub side: f64,
+    /// The sign that it had before it was zero where contacts changed, as long as the sign that it has after that is not known; else 0.
+    pub touched: f64,
     /// What the function must exceed before its sign counts, after it was zero to rounding.
     pub leave: f64,
     /// Its value at the end of the last step, if nothing has jumped there.
     pub latest: Option<f64>,
+    /// Its value at the end of the last step, before anything jumped there; not a number if it is not known.
+    pub at_end: f64,
     /// Whether its sign at the start is known.
     pub begun: bool,
     /// Whether the run starts from this very event.
@@ -96,6 +129,53 @@ impl<M: Machine> Clone for Watch<'_, M> {
             ..*self
         }
     }
+}
+
+/// How the last step ends, for the functions that are watched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum EndOfStep {
+    /// The motion continues smoothly.
+    Smooth,
+    /// Contacts change there, or impulses may have been given.
+    Change,
+    /// Contacts have closed somewhere in the step, by time stepping.
+    Impacts,
+}
+
+/// What rounding may make of a function that is zero: by changes that grow with it, and by jumps of the function.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RoundingOfValue {
+    smooth: f64,
+    jumps: f64,
+}
+
+impl RoundingOfValue {
+    fn is_zero(&self, value: f64) -> bool {
+        value.abs() <= self.smooth + self.jumps
+    }
+
+    /// What a function with this value must exceed before its sign counts.
+    fn to_leave(self, value: f64) -> f64 {
+        if self.jumps > 0.0 {
+            0.0
+        } else {
+            2.0 * self.smooth.max(value.abs())
+        }
+    }
+}
+
+/// A state with its accelerations, and how well its numbers are known: a share of each of them, where rates count with a given size at least, and
+/// the rounding of time.
+pub(crate) struct KnownState<'x, V> {
+    pub t: f64,
+    pub q: &'x V,
+    pub v: &'x V,
+    pub a: &'x V,
+    pub share: f64,
+    /// Rates that these numbers had before a jump.
+    pub v_before: &'x V,
+    /// Rounding of time, in s.
+    pub tick: f64,
 }
 
 /// A change of sign within the last step.
@@ -154,29 +234,55 @@ impl<M: Machine> Watch<'_, M> {
         let value = self.value(state, observe)?;
         self.at_zero = at_zero;
         self.side = if at_zero { 0.0 } else { sign(value) };
+        self.touched = 0.0;
         self.latest = Some(value);
+        self.at_end = value;
         self.begun = false;
         Ok(())
     }
 
     /// Whether the function starts from zero to rounding, once the length of the first step is known.
-    ///
-    /// Each number of the state is moved by its own rounding, and by as much as it moves in the rounding
-    /// of time; what that changes is what rounding may have made of a zero. A change that does not grow
-    /// with the move is a jump of the function, which has the right sign on either side.
     fn settle<L: InputLaw<M::System>, A: Quadratures<M::System>>(
         &mut self,
         observed_system: &ObservedSystem<'_, M::System, L>,
         stepper: &StepperOf<'_, M, L, A>,
     ) -> Result<(), Error> {
+        self.begun = true;
+        let known = KnownState {
+            t: stepper.t_before(),
+            q: stepper.q_before(),
+            v: stepper.v_before(),
+            a: stepper.a_before(),
+            share: ROUNDING,
+            v_before: stepper.v_before(),
+            tick: ROUNDING * stepper.t_before().abs().max(stepper.last_step().abs()),
+        };
+        let (value, rounding) = self.value_and_rounding(observed_system, stepper, &known)?;
+        if self.side == 0.0 || rounding.is_zero(value) {
+            self.side = 0.0;
+            self.leave = rounding.to_leave(value);
+        }
+        Ok(())
+    }
+
+    /// The value at a state, and what rounding may have made of it if it is zero.
+    ///
+    /// Each number of the state is moved by its own rounding, and by as much as it moves in the rounding
+    /// of time; what that changes is what rounding may have made of a zero. A change that does not grow
+    /// with the move is a jump of the function, which has the right sign on either side.
+    pub fn value_and_rounding<L: InputLaw<M::System>, A: Quadratures<M::System>>(
+        &mut self,
+        observed_system: &ObservedSystem<'_, M::System, L>,
+        stepper: &StepperOf<'_, M, L, A>,
+        known: &KnownState<'_, VectorOf<M>>,
+    ) -> Result<(f64, RoundingOfValue), Error> {
         let system = observed_system.system;
         let mut value_of = |state: &State<Coordinates<M>>| {
             let observe = || observed_system.observe::<M, A>(stepper, state);
             (self.function)(state, &observe)
         };
-        self.begun = true;
-        let (t, q, v) = (stepper.t_before(), stepper.q_before(), stepper.v_before());
-        let a = stepper.a_before();
+        let &KnownState { t, share, tick, .. } = known;
+        let (q, v) = (known.q, known.v);
         let value = value_of(&state(system, (t, q.clone(), v.clone())))?;
         if value.is_nan() {
             return Err(Error::EventNotFinite {
@@ -184,7 +290,6 @@ impl<M: Machine> Watch<'_, M> {
                 t,
             });
         }
-        let tick = ROUNDING * t.abs().max(stepper.last_step().abs());
         let n = q.as_slice().len();
         let (mut smooth, mut jumps) = (0.0, 0.0);
         for number in 0..=2 * n {
@@ -195,12 +300,13 @@ impl<M: Machine> Watch<'_, M> {
                     i if i <= n => {
                         let rate = v.as_slice()[i - 1].abs();
                         let q = &mut q.as_mut_slice()[i - 1];
-                        *q += times * (ROUNDING * q.abs() + rate * tick);
+                        *q += times * (share * q.abs() + rate * tick);
                     }
                     i => {
-                        let rate = a.as_slice()[i - n - 1].abs();
+                        let rate = known.a.as_slice()[i - n - 1].abs();
+                        let size = known.v_before.as_slice()[i - n - 1].abs();
                         let v = &mut v.as_mut_slice()[i - n - 1];
-                        *v += times * (ROUNDING * v.abs() + rate * tick);
+                        *v += times * (share * v.abs().max(size) + rate * tick);
                     }
                 }
                 (value_of(&state(system, (t, q, v))).unwrap_or(f64::NAN) - value).abs()
@@ -217,33 +323,82 @@ impl<M: Machine> Watch<'_, M> {
                 smooth += by[0]
             }
         }
-        if self.side == 0.0 || value.abs() <= smooth + jumps {
+        Ok((value, RoundingOfValue { smooth, jumps }))
+    }
+
+    /// If the function is zero to rounding at the end of the last step, what it must exceed before its sign counts again.
+    fn zero_at_end<L: InputLaw<M::System>, A: Quadratures<M::System>>(
+        &mut self,
+        observed_system: &ObservedSystem<'_, M::System, L>,
+        stepper: &StepperOf<'_, M, L, A>,
+    ) -> Result<Option<f64>, Error> {
+        let at_end = at_end(stepper, stepper.v());
+        let (value, rounding) = self.value_and_rounding(observed_system, stepper, &at_end)?;
+        Ok((rounding.is_zero(value)).then(|| rounding.to_leave(value)))
+    }
+
+    /// Takes note of the value after a change of contacts, with its rounding if it may be zero. The answer is the way in which the function has gone
+    /// through zero, forward in time, if it has.
+    pub fn jump(
+        &mut self,
+        value: f64,
+        rounding: Option<RoundingOfValue>,
+        forward: bool,
+    ) -> Option<Crossing> {
+        let before = if self.side == 0.0 {
+            self.touched
+        } else {
+            self.side
+        };
+        let rounding = rounding.filter(|rounding| rounding.is_zero(value));
+        if rounding.is_some() || value == 0.0 {
+            self.touched = before;
             self.side = 0.0;
-            self.leave = if jumps > 0.0 {
-                0.0
-            } else {
-                2.0 * smooth.max(value.abs())
-            };
+            self.leave = rounding.map_or(0.0, |rounding| rounding.to_leave(value));
+            return None;
         }
-        Ok(())
+        (self.side, self.touched, self.leave) = (sign(value), 0.0, 0.0);
+        let crosses = before != 0.0 && before != self.side;
+        crosses.then(|| Crossing::from(before, forward))
+    }
+
+    /// Takes note of the value after an impact at the start, if it has changed there.
+    pub fn jump_at_start(&mut self, value: f64, rounding: RoundingOfValue) {
+        let before = self.at_end;
+        if self.at_zero || value == before {
+            return;
+        }
+        // A value before the impact that is small beside the one after it may have been a zero.
+        let had_sign = before.abs() > SUSPECT * value.abs() && !rounding.is_zero(before);
+        self.begun = true;
+        self.touched = if had_sign { sign(before) } else { 0.0 };
+        self.side = 0.0;
+        self.leave = match rounding.is_zero(value) {
+            true => rounding.to_leave(value),
+            false => 0.0,
+        };
     }
 
     /// Changes of sign between looks at the function, which `value_at` gives at fractions of the
-    /// step.
+    /// step. `ending` is what the function must exceed before its sign counts again, where the step ends
+    /// with a change of contacts and the function is zero to rounding there.
     fn changes(
         &mut self,
         looks: &[f64],
         roundoff: f64,
+        ending: Option<f64>,
         mut value_at: impl FnMut(&mut Self, f64) -> Result<f64, Error>,
         mut found: impl FnMut(&mut Self, f64, f64) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let mut side = self.side;
         let mut leave = self.leave;
+        let mut touched = core::mem::take(&mut self.touched);
         let mut theta_before = 0.0;
         // Where it has become zero, and how long it was so: that may be a touch.
         let mut zeros: Option<[f64; 3]> = None;
-        // Where it starts from zero, it may leave it and be back long before a quarter of the step.
-        let least = if side == 0.0 {
+        // Where it starts from zero, it may leave it and be back long before a quarter of the step. A step that is looked at only at its end is not
+        // known within.
+        let least = if side == 0.0 && looks.len() > 1 {
             16.0 * roundoff
         } else {
             looks[0]
@@ -258,6 +413,14 @@ impl<M: Machine> Watch<'_, M> {
                 leave = 0.0;
                 sign(value)
             };
+            if touched != 0.0 && now != 0.0 {
+                // It was zero where contacts changed just before the step.
+                if now != touched {
+                    self.side = touched;
+                    found(self, 0.0, 0.0)?;
+                }
+                touched = 0.0;
+            }
             if let Some([before, first, last]) = zeros {
                 if now == 0.0 && theta - first <= TOUCH {
                     zeros = Some([before, first, theta]);
@@ -280,9 +443,23 @@ impl<M: Machine> Watch<'_, M> {
             }
             theta_before = theta;
         }
+        if touched != 0.0 && looks.len() == 1 && ending.is_some() {
+            // What is seen only at the ends of steps may leave in the next one.
+            (self.touched, leave) = (touched, ending.unwrap_or(leave));
+        } else if touched != 0.0 {
+            // It stays at zero.
+            self.side = touched;
+            found(self, 0.0, 0.0)?;
+        }
         if let Some([before, first, _]) = zeros {
-            self.side = side;
-            found(self, before, first)?;
+            match ending {
+                // What it does from there on is not known yet.
+                Some(to_leave) => (self.touched, leave) = (side, to_leave),
+                None => {
+                    self.side = side;
+                    found(self, before, first)?;
+                }
+            }
             side = 0.0;
         }
         (self.side, self.leave) = (side, leave);
@@ -325,6 +502,7 @@ pub(crate) enum Places {
 /// that ends the run, which is the answer.
 pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
     watches: &mut [Watch<'_, M>],
+    end: EndOfStep,
     observed_system: &ObservedSystem<'_, M::System, L>,
     stepper: &mut StepperOf<'_, M, L, A>,
     interpolant: &mut Option<Interpolant<<M::System as System>::Vector>>,
@@ -346,7 +524,9 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
             watch.value(at, &|| observed_system.observe::<M, A>(stepper, at))
         };
         let mut places = Places::All;
+        let mut ending = None;
         let known = watch.latest.take();
+        watch.at_end = f64::NAN;
         if !is_series && !is_long {
             let states = match &sampled {
                 Some(states) => states,
@@ -363,18 +543,29 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                 };
             }
             watch.latest = Some(values[4]);
-            match watch.places(&values) {
-                None => continue,
-                Some(of_step) => places = of_step,
+            watch.at_end = values[4];
+            let has_sign = watch.side != 0.0 || watch.touched != 0.0;
+            let stays = !has_sign && values.iter().all(|value| value.abs() <= watch.leave);
+            if end != EndOfStep::Smooth && !stays && may_be_zero_at_end(&values) {
+                ending = watch.zero_at_end(observed_system, stepper)?;
             }
-            if watch.side == 0.0 {
+            if ending.is_some() {
+                values[4] = 0.0;
+            }
+            let touches = ending.is_some() || watch.touched != 0.0;
+            places = match watch.places(&values) {
+                None if touches => Places::Few,
+                None => continue,
+                Some(of_step) => of_step,
+            };
+            if watch.side == 0.0 && !touches {
                 let (side, leave) = (watch.side, watch.leave);
                 let mut suspected = false;
                 let look = |watch: &mut Watch<'_, M>, theta: f64| {
                     let at = state(system, interpolated_at(stepper, theta));
                     value(watch, stepper, &at)
                 };
-                watch.changes(&SAMPLE_FRACTIONS, roundoff, look, |_, _, _| {
+                watch.changes(&SAMPLE_FRACTIONS, roundoff, None, look, |_, _, _| {
                     suspected = true;
                     Ok(())
                 })?;
@@ -383,21 +574,35 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                 }
                 (watch.side, watch.leave) = (side, leave);
             }
+        } else if end != EndOfStep::Smooth {
+            ending = watch.zero_at_end(observed_system, stepper)?;
         }
 
         // There may be something: look again, exactly.
         let interpolant = step_motion(interpolant, stepper, system)?;
         let exact = |watch: &mut Watch<'_, M>, theta: f64| {
+            if theta == 1.0 && ending.is_some() {
+                return Ok(0.0);
+            }
             let at = state_at(system, stepper, interpolant, theta)?;
-            value(watch, stepper, &state(system, at))
+            let value = value(watch, stepper, &state(system, at))?;
+            if theta == 1.0 {
+                watch.at_end = value;
+            }
+            Ok(value)
         };
-        let looks = match places {
+        let looks: &[f64] = match places {
+            _ if end == EndOfStep::Impacts => &[1.0],
             Places::All => &*roots::looks(|theta| exact(watch, theta))?,
             Places::Few => &SAMPLE_FRACTIONS,
         };
-        watch.changes(looks, roundoff, exact, |watch, from, to| {
+        watch.changes(looks, roundoff, ending, exact, |watch, from, to| {
             let side_before = watch.side;
-            let theta = root([from, to], roundoff, &mut |theta| exact(watch, theta))?;
+            let theta = if from == to {
+                from
+            } else {
+                root([from, to], roundoff, &mut |theta| exact(watch, theta))?
+            };
             found.push(Found {
                 watch: index,
                 theta,
@@ -416,18 +621,18 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     } in found
     {
         let watch = &mut watches[index];
-        let crossing = if (side_before < 0.0) == forward {
-            Crossing::Rising
-        } else {
-            Crossing::Falling
-        };
-        if watch.crossing != Crossing::Any && watch.crossing != crossing {
+        let crossing = Crossing::from(side_before, forward);
+        if !watch.crossing.counts(crossing) {
             continue;
         }
         let Some(interpolant) = interpolant else {
             continue;
         };
-        let at = |theta| -> Result<_, Error> {
+        let at = |theta: f64| -> Result<_, Error> {
+            if theta == 0.0 {
+                let (q, v) = (stepper.q_before().clone(), stepper.v_before().clone());
+                return Ok(state(system, (stepper.t_before(), q, v)));
+            }
             Ok(state(
                 system,
                 state_at(system, stepper, interpolant, theta)?,
@@ -479,6 +684,40 @@ fn slope(
 }
 
 pub(crate) type Triple<V> = (f64, V, V);
+
+type VectorOf<M> = <<M as Machine>::System as System>::Vector;
+
+/// The state at the end of the last step, known as well as contacts know it where they change; `v_before` are the rates before they jumped.
+pub(crate) fn at_end<'x, S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    stepper: &'x Stepper<'_, S, L, A>,
+    v_before: &'x S::Vector,
+) -> KnownState<'x, S::Vector> {
+    let t = stepper.t();
+    KnownState {
+        t,
+        q: stepper.q(),
+        v: stepper.v(),
+        a: stepper.a(),
+        share: ROUNDING_AT_CHANGE,
+        v_before,
+        tick: ROUNDING * t.abs().max(stepper.last_step().abs()),
+    }
+}
+
+/// Whether a function with these values at the eight [fractions](roots::FRACTIONS) of a step may be zero to rounding at its end: it does not come
+/// near zero there if its last change is small beside its value.
+fn may_be_zero_at_end(values: &[f64; roots::FRACTIONS.len()]) -> bool {
+    let greatest = values
+        .iter()
+        .fold(0.0_f64, |most, value| most.max(value.abs()));
+    let last_change = (values[4] - values[7]).abs();
+    !(values[4].abs() > last_change + SUSPECT * greatest)
+}
+
+/// Whether a function with this value after a change of contacts may be zero to rounding there, if it was `before` just before it, or not a number.
+pub(crate) fn may_be_zero_after(value: f64, before: f64, is_at_zero: bool) -> bool {
+    is_at_zero || !(value.abs() > SUSPECT * before.abs())
+}
 
 /// The stepper of a run.
 type StepperOf<'s, M, L, A> = Stepper<'s, <M as Machine>::System, Held<'s, L, crate::Inputs<M>>, A>;

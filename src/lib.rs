@@ -161,7 +161,7 @@ pub use vector::Vector;
 #[cfg(feature = "std")]
 pub use contact::{
     ContactEvent, ContactEventKind, ContactImpact, ImpactAcross, Mode as ContactMode,
-    UnilateralForce, unilateral_forces,
+    UnilateralForce, penetrations, unilateral_forces,
 };
 #[cfg(feature = "std")]
 pub use equations::check_equations;

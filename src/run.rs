@@ -19,7 +19,9 @@ use crate::constraints::{Constraints, Violation, closest};
 use crate::contact::Mode;
 use crate::equations::check_equations;
 use crate::error::{KeptContradiction, constraint_name};
-use crate::event::{self, Crossing, Event, Places, Terminal, Triple, state, step_motion};
+use crate::event::{
+    self, Crossing, EndOfStep, Event, Places, Terminal, Triple, state, step_motion,
+};
 use crate::friction::{Cause, Change, Contacts, Motion};
 use crate::inputs::{Held, InputLaw, Law};
 use crate::interpolant::Interpolant;
@@ -395,6 +397,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         for stream in &mut callbacks.streams {
             stream.end(&end);
         }
+        if !record.unilateral.events.is_empty() {
+            // The time of a contact event may include the rest of its bounces, within which other events happen.
+            let events = &mut record.events;
+            events.sort_by(|one, other| one.state.t.total_cmp(&other.state.t));
+        }
         let work = stepper.work();
         let has_fixed_steps = settings.method.has_fixed_steps() || !record.handovers.is_empty();
         let balance = balance(
@@ -603,7 +610,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.stepper.retreat(t);
             *pending = Some((change, step));
             if self.stepper.is_done() {
-                self.change(pending, last_change)?;
+                return self.change(pending, last_change);
             }
             return Ok(None);
         }
@@ -631,7 +638,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             *pending_change = None;
             return Ok(None);
         }
-        if let Some(found) = self.find_events(&mut interpolant)? {
+        let end = self.end_of_step(pending.is_some() || pending_change.is_some());
+        if let Some(found) = self.find_events(end, &mut interpolant)? {
             return self.end_at(found).map(Some);
         }
         self.keep(&mut interpolant)?;
@@ -644,8 +652,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if pending.is_none() && pending_change.is_none() && ending.is_ok() {
             self.choose_again()?;
         }
-        if <M::System as System>::MAY_SLIDE && self.stepper.is_done() {
-            self.change(pending, last_change)?;
+        if <M::System as System>::MAY_SLIDE
+            && self.stepper.is_done()
+            && let Some(ending) = self.change(pending, last_change)?
+        {
+            return Ok(Some(ending));
         }
         if <M::System as System>::MAY_COLLIDE
             && self.stepper.is_done()
@@ -753,14 +764,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(None)
     }
 
-    /// Puts contacts into other states if the stepper is at the end of one of their states.
+    /// Puts contacts into other states if the stepper is at the end of one of their states. The answer is the event that ends the run.
     fn change(
         &mut self,
         pending: &mut Option<(Change, f64)>,
         (last_t, times): &mut (f64, usize),
-    ) -> Result<(), Error> {
+    ) -> Result<Option<Ending>, Error> {
         let Some((change, step)) = pending.take() else {
-            return Ok(());
+            return Ok(None);
         };
         let t = self.stepper.t();
         let is_at_once = *last_t == t;
@@ -788,7 +799,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.enter_energies();
         }
         self.record_contacts(before);
-        Ok(())
+        let v = self.stepper.v().clone();
+        self.watch_jumps(&v)
     }
 
     /// Records the states of the contacts with friction.
@@ -849,9 +861,31 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(None)
     }
 
+    /// How the last step ends, if `is_pending` says that contacts change where the stepper stops.
+    #[inline(always)]
+    fn end_of_step(&self, is_pending: bool) -> EndOfStep {
+        if !self.is_stepped() {
+            return match is_pending && self.stepper.is_done() {
+                true => EndOfStep::Change,
+                false => EndOfStep::Smooth,
+            };
+        }
+        let closes = self.stepper.stepped().is_some_and(|(stepped, before)| {
+            let modes = before.modes();
+            let mut hit = stepped.impacts.iter();
+            hit.any(|impact| modes[impact.contact] == Mode::Open)
+        });
+        if closes {
+            EndOfStep::Impacts
+        } else {
+            EndOfStep::Change
+        }
+    }
+
     /// Records the events of the last step; returns the one that ends the run.
     fn find_events(
         &mut self,
+        end: EndOfStep,
         interpolant: &mut LastInterpolant<M>,
     ) -> Result<Option<Terminal>, Error> {
         let Self {
@@ -863,6 +897,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         } = self;
         event::find(
             &mut callbacks.watches,
+            end,
             &model.observed_system,
             stepper,
             interpolant,

@@ -505,8 +505,10 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
             left,
             function,
             side: 0.0,
+            touched: 0.0,
             leave: 0.0,
             latest: None,
+            at_end: f64::NAN,
             begun: false,
             at_zero: false,
         });

@@ -7,6 +7,7 @@ use std::io::Read;
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{
     ContactForce, Error, Evaluation, Machine, Simulation, State, System, check_equations,
+    penetrations,
 };
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::Dag;
@@ -19,7 +20,7 @@ use crate::collisions;
 use crate::contacts;
 use crate::diagnostics;
 use crate::failure::Failure;
-use crate::numbers::{by_name, states};
+use crate::numbers::{by_name, shortest, states};
 use crate::output;
 pub use crate::reading::set_start;
 use crate::reading::{self, Reading};
@@ -52,7 +53,7 @@ struct Numbered {
     potential_energy: f64,
     dissipation: f64,
     outputs: Map<String, Value>,
-    /// Facts that the spec assumes and that do not hold here; left out if there are none.
+    /// Facts that the spec assumes and that do not hold here, and rigid contacts that are penetrated; left out if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<String>,
 }
@@ -305,9 +306,28 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             .iter()
             .map(|(name, value)| (name.to_owned(), value.into()))
             .collect(),
-        warnings: ended_assumptions(system, (t, q, v)),
+        warnings: ended_assumptions(system, (t, q, v))
+            .into_iter()
+            .chain(penetrated_contacts(system, (t, q, v)))
+            .collect(),
     };
     serde_json::to_value(result).map_err(|error| error.to_string())
+}
+
+/// The rigid contacts that are penetrated at a state.
+fn penetrated_contacts(system: &InterpretedSystem, at: (f64, &Vec<f64>, &Vec<f64>)) -> Vec<String> {
+    let names: Vec<&str> = system.unilateral_contacts().map(|of| of.name).collect();
+    penetrations(system, at)
+        .into_iter()
+        .map(|(contact, depth)| {
+            format!(
+                "the contact `{}` is penetrated by {} m, which a rigid contact cannot be: no run can start here, and its forces are those of a contact \
+                 that just touches",
+                names[contact],
+                shortest(depth)
+            )
+        })
+        .collect()
 }
 
 /// The facts that the spec assumes and that do not hold at a state, with the default inputs: numbers computed from them are

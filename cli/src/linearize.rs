@@ -48,7 +48,8 @@ pub fn run(call: &call::Linearize) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
     let compiled = modes::compiled(&call.spec, &dag, files.all(), "linear model")?;
-    let machine = modes::ready(&compiled, &call.search)?;
+    let varied = ("--along", call.along.as_ref());
+    let machine = modes::ready(&compiled, &call.search, varied)?;
     if let Some(range) = &call.along {
         let trace = modes::vary::trace(&call.search, ("--along", range), &compiled, &machine)?;
         return along::show(call, &machine, &trace, &files);

@@ -63,7 +63,7 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
     let compiled = compiled(&call.spec, &dag, files.all(), "modes")?;
-    let machine = ready(&compiled, &call.search)?;
+    let machine = ready(&compiled, &call.search, ("--vary", call.vary.as_ref()))?;
     if let Some(vary) = &call.vary {
         let trace = vary::trace(&call.search, ("--vary", vary), &compiled, &machine)?;
         return show(call, &machine, &trace, &files);
@@ -81,12 +81,25 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The machine with the parameters of a call, after checking that all have values.
+/// The machine with the parameters of a call, after checking that all have values. One that an option varies has its first value.
 pub fn ready(
     compiled: &Compiled<'_>,
     search: &call::Search,
+    (option, vary): (&str, Option<&call::Vary>),
 ) -> Result<InterpretedMachine, Failure> {
-    let machine = reading::machine(compiled, &search.start)?;
+    let mut machine = reading::machine(compiled, &search.start)?;
+    if let Some(vary) = vary
+        && let Some(unit) = machine.unit(&vary.name).map(str::to_owned)
+        && search
+            .start
+            .parameters
+            .iter()
+            .all(|set| set.name != vary.name)
+    {
+        let first = vary.ends[0].value(option, &unit).map_err(Failure::Call)?;
+        // A name that is neither a parameter nor an input is refused later.
+        let _ = machine.set(&vary.name, first);
+    }
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
             "{missing}; set them with --set {}=…",

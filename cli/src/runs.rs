@@ -410,6 +410,12 @@ fn made(
                     "--crossing {formula}: it depends on accelerations, which may jump"
                 )));
             }
+            if value.stage() <= stage::PARAMETER {
+                return Err(Failure::Call(format!(
+                    "--crossing {formula}: it depends only on numbers and parameters, so that it never crosses 0; give a formula in coordinates, \
+                     rates or the time `t`"
+                )));
+            }
             let crossing = match direction {
                 call::Direction::Up => Crossing::Rising,
                 call::Direction::Down => Crossing::Falling,

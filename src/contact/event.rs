@@ -19,7 +19,8 @@ pub struct ContactEvent<C> {
     pub direction: f64,
     /// In space the component of that direction along the second tangent; 0 elsewhere.
     pub across: f64,
-    /// By how much the time may be off, in s, where bounces were closed at the sum of all that were left; 0 else.
+    /// By how much the time may be off, in s, where bounces were closed at the sum of all that were left, and in what follows within this time; 0
+    /// else.
     pub time_error: f64,
     /// What an impact did.
     pub impact: Option<ContactImpact>,

@@ -54,6 +54,25 @@ pub fn unilateral_forces<S: System>(
     touching.forces_shared(system, at, a, Some(&shares))
 }
 
+/// The rigid contacts that are penetrated at a state by more than rounding, each with the depth in m. No run can start there, and
+/// [`unilateral_forces`] takes them to touch.
+pub fn penetrations<S: System>(
+    system: &S,
+    (t, q, v): (f64, &S::Vector, &S::Vector),
+) -> Vec<(usize, f64)> {
+    if system.unilateral_contacts().len() == 0 {
+        return Vec::new();
+    }
+    let here = ContactKinematics::of(system, t, q, v);
+    let contacts = system.unilateral_contacts().enumerate();
+    let rigid = contacts
+        .filter(|(_, contact)| contact.compliance.is_none() && !contact.rolls && !contact.across);
+    rigid
+        .map(|(k, _)| (k, -here.gaps[k]))
+        .filter(|&(k, depth)| depth > 0.0 && depth > here.gap_rounding(k))
+        .collect()
+}
+
 impl UnilateralState {
     /// Accelerations and forces while everything stays as it is.
     pub(crate) fn forces<S: System>(

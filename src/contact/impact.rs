@@ -425,7 +425,7 @@ impl UnilateralState {
             if !closed[k] {
                 return false;
             }
-            let least = 1e-12 * self.speed.max(self.slip);
+            let least = super::touching::ROUNDING * self.greatest_rate();
             if self.has_two_tangents(k) {
                 let [slip, rounding] = self.slip(&here, k);
                 return slip[0].hypot(slip[1]) <= rounding[0].hypot(rounding[1]).max(least);

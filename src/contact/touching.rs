@@ -16,7 +16,7 @@ use compliant::ComplianceState;
 pub(crate) use held::Held;
 
 /// A gap within this of its scale is closed, and a rate within this of its scale is rest.
-pub(super) const ROUNDING: f64 = 1e-12;
+pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// Forces and accelerations below this, relative to the terms that they are the sum of, are rounding.
 const ROUNDING_OF_FORCES: f64 = 1e-11;
@@ -228,6 +228,27 @@ impl ContactKinematics {
         ]
     }
 
+    /// What rounding may make of the acceleration of a gap, in m/s², where rates up to this one are known to [`ROUNDING`] of it: accelerations have squares
+    /// of rates over a radius of curvature, of which what is left of rates at rest remains. The radius is taken to be as large as the terms
+    /// of the gap, or as the way at this rate until now; that errs on the small side by less than the margin between rounding and [`ROUNDING`]. It
+    /// is no more than these squares are.
+    pub fn acceleration_rounding(&self, contact: usize, rate: f64) -> f64 {
+        let (t, q, v) = &self.at;
+        let row = self.row(2 * contact);
+        let own = terms(row, v);
+        let rate = rate.max(own);
+        let length = terms(row, q).max(rate * t.abs());
+        if length == 0.0 {
+            return 0.0;
+        }
+        let squares = self.drifts.iter().step_by(2).map(|drift| drift.abs());
+        let most = 16.0 * squares.sum::<f64>();
+        // What is left of rates, and what the squares of rates that cancel leave of their sum.
+        let left = ROUNDING * rate * (ROUNDING * rate / length);
+        let cancelled = 64.0 * f64::EPSILON * own * (own / length);
+        (left + cancelled).min(most)
+    }
+
     /// What walls that move by themselves do against the forces of a contact, in W, or against its impulses, in J.
     pub fn work_of_walls(&self, contact: usize, forces: [f64; 2], v: &[f64]) -> f64 {
         let of_direction = |part: usize| {
@@ -398,6 +419,11 @@ impl UnilateralState {
         self.stepped = None;
         let held = self.held_directions(&self.modes);
         self.held = held;
+    }
+
+    /// The greatest rate of a contact so far, at which gaps closed or something began to slip: rates within rounding of it are rest.
+    pub(super) fn greatest_rate(&self) -> f64 {
+        self.speed.max(self.slip)
     }
 
     /// The fastest rate at which any gap closed so far, in m/s.
@@ -708,6 +734,8 @@ impl UnilateralState {
             right[i] = -value;
             let own = g[row * width + row];
             if own > 0.0 {
+                let of_rates = here.acceleration_rounding(closed[place], self.greatest_rate());
+                let terms = terms + of_rates / ROUNDING_OF_FORCES;
                 let known = &mut reaction.sizes[closed[place]];
                 *known = known.max(terms / own);
             }
@@ -1083,15 +1111,19 @@ impl UnilateralState {
                     });
                     let slips = Margin {
                         value: heading[0] * slip[0] + heading[1] * slip[1],
-                        rounding: rounding[0].hypot(rounding[1]),
+                        rounding: rounding[0]
+                            .hypot(rounding[1])
+                            .max(ROUNDING * self.greatest_rate()),
                     };
                     [presses, slips, loads, stays]
                 }
                 Mode::Slides(0.0) => [presses, Margin::ENDLESS, loads, stays],
                 Mode::Slides(sign) => {
+                    // What rests where contacts are asked is not found to have stopped.
+                    let rounding = here.rate_rounding_in_time(2 * k + 1, reaction.slip_terms[k]);
                     let slips = Margin {
                         value: sign * here.rates[2 * k + 1],
-                        rounding: here.rate_rounding_in_time(2 * k + 1, reaction.slip_terms[k]),
+                        rounding: rounding.max(ROUNDING * self.greatest_rate()),
                     };
                     [presses, slips, loads, stays]
                 }
@@ -1371,6 +1403,7 @@ impl UnilateralState {
                     (b[row] + by, ROUNDING_OF_FORCES * size)
                 };
                 let (opens, rounding) = after(0);
+                let rounding = rounding + here.acceleration_rounding(k, self.greatest_rate());
                 // One of both is 0, as far as the problem could be solved: what is pressed more than it opens is closed.
                 let row = 2 * place;
                 let pressed = g[row * width + row] * answer.forces[place][0];

@@ -99,7 +99,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return self.begin_stepping(&touching);
         }
         let step = self.settings.first_step.unwrap_or(0.0);
-        self.resolve_contacts_now(Cause::Unspecified, step, true)
+        let v_before = self.stepper.v().clone();
+        self.resolve_contacts_now(Cause::Unspecified, step, true)?;
+        self.watch_jumps_at_start(&v_before)
     }
 
     /// Follows the contacts through the last step.
@@ -188,9 +190,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             let (q, v) = (self.stepper.q(), self.stepper.v());
             return Err(self.model.explain(error, q, v));
         }
+        let v_before = self.stepper.v().clone();
         self.resolve_contacts_now(cause, step, false)?;
         self.hand_over_if_changes_are_frequent()?;
-        self.watch_jumps()
+        self.watch_jumps(&v_before)
     }
 
     pub(super) fn resolve_contacts_now(
@@ -394,14 +397,24 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let names: Vec<String> = (system.unilateral_contacts())
             .map(|contact| contact.name.into())
             .collect();
-        for (contact, kind, direction, impact) in reported {
+        let left = |contact: usize, kind: ContactEventKind| {
             let ended = ended.iter().find(|(ended, _)| *ended == contact);
-            let left = match (kind, ended) {
+            match (kind, ended) {
                 (ContactEventKind::Closes, Some((_, left))) => *left,
                 _ => 0.0,
-            };
+            }
+        };
+        let mut reported: Vec<(f64, ReportedEvent)> = (reported.into_iter())
+            .map(|event| (left(event.0, event.1), event))
+            .collect();
+        reported.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        // What follows on the end of bounces does not come before it: its time is as uncertain as that one.
+        let latest = self.record.unilateral.events.last();
+        let mut latest = latest.map_or(now.t, |event| event.state.t);
+        for (left, (contact, kind, direction, impact)) in reported {
             let mut state = now.clone();
-            state.t += left;
+            latest = (now.t + left).min(self.until).max(latest);
+            state.t = latest;
             self.record.events.push(Event {
                 name: std::format!("{} {}", names[contact], kind.word()),
                 crossing: match kind {
@@ -418,7 +431,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 state,
                 direction: direction[0],
                 across: direction[1],
-                time_error: left,
+                time_error: left.max(latest - now.t),
                 impact,
             });
         }
@@ -472,36 +485,38 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
-    /// Functions that are watched may have jumped with the rates.
-    pub(super) fn watch_jumps(&mut self) -> Result<Option<Ending>, Error> {
-        let (t, q, v) = (
-            self.stepper.t(),
-            self.stepper.q().clone(),
-            self.stepper.v().clone(),
-        );
-        let now = state(self.model.system, (t, q, v));
+    /// Functions that are watched may have jumped with the rates, which were `v_before`, or with accelerations or inputs.
+    pub(super) fn watch_jumps(&mut self, v_before: &VectorOf<M>) -> Result<Option<Ending>, Error> {
+        let Self {
+            model,
+            stepper,
+            callbacks,
+            record,
+            ..
+        } = self;
+        let (t, q, v) = (stepper.t(), stepper.q().clone(), stepper.v().clone());
+        let forward = self.until >= self.start;
+        let now = state(model.system, (t, q, v));
         let mut ending = None;
-        let observe = || {
-            self.model
-                .observed_system
-                .observe::<M, A>(&self.stepper, &now)
-        };
-        for watch in &mut self.callbacks.watches {
+        for watch in &mut callbacks.watches {
+            if !watch.begun {
+                continue;
+            }
+            let observe = || model.observed_system.observe::<M, A>(stepper, &now);
             let value = watch.value(&now, &observe)?;
-            let before = watch.side;
-            if !watch.begun || before == 0.0 || value == 0.0 || value.signum() == before {
-                continue;
+            let mut rounding = None;
+            if event::may_be_zero_after(value, watch.at_end, watch.touched != 0.0) {
+                let known = event::at_end(stepper, v_before);
+                let found = watch.value_and_rounding(&model.observed_system, stepper, &known)?;
+                rounding = Some(found.1);
             }
-            watch.side = value.signum();
-            let crossing = if value > 0.0 {
-                Crossing::Rising
-            } else {
-                Crossing::Falling
+            let Some(crossing) = watch.jump(value, rounding, forward) else {
+                continue;
             };
-            if watch.crossing != Crossing::Any && watch.crossing != crossing {
+            if !watch.crossing.counts(crossing) {
                 continue;
             }
-            self.record.events.push(Event {
+            record.events.push(Event {
                 name: watch.name.clone(),
                 crossing,
                 state: now.clone(),
@@ -511,6 +526,43 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
         }
         Ok(ending)
+    }
+
+    /// Functions that are watched may have jumped with the rates in an impact at the start. Their events there are found in the first step.
+    fn watch_jumps_at_start(&mut self, v_before: &VectorOf<M>) -> Result<(), Error> {
+        if self.stepper.v().as_slice() == v_before.as_slice() {
+            return Ok(());
+        }
+        let Self {
+            model,
+            stepper,
+            callbacks,
+            ..
+        } = self;
+        let known = event::at_end(stepper, v_before);
+        for watch in &mut callbacks.watches {
+            let (value, rounding) =
+                watch.value_and_rounding(&model.observed_system, stepper, &known)?;
+            watch.jump_at_start(value, rounding);
+        }
+        Ok(())
+    }
+
+    /// Looks again at the watched functions where the run starts: something has jumped there.
+    pub(super) fn begin_watches_again(&mut self) -> Result<(), Error> {
+        let Self {
+            model,
+            stepper,
+            callbacks,
+            ..
+        } = self;
+        let now = (stepper.t(), stepper.q().clone(), stepper.v().clone());
+        let now = state(model.system, now);
+        let observe = || model.observed_system.observe::<M, A>(stepper, &now);
+        for watch in &mut callbacks.watches {
+            watch.begin(&now, watch.at_zero, &observe)?;
+        }
+        Ok(())
     }
 
     /// When contacts change in the last step, why, and which gap closes.

@@ -40,6 +40,8 @@ pub(super) struct ContactActivity {
     /// The accelerations at which forces close gaps at these instants, in m/s². At a single instant this may be almost zero: a spring
     /// passes through rest just when it releases.
     closing_accelerations: VecDeque<f64>,
+    /// Whether contacts changed last at the same instant as before: several changes at one instant count once.
+    is_same_instant: bool,
     /// The number of instants, and for each contact the number of its last.
     count: usize,
     last: Vec<usize>,
@@ -58,6 +60,7 @@ impl ContactActivity {
             is_free: is_free && contacts >= FEWEST,
             times: VecDeque::new(),
             closing_accelerations: VecDeque::new(),
+            is_same_instant: false,
             count: 0,
             last: vec![0; contacts],
             quiet: 0,
@@ -72,11 +75,14 @@ impl ContactActivity {
         if !self.is_free {
             return;
         }
-        self.count += 1;
-        if self.times.len() == WINDOW {
-            self.times.pop_front();
+        self.is_same_instant = self.times.back() == Some(&t);
+        if !self.is_same_instant {
+            self.count += 1;
+            if self.times.len() == WINDOW {
+                self.times.pop_front();
+            }
+            self.times.push_back(t);
         }
-        self.times.push_back(t);
         let modes = changes_at_instant
             .before
             .iter()
@@ -98,6 +104,12 @@ impl ContactActivity {
 
     /// Records the acceleration at which forces close gaps.
     fn record_closing_acceleration(&mut self, closing_acceleration: f64) {
+        if self.is_same_instant
+            && let Some(last) = self.closing_accelerations.back_mut()
+        {
+            *last = last.max(closing_acceleration);
+            return;
+        }
         if self.closing_accelerations.len() == WINDOW {
             self.closing_accelerations.pop_front();
         }

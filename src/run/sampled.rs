@@ -122,6 +122,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     ) -> Result<Option<Ending>, Error> {
         let t = self.stepper.t();
         let before = self.stepper.contacts().clone();
+        let v_before = self.stepper.v().clone();
         let law = &mut self.model.observed_system.law;
         if let Some(piece) = piece {
             law.piece = piece;
@@ -152,19 +153,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.record_contacts(before);
         }
         if !at_start {
-            return self.watch_jumps();
+            return self.watch_jumps(&v_before);
         }
         // The state at the start is the one after the first sample.
-        let now = (t, self.stepper.q().clone(), self.stepper.v().clone());
-        let now = state(self.model.system, now);
-        let observe = || {
-            self.model
-                .observed_system
-                .observe::<M, A>(&self.stepper, &now)
-        };
-        for watch in &mut self.callbacks.watches {
-            watch.begin(&now, watch.at_zero, &observe)?;
-        }
+        self.begin_watches_again()?;
         Ok(None)
     }
 }

@@ -18,4 +18,5 @@ mod stiff;
 #[path = "../support/mod.rs"]
 mod support;
 mod tables;
+mod touches;
 mod travel;

@@ -14,10 +14,10 @@ use lagrangian_linear::spectrum::Modes;
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Severity;
 
-use super::{motion, refuse_drives, wanted};
+use super::{motion, number, refuse_drives, wanted};
 use crate::call;
 use crate::diagnostics;
-use crate::evaluate::set_start;
+use crate::evaluate::{ended_assumptions, set_start};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::output;
@@ -209,6 +209,7 @@ pub fn trace(
         let why = points.into_iter().find_map(|point| point.motion.err());
         return Err(Failure::Run(why.unwrap_or_default()));
     }
+    tracer.warn_of_ended(&points);
     Ok(Trace {
         name: vary.name.clone(),
         unit,
@@ -292,6 +293,30 @@ impl<'a> Tracer<'a> {
             wanted,
         };
         Ok((tracer, unit))
+    }
+
+    /// Prints a warning for each fact that the spec assumes and that does not hold at some of the values, with the first of them.
+    fn warn_of_ended(&self, points: &[Point]) {
+        let mut ended: Vec<(String, f64, usize)> = Vec::new();
+        for point in points {
+            let Ok(motion) = &point.motion else { continue };
+            let machine = self.machine_at(point.value);
+            let at = (0.0, &motion.found.place.q(), &motion.v);
+            for warning in ended_assumptions(&machine.prepare(), at) {
+                match ended.iter_mut().find(|(known, ..)| *known == warning) {
+                    Some((_, _, count)) => *count += 1,
+                    None => ended.push((warning, point.value, 1)),
+                }
+            }
+        }
+        for (warning, first, count) in ended {
+            output::print_error(format_args!(
+                "warning: at {count} of {} values, the first of which is {} = {}: {warning}",
+                points.len(),
+                self.name,
+                number(first)
+            ));
+        }
     }
 
     /// The machine at a value.

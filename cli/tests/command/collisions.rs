@@ -860,3 +860,166 @@ fn a_mortar_passes_through_the_centre_in_either_coordinates() {
     close(q(&own, "x1"), mortar, 1e-12);
     close(q(&own, "x2"), mortar + q(&relative, "xi2"), 1e-12);
 }
+
+/// The height of a bouncing ball touches 0 at each impact and stays there where the bounces have accumulated; its rate changes its sign at each impact
+/// and at each highest place: at √(2h/g) (1 + 2e + …), and eᵏ √(2h/g) later.
+#[test]
+fn a_height_that_touches_the_floor_does_not_cross_it() {
+    let ball = "machines/contacts/bouncing_ball.machine";
+    let section = |until: &str, more: &[&str]| {
+        let call = [
+            "section",
+            ball,
+            "--json",
+            "--direction",
+            "both",
+            "--until",
+            until,
+        ];
+        let output = lagrangian(&[&call, more].concat());
+        let text = String::from_utf8(output.stdout).expect("text");
+        let found: Value = serde_json::from_str(&text).expect("JSON");
+        let times = found["t"].as_array().expect("times").iter();
+        times.map(number).collect::<Vec<f64>>()
+    };
+    let first = (2.0 / 9.81_f64).sqrt();
+    for method in ["dop853", "dopri5", "bs32", "radau5"] {
+        assert_eq!(section("2.5", &["--crossing", "y", "--method", method]), []);
+        let rates = section("2.5", &["--crossing", "der(y)", "--method", method]);
+        let (mut impact, mut expected) = (first, Vec::new());
+        for k in 1.. {
+            expected.extend([impact, impact + 0.8_f64.powi(k) * first]);
+            impact += 2.0 * 0.8_f64.powi(k) * first;
+            if impact > 2.5 {
+                break;
+            }
+        }
+        expected.retain(|t| *t < 2.5);
+        assert_eq!(rates.len(), expected.len(), "{rates:?} {expected:?}");
+        for (found, expected) in rates.iter().zip(expected) {
+            close(*found, expected, 1e-9);
+        }
+    }
+    let last = section("5", &["--crossing", "y"]);
+    assert_eq!(last.len(), 1);
+    close(last[0], 9.0 * first, 1e-7);
+}
+
+/// Contact events are in the order of time, also where the rest of bounces is added to the time at which they end.
+#[test]
+fn contact_events_come_in_order() {
+    for (machine, until) in [
+        ("box_on_stair", 1.0),
+        ("dropped_box", 1.0),
+        ("colliding_crusher", 1.0),
+    ] {
+        let spec = format!("machines/contacts/{machine}.machine");
+        let run = simulate(&spec, until, &[]);
+        for events in ["contact_events", "events"] {
+            let all = run[events].as_array().expect("events");
+            let times: Vec<f64> = all.iter().map(|event| number(&event["t"])).collect();
+            assert!(times.is_sorted(), "{machine} {events}");
+            assert!(times.iter().all(|t| *t <= until), "{machine} {events}");
+        }
+    }
+}
+
+/// Bodies that come together with restitution 0 and that nothing pushes stay together: their momentum was 0, so that they are at rest, and
+/// what they had is lost. The discs meet where their centres form a regular polygon with sides 2r.
+#[test]
+fn discs_that_come_together_stay() {
+    let spec = Scratch::new(
+        "discs.machine",
+        "machine Discs in plane {
+            constants { N = 3 }
+            parameters { m: kg = 1, r: m = 0.1, s: m = 0.3, v: m/s = 1, u: m/s = 0 }
+            coordinates {
+                x[i in 1..N]: m = s*cos(2*pi*i*rad/N), y[i in 1..N]: m = s*sin(2*pi*i*rad/N),
+                der(x[i in 1..N]): m/s = u - v*cos(2*pi*i*rad/N), der(y[i in 1..N]): m/s = -v*sin(2*pi*i*rad/N),
+            }
+            bodies { disc[i in 1..N] { mass: m, at: (x[i], y[i]) } }
+            gravity none;
+            circles { rim[i in 1..N] { on: disc[i], center: (0, 0), radius: r } }
+            contacts { pair { circles: rim, restitution: 0 } }
+        }",
+    );
+    for n in 2..8 {
+        for u in ["0", "0.3"] {
+            let constant = format!("N={n}");
+            let call = [
+                "simulate",
+                spec.path(),
+                "--until",
+                "1",
+                "--json",
+                "--const",
+                &constant,
+            ];
+            let output = lagrangian(
+                &[
+                    &call[..],
+                    &["--method", "dop853", "--set", &format!("u={u}")],
+                ]
+                .concat(),
+            );
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{n} {u}: {said}");
+            let run: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+            close(number(&run["impact_loss"]), 0.5 * f64::from(n), 1e-12);
+            let meets = 0.3 - 0.1 / (PI / f64::from(n)).sin();
+            let first = &events(&run, "impact")[0];
+            close(number(&first["t"]), meets, 1e-12);
+            let speed: f64 = u.parse().expect("a number");
+            for i in 1..=n {
+                close(number(&run["v"][format!("x[{i}]")]), speed, 1e-11);
+                close(number(&run["v"][format!("y[{i}]")]), 0.0, 1e-11);
+            }
+        }
+    }
+}
+
+/// Two equal boxes exactly on top of each other, the upper one sliding off, on a floor whose friction holds the lower one exactly: it is pushed by
+/// `μ m g`, and held as long as this is at most `μ₀ (m + M) g`. The upper one is braked by `μ g`.
+#[test]
+fn a_box_slides_off_an_equal_one() {
+    for (b, h, until) in [
+        ("0.3", "0.1", 0.1),
+        ("0.3", "0.1", 0.3),
+        ("0.2", "0.05", 0.1),
+        ("0.4", "0.1", 0.2),
+    ] {
+        let sizes = [
+            format!("b={b}"),
+            format!("B={b}"),
+            format!("h={h}"),
+            format!("H={h}"),
+        ];
+        let mut settings: Vec<&str> = sizes.iter().map(String::as_str).collect();
+        settings.extend(["mu=0.5", "mu_floor=0.3", "m=1", "M=1", "speed=1", "e=0.5"]);
+        let run = simulate("machines/contacts/box_on_box.machine", until, &settings);
+        assert_eq!(run["error"], Value::Null, "{b} {h}: {}", run["error"]);
+        let stops = 1.0 / (0.5 * 9.81);
+        let t = until.min(stops);
+        close(number(&run["q"]["X"]), 0.0, 1e-12);
+        close(number(&run["q"]["x"]), t - 0.25 * 9.81 * t * t, 1e-11);
+    }
+}
+
+/// A rigid contact that is penetrated is told with its depth; one that touches, or yields, is not.
+#[test]
+fn evaluate_tells_what_is_penetrated() {
+    let evaluate = |spec: &str, y: &str| {
+        let output = lagrangian(&["evaluate", spec, "--start", &format!("y={y}")]);
+        serde_json::from_slice::<Value>(&output.stdout).expect("JSON")[0]["warnings"].clone()
+    };
+    let ball = "machines/contacts/bouncing_ball.machine";
+    for y in ["0", "1"] {
+        assert_eq!(evaluate(ball, y), Value::Null, "{y}");
+    }
+    let said = evaluate(ball, "-0.25");
+    let said = said[0].as_str().expect("a warning");
+    assert!(
+        said.contains("the contact `floor` is penetrated by 0.25 m"),
+        "{said}"
+    );
+}

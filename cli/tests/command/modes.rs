@@ -1557,3 +1557,49 @@ fn a_state_beyond_the_assumptions_is_told() {
     assert_eq!(found[0]["warnings"], serde_json::json!([warning]));
     assert_eq!(found[1]["warnings"], Value::Null);
 }
+
+/// A parameter with a formula is varied like one without, and what the spec assumes is asked at every value.
+#[test]
+fn a_formula_gives_way_to_a_range_and_assumptions_are_asked_along_it() {
+    let pendulum = |length: &str| {
+        let text = format!(
+            "machine P in plane {{
+                parameters {{ m: kg = 1, l: m = 1, long: m{length}, g: m/s^2 = 9.81 }}
+                coordinates {{ phi: rad = 0.1 }}
+                bodies {{ bob {{ mass: m, at: (long*sin(phi), -long*cos(phi)) }} }}
+                gravity (0, -g);
+                assume {{ long < 2.5 }}
+            }}"
+        );
+        Scratch::new("long.machine", &text)
+    };
+    let (derived, typed) = (pendulum(" = 2*l"), pendulum(" = 2"));
+    let warning = "warning: at 1 of 3 values, the first of which is long = 3: the machine assumes `long < 2.5`, which does not hold here";
+    for call in [["modes", "--vary"], ["linearize", "--along"]] {
+        let asked = |spec: &str| {
+            let output = lagrangian(&[call[0], spec, call[1], "long=1..3:3", "--json"]);
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{call:?}: {said}");
+            assert!(said.contains(warning), "{call:?}: {said}");
+            serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
+        };
+        assert_eq!(asked(derived.path()), asked(typed.path()));
+    }
+    // ω² = g/l at each of the three.
+    let output = lagrangian(&[
+        "linearize",
+        derived.path(),
+        "--along",
+        "long=1..3:3",
+        "--json",
+    ]);
+    let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    for (row, long) in found["rows"]
+        .as_array()
+        .expect("rows")
+        .iter()
+        .zip([1.0, 2.0, 3.0])
+    {
+        close(number(&row["im"]), (9.81_f64 / long).sqrt());
+    }
+}

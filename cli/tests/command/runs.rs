@@ -680,6 +680,16 @@ fn what_cannot_be_is_said() {
             &["--crossing", "y"],
         ),
         (
+            &["section", spec, "--until", "1", "--crossing", "5"],
+            2,
+            &["--crossing 5", "never crosses 0"],
+        ),
+        (
+            &["section", spec, "--until", "1", "--crossing", "k=3"],
+            2,
+            &["--crossing", "never crosses 0"],
+        ),
+        (
             &["section", spec, "--until", "1", "--every-period", "x"],
             2,
             &["--every-period"],

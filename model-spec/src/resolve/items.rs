@@ -220,6 +220,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     pub fn output(&mut self, member: MemberId) -> Option<Output<'d>> {
         let quantity = self.quantity(member)?;
+        self.check_output_name(member);
         let measure = declared_measure(quantity);
         let unit = measure.as_ref().map(|measure| measure.unit);
         let scope = self.scope(member, &limits::OUTPUT);

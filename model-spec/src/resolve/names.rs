@@ -296,6 +296,42 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
+    /// Refuses an output with a name under which tables and plots show something else: the time, a coordinate or a state.
+    pub fn check_output_name(&mut self, member: MemberId) {
+        let Member { group, index, .. } = self.members[member];
+        let (base, name) = (self.groups[group].base, self.declaration(member).name);
+        let shown = show(base, index);
+        let (known, first) = if shown == "t" {
+            ("the time", None)
+        } else {
+            let values = self.find_group(Namespace::Values, base);
+            let same = values.and_then(|values| self.groups[values].members.get(&index));
+            let Some(&same) = same else {
+                return;
+            };
+            let first = self.declaration(same);
+            let known = match first.section {
+                SectionKind::Coordinates => "a coordinate",
+                SectionKind::States => "a state",
+                _ => return,
+            };
+            (known, Some(first.name.span))
+        };
+        let message = format!("the output `{shown}` has the name of {known}");
+        let code = match first {
+            Some(_) => Code::DuplicateName,
+            None => Code::ReservedName,
+        };
+        let mut diagnostic = Diagnostic::new(code, name.span, message);
+        if let Some(first) = first {
+            diagnostic = diagnostic.note(first, format!("{known} of this name"));
+        }
+        self.push(diagnostic.help(format!(
+            "tables and plots show {} anyway: give the output another name, or leave it out",
+            known.replace("a ", "the ")
+        )));
+    }
+
     fn check_reserved(&mut self, name: &'a Ident) {
         if let Some((_, meaning)) = RESERVED_VALUES.iter().find(|(word, _)| *word == name.text) {
             let message = format!("`{}` is {meaning} and cannot be declared", name.text);
