@@ -284,7 +284,11 @@ fn agrees_in_f64<M: Machine + Default>(
             assert_eq!(contact.name, expected.name);
             assert_eq!(
                 (contact.rubs, contact.rolls, contact.across),
-                (expected.rubs, expected.rolls, expected.across)
+                (
+                    expected.has_friction,
+                    expected.is_rolling_resistance,
+                    expected.is_second_tangent
+                )
             );
         }
         if c > 0 {

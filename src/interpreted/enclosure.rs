@@ -326,7 +326,7 @@ impl Enclosure {
             .expand::<Interval>(time, q, v, &self.inputs)
             .ok()?;
         let rows: Vec<Vec<Interval>> = (0..n)
-            .map(|i| self.of_states.of_coordinate(i).to_vec())
+            .map(|i| self.of_states.coordinate(i).to_vec())
             .collect();
         let are_finite = rows.iter().flatten().all(|c| c.is_finite());
         are_finite.then_some(rows)
@@ -490,7 +490,7 @@ impl Enclosure {
                 .expand::<Dual<Interval>>(time, q, v, &inputs)
                 .ok()?;
             for i in 0..n {
-                let row = expander.of_coordinate(i);
+                let row = expander.coordinate(i);
                 let (mut q, mut v) = (Interval::ZERO, Interval::ZERO);
                 for j in (1..=ORDER).rev() {
                     let c = row[j].derivative;

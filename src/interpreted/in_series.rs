@@ -244,7 +244,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
             t: at,
         })?;
         for i in 0..self.q.len() {
-            let of_coordinate = self.expander.of_coordinate(i);
+            let of_coordinate = self.expander.coordinate(i);
             for (row, c) in self.coefficients.iter_mut().zip(of_coordinate) {
                 row[i] = *c;
             }

@@ -1,6 +1,5 @@
 //! Functions that are zero, or jump, exactly where contacts change: the truth is the closed form of a ball that falls from a height `h` and keeps the fraction
 //! `e` of its speed. With `t₁ = √(2h/g)` its impacts are at `t₁ (1 + 2e + 2e² + …)`, and it is highest `eᵏ t₁` after the k-th of them.
-#![cfg(feature = "interpreter")]
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Crossing, Ending, Machine, Method, Simulation, Solution, State};

@@ -675,7 +675,7 @@ impl<'d> Finder<'_, 'd> {
             if contact.friction.is_some() {
                 forces.push(format!("friction({name})"));
             }
-            if contact.slips_across(self.model.space) {
+            if contact.has_two_tangents(self.model.space) {
                 forces.push(format!("friction({name}.across)"));
             }
             let gap = match contact.geometry {

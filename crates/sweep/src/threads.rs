@@ -15,7 +15,7 @@ const CHUNK_DURATION: Duration = Duration::from_secs(1);
 /// The number of runs that fills the lanes of a processor twice, and the longest time that a chunk may take
 /// for this purpose.
 const FILLS_LANES: u64 = 16;
-const LONGEST_CHUNK: Duration = Duration::from_secs(10);
+const LONGEST_CHUNK_DURATION: Duration = Duration::from_secs(10);
 
 /// How many runs are timed to choose the length of chunks.
 const TIMED_RUNS: u64 = 8;
@@ -69,7 +69,8 @@ pub fn chunk_length(sweep: &Sweep) -> u64 {
     });
     let each = began.elapsed().as_secs_f64() / done.max(1) as f64;
     let mut fit = (CHUNK_DURATION.as_secs_f64() / each.max(1e-9)) as u64;
-    if sweep.may_run_in_lanes() && each * FILLS_LANES as f64 <= LONGEST_CHUNK.as_secs_f64() {
+    if sweep.may_run_in_lanes() && each * FILLS_LANES as f64 <= LONGEST_CHUNK_DURATION.as_secs_f64()
+    {
         fit = fit.max(FILLS_LANES);
     }
     let length = fit.clamp(1, most);

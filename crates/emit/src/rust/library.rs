@@ -41,7 +41,7 @@ impl Emitter<'_> {
         }
         if !self.program.unilateral.is_empty() {
             self.table_of_contacts();
-            for role in OF_CONTACTS {
+            for role in CONTACT_ROLES {
                 self.of_contacts(role);
             }
         }

@@ -97,7 +97,7 @@ impl<'s> Recorder<'s> {
         if self.places.contains_key(&convolution) {
             return;
         }
-        let kind = usize::from(convolution.along == TermOrder::Rest);
+        let kind = usize::from(convolution.along == TermOrder::Other);
         self.places
             .insert(convolution, (kind, self.lanes[kind].len()));
         self.lanes[kind].push(convolution);
@@ -661,7 +661,7 @@ impl Arithmetic for Recorder<'_> {
             symbolic.linear[stream.row.index()].unwrap_or(Operand::Zero)
         };
         match convolution.along {
-            TermOrder::Rest => sum,
+            TermOrder::Other => sum,
             TermOrder::Force => {
                 let (a, b) = (self.variable(carried(a)), linear(self, b));
                 self.multiply_add(a, b, sum)
