@@ -381,10 +381,10 @@ impl<M: Machine> Watch<'_, M> {
 
     /// Changes of sign between looks at the function, which `value_at` gives at fractions of the
     /// step. `ending` is what the function must exceed before its sign counts again, where the step ends
-    /// with a change of contacts and the function is zero to rounding there.
+    /// with a change of contacts and the function is zero to rounding there. A step that `is_known_at_end` only is not looked at within.
     fn changes(
         &mut self,
-        looks: &[f64],
+        (looks, is_known_at_end): (&[f64], bool),
         roundoff: f64,
         ending: Option<f64>,
         mut value_at: impl FnMut(&mut Self, f64) -> Result<f64, Error>,
@@ -396,9 +396,8 @@ impl<M: Machine> Watch<'_, M> {
         let mut theta_before = 0.0;
         // Where it has become zero, and how long it was so: that may be a touch.
         let mut zeros: Option<[f64; 3]> = None;
-        // Where it starts from zero, it may leave it and be back long before a quarter of the step. A step that is looked at only at its end is not
-        // known within.
-        let least = if side == 0.0 && looks.len() > 1 {
+        // Where it starts from zero, it may leave it and be back long before a quarter of the step.
+        let least = if side == 0.0 && !is_known_at_end {
             16.0 * roundoff
         } else {
             looks[0]
@@ -443,7 +442,7 @@ impl<M: Machine> Watch<'_, M> {
             }
             theta_before = theta;
         }
-        if touched != 0.0 && looks.len() == 1 && ending.is_some() {
+        if touched != 0.0 && is_known_at_end && ending.is_some() {
             // What is seen only at the ends of steps may leave in the next one.
             (self.touched, leave) = (touched, ending.unwrap_or(leave));
         } else if touched != 0.0 {
@@ -565,7 +564,8 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                     let at = state(system, interpolated_at(stepper, theta));
                     value(watch, stepper, &at)
                 };
-                watch.changes(&SAMPLE_FRACTIONS, roundoff, None, look, |_, _, _| {
+                let looks = (&SAMPLE_FRACTIONS[..], false);
+                watch.changes(looks, roundoff, None, look, |_, _, _| {
                     suspected = true;
                     Ok(())
                 })?;
@@ -591,11 +591,13 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
             }
             Ok(value)
         };
+        let is_known_at_end = end == EndOfStep::Impacts;
         let looks: &[f64] = match places {
-            _ if end == EndOfStep::Impacts => &[1.0],
+            _ if is_known_at_end => &[1.0],
             Places::All => &*roots::looks(|theta| exact(watch, theta))?,
             Places::Few => &SAMPLE_FRACTIONS,
         };
+        let looks = (looks, is_known_at_end);
         watch.changes(looks, roundoff, ending, exact, |watch, from, to| {
             let side_before = watch.side;
             let theta = if from == to {

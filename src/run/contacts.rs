@@ -810,7 +810,10 @@ fn closing(
     }
     if rate < 0.0 && rate_after > 0.0 {
         let nearest = event::root([open, to], roundoff, &mut |theta| Ok(at(theta)?[1]))?;
-        if at(nearest)?[0] < 0.0 {
+        // Where a gap that is about to open turns at once, its rate is rounding: with 1e-6 of the step until then it falls by at most 1e-12 of
+        // what it opens afterwards.
+        let is_rounding = nearest - from <= LEAST_FLIGHT;
+        if !is_rounding && at(nearest)?[0] < 0.0 {
             let found = event::root([open, nearest], roundoff, &mut |theta| Ok(at(theta)?[0]))?;
             return Ok(Some(found));
         }

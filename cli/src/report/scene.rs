@@ -123,7 +123,7 @@ pub struct ElementDrawn {
 }
 
 #[derive(Debug, Serialize, PartialEq)]
-#[serde(rename_all = "lowercase", tag = "centre_and_axes")]
+#[serde(rename_all = "lowercase", tag = "placed")]
 pub enum Placed {
     /// Between two points.
     Between { ends: [usize; 2] },
@@ -160,7 +160,7 @@ pub struct ContactDrawn {
 }
 
 #[derive(Debug, Serialize, PartialEq)]
-#[serde(rename_all = "lowercase", tag = "centre_and_axes")]
+#[serde(rename_all = "lowercase", tag = "placed")]
 pub enum Touch {
     /// At a point, along unit vectors.
     Point {
@@ -644,7 +644,7 @@ impl<'d> Finder<'_, 'd> {
                 omitted.push(format!("{} {}", element.section.noun, element.name));
                 continue;
             };
-            // Elements that act on one body along the same direction are centre_and_axes alternately on opposite sides.
+            // Elements that act on one body along the same direction are placed alternately on opposite sides.
             if let Placed::Sketch {
                 body, along, side, ..
             } = &mut place

@@ -336,8 +336,9 @@ fn the_crusher_runs_for_a_second_with_friction() {
     for event in events(&run, "impact") {
         assert!(number(&event["gap_rate"][1]) >= -1e-12, "{event}");
         let [normal, tangential] = [0, 1].map(|k| number(&event["impulse"][k]));
+        // Bodies of up to 600 kg at some m/s: the rounding of their momenta, 2⁻⁵³ · 10³ N s, affects impulses that are far smaller.
         assert!(
-            normal >= 0.0 && tangential.abs() <= 0.3 * normal * (1.0 + 1e-9),
+            normal >= 0.0 && tangential.abs() <= 0.3 * normal * (1.0 + 1e-9) + 1e-13,
             "{event}"
         );
     }

@@ -1575,31 +1575,34 @@ fn a_formula_gives_way_to_a_range_and_assumptions_are_asked_along_it() {
     };
     let (derived, typed) = (pendulum(" = 2*l"), pendulum(" = 2"));
     let warning = "warning: at 1 of 3 values, the first of which is long = 3: the machine assumes `long < 2.5`, which does not hold here";
-    for call in [["modes", "--vary"], ["linearize", "--along"]] {
-        let asked = |spec: &str| {
-            let output = lagrangian(&[call[0], spec, call[1], "long=1..3:3", "--json"]);
-            let said = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{call:?}: {said}");
-            assert!(said.contains(warning), "{call:?}: {said}");
-            serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
-        };
-        assert_eq!(asked(derived.path()), asked(typed.path()));
-    }
-    // ω² = g/l at each of the three.
-    let output = lagrangian(&[
-        "linearize",
-        derived.path(),
-        "--along",
-        "long=1..3:3",
-        "--json",
-    ]);
-    let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    for (row, long) in found["rows"]
-        .as_array()
-        .expect("rows")
-        .iter()
-        .zip([1.0, 2.0, 3.0])
-    {
-        close(number(&row["im"]), (9.81_f64 / long).sqrt());
+    let out = derived.0.with_file_name("along.csv");
+    let out = out.to_str().expect("text");
+    let asked = |call: &[&str]| {
+        let output = lagrangian(call);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{call:?}: {said}");
+        assert!(said.contains(warning), "{call:?}: {said}");
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let range = "long=1..3:3";
+    let modes = |spec: &str| asked(&["modes", spec, "--vary", range, "--json"]);
+    assert_eq!(modes(derived.path()), modes(typed.path()));
+    let along = |spec: &str| {
+        asked(&["linearize", spec, "--along", range, "--out", out]);
+        std::fs::read_to_string(out).expect("a table")
+    };
+    let table = along(derived.path());
+    assert_eq!(table, along(typed.path()));
+    // ω² = g/l at each of the three; `im` is the fourth column.
+    let rows: Vec<Vec<f64>> = (table.lines().skip(1))
+        .map(|line| {
+            line.split(',')
+                .map(|x| x.parse().expect("a number"))
+                .collect()
+        })
+        .collect();
+    assert_eq!(rows.len(), 3, "{table}");
+    for row in rows {
+        close(row[3], (9.81_f64 / row[0]).sqrt());
     }
 }

@@ -848,7 +848,7 @@ fn spatial_frames_turn_as_rotation_matrices_do() {
             coordinates { a: rad, b: rad, c: rad }
             frames { f = ground.turn(x, a).shift(1, 2, 3).turn(y, b).turn(z, c) }
             bodies { one { mass: 1, inertia: (1, 2, 3, 4, 5, 6), frame: f, at: f.point(4, 5, 6) } }
-            outputs { c: m = dot(cross(one.at, (0, 1, 0)), (1, 0, 0)) }
+            outputs { d: m = dot(cross(one.at, (0, 1, 0)), (1, 0, 0)) }
         }",
     );
     type Matrix = [[f64; 3]; 3];

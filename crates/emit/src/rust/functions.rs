@@ -373,7 +373,7 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// PackedOperation at least one of two functions reads.
+/// What at least one of two functions reads.
 pub(super) fn union(a: Reads, b: Reads) -> Reads {
     Reads {
         parameters: a.parameters || b.parameters,

@@ -361,7 +361,7 @@ impl Emitter<'_> {
         };
         self.writer.gap();
         self.docs(&format!(
-            "PackedOperation the pieces of [`{}`] are given.",
+            "What the pieces of [`{}`] are given.",
             self.function_name(role)
         ));
         self.writer.open(format!(

@@ -186,7 +186,7 @@ impl Emitter<'_> {
             prepared, machine, ..
         } = self.types.clone();
         self.writer.gap();
-        self.docs("PackedOperation is prepared of parameters in the order of the description.");
+        self.docs("What is prepared of parameters in the order of the description.");
         let row = format!("row: &[{f64}; {}]", self.program.parameters.len());
         self.writer.signature(
             "pub fn prepared",

@@ -209,7 +209,7 @@ impl Emitter<'_> {
         let [copy, default] = ["Copy", "Default"].map(|name| self.types.known(name));
         self.writer.gap();
         self.docs(
-            "The coefficients of which products are made, order by order, while the Taylor series is computed. PackedOperation they hold \
+            "The coefficients of which products are made, order by order, while the Taylor series is computed. What they hold \
              before that does not matter.",
         );
         self.writer.open(format!("pub struct {lists}<{scalar}> {{"));

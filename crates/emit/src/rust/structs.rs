@@ -250,20 +250,14 @@ impl Emitter<'_> {
     pub(super) fn inputs(&mut self) {
         let name = self.types.inputs.clone();
         let group = Group::new(&self.program.inputs);
-        let docs = format!(
-            "PackedOperation can be set while a [`{}`] runs.",
-            self.program.name
-        );
+        let docs = format!("What can be set while a [`{}`] runs.", self.program.name);
         self.structure(&name, &docs, &group, true);
     }
 
     pub(super) fn outputs(&mut self) {
         let name = self.types.outputs.clone();
         let group = Group::new(&self.program.outputs);
-        let docs = format!(
-            "PackedOperation can be observed of a [`{}`].",
-            self.program.name
-        );
+        let docs = format!("What can be observed of a [`{}`].", self.program.name);
         self.structure(&name, &docs, &group, false);
     }
 
@@ -304,7 +298,7 @@ impl Emitter<'_> {
             self.writer.line(marker);
         }
         if let Some(count) = self.number_of_constants_of_series() {
-            self.docs("PackedOperation the Taylor series takes from the parameters.");
+            self.docs("What the Taylor series takes from the parameters.");
             self.writer.line(format!("series: [{scalar}; {count}],"));
         }
         if !self.program.prepare.guards.is_empty() {
