@@ -99,7 +99,7 @@ pub(crate) struct Tableau<'w> {
 impl<'w> Tableau<'w> {
     /// The conditions of the contacts that share forces of a group. `numbers` has the length [`tableau_length`], `basic` two entries for
     /// each contact, and `outside` one more than there are undetermined forces.
-    pub fn new(
+    pub(crate) fn new(
         sharers: &[Sharer],
         (by, groups, group): (&[f64], &[usize], usize),
         (numbers, basic, outside): (&'w mut [f64], &'w mut [usize], &'w mut [usize]),
@@ -157,7 +157,7 @@ impl<'w> Tableau<'w> {
     }
 
     /// The shared margin; infinite if forces may grow without bound and all contacts hold the better. `None` if rounding prevents a solution.
-    pub fn solve(&mut self) -> Option<f64> {
+    pub(crate) fn solve(&mut self) -> Option<f64> {
         let (rows, width) = (self.basic.len(), self.free + 2);
         for row in 0..rows {
             if self.basic[row] != NO_FORCE {
@@ -263,7 +263,7 @@ impl<'w> Tableau<'w> {
     }
 
     /// An undetermined force of the solution.
-    pub fn force(&self, number: usize) -> f64 {
+    pub(crate) fn force(&self, number: usize) -> f64 {
         let row = self.basic.iter().position(|variable| *variable == number);
         row.map_or(0.0, |row| {
             self.numbers[row * (self.free + 2) + self.free + 1]
@@ -271,7 +271,7 @@ impl<'w> Tableau<'w> {
     }
 
     /// How a contact limits the shared margin, if it does: where both directions of its friction do, it presses no more.
-    pub fn limit(&self, contact: usize, sharer: &Sharer) -> Option<Limit> {
+    pub(crate) fn limit(&self, contact: usize, sharer: &Sharer) -> Option<Limit> {
         let gains = &self.numbers[self.objective * (self.free + 2)..][..=self.free];
         let limits = |second: usize| {
             let slack = self.free + 1 + 2 * contact + second;
