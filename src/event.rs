@@ -594,7 +594,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         let is_known_at_end = end == EndOfStep::Impacts;
         let looks: &[f64] = match places {
             _ if is_known_at_end => &[1.0],
-            Places::All => &*roots::looks(|theta| exact(watch, theta))?,
+            Places::All => &roots::looks(|theta| exact(watch, theta))?,
             Places::Few => &SAMPLE_FRACTIONS,
         };
         let looks = (looks, is_known_at_end);
@@ -713,12 +713,13 @@ fn may_be_zero_at_end(values: &[f64; roots::FRACTIONS.len()]) -> bool {
         .iter()
         .fold(0.0_f64, |most, value| most.max(value.abs()));
     let last_change = (values[4] - values[7]).abs();
-    !(values[4].abs() > last_change + SUSPECT * greatest)
+    let bound = last_change + SUSPECT * greatest;
+    values[4].abs() <= bound || values[4].is_nan() || bound.is_nan()
 }
 
 /// Whether a function with this value after a change of contacts may be zero to rounding there, if it was `before` just before it, or not a number.
 pub(crate) fn may_be_zero_after(value: f64, before: f64, is_at_zero: bool) -> bool {
-    is_at_zero || !(value.abs() > SUSPECT * before.abs())
+    is_at_zero || value.abs() <= SUSPECT * before.abs() || value.is_nan() || before.is_nan()
 }
 
 /// The stepper of a run.

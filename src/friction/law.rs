@@ -726,13 +726,6 @@ fn beyond(x: f64, rounding: f64) -> f64 {
 
 /// How guides that depend on each other share their forces: by (E78).
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(
-    not(feature = "std"),
-    expect(
-        dead_code,
-        reason = "only runs look for the instants at which guides let go"
-    )
-)]
 pub(super) struct Shared {
     /// The undetermined forces.
     undetermined: Each,
