@@ -64,7 +64,7 @@ fn run(machine: &InterpretedMachine, r: f64, level: f64, until: f64, method: &st
         .expect("a run")
 }
 
-fn of<'r>(run: &'r Run, name: &str) -> Vec<(f64, Crossing)> {
+fn of(run: &Run, name: &str) -> Vec<(f64, Crossing)> {
     let events = run.events().iter().filter(|event| event.name == name);
     events
         .map(|event| (event.state.t, event.crossing))
