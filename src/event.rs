@@ -68,7 +68,7 @@ pub enum Crossing {
 }
 
 impl Crossing {
-    /// The way through zero, forward in time, of a function that had this sign before in the order of the run.
+    /// The direction of a crossing, forward in time, of a function that had this sign before it in the order of the run.
     fn from(side_before: f64, forward: bool) -> Self {
         if (side_before < 0.0) == forward {
             Self::Rising
@@ -77,7 +77,7 @@ impl Crossing {
         }
     }
 
-    /// Whether a way through zero is one of those that count.
+    /// Whether a crossing in this direction counts.
     pub(crate) fn counts(self, way: Self) -> bool {
         self == Self::Any || self == way
     }
@@ -337,8 +337,8 @@ impl<M: Machine> Watch<'_, M> {
         Ok((rounding.is_zero(value)).then(|| rounding.to_leave(value)))
     }
 
-    /// Takes note of the value after a change of contacts, with its rounding if it may be zero. The answer is the way in which the function has gone
-    /// through zero, forward in time, if it has.
+    /// Records the value after a change of contacts, with its round-off if it may be zero. Returns the direction, forward in time, in which the
+    /// function has crossed zero there, if it has.
     pub fn jump(
         &mut self,
         value: f64,
@@ -362,7 +362,7 @@ impl<M: Machine> Watch<'_, M> {
         crosses.then(|| Crossing::from(before, forward))
     }
 
-    /// Takes note of the value after an impact at the start, if it has changed there.
+    /// Records the value after an impact at the start, if the function has changed there.
     pub fn jump_at_start(&mut self, value: f64, rounding: RoundingOfValue) {
         let before = self.at_end;
         if self.at_zero || value == before {
@@ -373,9 +373,10 @@ impl<M: Machine> Watch<'_, M> {
         self.begun = true;
         self.touched = if had_sign { sign(before) } else { 0.0 };
         self.side = 0.0;
-        self.leave = match rounding.is_zero(value) {
-            true => rounding.to_leave(value),
-            false => 0.0,
+        self.leave = if rounding.is_zero(value) {
+            rounding.to_leave(value)
+        } else {
+            0.0
         };
     }
 
@@ -443,7 +444,7 @@ impl<M: Machine> Watch<'_, M> {
             theta_before = theta;
         }
         if touched != 0.0 && is_known_at_end && ending.is_some() {
-            // What is seen only at the ends of steps may leave in the next one.
+            // It is evaluated at the ends of steps only, and may leave zero in the next step.
             (self.touched, leave) = (touched, ending.unwrap_or(leave));
         } else if touched != 0.0 {
             // It stays at zero.

@@ -865,9 +865,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     #[inline(always)]
     fn end_of_step(&self, is_pending: bool) -> EndOfStep {
         if !self.is_stepped() {
-            return match is_pending && self.stepper.is_done() {
-                true => EndOfStep::Change,
-                false => EndOfStep::Smooth,
+            return if is_pending && self.stepper.is_done() {
+                EndOfStep::Change
+            } else {
+                EndOfStep::Smooth
             };
         }
         let closes = self.stepper.stepped().is_some_and(|(stepped, before)| {

@@ -283,14 +283,14 @@ pub(super) fn solve(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, usize) {
     (x, order.rank)
 }
 
-/// The order in which [`eliminate`] has left the unknowns: those that depend on the rest come behind the others.
+/// The order of the unknowns after [`eliminate`]: first those that are determined, then the undetermined ones, which have been set to 0.
 pub(super) struct Order {
     columns: Vec<usize>,
     pub rank: usize,
 }
 
 impl Order {
-    /// What a unit of each unknown that depends on the rest does to all of them, from the matrix that has been eliminated.
+    /// A basis of the null space of the matrix: the change of all unknowns for a unit of each undetermined one. `a` is the triangular matrix.
     pub fn null_space(&self, a: &[f64]) -> Vec<Vec<f64>> {
         let n = self.columns.len();
         let of_unit = |free: usize| {
@@ -306,7 +306,7 @@ impl Order {
     }
 }
 
-/// As [`solve`], with the order of the unknowns in what is left of the matrix.
+/// Eliminates `A x = b` like [`solve`], and returns the order of the unknowns in the triangular matrix that `a` then holds.
 pub(super) fn eliminate(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, Order) {
     let n = b.len();
     let mut columns: Vec<usize> = (0..n).collect();

@@ -228,10 +228,11 @@ impl ContactKinematics {
         ]
     }
 
-    /// What rounding may make of the acceleration of a gap, in m/s², where rates up to this one are known to [`ROUNDING`] of it: accelerations have squares
-    /// of rates over a radius of curvature, of which what is left of rates at rest remains. The radius is taken to be as large as the terms
-    /// of the gap, or as the way at this rate until now; that errs on the small side by less than the margin between rounding and [`ROUNDING`]. It
-    /// is no more than these squares are.
+    /// The round-off of the acceleration of a gap, in m/s², where rates of size `rate` are known to [`ROUNDING`] of it.
+    ///
+    /// The acceleration contains squares of rates divided by a radius of curvature, and rates at rest are not exactly 0. The radius is estimated
+    /// by the terms of the gap, or by the distance travelled at this rate until now. This may be too large, but by less than the factor
+    /// between round-off and [`ROUNDING`]. The result is at most 16 times the sum of these squares.
     pub fn acceleration_rounding(&self, contact: usize, rate: f64) -> f64 {
         let (t, q, v) = &self.at;
         let row = self.row(2 * contact);
@@ -243,7 +244,7 @@ impl ContactKinematics {
         }
         let squares = self.drifts.iter().step_by(2).map(|drift| drift.abs());
         let most = 16.0 * squares.sum::<f64>();
-        // What is left of rates, and what the squares of rates that cancel leave of their sum.
+        // The square of a rate at rest, and the round-off of squares of rates that cancel.
         let left = ROUNDING * rate * (ROUNDING * rate / length);
         let cancelled = 64.0 * f64::EPSILON * own * (own / length);
         (left + cancelled).min(most)
@@ -288,7 +289,7 @@ pub(crate) struct Reaction {
     slip_terms: Vec<f64>,
     /// Whether the forces are the only ones that go with the accelerations.
     pub is_only: bool,
-    /// The equations that leave forces open, where they do.
+    /// The equations of the forces, if they leave some of them undetermined.
     open_equations: Option<OpenEquations>,
 }
 
@@ -296,27 +297,27 @@ pub(crate) struct Reaction {
 struct OpenEquations {
     /// The closed contacts.
     closed: Vec<usize>,
-    /// The unknown forces: of which of these, along its normal (0) or its tangent (1).
+    /// The contact of each unknown force, as its position in `closed`, and the direction: normal (0) or tangent (1).
     unknowns: Vec<(usize, usize)>,
     /// The matrix after elimination.
     matrix: Vec<f64>,
     order: lcp::Order,
 }
 
-/// How contacts share forces so that all of them hold best.
+/// The distribution of forces among contacts at which the least margin is greatest.
 struct SharedLoad {
-    /// Of each contact that shares forces.
+    /// The margin of each contact that shares forces, and nothing for the others.
     margins: Vec<Option<SharedMargin>>,
     /// Along normal and tangent, of every contact.
     forces: Vec<[f64; 2]>,
 }
 
-/// How a contact that shares forces with others holds.
+/// The margin of a contact that shares forces with others.
 struct SharedMargin {
     margin: Margin,
-    /// Whether its normal force is among what is shared.
+    /// Whether its normal force is undetermined.
     shares_normal: bool,
-    /// What it does where all of them let go.
+    /// Whether and how this contact limits the margin.
     limit: Option<Limit>,
 }
 
@@ -772,7 +773,7 @@ impl UnilateralState {
         Ok(reaction)
     }
 
-    /// What the tangential force of a contact is of its normal one: where it slips, in its direction.
+    /// The ratio of the tangential to the normal force of a contact that slips; 0 for others.
     fn share(&self, here: &ContactKinematics, contact: usize) -> f64 {
         match self.modes[contact] {
             Mode::Slides(sign) => -sign * here.friction(contact)[0],
@@ -781,8 +782,8 @@ impl UnilateralState {
         }
     }
 
-    /// How contacts that share forces do this so that all of them hold best. Nothing where friction acts along two tangents: that problem is
-    /// not linear.
+    /// The distribution of undetermined forces at which the least margin of the contacts is greatest, (E78). Nothing where friction acts along
+    /// two tangents, since that problem is not linear.
     fn shared_load(&self, here: &ContactKinematics, reaction: &Reaction) -> Option<SharedLoad> {
         let OpenEquations {
             closed,
@@ -806,7 +807,7 @@ impl UnilateralState {
         let mut by = vec![0.0; 2 * free * closed.len()];
         let mut sharers = vec![Sharer::default(); closed.len()];
         for (place, (&k, own)) in closed.iter().zip(by.chunks_exact_mut(2 * free)).enumerate() {
-            // What leans on a contact has the normal force of that, which stands before it.
+            // A contact with a carrier has the normal force of its carrier, which precedes it.
             let pressing = place - usize::from(self.carrier[k].is_some());
             let unknown = |wanted: (usize, usize)| unknowns.iter().position(|u| *u == wanted);
             for (part, pressed) in [(0, pressing), (1, place)] {
@@ -886,8 +887,8 @@ impl UnilateralState {
         Some(load)
     }
 
-    /// That contacts which touch and are at rest stay so, and the forces with which they do, where the complementarity problem has let
-    /// some of them go although a distribution of the forces that they share permits rest.
+    /// The states and forces with which all contacts at rest stay at rest, if some distribution of the forces that they share permits it. The
+    /// solution of the complementarity problem is one distribution, and may release some of them.
     fn rests_together<S: System>(
         &self,
         system: &S,
@@ -896,9 +897,12 @@ impl UnilateralState {
         resting: &[bool],
         modes: &[Mode],
     ) -> Option<(Vec<Mode>, Vec<[f64; 2]>)> {
-        let at_rest = |k: usize| match self.has_friction[k] {
-            true => Mode::Sticks,
-            false => Mode::Slides(0.0),
+        let at_rest = |k: usize| {
+            if self.has_friction[k] {
+                Mode::Sticks
+            } else {
+                Mode::Slides(0.0)
+            }
         };
         let held: Vec<Mode> = (modes.iter().enumerate())
             .map(|(k, mode)| if resting[k] { at_rest(k) } else { *mode })
@@ -909,7 +913,7 @@ impl UnilateralState {
         let load = touching.shared_load(here, &reaction)?;
         let free = Self::free(system, at).ok()?;
         let is_still = |direction: &usize| {
-            // Forces cancel the terms that there are without them.
+            // Its round-off is that of the terms that the forces cancel.
             let [rate, terms] = here.acceleration(*direction, &reaction.a);
             let [_, of_free] = here.acceleration(*direction, &free);
             rate.abs() <= ROUNDING_OF_FORCES * (terms + of_free)
@@ -931,7 +935,7 @@ impl UnilateralState {
         is_held.then_some((touching.modes, load.forces))
     }
 
-    /// What contacts do that share forces and can hold no more, each being one that limits what they hold together.
+    /// The new states of contacts that share forces and no longer hold: of those that limit the shared margin.
     pub fn let_go<S: System>(
         &self,
         system: &S,
@@ -952,7 +956,7 @@ impl UnilateralState {
         };
         let mut known: Vec<(usize, Mode)> =
             shared.into_iter().enumerate().filter_map(limits).collect();
-        // Where others slip, what presses no more goes with them, or lifts later.
+        // If some slip, contacts whose normal force has vanished move with them, or lift later.
         if known.iter().any(|(_, mode)| *mode != Mode::Open) {
             known.retain(|(_, mode)| *mode != Mode::Open);
         }
@@ -1119,7 +1123,7 @@ impl UnilateralState {
                 }
                 Mode::Slides(0.0) => [presses, Margin::ENDLESS, loads, stays],
                 Mode::Slides(sign) => {
-                    // What rests where contacts are asked is not found to have stopped.
+                    // The same allowance as in `resting`: a contact that is at rest there does not stop once more here.
                     let rounding = here.rate_rounding_in_time(2 * k + 1, reaction.slip_terms[k]);
                     let slips = Margin {
                         value: sign * here.rates[2 * k + 1],
@@ -1145,17 +1149,20 @@ impl UnilateralState {
         let in_plane = !self.across.contains(&true);
         let is_doubtful = |(k, margin): (usize, &[Margin; 4])| {
             let shared = if self.is_compliant(k) { 1..2 } else { 0..2 };
-            margin[shared].iter().any(|m| match in_plane {
-                // Also where it is rounding, so that no search for an instant ends where it is 0 with these forces.
-                true => m.value <= m.rounding,
-                false => m.value < -m.rounding,
+            margin[shared].iter().any(|m| {
+                if in_plane {
+                    // A margin of 0 counts as well: the search for an instant would end where it is 0 with these forces.
+                    m.value <= m.rounding
+                } else {
+                    m.value < -m.rounding
+                }
             })
         };
         let shared_kinds = |k: usize| [!self.is_compliant(k), self.modes[k] == Mode::Sticks];
         if reaction.is_only {
             // Each margin is that of the contact.
         } else if !margins.iter().enumerate().any(is_doubtful) {
-            // Every contact holds with these forces, also one that has none of those that are shared: 0 is not where it lets go.
+            // Every contact holds with these forces. One whose share of them is 0 does not let go for that reason.
             for (k, margin) in margins.iter_mut().enumerate() {
                 let kinds = margin.iter_mut().zip(shared_kinds(k));
                 for (margin, _) in kinds.filter(|(_, shared)| *shared) {
@@ -1165,7 +1172,7 @@ impl UnilateralState {
                 }
             }
         } else if let Some(load) = self.shared_load(&here, &reaction) {
-            // Forces that share a load may share it otherwise: contacts hold as long as all of them can hold with some of these.
+            // Contacts hold as long as all of them can hold with some distribution of the forces.
             for (k, (margin, shared)) in margins.iter_mut().zip(load.margins).enumerate() {
                 let Some(shared) = shared else {
                     continue;
@@ -1178,7 +1185,7 @@ impl UnilateralState {
                 }
             }
         } else {
-            // In space only the complementarity problem of all together can tell.
+            // In space the complementarity problem of all contacts together decides.
             let resting: Vec<bool> = self.modes.iter().map(|m| *m == Mode::Sticks).collect();
             let closed: Vec<bool> = self.modes.iter().map(|m| *m != Mode::Open).collect();
             let settled = self.settled(system, at, &closed, &resting, &[])?;
@@ -1190,7 +1197,7 @@ impl UnilateralState {
                     if all_hold {
                         *margin = Margin::ENDLESS;
                     } else if margin.value < -margin.rounding {
-                        // By how much it is lost with these forces says nothing of the instant, which is looked for by the sign.
+                        // The size of a negative margin depends on the distribution of forces; only its sign locates the instant.
                         margin.value = f64::NEG_INFINITY;
                     }
                 }

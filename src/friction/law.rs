@@ -1076,7 +1076,7 @@ pub(super) fn solve(
     eliminate(rows, count).map(|(solution, _)| solution)
 }
 
-/// As [`solve`], with the unknown for which each row is solved in the end.
+/// Eliminates like [`solve`], and returns the unknown for which each row has been solved.
 fn eliminate(
     rows: &mut [[f64; MOST_CONTACTS + 1]; MOST_CONTACTS],
     count: usize,

@@ -408,7 +408,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             .map(|event| (left(event.0, event.1), event))
             .collect();
         reported.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        // What follows on the end of bounces does not come before it: its time is as uncertain as that one.
+        // Events that follow the end of bounces are not reported before it: their time is as uncertain.
         let latest = self.record.unilateral.events.last();
         let mut latest = latest.map_or(now.t, |event| event.state.t);
         for (left, (contact, kind, direction, impact)) in reported {
@@ -810,8 +810,8 @@ fn closing(
     }
     if rate < 0.0 && rate_after > 0.0 {
         let nearest = event::root([open, to], roundoff, &mut |theta| Ok(at(theta)?[1]))?;
-        // Where a gap that is about to open turns at once, its rate is rounding: with 1e-6 of the step until then it falls by at most 1e-12 of
-        // what it opens afterwards.
+        // A gap that falls for at most 1e-6 of the step before it opens falls by at most 1e-12 of its later opening: its rate at the start was
+        // round-off, and nothing closes.
         let is_rounding = nearest - from <= LEAST_FLIGHT;
         if !is_rounding && at(nearest)?[0] < 0.0 {
             let found = event::root([open, nearest], roundoff, &mut |theta| Ok(at(theta)?[0]))?;

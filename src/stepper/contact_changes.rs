@@ -266,7 +266,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             pairs.all(|(after, before)| after.is_like(*before))
         };
         if cause == Cause::Unspecified && is_same(&modes) {
-            // What contacts hold together may be used up by so little that the forces do not tell yet.
+            // Contacts that share a load may exceed what they hold together by so little that the forces above do not show it.
             let let_go = touching.let_go(system, at)?;
             if !let_go.is_empty() {
                 modes = touching.settled(system, at, &closed, &resting, &let_go)?;

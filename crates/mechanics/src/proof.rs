@@ -315,6 +315,14 @@ fn validate<'d>(
         return Ok(());
     }
     let at_states = Prover::<Ball>::new(parts).run(STATES, MOST_STATES, work);
+    decide(in_field, at_states)
+}
+
+/// What both comparisons tell, in the prime field and at states in numbers with error bounds, where the field does not decide alone.
+fn decide(
+    in_field: ComparisonResult,
+    at_states: ComparisonResult,
+) -> Result<(), (Disagreement, Witness)> {
     match (in_field, at_states) {
         (
             ComparisonResult::Equal

@@ -31,10 +31,10 @@ const ROUNDOFF: f64 = 8.0;
 /// An iteration that leaves more than this fraction of the change stagnates.
 const STAGNATES: f64 = 0.5;
 
-/// So many halvings leave round-off of a distance.
+/// The number of halvings after which a distance is of the size of round-off.
 const HALVINGS: usize = 50;
 
-/// What is left of a change of the acceleration over so small a distance is a jump if it is more than this fraction of the whole change.
+/// The acceleration jumps if its change over this small distance is more than this fraction of its change over the whole step.
 const JUMP: f64 = 1e-3;
 
 /// State that the method keeps from step to step.

@@ -13,7 +13,7 @@ use lagrangian_spec::model::Model;
 use super::number::Number;
 use super::{
     ComparisonResult, Disagreement, MOST_POINTS, MOST_STATES, MOST_VALUES, Proved, STATES, Sum,
-    Unproved, Verdict, Witness, equal, subject_text,
+    Unproved, Verdict, Witness, decide, equal, subject_text,
 };
 use crate::POINTS;
 use crate::equations::literal::{Lagrange, State};
@@ -78,17 +78,7 @@ fn validate(
         return Ok(());
     }
     let at_states = Comparison::<Ball>::new(whole, part).run(&machine, STATES, MOST_STATES);
-    match (in_field, at_states) {
-        (
-            ComparisonResult::Equal
-            | ComparisonResult::Inconclusive
-            | ComparisonResult::Exhausted(_),
-            ComparisonResult::Wrong(wrong),
-        ) => Err((wrong, Witness::States)),
-        (_, ComparisonResult::Equal) | (ComparisonResult::Equal, _) => Ok(()),
-        (ComparisonResult::Wrong(wrong), _) => Err((wrong, Witness::Field)),
-        (_, _) => Err((Disagreement::Undefined, Witness::States)),
-    }
+    decide(in_field, at_states)
 }
 
 /// A program over dual numbers, and its derivatives over the numbers in these.
