@@ -152,8 +152,8 @@ fn the_compiler_is_compiled_once_in_every_profile() {
         let named: Vec<&str> = lines(&manifest)
             .into_iter()
             .filter(|(section, _)| *section == profile)
-            .filter_map(|(_, line)| line.split_once(".opt-level"))
-            .map(|(name, _)| name)
+            .filter(|(_, line)| line.contains("opt-level"))
+            .filter_map(|(_, line)| line.split(['.', ' ', '=']).next())
             .collect();
         let missing: Vec<&String> = packages
             .iter()

@@ -254,6 +254,10 @@ fn run(command: &mut Command) -> (String, bool) {
 
 /// Whether a line is a progress message, which any command may print on a busy machine.
 fn is_progress(line: &str) -> bool {
+    // Of sweeps, with the time that they will take.
+    if line.contains(" runs, ") && line.ends_with(" left") {
+        return true;
+    }
     let seconds = line
         .strip_suffix(" s")
         .and_then(|line| line.rsplit_once(", "));

@@ -65,9 +65,10 @@ impl Window {
     }
 }
 
-/// `1/N Σ e^{2πi x n/N}` over n from 0 to N − 1.
+/// `1/N Σ e^{2πi x n/N}` over n from 0 to N − 1, which has the period N.
 fn dirichlet(x: f64, count: usize) -> Complex<f64> {
     let count = count as f64;
+    let x = x - count * (x / count).round();
     let below = (PI * x / count).sin();
     if below == 0.0 {
         Complex::new(1.0, 0.0)
@@ -93,6 +94,8 @@ pub struct Spectrum {
     pub resolution: f64,
     /// The transform, divided by N/2 times the mean weight.
     transform: Vec<Complex<f64>>,
+    /// The sines and cosines of πk/N, at all frequencies of the transform and three beyond them.
+    half_angles: Vec<(f64, f64)>,
     window: Window,
     count: usize,
 }
@@ -114,6 +117,10 @@ const OWN: f64 = 0.5;
 
 /// How many times all lines are refined with the others subtracted.
 const ROUNDS: usize = 8;
+
+/// Closer to a line than this many frequencies, divided by π, its response is computed from the distance itself. Beyond it the
+/// round-off of a difference of angles is at most ε N/CLOSE of the response, which is less than a hundredth of the line there.
+const CLOSE: f64 = 200.0;
 
 /// The smallest number of samples of a spectrum.
 pub const LEAST: usize = 4;
@@ -151,6 +158,9 @@ impl Spectrum {
                 .collect(),
             mean,
             resolution,
+            half_angles: (0..transform.len() + 3)
+                .map(|k| (PI * k as f64 / count as f64).sin_cos())
+                .collect(),
             transform,
             window,
             count,
@@ -255,9 +265,37 @@ impl Spectrum {
     }
 
     /// Adds the response of the window to one of them.
+    ///
+    /// The response of a rectangular window is `sin(πx)/N e^{iπx} (cot(πx/N) − i)`, and the factor before the parenthesis is the same
+    /// for all x that are a whole number apart. The cotangent of a difference follows from sines and cosines of its parts, except
+    /// close to the line, where it would lose digits.
     fn add_one(&self, transform: &mut [Complex<f64>], place: f64, amplitude: Complex<f64>) {
-        for (k, x) in transform.iter_mut().enumerate() {
-            *x += amplitude * self.window.seen(place - k as f64, self.count);
+        let terms = self.window.terms();
+        let beside = terms.len() - 1;
+        let count = self.count as f64;
+        let past = PI * (place - place.round());
+        let factor = Complex::from_polar(past.sin() / count, past);
+        let (sine, cosine) = (PI * place / count).sin_cos();
+        let rectangular = |k: isize| {
+            let (sine_of_k, cosine_of_k) = self.half_angles[k.unsigned_abs()];
+            let sine_of_k = if k < 0 { -sine_of_k } else { sine_of_k };
+            let below = sine * cosine_of_k - cosine * sine_of_k;
+            if below.abs() * count < CLOSE {
+                return dirichlet(place - k as f64, self.count);
+            }
+            factor * Complex::new((cosine * cosine_of_k + sine * sine_of_k) / below, -1.0)
+        };
+        let first = -(beside as isize);
+        let last = (transform.len() + beside) as isize;
+        let responses: Vec<Complex<f64>> = (first..last).map(rectangular).collect();
+        let amplitude = amplitude / terms[0];
+        for (x, around) in transform.iter_mut().zip(responses.windows(2 * beside + 1)) {
+            let mut sum = around[beside] * terms[0];
+            for (j, a) in terms.iter().enumerate().skip(1) {
+                let half = if j % 2 == 0 { 0.5 * a } else { -0.5 * a };
+                sum += (around[beside - j] + around[beside + j]) * half;
+            }
+            *x += amplitude * sum;
         }
     }
 }
@@ -309,6 +347,30 @@ mod tests {
                     );
                 }
                 assert!((spectrum.resolution - 1.0 / (0.1 * count as f64)).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn leakage_by_differences_of_angles_is_that_of_the_window() {
+        // Both the line and its image, also near half of the sampling rate, where the image comes close.
+        for count in [4001, 4096] {
+            for window in Window::ALL {
+                let values = samples(&[(1.0, 1.0, 0.0)], count, 0.01);
+                let spectrum = Spectrum::new(&values, 0.01, window).unwrap();
+                for place in [0.0, 0.3, 100.0, 1234.56, 2000.25, -1234.56, -2047.9] {
+                    let mut leakage = vec![Complex::new(0.0, 0.0); spectrum.transform.len()];
+                    spectrum.add_one(&mut leakage, place, Complex::new(0.6, -0.8));
+                    for (k, x) in leakage.iter().enumerate() {
+                        let seen = window.seen(place - k as f64, count);
+                        let error = (x - Complex::new(0.6, -0.8) * seen).norm();
+                        // Both formulas round the angle π x, of up to N/2 π, and differences of angles: ε N/CLOSE of a response of
+                        // 1/CLOSE, up to four of them, with the weights of Blackman and Harris divided by the first.
+                        let angle = 4.0 * PI * count as f64 * f64::EPSILON / CLOSE;
+                        let bound = 8.0 * (angle + 8.0 * f64::EPSILON);
+                        assert!(error < bound, "{window:?} {place} {k}: {x} {seen}");
+                    }
+                }
             }
         }
     }

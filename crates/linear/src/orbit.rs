@@ -585,7 +585,7 @@ impl Search<'_> {
             .tolerance(self.sought.tolerance)
             .max_steps(STEPS_TO_OPEN)
             .until(until)
-            .run_as_far_as_possible(start)
+            .run_interpreted_as_far_as_possible(start)
             .map_err(failed)?;
         let phases: Vec<(f64, bool)> = run
             .contact_phases()
