@@ -65,7 +65,7 @@ pub struct DirectionEquation<'d> {
     /// `w(q, t)`, one entry for each coordinate.
     pub row: Vec<Expr<'d>>,
     /// `δ(q, v, t)`.
-    pub drift: Expr<'d>,
+    pub bias: Expr<'d>,
 }
 
 /// The unilateral contacts of a machine, in their order.
@@ -184,6 +184,6 @@ fn direction<'d>(model: &Model<'d>, x: &Variables<'d>, rate: Expr<'d>) -> Direct
     DirectionEquation {
         rate,
         row,
-        drift: x.without_acceleration(model).of(rate),
+        bias: x.without_acceleration(model).of(rate),
     }
 }
