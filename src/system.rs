@@ -487,7 +487,7 @@ pub trait System {
     #[inline(always)]
     fn gaps(&self, _t: f64, _q: &Self::Vector, _gaps: &mut [f64]) {}
 
-    /// Three numbers for each unilateral contact that is [with a face](UnilateralContact::faced) of a polygon: the distance of its corner
+    /// Three numbers for each unilateral contact that is [with a face](UnilateralContact::has_face) of a polygon: the distance of its corner
     /// outside of that face and the distance beyond the ends of it (negative between them), both in m, and the rate of the second, in m/s.
     /// The [gap](Self::gaps) is the larger of the first two; [rates](Self::contact_rates) are those of the face.
     #[inline(always)]

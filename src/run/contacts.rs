@@ -95,7 +95,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Err(self.model.explain(error, q, v));
         }
         self.record.unilateral.losses = vec![0.0; touching.modes().len()];
-        if self.settings.method.is_by_impulses() {
+        if self.settings.method.is_time_stepping() {
             return self.begin_stepping(&touching);
         }
         let step = self.settings.first_step.unwrap_or(0.0);

@@ -231,7 +231,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Undoes the last step of time stepping if it was long, because everything was at rest, but ends in motion.
     pub(super) fn undo_step_into_motion(&mut self) -> bool {
-        if self.settings.method.is_by_impulses() || self.stepper.last_step() <= self.activity.step {
+        if self.settings.method.is_time_stepping() || self.stepper.last_step() <= self.activity.step {
             return false;
         }
         let before = self.stepper.stepped();
@@ -249,7 +249,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// Continues after a step of time stepping: with longer steps if everything has come to rest, or by locating every event again if
     /// contacts have been quiet for long enough.
     pub(super) fn go_on_after_step(&mut self) -> Result<(), Error> {
-        if self.settings.method.is_by_impulses() || self.stepper.is_done() {
+        if self.settings.method.is_time_stepping() || self.stepper.is_done() {
             return Ok(());
         }
         let kinetic = self.kinetic_energy_now();
