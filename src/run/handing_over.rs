@@ -231,7 +231,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Undoes the last step of time stepping if it was long, because everything was at rest, but ends in motion.
     pub(super) fn undo_step_into_motion(&mut self) -> bool {
-        if self.settings.method.is_time_stepping() || self.stepper.last_step() <= self.activity.step {
+        if self.settings.method.is_time_stepping() || self.stepper.last_step() <= self.activity.step
+        {
             return false;
         }
         let before = self.stepper.stepped();
