@@ -123,7 +123,8 @@ fn row(what: &str, n: usize, text: &str) {
     match solved {
         Ok(forces) => {
             let touching = system.unilateral_contacts().zip(&forces);
-            let touching = touching.filter(|(contact, force)| !contact.across && force.closed);
+            let touching =
+                touching.filter(|(contact, force)| !contact.is_second_tangent && force.closed);
             let missed = residual(&system, &start.q.values, &a, &forces);
             let few = match touching.count() {
                 closed if closed == n => String::new(),
@@ -160,7 +161,7 @@ fn residual(
     let weight: f64 = missing.iter().map(|force| force.abs()).sum();
     let is_across: Vec<bool> = system
         .unilateral_contacts()
-        .map(|contact| contact.across)
+        .map(|contact| contact.is_second_tangent)
         .collect();
     for (k, force) in forces.iter().enumerate() {
         let normal = if is_across[k] { 0.0 } else { force.normal };
@@ -188,7 +189,7 @@ fn residual(
         let rubs = system
             .unilateral_contacts()
             .nth(k)
-            .is_some_and(|contact| contact.rubs);
+            .is_some_and(|contact| contact.has_friction);
         let friction = if rubs { FRICTION } else { 0.0 };
         let of_each = |of: &dyn Fn(usize) -> f64| pair.map(|k| k.map_or(0.0, of));
         let rubbing = of_each(&|k| forces[k].friction / weight);

@@ -168,7 +168,7 @@ where
     }
 
     /// The additional force `τ`.
-    fn further(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs) -> S::Vector {
+    fn additional_force(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs) -> S::Vector {
         let named = |vector: &S::Vector| self.system.to_coordinates(vector);
         let mut force = named(&q.zeros_like());
         (self.force)(t, &named(q), &named(v), u, &mut force);
@@ -196,7 +196,7 @@ where
     ///
     /// In this case the work rate is linear in `a`, and its slope exceeds that of the drives, which is `∂T/∂v` at rest, by `M v`:
     /// along `v` these are `T₁` and `2 T₂`, with the parts `T₂` and `T₁` of `T` of second and first order in `v`.
-    fn counts_all_that_holds(
+    fn work_rate_includes_reactions(
         &self,
         (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
         a: &S::Vector,
@@ -262,13 +262,13 @@ where
         constraint_positions,
         constraint_rates,
         constraint_matrix,
-        constraint_drift,
+        constraint_bias,
         unilateral_contacts,
         gaps,
         contact_rates,
         contact_matrix,
         contact_faces,
-        contact_drift,
+        contact_bias,
         contact_coefficients,
         kept_at_start,
         with_workspace,
@@ -291,7 +291,7 @@ where
             });
         }
         self.system.accelerations(t, q, v, u, a)?;
-        let mut by_force = self.further(t, q, v, u);
+        let mut by_force = self.additional_force(t, q, v, u);
         let n = q.as_slice().len();
         let mut matrix = S::Matrix::zeros(n * n);
         if matrix.as_slice().len() != n * n {
@@ -316,18 +316,19 @@ where
         applied: &mut S::Vector,
     ) {
         self.system.applied(t, q, v, u, applied);
-        Self::add(applied, &self.further(t, q, v, u));
+        Self::add(applied, &self.additional_force(t, q, v, u));
     }
 
     fn forces(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs, forces: &mut S::Vector) {
         self.system.forces(t, q, v, u, forces);
-        Self::add(forces, &self.further(t, q, v, u));
+        Self::add(forces, &self.additional_force(t, q, v, u));
     }
 
     fn work_rate(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &S::Vector, u: &S::Inputs) -> f64 {
-        let force = self.further(t, q, v, u);
+        let force = self.additional_force(t, q, v, u);
         let own = self.system.work_rate(t, q, v, a, u);
-        if self.system.constraints().len() != 0 && self.counts_all_that_holds((t, q, v, u), a, own)
+        if self.system.constraints().len() != 0
+            && self.work_rate_includes_reactions((t, q, v, u), a, own)
         {
             return own;
         }

@@ -66,7 +66,7 @@ pub(crate) fn errors<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     // A loop and not a closure for each trajectory: a closure would not be compiled into its caller for wide registers.
     let mut errors = fine;
     for (error, coarse) in errors.as_mut().iter_mut().zip(coarse.as_ref()) {
-        *error = control::combined(*error, *coarse, numbers);
+        *error = control::error_norm(*error, *coarse, numbers);
     }
     errors
 }

@@ -35,17 +35,17 @@ pub trait Quadratures<S: System>: Clone + sealed::Sealed {
     /// Adds the work and losses of an instant, in J.
     #[doc(hidden)]
     #[inline(always)]
-    fn add_at_once(&mut self, _work: f64, _lost: f64) {}
+    fn add_instantaneous(&mut self, _work: f64, _lost: f64) {}
 
     /// Sets the share of each unilateral contact in the powers of a stage, in W; contacts without an entry have none.
     #[doc(hidden)]
     #[cfg(feature = "std")]
-    fn share_out(&mut self, _stage: usize, _of_each: &[PartOfContact]) {}
+    fn set_contact_shares(&mut self, _stage: usize, _of_each: &[ContactShare]) {}
 
     /// Adds the share of a unilateral contact in the work and losses of an instant, in J.
     #[doc(hidden)]
     #[cfg(feature = "std")]
-    fn share_out_at_once(&mut self, _contact: usize, _part: PartOfContact) {}
+    fn add_instantaneous_share(&mut self, _contact: usize, _part: ContactShare) {}
 
     /// Adds a step of length `h` whose stages have the weights `b`; the stage after them is the first of the next step.
     #[doc(hidden)]
@@ -69,7 +69,7 @@ pub trait Quadratures<S: System>: Clone + sealed::Sealed {
 #[cfg(feature = "std")]
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PartOfContact {
+pub struct ContactShare {
     /// Losses by its friction, without impacts.
     pub friction: f64,
     /// Losses in its compliance, by damping or by the energy left when it opens; for a layer the work that crushes it.
@@ -79,9 +79,9 @@ pub struct PartOfContact {
 }
 
 #[cfg(feature = "std")]
-impl PartOfContact {
-    fn of([friction, compliance_loss, work]: [f64; 3]) -> PartOfContact {
-        PartOfContact {
+impl ContactShare {
+    fn of([friction, compliance_loss, work]: [f64; 3]) -> ContactShare {
+        ContactShare {
             friction,
             compliance_loss,
             work,
@@ -131,9 +131,9 @@ impl<S: System> Quadratures<S> for NoBalance {
 /// steps; if a step is too long for them, a run integrates them again along it.
 #[derive(Clone, Debug, Default)]
 pub struct EnergyIntegrals {
-    /// Those of work rate, its absolute value, and dissipation rate.
+    /// The integrals of the work rate, its absolute value, and dissipation rate.
     own: Integrals,
-    /// Those of the shares of each unilateral contact; empty until one has a share.
+    /// The integrals of the shares of each unilateral contact; empty until one has a share.
     #[cfg(feature = "std")]
     of_contacts: Vec<Integrals>,
 }
@@ -150,7 +150,7 @@ struct Integrals {
 }
 
 impl Integrals {
-    fn add_at_once(&mut self, by: [f64; 3]) {
+    fn add_instantaneous(&mut self, by: [f64; 3]) {
         for (sum, by) in self.sums.iter_mut().zip(by) {
             *sum = sum.plus(by);
         }
@@ -192,7 +192,7 @@ impl EnergyIntegrals {
     }
 
     /// The integral of the absolute value of the work rate, in J: work that is done and returned counts twice.
-    pub fn work_turned_over(&self) -> f64 {
+    pub fn absolute_work(&self) -> f64 {
         self.own.sums[1].high
     }
 
@@ -203,16 +203,16 @@ impl EnergyIntegrals {
 
     /// The energies of a unilateral contact so far, in J.
     #[cfg(feature = "std")]
-    pub(crate) fn of_contact(&self, contact: usize) -> PartOfContact {
+    pub(crate) fn of_contact(&self, contact: usize) -> ContactShare {
         let sums = self.of_contacts.get(contact).map(|of| of.sums);
-        PartOfContact::of(sums.unwrap_or_default().map(|sum| sum.high))
+        ContactShare::of(sums.unwrap_or_default().map(|sum| sum.high))
     }
 
     /// Its powers at the beginning of the next step, in W.
     #[cfg(feature = "std")]
-    pub(crate) fn power_of(&self, contact: usize) -> PartOfContact {
+    pub(crate) fn power_of(&self, contact: usize) -> ContactShare {
         let rates = self.of_contacts.get(contact).map(|of| of.rates[0]);
-        PartOfContact::of(rates.unwrap_or_default())
+        ContactShare::of(rates.unwrap_or_default())
     }
 
     /// All powers at a stage of the last step, in W: work rate, its absolute value and dissipation rate, then three for each
@@ -270,12 +270,12 @@ impl<S: System> Quadratures<S> for EnergyIntegrals {
         *dissipation += lost;
     }
 
-    fn add_at_once(&mut self, work: f64, lost: f64) {
-        self.own.add_at_once([work, work.abs(), lost]);
+    fn add_instantaneous(&mut self, work: f64, lost: f64) {
+        self.own.add_instantaneous([work, work.abs(), lost]);
     }
 
     #[cfg(feature = "std")]
-    fn share_out(&mut self, stage: usize, of_each: &[PartOfContact]) {
+    fn set_contact_shares(&mut self, stage: usize, of_each: &[ContactShare]) {
         self.at_least(of_each.len());
         for (k, of) in self.of_contacts.iter_mut().enumerate() {
             of.rates[stage] = of_each.get(k).copied().unwrap_or_default().numbers();
@@ -283,9 +283,9 @@ impl<S: System> Quadratures<S> for EnergyIntegrals {
     }
 
     #[cfg(feature = "std")]
-    fn share_out_at_once(&mut self, contact: usize, part: PartOfContact) {
+    fn add_instantaneous_share(&mut self, contact: usize, part: ContactShare) {
         self.at_least(contact + 1);
-        self.of_contacts[contact].add_at_once(part.numbers());
+        self.of_contacts[contact].add_instantaneous(part.numbers());
     }
 
     #[inline]
@@ -345,23 +345,23 @@ impl<S: System> Quadratures<S> for Option<EnergyIntegrals> {
     }
 
     #[inline(always)]
-    fn add_at_once(&mut self, work: f64, lost: f64) {
+    fn add_instantaneous(&mut self, work: f64, lost: f64) {
         if let Some(integrals) = self {
-            Quadratures::<S>::add_at_once(integrals, work, lost);
+            Quadratures::<S>::add_instantaneous(integrals, work, lost);
         }
     }
 
     #[cfg(feature = "std")]
-    fn share_out(&mut self, stage: usize, of_each: &[PartOfContact]) {
+    fn set_contact_shares(&mut self, stage: usize, of_each: &[ContactShare]) {
         if let Some(integrals) = self {
-            Quadratures::<S>::share_out(integrals, stage, of_each);
+            Quadratures::<S>::set_contact_shares(integrals, stage, of_each);
         }
     }
 
     #[cfg(feature = "std")]
-    fn share_out_at_once(&mut self, contact: usize, part: PartOfContact) {
+    fn add_instantaneous_share(&mut self, contact: usize, part: ContactShare) {
         if let Some(integrals) = self {
-            Quadratures::<S>::share_out_at_once(integrals, contact, part);
+            Quadratures::<S>::add_instantaneous_share(integrals, contact, part);
         }
     }
 

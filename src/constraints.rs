@@ -52,19 +52,19 @@ const INDEPENDENT: f64 = 1e-10;
 
 /// Beyond the rank that a run had so far, rows count as independent only above this value, since a pose in which rows are dependent that
 /// are independent elsewhere is left as soon as it is reached.
-const INDEPENDENT_AGAIN: f64 = 1e-6;
+const INDEPENDENT_BEYOND_RANK: f64 = 1e-6;
 
 /// Chosen rows may come this close to dependence before they are chosen again.
 const STILL_INDEPENDENT: f64 = 1e-2 * INDEPENDENT;
 
 /// Dependent rows are left out; they contradict the chosen rows if their residual is larger than this.
-const CONSISTENT: f64 = 1e-9;
+const CONTRADICTION: f64 = 1e-9;
 
 /// Below this residual Newton's method takes full steps; the error of an integration step is never larger.
 const NEAR: f64 = 1e-3;
 
 /// The number of iterations within which Newton's method converges, if at all.
-const ROUNDS: usize = 50;
+const MOST_ITERATIONS: usize = 50;
 
 /// The length of the workspace for constraints, for this number of coordinates and constraints: the length that is passed
 /// to [`System::with_workspace`].
@@ -111,20 +111,20 @@ pub(crate) struct Constraints<V> {
     /// Whether the motion passes a pose in which rows become dependent.
     pub at_fork: bool,
     /// While it does, the strength of the rows at the end of the last step, and the number of steps since such a pose was in reach.
-    held: f64,
-    away: u32,
+    strength: f64,
+    steps_away: u32,
     /// Whether rows are so weak at this state that residuals are reduced to round-off.
-    tight: bool,
+    reduces_to_roundoff: bool,
     /// Nonzero for coordinates, and rates, that stay fixed while the start is projected onto the constraints.
     kept: Option<[V; 2]>,
     /// The displacement of the last state, coordinates and rates.
     pub moved: [V; 2],
     /// The residuals of the chosen rows at the last state, of positions and rates, relative to their scale.
-    left: [f64; 2],
+    chosen_residuals: [f64; 2],
     /// These residuals at the end of the previous step, which do not count as an error of the next one.
-    left_before: [f64; 2],
+    chosen_residuals_before: [f64; 2],
     /// The fraction of the displacement that corrects the error of the step itself; the rest is older.
-    pub share: [f64; 2],
+    pub own_share: [f64; 2],
     /// The largest residual of the constraints at the last state, relative to their scale.
     pub residual: f64,
     /// The largest of these after any step.
@@ -147,14 +147,14 @@ impl<V: Vector> Constraints<V> {
             choice: Choice::none(zeros.clone()),
             redundant: false,
             at_fork: false,
-            held: 0.0,
-            away: 0,
-            tight: false,
+            strength: 0.0,
+            steps_away: 0,
+            reduces_to_roundoff: false,
             kept: None,
             moved: [zeros.clone(), zeros],
-            left: [0.0; 2],
-            left_before: [0.0; 2],
-            share: [0.0; 2],
+            chosen_residuals: [0.0; 2],
+            chosen_residuals_before: [0.0; 2],
+            own_share: [0.0; 2],
             residual: 0.0,
             greatest_residual: 0.0,
         }
@@ -164,7 +164,7 @@ impl<V: Vector> Constraints<V> {
     pub fn accept(&mut self, q: &V, v: &V) {
         self.scales.accept(q, v);
         self.greatest_residual = self.greatest_residual.max(self.residual);
-        self.left_before = self.left;
+        self.chosen_residuals_before = self.chosen_residuals;
     }
 
     /// Chooses the rows again at a state on the constraints.
@@ -176,7 +176,7 @@ impl<V: Vector> Constraints<V> {
     ) -> Result<(), StepError> {
         let rank = match self.choice.rank {
             0 => Rank::Revealed(INDEPENDENT),
-            _ => Rank::Followed(INDEPENDENT, INDEPENDENT_AGAIN),
+            _ => Rank::Followed(INDEPENDENT, INDEPENDENT_BEYOND_RANK),
         };
         self.choose(system, t, q, rank)
     }
@@ -225,7 +225,7 @@ impl<V: Vector> Constraints<V> {
         rank: Rank,
     ) -> Result<(), StepError> {
         let by = (&self.scales, None);
-        self.choice = self.choice.made(system, (t, q), rank, by)?;
+        self.choice = self.choice.choose(system, (t, q), rank, by)?;
         self.redundant = self.choice.rank < system.constraints().len();
         Ok(())
     }
@@ -240,7 +240,7 @@ impl<V: Vector> Constraints<V> {
         in_workspace(system, place.t, place.q[0].as_slice().len(), |workspace| {
             let moved =
                 self.approach(system, workspace, place, &[Level::Positions, Level::Rates])?;
-            self.check(system, workspace, place)?;
+            self.check_redundant_rows(system, workspace, place)?;
             Ok(moved)
         })
     }
@@ -254,16 +254,16 @@ impl<V: Vector> Constraints<V> {
         levels: &[Level],
     ) -> Result<bool, StepError> {
         let t = place.t;
-        self.tight = false;
+        self.reduces_to_roundoff = false;
         for moved in &mut self.moved {
             moved.as_mut_slice().fill(0.0);
         }
-        let [positions, rates] = self.left(system, workspace, place);
-        self.left = [positions.0, rates.0];
+        let [positions, rates] = self.residuals(system, workspace, place);
+        self.chosen_residuals = [positions.0, rates.0];
         for (level, roundoff) in self.scales.roundoff().into_iter().enumerate() {
-            let before = self.left_before[level] + roundoff;
-            let now = self.left[level];
-            self.share[level] = if now > before {
+            let before = self.chosen_residuals_before[level] + roundoff;
+            let now = self.chosen_residuals[level];
+            self.own_share[level] = if now > before {
                 1.0 - before / now
             } else {
                 0.0
@@ -273,18 +273,18 @@ impl<V: Vector> Constraints<V> {
             return Ok(false);
         }
         if self.redundant && self.kept.is_none() {
-            self.choice = self.best_at(system, t, place.q[0])?;
+            self.choice = self.best_choice_at(system, t, place.q[0])?;
         }
         let all = self.choice.clone();
         let first = levels.first().copied().unwrap_or(Level::Positions);
         let prepared = self.prepare(system, workspace, (t, place.q[0]), first);
-        let hold = self.hold_of(&prepared, workspace, place.q[0]);
-        self.tight = hold < fork::TIGHT;
+        let hold = self.strength_after(&prepared, workspace, place.q[0]);
+        self.reduces_to_roundoff = hold < fork::TIGHT;
         if self.kept.is_none() && hold < fork::WEAK {
             // Rows this weak would turn round-off of positions into a move.
             let by = (&self.scales, None);
             let holding = Rank::Holding(fork::WEAK);
-            self.choice = all.made(system, (t, place.q[0]), holding, by)?;
+            self.choice = all.choose(system, (t, place.q[0]), holding, by)?;
             self.prepare(system, workspace, (t, place.q[0]), first)?;
         } else {
             prepared?;
@@ -292,18 +292,18 @@ impl<V: Vector> Constraints<V> {
         self.scales.record_metric(workspace.metric.as_slice());
         let mut done = Ok(());
         for level in levels {
-            let left = self.left(system, workspace, place)[*level as usize];
+            let left = self.residuals(system, workspace, place)[*level as usize];
             done = done.and_then(|()| self.newton(system, workspace, place, *level, left));
         }
-        let [positions, rates] = self.left(system, workspace, place);
+        let [positions, rates] = self.residuals(system, workspace, place);
         self.choice = all;
         done?;
-        self.left = [positions.0, rates.0];
+        self.chosen_residuals = [positions.0, rates.0];
         Ok(true)
     }
 
     fn reduction_threshold(&self) -> f64 {
-        if self.redundant || self.tight {
+        if self.redundant || self.reduces_to_roundoff {
             REDUCTION_THRESHOLD_REDUNDANT
         } else {
             REDUCTION_THRESHOLD
@@ -325,7 +325,7 @@ impl<V: Vector> Constraints<V> {
         let at = level as usize;
         let mut fresh = true;
         let mut far = self.distance(workspace, level);
-        for _ in 0..ROUNDS {
+        for _ in 0..MOST_ITERATIONS {
             if left <= self.reduction_threshold() {
                 return Ok(());
             }
@@ -341,7 +341,7 @@ impl<V: Vector> Constraints<V> {
                     }
                     (*y, *low) = two_sum(workspace.before[j], *low + part * by);
                 }
-                (left, worst) = self.left(system, workspace, place)[at];
+                (left, worst) = self.residuals(system, workspace, place)[at];
                 near = self.distance(workspace, level);
                 // Far from the constraints a full step may be too long.
                 if near <= (1.0 - 0.25 * part) * far || part < 0.01 || left < NEAR {
@@ -375,10 +375,10 @@ impl<V: Vector> Constraints<V> {
         }
         // It may have stagnated at the round-off of the constraints themselves.
         for _ in 0..=workspace.m {
-            let guaranteed = self.guaranteed(workspace, place, level);
+            let guaranteed = self.guaranteed_residual(workspace, place, level);
             let last = &*place.level(level)[0];
             if guaranteed.0 <= RESIDUAL
-                || (guaranteed.0 <= CONSISTENT
+                || (guaranteed.0 <= CONTRADICTION
                     && self.scales.is_roundoff(at, workspace.column, last))
             {
                 return Ok(());
@@ -412,7 +412,7 @@ impl<V: Vector> Constraints<V> {
         k: usize,
     ) -> bool {
         let n = workspace.n;
-        let seen = |workspace: &Workspace<'_, S::Matrix>| {
+        let evaluate = |workspace: &Workspace<'_, S::Matrix>| {
             let terms = workspace.matrix[k * n..][..n]
                 .iter()
                 .zip(&*workspace.column);
@@ -424,7 +424,7 @@ impl<V: Vector> Constraints<V> {
             };
             (left, slope, length)
         };
-        let (left, slope, length) = seen(workspace);
+        let (left, slope, length) = evaluate(workspace);
         workspace
             .before
             .copy_from_slice(place.level(level)[0].as_slice());
@@ -434,21 +434,21 @@ impl<V: Vector> Constraints<V> {
             for ((y, before), by) in y.zip(&*workspace.before).zip(&*workspace.column) {
                 *y = before + part * by;
             }
-            self.left(system, workspace, place);
-            let (there, slope_there, _) = seen(workspace);
+            self.residuals(system, workspace, place);
+            let (there, slope_there, _) = evaluate(workspace);
             scatters = scatters.max((there - left - part * slope).abs());
             turns = turns.max((slope_there - slope).abs());
         }
         place.level(level)[0]
             .as_mut_slice()
             .copy_from_slice(workspace.before);
-        self.left(system, workspace, place);
+        self.residuals(system, workspace, place);
         turns <= 1e-3 * length && scatters >= 0.0625 * left.abs()
     }
 
     /// The largest residuals of the rows at a state, relative to their scale, and their rows. Leaves all residuals and the constraint
     /// matrix in the workspace.
-    fn left<S: System<Vector = V>>(
+    fn residuals<S: System<Vector = V>>(
         &self,
         system: &S,
         workspace: &mut Workspace<'_, S::Matrix>,
@@ -463,7 +463,7 @@ impl<V: Vector> Constraints<V> {
             let is_chosen = self.choice.has(k);
             for (most, now) in most.iter_mut().zip(self.relative(workspace, k, q, v)) {
                 // Other rows approach together with the chosen ones, unless they contradict them.
-                if !is_chosen && !(now.now <= CONSISTENT) {
+                if !is_chosen && !(now.now <= CONTRADICTION) {
                     continue;
                 }
                 // NaN counts as the largest.
@@ -476,7 +476,7 @@ impl<V: Vector> Constraints<V> {
     }
 
     /// The largest residual of the chosen rows on one level, relative to the scale of the guaranteed bound, and its row.
-    fn guaranteed<M>(
+    fn guaranteed_residual<M>(
         &self,
         workspace: &Workspace<'_, M>,
         place: &Place<'_, V>,
@@ -506,7 +506,7 @@ impl<V: Vector> Constraints<V> {
     }
 
     /// Checks that the rows that were not chosen agree with the chosen ones; records the residual and the size of the terms.
-    fn check<S: System<Vector = V>>(
+    fn check_redundant_rows<S: System<Vector = V>>(
         &mut self,
         system: &S,
         workspace: &Workspace<'_, S::Matrix>,
@@ -522,7 +522,7 @@ impl<V: Vector> Constraints<V> {
             }
         }
         self.residual = most.0;
-        if !(most.0 <= CONSISTENT) {
+        if !(most.0 <= CONTRADICTION) {
             return Err(StepError::Inconsistent {
                 constraint: most.1,
                 residual: most.0,
@@ -555,7 +555,7 @@ impl<V: Vector> Constraints<V> {
     ) -> Result<(), StepError> {
         in_workspace(system, t, q.as_slice().len(), |workspace| {
             system.constraint_matrix(t, q, workspace.matrix);
-            system.constraint_drift(t, q, v, workspace.row);
+            system.constraint_bias(t, q, v, workspace.row);
             system.mass_matrix(t, q, &mut workspace.metric);
             let mut f = a.zeros_like();
             system.forces(t, q, v, u, &mut f);
@@ -583,7 +583,7 @@ impl<V: Vector> Constraints<V> {
                     scale += (g * a).abs() + g.abs() * free;
                 }
                 let residual = share(left, scale);
-                if !(residual <= CONSISTENT) {
+                if !(residual <= CONTRADICTION) {
                     return Err(StepError::Inconsistent {
                         constraint: k,
                         residual,
@@ -670,7 +670,7 @@ impl<V: Vector> Constraints<V> {
         (t, q, v, u): (f64, &V, &V, &S::Inputs),
         a: &mut V,
     ) -> Result<(), StepError> {
-        let choice = self.best_at(system, t, q)?;
+        let choice = self.best_choice_at(system, t, q)?;
         in_workspace(system, t, q.as_slice().len(), |workspace| {
             reactions_along(system, workspace, &choice, (t, q, v, u), a)?;
             let metric = workspace.metric.as_slice();
@@ -690,7 +690,7 @@ impl<V: Vector> Constraints<V> {
     }
 
     /// A choice of as many rows as were chosen, but those that are best at a pose.
-    fn best_at<S: System<Vector = V>>(
+    fn best_choice_at<S: System<Vector = V>>(
         &self,
         system: &S,
         t: f64,
@@ -700,7 +700,7 @@ impl<V: Vector> Constraints<V> {
             return Ok(self.choice.clone());
         }
         self.choice
-            .made(system, (t, q), Rank::Known, (&self.scales, None))
+            .choose(system, (t, q), Rank::Known, (&self.scales, None))
     }
 
     /// Multipliers of least norm; see [`least_multipliers`].
@@ -714,10 +714,10 @@ impl<V: Vector> Constraints<V> {
         multipliers: &mut [f64],
     ) -> Result<(), StepError> {
         let mut z = q.zeros_like();
-        let choice = self.best_at(system, t, q)?;
+        let choice = self.best_choice_at(system, t, q)?;
         in_workspace(system, t, q.as_slice().len(), |workspace| {
             reactions_along(system, workspace, &choice, (t, q, v, u), &mut z)?;
-            if workspace.is_lent {
+            if workspace.is_augmented {
                 reactions_of_inertia(system, workspace, choice.rank, (t, q, v, u), &mut z);
             }
             multipliers.fill(0.0);
@@ -744,7 +744,7 @@ fn prepare<S: System>(
         let new = &mut rest[..n];
         new.copy_from_slice(&workspace.matrix[k * n..][..n]);
         forward(workspace.metric.as_slice(), new);
-        let whole = length(new);
+        let norm = length(new);
         // Two passes suffice: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
         for pass in 0..2 {
             for (i, known) in known.chunks_exact(n).enumerate() {
@@ -754,8 +754,8 @@ fn prepare<S: System>(
             }
         }
         let left = length(new);
-        if !(left > STILL_INDEPENDENT * whole) {
-            let singular = Singular::constraint(k, left * left, whole * whole);
+        if !(left > STILL_INDEPENDENT * norm) {
+            let singular = Singular::constraint(k, left * left, norm * norm);
             return Err(StepError::Singular { singular, t });
         }
         new.iter_mut().for_each(|x| *x /= left);
@@ -774,7 +774,7 @@ fn reactions_along<S: System>(
 ) -> Result<(), StepError> {
     prepare(system, workspace, (t, q), (choice, None))?;
     system.forces(t, q, v, u, z);
-    system.constraint_drift(t, q, v, workspace.rates);
+    system.constraint_bias(t, q, v, workspace.rates);
     for j in 0..choice.rank {
         workspace.row[j] = workspace.rates[choice.row(j)];
     }

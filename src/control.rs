@@ -58,7 +58,7 @@ impl Control {
     }
 
     /// Turns the step towards an end at the signed distance `left`.
-    pub fn turn(&mut self, left: f64) {
+    pub fn set_direction(&mut self, left: f64) {
         self.step = self.step.abs().copysign(left);
     }
 
@@ -78,7 +78,7 @@ impl Control {
 
     /// Accepts a step of length `h`; the next may be longer by `factor`.
     #[inline(always)]
-    pub fn take(&mut self, h: f64, error: f64, factor: f64) {
+    pub fn accept(&mut self, h: f64, error: f64, factor: f64) {
         // Not longer right after a rejection, since its cause is still near.
         self.step = h * if self.is_retry {
             factor.min(1.0)
@@ -91,7 +91,7 @@ impl Control {
     }
 
     /// Rejects a step and sets the length of the next try. Returns whether that is long enough.
-    pub fn give_up(&mut self, next: f64, least: f64) -> bool {
+    pub fn reject(&mut self, next: f64, least: f64) -> bool {
         self.step = next;
         self.work.rejected += 1;
         self.is_retry = self.step.abs() > least;
@@ -109,14 +109,14 @@ pub(crate) fn check_count(taken: usize, steps: usize, t: f64) -> Result<(), Step
 }
 
 /// The requested longest step; a value that is not a length sets no limit.
-pub(crate) fn longest(step: f64) -> f64 {
+pub(crate) fn longest_step_or_infinity(step: f64) -> f64 {
     if step > 0.0 { step } else { f64::INFINITY }
 }
 
 /// The shortest step, in `f64` a few parts in 10¹⁵ of the time: the ends of shorter steps cannot be distinguished. Near t = 0 the
 /// limit is the smallest number.
 #[inline(always)]
-pub(crate) fn least<N: StepNumber>(t: f64) -> f64 {
+pub(crate) fn shortest_step<N: StepNumber>(t: f64) -> f64 {
     (10.0 * N::EPSILON * t.abs()).max(N::LEAST_STEP)
 }
 
@@ -125,7 +125,7 @@ pub(crate) fn least<N: StepNumber>(t: f64) -> f64 {
 ///
 /// For the combination with a coarser estimate see *Solving Ordinary Differential Equations I*, eq. (II.10.17).
 #[inline(always)]
-pub(crate) fn combined(fine: f64, coarse: f64, numbers: usize) -> f64 {
+pub(crate) fn error_norm(fine: f64, coarse: f64, numbers: usize) -> f64 {
     let denominator = fine + 0.01 * coarse;
     // Without a coarser estimate this is the mean of `fine`.
     let error = sqrt(fine * (fine / denominator) / numbers as f64);

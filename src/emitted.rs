@@ -19,6 +19,6 @@ pub use crate::{
 };
 pub use pivots::Pivots;
 pub use values::{
-    ConstraintRow, PreparedField, constraint, facts, fill, fill_ranges, rounded, side_by_side,
-    values,
+    ConstraintRow, PreparedField, assumptions, constraint, fill, fill_ranges, rounded,
+    side_by_side, values,
 };

@@ -37,7 +37,7 @@ const TOLERANCE: f64 = 1e-9;
 const DEPENDENT: f64 = 1e-8;
 
 /// The distance of the states nearby, relative to the sizes of the numbers, and the number of such states.
-const BESIDE: (f64, usize) = (1e-3, 4);
+const NEARBY_STATES: (f64, usize) = (1e-3, 4);
 
 /// Checks that the accelerations, multipliers and friction forces of a machine at a state satisfy its equations of
 /// motion to rounding: `M a = f + Gᵀ λ + τᵀ F` and `G a = γ`.
@@ -62,11 +62,11 @@ pub fn check_equations<S: System>(
     if here.share <= here.tolerance {
         return Ok(());
     }
-    let beside = (1..=BESIDE.1).filter_map(|number| {
+    let nearby = (1..=NEARBY_STATES.1).filter_map(|number| {
         let (q, v) = state_beside(system, q, v, number);
         worst(system, (t, &q, &v, u))
     });
-    let shares: Vec<bool> = beside.map(|there| there.share > there.tolerance).collect();
+    let shares: Vec<bool> = nearby.map(|there| there.share > there.tolerance).collect();
     if shares.len() < 2 || shares.contains(&false) {
         return Ok(());
     }
@@ -115,9 +115,9 @@ fn worst<S: System>(
     system.forces(t, q, v, u, &mut forces);
     system.applied(t, q, v, u, &mut applied);
     system.bias(t, q, v, &mut bias);
-    let (mut matrix, mut drift) = (vec![0.0; m * n], vec![0.0; m]);
+    let (mut matrix, mut constraint_bias) = (vec![0.0; m * n], vec![0.0; m]);
     system.constraint_matrix(t, q, &mut matrix);
-    system.constraint_drift(t, q, v, &mut drift);
+    system.constraint_bias(t, q, v, &mut constraint_bias);
     let mut slips = vec![0.0; k * n];
     system.slip_matrix(t, q, &mut slips);
 
@@ -191,14 +191,14 @@ fn worst<S: System>(
     }
     for (k, row) in matrix.chunks_exact(n).enumerate() {
         let left: f64 = row.iter().zip(a).map(|(g, a)| g * a).sum();
-        let mut terms = drift[k].abs();
+        let mut terms = constraint_bias[k].abs();
         for j in 0..n {
             terms += (row[j] * a[j]).abs();
             if inertia[j] > 0.0 {
                 terms += (row[j] / inertia[j]).abs() * spread;
             }
         }
-        take(k, true, left - drift[k], terms, of_mass);
+        take(k, true, left - constraint_bias[k], terms, of_mass);
     }
     is_finite.then_some(worst)
 }
@@ -215,10 +215,10 @@ fn solve<S: System>(
         let at = (t, q, v, u);
         return contact_forces(system, at, a.as_mut_slice(), multipliers, contacts).ok();
     }
-    let found = system
+    let result = system
         .accelerations(t, q, v, u, a)
         .and_then(|()| system.multipliers(t, q, v, u, multipliers));
-    match found {
+    match result {
         Ok(()) => Some(()),
         Err(singular) => {
             if S::MAY_BE_CONSTRAINED && matches!(singular.at, Pivot::Constraint(_)) {
@@ -263,15 +263,15 @@ fn conditions(mass: &[f64], inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
             y[i] = (row[i] / inertia[i] - known) / lower[i * n + i];
         }
         let length = |y: &[f64]| sqrt(y.iter().map(|y| y * y).sum());
-        let whole = length(&y);
+        let norm = length(&y);
         // Twice: a short remainder is orthogonal to fewer digits.
         for known in basis.iter().chain(&basis) {
             let along: f64 = known.iter().zip(&y).map(|(e, y)| e * y).sum();
             y.iter_mut().zip(known).for_each(|(y, e)| *y -= along * e);
         }
         let left = length(&y);
-        if left > DEPENDENT * whole {
-            of_constraints = of_constraints.max((whole / left) * (whole / left));
+        if left > DEPENDENT * norm {
+            of_constraints = of_constraints.max((norm / left) * (norm / left));
             basis.push(y.iter().map(|y| y / left).collect());
         }
     }
@@ -289,15 +289,15 @@ fn state_beside<S: System>(
     let mut moved = |of: &S::Vector, angles: bool| {
         let mut moved = of.clone();
         for (j, coordinate) in system.coordinates().enumerate() {
-            let alike = system.coordinates().zip(of.as_slice());
-            let alike = alike.filter(|(other, _)| other.unit == coordinate.unit);
-            let mut size = alike.fold(0.0, |size: f64, (_, x)| size.max(x.abs()));
+            let of_same_unit = system.coordinates().zip(of.as_slice());
+            let of_same_unit = of_same_unit.filter(|(other, _)| other.unit == coordinate.unit);
+            let mut size = of_same_unit.fold(0.0, |size: f64, (_, x)| size.max(x.abs()));
             if size == 0.0 || (angles && coordinate.unit == "rad") {
                 size = size.max(1.0);
             }
             // Multiples of the golden ratio are spread evenly.
             draw = (draw + 0.618_033_988_749_895) % 1.0;
-            moved.as_mut_slice()[j] += BESIDE.0 * size * (2.0 * draw - 1.0);
+            moved.as_mut_slice()[j] += NEARBY_STATES.0 * size * (2.0 * draw - 1.0);
         }
         moved
     };

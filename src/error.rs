@@ -424,9 +424,9 @@ impl Error {
 }
 
 /// A number in a message, with as few digits as necessary: `0.25`, `1e300`.
-struct Short(f64);
+struct ShortNumber(f64);
 
-impl Display for Short {
+impl Display for ShortNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let size = self.0.abs();
         if size == 0.0 || !size.is_finite() || (1e-4..1e9).contains(&size) {
@@ -486,7 +486,7 @@ impl Display for Error {
                 f,
                 "no energy balance can be computed: the system does not give its kinetic and potential energies at t = {t} s; leave \
                  out `energy_balance(true)`, or provide both energies",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::NoEnd => {
                 write!(
@@ -502,7 +502,7 @@ impl Display for Error {
                 write!(
                     f,
                     "`{setting}({value})`: must be {needed}",
-                    value = Short(*value)
+                    value = ShortNumber(*value)
                 )
             }
             Self::UnknownCoordinate { name } => write!(f, "no coordinate is named `{name}`"),
@@ -555,7 +555,7 @@ impl Display for Error {
                 write!(
                     f,
                     "the contact `{contact}` at t = {t} s: {words}",
-                    t = Short(*t)
+                    t = ShortNumber(*t)
                 )?;
                 if !q.is_empty() {
                     write!(f, "; the coordinates are {q:?} and their rates {v:?}")?;
@@ -566,31 +566,31 @@ impl Display for Error {
                 write!(
                     f,
                     "parameter `{parameter}` is {value}; it must be a finite number",
-                    value = Short(*value)
+                    value = ShortNumber(*value)
                 )
             }
             Self::StartNotFinite { name, value } => {
                 write!(
                     f,
                     "the start value of `{name}` is {value}; it must be a finite number",
-                    value = Short(*value)
+                    value = ShortNumber(*value)
                 )
             }
             Self::InputNotFinite { input, value, t } => {
                 write!(
                     f,
                     "input `{input}` is {value} at t = {t} s; it must be a finite number",
-                    t = Short(*t),
-                    value = Short(*value)
+                    t = ShortNumber(*t),
+                    value = ShortNumber(*value)
                 )
             }
             Self::InputEnded { input, why, t } => {
-                write!(f, "{input} {why} t = {t} s", t = Short(*t))
+                write!(f, "{input} {why} t = {t} s", t = ShortNumber(*t))
             }
             Self::NotFinite { coordinate, t } => write!(
                 f,
                 "`{coordinate}`, its rate or its acceleration has no finite value at t = {t} s, and shorter steps do not help",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::SingularMassMatrix {
                 coordinate,
@@ -612,7 +612,7 @@ impl Display for Error {
                 write!(
                     f,
                     "{count} the friction law of `{contact}` at t = {t} s",
-                    t = Short(*t)
+                    t = ShortNumber(*t)
                 )?;
                 if !q.is_empty() {
                     write!(f, ", q = {q:?}, v = {v:?}")?;
@@ -631,7 +631,7 @@ impl Display for Error {
                 "the constraint `{constraint}` becomes dependent on others at t = {t} s, and shorter steps do not help (elimination \
                  leaves {ratio:.1e} of its element on the diagonal of G M⁻¹ Gᵀ): the reactions are not unique there. Leave out a constraint \
                  that follows from others, or avoid the pose with other start values or other parameters",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::InconsistentConstraints {
                 constraint,
@@ -642,7 +642,7 @@ impl Display for Error {
                 f,
                 "the constraint `{constraint}` cannot be met near the state at t = {t} s: its residual is \
                  {residual:.1e} of the size of its terms",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::InconsistentConstraints {
                 constraint,
@@ -653,7 +653,7 @@ impl Display for Error {
                 f,
                 "the constraint `{constraint}` contradicts {} at t = {t} s: its residual is {residual:.1e} of the size of its terms",
                 quoted(with),
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::Fork {
                 constraint,
@@ -664,14 +664,14 @@ impl Display for Error {
                 "branches of the motion meet near t = {t} s: the constraint `{constraint}` becomes dependent on the others (the \
                  part of its gradient that is independent of them has {left:.1e} of its length at the start), and neither the motion nor \
                  inertia determines on which branch the machine continues. Start it slightly away from that pose, or with rates along one of the branches",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::KeptStart { contradictions, t } => {
                 let are = if contradictions.len() == 1 { "" } else { "s" };
                 write!(
                     f,
                     "the start values that are kept contradict the constraint{are} at t = {} s. However the other values are changed, ",
-                    Short(*t)
+                    ShortNumber(*t)
                 )?;
                 for (i, contradiction) in contradictions.iter().enumerate() {
                     write!(f, "{}{contradiction}", if i == 0 { "" } else { "; " })?;
@@ -681,23 +681,23 @@ impl Display for Error {
             Self::NoWorkspaceForConstraints { t } => write!(
                 f,
                 "the machine provides no workspace for its constraints at t = {t} s",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::NoWorkspaceForContacts { t } => write!(
                 f,
                 "the machine provides no workspace for its contacts at t = {t} s",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::ContactsNotDifferentiated { contact, t } => write!(
                 f,
                 "the accelerations cannot be differentiated at t = {t} s: `{contact}` may stick or slide, and a sticking contact \
                  has no linearization",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::InputsChanged { t } => write!(
                 f,
                 "the motion before t = {t} s must be read before the inputs are changed there",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::StepTooSmall {
                 coordinate,
@@ -707,19 +707,19 @@ impl Display for Error {
                 f,
                 "the step shrank to {step:e} s at t = {t} s, and the error of `{coordinate}` is still too large: the \
                  motion has a jump, a kink or a pole there, or the tolerance is too small",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::TooManySteps { steps, t, until } => write!(
                 f,
                 "{steps} steps reach only t = {t} s of {until} s: allow more with `max_steps`, or raise the tolerance",
-                t = Short(*t),
-                until = Short(*until)
+                t = ShortNumber(*t),
+                until = ShortNumber(*until)
             ),
             Self::AssumptionEnded { assumption, t } => {
                 write!(
                     f,
                     "the machine assumes `{assumption}`, which no longer holds at t = {t} s",
-                    t = Short(*t)
+                    t = ShortNumber(*t)
                 )
             }
             Self::EquationsViolated {
@@ -739,23 +739,23 @@ impl Display for Error {
                     "the accelerations do not satisfy the equations of motion to within rounding at t = {t} s: in the row of {of} \
                      `{row}`, {equation} is {residual:e} compared with terms of {terms:e}; this is an error of the program \
                      and not of the machine, and nothing that follows from it can be trusted: please report it",
-                    t = Short(*t)
+                    t = ShortNumber(*t)
                 )
             }
             Self::EventNotFinite { event, t } => {
                 write!(
                     f,
                     "the function of event `{event}` is not a number at t = {t} s",
-                    t = Short(*t)
+                    t = ShortNumber(*t)
                 )
             }
             Self::OutsideRun { t, from, to } => {
                 write!(
                     f,
                     "t = {t} s is outside of the run, which goes from {from} s to {to} s",
-                    t = Short(*t),
-                    from = Short(*from),
-                    to = Short(*to)
+                    t = ShortNumber(*t),
+                    from = ShortNumber(*from),
+                    to = ShortNumber(*to)
                 )
             }
             Self::NoEnergyBalance => {
@@ -779,7 +779,7 @@ impl Display for Error {
 fn no_inertia(f: &mut fmt::Formatter<'_>, coordinate: &str, ratio: f64, t: f64) -> fmt::Result {
     /// Elimination that leaves more than this has not been stopped by rounding.
     const MORE_THAN_ROUNDING: f64 = 1e-9;
-    let t = Short(t);
+    let t = ShortNumber(t);
     if ratio.is_finite() && ratio.abs() > MORE_THAN_ROUNDING {
         return write!(
             f,
@@ -921,7 +921,7 @@ impl Display for Warning {
                 f,
                 "impacts created energy, {impacts} of them, the most {gain:.2e} J at t = {t} s when `{contact}` closed: \
                  Newton's law with friction can do so; `law: stronge` never does",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
             Self::HandedOver {
                 t,
@@ -941,7 +941,7 @@ impl Display for Warning {
                     f,
                     " up to t = {t} s: from there the run continued with time stepping in steps of {step:.1e} s, whose error is not \
                      controlled; a shorter longest step shows how large it is",
-                    t = Short(*t)
+                    t = ShortNumber(*t)
                 )?;
                 if *times > 1 {
                     write!(f, "; it did so {times} times")?;
@@ -950,7 +950,7 @@ impl Display for Warning {
                     Some(t) => write!(
                         f,
                         "; from t = {t} s it located every event again",
-                        t = Short(*t)
+                        t = ShortNumber(*t)
                     ),
                     None => Ok(()),
                 }
@@ -968,14 +968,14 @@ impl Display for Warning {
             Self::StartMoved { name, from, to } => write!(
                 f,
                 "the start was moved onto the constraints: `{name}` from {from} to {to}",
-                from = Short(*from),
-                to = Short(*to)
+                from = ShortNumber(*from),
+                to = ShortNumber(*to)
             ),
             Self::Stiff { t } => write!(
                 f,
                 "the machine is stiff from t = {t} s: the step size is limited by stability, not by accuracy; the method `radau5` \
                  takes longer steps",
-                t = Short(*t)
+                t = ShortNumber(*t)
             ),
         }
     }

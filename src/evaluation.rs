@@ -31,9 +31,9 @@ pub struct Evaluation<O> {
     pub contacts: Vec<ContactForce>,
     /// The unilateral contacts, in their order.
     pub unilateral: Vec<UnilateralForce>,
-    /// In J.
+    /// The kinetic energy, in J.
     pub kinetic_energy: f64,
-    /// In J.
+    /// The potential energy, in J.
     pub potential_energy: f64,
     /// The dissipation function, in W.
     pub dissipation: f64,
@@ -55,10 +55,10 @@ impl<O> Evaluation<O> {
         let (mut forces, mut a) = (q.zeros_like(), q.zeros_like());
         let mut matrix = S::Matrix::zeros(n * n);
         let mut multipliers = vec![0.0; system.constraints().len()];
-        let found = system
+        let result = system
             .accelerations(t, q, v, u, &mut a)
             .and_then(|()| system.multipliers(t, q, v, u, &mut multipliers));
-        if let Err(singular) = found {
+        if let Err(singular) = result {
             // Dependent constraints have many possible multipliers, all with the same motion.
             match singular.at {
                 // Not with guided contacts, whose states would be unknown here.

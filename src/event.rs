@@ -3,7 +3,7 @@
 //! The function is evaluated at eight points of each step, along the quintic through the ends of the step, which costs no evaluation of the machine.
 //! These values and the decay of their Chebyshev coefficients bound the function in between ([`roots::sign_changes`]), which
 //! shows for most steps that there is no root. Roots are located on the dense output of the step, to the rounding of time. If there may be more than
-//! one, all of them are isolated first ([`roots::looks`]), so a function that changes its sign twice within a step has two events. A function that only
+//! one, all of them are isolated first ([`roots::isolating_fractions`]), so a function that changes its sign twice within a step has two events. A function that only
 //! touches zero has none. For an event that ends the run, the step is repeated up to the root and its length corrected until the function
 //! is 0 to rounding at the *end of the step*. So the final state is as accurate as any other.
 //!
@@ -24,7 +24,7 @@ use std::string::String;
 use std::vec::Vec;
 
 use crate::callbacks::{Observe, Watched};
-use crate::inputs::{Held, InputLaw};
+use crate::inputs::{InputLaw, LawInPiece};
 use crate::interpolant::Interpolant;
 use crate::observation::ObservedSystem;
 use crate::roots;
@@ -595,7 +595,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         let is_known_at_end = end == EndOfStep::Impacts;
         let looks: &[f64] = match places {
             _ if is_known_at_end => &[1.0],
-            Places::All => &roots::looks(|theta| exact(watch, theta))?,
+            Places::All => &roots::isolating_fractions(|theta| exact(watch, theta))?,
             Places::Few => &SAMPLE_FRACTIONS,
         };
         let looks = (looks, is_known_at_end);
@@ -724,7 +724,8 @@ pub(crate) fn may_be_zero_after(value: f64, before: f64, is_at_zero: bool) -> bo
 }
 
 /// The stepper of a run.
-type StepperOf<'s, M, L, A> = Stepper<'s, <M as Machine>::System, Held<'s, L, crate::Inputs<M>>, A>;
+type StepperOf<'s, M, L, A> =
+    Stepper<'s, <M as Machine>::System, LawInPiece<'s, L, crate::Inputs<M>>, A>;
 
 /// Time and state at a fraction of the last step, good enough to see an event.
 pub(crate) fn interpolated_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(

@@ -135,7 +135,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
     }
 
     pub fn set_longest_step(&mut self, step: f64) {
-        self.longest = control::longest(step);
+        self.longest = control::longest_step_or_infinity(step);
     }
 
     pub fn set_first_step(&mut self, step: f64) {
@@ -165,11 +165,11 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
 
     /// The present accelerations of the only trajectory, if its last try was good.
     pub fn a(&self) -> &V {
-        &self.k[self.newest()]
+        &self.k[self.newest_stage()]
     }
 
     /// The stage of the only trajectory that holds its present acceleration.
-    fn newest(&self) -> usize {
+    fn newest_stage(&self) -> usize {
         if self.is_after_step() {
             self.method.tableau.stages
         } else {
@@ -230,13 +230,13 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let [to, from] = [end, self.now.t].map(|t| t.rounded().as_ref()[0]);
         let is_done = self.is_done(0);
         let lane = &mut self.lanes.as_mut()[0];
-        lane.control.turn(to - from);
+        lane.control.set_direction(to - from);
         lane.is_running = !is_done;
     }
 
     /// Evaluates the present accelerations of the only trajectory, at its start or after the inputs have changed.
     pub fn evaluate_now(&mut self, machine: &impl Accelerate<N, V>) -> Result<(), StepError> {
-        let newest = self.newest();
+        let newest = self.newest_stage();
         let Self { now, k, .. } = self;
         let (mut failed, mut trying) = (N::each(|_| None), N::each(|_| true));
         let at = (now.t, &now.q, &now.v);
@@ -332,7 +332,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
             }
             let (t, left) = (t.as_ref()[i], lefts.as_ref()[i]);
             let control = &mut lane.control;
-            if !control.is_retry && control.is_too_small(control::least::<N>(t), left) {
+            if !control.is_retry && control.is_too_small(control::shortest_step::<N>(t), left) {
                 lane.is_running = false;
                 outcomes.as_mut()[i] = Outcome::Failed(StepError::StepTooSmall {
                     coordinate: 0,
@@ -408,7 +408,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
 
         attempt::arrive::<R, N, V>(method, (before, h), k, now, (*end, is_last));
         if scheme.error_needs_end && trying.as_ref().contains(&true) {
-            keep_where(&trying, now, before);
+            select(&trying, now, before);
             let at = (now.t, &now.q, &now.v);
             evaluate_counted::<R, V>(
                 (machine, &mut evaluations),
@@ -418,15 +418,15 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
                 failed,
             );
         }
-        let found = attempt::errors::<R, N, V>(method, h, [before, now], k, tolerance);
+        let estimates = attempt::errors::<R, N, V>(method, h, [before, now], k, tolerance);
         // If the state has overflowed, the error estimate is meaningless.
         let are_numbers = attempt::are_finite(&now.q, &now.v);
         let errors = N::each(|lane| {
-            let error = found.as_ref()[lane];
+            let error = estimates.as_ref()[lane];
             if error.is_finite() && are_numbers.as_ref()[lane] {
                 error
             } else {
-                // An infinite error.
+                // The step is rejected.
                 f64::INFINITY
             }
         });
@@ -439,7 +439,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         }
         let mut good = N::each(|lane| trying.as_ref()[lane] && errors.as_ref()[lane] <= 1.0);
         if !scheme.error_needs_end && good.as_ref().contains(&true) {
-            keep_where(&good, now, before);
+            select(&good, now, before);
             let at = (now.t, &now.q, &now.v);
             evaluate_counted::<R, V>(
                 (machine, &mut evaluations),
@@ -449,7 +449,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
                 failed,
             );
         }
-        keep_where(&good, now, before);
+        select(&good, now, before);
         count(evaluations);
         errors
     }
@@ -471,7 +471,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         } = &mut self.lanes.as_mut()[lane];
         let next = match cause {
             None if error <= 1.0 => {
-                control.take(h, error, growth);
+                control.accept(h, error, growth);
                 *is_after_step = true;
                 *is_running = !is_done;
                 return Outcome::Taken;
@@ -481,7 +481,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
             Some(_) => 0.1 * h,
         };
         let t = self.before.t.rounded().as_ref()[lane];
-        if control.give_up(next, control::least::<N>(t)) {
+        if control.reject(next, control::shortest_step::<N>(t)) {
             return Outcome::GivenUp;
         }
         *is_running = false;
@@ -550,11 +550,11 @@ fn evaluate<N: StepNumber, V: Vector<N>>(
     failed: &mut N::Each<Option<StepError>>,
 ) {
     let none = machine.accelerate(t, q, v, a).err();
-    give_up(none, t, a, trying, failed);
+    reject(none, t, a, trying, failed);
 }
 
 /// Ends the tries of trajectories that have no accelerations, and sets these to 0, so that NaN does not disturb the other trajectories.
-fn give_up<N: StepNumber, V: Vector<N>>(
+fn reject<N: StepNumber, V: Vector<N>>(
     none: Option<N::Each<Option<Singular>>>,
     t: N,
     a: &mut V,
@@ -604,7 +604,7 @@ fn evaluate_counted<R, V>(
     }
     let none = machine.accelerate(at.0, at.1, at.2, a).err();
     if none.is_some() || !are_all_finite::<R>(a.as_slice()) {
-        give_up(none, at.0, a, trying, failed);
+        reject(none, at.0, a, trying, failed);
     }
 }
 
@@ -636,7 +636,7 @@ fn choose_point<N: StepNumber, V: Vector<N>>(
 
 /// Keeps a state in the trajectories for which `condition` holds, and replaces it by `otherwise` in all others.
 #[inline(always)]
-fn keep_where<N: StepNumber, V: Vector<N>>(
+fn select<N: StepNumber, V: Vector<N>>(
     condition: &N::Each<bool>,
     state: &mut Point<V, N>,
     otherwise: &Point<V, N>,

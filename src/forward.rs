@@ -170,10 +170,10 @@ macro_rules! forward {
         }
     };
     (@ constraint_rates) => { crate::forward::forward!(@ of_state constraint_rates); };
-    (@ constraint_drift) => { crate::forward::forward!(@ of_state constraint_drift); };
+    (@ constraint_bias) => { crate::forward::forward!(@ of_state constraint_bias); };
     (@ contact_rates) => { crate::forward::forward!(@ of_state contact_rates); };
     (@ contact_faces) => { crate::forward::forward!(@ of_state contact_faces); };
-    (@ contact_drift) => { crate::forward::forward!(@ of_state contact_drift); };
+    (@ contact_bias) => { crate::forward::forward!(@ of_state contact_bias); };
     (@ contact_coefficients) => { crate::forward::forward!(@ of_state contact_coefficients); };
     (@ of_state $method:ident) => {
         fn $method(&self, t: f64, q: &Self::Vector, v: &Self::Vector, to: &mut [f64]) {

@@ -182,7 +182,7 @@ pub fn contact_forces<S: System>(
         let known = OpenStates::from_slips(&slips, parts.layout);
         let (mode, friction_forces) = known.answer(parts).map_err(Paradox::singular)?;
         results(parts, &friction_forces, accelerations, multipliers);
-        in_contacts(parts, &mode, &friction_forces, &slips, forces);
+        contact_forces_of_mode(parts, &mode, &friction_forces, &slips, forces);
         Ok(())
     })
 }
@@ -290,7 +290,7 @@ fn results(parts: &Parts<'_>, friction_forces: &Each, a: &mut [f64], multipliers
 }
 
 /// The contact forces in these states with these friction forces.
-fn in_contacts(
+fn contact_forces_of_mode(
     parts: &Parts<'_>,
     mode: &Mode,
     friction_forces: &Each,
@@ -429,7 +429,7 @@ impl Contacts {
             let friction_forces = friction_forces(parts, &mode)?;
             results(parts, &friction_forces, a.as_mut_slice(), &mut []);
             if self.sticks() {
-                self.still(system, (t, q, v), a, workspace);
+                self.correct_sticking_accelerations(system, (t, q, v), a, workspace);
             }
             Ok(())
         })
@@ -449,7 +449,7 @@ impl Contacts {
             let shared = parts.shared_forces(&self.mode_of(&slips));
             let (friction_forces, _) = shared.map_err(Paradox::singular)?;
             results(parts, &friction_forces, &mut [], multipliers);
-            in_contacts(parts, &self.mode, &friction_forces, &slips, forces);
+            contact_forces_of_mode(parts, &self.mode, &friction_forces, &slips, forces);
             Ok(())
         })
     }
@@ -631,11 +631,11 @@ impl Contacts {
         }
         resting[k] |= change.cause == Cause::Stopped;
         let [v, v_low] = v;
-        self.stop(system, (t, q, u), [&mut *v, v_low], &resting)?;
+        self.stop_contacts(system, (t, q, u), [&mut *v, v_low], &resting)?;
         let mut motion: [Option<Motion>; MOST_CONTACTS] =
             core::array::from_fn(|k| (!resting[k]).then_some(self.mode.motion[k]));
         let own = (k, self.mode.motion[k]);
-        // Which contacts break away together.
+        // These contacts break away together.
         let mut together = [false; MOST_CONTACTS];
         let mut slip_direction = self.mode_of(&now).slip_direction;
         let at = |singular| StepError::Singular { singular, t };
@@ -714,7 +714,7 @@ impl Contacts {
             return Ok(());
         }
         let resting = self.mode.motion.map(|motion| motion == Motion::Sticks);
-        self.stop(system, (t, q, u), v, &resting)
+        self.stop_contacts(system, (t, q, u), v, &resting)
     }
 
     fn sticks(&self) -> bool {
@@ -746,7 +746,7 @@ impl Contacts {
 
     /// Whether a contact that was reported as stopped still has a slip: then it turns, or the step is too long to find where it stops.
     #[cfg(feature = "std")]
-    pub fn goes_on<S: System>(
+    pub fn still_slips<S: System>(
         &self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
@@ -759,7 +759,7 @@ impl Contacts {
 
     /// Corrects accelerations of sticking contacts by their round-off: if one coordinate alone produces the slip, its acceleration is
     /// known without friction.
-    fn still<S: System>(
+    fn correct_sticking_accelerations<S: System>(
         &self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
@@ -767,21 +767,21 @@ impl Contacts {
         workspace: &mut [f64],
     ) {
         let n = q.as_slice().len();
-        let (rows, drift) = workspace[..self.count * (n + 1)].split_at_mut(self.count * n);
+        let (rows, bias) = workspace[..self.count * (n + 1)].split_at_mut(self.count * n);
         system.slip_matrix(t, q, rows);
-        system.slip_drift(t, q, v, drift);
+        system.slip_bias(t, q, v, bias);
         for (k, row) in rows.chunks_exact(n).enumerate() {
             if self.mode.motion[k] == Motion::Sticks
                 && let Some(i) = only_entry(row)
             {
-                a.as_mut_slice()[i] = -drift[k] / row[i];
+                a.as_mut_slice()[i] = -bias[k] / row[i];
             }
         }
     }
 
     /// Stops the contacts that are to rest, by the smallest change of the rates in the metric of inertia. If one coordinate alone
     /// produces the slip, it stops to the last bit.
-    fn stop<S: System>(
+    fn stop_contacts<S: System>(
         &self,
         system: &S,
         (t, q, u): (f64, &S::Vector, &S::Inputs),

@@ -300,30 +300,30 @@ impl<S: System> InputLaw<S> for Law<'_, S> {
 /// The law of a simulation within a piece of time, and the inputs of a sampled controller.
 #[cfg(feature = "std")]
 #[derive(Debug)]
-pub(crate) struct Held<'r, L, I> {
+pub(crate) struct LawInPiece<'r, L, I> {
     pub law: &'r L,
     /// The inputs of a sampled controller; the law may set other inputs.
-    pub held: Option<I>,
+    pub sampled: Option<I>,
     /// The piece of time that contains the present time.
     pub piece: Piece,
 }
 
 #[cfg(feature = "std")]
-impl<L, I: Clone> Clone for Held<'_, L, I> {
+impl<L, I: Clone> Clone for LawInPiece<'_, L, I> {
     fn clone(&self) -> Self {
         Self {
             law: self.law,
-            held: self.held.clone(),
+            sampled: self.sampled.clone(),
             piece: self.piece,
         }
     }
 }
 
 #[cfg(feature = "std")]
-impl<S: System, L: InputLaw<S>> InputLaw<S> for Held<'_, L, S::Inputs> {
+impl<S: System, L: InputLaw<S>> InputLaw<S> for LawInPiece<'_, L, S::Inputs> {
     #[inline(always)]
     fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
-        if let Some(held) = &self.held {
+        if let Some(held) = &self.sampled {
             inputs.clone_from(held);
             if !self.law.is_partial() {
                 return;
@@ -333,6 +333,6 @@ impl<S: System, L: InputLaw<S>> InputLaw<S> for Held<'_, L, S::Inputs> {
     }
 
     fn is_constant(&self) -> bool {
-        (self.held.is_some() && !self.law.is_partial()) || self.law.is_constant_in_pieces()
+        (self.sampled.is_some() && !self.law.is_partial()) || self.law.is_constant_in_pieces()
     }
 }

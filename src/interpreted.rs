@@ -316,7 +316,7 @@ impl InterpretedSystem {
     ) -> Result<(), Singular> {
         let mut running = self.running.lock();
         let called = running.call(role, arguments, results);
-        called.map_err(|singular| where_it_stopped(&self.program, singular))
+        called.map_err(|singular| singular_row(&self.program, singular))
     }
 
     /// Calls a function whose values exist at every state, so it cannot be singular.
@@ -385,7 +385,7 @@ impl Running {
 }
 
 /// The row at which elimination stopped; the program counts coordinates and constraints consecutively.
-fn where_it_stopped(program: &Program, singular: program::Singular) -> Singular {
+fn singular_row(program: &Program, singular: program::Singular) -> Singular {
     let program::Singular { coordinate, ratio } = singular;
     let at = match coordinate.checked_sub(program.dimension()) {
         None => Pivot::Coordinate(coordinate),
@@ -499,7 +499,7 @@ impl System for InterpretedSystem {
             expander,
             at: (t, q, v, &u.values),
         });
-        expanded.map_err(|singular| where_it_stopped(&self.program, singular))?;
+        expanded.map_err(|singular| singular_row(&self.program, singular))?;
         for i in 0..q.len() {
             for (row, c) in coefficients.iter_mut().zip(expander.coordinate(i)) {
                 row[i] = *c;
@@ -638,8 +638,8 @@ impl System for InterpretedSystem {
         self.fill(Role::ConstraintMatrix, at(t, q, &[], &[]), matrix);
     }
 
-    fn constraint_drift(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, drift: &mut [f64]) {
-        self.fill(Role::ConstraintDrift, at(t, q, v, &[]), drift);
+    fn constraint_bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut [f64]) {
+        self.fill(Role::ConstraintBias, at(t, q, v, &[]), bias);
     }
 
     fn multipliers(
@@ -696,10 +696,10 @@ impl System for InterpretedSystem {
                     model::Compliance::HuntCrossley => Compliance::HuntCrossley,
                     model::Compliance::Layer => Compliance::Layer,
                 }),
-                rubs: contact.has_friction,
-                rolls: contact.is_rolling_resistance,
-                across: contact.is_second_tangent,
-                faced: contact.has_face,
+                has_friction: contact.has_friction,
+                is_rolling_resistance: contact.is_rolling_resistance,
+                is_second_tangent: contact.is_second_tangent,
+                has_face: contact.has_face,
             })
     }
 
@@ -719,8 +719,8 @@ impl System for InterpretedSystem {
         self.fill(Role::ContactMatrix, at(t, q, &[], &[]), matrix);
     }
 
-    fn contact_drift(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, drift: &mut [f64]) {
-        self.fill(Role::ContactDrift, at(t, q, v, &[]), drift);
+    fn contact_bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut [f64]) {
+        self.fill(Role::ContactBias, at(t, q, v, &[]), bias);
     }
 
     fn contact_coefficients(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, coefficients: &mut [f64]) {
@@ -760,8 +760,8 @@ impl System for InterpretedSystem {
         self.fill(Role::SlipMatrix, at(t, q, &[], &[]), matrix);
     }
 
-    fn slip_drift(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, drift: &mut [f64]) {
-        self.fill(Role::SlipDrift, at(t, q, v, &[]), drift);
+    fn slip_bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut [f64]) {
+        self.fill(Role::SlipBias, at(t, q, v, &[]), bias);
     }
 
     fn friction(
@@ -898,7 +898,7 @@ impl InterpretedSystem {
             f64::NAN // the time is not used
         };
         let called = running.call(role, at(t, q, v, u), results);
-        called.map_err(|singular| where_it_stopped(&self.program, singular))
+        called.map_err(|singular| singular_row(&self.program, singular))
     }
 }
 
@@ -990,7 +990,7 @@ impl InterpretedSystem {
             };
             interpreter
                 .call(Role::Accelerations, arguments, &mut row)
-                .map_err(|singular| where_it_stopped(&self.program, singular))?;
+                .map_err(|singular| singular_row(&self.program, singular))?;
             let to = if is_rate {
                 &mut *by_rates
             } else {

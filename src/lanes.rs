@@ -67,8 +67,14 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
     pub fn new(systems: [&S; N]) -> Self {
         let singular = systems.map(S::is_singular);
         // Systems without accelerations cannot be evaluated together with others; a regular one takes their place.
-        let whole = systems.into_iter().find(|system| !system.is_singular());
-        let stand_in = |system: &S| if system.is_singular() { whole } else { None };
+        let substitute = systems.into_iter().find(|system| !system.is_singular());
+        let stand_in = |system: &S| {
+            if system.is_singular() {
+                substitute
+            } else {
+                None
+            }
+        };
         let evaluated = systems.map(|system| stand_in(system).unwrap_or(system));
         Batch {
             equations: S::batch(evaluated),

@@ -190,7 +190,7 @@ pub use simulation::Simulation;
 #[cfg(feature = "std")]
 pub use solution::{Ending, Handover, MethodChoice, MethodReason, Solution, Statistics};
 #[cfg(feature = "std")]
-pub use table::{Between, Beyond, Table, TableError, TableInputs};
+pub use table::{Extrapolation, Interpolation, Table, TableError, TableInputs};
 
 #[cfg(feature = "macros")]
 pub use lagrangian_macros::machine;

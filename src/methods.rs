@@ -271,7 +271,7 @@ impl Method {
 
     /// Whether its steps solve for impulses of contacts, so that instants of impacts are not located.
     #[cfg(feature = "std")]
-    pub(crate) fn is_by_impulses(&self) -> bool {
+    pub(crate) fn is_time_stepping(&self) -> bool {
         self.kind == Kind::Impulses
     }
 

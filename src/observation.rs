@@ -6,7 +6,7 @@ use std::vec::Vec;
 use crate::constraints::Constraints;
 use crate::contact::UnilateralState;
 use crate::friction::{ContactForce, Contacts};
-use crate::inputs::{Held, InputLaw};
+use crate::inputs::{InputLaw, LawInPiece};
 use crate::step_error::StepError;
 use crate::stepper::{Stepper, accelerations};
 use crate::{
@@ -44,7 +44,7 @@ pub struct Observation<M: Machine> {
 
 /// The state of constraints and contacts at an instant of a run: the chosen rows, the states of guided contacts,
 /// and the closed unilateral ones.
-pub(crate) struct Known<'x, V> {
+pub(crate) struct ConstraintState<'x, V> {
     pub constraints: &'x Option<Constraints<V>>,
     pub contacts: Option<&'x Contacts>,
     pub touching: Option<&'x UnilateralState>,
@@ -53,7 +53,7 @@ pub(crate) struct Known<'x, V> {
 /// A system with the law of its inputs, for observation during a run.
 pub(crate) struct ObservedSystem<'r, S: System, L> {
     pub system: &'r S,
-    pub law: Held<'r, L, S::Inputs>,
+    pub law: LawInPiece<'r, L, S::Inputs>,
 }
 
 impl<S: System, L: InputLaw<S>> ObservedSystem<'_, S, L> {
@@ -66,10 +66,10 @@ impl<S: System, L: InputLaw<S>> ObservedSystem<'_, S, L> {
     /// Observes the machine in a state within the last step.
     pub fn observe<M: Machine<System = S>, A: Quadratures<S>>(
         &self,
-        stepper: &Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
+        stepper: &Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
         state: &State<S::Coordinates>,
     ) -> Result<Observation<M>, Error> {
-        let known = Known::of(stepper);
+        let known = ConstraintState::of(stepper);
         let (q, v) = (
             self.system.to_vector(&state.q),
             self.system.to_vector(&state.v),
@@ -86,12 +86,12 @@ type At<'x, S> = (
     &'x <S as System>::Inputs,
 );
 
-impl<'x, V: Vector> Known<'x, V> {
+impl<'x, V: Vector> ConstraintState<'x, V> {
     /// The constraints and contacts of a stepper during its last step.
     pub fn of<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
         stepper: &'x Stepper<'_, S, L, A>,
     ) -> Self {
-        Known {
+        ConstraintState {
             constraints: stepper.constraints(),
             contacts: stepper.contacts().as_ref(),
             touching: stepper.touching().as_ref(),
@@ -158,11 +158,11 @@ impl<'x, V: Vector> Known<'x, V> {
         state: &State<Coordinates<M>>,
         inputs: Inputs<M>,
     ) -> Result<Observation<M>, Error> {
-        self.found::<M>(system, state, inputs)
+        self.outputs_and_multipliers::<M>(system, state, inputs)
             .map_err(|error| Error::of_step(error, system))
     }
 
-    fn found<M: Machine<System: System<Vector = V>>>(
+    fn outputs_and_multipliers<M: Machine<System: System<Vector = V>>>(
         &self,
         system: &M::System,
         state: &State<Coordinates<M>>,

@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use crate::balance::PartOfContact;
+use crate::balance::ContactShare;
 use crate::constraints::Constraints;
 use crate::contact::{Impact, Mode as ContactMode, UnilateralState};
 use crate::stepper::Cause;
@@ -23,7 +23,7 @@ pub(crate) struct Phase<V> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct EnergyEntry {
     pub of_each: Vec<ContactEnergies>,
-    pub powers: Vec<PartOfContact>,
+    pub powers: Vec<ContactShare>,
 }
 
 impl EnergyEntry {

@@ -32,10 +32,10 @@ const HALVINGS: u32 = 2;
 
 /// A function oscillates too fast for an interpolant if a coefficient in the upper half exceeds this fraction of the largest. For a
 /// jump the fraction is a fortieth, for a kink it is smaller.
-const SWINGS: f64 = 0.1;
+const OSCILLATES: f64 = 0.1;
 
 /// How many times in total an interval is bisected because the function oscillates too fast.
-const HALVINGS_OF_SWINGS: u32 = 14;
+const HALVINGS_OF_OSCILLATION: u32 = 14;
 
 /// [`CONVERGED`] for such a function: a function of an angle of 10⁵ rad is only accurate to 10⁻¹¹.
 const CONVERGED_WITH_NOISE: f64 = 1e-7;
@@ -45,7 +45,9 @@ const NARROWEST: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// Returns increasing fractions of a step, the last of which is 1, such that the function changes its sign at most once between
 /// neighbours, and between 0 and the first.
-pub(crate) fn looks(mut f: impl FnMut(f64) -> Result<f64, Error>) -> Result<Vec<f64>, Error> {
+pub(crate) fn isolating_fractions(
+    mut f: impl FnMut(f64) -> Result<f64, Error>,
+) -> Result<Vec<f64>, Error> {
     let mut looks = Vec::new();
     interpolate(&mut f, [0.0, 1.0], Effort::FIRST, &mut looks)?;
     looks.retain(|theta| *theta > 0.0);
@@ -60,7 +62,7 @@ pub(crate) fn looks(mut f: impl FnMut(f64) -> Result<f64, Error>) -> Result<Vec<
 const HALVINGS_TO_EXTREMES: u32 = 40;
 
 /// The highest degree of an interpolant in the search for extremes.
-const FINE: usize = 32;
+const EXTREMES_DEGREE: usize = 32;
 
 /// How many intervals of one step the search for extremes looks at.
 const MOST_INTERVALS: usize = 400;
@@ -76,7 +78,7 @@ const EXTREMES: f64 = 1e-10;
 /// that cannot contain a new extreme is discarded after few values. An interval with a kink is bisected.
 ///
 /// # Errors
-/// Those of the function.
+/// The errors of the function.
 pub fn extremes(
     mut f: impl FnMut(f64) -> Result<f64, Error>,
     [from, to]: [f64; 2],
@@ -98,13 +100,13 @@ pub fn extremes(
     let mut open = Vec::new();
     let mut next = Some(([from, to], HALVINGS_TO_EXTREMES));
     let mut looked_at = 0;
-    let (mut values, mut c) = ([0.0; FINE + 1], [0.0; FINE + 1]);
+    let (mut values, mut c) = ([0.0; EXTREMES_DEGREE + 1], [0.0; EXTREMES_DEGREE + 1]);
     'open: while let Some((ends @ [a, b], halvings)) = next.take().or_else(|| open.pop()) {
         looked_at += 1;
-        for degree in [COARSE, 16, FINE] {
+        for degree in [COARSE, 16, EXTREMES_DEGREE] {
             let (values, c) = (&mut values[..=degree], &mut c[..=degree]);
             for node in (0..=degree).rev() {
-                values[node] = take(extent, at(node, degree, ends))?;
+                values[node] = take(extent, chebyshev_node(node, degree, ends))?;
             }
             let [Some((low, _)), Some((high, _))] = *extent else {
                 continue;
@@ -114,7 +116,7 @@ pub fn extremes(
             }
             interpolate_into(values, c);
             let enough = EXTREMES * (high - low);
-            let rounding = 64.0 * f64::EPSILON * greatest(c);
+            let rounding = 64.0 * f64::EPSILON * greatest_magnitude(c);
             let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
             let last = c[degree].abs().max(c[degree - 1].abs());
             let beyond = rest + 4.0 * c.len() as f64 * last;
@@ -129,7 +131,7 @@ pub fn extremes(
             }
             let slopes = derivative(c);
             let mut looks = Vec::new();
-            let noise = ROUNDING * self::greatest(&slopes);
+            let noise = ROUNDING * self::greatest_magnitude(&slopes);
             isolate(&slopes, ([-1.0, 1.0], noise), &mut looks);
             for pair in looks.chunks(2) {
                 let &[mut one, mut other] = pair else {
@@ -165,13 +167,13 @@ pub(crate) const FRACTIONS: [f64; 8] = [
     0.5,
     0.5 + 0.5 * core::f64::consts::FRAC_1_SQRT_2,
     1.0,
-    BESIDE,
-    0.5 + BESIDE,
-    1.0 - BESIDE,
+    PROBE_DISTANCE,
+    0.5 + PROBE_DISTANCE,
+    1.0 - PROBE_DISTANCE,
 ];
 
 /// Distance of those three places from their nodes, as a fraction of the step.
-const BESIDE: f64 = 0.01;
+const PROBE_DISTANCE: f64 = 0.01;
 
 /// Allowance for rounding when values beside the nodes are compared with the interpolant, relative to the largest value. A function
 /// that varies by less than this fraction of its size has no root.
@@ -183,14 +185,14 @@ const ROUNDING_OF_VALUES: f64 = 1e-6;
 /// A motion of frequency `ω` has the coefficients `2 Jₖ(z)` with `z = ωh/2`, which fall by `z/10` or faster after the last one. The error of its
 /// quintic through the ends of a step is `(ωh)⁶/46 080`, which is `(ωh)²/15` times the last one. So the factor suffices for `ωh ≤ 10`, and
 /// steps of explicit methods are shorter than that.
-const BEYOND: f64 = 8.0;
+const TRUNCATION_FACTOR: f64 = 8.0;
 
 /// At least this fraction of the last but one coefficient counts, since the last may be 0 by chance.
-const OF_THIRD: f64 = 1.0 / 16.0;
+const LEAST_SHARE_OF_PREVIOUS: f64 = 1.0 / 16.0;
 
 /// Bound on the derivative of the truncated terms, as a multiple of the bound on the terms. The derivative is at most `Σ k² |cₖ|`, for a motion with
-/// `ωh = 10` 40 times the last coefficient, which is five times [`BEYOND`] times that coefficient.
-const OF_DERIVATIVE: f64 = 5.5;
+/// `ωh = 10` 40 times the last coefficient, which is five times [`TRUNCATION_FACTOR`] times that coefficient.
+const DERIVATIVE_FACTOR: f64 = 5.5;
 
 /// How many times a step is bisected in which the interpolant of degree 4 is neither far from zero nor monotone.
 const MOST_BISECTIONS: u32 = 5;
@@ -215,9 +217,9 @@ pub(crate) fn sign_changes(values: &[f64; FRACTIONS.len()]) -> Option<usize> {
     let falls = c3.abs() / c1.abs();
     let of_third = match c3 {
         0.0 => 0.0,
-        _ => c3.abs() * falls.clamp(OF_THIRD, 1.0),
+        _ => c3.abs() * falls.clamp(LEAST_SHARE_OF_PREVIOUS, 1.0),
     };
-    let beyond = BEYOND * of_third.max(c4.abs());
+    let beyond = TRUNCATION_FACTOR * of_third.max(c4.abs());
     // The coefficients of the interpolant in the monomial basis.
     let p = [
         c0 - c2 + c4,
@@ -226,7 +228,8 @@ pub(crate) fn sign_changes(values: &[f64; FRACTIONS.len()]) -> Option<usize> {
         4.0 * c3,
         8.0 * c4,
     ];
-    let differs = OF_DERIVATIVE * beyond * 2.0 * BESIDE + ROUNDING_OF_VALUES * greatest(values);
+    let differs = DERIVATIVE_FACTOR * beyond * 2.0 * PROBE_DISTANCE
+        + ROUNDING_OF_VALUES * greatest_magnitude(values);
     let is_followed = FRACTIONS[5..].iter().zip(beside).all(|(theta, value)| {
         let x = 2.0 * theta - 1.0;
         let expected = p.iter().rev().fold(0.0, |sum, p| sum * x + p);
@@ -239,7 +242,7 @@ pub(crate) fn sign_changes(values: &[f64; FRACTIONS.len()]) -> Option<usize> {
         latest: if v0 == 0.0 { 0.0 } else { v0.signum() },
         changes: 0,
     };
-    if !signs.follow(&p, [0.0, 1.0], beyond, MOST_BISECTIONS) {
+    if !signs.count_along_polynomial(&p, [0.0, 1.0], beyond, MOST_BISECTIONS) {
         return None;
     }
     signs.take(if v4 == 0.0 { 0.0 } else { v4.signum() });
@@ -261,7 +264,13 @@ impl Signs {
 
     /// Follows a polynomial of degree 4 from `m − r` to `m + r`, each value of which may be wrong by `beyond`. Returns whether its signs are known:
     /// in a piece that is far from zero the sign is constant, and in adjacent monotone pieces it changes at most once.
-    fn follow(&mut self, p: &[f64; 5], [m, r]: [f64; 2], beyond: f64, halvings: u32) -> bool {
+    fn count_along_polynomial(
+        &mut self,
+        p: &[f64; 5],
+        [m, r]: [f64; 2],
+        beyond: f64,
+        halvings: u32,
+    ) -> bool {
         let [p0, p1, p2, p3, p4] = *p;
         let value = p0 + m * (p1 + m * (p2 + m * (p3 + m * p4)));
         let slope = r * (p1 + m * (2.0 * p2 + m * (3.0 * p3 + m * 4.0 * p4)));
@@ -273,13 +282,13 @@ impl Signs {
             return true;
         }
         let bends = 2.0 * second + 3.0 * third + 4.0 * fourth;
-        if slope.abs() > bends + r * OF_DERIVATIVE * beyond {
+        if slope.abs() > bends + r * DERIVATIVE_FACTOR * beyond {
             return true;
         }
         let half = 0.5 * r;
         halvings > 0
-            && self.follow(p, [m - half, half], beyond, halvings - 1)
-            && self.follow(p, [m + half, half], beyond, halvings - 1)
+            && self.count_along_polynomial(p, [m - half, half], beyond, halvings - 1)
+            && self.count_along_polynomial(p, [m + half, half], beyond, halvings - 1)
     }
 }
 
@@ -289,7 +298,7 @@ struct Effort {
     /// How many more times it may be bisected if no interpolant resolves the function.
     halvings: u32,
     /// How many more times it may be bisected if the function oscillates too fast.
-    of_swings: u32,
+    of_oscillation: u32,
     /// The last coefficients have to be below this fraction of the largest.
     converged: f64,
 }
@@ -297,21 +306,22 @@ struct Effort {
 impl Effort {
     const FIRST: Self = Self {
         halvings: HALVINGS,
-        of_swings: HALVINGS_OF_SWINGS,
+        of_oscillation: HALVINGS_OF_OSCILLATION,
         converged: CONVERGED,
     };
 
     /// Whether an interpolant with these coefficients resolves the function.
-    fn suffices(&self, coefficients: &[f64]) -> bool {
-        let greatest = greatest(coefficients);
-        greatest <= CONVERGED * f64::MAX && last(coefficients) <= self.converged * greatest
+    fn resolves(&self, coefficients: &[f64]) -> bool {
+        let greatest = greatest_magnitude(coefficients);
+        greatest <= CONVERGED * f64::MAX
+            && greatest_of_last_three(coefficients) <= self.converged * greatest
     }
 
     /// Coefficients below this are noise.
     fn noise(&self, coefficients: &[f64]) -> f64 {
-        let rounding = ROUNDING * greatest(coefficients);
+        let rounding = ROUNDING * greatest_magnitude(coefficients);
         if self.converged > CONVERGED {
-            rounding.max(coefficients.len() as f64 * last(coefficients))
+            rounding.max(coefficients.len() as f64 * greatest_of_last_three(coefficients))
         } else {
             rounding
         }
@@ -327,7 +337,7 @@ fn interpolate(
 ) -> Result<(), Error> {
     let mut values = Vec::new();
     for node in 0..=COARSE {
-        values.push(f(at(node, COARSE, [a, b]))?);
+        values.push(f(chebyshev_node(node, COARSE, [a, b]))?);
     }
     let coarse = coefficients(&values);
     if is_far_from_zero(&coarse) && is_followed(f, &coarse, [a, b])? {
@@ -340,11 +350,11 @@ fn interpolate(
             let known = before.get(node / 2).filter(|_| node % 2 == 0);
             values.push(match known {
                 Some(value) => *value,
-                None => f(at(node, degree, [a, b]))?,
+                None => f(chebyshev_node(node, degree, [a, b]))?,
             });
         }
         let coefficients = coefficients(&values);
-        if effort.suffices(&coefficients) {
+        if effort.resolves(&coefficients) {
             let noise = effort.noise(&coefficients);
             isolate(&coefficients, ([a, b], noise), looks);
             return Ok(());
@@ -352,14 +362,18 @@ fn interpolate(
     }
     let degree = values.len() - 1;
     let all = coefficients(&values);
-    let swings = greatest(&all[degree / 2..]) > SWINGS * greatest(&all);
+    let swings = greatest_magnitude(&all[degree / 2..]) > OSCILLATES * greatest_magnitude(&all);
     if swings && interpolate_parts(f, [a, b], effort, looks)? {
         return Ok(());
     }
     let Effort { halvings, .. } = effort;
     if halvings == 0 {
         // Nodes are numbered from the end to the beginning.
-        looks.extend((0..degree).rev().map(|node| at(node, degree, [a, b])));
+        looks.extend(
+            (0..degree)
+                .rev()
+                .map(|node| chebyshev_node(node, degree, [a, b])),
+        );
         return Ok(());
     }
     let middle = 0.5 * (a + b);
@@ -381,7 +395,7 @@ fn interpolate_parts(
     looks: &mut Vec<f64>,
 ) -> Result<bool, Error> {
     let [.., degree] = DEGREES;
-    for cuts in 1..=effort.of_swings {
+    for cuts in 1..=effort.of_oscillation {
         let parts = 2_u32.pow(cuts);
         let cut = |part: u32| {
             if part == parts {
@@ -391,15 +405,15 @@ fn interpolate_parts(
             }
         };
         let of_part = Effort {
-            of_swings: effort.of_swings - cuts,
+            of_oscillation: effort.of_oscillation - cuts,
             converged: CONVERGED_WITH_NOISE,
             ..effort
         };
         // Whether parts of this length are resolved is tested on the first.
         let first: Result<Vec<f64>, Error> = (0..=degree)
-            .map(|node| f(at(node, degree, [a, cut(1)])))
+            .map(|node| f(chebyshev_node(node, degree, [a, cut(1)])))
             .collect();
-        if !of_part.suffices(&coefficients(&first?)) {
+        if !of_part.resolves(&coefficients(&first?)) {
             continue;
         }
         for part in 0..parts {
@@ -430,8 +444,9 @@ fn is_followed(
     let count = c.len() as f64;
     let last = c[c.len() - 1].abs().max(c[c.len() - 2].abs());
     // The derivative of the truncation error that `is_far_from_zero` assumes.
-    let differs = 2.0 * BESIDE * 4.0 * count * count * last + ROUNDING_OF_VALUES * greatest(c);
-    for theta in [BESIDE, 1.0 - BESIDE] {
+    let differs = 2.0 * PROBE_DISTANCE * 4.0 * count * count * last
+        + ROUNDING_OF_VALUES * greatest_magnitude(c);
+    for theta in [PROBE_DISTANCE, 1.0 - PROBE_DISTANCE] {
         let off = f(a + (b - a) * theta)? - evaluate(c, 2.0 * theta - 1.0);
         if off.is_nan() || off.abs() > differs {
             return Ok(false);
@@ -441,7 +456,7 @@ fn is_followed(
 }
 
 /// Chebyshev node number `node` of this degree between two fractions, numbered from the end to the beginning.
-fn at(node: usize, degree: usize, [a, b]: [f64; 2]) -> f64 {
+fn chebyshev_node(node: usize, degree: usize, [a, b]: [f64; 2]) -> f64 {
     match node {
         0 => b,
         _ if node == degree => a,
@@ -538,7 +553,7 @@ fn interpolate_into(values: &[f64], c: &mut [f64]) {
     }
 }
 
-fn greatest(coefficients: &[f64]) -> f64 {
+fn greatest_magnitude(coefficients: &[f64]) -> f64 {
     let sizes = coefficients.iter().map(|c| c.abs());
     sizes.fold(0.0, |most, size| {
         if size > most || size.is_nan() {
@@ -550,8 +565,8 @@ fn greatest(coefficients: &[f64]) -> f64 {
 }
 
 /// The largest of the last three coefficients, which decides whether the interpolant resolves the function.
-fn last(coefficients: &[f64]) -> f64 {
-    greatest(&coefficients[coefficients.len() - 3..])
+fn greatest_of_last_three(coefficients: &[f64]) -> f64 {
+    greatest_magnitude(&coefficients[coefficients.len() - 3..])
 }
 
 /// Appends the ends of intervals that contain one root each.
@@ -576,7 +591,7 @@ fn isolate(coefficients: &[f64], (whole, noise): ([f64; 2], f64), looks: &mut Ve
         let half = |from: f64, to: f64| {
             let degree = c.len() - 1;
             let values: Vec<f64> = (0..=degree)
-                .map(|node| evaluate(&c, at(node, degree, [from, to])))
+                .map(|node| evaluate(&c, chebyshev_node(node, degree, [from, to])))
                 .collect();
             self::coefficients(&values)
         };
@@ -613,7 +628,7 @@ mod tests {
 
     /// The roots between looks, by bisection.
     fn roots(f: fn(f64) -> f64) -> Vec<f64> {
-        let looks = looks(|theta| Ok(f(theta))).unwrap();
+        let looks = isolating_fractions(|theta| Ok(f(theta))).unwrap();
         let ends = core::iter::once(0.0).chain(looks.iter().copied());
         let pairs = ends.zip(looks.iter().copied());
         let crossing = pairs.filter(|(a, b)| (f(*a) < 0.0) != (f(*b) < 0.0));
@@ -646,7 +661,7 @@ mod tests {
             .map(|k| (f64::from(k) * core::f64::consts::PI - 0.1) / 5000.0)
             .collect();
         are_near(&roots(far), &expected);
-        // Faster and faster.
+        // The frequency of this function increases.
         let rising = |x: f64| (0.5 + 900.0 * x * x).sin();
         let expected: Vec<f64> = (1..=286)
             .map(|k| ((f64::from(k) * core::f64::consts::PI - 0.5) / 900.0).sqrt())
@@ -668,7 +683,9 @@ mod tests {
         for _ in 0..30_000 {
             let (frequency, phase) = (20.0 * 50.0_f64.powf(random()), 7.0 * random());
             let level = 1.98 * (random() - 0.5);
-            deceived += usize::from(seen(|x| (frequency * x + phase).cos() - level).is_some());
+            deceived += usize::from(
+                counted_sign_changes(|x| (frequency * x + phase).cos() - level).is_some(),
+            );
         }
         // With the values at the nodes alone there would be a thousand.
         assert!(deceived <= 3, "{deceived}");
@@ -685,7 +702,7 @@ mod tests {
                 .wrapping_add(1);
             Ok((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5)
         };
-        looks(noise).unwrap();
+        isolating_fractions(noise).unwrap();
         // Seven intervals, in each of which parts of fourteen sizes are tried.
         assert!(calls < 7 * 16 * 65, "{calls}");
     }
@@ -727,26 +744,35 @@ mod tests {
     }
 
     /// [`sign_changes`] of a function on the unit interval.
-    fn seen(f: impl Fn(f64) -> f64) -> Option<usize> {
+    fn counted_sign_changes(f: impl Fn(f64) -> f64) -> Option<usize> {
         sign_changes(&FRACTIONS.map(f))
     }
 
     #[test]
     fn eight_values_count_sign_changes() {
-        assert_eq!(seen(|_| 1.0), Some(0));
-        assert_eq!(seen(|x| 2.0 + x.cos()), Some(0));
-        assert_eq!(seen(|x| x - 0.3), Some(1));
-        assert_eq!(seen(|x| (2.0 * x - 1.0).sin()), Some(1));
-        assert_eq!(seen(|x| (x - 0.3) * (x - 0.4)), Some(2));
-        assert_eq!(seen(|x| x * (x - 0.4)), Some(1));
-        // Undecided, except the sixth.
-        assert_eq!(seen(|x| (x - 0.3) * (x - 0.3 - 1e-9)), None);
-        assert_eq!(seen(|x| (x - 0.3) * (x - 0.3) + 1e-9), None);
-        assert_eq!(seen(|x| (x - 0.3) * (x - 0.3) + 1e-2), Some(0));
-        assert_eq!(seen(|x| if x < 0.7 { -1.0 } else { 1.0 }), None);
-        assert_eq!(seen(|_| 0.0), None);
-        assert_eq!(seen(|_| f64::NAN), None);
-        assert_eq!(seen(|x| if x < 0.3 { 1.0 } else { f64::INFINITY }), None);
+        assert_eq!(counted_sign_changes(|_| 1.0), Some(0));
+        assert_eq!(counted_sign_changes(|x| 2.0 + x.cos()), Some(0));
+        assert_eq!(counted_sign_changes(|x| x - 0.3), Some(1));
+        assert_eq!(counted_sign_changes(|x| (2.0 * x - 1.0).sin()), Some(1));
+        assert_eq!(counted_sign_changes(|x| (x - 0.3) * (x - 0.4)), Some(2));
+        assert_eq!(counted_sign_changes(|x| x * (x - 0.4)), Some(1));
+        // Only the sixth of these is decided.
+        assert_eq!(counted_sign_changes(|x| (x - 0.3) * (x - 0.3 - 1e-9)), None);
+        assert_eq!(counted_sign_changes(|x| (x - 0.3) * (x - 0.3) + 1e-9), None);
+        assert_eq!(
+            counted_sign_changes(|x| (x - 0.3) * (x - 0.3) + 1e-2),
+            Some(0)
+        );
+        assert_eq!(
+            counted_sign_changes(|x| if x < 0.7 { -1.0 } else { 1.0 }),
+            None
+        );
+        assert_eq!(counted_sign_changes(|_| 0.0), None);
+        assert_eq!(counted_sign_changes(|_| f64::NAN), None);
+        assert_eq!(
+            counted_sign_changes(|x| if x < 0.3 { 1.0 } else { f64::INFINITY }),
+            None
+        );
     }
 
     /// Sums of three sines of up to 5 rad a step and a level near one of their extremes, against dense samples. The quintic is wrong by up to a
@@ -760,7 +786,7 @@ mod tests {
                 .wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1u64 << 53) as f64
         };
-        let mut told = 0;
+        let mut count = 0;
         for case in 0..10_000 {
             let longest = 0.2 + 4.8 * random();
             let mut terms: [[f64; 3]; 3] =
@@ -794,17 +820,17 @@ mod tests {
                 );
                 found.0[0] - level
             };
-            let Some(changes) = seen(quintic) else {
+            let Some(changes) = counted_sign_changes(quintic) else {
                 continue;
             };
             let signs = samples
                 .windows(2)
                 .filter(|pair| (pair[0] - level) * (pair[1] - level) < 0.0);
             assert!(signs.count() <= changes, "{case}: {terms:?} {level}");
-            told += 1;
+            count += 1;
         }
         // Most of them are decided.
-        assert!(told > 7000, "{told}");
+        assert!(count > 7000, "{count}");
     }
 
     /// Least and greatest value between 0 and 1.

@@ -23,15 +23,15 @@ use crate::event::{
     self, Crossing, EndOfStep, Event, Places, Terminal, Triple, state, step_motion,
 };
 use crate::friction::{Cause, Change, Contacts, Motion};
-use crate::inputs::{Held, InputLaw, Law};
+use crate::inputs::{InputLaw, Law, LawInPiece};
 use crate::interpolant::Interpolant;
 use crate::methods::{Kind, Method};
 use crate::names::rate_name;
-use crate::observation::{Known, ObservedSystem};
+use crate::observation::{ConstraintState, ObservedSystem};
 use crate::phases::UnilateralRecord;
 use crate::piece::Piece;
 use crate::roots;
-use crate::settings::{Callbacks, Of, Progress, Settings, Task};
+use crate::settings::{Callbacks, Progress, Settings, Subject, Task};
 use crate::solution::{
     Ending, Handover, MethodChoice, MethodReason, RunResult, Solution, Statistics, Steps, handover,
     is_beyond,
@@ -46,7 +46,7 @@ use crate::{
 };
 use choosing::{CANDIDATES, Choosing};
 use contacts::PendingChange;
-use explained::Explained;
+use explained::ExplainedResidual;
 use handing_over::ContactActivity;
 
 /// Makes the run of a simulation, and returns it with the error that ended it early, if any.
@@ -81,10 +81,10 @@ pub(crate) struct Prepared<'a, 'l, M: Machine> {
     piece: Piece,
     chosen: Option<(&'static Method, MethodReason)>,
     /// Whether it resumes another run, and the event that ended that run there.
-    goes_on: bool,
+    is_resumed: bool,
     ended: Option<String>,
     /// Warnings about the start.
-    of_start: Vec<Warning>,
+    start_warnings: Vec<Warning>,
 }
 
 /// The results of a run that has ended, without what it borrowed.
@@ -113,7 +113,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
     ) -> Result<Self, Error> {
         let clock = Instant::now();
         let Task {
-            of,
+            subject,
             law,
             mut settings,
             callbacks,
@@ -121,15 +121,15 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         } = task;
         let until = settings.check()?;
         stepping::check_length(settings.method.has_fixed_steps(), settings.longest_step)?;
-        let system = match of {
-            Of::Machine(machine) => {
+        let system = match subject {
+            Subject::Machine(machine) => {
                 check_parameters(machine)?;
                 machine.prepare()
             }
             // Its equations were checked when the run began that this one resumes.
-            Of::System(system) => system,
+            Subject::System(system) => system,
         };
-        let goes_on = resumed.is_some();
+        let is_resumed = resumed.is_some();
         if system.contacts().len() + system.unilateral_contacts().len() != 0 && until < start.t {
             return Err(Error::InvalidSetting {
                 setting: "until",
@@ -143,10 +143,10 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let tolerance = settings.tolerance(&system)?;
         let (mut q, mut v) = (system.to_vector(&start.q), system.to_vector(&start.v));
         check_start(&system, start.t, &q, &v)?;
-        let (mut start, mut of_start) = (start, Vec::new());
+        let (mut start, mut start_warnings) = (start, Vec::new());
         if <M::System as System>::MAY_BE_CONSTRAINED && system.constraints().len() != 0 {
-            let kept = settings.kept(&system, goes_on)?;
-            of_start = project_start(&system, start.t, &mut q, &mut v, kept)?;
+            let kept = settings.kept_start_values(&system, is_resumed)?;
+            start_warnings = project_start(&system, start.t, &mut q, &mut v, kept)?;
             start = state(&system, (start.t, q.clone(), v.clone()));
         }
         let ended = resumed.filter(|resumed| resumed.t == start.t);
@@ -174,9 +174,9 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             tolerance,
             piece,
             chosen,
-            goes_on,
+            is_resumed,
             ended,
-            of_start,
+            start_warnings,
         })
     }
 
@@ -194,21 +194,21 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             tolerance,
             piece,
             chosen,
-            goes_on,
+            is_resumed,
             ended,
             ..
         } = self;
         let (law, system, until, piece) = (&*law, &*system, *until, *piece);
         let quadratures = settings.energy_balance.then(EnergyIntegrals::default);
         let sampling = callbacks.sampled.as_ref().map(|of| of.begin(system));
-        let held = sampling.is_some().then(|| system.default_inputs());
+        let sampled_inputs = sampling.is_some().then(|| system.default_inputs());
         let model = Model {
             system,
             observed_system: ObservedSystem {
                 system,
-                law: Held {
+                law: LawInPiece {
                     law,
-                    held: held.clone(),
+                    sampled: sampled_inputs.clone(),
                     piece,
                 },
             },
@@ -238,7 +238,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             begun_by = begun(settings.method);
         }
         let mut stepper = begun_by.map_err(|error| model.explain(error, q, v))?;
-        if !*goes_on {
+        if !*is_resumed {
             check_equations(system, (start.t, q, v, stepper.inputs()))?;
         }
         stepper.set_longest_step(settings.longest_step);
@@ -277,7 +277,10 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             activity,
             choosing,
             record: Record {
-                held: held.map(|held| (start.t, held)).into_iter().collect(),
+                sampled_inputs: sampled_inputs
+                    .map(|inputs| (start.t, inputs))
+                    .into_iter()
+                    .collect(),
                 pieces: (piece != Piece::ALL).then_some(piece).into_iter().collect(),
                 steps: (settings.keep_steps).then(|| Steps::new(settings.method, others)),
                 samples: settings.every.map(|_| start.clone()).into_iter().collect(),
@@ -287,7 +290,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
                 unilateral: UnilateralRecord::default(),
                 handovers: Vec::new(),
                 kinetic_energy: 0.0,
-                explained: Explained::default(),
+                explained: ExplainedResidual::default(),
                 is_unexplained: false,
             },
             settings,
@@ -300,7 +303,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         run.record
             .contacts
             .extend(contacts.map(|known| (start.t, known)));
-        run.enter_energies();
+        run.record_energies();
         if (run.record.energies.first()).is_some_and(|of| (of.kinetic + of.potential).is_nan()) {
             return Err(Error::EnergiesUnknown { t: start.t });
         }
@@ -326,7 +329,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             choices,
         } = finished;
         let Record {
-            held,
+            sampled_inputs,
             pieces,
             steps,
             samples,
@@ -337,7 +340,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             handovers,
             ..
         } = record;
-        self.of_start.extend(warnings);
+        self.start_warnings.extend(warnings);
         let solution = Solution {
             method: self.settings.method,
             balance,
@@ -345,14 +348,14 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
                 seconds: self.clock.elapsed().as_secs_f64(),
                 ..statistics
             },
-            warnings: self.of_start,
+            warnings: self.start_warnings,
             next_step,
             constraints,
             contacts,
             unilateral,
             handovers,
             choices,
-            held,
+            sampled_inputs,
             pieces,
             start: self.start,
             end,
@@ -453,7 +456,7 @@ const MOST_CHANGES_AT_ONCE: usize = 3 * crate::MOST_CONTACTS;
 /// A run in progress.
 pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> {
     model: Model<'r, M::System, L>,
-    stepper: Stepper<'r, M::System, Held<'r, L, Inputs<M>>, A>,
+    stepper: Stepper<'r, M::System, LawInPiece<'r, L, Inputs<M>>, A>,
     settings: &'r Settings,
     callbacks: &'r mut Callbacks<'a, M>,
     start: f64,
@@ -497,7 +500,7 @@ impl BetweenSteps {
 /// The records of a run.
 struct Record<M: Machine> {
     /// The inputs that a sampled controller set, each with the time from which they hold.
-    held: Vec<(f64, Inputs<M>)>,
+    sampled_inputs: Vec<(f64, Inputs<M>)>,
     /// The intervals of time in which the inputs are smooth, in the order of the run; empty if they are smooth throughout.
     pieces: Vec<Piece>,
     steps: Option<Steps<VectorOf<M>>>,
@@ -513,7 +516,7 @@ struct Record<M: Machine> {
     /// The largest kinetic energy so far, in J.
     kinetic_energy: f64,
     /// The part of the residual of the energy balance that tolerance and rounding explain.
-    explained: Explained,
+    explained: ExplainedResidual,
     /// Whether a step had a residual that remained unexplained.
     is_unexplained: bool,
 }
@@ -530,7 +533,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             if let Some(ending) = self.change_inputs()? {
                 return Ok(ending);
             }
-            let ending = self.go()?;
+            let ending = self.step_until()?;
             if ending != Ending::End || self.stepper.t() == self.until {
                 return Ok(ending);
             }
@@ -538,7 +541,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Steps until `stop`, or until something ends the run earlier.
-    fn go(&mut self) -> Result<Ending, Error> {
+    fn step_until(&mut self) -> Result<Ending, Error> {
         self.forget_values();
         let mut between = BetweenSteps::new();
         while !self.stepper.is_done() {
@@ -616,7 +619,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         if <M::System as System>::MAY_COLLIDE
             && self.stepper.touching().is_some()
-            && !self.stepper.is_by_impulses()
+            && !self.stepper.is_time_stepping()
         {
             let looks = ending.is_ok();
             let next =
@@ -642,7 +645,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if let Some(found) = self.find_events(end, &mut interpolant)? {
             return self.end_at(found).map(Some);
         }
-        self.keep(&mut interpolant)?;
+        self.record_last_step(&mut interpolant)?;
         if self.shall_stop() {
             return Ok(Some(Ending::Stopped));
         }
@@ -737,18 +740,18 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     continue;
                 }
                 let margin = |theta| exactly(theta).map(|margin| margin.value);
-                let mut found =
+                let mut root =
                     event::last_positive([theta_before, theta], theta_roundoff, &mut &margin)?;
                 let mut change = change;
-                if found > contacts::LEAST_APPROACH {
-                    let (t, q, v) = at(found)?;
-                    if contacts.goes_on(model.system, (t, &q, &v), change) {
-                        found *= contacts::APPROACH;
+                if root > contacts::LEAST_APPROACH {
+                    let (t, q, v) = at(root)?;
+                    if contacts.still_slips(model.system, (t, &q, &v), change) {
+                        root *= contacts::APPROACH;
                         change.cause = Cause::Veered;
                     }
                 }
-                if earliest.is_none_or(|(known, ..)| found < known) {
-                    earliest = Some((found, at(found)?.0, change));
+                if earliest.is_none_or(|(known, ..)| root < known) {
+                    earliest = Some((root, at(root)?.0, change));
                 }
             }
             if let Some((_, t, change)) = earliest {
@@ -796,7 +799,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         if let Some(steps) = &mut self.record.steps {
             steps.jump(&self.stepper);
-            self.enter_energies();
+            self.record_energies();
         }
         self.record_contacts(before);
         let v = self.stepper.v().clone();
@@ -843,7 +846,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         interpolant: &mut LastInterpolant<M>,
     ) -> Result<Option<(f64, String)>, Error> {
         let Self { model, stepper, .. } = self;
-        let Some(looks) = model.looks_at_assumptions(stepper, interpolant)? else {
+        let Some(looks) = model.isolating_fractions_of_assumptions(stepper, interpolant)? else {
             return Ok(None);
         };
         let interpolant = step_motion(interpolant, stepper, model.system)?;
@@ -919,7 +922,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             let mut is_step = false;
             while !self.stepper.is_done() {
                 if is_step {
-                    self.keep(&mut None)?;
+                    self.record_last_step(&mut None)?;
                 }
                 let (q, v) = (self.stepper.q().clone(), self.stepper.v().clone());
                 let step = self.stepper.step();
@@ -947,7 +950,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             if next == t || correction.abs() > 0.5 * corrected || !is_within {
                 let name = watch.name.clone();
                 if is_step {
-                    self.keep(&mut None)?;
+                    self.record_last_step(&mut None)?;
                 }
                 // Events that the dense output placed later, by its error, happened at the same time.
                 let events = self.record.events.iter_mut().rev();
@@ -967,14 +970,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Records and shows what the settings request of the last step.
-    fn keep(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
+    fn record_last_step(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         self.keep_samples(interpolant)?;
-        self.show(interpolant)?;
+        self.show_step(interpolant)?;
         if <M::System as System>::MAY_COLLIDE && self.is_stepped() {
             self.record_step();
         }
         let before = self.record.energies.last().copied();
-        let explained = self.enter_energies();
+        let explained = self.record_energies();
         if let Some(before) = before {
             self.explain_residual(&before, explained, interpolant);
         }
@@ -995,7 +998,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Shows the last step to the observer of steps, if there is one.
-    fn show(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
+    fn show_step(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         let Self {
             model,
             stepper,
@@ -1027,7 +1030,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     break;
                 };
                 let state = self.state_within(t, interpolant)?;
-                self.callbacks.streams[number].take(&state);
+                self.callbacks.streams[number].show(&state);
             }
         }
         Ok(())
@@ -1062,7 +1065,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Records the present energies, if their balance is kept. Returns the part of the residual of the last step that tolerance and
     /// rounding explain, in J.
-    fn enter_energies(&mut self) -> f64 {
+    fn record_energies(&mut self) -> f64 {
         let Some(energies) = self.energies_now() else {
             return f64::INFINITY;
         };
@@ -1095,7 +1098,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Whether the last step was one of time stepping, whose length follows from no error estimate.
     fn is_stepped(&self) -> bool {
-        <M::System as System>::MAY_COLLIDE && self.stepper.is_by_impulses()
+        <M::System as System>::MAY_COLLIDE && self.stepper.is_time_stepping()
     }
 
     /// Repeats the quadrature of work and losses along the last step if its energy balance has an unexplained residual. The step may be too
@@ -1242,7 +1245,7 @@ where
         a: &mut VectorOf<M>,
     ) -> Result<(), Error> {
         let system = self.model.system;
-        Known::of(self.stepper)
+        ConstraintState::of(self.stepper)
             .accelerations(system, (t, q, v, u), a)
             .map_err(|error| Error::of_step(error, system))
     }
@@ -1264,9 +1267,9 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     /// The fractions of the last step at which to evaluate the assumptions: between neighbours none of them fails and holds again. `None`
     /// if all are known to hold throughout, which a few values decide for most of them. A machine without assumptions pays nothing.
     #[inline]
-    fn looks_at_assumptions<A: Quadratures<S>>(
+    fn isolating_fractions_of_assumptions<A: Quadratures<S>>(
         &self,
-        stepper: &mut Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
+        stepper: &mut Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
         interpolant: &mut Option<Interpolant<S::Vector>>,
     ) -> Result<Option<Vec<f64>>, Error> {
         let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
@@ -1326,7 +1329,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         // All searches begin with the same fractions.
         let mut known: Vec<(f64, Triple<S::Vector>)> = Vec::new();
         for index in (0..count).filter(|index| places[*index] == Some(Places::All)) {
-            looks.extend(roots::looks(|theta| {
+            looks.extend(roots::isolating_fractions(|theta| {
                 let found = known.iter().find(|(other, _)| *other == theta);
                 let state = match found {
                     Some((_, state)) => state.clone(),
@@ -1352,7 +1355,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     /// holds at each partial sum holds along the step.
     fn hold_throughout_series<A: Quadratures<S>>(
         &self,
-        stepper: &Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
+        stepper: &Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
         coefficients: &[S::Vector],
         holds: impl Fn(f64, &S::Vector, &S::Vector) -> bool,
     ) -> bool {
@@ -1447,7 +1450,7 @@ fn project_start<S: System>(
     v: &mut S::Vector,
     kept: Option<[S::Vector; 2]>,
 ) -> Result<Vec<Warning>, Error> {
-    let given = [q.clone(), v.clone()];
+    let requested = [q.clone(), v.clone()];
     let mut known = Constraints::new(system, q, v);
     let mut start = Point::new(t, q.clone(), v.clone());
     let mut projected = known.begin(system, &mut start.place(), kept.clone());
@@ -1481,11 +1484,11 @@ fn project_start<S: System>(
     }
     for (level, now) in [&*q, &*v].into_iter().enumerate() {
         for (j, coordinate) in system.coordinates().enumerate() {
-            let (from, to) = (given[level].as_slice()[j], now.as_slice()[j]);
+            let (from, to) = (requested[level].as_slice()[j], now.as_slice()[j]);
             if (to - from).abs() <= ROUNDING_OF_START * known.sizes(j)[level] {
                 continue;
             }
-            let name = number_name(coordinate.name, level);
+            let name = coordinate_or_rate_name(coordinate.name, level);
             found.push(Warning::StartMoved { name, from, to });
         }
     }
@@ -1513,7 +1516,9 @@ fn contradicts_kept<S: System>(
         Some(KeptContradiction {
             constraint: constraint.name.into(),
             of_rates,
-            kept: kept.map(|(_, of)| number_name(of.name, level)).collect(),
+            kept: kept
+                .map(|(_, of)| coordinate_or_rate_name(of.name, level))
+                .collect(),
             residual,
             unit: if of_rates {
                 std::format!("{}/s", constraint.unit)
@@ -1531,7 +1536,7 @@ fn contradicts_kept<S: System>(
 }
 
 /// The name of a coordinate or of its rate.
-fn number_name(coordinate: &str, level: usize) -> String {
+fn coordinate_or_rate_name(coordinate: &str, level: usize) -> String {
     match level {
         0 => coordinate.into(),
         _ => rate_name(coordinate),
@@ -1646,11 +1651,15 @@ impl Settings {
     }
 
     /// Which numbers of the start are kept, coordinates and rates: those that are not 0 in the result.
-    fn kept<S: System>(&self, system: &S, goes_on: bool) -> Result<Option<[S::Vector; 2]>, Error> {
+    fn kept_start_values<S: System>(
+        &self,
+        system: &S,
+        is_resumed: bool,
+    ) -> Result<Option<[S::Vector; 2]>, Error> {
         let names = match &self.kept {
             Some(names) => names.clone(),
             // The description's choice refers to its own start.
-            None if goes_on => Vec::new(),
+            None if is_resumed => Vec::new(),
             None => system.kept_at_start().map(String::from).collect(),
         };
         if names.is_empty() {
@@ -1735,17 +1744,17 @@ fn check_start<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> R
 fn balance<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     stepper: &Stepper<'_, S, L, A>,
     energies: &[Energies],
-    explained: &Explained,
+    explained: &ExplainedResidual,
     (kinetic_energy, has_fixed_steps): (f64, bool),
 ) -> Option<EnergyBalance> {
     let integrals = stepper.quadratures().integrals()?;
     let (first, last) = (energies.first()?, energies.last()?);
-    let turned_over = kinetic_energy + integrals.work_turned_over() + last.dissipated;
+    let turned_over = kinetic_energy + integrals.absolute_work() + last.dissipated;
     Some(EnergyBalance {
         explained: if has_fixed_steps {
             f64::INFINITY
         } else {
-            explained.in_all(turned_over)
+            explained.total(turned_over)
         },
         start: first.kinetic + first.potential,
         end: last.kinetic + last.potential,

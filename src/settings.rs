@@ -11,7 +11,7 @@ use crate::{Coordinates, Error, Machine, State, StepMotion};
 
 /// Everything that a run needs besides its start.
 pub(crate) struct Task<'a, M: Machine, L> {
-    pub of: Of<'a, M>,
+    pub subject: Subject<'a, M>,
     pub law: L,
     pub settings: Settings,
     pub callbacks: Callbacks<'a, M>,
@@ -20,14 +20,14 @@ pub(crate) struct Task<'a, M: Machine, L> {
 }
 
 /// The machine or system to be run.
-pub(crate) enum Of<'a, M: Machine> {
+pub(crate) enum Subject<'a, M: Machine> {
     /// A machine that is not yet prepared.
     Machine(&'a M),
     /// The equations of motion of an earlier run.
     System(M::System),
 }
 
-impl<M: Machine<System: Clone>> Clone for Of<'_, M> {
+impl<M: Machine<System: Clone>> Clone for Subject<'_, M> {
     fn clone(&self) -> Self {
         match self {
             Self::Machine(machine) => Self::Machine(machine),
@@ -79,12 +79,12 @@ pub(crate) struct Callbacks<'a, M: Machine> {
     pub progress: Option<Shared<dyn FnMut(Progress) + Send + 'a>>,
     pub stop: Option<Box<dyn Condition<'a, M> + 'a>>,
     pub sampled: Option<Sampled<'a, M>>,
-    pub streams: Vec<Stream<'a, M>>,
+    pub streams: Vec<StateStream<'a, M>>,
     pub observer: Option<Observer<'a, M>>,
 }
 
 /// An observer of the states of a run, and its progress.
-pub(crate) struct Stream<'a, M: Machine> {
+pub(crate) struct StateStream<'a, M: Machine> {
     /// Time between two states that it is shown, in s.
     pub interval: f64,
     /// Number of states shown so far.
@@ -94,15 +94,15 @@ pub(crate) struct Stream<'a, M: Machine> {
     pub observer: StateObserver<'a, M>,
 }
 
-impl<M: Machine> Stream<'_, M> {
+impl<M: Machine> StateStream<'_, M> {
     /// Shows the start of a run.
     pub fn begin(&mut self, start: &State<Coordinates<M>>) {
         self.count = 0;
-        self.take(start);
+        self.show(start);
     }
 
     /// Shows a state.
-    pub fn take(&mut self, state: &State<Coordinates<M>>) {
+    pub fn show(&mut self, state: &State<Coordinates<M>>) {
         self.count += 1;
         self.last = state.t;
         (self.observer.lock())(state);
@@ -111,7 +111,7 @@ impl<M: Machine> Stream<'_, M> {
     /// Shows the end of a run, if that was not shown.
     pub fn end(&mut self, end: &State<Coordinates<M>>) {
         if end.t != self.last {
-            self.take(end);
+            self.show(end);
         }
     }
 }
@@ -136,7 +136,7 @@ impl<M: Machine> Clone for Callbacks<'_, M> {
     }
 }
 
-impl<M: Machine> Clone for Stream<'_, M> {
+impl<M: Machine> Clone for StateStream<'_, M> {
     fn clone(&self) -> Self {
         Self {
             observer: self.observer.clone(),

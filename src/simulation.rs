@@ -9,7 +9,9 @@ use crate::inputs::{AnyInputs, DefaultInputs, InputFunction, InputLaw, Law};
 use crate::methods::Method;
 use crate::observation::Observation;
 use crate::run;
-use crate::settings::{Callbacks, Of, Progress, Resumed, Sampled, Settings, Stream, Task};
+use crate::settings::{
+    Callbacks, Progress, Resumed, Sampled, Settings, StateStream, Subject, Task,
+};
 use crate::solution::{Ending, RunResult, Solution};
 use crate::table::{Table, TableInputs};
 use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
@@ -40,7 +42,7 @@ use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
 /// ```
 #[must_use = "a simulation does nothing until `run(start)`"]
 pub struct Simulation<'a, M: Machine, L = DefaultInputs> {
-    pub(crate) of: Of<'a, M>,
+    pub(crate) subject: Subject<'a, M>,
     pub(crate) law: L,
     pub(crate) settings: Settings,
     pub(crate) callbacks: Callbacks<'a, M>,
@@ -52,7 +54,7 @@ impl<'a, M: Machine> Simulation<'a, M> {
     /// A run of `machine`, with a tolerance of 10⁻⁹ and the inputs at their defaults.
     pub fn new(machine: &'a M) -> Self {
         Self {
-            of: Of::Machine(machine),
+            subject: Subject::Machine(machine),
             law: DefaultInputs,
             resumed: None,
             settings: Settings {
@@ -90,14 +92,14 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
         F: Fn(f64, &Coordinates<M>, &Coordinates<M>, &mut Inputs<M>),
     {
         let Self {
-            of,
+            subject,
             settings,
             callbacks,
             resumed,
             ..
         } = self;
         Simulation {
-            of,
+            subject,
             law: InputFunction(function),
             settings,
             callbacks,
@@ -110,14 +112,14 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
     /// Sets the inputs by a law: like [`inputs`](Self::inputs), for laws that are not functions of named values.
     pub fn law<N: InputLaw<M::System>>(self, law: N) -> Simulation<'a, M, N> {
         let Self {
-            of,
+            subject,
             settings,
             callbacks,
             resumed,
             ..
         } = self;
         Simulation {
-            of,
+            subject,
             law,
             settings,
             callbacks,
@@ -151,14 +153,14 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
         F: Fn(&mut Inputs<M>, f64),
     {
         let Self {
-            of,
+            subject,
             law,
             settings,
             callbacks,
             resumed,
         } = self;
         Simulation {
-            of,
+            subject,
             law: TableInputs::new(law, table, set),
             settings,
             callbacks,
@@ -170,7 +172,7 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
 impl<M: Machine<System: Clone>, L: Clone> Clone for Simulation<'_, M, L> {
     fn clone(&self) -> Self {
         Self {
-            of: self.of.clone(),
+            subject: self.subject.clone(),
             law: self.law.clone(),
             settings: self.settings.clone(),
             callbacks: self.callbacks.clone(),
@@ -206,14 +208,14 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         L: Send + Sync + 'a,
     {
         let Self {
-            of,
+            subject,
             law,
             settings,
             callbacks,
             resumed,
         } = self;
         Simulation {
-            of,
+            subject,
             law: AnyInputs::new(law),
             settings,
             callbacks,
@@ -229,9 +231,9 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
 
     /// The tolerance, relative and absolute: each step keeps its error in a number `y` below `tolerance · (1 + |y|)`.
     pub fn tolerance(self, tolerance: f64) -> Self {
-        let mut both = self.relative(tolerance).absolute(tolerance);
-        both.settings.one_tolerance = true;
-        both
+        let mut simulation = self.relative(tolerance).absolute(tolerance);
+        simulation.settings.one_tolerance = true;
+        simulation
     }
 
     /// The tolerance relative to the size of each coordinate and rate.
@@ -535,7 +537,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         observer: impl FnMut(&State<Coordinates<M>>) + Send + 'a,
     ) -> Self {
         self.settings.observed_every.push(interval);
-        self.callbacks.streams.push(Stream {
+        self.callbacks.streams.push(StateStream {
             interval,
             count: 0,
             last: f64::NAN,
@@ -637,7 +639,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         make: impl FnOnce(Task<'a, M, Law<'_, M::System>>, State<Coordinates<M>>) -> RunResult<M>,
     ) -> Result<(Solution<M, L>, Option<Error>), Error> {
         let task = Task {
-            of: self.of,
+            subject: self.subject,
             law: Law::of(&self.law),
             settings: self.settings,
             callbacks: self.callbacks,
@@ -696,7 +698,7 @@ impl<M: Machine, L> Solution<M, L> {
             _ => None,
         };
         Simulation {
-            of: Of::System(self.system.clone()),
+            subject: Subject::System(self.system.clone()),
             law: self.law.clone(),
             settings,
             callbacks: Callbacks::default(),

@@ -19,7 +19,7 @@ use crate::friction::Contacts;
 use crate::inputs::{DefaultInputs, InputLaw};
 use crate::interpolant::Interpolant;
 use crate::methods::{Kind, Method};
-use crate::observation::{Known, Observation};
+use crate::observation::{ConstraintState, Observation};
 use crate::phases::{Phase, UnilateralRecord};
 use crate::piece::Piece;
 use crate::settings::Settings;
@@ -55,7 +55,7 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     /// The states of the guided contacts, each with the time from which it holds.
     pub(crate) contacts: Vec<(f64, Contacts)>,
     /// The inputs that a sampled controller set, each with the time from which they hold.
-    pub(crate) held: Vec<(f64, Inputs<M>)>,
+    pub(crate) sampled_inputs: Vec<(f64, Inputs<M>)>,
     /// The intervals of time in which the inputs are smooth, in the order of the run; empty if they are smooth throughout.
     pub(crate) pieces: Vec<Piece>,
     /// Record of the unilateral contacts.
@@ -86,7 +86,7 @@ impl<M: Machine<System: Clone>, L: Clone> Clone for Solution<M, L> {
             next_step: self.next_step,
             constraints: self.constraints.clone(),
             contacts: self.contacts.clone(),
-            held: self.held.clone(),
+            sampled_inputs: self.sampled_inputs.clone(),
             pieces: self.pieces.clone(),
             unilateral: self.unilateral.clone(),
             handovers: self.handovers.clone(),
@@ -154,7 +154,7 @@ impl<M: Machine> Solution<M, ()> {
             next_step,
             constraints,
             contacts,
-            held,
+            sampled_inputs,
             pieces,
             unilateral,
             handovers,
@@ -178,7 +178,7 @@ impl<M: Machine> Solution<M, ()> {
             next_step,
             constraints,
             contacts,
-            held,
+            sampled_inputs,
             pieces,
             unilateral,
             handovers,
@@ -241,7 +241,7 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
             self.system.to_vector(&state.v),
         );
         let inputs = self.inputs(state.t, &q, &v);
-        self.known_at(state.t)
+        self.constraint_state_at(state.t)
             .observe::<M>(&self.system, state, inputs)
     }
 
@@ -265,8 +265,12 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     }
 
     fn inputs(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> Inputs<M> {
-        let after = self.held.partition_point(|(since, _)| *since <= t);
-        let held = after.checked_sub(1).and_then(|at| self.held.get(at));
+        let after = self
+            .sampled_inputs
+            .partition_point(|(since, _)| *since <= t);
+        let held = after
+            .checked_sub(1)
+            .and_then(|at| self.sampled_inputs.get(at));
         let mut inputs = match held {
             Some((_, held)) if !self.law.is_partial() => return held.clone(),
             Some((_, held)) => held.clone(),
@@ -280,7 +284,7 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     /// Whether inputs change during the run.
     #[cfg(feature = "interpreter")]
     pub(crate) fn is_driven(&self) -> bool {
-        !self.held.is_empty() || !self.law.is_constant()
+        !self.sampled_inputs.is_empty() || !self.law.is_constant()
     }
 
     /// The piece that contains a time; the later one if two pieces meet there to rounding.
@@ -288,19 +292,19 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         let pieces = &self.pieces;
         let is_from = |piece: &Piece| piece.from <= t || is_near(piece.from, t);
         let is_forward = pieces.first().zip(pieces.last());
-        let found = if is_forward.is_none_or(|(first, last)| first.from <= last.from) {
+        let index = if is_forward.is_none_or(|(first, last)| first.from <= last.from) {
             pieces.partition_point(is_from).checked_sub(1)
         } else {
             Some(pieces.partition_point(|piece| !is_from(piece)))
         };
-        let found = found.and_then(|place| pieces.get(place));
-        let found = found.filter(|piece| t <= piece.to || is_near(piece.to, t));
-        found.copied().unwrap_or(Piece::ALL)
+        let containing = index.and_then(|place| pieces.get(place));
+        let containing = containing.filter(|piece| t <= piece.to || is_near(piece.to, t));
+        containing.copied().unwrap_or(Piece::ALL)
     }
 
     /// The constraints and contacts that were in force at a time.
-    fn known_at(&self, t: f64) -> Known<'_, VectorOf<M>> {
-        Known {
+    fn constraint_state_at(&self, t: f64) -> ConstraintState<'_, VectorOf<M>> {
+        ConstraintState {
             constraints: &self.constraints,
             contacts: self.contacts_at(t),
             touching: self.phase_at(t).map(|phase| &phase.touching),
@@ -315,7 +319,7 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         a: &mut VectorOf<M>,
     ) -> Result<Inputs<M>, StepError> {
         let u = self.inputs(t, q, v);
-        self.known_at(t)
+        self.constraint_state_at(t)
             .accelerations(&self.system, (t, q, v, &u), a)?;
         Ok(u)
     }
@@ -332,8 +336,8 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         if M::System::MAY_COLLIDE
             && let Some(phase) = self.phase_at(t)
         {
-            let held = phase.touching.machine(&self.system);
-            project(&held, &phase.constraints, t, &mut q, &mut v)
+            let constrained = phase.touching.machine(&self.system);
+            project(&constrained, &phase.constraints, t, &mut q, &mut v)
                 .map_err(|error| phase.touching.explain(&self.system, error))
                 .map_err(|error| Error::of_step(error, &self.system))?;
             return Ok((q, v));

@@ -70,7 +70,7 @@ const STEPS_BETWEEN_STIFFNESS_TESTS: usize = 1000;
 
 /// When constraints become dependent, errors across them up to this, relative and absolute, are round-off: 10⁻¹⁶ in a constraint becomes
 /// 10⁻⁵ in the accelerations of a stage if the weakest row has 3·10⁻⁴ of its length left, and a hundredth of that in the result of a step.
-const ACROSS: f64 = 1e-7;
+const ROUNDOFF_ACROSS: f64 = 1e-7;
 
 /// Advances the state of a system, step by step, with steps as long as the tolerance allows.
 ///
@@ -122,9 +122,9 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
 #[derive(Clone, Copy, Debug)]
 struct StepLimits {
     /// Below this length a step is too small.
-    least: f64,
+    shortest: f64,
     /// The signed distance to the end.
-    left: f64,
+    distance_to_end: f64,
 }
 
 /// The equations of motion with their inputs.
@@ -286,18 +286,18 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if S::MAY_COLLIDE && model.system.unilateral_contacts().len() != 0 {
             model.touching = Some(UnilateralState::new(model.system.get()));
         }
-        let found = model.accelerations(now.t, &now.q, &now.v, &mut k[0], work);
+        let result = model.accelerations(now.t, &now.q, &now.v, &mut k[0], work);
         if S::MAY_BE_CONSTRAINED
             && let Some(constraints) = &mut model.constraints
-            && found.is_err()
+            && result.is_err()
             && constraints.notice_fork(
-                [constraints.hold(model.system.get(), now.t, &now.q); 3],
+                [constraints.strength(model.system.get(), now.t, &now.q); 3],
                 false,
             )
         {
             model.accelerations(now.t, &now.q, &now.v, &mut k[0], work)?;
         } else {
-            found?;
+            result?;
         }
         if S::MAY_BE_CONSTRAINED
             && let Some(constraints) = &model.constraints
@@ -511,7 +511,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// Sets the longest step, in s; a value that is not greater than 0 removes the limit.
     pub fn set_longest_step(&mut self, step: f64) {
-        self.longest = control::longest(step);
+        self.longest = control::longest_step_or_infinity(step);
     }
 
     /// Sets the largest number of steps of one [`advance_to`](Self::advance_to), ten million by default; if more are needed, it returns an
@@ -586,15 +586,15 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         model.law = law;
         if let Some(before) = before {
             let work = energy(model) - before;
-            quadratures.add_at_once(work, 0.0);
+            quadratures.add_instantaneous(work, 0.0);
         }
-        self.look_again()
+        self.refresh_acceleration()
     }
 
     /// Sets another end, later or earlier than now.
     pub fn set_end(&mut self, end: f64) {
         self.end = end;
-        self.control.turn(end - self.now.t);
+        self.control.set_direction(end - self.now.t);
     }
 
     /// Undoes the last step and makes `end` the end of the run, to end a run at an event within that step.
@@ -629,7 +629,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// Evaluates the present acceleration again if something that it depends on has changed.
     #[cold]
-    fn look_again(&mut self) -> Result<(), StepError> {
+    fn refresh_acceleration(&mut self) -> Result<(), StepError> {
         let Self {
             model,
             quadratures,
@@ -671,7 +671,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             return Ok(());
         }
         if self.changed {
-            self.look_again()?;
+            self.refresh_acceleration()?;
         }
         #[cfg(feature = "std")]
         if self.impulses.is_some() {
@@ -707,21 +707,28 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if self.control.work.steps == 0 && self.control.step == 0.0 {
             self.control.step = self.first_step();
         }
-        let least = control::least::<f64>(self.now.t);
-        let left = (self.end - self.now.t) - self.now.t_low;
-        if self.control.is_too_small(least, left) {
+        let shortest = control::shortest_step::<f64>(self.now.t);
+        let distance_to_end = (self.end - self.now.t) - self.now.t_low;
+        if self.control.is_too_small(shortest, distance_to_end) {
             return Err(self.too_small());
         }
         self.begin();
         self.control.is_retry = false;
-        Ok(StepLimits { least, left })
+        Ok(StepLimits {
+            shortest,
+            distance_to_end,
+        })
     }
 
     /// The length of the next try, and whether it would be the last step.
     #[inline(always)]
     fn choose(&mut self, limits: StepLimits) -> (f64, bool) {
-        let last = self.control.is_last(limits.left, self.longest);
-        let h = if last { limits.left } else { self.control.step };
+        let last = self.control.is_last(limits.distance_to_end, self.longest);
+        let h = if last {
+            limits.distance_to_end
+        } else {
+            self.control.step
+        };
         self.control.last_step = h;
         (h, last)
     }
@@ -736,7 +743,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         let (next, cause) = match tried {
             Ok(error) if error <= 1.0 => {
                 let factor = self.growth(h, error);
-                self.control.take(h, error, factor);
+                self.control.accept(h, error, factor);
                 self.accept(h);
                 return Ok(true);
             }
@@ -749,7 +756,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             // A stage may have left the set of states in which the machine can be.
             Err(cause) => (0.1 * h, Some(cause)),
         };
-        if self.control.give_up(next, limits.least) {
+        if self.control.reject(next, limits.shortest) {
             return Ok(false);
         }
         if self.may_have_met_fork(h, true) {
@@ -799,8 +806,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if S::MAY_COLLIDE
             && let Some(touching) = &self.model.touching
         {
-            let held = touching.machine(self.model.system.get());
-            let projected = project(&held, &self.model.constraints, t, q, v);
+            let constrained = touching.machine(self.model.system.get());
+            let projected = project(&constrained, &self.model.constraints, t, q, v);
             return projected.map_err(|error| touching.explain(self.model.system.get(), error));
         }
         project(self.model.system.get(), &self.model.constraints, t, q, v)
@@ -956,7 +963,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             for (q, v) in ahead.as_mut_slice().iter_mut().zip(before.v.as_slice()) {
                 *q += theta * h * v;
             }
-            constraints.hold(model.system.get(), before.t + theta * h, ahead)
+            constraints.strength(model.system.get(), before.t + theta * h, ahead)
         });
         constraints.notice_fork(holds, at_last)
     }
@@ -1032,14 +1039,14 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                     let size = before.as_slice()[i].abs().max(now.as_slice()[i].abs());
                     let tolerable = self.tolerable(i, size);
                     let across = error.as_slice()[i] - along;
-                    let loose = tolerable.max(ACROSS * (1.0 + size));
+                    let loose = tolerable.max(ROUNDOFF_ACROSS * (1.0 + size));
                     *sum += (along / tolerable) * (along / tolerable);
                     *sum += (across / loose) * (across / loose);
                 }
             }
         }
         let [fine, coarse] = sums;
-        control::combined(fine, coarse, 2 * self.now.q.as_slice().len())
+        control::error_norm(fine, coarse, 2 * self.now.q.as_slice().len())
     }
 
     /// The distance by which the step just tried was moved onto the constraints, in the norm of its [`error`](Self::error), without the
@@ -1049,13 +1056,13 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             return 0.0;
         };
         let mut sum = 0.0;
-        let levels = constraints.moved.iter().zip(constraints.share);
+        let levels = constraints.moved.iter().zip(constraints.own_share);
         for ((moved, share), y) in levels.zip([&self.now.q, &self.now.v]) {
             let by = moved.as_slice().iter().zip(y.as_slice());
             for (i, (moved, y)) in by.enumerate() {
                 let mut tolerable = self.tolerable(i, y.abs());
                 if constraints.at_fork {
-                    tolerable = tolerable.max(ACROSS * (1.0 + y.abs()));
+                    tolerable = tolerable.max(ROUNDOFF_ACROSS * (1.0 + y.abs()));
                 }
                 let error = share * moved / tolerable;
                 sum += error * error;
@@ -1207,10 +1214,10 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             && self.system.unilateral_contacts().len() != 0
             && let Some(touching) = &self.touching
         {
-            let held = touching.machine(self.system.get());
+            let constrained = touching.machine(self.system.get());
             return match &mut self.constraints {
-                Some(constraints) if held.constraints().len() != 0 => {
-                    let projected = constraints.project(&held, &mut now.place());
+                Some(constraints) if constrained.constraints().len() != 0 => {
+                    let projected = constraints.project(&constrained, &mut now.place());
                     projected.map_err(|error| touching.explain(self.system.get(), error))
                 }
                 _ => Ok(false),
@@ -1289,7 +1296,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             let (t, q, v, _) = at;
             let powers = touching.powers(self.system.get(), (t, q, v, &self.inputs));
             quadratures.add(stage, powers.work, powers.lost);
-            quadratures.share_out(stage, &powers.of_each);
+            quadratures.set_contact_shares(stage, &powers.of_each);
         }
     }
 }

@@ -389,7 +389,7 @@ pub trait System {
 
     /// `γ(q, v, t)` of `G a = γ`, the condition on the accelerations under which the rates of the constraints stay constant.
     #[inline(always)]
-    fn constraint_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
+    fn constraint_bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
 
     /// Lagrange's multipliers `λ` of `M a = f + Gᵀ λ`, by the same elimination
     /// as the accelerations. An error if the constraints are linearly dependent.
@@ -452,7 +452,7 @@ pub trait System {
 
     /// `dw/dt` at `a = 0`, for each contact.
     #[inline(always)]
-    fn slip_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
+    fn slip_bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
 
     /// The response to the friction forces `F` of the `k` contacts, which is affine: first the part without friction, then the increment
     /// per unit of each force. Each of these `1 + k` parts holds the accelerations, the multipliers of the constraints, `dw/dt` of each
@@ -487,7 +487,7 @@ pub trait System {
     #[inline(always)]
     fn gaps(&self, _t: f64, _q: &Self::Vector, _gaps: &mut [f64]) {}
 
-    /// Three numbers for each unilateral contact that is [with a face](UnilateralContact::faced) of a polygon: the distance of its corner
+    /// Three numbers for each unilateral contact that is [with a face](UnilateralContact::has_face) of a polygon: the distance of its corner
     /// outside of that face and the distance beyond the ends of it (negative between them), both in m, and the rate of the second, in m/s.
     /// The [gap](Self::gaps) is the larger of the first two; [rates](Self::contact_rates) are those of the face.
     #[inline(always)]
@@ -503,7 +503,7 @@ pub trait System {
 
     /// The time derivatives of these rates at `a = 0`.
     #[inline(always)]
-    fn contact_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
+    fn contact_bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
 
     /// For each unilateral contact its coefficients: restitution along the normal and along the tangent, or the parameters of its
     /// [`Compliance`](crate::Compliance); then friction in slip and in stick.

@@ -13,7 +13,7 @@ use crate::{Error, System};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum Between {
+pub enum Interpolation {
     /// The value of the row before, which holds until the next.
     Hold,
     /// A straight line.
@@ -28,7 +28,7 @@ pub enum Between {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum Beyond {
+pub enum Extrapolation {
     /// The value of the first row, or of the last.
     #[default]
     Hold,
@@ -41,19 +41,19 @@ pub enum Beyond {
 /// A function of time given by its values at instants, for [`Simulation::table`](crate::Simulation::table).
 ///
 /// ```
-/// use lagrangian::{Beyond, Table};
+/// use lagrangian::{Extrapolation, Table};
 ///
 /// let torque = Table::linear([0.0, 1.0, 3.0], [0.0, 5.0, 0.0])?;
 /// assert_eq!([-1.0, 0.5, 2.0, 9.0].map(|t| torque.value(t)), [0.0, 2.5, 2.5, 0.0]);
-/// let again = torque.beyond(Beyond::Repeat)?;
+/// let again = torque.with_extrapolation(Extrapolation::Repeat)?;
 /// assert_eq!(again.value(3.5), 2.5);
 /// # Ok::<(), lagrangian::TableError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     name: String,
-    between: Between,
-    beyond: Beyond,
+    between: Interpolation,
+    beyond: Extrapolation,
     /// The first instant and the last.
     ends: [f64; 2],
     /// Increasing instants. For values that hold, only the first instant and those at which they change.
@@ -138,7 +138,7 @@ impl Table {
         times: impl Into<Vec<f64>>,
         values: impl Into<Vec<f64>>,
     ) -> Result<Self, TableError> {
-        Self::new(Between::Hold, Beyond::Hold, times, values)
+        Self::new(Interpolation::Hold, Extrapolation::Hold, times, values)
     }
 
     /// A table of values with straight lines between them.
@@ -149,7 +149,7 @@ impl Table {
         times: impl Into<Vec<f64>>,
         values: impl Into<Vec<f64>>,
     ) -> Result<Self, TableError> {
-        Self::new(Between::Linear, Beyond::Hold, times, values)
+        Self::new(Interpolation::Linear, Extrapolation::Hold, times, values)
     }
 
     /// A table of values with a cubic spline through them.
@@ -160,14 +160,14 @@ impl Table {
         times: impl Into<Vec<f64>>,
         values: impl Into<Vec<f64>>,
     ) -> Result<Self, TableError> {
-        Self::new(Between::Cubic, Beyond::Hold, times, values)
+        Self::new(Interpolation::Cubic, Extrapolation::Hold, times, values)
     }
 
     /// This table with another rule before its first row and after its last.
     ///
     /// # Errors
     /// If it is to be repeated and cannot be.
-    pub fn beyond(self, beyond: Beyond) -> Result<Self, TableError> {
+    pub fn with_extrapolation(self, beyond: Extrapolation) -> Result<Self, TableError> {
         let name = self.name;
         // For values that hold, the last row may only state when the table ends.
         let (mut times, mut values) = (self.times, self.values);
@@ -185,8 +185,8 @@ impl Table {
     /// # Errors
     /// If the times do not increase, if some number is not finite, or if it is to be repeated and cannot be.
     pub fn new(
-        between: Between,
-        beyond: Beyond,
+        between: Interpolation,
+        beyond: Extrapolation,
         times: impl Into<Vec<f64>>,
         values: impl Into<Vec<f64>>,
     ) -> Result<Self, TableError> {
@@ -208,11 +208,11 @@ impl Table {
         let [Some(first), Some(last)] = [times.first().copied(), times.last().copied()] else {
             return Err(TableError::Empty);
         };
-        if beyond == Beyond::Repeat {
+        if beyond == Extrapolation::Repeat {
             if first == last {
                 return Err(TableError::NoPeriod);
             }
-            if between == Between::Cubic && values.first() != values.last() {
+            if between == Interpolation::Cubic && values.first() != values.last() {
                 return Err(TableError::NotPeriodic);
             }
         }
@@ -229,11 +229,11 @@ impl Table {
             breaks: [Vec::new(), Vec::new()],
         };
         match between {
-            Between::Hold => table.keep_changes(),
-            Between::Linear => {}
-            Between::Cubic => {
+            Interpolation::Hold => table.keep_changes(),
+            Interpolation::Linear => {}
+            Interpolation::Cubic => {
                 table.slopes = match beyond {
-                    Beyond::Repeat => periodic_slopes(&table.times, &table.values),
+                    Extrapolation::Repeat => periodic_slopes(&table.times, &table.values),
                     _ => slopes(&table.times, &table.values),
                 };
                 if table.slopes.iter().any(|slope| !slope.is_finite()) {
@@ -260,7 +260,7 @@ impl Table {
     }
 
     /// How it interpolates between its rows.
-    pub fn between(&self) -> Between {
+    pub fn interpolation(&self) -> Interpolation {
         self.between
     }
 
@@ -278,23 +278,23 @@ impl Table {
         let of_round = || self.times.iter().copied().filter(|time| *time < last);
         let is_one = first == last;
         match (self.between, self.beyond) {
-            (_, Beyond::Hold) if is_one => [Vec::new(), Vec::new()],
+            (_, Extrapolation::Hold) if is_one => [Vec::new(), Vec::new()],
             // The first value also holds before its instant.
-            (Between::Hold, Beyond::Hold) => {
+            (Interpolation::Hold, Extrapolation::Hold) => {
                 let changes: Vec<f64> = self.times.iter().copied().skip(1).collect();
                 [changes.clone(), changes]
             }
-            (Between::Hold | Between::Linear, Beyond::Repeat) => {
+            (Interpolation::Hold | Interpolation::Linear, Extrapolation::Repeat) => {
                 [of_round().collect(), of_round().collect()]
             }
-            (Between::Cubic, Beyond::Repeat) => [of_round().collect(), Vec::new()],
-            (Between::Hold, Beyond::Error) => {
+            (Interpolation::Cubic, Extrapolation::Repeat) => [of_round().collect(), Vec::new()],
+            (Interpolation::Hold, Extrapolation::Error) => {
                 let mut breaks: Vec<f64> = of_round().collect();
                 breaks.push(last);
                 [breaks.clone(), breaks]
             }
-            (Between::Linear, _) => [self.times.clone(), self.times.clone()],
-            (Between::Cubic, _) => [self.times.clone(), std::vec![first, last]],
+            (Interpolation::Linear, _) => [self.times.clone(), self.times.clone()],
+            (Interpolation::Cubic, _) => [self.times.clone(), std::vec![first, last]],
         }
     }
 
@@ -307,12 +307,12 @@ impl Table {
     pub fn value_in(&self, piece: Piece, t: f64) -> f64 {
         // A cubic spline is continuous, and may have knots within the piece.
         let within = match self.between {
-            Between::Cubic => t,
+            Interpolation::Cubic => t,
             _ => piece.within(t),
         };
         let [first, last] = self.ends;
         let round = match self.beyond {
-            Beyond::Repeat => ((within - first) / (last - first)).floor(),
+            Extrapolation::Repeat => ((within - first) / (last - first)).floor(),
             _ => 0.0,
         };
         let mut shift = match round {
@@ -320,7 +320,7 @@ impl Table {
             round => round * (last - first),
         };
         // Rounding may have put it into the next or the previous period.
-        if self.beyond == Beyond::Repeat {
+        if self.beyond == Extrapolation::Repeat {
             if within - shift >= last {
                 shift += last - first;
             } else if within - shift < first {
@@ -330,15 +330,15 @@ impl Table {
         let (within, t) = (within - shift, t - shift);
         if !(first..=last).contains(&within) {
             match self.beyond {
-                Beyond::Hold if within < first => return self.values[0],
-                Beyond::Hold => return self.values[self.values.len() - 1],
-                Beyond::Error => return f64::NAN,
-                Beyond::Repeat => {} // it is within the table except for rounding
+                Extrapolation::Hold if within < first => return self.values[0],
+                Extrapolation::Hold => return self.values[self.values.len() - 1],
+                Extrapolation::Error => return f64::NAN,
+                Extrapolation::Repeat => {} // it is within the table except for rounding
             }
         }
         let row = self.times.partition_point(|time| *time <= within);
         let row = row.saturating_sub(1);
-        if self.between == Between::Hold {
+        if self.between == Interpolation::Hold {
             return self.values[row];
         }
         let row = row.min(self.times.len().saturating_sub(2));
@@ -347,7 +347,7 @@ impl Table {
         };
         let (from, value) = (self.times[row], self.values[row]);
         let (h, share) = (to - from, (t - from) / (to - from));
-        if self.between == Between::Linear {
+        if self.between == Interpolation::Linear {
             return value + share * (next - value);
         }
         // Hermite's form: values and slopes at both ends.
@@ -366,7 +366,7 @@ impl Table {
     /// If the table has no value there, or changes more often than the resolution of time.
     pub fn piece(&self, t: f64, forward: bool, order: u32) -> Result<Piece, NoPiece<'_>> {
         let [first, last] = self.ends;
-        if self.beyond == Beyond::Error {
+        if self.beyond == Extrapolation::Error {
             let is_known = if forward {
                 (first..last).contains(&t)
             } else {
@@ -388,7 +388,7 @@ impl Table {
         };
         let is_passed = |time: f64| if forward { time <= t } else { time < t };
         let rounds = match self.beyond {
-            Beyond::Repeat => {
+            Extrapolation::Repeat => {
                 if self.finest < 16.0 * f64::EPSILON * t.abs() {
                     return Err(NoPiece::TooFine(&self.name));
                 }
@@ -420,9 +420,9 @@ impl Table {
     /// Whether it jumps at the break with this index.
     fn jumps(&self, number: usize) -> bool {
         match self.between {
-            Between::Hold => true,
-            Between::Linear | Between::Cubic => {
-                self.beyond == Beyond::Repeat
+            Interpolation::Hold => true,
+            Interpolation::Linear | Interpolation::Cubic => {
+                self.beyond == Extrapolation::Repeat
                     && number == 0
                     && self.values.first() != self.values.last()
             }
@@ -475,31 +475,31 @@ fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
     }
     // below·s₍ᵢ₋₁₎ + middle·sᵢ + above·s₍ᵢ₊₁₎ = right, eliminated from the first row on.
     let (mut middle, mut above, mut right) = (Vec::new(), Vec::new(), Vec::new());
-    let both = h[0] + h[1];
+    let sum = h[0] + h[1];
     middle.push(h[1]);
-    above.push(both);
-    right.push(((h[0] + 2.0 * both) * h[1] * line[0] + h[0] * h[0] * line[1]) / both);
+    above.push(sum);
+    right.push(((h[0] + 2.0 * sum) * h[1] * line[0] + h[0] * h[0] * line[1]) / sum);
     for i in 1..n {
         let (below, own, over, known) = if i < n - 1 {
             let known = 3.0 * (h[i] * line[i - 1] + h[i - 1] * line[i]);
             (h[i], 2.0 * (h[i - 1] + h[i]), h[i - 1], known)
         } else {
             let [before, last] = [h[n - 3], h[n - 2]];
-            let both = before + last;
-            let known = last * last * line[n - 3] + (2.0 * both + last) * before * line[n - 2];
-            (both, before, 0.0, known / both)
+            let sum = before + last;
+            let known = last * last * line[n - 3] + (2.0 * sum + last) * before * line[n - 2];
+            (sum, before, 0.0, known / sum)
         };
         let factor = below / middle[i - 1];
         middle.push(own - factor * above[i - 1]);
         above.push(over);
         right.push(known - factor * right[i - 1]);
     }
-    let mut found = right;
-    found[n - 1] /= middle[n - 1];
+    let mut solution = right;
+    solution[n - 1] /= middle[n - 1];
     for i in (0..n - 1).rev() {
-        found[i] = (found[i] - above[i] * found[i + 1]) / middle[i];
+        solution[i] = (solution[i] - above[i] * solution[i + 1]) / middle[i];
     }
-    found
+    solution
 }
 
 /// The slopes of the periodic cubic spline with two continuous derivatives; the last row is the first of the next period.
@@ -513,7 +513,7 @@ fn periodic_slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
     let before = |i: usize| (i + m - 1) % m;
     let known = |i: usize| 3.0 * (h[i] * line[before(i)] + h[before(i)] * line[i]);
     let own = |i: usize| 2.0 * (h[before(i)] + h[i]);
-    let mut found = match m {
+    let mut solution = match m {
         1 => std::vec![0.0],
         2 => {
             // Each row is the neighbour of the other on both sides.
@@ -559,8 +559,8 @@ fn periodic_slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
                 .collect()
         }
     };
-    found.push(found[0]);
-    found
+    solution.push(solution[0]);
+    solution
 }
 
 /// Inputs of which one is driven by a table, and the others by a law; created
@@ -623,7 +623,7 @@ where
 impl Table {
     /// Whether it has one value within each piece.
     pub fn is_constant_in_pieces(&self) -> bool {
-        self.between == Between::Hold || self.values.len() == 1
+        self.between == Interpolation::Hold || self.values.len() == 1
     }
 }
 

@@ -61,7 +61,7 @@ impl<V: Vector> Taylor<V> {
     }
 
     /// The coefficients of the motion through the present state.
-    pub fn of_now_rows(&self) -> &[V] {
+    pub fn present_coefficients(&self) -> &[V] {
         &self.coefficients[self.of_now()]
     }
 
@@ -147,7 +147,7 @@ impl<V: Vector> Taylor<V> {
         for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
             let over = 1.0 / bound(size_of_rate(q[i], v[i]), *absolute, tolerance.relative);
             for (worst, (row, j)) in worst.iter_mut().zip(rows.iter().zip(powers)) {
-                *worst = worse(*worst, row[i], j as f64, over);
+                *worst = larger_ratio(*worst, row[i], j as f64, over);
             }
         }
         let by_rates = length(worst, powers);
@@ -163,7 +163,7 @@ impl<V: Vector> Taylor<V> {
     pub fn advance(&self, h: f64, before: &Point<V>, now: &mut Point<V>) {
         let coefficients = self.of_step();
         in_blocks!(before.q.as_slice().len(), |start, B| {
-            let [q, v] = rises::<B, f64>(&Rows(coefficients), start, h);
+            let [q, v] = increments::<B, f64>(&Rows(coefficients), start, h);
             for k in 0..B {
                 let i = start + k;
                 let low = before.v_low.as_slice()[i];
@@ -205,8 +205,8 @@ pub(crate) fn length_in_slow_motion(
         let size = q.abs() + v.abs() * by_rates;
         let over = 1.0 / bound(size, absolute, relative);
         worst = [
-            worse(worst[0], one, 1.0, over),
-            worse(worst[1], other, 1.0, over),
+            larger_ratio(worst[0], one, 1.0, over),
+            larger_ratio(worst[1], other, 1.0, over),
         ];
     }
     // The terms of rates have one power less, and so have those that `length` expects.
@@ -226,7 +226,7 @@ pub(crate) fn bound(size: f64, absolute: f64, relative: f64) -> f64 {
 
 /// The larger of `worst` and a term's size over its bound; the term is that of the rate, v = Σ (j + 1) cⱼ₊₁ τʲ, in a step of 1 s.
 #[inline(always)]
-pub(crate) fn worse(worst: f64, c: f64, j: f64, over_bound: f64) -> f64 {
+pub(crate) fn larger_ratio(worst: f64, c: f64, j: f64, over_bound: f64) -> f64 {
     let ratio = if c == 0.0 {
         0.0
     } else {
@@ -269,11 +269,11 @@ pub(crate) fn usual_length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
     rough_exp2(if one < other { one } else { other })
 }
 
-/// Access to the coefficients of coordinates for [`rises`].
+/// Access to the coefficients of coordinates for [`increments`].
 pub(crate) trait Coefficients<N> {
     /// The number of coefficients of each coordinate.
     fn count(&self) -> usize;
-    /// Those of order `j`, of `B` coordinates from `start` on. Always inlined, which a closure may not be into code for registers
+    /// The coefficients of order `j`, of `B` coordinates from `start` on. Always inlined, which a closure may not be into code for registers
     /// that only some processors have.
     fn block<const B: usize>(&self, j: usize, start: usize) -> [N; B];
 }
@@ -315,7 +315,7 @@ fn add_term<const B: usize, N: Scalar>(
 /// The changes of `B` coordinates from `start` on, and of their rates, in a time `tau`. They are computed side by side so that the
 /// processor can work on several sums at once.
 #[inline(always)]
-pub(crate) fn rises<const B: usize, N: Scalar>(
+pub(crate) fn increments<const B: usize, N: Scalar>(
     coefficients: &impl Coefficients<N>,
     start: usize,
     tau: N,
@@ -348,7 +348,7 @@ pub(crate) fn rises<const B: usize, N: Scalar>(
 pub(crate) fn state<N: Real, V: Vector<N>>(coefficients: &[V], tau: N) -> (V, V) {
     let (mut q, mut v) = (coefficients[0].clone(), coefficients[1].clone());
     in_blocks!(q.as_slice().len(), |start, B| {
-        let [by_q, by_v] = rises::<B, N>(&Rows(coefficients), start, tau);
+        let [by_q, by_v] = increments::<B, N>(&Rows(coefficients), start, tau);
         for k in 0..B {
             let i = start + k;
             q.as_mut_slice()[i] = q.as_slice()[i] + by_q[k];

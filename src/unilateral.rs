@@ -14,17 +14,17 @@ pub struct UnilateralContact<'a> {
     /// The law of its force, if it is compliant.
     pub compliance: Option<Compliance>,
     /// Whether there is friction; without it the slip is 0.
-    pub rubs: bool,
-    /// Whether it is the rolling of the contact before it, on which it depends: it has the gap and the normal force of that contact, its
+    pub has_friction: bool,
+    /// Whether it is the rolling resistance of the contact before it, on which it depends: it has the gap and the normal force of that contact, its
     /// slip is the angular rate of one body relative to the other, in rad/s, its friction the resisting torque, in N m, `|τ| ≤ ρ λₙ`, and
     /// its coefficient of friction the length ρ, in m.
-    pub rolls: bool,
+    pub is_rolling_resistance: bool,
     /// Whether it is the second tangent of the contact before it, in space, on which it depends: it has the gap, the normal force and the
     /// coefficients of that contact; its slip and its friction are those along the second tangent. The two obey Coulomb's law together,
     /// `|λₜ| ≤ μ λₙ`.
-    pub across: bool,
+    pub is_second_tangent: bool,
     /// Whether it is a corner on a face of a polygon, which has ends, given by [`System::contact_faces`](crate::System::contact_faces).
-    pub faced: bool,
+    pub has_face: bool,
 }
 
 /// How closed contacts take part in an impact.

@@ -176,13 +176,17 @@ fn ends(
             })
         };
     let from = place(machine.start().q.values, &call.from, "--from")?;
-    let said = problem::at_parameters(compiled, machine, &compiled.model.destination);
-    if said.is_empty() && call.to.is_empty() {
+    let destination = problem::at_parameters(compiled, machine, &compiled.model.destination);
+    if destination.is_empty() && call.to.is_empty() {
         return Err(Failure::Call(
             "it is not specified where the motion ends: give `--to`, or add a section `brachistochrone { … }` to the spec".to_owned(),
         ));
     }
-    let to = if said.is_empty() { from.clone() } else { said };
+    let to = if destination.is_empty() {
+        from.clone()
+    } else {
+        destination
+    };
     let to = place(to, &call.to, "--to")?;
     Ok([from, to])
 }

@@ -123,27 +123,27 @@ impl Command {
         let sets = ["--set", "--set-second"];
         let named = self.named().into_iter();
         let named = named.filter(|(option, _)| sets.contains(option));
-        let mut given: Vec<String> = named.map(|(_, name)| name.to_owned()).collect();
+        let mut all_names: Vec<String> = named.map(|(_, name)| name.to_owned()).collect();
         let along = match self {
             Command::Modes(call) => call.vary.as_ref(),
             Command::Linearize(call) => call.along.as_ref(),
             Command::Orbit(call) => call.along.as_ref(),
             _ => None,
         };
-        given.extend(along.map(|along| along.name.clone()));
+        all_names.extend(along.map(|along| along.name.clone()));
         match self {
             Command::Sweep(call) => {
                 let ends = ['=', '~'];
-                let names = call.vary.iter().filter_map(|text| text.split(ends).next());
-                given.extend(names.map(|name| name.trim().to_owned()));
+                let varied = call.vary.iter().filter_map(|text| text.split(ends).next());
+                all_names.extend(varied.map(|name| name.trim().to_owned()));
                 let table = call.table.iter();
-                given.extend(table.flat_map(|path| crate::heading::names_in(path)));
+                all_names.extend(table.flat_map(|path| crate::heading::names_in(path)));
             }
-            Command::Fit(call) => given.extend(names_of(&call.sought)?),
-            Command::Sensitivities(call) => given.extend(names_of(&call.by)?),
+            Command::Fit(call) => all_names.extend(names_of(&call.sought)?),
+            Command::Sensitivities(call) => all_names.extend(names_of(&call.by)?),
             _ => {}
         }
-        Ok(given)
+        Ok(all_names)
     }
 
     /// Whether its result is to be JSON.

@@ -77,7 +77,7 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
         .map(|comparison| Published::new(comparison, &reading.sources))
         .collect();
     let accuracy = compiled.as_ref().filter(|_| call.accuracy);
-    let accuracy = accuracy.map(|compiled| (compiled, accuracy::look(compiled)));
+    let accuracy = accuracy.map(|compiled| (compiled, accuracy::evaluate(compiled)));
     if call.spec.json {
         let entries = diagnostics::entries(&reading.report, &reading.sources);
         let mut all = json!({

@@ -52,10 +52,10 @@ fn accounts(run: &Run) -> Vec<Account> {
                 energies
             }),
             has_balance: k < books.len(),
-            has_friction: contact.rubs,
+            has_friction: contact.has_friction,
             is_compliant: contact.compliance.is_some(),
             is_layer: contact.compliance == Some(Compliance::Layer),
-            rolls: contact.rolls,
+            rolls: contact.is_rolling_resistance,
             closed_at: closes.map(|event| (event.state.t, event.time_error)),
             is_closed: closed.get(k).copied().unwrap_or(false),
         }
@@ -64,7 +64,7 @@ fn accounts(run: &Run) -> Vec<Account> {
     for (k, contact) in contacts {
         let account = of_contact((k, contact));
         // The energy lost along the second tangent belongs to the same contact.
-        match accounts.last_mut().filter(|_| contact.across) {
+        match accounts.last_mut().filter(|_| contact.is_second_tangent) {
             Some(first) => add(&mut first.energies, &account.energies),
             None => accounts.push(account),
         }
@@ -82,10 +82,10 @@ fn add(sum: &mut ContactEnergies, other: &ContactEnergies) {
 }
 
 /// The energies taken by contacts by cause, as texts with values in J, as far as each contact has them.
-pub fn taken(system: &InterpretedSystem, energies: &[ContactEnergies]) -> Vec<(String, f64)> {
+pub fn losses(system: &InterpretedSystem, energies: &[ContactEnergies]) -> Vec<(String, f64)> {
     let mut contacts: Vec<(UnilateralContact<'_>, ContactEnergies)> = Vec::new();
     for (contact, of) in system.unilateral_contacts().zip(energies) {
-        match contacts.last_mut().filter(|_| contact.across) {
+        match contacts.last_mut().filter(|_| contact.is_second_tangent) {
             Some((_, first)) => add(first, of),
             None => contacts.push((contact, *of)),
         }
@@ -95,7 +95,7 @@ pub fn taken(system: &InterpretedSystem, energies: &[ContactEnergies]) -> Vec<(S
         let is_compliant = contact.compliance.is_some();
         [
             ("impacts", of.impact_loss, !is_compliant),
-            ("friction", of.friction_loss, contact.rubs),
+            ("friction", of.friction_loss, contact.has_friction),
             ("damping", of.damping_loss, is_compliant && !is_layer),
             ("crushing", of.crushing_work, is_layer),
         ]
@@ -226,7 +226,7 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
         let second = format!("{contact}.across");
         run.system()
             .unilateral_contacts()
-            .any(|known| known.across && known.name == second)
+            .any(|known| known.is_second_tangent && known.name == second)
     };
     let events = run.contact_events().iter();
     let events =

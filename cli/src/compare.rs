@@ -47,7 +47,7 @@ pub fn run(call: &call::Compare) -> Result<(), Failure> {
         (call.second.as_path(), "the second run"),
     ];
     keep_apart(all.iter().copied(), &read)?;
-    let [first, second] = both(call, &all)?;
+    let [first, second] = read_runs(call, &all)?;
     let times = common_times(&first.times, &second.times);
     if times.is_empty() {
         let span = |run: &Columns| {
@@ -61,7 +61,7 @@ pub fn run(call: &call::Compare) -> Result<(), Failure> {
             span(&second)
         )));
     }
-    let (compared, left_out) = compared(call, &first, &second, &times)?;
+    let (compared, left_out) = compare_quantities(call, &first, &second, &times)?;
     if let Some(file) = &files[0] {
         let columns = compared.iter().map(|one| {
             let values = one.difference.values.as_slice();
@@ -74,7 +74,7 @@ pub fn run(call: &call::Compare) -> Result<(), Failure> {
         )?;
     }
     if let Some(file) = &files[1] {
-        file.write_text(&drawn(call, &times, &compared).map_err(Failure::Run)?)?;
+        file.write_text(&difference_panes(call, &times, &compared).map_err(Failure::Run)?)?;
     }
     let beyond = beyond(call, &compared);
     if call.runs.json {
@@ -114,21 +114,21 @@ pub fn run(call: &call::Compare) -> Result<(), Failure> {
 }
 
 /// Reads both runs. If one is a table, the run of a spec is evaluated at its rows.
-fn both(call: &call::Compare, files: &[&Destination]) -> Result<[Columns; 2], Failure> {
+fn read_runs(call: &call::Compare, files: &[&Destination]) -> Result<[Columns; 2], Failure> {
     let paths = [&call.first, &call.second];
     let are_specs = [runs::is_spec(&call.first)?, runs::is_spec(&call.second)?];
     if are_specs == [false, false] {
         runs::refuse_without_spec(&call.runs)?;
     }
     if !are_specs[1] {
-        let given = [
+        let options = [
             ("--set-second", !call.second_parameters.is_empty()),
             ("--start-second", !call.second_coordinates.is_empty()),
             ("--rate-second", !call.second_rates.is_empty()),
             ("--tolerance-second", call.second_tolerance.is_some()),
             ("--method-second", call.second_method.is_some()),
         ];
-        if let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) {
+        if let Some((option, _)) = options.iter().find(|(_, is_given)| *is_given) {
             return Err(Failure::Call(format!(
                 "{option} applies to a second run made from a spec, but the second run is a table"
             )));
@@ -170,7 +170,7 @@ fn both(call: &call::Compare, files: &[&Destination]) -> Result<[Columns; 2], Fa
 type LeftOut = [Vec<String>; 2];
 
 /// All quantities that are compared, and those that only one run has.
-fn compared(
+fn compare_quantities(
     call: &call::Compare,
     first: &Columns,
     second: &Columns,
@@ -241,10 +241,10 @@ fn compared(
             rows.count() >= times.len()
         };
         let between = [&curves[0], &curves[1]].map(|curve| {
-            (!is_dense(curve)).then(|| (curve.between().name(), curve.interpolation_error()))
+            (!is_dense(curve)).then(|| (curve.interpolation().name(), curve.interpolation_error()))
         });
         let own: Vec<f64> = times.iter().map(|t| curves[0].at(*t)).collect();
-        let both = own
+        let values = own
             .iter()
             .zip(&difference.values)
             .map(|(x, d)| x + d)
@@ -254,7 +254,7 @@ fn compared(
             unit: one.unit.clone().or(other.unit),
             difference,
             between,
-            values: [own, both],
+            values: [own, values],
         });
     }
     Ok((all, left_out))
@@ -301,21 +301,21 @@ fn text(
     let rows: Vec<[String; 6]> = compared
         .iter()
         .map(|one| {
-            let found = &one.difference;
-            let share = match found.relative() {
+            let difference = &one.difference;
+            let share = match difference.relative() {
                 Some(share) => number(share),
                 None => "–".to_owned(),
             };
-            let range = if found.is_constant {
-                format!("{} (constant)", number(found.range))
+            let range = if difference.is_constant {
+                format!("{} (constant)", number(difference.range))
             } else {
-                number(found.range)
+                number(difference.range)
             };
             [
                 header(&one.name, one.unit.as_deref()),
-                number(found.largest),
-                number(found.at),
-                number(found.rms),
+                number(difference.largest),
+                number(difference.at),
+                number(difference.rms),
                 range,
                 share,
             ]
@@ -406,20 +406,20 @@ fn as_json(
 ) -> Value {
     let path = |path: &Path| path.display().to_string();
     let quantities = compared.iter().map(|one| {
-        let found = &one.difference;
+        let difference = &one.difference;
         let between = one.between.map(|between| {
             between.map(|(name, error)| json!({"interpolation": name, "error": error}))
         });
         json!({
             "name": one.name,
             "unit": one.unit,
-            "largest": found.largest,
-            "at": found.at,
-            "rms": found.rms,
-            "range": found.range,
-            "constant": found.is_constant,
-            "relative": found.relative(),
-            "instants": found.count,
+            "largest": difference.largest,
+            "at": difference.at,
+            "rms": difference.rms,
+            "range": difference.range,
+            "constant": difference.is_constant,
+            "relative": difference.relative(),
+            "instants": difference.count,
             "between_rows": between,
         })
     });
@@ -444,7 +444,11 @@ fn as_json(
 
 /// Draws for every unit both runs, with the differences below: coordinates and rates, outputs, or the columns
 /// named by the call.
-fn drawn(call: &call::Compare, times: &[f64], compared: &[Compared]) -> Result<String, String> {
+fn difference_panes(
+    call: &call::Compare,
+    times: &[f64],
+    compared: &[Compared],
+) -> Result<String, String> {
     let title = [&call.first, &call.second].map(|path| {
         path.file_name()
             .unwrap_or_default()
@@ -458,7 +462,7 @@ fn drawn(call: &call::Compare, times: &[f64], compared: &[Compared]) -> Result<S
             name,
             points: times.iter().copied().zip(values.iter().copied()).collect(),
         };
-        let label = |what: &str| header(what, unit.as_deref());
+        let label = |quantity: &str| header(quantity, unit.as_deref());
         let place = panes.iter().position(|(other, _)| *other == unit);
         let place = place.unwrap_or_else(|| {
             let pane = |what: &str| Pane {

@@ -74,7 +74,7 @@ pub struct Found {
 /// Normal force, tangential force and their ratio for each rolling contact, by the names of constraints; the ratio
 /// is null where the contact does not press.
 pub fn forces(system: &InterpretedSystem, multipliers: &[f64]) -> Map<String, Value> {
-    let pairs = pairs(system).into_iter().map(|(name, at)| {
+    let pairs = rolling_contacts(system).into_iter().map(|(name, at)| {
         let [normal, tangential] = at.map(|k| multipliers[k]);
         let forces = json!({
             "normal": normal,
@@ -87,13 +87,13 @@ pub fn forces(system: &InterpretedSystem, multipliers: &[f64]) -> Map<String, Va
 }
 
 /// The pairs of constraints that are rolling contacts: both are named after the contact.
-fn pairs(system: &InterpretedSystem) -> Vec<(String, [usize; 2])> {
+fn rolling_contacts(system: &InterpretedSystem) -> Vec<(String, [usize; 2])> {
     let names: Vec<&str> = system.constraints().map(|c| c.name).collect();
     let place = |name: String| names.iter().position(|other| **other == name);
     let pair = |name: &str| {
         let contact = name.strip_suffix(".gap")?;
-        let both = [place(name.to_owned())?, place(format!("{contact}.slip"))?];
-        Some((contact.to_owned(), both))
+        let places = [place(name.to_owned())?, place(format!("{contact}.slip"))?];
+        Some((contact.to_owned(), places))
     };
     names.iter().filter_map(|name| pair(name)).collect()
 }
@@ -119,7 +119,7 @@ impl Contacts {
             };
             Some(evaluate(model.dag, &[rolling.friction?], known)[0])
         };
-        let contacts = pairs(&system)
+        let contacts = rolling_contacts(&system)
             .into_iter()
             .map(|(name, multipliers)| Contact {
                 friction: friction(&name),
@@ -149,11 +149,11 @@ impl Contacts {
                 simulation = self.watch_driven(simulation, index);
                 continue;
             }
-            let pulls = move |state: &State<Named>| self.look(index, state)[0];
+            let pulls = move |state: &State<Named>| self.contact_forces(index, state)[0];
             simulation = simulation.event(&pulling(&contact.name), Crossing::Falling, pulls);
             if let Some(friction) = contact.friction {
                 let reserve = move |state: &State<Named>| {
-                    let [normal, tangential] = self.look(index, state);
+                    let [normal, tangential] = self.contact_forces(index, state);
                     friction * normal - tangential.abs()
                 };
                 simulation = simulation.event(&slipping(&contact.name), Crossing::Falling, reserve);
@@ -169,10 +169,10 @@ impl Contacts {
         index: usize,
     ) -> Simulation<'a, InterpretedMachine, Signals> {
         let contact = &self.contacts[index];
-        self.seen().tracks[index].is_driven = true;
+        self.previous_state().tracks[index].is_driven = true;
         let look = move |seen: &Observation<InterpretedMachine>| {
             let of = |k: usize| seen.multipliers.get(k).copied().unwrap_or(0.0);
-            let mut all = self.seen();
+            let mut all = self.previous_state();
             all.tracks[index].take(seen.t, contact.multipliers.map(of))
         };
         let pulls = move |seen: &Observation<InterpretedMachine>| look(seen)[0];
@@ -187,13 +187,13 @@ impl Contacts {
         simulation.event_on(&slipping(&contact.name), Crossing::Falling, reserve)
     }
 
-    fn seen(&self) -> MutexGuard<'_, PreviousState> {
+    fn previous_state(&self) -> MutexGuard<'_, PreviousState> {
         self.seen.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// `N` and `T` at a state. If they are undefined they count as 0: an observer must not end a run.
-    fn look(&self, index: usize, state: &State<Named>) -> [f64; 2] {
-        let mut seen = self.seen();
+    fn contact_forces(&self, index: usize, state: &State<Named>) -> [f64; 2] {
+        let mut seen = self.previous_state();
         if seen.last.as_ref().is_none_or(|(last, _)| last != state) {
             seen.last = Some((state.clone(), self.multipliers(state)));
         }
@@ -218,14 +218,14 @@ impl Contacts {
     }
 
     /// The results for a run that was observed.
-    pub fn found(&self, run: &Run) -> Vec<Found> {
+    pub fn results(&self, run: &Run) -> Vec<Found> {
         let first = |name: &str| {
             let mut events = run.events().iter();
             events.find(|e| e.name == name).map(|e| e.state.t)
         };
-        let seen = self.seen();
-        let found = self.contacts.iter().zip(&seen.tracks);
-        let found = found.map(|(contact, track)| {
+        let seen = self.previous_state();
+        let results = self.contacts.iter().zip(&seen.tracks);
+        let results = results.map(|(contact, track)| {
             let at_start = |is_wrong: &dyn Fn([f64; 2]) -> bool| {
                 let start = track.start.filter(|(_, forces)| is_wrong(*forces));
                 start.map(|(t, _)| t)
@@ -239,7 +239,7 @@ impl Contacts {
                 greatest: track.greatest,
             }
         });
-        found.collect()
+        results.collect()
     }
 }
 

@@ -78,7 +78,7 @@ pub fn print(report: &Report, sources: &Sources) {
 ///
 /// # Errors
 /// The first error, in the words of the spec: values that a machine cannot have, such as a negative mass.
-pub fn refused(diagnostics: &[Diagnostic]) -> Result<(), String> {
+pub fn check(diagnostics: &[Diagnostic]) -> Result<(), String> {
     for diagnostic in diagnostics {
         match diagnostic.code.severity() {
             Severity::Error => return Err(format!("{} [{}]", diagnostic.message, diagnostic.code)),
@@ -124,8 +124,8 @@ fn snippet<'a>(
 ) -> Snippet<'a, annotate_snippets::Annotation<'a>> {
     let text = sources.text(span.source);
     // A span always lies within its text; clamping ensures that an invalid one does not hide the message.
-    let start = floor(text, span.start as usize);
-    let end = floor(text, span.end as usize).max(start);
+    let start = char_boundary_before(text, span.start as usize);
+    let end = char_boundary_before(text, span.end as usize).max(start);
     let annotation = kind.span(start..end);
     let annotation = match label {
         Some(label) => annotation.label(label.as_str()),
@@ -137,7 +137,7 @@ fn snippet<'a>(
 }
 
 /// The last character boundary at or before `at`.
-fn floor(text: &str, at: usize) -> usize {
+fn char_boundary_before(text: &str, at: usize) -> usize {
     let at = at.min(text.len());
     (0..=at)
         .rev()

@@ -117,7 +117,7 @@ fn at(
         .check_parameters()
         .map_err(|missing| missing.to_string())?;
     if !point.parameters.is_empty() {
-        diagnostics::refused(&model.parameter_diagnostics(machine.parameter_values()))?;
+        diagnostics::check(&model.parameter_diagnostics(machine.parameter_values()))?;
     }
     // The start may depend on parameters, including those of the point.
     let mut state = machine.start();
@@ -367,13 +367,13 @@ fn off_constraints(system: &InterpretedSystem, state: &State<Named>) -> Option<S
         return None;
     }
     let constraint = system.constraints().nth(worst % count)?;
-    let (what, residual) = if worst < count {
+    let (quantity, residual) = if worst < count {
         ("", positions[worst])
     } else {
         ("the rate of ", rates[worst - count])
     };
     Some(format!(
-        "the point is not on the constraints, and its accelerations are those of a machine that is: {what}`{}` is off by \
+        "the point is not on the constraints, and its accelerations are those of a machine that is: {quantity}`{}` is off by \
          {residual:e}; with --keep none the point is moved onto them",
         constraint.name
     ))

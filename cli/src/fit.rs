@@ -99,8 +99,8 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
             "--method taylor: a fit integrates the motion with its derivatives, which have no Taylor series; use dop853".into(),
         ));
     }
-    let mut given = data::given(call)?;
-    let everywhere = inputs::written(&call.inputs)?;
+    let mut given = data::read_all(call)?;
+    let everywhere = inputs::parse(&call.inputs)?;
     let files = Files::new(call, &given, &everywhere)?;
     let dag = Dag::new();
     let mut reading = Reading::open(&call.spec)?;
@@ -135,10 +135,10 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     }
     let (sigmas, values) = sigmas(call, &classes, &experiments)?;
     let refusal = |parameters: &[f64]| {
-        let said = compiled.model.parameter_diagnostics(parameters);
-        let wrong = said
+        let diagnostics = compiled.model.parameter_diagnostics(parameters);
+        let wrong = diagnostics
             .iter()
-            .find(|said| said.code.severity() == Severity::Error);
+            .find(|diagnostic| diagnostic.code.severity() == Severity::Error);
         wrong.map(|wrong| format!("{} [{}]", wrong.message, wrong.code))
     };
     let stop = interrupt::flag();
@@ -190,7 +190,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
         fit: &mut fit,
     };
     result.warnings = findings::warnings(&result);
-    let error = match written(&mut result, &files) {
+    let error = match write_files(&mut result, &files) {
         Err(Failure::Interrupted) => return Err(Failure::Interrupted),
         Err(failure) => Some(failure.message()),
         Ok(()) if result.found.minimum.ending.is_minimum() => None,
@@ -253,7 +253,7 @@ fn signals_of(
 }
 
 /// Writes the files of a call.
-fn written(result: &mut Fitted<'_, '_>, files: &Files) -> Result<(), Failure> {
+fn write_files(result: &mut Fitted<'_, '_>, files: &Files) -> Result<(), Failure> {
     if let Some(file) = &files.out {
         file.write_text(&variant::spec(result, file)?)?;
     }
@@ -523,13 +523,13 @@ fn ends(bounds: &Bounds, unit: &str) -> Result<[f64; 2], Failure> {
     }
 }
 
-fn unknown(said: &str, what: &str, name: &str, known: &[String]) -> Failure {
+fn unknown(option: &str, noun: &str, name: &str, known: &[String]) -> Failure {
     let help = match most_similar(name, known.iter().map(String::as_str)) {
         Some(near) => format!("did you mean `{near}`?"),
         None if known.is_empty() => "there are none".to_owned(),
         None => format!("there are: {}", known.join(", ")),
     };
-    Failure::Call(format!("--fit {said}: no {what} named `{name}`; {help}"))
+    Failure::Call(format!("--fit {option}: no {noun} named `{name}`; {help}"))
 }
 
 /// Checks that all parameters have values.
@@ -565,7 +565,7 @@ fn sigmas(
         ));
     }
     if is_auto {
-        let spreads = (0..classes.len()).map(|class| data::spread(experiments, class));
+        let spreads = (0..classes.len()).map(|class| data::root_mean_square(experiments, class));
         return Ok((Sigmas::Estimated, spreads.collect()));
     }
     if call.sigmas.is_empty() {

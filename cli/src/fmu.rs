@@ -152,7 +152,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     let compiled = reading.compile_beside(&dag, [&out])?;
     check_sections(&compiled.program)?;
     check_events(&compiled, &call.events)?;
-    let given = call::Start {
+    let start_options = call::Start {
         parameters: call.parameters.clone(),
         coordinates: call.coordinates.clone(),
         rates: call.rates.clone(),
@@ -160,10 +160,10 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
             engine: Engine::Interpreter,
         },
     };
-    let machine = reading::machine(&compiled, &given)?;
-    let start = start(&machine, &given)?;
+    let machine = reading::machine(&compiled, &start_options)?;
+    let start = start(&machine, &start_options)?;
     check_defaults(&compiled.program, &machine)?;
-    check_constraints(&machine, &given, &call.spec.path)?;
+    check_constraints(&machine, &start_options, &call.spec.path)?;
     let variables = Variables::new(&compiled.program, &call.events);
     let variables = match &call.outputs {
         None => variables,
@@ -273,8 +273,8 @@ fn print_summary(call: &call::Fmu, unit: &Unit<'_>, platforms: &[&str]) {
     ));
 }
 
-fn count(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+fn count(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
 /// Refuses machines whose motion depends on more than the state and its derivatives.

@@ -70,7 +70,7 @@ pub fn estimate(
         has_fixed_steps,
         max_steps,
     } = asked;
-    let rounding = again(tolerance, moved(start)).map(|other| differences(&other, end));
+    let rounding = again(tolerance, perturbed(start)).map(|other| differences(&other, end));
     let wide = series.and_then(|series| {
         let machine = machine.clone().with_series(series);
         let to = (start, end.t);
@@ -118,7 +118,7 @@ pub fn estimate(
 }
 
 /// A start with every number perturbed by its rounding, alternately up and down; zeros stay.
-fn moved(start: &State<Named>) -> State<Named> {
+fn perturbed(start: &State<Named>) -> State<Named> {
     let mut moved = start.clone();
     let numbers = moved.q.values.iter_mut().chain(&mut moved.v.values);
     for (i, x) in numbers.enumerate().filter(|(_, x)| **x != 0.0) {
@@ -183,15 +183,15 @@ impl Estimate {
         let (at, greatest) = self.greatest(end);
         let head = format!("error at the end, {}", self.how());
         let names = names(end);
-        let told = names.iter().zip(&self.errors);
-        let told =
-            told.filter_map(|(name, error)| Some(format!("  {} {error:.1e}", name.as_ref()?)));
+        let errors = names.iter().zip(&self.errors);
+        let errors =
+            errors.filter_map(|(name, error)| Some(format!("  {} {error:.1e}", name.as_ref()?)));
         let most = format!("  the greatest is {greatest:.1e} (1 + |y|)");
         let rounding = self.is_rounding(at).then(|| {
             "  a start perturbed by a rounding error ends as far away: the limit of round-off is reached, and a finer tolerance gains little".to_owned()
         });
         iter::once(head)
-            .chain(told)
+            .chain(errors)
             .chain([most])
             .chain(rounding)
             .collect()

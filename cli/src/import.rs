@@ -69,7 +69,7 @@ pub fn run(call: &call::Import) -> Result<(), Failure> {
             "--base floating: an MJCF file itself specifies which bodies float, by `freejoint`";
         return Err(Failure::Call(message.to_owned()));
     }
-    let machine = robot.and_then(|robot| machine::written(&robot, &file, call, &mut faults));
+    let machine = robot.and_then(|robot| machine::write(&robot, &file, call, &mut faults));
     let Some(machine) = machine.filter(|_| faults.is_empty()) else {
         return Err(Failure::Run(faults.into_message()));
     };

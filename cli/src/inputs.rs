@@ -15,7 +15,7 @@ use crate::failure::Failure;
 ///
 /// # Errors
 /// If the call is invalid.
-pub fn written(given: &[Assignment]) -> Result<Vec<(String, InputArgument)>, Failure> {
+pub fn parse(given: &[Assignment]) -> Result<Vec<(String, InputArgument)>, Failure> {
     let one = |input: &Assignment| {
         let written = signals::parse_input(&input.value);
         let written = written.map_err(|why| {
@@ -56,7 +56,7 @@ pub fn as_call_failure(failure: Failure) -> Failure {
 
 /// The errors in formulas of the call, if there are no others.
 pub fn formula(report: &Report, sources: &Sources) -> Option<Failure> {
-    let said = report.diagnostics().into_iter().map(|wrong| {
+    let messages = report.diagnostics().into_iter().map(|wrong| {
         let source = wrong.span.source;
         let option = sources.name(source);
         let help = wrong.help.iter().map(|help| format!("; {help}"));
@@ -66,6 +66,6 @@ pub fn formula(report: &Report, sources: &Sources) -> Option<Failure> {
             format!("{option}: {} in `{text}`{help}", wrong.message)
         })
     });
-    let said: Option<Vec<String>> = said.collect();
-    Some(Failure::Call(said?.join("\n       ")))
+    let messages: Option<Vec<String>> = messages.collect();
+    Some(Failure::Call(messages?.join("\n       ")))
 }

@@ -124,8 +124,8 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     Ok(())
 }
 
-fn count(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+fn count(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
 fn file_name(path: &Path) -> String {
@@ -272,8 +272,8 @@ fn missing(error: io::Error) -> Failure {
 
 /// Refuses a processor that the compiler does not know: rustc would only warn, and compile for another.
 fn check_processor(call: &call::Library) -> Result<(), Failure> {
-    let asked = call.target_cpu.as_str();
-    if asked == "native" {
+    let processor = call.target_cpu.as_str();
+    if processor == "native" {
         return Ok(());
     }
     let mut words = Command::new(rustc());
@@ -285,15 +285,15 @@ fn check_processor(call: &call::Library) -> Result<(), Failure> {
         .filter_map(|line| line.split_whitespace().next())
         .collect();
     // If the compiler lists none, the name is not checked.
-    if known.is_empty() || known.contains(&asked) {
+    if known.is_empty() || known.contains(&processor) {
         return Ok(());
     }
-    let help = match most_similar(asked, known.iter().copied()) {
+    let help = match most_similar(processor, known.iter().copied()) {
         Some(near) => format!("did you mean `{near}`? "),
         None => String::new(),
     };
     Err(Failure::Call(format!(
-        "--target-cpu {asked}: rustc knows no processor with this name; {help}`rustc --print target-cpus` lists all, such as {}",
+        "--target-cpu {processor}: rustc knows no processor with this name; {help}`rustc --print target-cpus` lists all, such as {}",
         examples(&known).join(", ")
     )))
 }

@@ -49,7 +49,7 @@ pub fn run(call: &call::Linearize) -> Result<(), Failure> {
     let dag = Dag::new();
     let compiled = modes::compiled(&call.spec, &dag, files.all(), "linear model")?;
     let varied = ("--along", call.along.as_ref());
-    let machine = modes::ready(&compiled, &call.search, varied)?;
+    let machine = modes::prepare(&compiled, &call.search, varied)?;
     if let Some(range) = &call.along {
         let trace = modes::vary::trace(&call.search, ("--along", range), &compiled, &machine)?;
         return along::show(call, &machine, &trace, &files);
@@ -142,7 +142,7 @@ fn about_motion(
     machine: &InterpretedMachine,
     request: &Request,
 ) -> Result<(Model, String), Failure> {
-    let reached = modes::reach(machine, &call.search)?;
+    let reached = modes::find_motion(machine, &call.search)?;
     let model = model::along(machine, &reached.motion, request);
     let model = model.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), OPTIONS)))?;
     let system = machine.prepare();
@@ -266,13 +266,13 @@ fn resolve(name: &str, q: &Named, outputs: &Named, constraints: &[String]) -> Ve
     }
 }
 
-fn unknown(option: &str, what: &str, name: &str, known: &[String]) -> Failure {
+fn unknown(option: &str, noun: &str, name: &str, known: &[String]) -> Failure {
     let help = match most_similar(name, known.iter().map(String::as_str)) {
         Some(near) => format!("did you mean `{near}`?"),
         None if known.is_empty() => "there are none".to_owned(),
         None => format!("there are: {}", known.join(", ")),
     };
-    Failure::Call(format!("{option} {name}: no {what} named `{name}`; {help}"))
+    Failure::Call(format!("{option} {name}: no {noun} named `{name}`; {help}"))
 }
 
 /// The rows of a matrix.
@@ -331,16 +331,16 @@ fn as_json(names: &[Vec<String>; 2], result: &Linearization) -> Value {
 }
 
 /// A list of names with their units.
-fn list(labels: &[model::Label], what: [&str; 2]) -> String {
+fn list(labels: &[model::Label], singular_and_plural: [&str; 2]) -> String {
     let count = labels.len();
-    let what = what[usize::from(count != 1)];
+    let noun = singular_and_plural[usize::from(count != 1)];
     let names = labels.iter().map(|label| match label.unit.as_str() {
         "" | "1" => label.name.clone(),
         unit => format!("{} [{unit}]", label.name),
     });
     match count {
-        0 => format!("no {what}\n"),
-        _ => format!("{count} {what}: {}\n", names.collect::<Vec<_>>().join(", ")),
+        0 => format!("no {noun}\n"),
+        _ => format!("{count} {noun}: {}\n", names.collect::<Vec<_>>().join(", ")),
     }
 }
 

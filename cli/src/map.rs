@@ -561,10 +561,14 @@ impl<'a> Heat<'a> {
         let [low, high] = self.scale();
         // The last colour is that of missing values.
         const MISSING_INDEX: u8 = 255;
-        let index = |value: f64| match value.is_finite() {
-            true if high > low => ((value - low) / (high - low) * 254.0).round() as u8,
-            true => 127,
-            false => MISSING_INDEX,
+        let index = |value: f64| {
+            if !value.is_finite() {
+                MISSING_INDEX
+            } else if high > low {
+                ((value - low) / (high - low) * 254.0).round() as u8
+            } else {
+                127
+            }
         };
         let mut image = Vec::with_capacity(across.len() * up.len());
         for line in up.iter().rev() {

@@ -63,12 +63,12 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
     let compiled = compiled(&call.spec, &dag, files.all(), "modes")?;
-    let machine = ready(&compiled, &call.search, ("--vary", call.vary.as_ref()))?;
+    let machine = prepare(&compiled, &call.search, ("--vary", call.vary.as_ref()))?;
     if let Some(vary) = &call.vary {
         let trace = vary::trace(&call.search, ("--vary", vary), &compiled, &machine)?;
         return show(call, &machine, &trace, &files);
     }
-    let Reached { q, wanted, motion } = reach(&machine, &call.search)?;
+    let Reached { q, wanted, motion } = find_motion(&machine, &call.search)?;
     let system = machine.prepare();
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     if call.spec.json {
@@ -82,7 +82,7 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
 }
 
 /// The machine with the parameters of a call, after checking that all have values. One that an option varies has its first value.
-pub fn ready(
+pub fn prepare(
     compiled: &Compiled<'_>,
     search: &call::Search,
     (option, vary): (&str, Option<&call::Vary>),
@@ -119,7 +119,10 @@ pub struct Reached {
 }
 
 /// The steady motion that the search reaches from the start of a call.
-pub fn reach(machine: &InterpretedMachine, search: &call::Search) -> Result<Reached, Failure> {
+pub fn find_motion(
+    machine: &InterpretedMachine,
+    search: &call::Search,
+) -> Result<Reached, Failure> {
     let mut start = machine.start();
     set_start(&mut start, &search.start)?;
     let wanted = wanted(search, &mut start.v)?;
@@ -174,14 +177,14 @@ pub fn compiled<'d, 'a>(
     spec: &call::Spec,
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
-    what: &str,
+    noun: &str,
 ) -> Result<Compiled<'d>, Failure> {
     let with_sliding = format!(
         "friction can hold a machine at rest anywhere within a range, and sliding friction has no linearization at rest: a \
-         machine with `sliding` has no {what}; use a variant without friction, with a constraint in place of each guide"
+         machine with `sliding` has no {noun}; use a variant without friction, with a constraint in place of each guide"
     );
     let with_contacts = format!(
-        "collisions have no linearization: a machine with `contacts` has no {what}; use a variant without them"
+        "collisions have no linearization: a machine with `contacts` has no {noun}; use a variant without them"
     );
     let refused = (with_sliding, Some(with_contacts));
     compile(Reading::open(spec)?, dag, files, refused, |_| Ok(()))
@@ -192,11 +195,11 @@ pub fn compiled_with<'d, 'a>(
     reading: Reading,
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
-    what: &str,
+    noun: &str,
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
 ) -> Result<Compiled<'d>, Failure> {
     let with_sliding = format!(
-        "finding the {what} of a machine with `sliding` requires derivatives of its motion, which do not exist where it begins to stick or to \
+        "finding the {noun} of a machine with `sliding` requires derivatives of its motion, which do not exist where it begins to stick or to \
          slide; use a variant without friction, with a constraint in place of each guide"
     );
     // Derivatives can be continued across impacts.
@@ -260,8 +263,8 @@ fn wanted(search: &call::Search, rates: &mut Named) -> Result<Wanted, Failure> {
         if let call::SteadyRate::Given(set) = rate {
             let unit = rate_unit(rates, name);
             reading::assign(rates, set, "--steady", &unit).map_err(|failure| match failure {
-                Failure::Call(said) => {
-                    Failure::Call(format!("{said}; or `solve`, to find the rate"))
+                Failure::Call(message) => {
+                    Failure::Call(format!("{message}; or `solve`, to find the rate"))
                 }
                 other => other,
             })?;
@@ -300,13 +303,13 @@ fn refuse_drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Re
 }
 
 /// Whether a coordinate moves.
-fn moves(names: &[&str], motion: &Motion) -> bool {
+fn is_moving(names: &[&str], motion: &Motion) -> bool {
     let mut rates = names.iter().zip(&motion.v);
     rates.any(|(name, v)| *v != 0.0 && state_of(name).is_none())
 }
 
 /// The name of a coordinate; for the integral of a state of first order the name of the state.
-fn shown(name: &str) -> String {
+fn shown_name(name: &str) -> String {
     state_of(name).unwrap_or_else(|| name.to_owned())
 }
 
@@ -335,7 +338,7 @@ fn as_json(names: &[&str], motion: &Motion) -> Value {
             let shape = names.iter().zip(&mode.shape).zip(&motion.records);
             let shape: Map<String, Value> = shape
                 .filter(|((name, _), is_record)| !**is_record || state_of(name).is_some())
-                .map(|((name, x), _)| (shown(name), json!([x.re, x.im])))
+                .map(|((name, x), _)| (shown_name(name), json!([x.re, x.im])))
                 .collect();
             json!({
                 "kind": mode.kind(),
@@ -511,11 +514,11 @@ fn text_of_trace(trace: &Trace) -> String {
     };
     let mut index = 0;
     while let Some(point) = trace.points.get(index) {
-        let said = words(point);
+        let description = words(point);
         let rest = &trace.points[index + 1..];
-        let more = rest
-            .iter()
-            .take_while(|next| words(next) == said && (next.continues || next.motion.is_err()));
+        let more = rest.iter().take_while(|next| {
+            words(next) == description && (next.continues || next.motion.is_err())
+        });
         let count = more.count();
         let end = &trace.points[index + count];
         let range = match count {
@@ -526,7 +529,7 @@ fn text_of_trace(trace: &Trace) -> String {
             (true, false, 1..) => " (a different motion from before)",
             _ => "",
         };
-        let _ = writeln!(text, "  {range}{unit}: {said}{jump}");
+        let _ = writeln!(text, "  {range}{unit}: {description}{jump}");
         index += count + 1;
     }
     for critical in &trace.critical {
@@ -584,11 +587,14 @@ pub fn text_of_place(
     motion: &Motion,
 ) -> String {
     let mut text = String::new();
-    let width = names.iter().map(|name| shown(name).chars().count()).max();
+    let width = names
+        .iter()
+        .map(|name| shown_name(name).chars().count())
+        .max();
     let width = width.unwrap_or(0);
     let found = &motion.found;
     let times = if found.steps == 1 { "step" } else { "steps" };
-    let what = if wanted.steady.contains(&true) {
+    let kind = if wanted.steady.contains(&true) {
         "steady motion"
     } else {
         "equilibrium"
@@ -596,7 +602,7 @@ pub fn text_of_place(
     // Writing to a String cannot fail.
     let _ = writeln!(
         text,
-        "{what}, found in {} {times} from the start:",
+        "{kind}, found in {} {times} from the start:",
         found.steps
     );
     for (k, (name, q)) in names.iter().zip(found.place.q()).enumerate() {
@@ -635,7 +641,10 @@ pub fn text_of_place(
 
 fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: &Motion) -> String {
     let mut text = String::new();
-    let width = names.iter().map(|name| shown(name).chars().count()).max();
+    let width = names
+        .iter()
+        .map(|name| shown_name(name).chars().count())
+        .max();
     let width = width.unwrap_or(0);
     let modes = &motion.modes;
     text.push_str(&text_of_place(names, units, start, wanted, motion));
@@ -647,7 +656,7 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
             modes.free
         );
     }
-    if moves(names, motion) && modes.drifts > 0 {
+    if is_moving(names, motion) && modes.drifts > 0 {
         let directions = directions(modes.drifts);
         let _ = writeln!(
             text,
@@ -693,7 +702,7 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
         for (name, x) in names.iter().zip(&mode.shape) {
             // Amplitudes that are negligible beside 1, in rad or m, are not printed; `--json` includes them.
             if x.norm() > 1e-12 {
-                let name = shown(name);
+                let name = shown_name(name);
                 let _ = writeln!(text, "  {name:width$}  {}", amplitude(*x));
             }
         }

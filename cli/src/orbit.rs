@@ -56,14 +56,19 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
     output::keep_document_apart(all.iter().copied(), call.spec.json)?;
     keep_apart(all.iter().copied(), &[(&call.spec.path, "the spec")])?;
     let dag = Dag::new();
-    let ready = ready(call, &dag, &all)?;
+    let ready = prepare(call, &dag, &all)?;
     let sought = sought(call, &ready)?;
     progress::now("searching for the orbit");
     if let Some(vary) = &call.along {
         return along(call, &ready, &sought, vary, &files);
     }
-    let orbit = orbit::find(&ready.machine, &sought)
-        .map_err(|none| no_orbit_failure(&none, call, &left_in(&ready.machine, &sought)))?;
+    let orbit = orbit::find(&ready.machine, &sought).map_err(|none| {
+        no_orbit_failure(
+            &none,
+            call,
+            &coordinates_that_must_return(&ready.machine, &sought),
+        )
+    })?;
     let motion = motion(&ready.machine, &orbit, call)?;
     runs::warn(&motion);
     if let Some(file) = &files[0] {
@@ -121,7 +126,7 @@ fn no_orbit_failure(none: &NoOrbit, call: &call::Orbit, left_in: &[String]) -> F
 }
 
 /// The coordinates on which nothing depends but which must return nevertheless.
-fn left_in(machine: &InterpretedMachine, sought: &Sought) -> Vec<String> {
+fn coordinates_that_must_return(machine: &InterpretedMachine, sought: &Sought) -> Vec<String> {
     let system = machine.prepare();
     let free = orbit::shifting(machine);
     let all = system.coordinates().zip(free.iter().zip(&sought.shifts));
@@ -131,7 +136,7 @@ fn left_in(machine: &InterpretedMachine, sought: &Sought) -> Vec<String> {
 }
 
 /// The machine of a call, with the derivatives that the variational equations need.
-fn ready<'d>(
+fn prepare<'d>(
     call: &call::Orbit,
     dag: &'d Dag,
     files: &[&Destination],
@@ -244,7 +249,7 @@ fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
             Period::Given(period) => (settle / period).ceil() * period,
             _ => settle,
         };
-        settled(machine, &mut sought, t)?;
+        integrate_to_phase(machine, &mut sought, t)?;
     }
     Ok(sought)
 }
@@ -287,7 +292,11 @@ fn shifts(
 
 /// Integrates from the start for a time, and makes the end the new start, at the original time: the same
 /// phase of the period.
-fn settled(machine: &InterpretedMachine, sought: &mut Sought, time: f64) -> Result<(), Failure> {
+fn integrate_to_phase(
+    machine: &InterpretedMachine,
+    sought: &mut Sought,
+    time: f64,
+) -> Result<(), Failure> {
     let start = sought.start.clone();
     let t = start.t;
     let run = Simulation::new(machine)
@@ -512,7 +521,9 @@ fn along(
         let mut probe = machine.clone();
         match probe.set(&vary.name, 1.0) {
             Err(unknown) => match reading::name_error("parameter or input", &unknown) {
-                Failure::Call(said) => Failure::Call(format!("--along {}: {said}", vary.name)),
+                Failure::Call(message) => {
+                    Failure::Call(format!("--along {}: {message}", vary.name))
+                }
                 other => other,
             },
             Ok(()) => Failure::Call(format!("--along {}: it has no unit", vary.name)),
@@ -541,11 +552,12 @@ fn along(
         machine
             .set(&vary.name, value)
             .map_err(|wrong| Stop::Failed(Failure::run(wrong)))?;
-        let said = ready
+        let diagnostics = ready
             .compiled
             .model
             .parameter_diagnostics(machine.parameter_values());
-        crate::diagnostics::refused(&said).map_err(|said| Stop::Failed(Failure::Call(said)))?;
+        crate::diagnostics::check(&diagnostics)
+            .map_err(|message| Stop::Failed(Failure::Call(message)))?;
         let period = match &ready.period {
             None => None,
             Some((formula, output)) => {
@@ -558,7 +570,11 @@ fn along(
     };
     let trace = orbit::follow(make, sought, &values).map_err(|stop| match stop {
         Stop::Failed(failure) => failure,
-        Stop::None(none) => no_orbit_failure(&none, call, &left_in(&ready.machine, sought)),
+        Stop::None(none) => no_orbit_failure(
+            &none,
+            call,
+            &coordinates_that_must_return(&ready.machine, sought),
+        ),
     })?;
     let label = header(&vary.name, Some(&unit));
     if let Some(file) = &files[0] {
@@ -703,13 +719,13 @@ fn text_of_trace(trace: &Trace, name: &str, unit: &str) -> String {
     } else {
         format!(" {unit}")
     };
-    let found = trace
+    let orbits = trace
         .points
         .iter()
         .filter(|point| point.orbit.is_ok())
         .count();
     let mut text = format!(
-        "{found} orbits at {} values of {name}\n",
+        "{orbits} orbits at {} values of {name}\n",
         trace.points.len()
     );
     let mut before: Option<&'static str> = None;

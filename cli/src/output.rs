@@ -32,13 +32,14 @@ pub fn line(line: impl Display) {
 /// Writes a text that ends with a line break to standard output, or to standard error if standard output was
 /// requested as a file.
 pub fn text(text: &str) {
-    match IS_TAKEN.load(Ordering::Relaxed) {
-        _ if host::captures(text, false) => {}
-        true => print_error_as_is(text),
-        false => {
-            // The error is reported once, at the end.
-            let _ = bytes(text.as_bytes());
-        }
+    if host::captures(text, false) {
+        return;
+    }
+    if IS_TAKEN.load(Ordering::Relaxed) {
+        print_error_as_is(text);
+    } else {
+        // The error is reported once, at the end.
+        let _ = bytes(text.as_bytes());
     }
 }
 

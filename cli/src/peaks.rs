@@ -89,7 +89,7 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
         _ => vec![0.0; chosen.len()],
     };
     let chosen = chosen.into_iter().zip(errors);
-    let found: Vec<Found> = chosen
+    let peaks: Vec<Found> = chosen
         .map(|(quantity, error)| {
             let rates = columns.rates(&quantity.name);
             let curve = columns.curve(quantity, rates.as_deref(), call::Interpolation::Cubic);
@@ -109,13 +109,13 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
         })
         .collect();
     if let Some(file) = &file {
-        write(&found, file)?;
+        write(&peaks, file)?;
     }
     if call.part.runs.json {
-        let quantities: Vec<Value> = found.iter().map(as_json).collect();
+        let quantities: Vec<Value> = peaks.iter().map(as_json).collect();
         output::line(format_args!("{:#}", json!({ "quantities": quantities })));
     } else {
-        output::text(&text(&found))
+        output::text(&text(&peaks))
     }
     Ok(())
 }
@@ -196,13 +196,13 @@ fn text(found: &[Found]) -> String {
         }
         text.push('\n');
         for extreme in one.extremes.iter().take(SHOWN) {
-            let what = if extreme.is_maximum {
+            let kind = if extreme.is_maximum {
                 "maximum"
             } else {
                 "minimum"
             };
             let (value, t) = (number(extreme.value), number(extreme.t));
-            let _ = writeln!(text, "  {what} {value}{unit} at t = {t} s");
+            let _ = writeln!(text, "  {kind} {value}{unit} at t = {t} s");
         }
         if one.extremes.len() > SHOWN {
             let _ = writeln!(

@@ -45,7 +45,7 @@ struct Ready {
 }
 
 /// The machine of a call that may only request the end of its run.
-fn ready(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
+fn prepare(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
     let files = [
         ("--out", call.out.is_some()),
         ("--plot", call.plot.is_some()),
@@ -136,11 +136,11 @@ fn step_failure(machine: &InterpretedMachine, error: lagrangian::StepError) -> F
 /// # Errors
 /// If the spec or the call is invalid, or the run fails.
 pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
-    let asked = match call.method.as_str() {
+    let requested_method = match call.method.as_str() {
         AUTO => None,
         name => Some(methods::named(name)?),
     };
-    if let Some(method) = asked
+    if let Some(method) = requested_method
         && !std::ptr::eq(method, &TAYLOR)
         && (method.tableau.spectrum.is_some() || method.has_fixed_steps())
     {
@@ -149,14 +149,14 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
             method.tableau.name
         )));
     }
-    let Ready { machine, start } = ready(call, "--precision dd")?;
+    let Ready { machine, start } = prepare(call, "--precision dd")?;
     machine.prepare_in::<DoubleDouble>().map_err(|none| {
         Failure::Run(format!(
             "--precision dd: only for machines without constraints and contacts; {none}; `--global-error` estimates the error of an ordinary run"
         ))
     })?;
     let has_series = SeriesStepper::<DoubleDouble>::new(&machine, TOLERANCE);
-    let method = match (asked, has_series) {
+    let method = match (requested_method, has_series) {
         (None, Ok(_)) => &TAYLOR,
         (None, Err(_)) => <&Method>::default(),
         (Some(method), Err(none)) if std::ptr::eq(method, &TAYLOR) => {
@@ -311,7 +311,7 @@ pub fn validated(call: &call::Simulate) -> Result<(), Failure> {
                 .into(),
         ));
     }
-    let Ready { machine, start } = ready(call, "--validated")?;
+    let Ready { machine, start } = prepare(call, "--validated")?;
     let exactly =
         |values: &[f64]| -> Vec<_> { values.iter().map(|x| Interval::from(*x)).collect() };
     let (q, v) = (exactly(&start.q.values), exactly(&start.v.values));
@@ -421,8 +421,8 @@ fn decimal(x: DoubleDouble, digits: usize) -> String {
     let sign = if is_negative { "-" } else { "" };
     match place {
         0.. if (place as usize) < digits - 1 => {
-            let (whole, part) = text.split_at(place as usize + 1);
-            format!("{sign}{whole}.{part}")
+            let (integer, part) = text.split_at(place as usize + 1);
+            format!("{sign}{integer}.{part}")
         }
         -5..0 => format!("{sign}0.{}{text}", "0".repeat((-place - 1) as usize)),
         _ => format!("{sign}{}.{}e{place}", &text[..1], &text[1..]),

@@ -27,7 +27,7 @@ const TICKS: u64 = 1000;
 /// The reporting thread, and the current activity.
 static REPORTER: Mutex<Option<JoinHandle<()>>> = Mutex::new(None);
 static WORK: Mutex<Work> = Mutex::new(Work {
-    what: "",
+    task: "",
     until: None,
     has_ended: false,
 });
@@ -40,7 +40,7 @@ static STEPS: AtomicU64 = AtomicU64::new(0);
 
 /// The current activity.
 struct Work {
-    what: &'static str,
+    task: &'static str,
     /// The end of a run, in s.
     until: Option<f64>,
     has_ended: bool,
@@ -66,14 +66,14 @@ pub fn begin(json: bool) {
 }
 
 /// Sets the activity.
-pub fn now(what: &'static str) {
-    lock(&WORK).what = what;
+pub fn now(task: &'static str) {
+    lock(&WORK).task = task;
 }
 
 /// Sets the activity to a run until this time, in s.
 pub fn run(until: f64) {
     let mut work = lock(&WORK);
-    (work.what, work.until) = ("simulating", Some(until));
+    (work.task, work.until) = ("simulating", Some(until));
 }
 
 /// Records the progress of a run, at almost no cost.
@@ -111,7 +111,7 @@ fn part() -> f64 {
 
 fn status_line(work: &Work, began: Instant) -> String {
     let seconds = began.elapsed().as_secs();
-    let what = work.what;
+    let what = work.task;
     let Some(until) = work.until else {
         return format!("{what}, {seconds} s");
     };

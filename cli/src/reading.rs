@@ -63,7 +63,7 @@ impl Reading {
     /// A variant of a spec that has an input for each of its coordinates, a generalized force on it.
     ///
     /// # Errors
-    /// Those of [`open`](Self::open).
+    /// The errors of [`open`](Self::open).
     pub fn controlled(
         spec: &call::Spec,
         coordinates: &[Coordinate<'_>],
@@ -102,16 +102,18 @@ impl Reading {
             report,
             ..
         } = self;
-        let asked = formulas.iter().map(|(said, text, unit)| Formula {
-            name: said,
-            source_name: said,
+        let requested = formulas.iter().map(|(option, text, unit)| Formula {
+            name: option,
+            source_name: option,
             text,
             unit: unit.as_deref(),
         });
-        let asked: Vec<Formula<'_>> = asked.collect();
+        let requested: Vec<Formula<'_>> = requested.collect();
         let spec = lagrangian_spec::parse(sources, name, text, report);
         let spec = spec.with_given(given.iter().cloned());
-        Model::resolve_with(spec, dag, constants, &asked, &mut Specs, sources, report)
+        Model::resolve_with(
+            spec, dag, constants, &requested, &mut Specs, sources, report,
+        )
     }
 
     /// Adds the formulas that drive inputs, as outputs after those of the spec.
@@ -136,9 +138,9 @@ impl Reading {
             let mut known = model.inputs.iter();
             let input = known.find(|input| input.name.to_string() == *name);
             if let (Some(formula), Some(input)) = (law.formula(), input) {
-                let said = format!("--input {name}");
+                let option = format!("--input {name}");
                 self.formulas
-                    .push((said, formula.to_owned(), Some(input.unit_text.clone())));
+                    .push((option, formula.to_owned(), Some(input.unit_text.clone())));
             }
         }
         Ok(laws)
@@ -146,9 +148,12 @@ impl Reading {
 
     /// Adds a formula of the call, as an output after all others. `said` is the option that contains it, followed by a space, so
     /// that the output is left out of tables.
-    pub fn add_formula(&mut self, said: &str, formula: &str, unit: Option<&str>) {
-        self.formulas
-            .push((said.to_owned(), formula.to_owned(), unit.map(str::to_owned)));
+    pub fn add_formula(&mut self, option: &str, formula: &str, unit: Option<&str>) {
+        self.formulas.push((
+            option.to_owned(),
+            formula.to_owned(),
+            unit.map(str::to_owned),
+        ));
     }
 
     /// The number of formulas of the call, which are the last outputs.
@@ -263,10 +268,10 @@ pub fn machine(
         return Err(unknown_name("coordinate", &unknown, other));
     }
     if !start.parameters.is_empty() {
-        let said = compiled
+        let diagnostics = compiled
             .model
             .parameter_diagnostics(machine.parameter_values());
-        diagnostics::refused(&said).map_err(Failure::Call)?;
+        diagnostics::check(&diagnostics).map_err(Failure::Call)?;
     }
     Ok(machine)
 }
@@ -344,10 +349,10 @@ pub fn check_kept(start: &State<Named>, keep: &call::Keep) -> Result<(), Failure
         }
         let mut numbers = start.q.clone();
         if let Err(unknown) = numbers.set(rate.unwrap_or(name), 0.0) {
-            let Failure::Call(said) = name_error("coordinate", &unknown) else {
+            let Failure::Call(message) = name_error("coordinate", &unknown) else {
                 continue;
             };
-            return Err(Failure::Call(format!("--keep {name}: {said}")));
+            return Err(Failure::Call(format!("--keep {name}: {message}")));
         }
     }
     Ok(())
@@ -404,12 +409,12 @@ fn is_named(numbers: &Named, name: &str) -> bool {
 }
 
 /// The failure for a name that does not exist, with a similar name or all names.
-pub fn name_error(what: &str, unknown: &UnknownName) -> Failure {
-    unknown_name(what, unknown, None)
+pub fn name_error(noun: &str, unknown: &UnknownName) -> Failure {
+    unknown_name(noun, unknown, None)
 }
 
 /// The failure for an unknown name, optionally with a note about the same name elsewhere.
-fn unknown_name(what: &str, unknown: &UnknownName, other: Option<&str>) -> Failure {
+fn unknown_name(noun: &str, unknown: &UnknownName, other: Option<&str>) -> Failure {
     let name = &unknown.name;
     let known = || unknown.known.iter().map(String::as_str);
     let help = match (
@@ -421,7 +426,7 @@ fn unknown_name(what: &str, unknown: &UnknownName, other: Option<&str>) -> Failu
         (None, None) if unknown.known.is_empty() => "there are none".into(),
         (None, None) => format!("there are: {}", unknown.known.join(", ")),
     };
-    Failure::Call(format!("no {what} named `{name}`; {help}"))
+    Failure::Call(format!("no {noun} named `{name}`; {help}"))
 }
 
 /// The description of a file from which a spec is made.

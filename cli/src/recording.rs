@@ -70,7 +70,7 @@ impl Panel<'_> {
 
     /// The label of the axis: `coordinates [rad]`.
     pub fn label(&self) -> String {
-        let what = match self.kind {
+        let plural = match self.kind {
             Kind::Coordinate => "coordinates",
             Kind::Rate => "rates",
             Kind::Output => "outputs",
@@ -80,7 +80,7 @@ impl Panel<'_> {
             Kind::Energy => "energy",
             Kind::Residual => "energy balance",
         };
-        format!("{what} [{}]", self.unit)
+        format!("{plural} [{}]", self.unit)
     }
 }
 

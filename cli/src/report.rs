@@ -28,7 +28,7 @@ use crate::recording::{Column, Kind, Recording, panels, steady, thin};
 
 pub(crate) use live::Live;
 pub(crate) use page::{DRAWING, STYLE};
-pub use samples::finer;
+pub use samples::finer_count;
 pub(crate) use samples::{Samples, base64, encoded};
 pub(crate) use scene::Scene;
 
@@ -51,7 +51,7 @@ pub struct Report<'a, 'd> {
     pub method: &'a Method,
     /// The result of the run.
     pub run: Outcome<'a>,
-    /// The run, recorded as densely as [`finer`] requires.
+    /// The run, recorded as densely as [`finer_count`] requires.
     pub recording: &'a Recording,
     /// The results on rolling contacts.
     pub contacts: &'a [Found],
@@ -98,7 +98,7 @@ impl<'a, L> From<&'a Solution<InterpretedMachine, L>> for Outcome<'a> {
             warnings: run.warnings(),
             statistics: run.statistics(),
             energy: run.energy_balance(),
-            taken_by_contacts: collisions::taken(run.system(), run.contact_energies()),
+            taken_by_contacts: collisions::losses(run.system(), run.contact_energies()),
         }
     }
 }

@@ -6,7 +6,7 @@ use lagrangian::interpreted::{InterpretedMachine, TableFile};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{Crossing, InputLaw, Machine, Simulation, Solution, State, System};
 use lagrangian_analysis::Curve;
-use lagrangian_analysis::curve::Between;
+use lagrangian_analysis::curve::Interpolation;
 use lagrangian_spec::diagnostic::{Report, most_similar};
 use lagrangian_spec::model::stage;
 use lagrangian_spec::resolve::value_in;
@@ -176,8 +176,8 @@ impl Columns {
         between: call::Interpolation,
     ) -> Curve<'a> {
         let between = match between {
-            call::Interpolation::Cubic => Between::Hermite,
-            call::Interpolation::Linear => Between::Linear,
+            call::Interpolation::Cubic => Interpolation::Hermite,
+            call::Interpolation::Linear => Interpolation::Linear,
         };
         Curve::new(&self.times, &column.values, rates, between)
     }
@@ -231,7 +231,7 @@ pub fn is_spec(path: &Path) -> Result<bool, Failure> {
 /// # Errors
 /// If there is such an option: which one.
 pub fn refuse_without_spec(runs: &call::Runs) -> Result<(), Failure> {
-    let given = [
+    let options = [
         ("--const", !runs.constants.is_empty()),
         ("--until", runs.until.is_some()),
         ("--every", runs.every.is_some()),
@@ -244,7 +244,7 @@ pub fn refuse_without_spec(runs: &call::Runs) -> Result<(), Failure> {
         ("--rate", !runs.start.rates.is_empty()),
         ("--keep", !runs.keep.names.is_empty()),
     ];
-    match given.iter().find(|(_, is_given)| *is_given) {
+    match options.iter().find(|(_, is_given)| *is_given) {
         Some((option, _)) => Err(Failure::Call(format!(
             "{option} applies to runs of a spec, and there is none: a table is used as it is"
         ))),
@@ -326,11 +326,11 @@ pub fn spec(
     looks: &SampleInstants<'_>,
     files: &[&Destination],
 ) -> Result<Columns, Failure> {
-    made(options, looks, files).map(|(_, recording)| Columns::of(recording))
+    run_spec(options, looks, files).map(|(_, recording)| Columns::of(recording))
 }
 
 /// Runs a spec; returns the run and its recording.
-fn made(
+fn run_spec(
     options: &Options<'_>,
     looks: &SampleInstants<'_>,
     files: &[&Destination],
@@ -343,7 +343,7 @@ fn made(
                 .into(),
         ));
     }
-    let written = inputs::written(&runs.inputs)?;
+    let written = inputs::parse(&runs.inputs)?;
     let read: Vec<_> = inputs::files(&written).collect();
     keep_apart(files.iter().copied(), &read)?;
     let spec = call::Spec {
@@ -384,7 +384,7 @@ fn made(
     let mut numbers = own..;
     let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(own));
     let signals = signals.map_err(Failure::Call)?;
-    let asked = own + driving;
+    let quantity_count = own + driving;
     let mut start = machine.start();
     set_start(&mut start, &options.start)?;
     reading::check_kept(&start, &runs.keep)?;
@@ -404,7 +404,7 @@ fn made(
         }
         SampleInstants::At(_) => {}
         SampleInstants::Crossing(formula, direction, level) => {
-            let value = &compiled.model.outputs[asked].value;
+            let value = &compiled.model.outputs[quantity_count].value;
             if value.stage() == stage::ACCELERATION {
                 return Err(Failure::Call(format!(
                     "--crossing {formula}: it depends on accelerations, which may jump"
@@ -422,7 +422,7 @@ fn made(
                 call::Direction::Both => Crossing::Any,
             };
             let level = level.and_then(|(name, value)| level_of(&machine, own, name, value));
-            let (place, level) = level.unwrap_or((asked, 0.0));
+            let (place, level) = level.unwrap_or((quantity_count, 0.0));
             simulation = simulation.event_on("crossing", crossing, move |seen| {
                 seen.outputs.values.get(place).copied().unwrap_or(f64::NAN) - level
             });
@@ -431,13 +431,13 @@ fn made(
     }
     let period = match looks {
         SampleInstants::Period(formula) => {
-            let stage = compiled.model.outputs[asked].value.stage();
+            let stage = compiled.model.outputs[quantity_count].value.stage();
             if stage > stage::PARAMETER {
                 return Err(Failure::Call(format!(
                     "--every-period {formula}: a period can depend only on numbers and parameters"
                 )));
             }
-            let period = period_of(&machine, &start, asked, "--every-period", formula)?;
+            let period = period_of(&machine, &start, quantity_count, "--every-period", formula)?;
             simulate::check_samples("--every-period", period, options.until)?;
             Some(period)
         }
@@ -551,7 +551,7 @@ pub fn one_with_run(
     keep_apart(files.iter().copied(), &[(part.run.as_path(), "the run")])?;
     let (columns, exactness) = if is_spec(&part.run)? {
         let options = Options::of(&part.run, &part.runs, None)?;
-        let (run, recording) = made(&options, &SampleInstants::Even, files)?;
+        let (run, recording) = run_spec(&options, &SampleInstants::Even, files)?;
         let method = methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
         let tolerance = if method.has_fixed_steps() {
             ROUNDING

@@ -42,7 +42,7 @@ pub fn run(call: &call::Section) -> Result<(), Failure> {
                 "--plot draws one quantity over another: name two by --of".into(),
             ));
         };
-        let both = across
+        let pairs = across
             .values
             .iter()
             .copied()
@@ -51,7 +51,7 @@ pub fn run(call: &call::Section) -> Result<(), Failure> {
             along: [across.header(), upwards.header()],
             curves: vec![Curve {
                 name: format!("{} points", points.times.len()),
-                points: both.collect(),
+                points: pairs.collect(),
             }],
             are_points: true,
         };
@@ -144,10 +144,10 @@ fn crossings(call: &call::Section, columns: &Columns, crossing: &str) -> Result<
     let (name, value) = crossing.split_once('=').unwrap_or((crossing, "0"));
     let name = name.trim();
     let Some(column) = columns.get(name) else {
-        let Failure::Call(said) = runs::unknown(name, columns, &call.part.run) else {
+        let Failure::Call(message) = runs::unknown(name, columns, &call.part.run) else {
             return Ok(Vec::new());
         };
-        return Err(Failure::Call(said.replace("--of", "--crossing")));
+        return Err(Failure::Call(message.replace("--of", "--crossing")));
     };
     let set = call::Assignment {
         name: name.to_owned(),

@@ -125,7 +125,7 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     reading::check_kept(&start, &call.keep)?;
     let variations = variations(&machine, &start, &wanted)?;
     let observed = observed(&machine, &start, &call.of)?;
-    let (times, columns) = made(call, &machine, &start, &variations, &observed)?;
+    let (times, columns) = run_with_derivatives(call, &machine, &start, &variations, &observed)?;
     if let Some(file) = &files[0] {
         let columns = columns.iter().map(|column| {
             (
@@ -390,7 +390,7 @@ fn per(unit: &str, other: &str) -> String {
 }
 
 /// The run with its derivatives: instants, then values, then the derivative of each value by each variable.
-fn made(
+fn run_with_derivatives(
     call: &call::Sensitivities,
     machine: &InterpretedMachine,
     start: &State<Named>,
@@ -699,7 +699,7 @@ fn change_of_start(
     };
     let brought = |machine: &InterpretedMachine, from: State<Named>| {
         start_on_constraints(call, machine, from).map_err(|failure| match failure {
-            Failure::Call(said) | Failure::Run(said) => said,
+            Failure::Call(message) | Failure::Run(message) => message,
             _ => "there is no start".to_owned(),
         })
     };

@@ -138,7 +138,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     } else {
         methods::named_or(&call.method, &[AUTO])?
     };
-    let written = inputs::written(&call.inputs)?;
+    let written = inputs::parse(&call.inputs)?;
     let files = Files::new(call, &written)?;
     let dag = Dag::new();
     let mut reading = Reading::open(&call.spec)?;
@@ -192,7 +192,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let finer = match files.report {
         Some(_) => {
             let shared = files.out.is_some() || files.plot.is_some();
-            report::finer(start.q.values.len(), call.until, interval, shared)
+            report::finer_count(start.q.values.len(), call.until, interval, shared)
         }
         None => 1,
     };
@@ -242,7 +242,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         is_interrupted: matches!(run.ending(), Ending::Stopped),
         other: verdict::energy_error(&run).into_iter().collect(),
     };
-    let contacts = contacts.found(&run);
+    let contacts = contacts.results(&run);
     let global = if call.global_error && *run.ending() == Ending::End {
         progress::now("estimating the error");
         let again = |tolerance: f64, start: State<Named>| {
@@ -266,14 +266,14 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         };
         let is_driven = !signals.is_empty();
         let wide = (!is_driven).then(|| ProvedSeries::derive(&compiled.model));
-        let asked = global_error::EstimatedRun {
+        let estimated_run = global_error::EstimatedRun {
             machine: &machine,
             series: wide,
             tolerance,
             has_fixed_steps: method.has_fixed_steps(),
             max_steps: call.max_steps,
         };
-        match global_error::estimate(asked, (run.start(), run.end()), again) {
+        match global_error::estimate(estimated_run, (run.start(), run.end()), again) {
             Ok(estimate) => Some(estimate),
             Err(why) => {
                 trouble.other.push(why);

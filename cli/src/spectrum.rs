@@ -39,7 +39,7 @@ pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
         call::Windows::None => Window::None,
         call::Windows::BlackmanHarris => Window::BlackmanHarris,
     };
-    let mut found = Vec::new();
+    let mut spectra = Vec::new();
     for quantity in chosen {
         let values = samples.values(&columns, quantity);
         let spectrum = Spectrum::new(&values, samples.step, window).ok_or_else(|| {
@@ -48,15 +48,15 @@ pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
                 quantity.name
             ))
         })?;
-        found.push(Found {
+        spectra.push(Found {
             lines: spectrum.lines(call.lines, call.least),
             quantity,
             spectrum,
         });
     }
-    let frequencies: &[f64] = found.first().map_or(&[], |one| &one.spectrum.frequencies);
+    let frequencies: &[f64] = spectra.first().map_or(&[], |one| &one.spectrum.frequencies);
     if let Some(file) = &files[0] {
-        let columns = found
+        let columns = spectra
             .iter()
             .map(|one| (one.quantity.header(), one.spectrum.amplitudes.as_slice()));
         let first = ("frequency [Hz]".to_owned(), frequencies);
@@ -72,10 +72,10 @@ pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
             .file_name()
             .unwrap_or_default()
             .to_string_lossy();
-        let svg = drawing::svg(&title, &panes(&found, frequencies));
+        let svg = drawing::svg(&title, &panes(&spectra, frequencies));
         file.write_text(&svg.map_err(Failure::Run)?)?;
     }
-    let resolution = found
+    let resolution = spectra
         .first()
         .map_or(f64::NAN, |one| one.spectrum.resolution);
     if call.part.runs.json {
@@ -85,11 +85,11 @@ pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
             "resampled": samples.is_resampled,
             "resolution": resolution,
             "window": window.name(),
-            "quantities": found.iter().map(as_json).collect::<Vec<Value>>(),
+            "quantities": spectra.iter().map(as_json).collect::<Vec<Value>>(),
         });
         output::line(format_args!("{result:#}"));
     } else {
-        output::text(&text(&samples, resolution, window, &found))
+        output::text(&text(&samples, resolution, window, &spectra))
     }
     Ok(())
 }

@@ -55,7 +55,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         .extension()
         .is_some_and(|ending| ending == "json");
     let mut plan = if is_plan {
-        written_plan(call)?
+        read_plan(call)?
     } else {
         plan(call)?
     };
@@ -72,7 +72,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
     if let Some(path) = &call.plan {
         let to = Destination::new("--plan", path, &["json"])?;
         keep_from(call, &plan, [&to])?;
-        let sweep = made(plan, engine)?;
+        let sweep = prepare(plan, engine)?;
         plan = sweep.plan().clone();
         plan.chunk = chunk_length(&sweep);
         to.write_text(&(plan.to_json() + "\n"))?;
@@ -92,12 +92,12 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
     }
     let out = Out::of(call, &plan)?;
     let is_part = call.chunk.is_some();
-    let folder = Folder::open(&out.folder, out.format, is_part).map_err(refused)?;
+    let folder = Folder::open(&out.folder, out.format, is_part).map_err(failure)?;
     let known = if call.fresh && !is_part {
-        folder.clear().map_err(refused)?;
+        folder.clear().map_err(failure)?;
         None
     } else {
-        folder.plan().map_err(refused)?
+        folder.plan().map_err(failure)?
     };
     if let Some(known) = &known {
         let mut differences = plan.differences(known);
@@ -112,7 +112,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
             )));
         }
     }
-    let mut sweep = made(plan, engine)?;
+    let mut sweep = prepare(plan, engine)?;
     if let Some(chunk) = call.chunk {
         return one_chunk(&sweep, &folder, chunk, call.spec.json);
     }
@@ -123,7 +123,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
                 let length = chunk_length(&sweep);
                 sweep.set_chunk(length);
             }
-            folder.begin(sweep.plan()).map_err(refused)?;
+            folder.begin(sweep.plan()).map_err(failure)?;
         }
     }
     all(call, &sweep, folder, &out)
@@ -169,7 +169,7 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
             Ok(())
         };
     }
-    let summary = folder.summary(sweep).map_err(refused)?;
+    let summary = folder.summary(sweep).map_err(failure)?;
     if let Some(file) = &out.file {
         let joined = folder.join(sweep, file);
         joined.map_err(|trouble| {
@@ -177,7 +177,7 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
                 "cannot write {trouble}; what has been computed is kept, and {going_on}"
             ))
         })?;
-        folder.remove().map_err(refused)?;
+        folder.remove().map_err(failure)?;
     }
     print_summary(call, &summary, (seconds, now), &shown.to_string());
     if call.strict && summary.failed > 0 {
@@ -226,7 +226,7 @@ fn one_chunk(sweep: &Sweep, folder: &Folder, chunk: u64, json: bool) -> Result<(
             chunks - 1
         )));
     }
-    folder.begin_shared(sweep.plan()).map_err(refused)?;
+    folder.begin_shared(sweep.plan()).map_err(failure)?;
     let stop = interrupt::flag();
     if folder.has_chunk(sweep, chunk) {
         return Ok(());
@@ -234,7 +234,7 @@ fn one_chunk(sweep: &Sweep, folder: &Folder, chunk: u64, json: bool) -> Result<(
     let Some(made) = sweep.run_chunk(chunk, &stop) else {
         return Err(Failure::Interrupted);
     };
-    folder.store(chunk, &made).map_err(refused)?;
+    folder.store(chunk, &made).map_err(failure)?;
     let runs = made.rows.len();
     if json {
         let document = json!({ "chunk": chunk, "runs": runs, "failed": made.failed });
@@ -315,13 +315,13 @@ fn keep_from<'a>(
             .iter()
             .map(|path| (path.as_path(), "the table of runs")),
     );
-    let written = inputs::written(&call.inputs)?;
+    let written = inputs::parse(&call.inputs)?;
     read.extend(inputs::files(&written));
     keep_apart(destinations, &read)
 }
 
 /// Prepares a plan.
-fn made(plan: Plan, engine: Engine) -> Result<Sweep, Failure> {
+fn prepare(plan: Plan, engine: Engine) -> Result<Sweep, Failure> {
     let sweep = Sweep::new(plan, engine).map_err(|wrong| match wrong {
         PlanError::Plan(message) => Failure::Call(message),
         PlanError::Spec(wrong) => {
@@ -336,12 +336,12 @@ fn made(plan: Plan, engine: Engine) -> Result<Sweep, Failure> {
     Ok(sweep)
 }
 
-fn refused(trouble: FolderError) -> Failure {
+fn failure(trouble: FolderError) -> Failure {
     Failure::Run(trouble.to_string())
 }
 
 /// Reads the plan from a file.
-fn written_plan(call: &call::Sweep) -> Result<Plan, Failure> {
+fn read_plan(call: &call::Sweep) -> Result<Plan, Failure> {
     let path = &call.spec.path;
     let shown = path.display();
     let is_said = call.until.is_some()
@@ -450,7 +450,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
         tolerance: call.tolerance,
         method: call.method.clone(),
         max_steps: call.max_steps as u64,
-        inputs: inputs::laws(&inputs::written(&call.inputs)?, &model)?,
+        inputs: inputs::laws(&inputs::parse(&call.inputs)?, &model)?,
         reduce: reductions::reductions(&call.reductions, &events)?,
         events,
         at: recorded.at,

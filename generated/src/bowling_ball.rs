@@ -302,10 +302,10 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
                 order: ::lagrangian::emitted::ImpactOrder::AtOnce,
                 painleve: ::lagrangian::emitted::Painleve::Error,
                 compliance: Option::None,
-                rubs: true,
-                rolls: false,
-                across: false,
-                faced: false,
+                has_friction: true,
+                is_rolling_resistance: false,
+                is_second_tangent: false,
+                has_face: false,
             },
         ];
     }

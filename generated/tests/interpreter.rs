@@ -243,8 +243,8 @@ fn agrees_in_f64<M: Machine + Default>(
             system.constraint_matrix(t, &q, &mut rows);
             check_list(Role::ConstraintMatrix, &rows);
             let mut drift = vec![0.0; m];
-            system.constraint_drift(t, &q, &v, &mut drift);
-            check_list(Role::ConstraintDrift, &drift);
+            system.constraint_bias(t, &q, &v, &mut drift);
+            check_list(Role::ConstraintBias, &drift);
             let mut multipliers = vec![0.0; m];
             let emitted = system.multipliers(t, &q, &v, &u, &mut multipliers);
             let interpreted = f64::run(Interpreted {
@@ -272,8 +272,8 @@ fn agrees_in_f64<M: Machine + Default>(
             let (mut slips, mut drift, mut rows) = (vec![0.0; k], vec![0.0; k], vec![0.0; k * n]);
             system.slips(t, &q, &v, &mut slips);
             check_list(Role::Slips, &slips);
-            system.slip_drift(t, &q, &v, &mut drift);
-            check_list(Role::SlipDrift, &drift);
+            system.slip_bias(t, &q, &v, &mut drift);
+            check_list(Role::SlipBias, &drift);
             system.slip_matrix(t, &q, &mut rows);
             check_list(Role::SlipMatrix, &rows);
         }
@@ -283,7 +283,11 @@ fn agrees_in_f64<M: Machine + Default>(
         for (contact, expected) in system.unilateral_contacts().zip(&program.unilateral) {
             assert_eq!(contact.name, expected.name);
             assert_eq!(
-                (contact.rubs, contact.rolls, contact.across),
+                (
+                    contact.has_friction,
+                    contact.is_rolling_resistance,
+                    contact.is_second_tangent
+                ),
                 (
                     expected.has_friction,
                     expected.is_rolling_resistance,
@@ -304,8 +308,8 @@ fn agrees_in_f64<M: Machine + Default>(
             let (mut rates, mut drift) = (vec![0.0; 2 * c], vec![0.0; 2 * c]);
             system.contact_rates(t, &q, &v, &mut rates);
             check_list(Role::ContactRates, &rates);
-            system.contact_drift(t, &q, &v, &mut drift);
-            check_list(Role::ContactDrift, &drift);
+            system.contact_bias(t, &q, &v, &mut drift);
+            check_list(Role::ContactBias, &drift);
             let mut rows = vec![0.0; 2 * c * n];
             system.contact_matrix(t, &q, &mut rows);
             check_list(Role::ContactMatrix, &rows);

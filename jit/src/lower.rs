@@ -259,9 +259,9 @@ impl Builder {
             return *both;
         }
         let results = self.call(CallKind::Circular, vec![angle], 2);
-        let both = [results[0], results[1]];
-        self.circular.insert(angle, both);
-        both
+        let sin_cos = [results[0], results[1]];
+        self.circular.insert(angle, sin_cos);
+        sin_cos
     }
 
     fn read(&mut self, source: Source) -> Id {

@@ -95,7 +95,7 @@ pub struct Model<'d> {
     /// This machine with every guide of `sliding` relaxed: a guided body, with everything built on
     /// its frame, can move off by extra coordinates, two for each guide in the plane and three in
     /// space, appended to the others. The equations of these coordinates give the normal reactions.
-    /// None if nothing slides.
+    /// It is `None` if nothing slides.
     pub relaxed: Option<Box<Model<'d>>>,
     /// Circles (in space spheres) that can touch.
     pub circles: Vec<Circle<'d>>,

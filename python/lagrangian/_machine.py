@@ -245,9 +245,9 @@ class Machine(_native.Machine):
                 for place in others:
                     driven[place] = number
         if sets_parameter:
-            refused = self._program.refused(given)
-            if refused is not None:
-                raise ValueError(refused)
+            refusal = self._program.refusal(given)
+            if refusal is not None:
+                raise ValueError(refusal)
         return type(self)._with(self._program, given, driven)
 
     def with_parameters(self, values: Optional[Mapping[str, Number]] = None, /, **parameters: Number) -> "Machine":

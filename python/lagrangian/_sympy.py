@@ -137,6 +137,6 @@ def symbolic(self: Any) -> Symbolic:
         dissipation=found["dissipation"][0],
         constraints=MappingProxyType(dict(zip(held, found["constraints"]))),
         constraint_jacobian=sympy.Matrix(c, n, found["rows"]),
-        constraint_bias=sympy.Matrix(c, 1, found["drifts"]),
+        constraint_bias=sympy.Matrix(c, 1, found["biases"]),
         outputs=MappingProxyType(dict(zip(self.outputs, found["outputs"]))),
     )

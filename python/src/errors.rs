@@ -31,7 +31,7 @@ pub fn raise<'py>(
 }
 
 /// The diagnostics of a report, whether errors or warnings.
-pub fn told(report: &Report, sources: &Sources) -> Vec<Told> {
+pub fn as_values(report: &Report, sources: &Sources) -> Vec<Told> {
     let one = |diagnostic: &Diagnostic| {
         let (line, column) = sources.line_column(diagnostic.span);
         (
@@ -48,7 +48,7 @@ pub fn told(report: &Report, sources: &Sources) -> Vec<Told> {
 }
 
 /// The errors of a report as text, with the source underlined.
-pub fn shown(report: &Report, sources: &Sources) -> String {
+pub fn as_text(report: &Report, sources: &Sources) -> String {
     let errors = report.diagnostics().into_iter();
     let mut all: Vec<String> = errors.map(|error| error.render(sources)).collect();
     if report.omitted() > 0 {

@@ -214,10 +214,10 @@ pub fn accelerations<'py>(
         let parts = threads().min(rows.div_ceil(ROWS_A_THREAD)).max(1);
         let length = rows.div_ceil(parts).max(1);
         let lanes = if batch.varied.is_empty() && rows >= WORTH_LANES {
-machine.in_lanes()
-} else {
-None
-};
+            machine.in_lanes()
+        } else {
+            None
+        };
         let part = |first: usize, out: &mut [f64]| {
             let count = out.len().checked_div(n).unwrap_or(0);
             // Rows without accelerations are evaluated alone, to obtain the reason.
@@ -312,9 +312,9 @@ pub fn evaluate<'py>(
         .iter()
         .map(|(_, width)| Vec::with_capacity(width * results.len()))
         .collect();
-    let mut found = Vec::with_capacity(results.len());
+    let mut is_valid = Vec::with_capacity(results.len());
     for (place, result) in results.into_iter().enumerate() {
-        found.push(result.is_ok());
+        is_valid.push(result.is_ok());
         let evaluation = match result {
             Ok(evaluation) => evaluation,
             Err(error) if raises => return Err(machine.raised(py, error, place)),
@@ -333,10 +333,10 @@ pub fn evaluate<'py>(
             [c.gap, c.normal, c.friction, c.slip, closed, sticks]
         });
         let reactions = if evaluation.reactions.is_empty() {
-vec![0.0; n]
-} else {
-evaluation.reactions
-};
+            vec![0.0; n]
+        } else {
+            evaluation.reactions
+        };
         let all = [
             evaluation.mass_matrix,
             evaluation.bias,
@@ -360,7 +360,7 @@ evaluation.reactions
     for ((name, _), column) in widths.iter().zip(columns) {
         by_name.set_item(name, PyArray1::from_vec(py, column))?;
     }
-    Ok((by_name, found))
+    Ok((by_name, is_valid))
 }
 
 /// Derivatives by coordinates, and by rates.

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signal, Signals};
-use lagrangian::{Between, Beyond, InputLaw, NoPiece, Piece, Table};
+use lagrangian::{Extrapolation, InputLaw, Interpolation, NoPiece, Piece, Table};
 use lagrangian_sweep::plan::Law as Written;
 use lagrangian_sweep::signals;
 use numpy::PyArray1;
@@ -90,9 +90,9 @@ fn called_as_signal(function: Py<PyAny>, name: &str, raised: &Raised) -> Signal 
 
 fn table((name, times, values, between, beyond): Rows) -> PyResult<Table> {
     let between = match between.as_str() {
-        "hold" => Between::Hold,
-        "linear" => Between::Linear,
-        "cubic" => Between::Cubic,
+        "hold" => Interpolation::Hold,
+        "linear" => Interpolation::Linear,
+        "cubic" => Interpolation::Cubic,
         other => {
             return Err(PyValueError::new_err(format!(
                 "kind={other:?}: must be 'hold', 'linear' or 'cubic'"
@@ -100,9 +100,9 @@ fn table((name, times, values, between, beyond): Rows) -> PyResult<Table> {
         }
     };
     let beyond = match beyond.as_str() {
-        "hold" => Beyond::Hold,
-        "error" => Beyond::Error,
-        "repeat" => Beyond::Repeat,
+        "hold" => Extrapolation::Hold,
+        "error" => Extrapolation::Error,
+        "repeat" => Extrapolation::Repeat,
         other => {
             return Err(PyValueError::new_err(format!(
                 "beyond={other:?}: must be 'hold', 'error' or 'repeat'"

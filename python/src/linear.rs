@@ -81,7 +81,7 @@ fn on_constraints(
 }
 
 /// The steady motion that the search finds from a start.
-fn found(
+fn find_motion(
     machine: &InterpretedMachine,
     (_, q, v): Start,
     (steady, solved): Steady,
@@ -94,10 +94,10 @@ fn found(
     };
     if let Err(names) = steady::drives(machine, &q, &wanted) {
         let help = if names.is_empty() {
-String::new()
-} else {
-format!("; it stands still with {} = 0", names.join(" = 0, or "))
-};
+            String::new()
+        } else {
+            format!("; it stands still with {} = 0", names.join(" = 0, or "))
+        };
         return Err(format!(
             "the machine is driven: its equations change with time, so that it is at rest nowhere{help}"
         ));
@@ -135,7 +135,7 @@ pub fn modes<'py>(
     steady: Steady,
 ) -> PyResult<Bound<'py, PyDict>> {
     let machine = machine.linear(py, &inputs)?;
-    let motion = py.detach(|| found(&machine, start, steady));
+    let motion = py.detach(|| find_motion(&machine, start, steady));
     let motion = motion.map_err(PyValueError::new_err)?;
     let all = PyDict::new(py);
     let modes = &motion.modes.modes;
@@ -187,7 +187,7 @@ pub fn linear_model<'py>(
         let why = |none: NoModel| none.in_words(&machine.prepare(), OPTIONS);
         let model = match steady {
             Some(steady) => {
-                let motion = found(&machine, start, steady)?;
+                let motion = find_motion(&machine, start, steady)?;
                 model::along(&machine, &motion, &request).map_err(why)?
             }
             None => {

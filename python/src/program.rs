@@ -126,7 +126,7 @@ impl Derived {
         let work = move || {
             let constants = text.constants().map_err(Trouble::Constant)?;
             let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
-            let asked: Vec<Formula<'_>> = formulas.iter().map(asked).collect();
+            let asked: Vec<Formula<'_>> = formulas.iter().map(to_formula).collect();
             let kept = std::mem::take(&mut text.files);
             let mut disk = Disk;
             let mut given;
@@ -162,11 +162,14 @@ impl Derived {
                 return Ok(derived);
             }
             let compiled = model.and_then(|model| Compiled::new(model, &mut report));
-            let told = errors::told(&report, &sources);
+            let diagnostics = errors::as_values(&report, &sources);
             let Some(compiled) = compiled else {
-                return Err(Trouble::Spec(errors::shown(&report, &sources), told));
+                return Err(Trouble::Spec(
+                    errors::as_text(&report, &sources),
+                    diagnostics,
+                ));
             };
-            let derived = Arc::new(Derived::of(&compiled, text, formulas, told));
+            let derived = Arc::new(Derived::of(&compiled, text, formulas, diagnostics));
             remember(key, &derived);
             Ok(derived)
         };
@@ -253,7 +256,7 @@ impl Derived {
                 let spec =
                     lagrangian_spec::parse(&mut sources, &text.name, &text.text, &mut report);
                 let spec = spec.with_given(text.given.iter().cloned());
-                let asked: Vec<Formula<'_>> = self.formulas.iter().map(asked).collect();
+                let asked: Vec<Formula<'_>> = self.formulas.iter().map(to_formula).collect();
                 let files = &mut RecordedFiles(&text.files);
                 let model = Model::resolve_with(
                     spec,
@@ -267,8 +270,8 @@ impl Derived {
                 match model {
                     Some(model) => Ok(work(model, &mut report)),
                     None => Err(Trouble::Spec(
-                        errors::shown(&report, &sources),
-                        errors::told(&report, &sources),
+                        errors::as_text(&report, &sources),
+                        errors::as_values(&report, &sources),
                     )),
                 }
             };
@@ -307,10 +310,12 @@ impl Derived {
     }
 
     /// Why the spec refuses these parameters, for example a negative mass.
-    pub fn refused(&self, values: &[f64]) -> Result<Option<String>, Trouble> {
+    pub fn refusal(&self, values: &[f64]) -> Result<Option<String>, Trouble> {
         self.with_model(|model, _| {
-            let said = model.parameter_diagnostics(values);
-            let error = said.iter().find(|of| of.code.severity() == Severity::Error);
+            let diagnostics = model.parameter_diagnostics(values);
+            let error = diagnostics
+                .iter()
+                .find(|of| of.code.severity() == Severity::Error);
             error.map(|error| format!("{} [{}]", error.message, error.code))
         })
     }
@@ -319,8 +324,10 @@ impl Derived {
     pub fn first_refused(&self, all: &[Vec<f64>]) -> Result<Option<(usize, String)>, Trouble> {
         self.with_model(|model, _| {
             for (place, values) in all.iter().enumerate() {
-                let said = model.parameter_diagnostics(values);
-                let error = said.iter().find(|of| of.code.severity() == Severity::Error);
+                let diagnostics = model.parameter_diagnostics(values);
+                let error = diagnostics
+                    .iter()
+                    .find(|of| of.code.severity() == Severity::Error);
                 if let Some(error) = error {
                     return Some((place, format!("{} [{}]", error.message, error.code)));
                 }
@@ -330,7 +337,7 @@ impl Derived {
     }
 }
 
-fn asked((name, said, text, unit): &Asked) -> Formula<'_> {
+fn to_formula((name, said, text, unit): &Asked) -> Formula<'_> {
     Formula {
         name,
         source_name: said,
@@ -369,10 +376,15 @@ pub fn derive(
         constants,
         given: Vec::new(),
     };
-    made(py, text, bases, Vec::new())
+    compile(py, text, bases, Vec::new())
 }
 
-fn made(py: Python<'_>, text: SpecText, bases: Bases, formulas: Vec<Asked>) -> PyResult<Program> {
+fn compile(
+    py: Python<'_>,
+    text: SpecText,
+    bases: Bases,
+    formulas: Vec<Asked>,
+) -> PyResult<Program> {
     let derived = py.detach(|| Derived::new(text, bases, formulas));
     let derived = derived.map_err(|trouble| trouble.raise(py))?;
     Ok(Program { derived })
@@ -383,7 +395,7 @@ fn made(py: Python<'_>, text: SpecText, bases: Bases, formulas: Vec<Asked>) -> P
 pub fn rebuild(py: Python<'_>, state: &str) -> PyResult<Program> {
     let text: SpecText = serde_json::from_str(state)
         .map_err(|error| PyValueError::new_err(format!("this is not a machine: {error}")))?;
-    made(py, text, Bases::Kept, Vec::new())
+    compile(py, text, Bases::Kept, Vec::new())
 }
 
 #[pymethods]
@@ -479,7 +491,7 @@ impl Program {
 
     /// This program with formulas as additional outputs.
     fn with_formulas(&self, py: Python<'_>, formulas: Vec<Asked>) -> PyResult<Program> {
-        made(py, self.derived.text.clone(), Bases::Kept, formulas)
+        compile(py, self.derived.text.clone(), Bases::Kept, formulas)
     }
 
     /// This program with other values of constants.
@@ -490,7 +502,7 @@ impl Program {
     ) -> PyResult<Program> {
         let mut text = self.derived.text.clone();
         text.constants = constants;
-        made(py, text, Bases::Kept, Vec::new())
+        compile(py, text, Bases::Kept, Vec::new())
     }
 
     /// Names, units and docs of the parameters that follow from others.
@@ -505,12 +517,12 @@ impl Program {
         text.given.extend(names);
         text.given.sort_unstable();
         text.given.dedup();
-        made(py, text, Bases::Kept, Vec::new())
+        compile(py, text, Bases::Kept, Vec::new())
     }
 
     /// Why the spec refuses these parameters.
-    fn refused(&self, py: Python<'_>, values: Vec<f64>) -> PyResult<Option<String>> {
-        let refused = py.detach(|| self.derived.refused(&values));
+    fn refusal(&self, py: Python<'_>, values: Vec<f64>) -> PyResult<Option<String>> {
+        let refused = py.detach(|| self.derived.refusal(&values));
         refused.map_err(|trouble| trouble.raise(py))
     }
 

@@ -1,9 +1,9 @@
 //! Motions together with their derivatives.
 
+use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::methods::Method;
 use lagrangian::{Error, Sensitive, Simulation, State, Varied};
 use lagrangian::{Machine as _, System as _, interpreted::Named};
-use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_linear::starts::{self, Cause};
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
@@ -72,7 +72,7 @@ pub fn sensitivities<'py>(
         let causes: Vec<Cause> = by.iter().map(|of| cause(machine, of)).collect();
         let given = from.clone();
         if is_held {
-            from = brought(own, from, keep.as_deref()).map_err(Lost::Held)?;
+            from = project_start(own, from, keep.as_deref()).map_err(Lost::Held)?;
             if let Some(constraint) = starts::dependent_constraint(own, &from) {
                 return Err(Lost::Held(format!(
                     "the constraint `{constraint}` follows from others, and accelerations have no derivatives then: leave it out"
@@ -82,10 +82,10 @@ pub fn sensitivities<'py>(
         let mut from = sensitive.start_from(from);
         if is_held {
             for (k, cause) in causes.iter().enumerate() {
-                let bring = |machine: &InterpretedMachine, from| brought(machine, from, keep.as_deref());
+                let bring = |machine: &InterpretedMachine, from| project_start(machine, from, keep.as_deref());
                 let change = starts::change(own, *cause, |_| given.clone(), bring);
-                let said = |why| Lost::Held(format!("{}({}): {why}", by[k].0, by[k].1));
-                [from.q.by[k].values, from.v.by[k].values] = change.map_err(said)?;
+                let violated = |why| Lost::Held(format!("{}({}): {why}", by[k].0, by[k].1));
+                [from.q.by[k].values, from.v.by[k].values] = change.map_err(violated)?;
             }
         }
         let mut last = std::time::Instant::now();
@@ -165,7 +165,7 @@ fn cause(machine: &Machine, (kind, name): &(String, String)) -> Cause {
 }
 
 /// The start projected onto the constraints.
-fn brought(
+fn project_start(
     machine: &InterpretedMachine,
     start: State<Named>,
     keep: Option<&[String]>,
@@ -177,7 +177,9 @@ fn brought(
             simulation = simulation.keep(name);
         }
     }
-    let run = simulation.run_interpreted(start).map_err(|error| error.to_string())?;
+    let run = simulation
+        .run_interpreted(start)
+        .map_err(|error| error.to_string())?;
     Ok(run.start().clone())
 }
 

@@ -146,10 +146,10 @@ pub fn simulate(
     of.check_parameters(py)?;
     let is_automatic = settings.method == AUTO;
     let method = if is_automatic {
-Some(<&Method>::default())
-} else {
-Method::named(&settings.method)
-};
+        Some(<&Method>::default())
+    } else {
+        Method::named(&settings.method)
+    };
     let Some(method) = method else {
         let known = methods().join(", ");
         return Err(PyValueError::new_err(format!(
@@ -344,7 +344,7 @@ impl Task {
             .progress(|now| {
                 if last.elapsed() >= BETWEEN {
                     last = Instant::now();
-                    self.tell(now);
+                    self.report_progress(now);
                 }
             })
             .stop_if(|state| {
@@ -360,10 +360,10 @@ impl Task {
                 self.raised.is_kept() || stops
             });
         simulation = if relative == absolute {
-simulation.tolerance(relative)
-} else {
-simulation.relative(relative).absolute(absolute)
-};
+            simulation.tolerance(relative)
+        } else {
+            simulation.relative(relative).absolute(absolute)
+        };
         if let Some(step) = self.first_step {
             simulation = simulation.first_step(step);
         }
@@ -399,29 +399,30 @@ simulation.relative(relative).absolute(absolute)
                 };
                 continue;
             }
-            let said = format!("event {name}");
-            let function = move |state: &State<Named>| value(watched, &said, state);
+            let label = format!("event {name}");
+            let function = move |state: &State<Named>| value(watched, &label, state);
             simulation = match ends {
                 None => simulation.event(name, *crossing, function),
                 Some(n) => simulation.until_nth_event(*n, name, *crossing, function),
             };
         }
-        let (solution, error) = simulation.run_interpreted_as_far_as_possible(self.start.clone())?;
+        let (solution, error) =
+            simulation.run_interpreted_as_far_as_possible(self.start.clone())?;
         samples.end(solution.start(), solution.end());
         Ok((solution, samples.states, error))
     }
 
     /// Lets Python handle Ctrl-C, and reports progress.
-    fn tell(&self, now: Progress) {
+    fn report_progress(&self, now: Progress) {
         Python::attach(|py| {
-            let told = py.check_signals().and_then(|()| match &self.progress {
+            let outcome = py.check_signals().and_then(|()| match &self.progress {
                 None => Ok(()),
                 Some(function) => {
-                    let told = function.bind(py).call1((now.fraction, now.t, now.steps));
-                    told.map(|_| ())
+                    let returned = function.bind(py).call1((now.fraction, now.t, now.steps));
+                    returned.map(|_| ())
                 }
             });
-            told.unwrap_or_else(|error| self.raised.keep(py, error, now.t));
+            outcome.unwrap_or_else(|error| self.raised.keep(py, error, now.t));
         });
     }
 }

@@ -11,7 +11,8 @@ use lagrangian::interpreted::Engine;
 use lagrangian_sweep::rows::{Rows, Values};
 use lagrangian_sweep::table::Format;
 use lagrangian_sweep::{
-    Chunk, Contents, Folder, Plan, Progress, Sweep, FolderError, PlanError, chunk_length, contents, run_all,
+    Chunk, Contents, Folder, FolderError, Plan, PlanError, Progress, Sweep, chunk_length, contents,
+    run_all,
 };
 use numpy::PyArray1;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
@@ -34,7 +35,7 @@ fn read(text: &str) -> PyResult<Plan> {
         .map_err(|error| PyValueError::new_err(format!("this is not a plan: {error}")))
 }
 
-fn made(py: Python<'_>, text: &str) -> PyResult<Arc<Sweep>> {
+fn prepare(py: Python<'_>, text: &str) -> PyResult<Arc<Sweep>> {
     let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, sweep)) = known().iter().find(|(of, _)| of == text) {
         return Ok(sweep.clone());
@@ -47,8 +48,8 @@ fn made(py: Python<'_>, text: &str) -> PyResult<Arc<Sweep>> {
             let (report, sources) = &*said;
             errors::of_spec(
                 py,
-                errors::shown(report, sources),
-                errors::told(report, sources),
+                errors::as_text(report, sources),
+                errors::as_values(report, sources),
             )
         }
     })?);
@@ -64,7 +65,7 @@ fn made(py: Python<'_>, text: &str) -> PyResult<Arc<Sweep>> {
 /// runs, and a warning.
 #[pyfunction]
 pub fn plan(py: Python<'_>, text: &str) -> PyResult<(String, u64, u64, Option<String>)> {
-    let sweep = made(py, text)?;
+    let sweep = prepare(py, text)?;
     let mut plan = sweep.plan().clone();
     plan.chunk = py.detach(|| chunk_length(&sweep));
     let warning = sweep.warning().map(str::to_owned);
@@ -157,7 +158,7 @@ impl Kept {
             Ok(folder)
         });
         let folder = opened.map_err(trouble)?;
-        let sweep = made(py, &plan.to_json())?;
+        let sweep = prepare(py, &plan.to_json())?;
         Ok(Kept {
             sweep,
             folder: Mutex::new(Some(folder)),
@@ -182,7 +183,11 @@ impl Kept {
     fn missing(&self, py: Python<'_>) -> PyResult<Vec<u64>> {
         let chunks = 0..self.sweep.plan().chunks();
         py.detach(|| {
-            self.folder(|folder| Ok(chunks.filter(|k| !folder.has_chunk(&self.sweep, *k)).collect()))
+            self.folder(|folder| {
+                Ok(chunks
+                    .filter(|k| !folder.has_chunk(&self.sweep, *k))
+                    .collect())
+            })
         })
     }
 
@@ -206,11 +211,11 @@ impl Kept {
         py.detach(|| {
             let watch = &mut |now: Progress| {
                 Python::attach(|py| {
-                    let told = py.check_signals().and_then(|()| match &tell {
+                    let outcome = py.check_signals().and_then(|()| match &tell {
                         Some(tell) => tell.call1(py, (now.done,)).map(drop),
                         None => Ok(()),
                     });
-                    if let Err(error) = told {
+                    if let Err(error) = outcome {
                         stop.store(true, Ordering::Relaxed);
                         raised.get_or_insert(error);
                     }
@@ -265,15 +270,15 @@ impl Stop {
 
 /// The prepared plan, after checking that it has a chunk with this index.
 fn checked(py: Python<'_>, text: &str, chunk: u64) -> PyResult<Arc<Sweep>> {
-    let sweep = made(py, text)?;
+    let sweep = prepare(py, text)?;
     let chunks = sweep.plan().chunks();
     if chunk < chunks {
-Ok(sweep)
-} else {
-Err(PyValueError::new_err(format!(
+        Ok(sweep)
+    } else {
+        Err(PyValueError::new_err(format!(
             "there is no chunk {chunk}: the plan has {chunks}"
         )))
-}
+    }
 }
 
 /// Makes a chunk; Ctrl-C interrupts it.

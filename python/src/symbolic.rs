@@ -20,7 +20,7 @@ pub fn symbolic(py: Python<'_>, program: &Program) -> PyResult<(Vec<Shown>, Vec<
     let made = py.detach(|| {
         program.derived.with_model(|model, report| {
             let equations = Equations::derive(&model, report)?;
-            Some(shown(&model, &equations))
+            Some(quantities(&model, &equations))
         })
     });
     let made = made.map_err(|trouble| trouble.raise(py))?;
@@ -29,7 +29,7 @@ pub fn symbolic(py: Python<'_>, program: &Program) -> PyResult<(Vec<Shown>, Vec<
     })
 }
 
-fn shown<'d>(model: &Model<'d>, equations: &Equations<'d>) -> (Vec<Shown>, Vec<Quantity>) {
+fn quantities<'d>(model: &Model<'d>, equations: &Equations<'d>) -> (Vec<Shown>, Vec<Quantity>) {
     let n = model.coordinates.len();
     let mass = (0..n * n).map(|k| *equations.mass_matrix.get(k / n, k % n));
     let constraints = || equations.constraints.iter();
@@ -48,7 +48,7 @@ fn shown<'d>(model: &Model<'d>, equations: &Equations<'d>) -> (Vec<Shown>, Vec<Q
                 .collect(),
         ),
         ("rows", constraints().flat_map(|c| c.row.clone()).collect()),
-        ("drifts", constraints().map(|c| c.drift).collect()),
+        ("biases", constraints().map(|c| c.bias).collect()),
         ("outputs", equations.outputs.clone()),
     ];
     let roots: Vec<Expr<'d>> = quantities.iter().flat_map(|(_, of)| of.clone()).collect();

@@ -25,7 +25,7 @@ pub(crate) enum Rank {
     Followed(f64, f64),
     /// As many rows of positions, and as many in total, as were chosen before.
     Known,
-    /// All rows whose strength exceeds this: see [`Constraints::hold`](super::Constraints::hold).
+    /// All rows whose strength exceeds this: see [`Constraints::strength`](super::Constraints::strength).
     Holding(f64),
 }
 
@@ -58,14 +58,14 @@ impl<V: Vector> Choice<V> {
     /// is better is decided relative to the largest size of its terms in the run: a row that vanishes in a pose is not
     /// lost there, but a larger part of it is round-off. This is the Gram–Schmidt process with column pivoting, in the
     /// metric of inertia (G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th ed., section 5.4.2).
-    pub fn made<S: System<Vector = V>>(
+    pub fn choose<S: System<Vector = V>>(
         &self,
         system: &S,
         (t, q): (f64, &V),
         rank: Rank,
         (scales, fixed): (&Scales<V>, Option<&V>),
     ) -> Result<Self, StepError> {
-        let mut made = Self::none(q.zeros_like());
+        let mut choice = Self::none(q.zeros_like());
         in_workspace(system, t, q.as_slice().len(), |workspace| {
             system.constraint_matrix(t, q, workspace.matrix);
             let n = workspace.n;
@@ -86,32 +86,33 @@ impl<V: Vector> Choice<V> {
                 loop {
                     let least = match rank {
                         Rank::Revealed(least) => least.max(roundoff),
-                        Rank::Followed(least, _) if made.rank < known => least.max(roundoff),
+                        Rank::Followed(least, _) if choice.rank < known => least.max(roundoff),
                         Rank::Followed(_, more) => more.max(roundoff),
-                        Rank::Known if made.rank < known => 0.0,
+                        Rank::Known if choice.rank < known => 0.0,
                         Rank::Known => break,
                         Rank::Holding(_) => roundoff,
                     };
-                    let Some((k, held)) = made.best(system, workspace, holonomic, (least, self))
+                    let Some((k, held)) =
+                        choice.best_row(system, workspace, holonomic, (least, self))
                     else {
                         break;
                     };
                     if matches!(rank, Rank::Holding(least) if held <= least) {
                         break;
                     }
-                    made.take(workspace, k, least);
+                    choice.add(workspace, k, least);
                 }
                 if holonomic {
-                    made.holonomic = made.rank;
+                    choice.holonomic = choice.rank;
                 }
             }
-            Ok(made)
+            Ok(choice)
         })
     }
 
     /// The next row to be chosen, if any is independent by more than `least`, and its component orthogonal to the
     /// chosen rows, relative to the largest size of the row.
-    fn best<S: System<Vector = V>>(
+    fn best_row<S: System<Vector = V>>(
         &self,
         system: &S,
         workspace: &Workspace<'_, S::Matrix>,
@@ -138,7 +139,7 @@ impl<V: Vector> Choice<V> {
 
     /// Adds a row to the chosen ones, if it is independent by more than `least`, and removes its direction
     /// from the others.
-    fn take<M: Vector>(&mut self, workspace: &mut Workspace<'_, M>, k: usize, least: f64) {
+    fn add<M: Vector>(&mut self, workspace: &mut Workspace<'_, M>, k: usize, least: f64) {
         let n = workspace.n;
         workspace
             .column

@@ -19,7 +19,7 @@ const NO_VIOLATION: f64 = 1e-7;
 const ROUNDING: f64 = 1e-11;
 
 /// Residuals below this fraction of the largest belong to rows that could be satisfied.
-const BESIDE: f64 = 1e-4;
+const SATISFIABLE: f64 = 1e-4;
 
 /// A row that cannot be satisfied: its index, its level (0 for positions, 1 for rates), and its residual.
 pub(crate) type Violation = (usize, usize, f64);
@@ -38,7 +38,7 @@ pub(crate) fn closest<S: System>(
 ) -> Vec<Violation> {
     for level in [Level::Positions, Level::Rates] {
         let mut search = Search::new(system, place, &kept[level as usize], level);
-        search.go(system, place);
+        search.minimize(system, place);
         let violations = search.violations();
         if !violations.is_empty() {
             return violations;
@@ -57,10 +57,10 @@ struct Search {
     /// The inverse inertia of each coordinate, 0 for kept ones.
     free: Vec<f64>,
     /// Residuals and rows at the present state, each divided by its size.
-    left: Vec<f64>,
+    residuals: Vec<f64>,
     matrix: Vec<f64>,
     /// Residuals up to this count as zero.
-    nothing: f64,
+    zero_residual: f64,
 }
 
 impl Search {
@@ -85,11 +85,11 @@ impl Search {
             level,
             n,
             sizes: vec![1.0; rows.len()],
-            left: vec![0.0; rows.len()],
+            residuals: vec![0.0; rows.len()],
             matrix: vec![0.0; rows.len() * n],
             rows,
             free: inverse.clone(),
-            nothing: 0.0,
+            zero_residual: 0.0,
         };
         search.evaluate(system, place);
         for (row, size) in search.matrix.chunks_exact(n).zip(&mut search.sizes) {
@@ -114,14 +114,14 @@ impl Search {
             .zip(system.coordinates())
             .map(reach)
             .collect();
-        for (row, left) in search.matrix.chunks_exact(n).zip(&search.left) {
+        for (row, left) in search.matrix.chunks_exact(n).zip(&search.residuals) {
             let terms = row
                 .iter()
                 .zip(&reach)
                 .map(|(g, y)| g.abs() * y)
                 .sum::<f64>();
             let nothing = (ROUNDING * (terms + left.abs())).max(NO_VIOLATION * left.abs());
-            search.nothing = search.nothing.max(nothing);
+            search.zero_residual = search.zero_residual.max(nothing);
         }
         for (free, kept) in search.free.iter_mut().zip(kept.as_slice()) {
             if *kept != 0.0 {
@@ -142,7 +142,7 @@ impl Search {
         }
         system.constraint_matrix(place.t, q, &mut matrix);
         for (at, (&k, size)) in self.rows.iter().zip(&self.sizes).enumerate() {
-            self.left[at] = left[k] / size;
+            self.residuals[at] = left[k] / size;
             let row = &matrix[k * self.n..][..self.n];
             for (to, g) in self.matrix[at * self.n..].iter_mut().zip(row) {
                 *to = g / size;
@@ -150,11 +150,11 @@ impl Search {
         }
     }
 
-    fn go<S: System>(&mut self, system: &S, place: &mut Place<'_, S::Vector>) {
+    fn minimize<S: System>(&mut self, system: &S, place: &mut Place<'_, S::Vector>) {
         let (n, m) = (self.n, self.rows.len());
         self.evaluate(system, place);
         let mut damping = 1e-3;
-        let mut squares = dot(&self.left, &self.left);
+        let mut squares = dot(&self.residuals, &self.residuals);
         for _ in 0..ROUNDS {
             if !(squares > 0.0 && squares.is_finite() && damping < 1e12) {
                 return;
@@ -172,10 +172,10 @@ impl Search {
                 damping *= 10.0;
                 continue;
             }
-            let mut weights = self.left.clone();
+            let mut weights = self.residuals.clone();
             forward(&normal, &mut weights);
             backward(&normal, &mut weights);
-            let before = place.level(self.level)[0].clone();
+            let previous = place.level(self.level)[0].clone();
             let y = place.level(self.level)[0].as_mut_slice();
             for (row, weight) in self.matrix.chunks_exact(n).zip(&weights) {
                 for ((y, g), w) in y.iter_mut().zip(row).zip(&self.free) {
@@ -183,7 +183,7 @@ impl Search {
                 }
             }
             self.evaluate(system, place);
-            let now = dot(&self.left, &self.left);
+            let now = dot(&self.residuals, &self.residuals);
             if now < squares {
                 let gain = 1.0 - now / squares;
                 squares = now;
@@ -192,7 +192,7 @@ impl Search {
                     return;
                 }
             } else {
-                *place.level(self.level)[0] = before;
+                *place.level(self.level)[0] = previous;
                 self.evaluate(system, place);
                 damping *= 10.0;
             }
@@ -201,12 +201,15 @@ impl Search {
 
     /// The constraints that are violated at the present state, with their residuals.
     fn violations(&self) -> Vec<Violation> {
-        let most = self.left.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let rows = self.rows.iter().zip(&self.left).zip(&self.sizes);
-        let missed = rows.filter(|((_, left), _)| left.abs() > BESIDE * most);
+        let most = self
+            .residuals
+            .iter()
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let rows = self.rows.iter().zip(&self.residuals).zip(&self.sizes);
+        let missed = rows.filter(|((_, left), _)| left.abs() > SATISFIABLE * most);
         let level = self.level as usize;
         let violations = missed.map(|((k, left), size)| (*k, level, left * size));
-        if most <= self.nothing {
+        if most <= self.zero_residual {
             Vec::new()
         } else {
             violations.collect()

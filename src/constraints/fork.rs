@@ -43,7 +43,7 @@ const REACH: f64 = 2.0;
 const STEPS_AWAY: u32 = 8;
 
 /// How far from the pose states are searched for, in units of the coordinates' sizes, or in rad.
-const BESIDE: f64 = 0.1;
+const SEARCH_DISTANCE: f64 = 0.1;
 
 /// Whether a strength may vanish that changes by this much within a step, or has nearly vanished.
 fn is_in_reach(hold: f64, change: f64) -> bool {
@@ -53,38 +53,38 @@ fn is_in_reach(hold: f64, change: f64) -> bool {
 impl<V: Vector> Constraints<V> {
     /// The strength of the weakest chosen row at a pose: its component orthogonal to the others, relative to its greatest length;
     /// 0 if it has none.
-    pub fn hold<S: System<Vector = V>>(&self, system: &S, t: f64, q: &V) -> f64 {
+    pub fn strength<S: System<Vector = V>>(&self, system: &S, t: f64, q: &V) -> f64 {
         let hold = in_workspace(system, t, q.as_slice().len(), |workspace| {
             self.prepare(system, workspace, (t, q), Level::Rates)?;
-            Ok(self.held(workspace, q))
+            Ok(self.factored_strength(workspace, q))
         });
         hold.unwrap_or(0.0)
     }
 
-    /// [`hold`](Self::hold) after the rows were factorized.
-    fn held<M: Vector>(&self, workspace: &Workspace<'_, M>, q: &V) -> f64 {
+    /// [`strength`](Self::strength) after the rows were factorized.
+    fn factored_strength<M: Vector>(&self, workspace: &Workspace<'_, M>, q: &V) -> f64 {
         let rank = self.choice.rank;
         let mut least: f64 = 1.0;
         for j in 0..rank {
             let entries = (0..=j).map(|i| workspace.triangle[i * rank + j]);
-            let whole = crate::math::sqrt(entries.map(|x| x * x).sum());
+            let norm = crate::math::sqrt(entries.map(|x| x * x).sum());
             let k = self.choice.row(j);
             let row = &workspace.matrix[k * workspace.n..][..workspace.n];
-            let own = workspace.triangle[j * rank + j] / whole * self.scales.strength(k, row, q);
+            let own = workspace.triangle[j * rank + j] / norm * self.scales.strength(k, row, q);
             least = least.min(own);
         }
         least
     }
 
-    /// [`hold`](Self::hold) after an attempt to factorize the rows; 1 if that failed for another reason.
-    pub(super) fn hold_of<M: Vector>(
+    /// [`strength`](Self::strength) after an attempt to factorize the rows; 1 if that failed for another reason.
+    pub(super) fn strength_after<M: Vector>(
         &self,
         prepared: &Result<(), StepError>,
         workspace: &Workspace<'_, M>,
         q: &V,
     ) -> f64 {
         match prepared {
-            Ok(()) => self.held(workspace, q),
+            Ok(()) => self.factored_strength(workspace, q),
             Err(StepError::Singular { singular, .. })
                 if matches!(singular.at, crate::Pivot::Constraint(_)) =>
             {
@@ -94,7 +94,7 @@ impl<V: Vector> Constraints<V> {
         }
     }
 
-    /// Called after a step failed, with the [strengths](Self::hold) at its beginning, its middle and its end; returns whether such a pose
+    /// Called after a step failed, with the [strengths](Self::strength) at its beginning, its middle and its end; returns whether such a pose
     /// may be the cause, unless that was known before. `at_last` says that no shorter step is possible.
     pub fn notice_fork(&mut self, holds: [f64; 3], at_last: bool) -> bool {
         if self.at_fork {
@@ -107,8 +107,8 @@ impl<V: Vector> Constraints<V> {
             .windows(2)
             .any(|pair| is_in_reach(least, pair[1] - pair[0]));
         self.at_fork = least < NEARLY_DEPENDENT && (at_last || is_in_reach);
-        [self.held, ..] = holds;
-        self.away = 0;
+        [self.strength, ..] = holds;
+        self.steps_away = 0;
         self.at_fork
     }
 
@@ -117,14 +117,14 @@ impl<V: Vector> Constraints<V> {
         if !self.at_fork {
             return;
         }
-        let hold = self.hold(system, t, q);
-        if is_in_reach(hold, hold - self.held) {
-            self.away = 0;
+        let hold = self.strength(system, t, q);
+        if is_in_reach(hold, hold - self.strength) {
+            self.steps_away = 0;
         } else {
-            self.away += 1;
+            self.steps_away += 1;
         }
-        self.held = hold;
-        self.at_fork = hold < NEARLY_DEPENDENT && self.away < STEPS_AWAY;
+        self.strength = hold;
+        self.at_fork = hold < NEARLY_DEPENDENT && self.steps_away < STEPS_AWAY;
     }
 
     /// Accelerations of a state after its projection onto the constraints: the error of a stage would otherwise grow as
@@ -135,7 +135,7 @@ impl<V: Vector> Constraints<V> {
         (t, q, v, u): (f64, &V, &V, &S::Inputs),
         a: &mut V,
     ) -> Result<(), StepError> {
-        if self.hold(system, t, q) < INTERPOLATED_BELOW {
+        if self.strength(system, t, q) < INTERPOLATED_BELOW {
             return self.accelerations_across(system, (t, q, v, u), a);
         }
         let (mut q, mut v) = (q.clone(), v.clone());
@@ -189,13 +189,13 @@ impl<V: Vector> Constraints<V> {
     ) -> Result<(f64, f64), StepError> {
         let rate = self.scales.rate(v);
         // A machine at rest in such a pose may leave it on any branch.
-        while rate > 0.0 && far < BESIDE {
+        while rate > 0.0 && far < SEARCH_DISTANCE {
             let by = direction * far / rate;
             let mut ahead = q.clone();
             for (q, v) in ahead.as_mut_slice().iter_mut().zip(v.as_slice()) {
                 *q += by * v;
             }
-            if self.hold(system, t + by, &ahead) >= 2.0 * INTERPOLATED_BELOW {
+            if self.strength(system, t + by, &ahead) >= 2.0 * INTERPOLATED_BELOW {
                 let mut rates = v.clone();
                 self.project_onto_chosen(system, t + by, &mut ahead, &mut rates)?;
                 self.accelerations_here(system, (t + by, &ahead, &rates, u), a)?;
@@ -216,7 +216,7 @@ impl<V: Vector> Constraints<V> {
         v: &mut V,
     ) -> Result<(), StepError> {
         let mut own = self.clone();
-        own.tight = true;
+        own.reduces_to_roundoff = true;
         let mut low = [q.zeros_like(), v.zeros_like()];
         let [q_low, v_low] = &mut low;
         let place = &mut Place {
@@ -226,10 +226,10 @@ impl<V: Vector> Constraints<V> {
         };
         in_workspace(system, t, place.q[0].as_slice().len(), |workspace| {
             own.prepare(system, workspace, (t, place.q[0]), Level::Positions)?;
-            let [left, _] = own.left(system, workspace, place);
+            let [left, _] = own.residuals(system, workspace, place);
             own.newton(system, workspace, place, Level::Positions, left)?;
             own.prepare(system, workspace, (t, place.q[0]), Level::Rates)?;
-            let [_, left] = own.left(system, workspace, place);
+            let [_, left] = own.residuals(system, workspace, place);
             own.newton(system, workspace, place, Level::Rates, left)
         })
     }
@@ -244,7 +244,7 @@ impl<V: Vector> Constraints<V> {
     ) -> Result<(), StepError> {
         let choice = self
             .choice
-            .made(system, (t, q), Rank::Known, (&self.scales, None))?;
+            .choose(system, (t, q), Rank::Known, (&self.scales, None))?;
         in_workspace(system, t, q.as_slice().len(), |workspace| {
             super::prepare(system, workspace, (t, q), (&choice, None))?;
             let (n, l) = (workspace.n, workspace.metric.as_slice());

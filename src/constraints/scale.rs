@@ -59,9 +59,9 @@ impl<V: Vector> Scales<V> {
         let mut angles = zeros.clone();
         for (j, coordinate) in system.coordinates().enumerate() {
             for (size, of) in sizes.iter_mut().zip([q, v]) {
-                let alike = system.coordinates().zip(of.as_slice());
-                let alike = alike.filter(|(other, _)| other.unit == coordinate.unit);
-                size.as_mut_slice()[j] = alike.fold(0.0, |size, (_, x)| x.abs().max(size));
+                let of_same_unit = system.coordinates().zip(of.as_slice());
+                let of_same_unit = of_same_unit.filter(|(other, _)| other.unit == coordinate.unit);
+                size.as_mut_slice()[j] = of_same_unit.fold(0.0, |size, (_, x)| x.abs().max(size));
             }
             if coordinate.unit == "rad" {
                 let size = &mut sizes[0].as_mut_slice()[j];
@@ -116,8 +116,9 @@ impl<V: Vector> Scales<V> {
     /// that no symmetry of a machine has.
     pub fn displacement(&self, part: u32, q: &mut V) {
         let ratio = 0.618_033_988_749_894_9;
-        let alike = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
-        for (j, (q, (is_angle, size))) in q.as_mut_slice().iter_mut().zip(alike).enumerate() {
+        let of_same_unit = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
+        for (j, (q, (is_angle, size))) in q.as_mut_slice().iter_mut().zip(of_same_unit).enumerate()
+        {
             let turns = ratio * (j as f64 + 1.0) * f64::from(2 * part + 1);
             let within = turns - turns as u64 as f64;
             *q = (if *is_angle > 0.0 { 1.0 } else { *size }) * (0.5 + within);
@@ -127,8 +128,8 @@ impl<V: Vector> Scales<V> {
     /// The largest rate, in sizes of the coordinates per second; the size of an angle is 1 rad however far
     /// it has turned.
     pub fn rate(&self, v: &V) -> f64 {
-        let alike = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
-        let sizes = alike.map(|(is_angle, size)| if *is_angle > 0.0 { 1.0 } else { *size });
+        let of_same_unit = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
+        let sizes = of_same_unit.map(|(is_angle, size)| if *is_angle > 0.0 { 1.0 } else { *size });
         let rates = v.as_slice().iter().zip(sizes);
         let rates = rates.filter(|(_, size)| *size > 0.0);
         rates.map(|(v, size)| v.abs() / size).fold(0.0, f64::max)

@@ -14,8 +14,8 @@ const PASSES: [f64; 7] = [0.3, 0.1, 1e-2, 1e-4, 1e-6, INDEPENDENT, INDEPENDENT];
 /// The distance from the start at which rows are examined, in units of the coordinates' sizes, and the
 /// independence that rows must have there to count as new. A state at this distance from the start
 /// violates the constraints by the square of it, and dependent rows become independent by as much.
-const BESIDE: f64 = 1e-3;
-const NEWS: f64 = 10.0 * BESIDE * BESIDE;
+const PROBE_DISTANCE: f64 = 1e-3;
+const NEWLY_INDEPENDENT: f64 = 10.0 * PROBE_DISTANCE * PROBE_DISTANCE;
 
 /// The number of displacements that are used to find how rows bend.
 const DISPLACEMENTS: u32 = 3;
@@ -32,7 +32,7 @@ impl<V: Vector> Constraints<V> {
         place: &mut Place<'_, V>,
         kept: Option<[V; 2]>,
     ) -> Result<(), StepError> {
-        let given = [place.q[0].clone(), place.v[0].clone()];
+        let state_before = [place.q[0].clone(), place.v[0].clone()];
         self.kept = kept;
         let mut tried = Ok(false);
         for independent in PASSES {
@@ -43,17 +43,17 @@ impl<V: Vector> Constraints<V> {
         }
         tried?;
         // The passes together may have moved farther than a single move with the rows that they found.
-        if *place.q[0] != given[0] || *place.v[0] != given[1] {
-            let found = [place.q[0].clone(), place.v[0].clone()];
-            put(place, &given);
+        if *place.q[0] != state_before[0] || *place.v[0] != state_before[1] {
+            let projected = [place.q[0].clone(), place.v[0].clone()];
+            set_state(place, &state_before);
             if self.pass(system, place, Rank::Known).is_err() {
-                put(place, &found);
+                set_state(place, &projected);
                 self.pass(system, place, Rank::Revealed(INDEPENDENT))?;
             }
         }
         self.kept = None;
         self.choose(system, place.t, place.q[0], Rank::Revealed(INDEPENDENT))?;
-        for (level, given) in given.iter().enumerate() {
+        for (level, given) in state_before.iter().enumerate() {
             let now = [&*place.q[0], &*place.v[0]][level].as_slice();
             let moved = self.moved[level].as_mut_slice().iter_mut();
             for (moved, (now, given)) in moved.zip(now.iter().zip(given.as_slice())) {
@@ -61,7 +61,7 @@ impl<V: Vector> Constraints<V> {
             }
         }
         self.accept(place.q[0], place.v[0]);
-        self.look_beside(system, (place.t, place.q[0], place.v[0]))
+        self.find_branch(system, (place.t, place.q[0], place.v[0]))
     }
 
     /// Checks whether rows are dependent in the pose at the start that are independent next to it. Then
@@ -69,7 +69,7 @@ impl<V: Vector> Constraints<V> {
     ///
     /// # Errors
     /// If the rates are 0: inertia cannot decide then.
-    fn look_beside<S: System<Vector = V>>(
+    fn find_branch<S: System<Vector = V>>(
         &mut self,
         system: &S,
         (t, q, v): (f64, &V, &V),
@@ -82,11 +82,15 @@ impl<V: Vector> Constraints<V> {
         let mut later = t;
         if rate > 0.0 {
             ahead.clone_from(v);
-            later += BESIDE / rate;
+            later += PROBE_DISTANCE / rate;
         } else {
             self.scales.displacement(0, &mut ahead);
         }
-        let by = if rate > 0.0 { BESIDE / rate } else { BESIDE };
+        let by = if rate > 0.0 {
+            PROBE_DISTANCE / rate
+        } else {
+            PROBE_DISTANCE
+        };
         for (ahead, q) in ahead.as_mut_slice().iter_mut().zip(q.as_slice()) {
             *ahead = q + by * *ahead;
         }
@@ -99,18 +103,23 @@ impl<V: Vector> Constraints<V> {
         }
         let by = (&self.scales, None);
         let beside = (later, &ahead);
-        let found = Choice::none(q.zeros_like()).made(system, beside, Rank::Revealed(NEWS), by)?;
-        if found.rank <= self.choice.rank {
+        let choice = Choice::none(q.zeros_like()).choose(
+            system,
+            beside,
+            Rank::Revealed(NEWLY_INDEPENDENT),
+            by,
+        )?;
+        if choice.rank <= self.choice.rank {
             return Ok(());
         }
         if rate == 0.0 {
-            let mut rows = (0..found.rank).map(|j| found.row(j));
+            let mut rows = (0..choice.rank).map(|j| choice.row(j));
             let row = rows.find(|k| !self.choice.has(*k));
             let singular = Singular::constraint(row.unwrap_or_default(), 0.0, 1.0);
             return Err(StepError::Singular { singular, t });
         }
-        self.redundant = found.rank < system.constraints().len();
-        self.choice = found;
+        self.redundant = choice.rank < system.constraints().len();
+        self.choice = choice;
         self.at_fork = true;
         Ok(())
     }
@@ -132,7 +141,7 @@ impl<V: Vector> Constraints<V> {
         for level in [Level::Positions, Level::Rates] {
             let fixed = self.kept.as_ref().map(|kept| &kept[level as usize]);
             let by = (&self.scales, fixed);
-            self.choice = known.made(system, (place.t, place.q[0]), rank, by)?;
+            self.choice = known.choose(system, (place.t, place.q[0]), rank, by)?;
             self.redundant = self.choice.rank < system.constraints().len();
             let approached = in_workspace(system, place.t, n, |workspace| {
                 self.record_curvatures(system, workspace, (place.t, place.q[0]));
@@ -141,14 +150,14 @@ impl<V: Vector> Constraints<V> {
             match approached {
                 Ok(has_moved) => moved |= has_moved,
                 Err(error) => {
-                    put(place, &before);
+                    set_state(place, &before);
                     return Err(error);
                 }
             }
         }
         in_workspace(system, place.t, n, |workspace| {
-            self.left(system, workspace, place);
-            self.check(system, workspace, place)
+            self.residuals(system, workspace, place);
+            self.check_redundant_rows(system, workspace, place)
         })?;
         Ok(moved)
     }
@@ -162,12 +171,12 @@ impl<V: Vector> Constraints<V> {
         (t, q): (f64, &V),
     ) {
         let mut s = q.zeros_like();
-        system.constraint_drift(t, q, &s, workspace.row);
+        system.constraint_bias(t, q, &s, workspace.row);
         for part in 0..DISPLACEMENTS {
             self.scales.displacement(part, &mut s);
-            system.constraint_drift(t, q, &s, workspace.positions);
+            system.constraint_bias(t, q, &s, workspace.positions);
             s.as_mut_slice().iter_mut().for_each(|s| *s = -*s);
-            system.constraint_drift(t, q, &s, workspace.rates);
+            system.constraint_bias(t, q, &s, workspace.rates);
             for k in 0..workspace.m {
                 let even = 0.5 * (workspace.positions[k] + workspace.rates[k]) - workspace.row[k];
                 self.scales.record_curvature(k, 0.5 * even.abs());
@@ -176,7 +185,7 @@ impl<V: Vector> Constraints<V> {
     }
 }
 
-fn put<V: Vector>(place: &mut Place<'_, V>, state: &[V; 2]) {
+fn set_state<V: Vector>(place: &mut Place<'_, V>, state: &[V; 2]) {
     for (of, state) in [&mut place.q, &mut place.v].into_iter().zip(state) {
         of[0].clone_from(state);
         of[1].as_mut_slice().fill(0.0);

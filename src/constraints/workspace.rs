@@ -11,7 +11,7 @@ pub(super) struct Workspace<'r, M> {
     /// `L`, lower triangle, row after row.
     pub metric: M,
     /// Whether it is the factor of `M + Gᵀ W G`, because `M` is singular.
-    pub is_lent: bool,
+    pub is_augmented: bool,
     /// `G`, row after row; while rows are chosen, `yₖ` relative to their lengths.
     pub matrix: &'r mut [f64],
     /// Orthonormal vectors that span the chosen `yₖ`.
@@ -41,12 +41,12 @@ impl<M: Vector> Workspace<'_, M> {
         let n = self.n;
         system.mass_matrix(t, q, &mut self.metric);
         self.fix(fixed);
-        self.is_lent = false;
+        self.is_augmented = false;
         if cholesky(self.metric.as_mut_slice(), self.lengths).is_ok() {
             return Ok(());
         }
         // Some coordinate has no inertia of its own; the constraints may hold it.
-        self.is_lent = true;
+        self.is_augmented = true;
         system.mass_matrix(t, q, &mut self.metric);
         self.fix(fixed);
         let metric = self.metric.as_mut_slice();
@@ -59,10 +59,10 @@ impl<M: Vector> Workspace<'_, M> {
                 *inertia = *entry;
             }
             let greatest = inertias.iter().fold(0.0, |a: f64, b| a.max(*b));
-            let mut found = false;
+            let mut has_added_rows = false;
             for substitute in [Substitute::AlongConstraint, Substitute::Uniform(greatest)] {
                 // Rows that move nothing with inertia come last.
-                if found {
+                if has_added_rows {
                     break;
                 }
                 for (is_weighed, row) in is_weighed.iter_mut().zip(self.matrix.chunks_exact(n)) {
@@ -70,11 +70,11 @@ impl<M: Vector> Workspace<'_, M> {
                         && add_square(metric, row, substitute.weight(row, inertias))
                     {
                         *is_weighed = 1.0;
-                        found = true;
+                        has_added_rows = true;
                     }
                 }
             }
-            if !found {
+            if !has_added_rows {
                 break;
             }
         }
@@ -170,8 +170,8 @@ impl<M: Vector> Workspace<'_, M> {
             *length_of = length(row);
         }
         for (k, row) in self.matrix.chunks_exact_mut(n).enumerate() {
-            let whole = self.positions[k];
-            if whole > 0.0 && !(0..rank).any(|j| chosen(j) == k) {
+            let length = self.positions[k];
+            if length > 0.0 && !(0..rank).any(|j| chosen(j) == k) {
                 for (along, basis) in self
                     .column
                     .iter_mut()
@@ -183,7 +183,7 @@ impl<M: Vector> Workspace<'_, M> {
                 solve_triangle(self.triangle, rank, self.column);
                 row.fill(0.0);
                 for (j, (x, along)) in row.iter_mut().zip(&*self.column).take(rank).enumerate() {
-                    *x = along * self.positions[chosen(j)] / whole;
+                    *x = along * self.positions[chosen(j)] / length;
                 }
             } else {
                 row.fill(0.0);
@@ -263,7 +263,7 @@ pub(super) fn in_workspace<S: System, R>(
             n,
             m,
             metric: S::Matrix::zeros(n * n),
-            is_lent: false,
+            is_augmented: false,
             matrix,
             basis,
             triangle,

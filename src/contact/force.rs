@@ -65,8 +65,9 @@ pub fn penetrations<S: System>(
     }
     let here = ContactKinematics::of(system, t, q, v);
     let contacts = system.unilateral_contacts().enumerate();
-    let rigid = contacts
-        .filter(|(_, contact)| contact.compliance.is_none() && !contact.rolls && !contact.across);
+    let rigid = contacts.filter(|(_, contact)| {
+        contact.compliance.is_none() && !contact.is_rolling_resistance && !contact.is_second_tangent
+    });
     rigid
         .map(|(k, _)| (k, -here.gaps[k]))
         .filter(|&(k, depth)| depth > 0.0 && depth > here.gap_rounding(k))

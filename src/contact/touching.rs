@@ -10,7 +10,7 @@ use super::delassus::{Inertia, matrix};
 use super::lcp;
 use super::problem::{self, ContactUnknowns};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
-use crate::balance::PartOfContact;
+use crate::balance::ContactShare;
 use crate::{Pivot, Singular, StepError, System, Vector};
 use compliant::ComplianceState;
 pub(crate) use held::Held;
@@ -117,7 +117,10 @@ pub(super) fn faces<S: System>(
     system: &S,
     (t, q, v): (f64, &S::Vector, &S::Vector),
 ) -> Vec<Option<OnFace>> {
-    let count = system.unilateral_contacts().filter(|one| one.faced).count();
+    let count = system
+        .unilateral_contacts()
+        .filter(|one| one.has_face)
+        .count();
     if count == 0 {
         return Vec::new();
     }
@@ -133,7 +136,7 @@ pub(super) fn faces<S: System>(
         })
     };
     (system.unilateral_contacts())
-        .map(|contact| if contact.faced { next() } else { None })
+        .map(|contact| if contact.has_face { next() } else { None })
         .collect()
 }
 
@@ -153,7 +156,7 @@ impl ContactKinematics {
         system.gaps(t, q, &mut here.gaps);
         system.contact_rates(t, q, v, &mut here.rates);
         system.contact_matrix(t, q, &mut here.rows);
-        system.contact_drift(t, q, v, &mut here.drifts);
+        system.contact_bias(t, q, v, &mut here.drifts);
         system.contact_coefficients(t, q, v, &mut here.coefficients);
         here
     }
@@ -352,7 +355,7 @@ pub(crate) struct Powers {
     /// What friction takes, and what yields.
     pub lost: f64,
     /// The part of each contact; none where none has one.
-    pub of_each: Vec<PartOfContact>,
+    pub of_each: Vec<ContactShare>,
 }
 
 /// Time, state and inputs.
@@ -366,17 +369,23 @@ pub(crate) type At<'a, S> = (
 impl UnilateralState {
     /// All contacts open.
     pub fn new<S: System>(system: &S) -> UnilateralState {
-        let has_friction: Vec<bool> = system.unilateral_contacts().map(|c| c.rubs).collect();
+        let has_friction: Vec<bool> = system
+            .unilateral_contacts()
+            .map(|c| c.has_friction)
+            .collect();
         let carrier = system.unilateral_contacts().enumerate();
         let carrier = carrier.map(|(k, c)| {
-            if c.rolls || c.across {
+            if c.is_rolling_resistance || c.is_second_tangent {
                 k.checked_sub(1)
             } else {
                 None
             }
         });
         let carrier = carrier.collect();
-        let across = system.unilateral_contacts().map(|c| c.across).collect();
+        let across = system
+            .unilateral_contacts()
+            .map(|c| c.is_second_tangent)
+            .collect();
         let mut bouncing = system.unilateral_contacts();
         let bouncing = bouncing.find(|c| c.compliance.is_none());
         let (law, order) = (bouncing.map(|c| c.law), bouncing.map(|c| c.order));
@@ -1026,7 +1035,7 @@ impl UnilateralState {
         // What the forces do to the coordinates, what they take from both sides of the contacts, and what of that is
         // lost and not stored.
         let (mut on_coordinates, mut taken, mut lost) = (0.0, 0.0, 0.0);
-        let mut of_each = vec![PartOfContact::default(); self.modes.len()];
+        let mut of_each = vec![ContactShare::default(); self.modes.len()];
         let parts = reaction.forces.iter().zip(&mut of_each).enumerate();
         for (k, (force, own)) in parts.filter(|(k, _)| self.modes[*k] != Mode::Open) {
             own.work = here.work_of_walls(k, *force, v.as_slice());

@@ -431,7 +431,7 @@ macro_rules! implement_method {
             &self $(, $x: $crate::implement_part!(argument $x $n $Inputs))*
         ) -> impl ::core::iter::ExactSizeIterator<Item = $crate::emitted::Assumption<'_>> {
             let $p = self;
-            $crate::emitted::facts($value)
+            $crate::emitted::assumptions($value)
         }
     };
 

@@ -29,7 +29,7 @@ pub fn fill_ranges(to: &mut [[f64; 2]], from: &[Interval]) {
 }
 
 /// Assumptions from their texts, whether they are strict, and their margins.
-pub fn facts<'a, const K: usize>(
+pub fn assumptions<'a, const K: usize>(
     facts: [(&'a str, bool, f64); K],
 ) -> impl ExactSizeIterator<Item = Assumption<'a>> {
     let fact = |(text, strict, margin)| Assumption {

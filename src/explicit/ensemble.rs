@@ -208,7 +208,7 @@ impl<const W: usize> Ensemble<W> {
         &self,
         index: usize,
         trajectory: Trajectory<S>,
-    ) -> Result<Begun<S>, StepError> {
+    ) -> Result<PendingTrajectory<S>, StepError> {
         let Trajectory {
             system,
             inputs,
@@ -252,7 +252,7 @@ impl<const W: usize> Ensemble<W> {
         if !by_series {
             track.choose_first_step(&machine);
         }
-        Ok(Begun {
+        Ok(PendingTrajectory {
             index,
             system,
             inputs,
@@ -262,14 +262,14 @@ impl<const W: usize> Ensemble<W> {
 }
 
 /// A trajectory at its start, not yet in a lane.
-struct Begun<S: System> {
+struct PendingTrajectory<S: System> {
     index: usize,
     system: S,
     inputs: S::Inputs,
     track: Track<f64, S::Vector>,
 }
 
-impl<S: System> Begun<S> {
+impl<S: System> PendingTrajectory<S> {
     fn arrival(&self) -> Arrival<S::Coordinates> {
         Arrival {
             end: State {
@@ -295,8 +295,8 @@ impl<S: System> Accelerate<f64, S::Vector> for OneSystem<'_, S> {
         a: &mut S::Vector,
     ) -> Result<(), [Option<Singular>; 1]> {
         let Self(system, inputs) = self;
-        let found = system.accelerations(t, q, v, inputs, a);
-        found.map_err(|singular| [Some(singular)])
+        let result = system.accelerations(t, q, v, inputs, a);
+        result.map_err(|singular| [Some(singular)])
     }
 }
 
@@ -313,8 +313,8 @@ impl<S: Batched<W>, const W: usize> Accelerate<Lanes<W>, S::Vectors> for SystemB
         a: &mut S::Vectors,
     ) -> Result<(), [Option<Singular>; W]> {
         let Self(batch, inputs) = self;
-        let found = batch.accelerations(t, q, v, inputs, a);
-        found.map_err(|some| some.lanes)
+        let result = batch.accelerations(t, q, v, inputs, a);
+        result.map_err(|some| some.lanes)
     }
 }
 
@@ -339,7 +339,7 @@ trait Steps<S: Batched<W>, const W: usize>: Sized {
 }
 
 /// A vector with the same numbers in all lanes.
-fn spread<V: LaneVector<W>, const W: usize>(vector: &V::Vector) -> V {
+fn in_all_lanes<V: LaneVector<W>, const W: usize>(vector: &V::Vector) -> V {
     let mut rows = V::ZEROS;
     for (row, number) in rows.as_mut().iter_mut().zip(vector.as_slice()) {
         *row = Lanes::splat(*number);
@@ -376,10 +376,10 @@ impl<S: Batched<W>, const W: usize> Steps<S, W> for Track<Lanes<W>, S::Vectors> 
             absolute,
         };
         let t = Lanes::splat(first.t());
-        let at = (t, spread(first.q()), spread(first.v()));
+        let at = (t, in_all_lanes(first.q()), in_all_lanes(first.v()));
         let mut track = Track::resting(ensemble.method, tolerance, at);
         track.set_longest_step(ensemble.longest_step);
-        track.k[0] = spread(first.a());
+        track.k[0] = in_all_lanes(first.a());
         track
     }
 
@@ -421,7 +421,7 @@ impl<S: Batched<W>, const W: usize> Steps<S, W> for Track<Lanes<W>, S::Vectors> 
 impl<S: Batched<W>, const W: usize> Steps<S, W> for InSeries<S::Vectors, S::SeriesLists, W> {
     fn resting(ensemble: &Ensemble<W>, first: &Track<f64, S::Vector>) -> Self {
         let t = Lanes::splat(first.t());
-        let now = Point::new(t, spread(first.q()), spread(first.v()));
+        let now = Point::new(t, in_all_lanes(first.q()), in_all_lanes(first.v()));
         let Ensemble {
             tolerance,
             longest_step,
@@ -474,7 +474,7 @@ struct ActiveTrajectories<S: Batched<W>, T, const W: usize> {
 
 impl<S: Batched<W>, T: Steps<S, W>, const W: usize> ActiveTrajectories<S, T, W> {
     /// Lanes that are all at the start of `first`; those into which nothing is put stay there.
-    fn new(ensemble: &Ensemble<W>, first: &Begun<S>) -> Self {
+    fn new(ensemble: &Ensemble<W>, first: &PendingTrajectory<S>) -> Self {
         let inputs: [S::Inputs; W] = core::array::from_fn(|_| first.inputs.clone());
         Self {
             indices: [first.index; W],
@@ -488,8 +488,8 @@ impl<S: Batched<W>, T: Steps<S, W>, const W: usize> ActiveTrajectories<S, T, W> 
     }
 
     /// Puts a trajectory into a lane.
-    fn insert(&mut self, lane: usize, begun: Begun<S>) {
-        let Begun {
+    fn insert(&mut self, lane: usize, begun: PendingTrajectory<S>) {
+        let PendingTrajectory {
             index,
             system,
             inputs,

@@ -54,7 +54,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         let rows = taylor::rows(relative + tolerance);
         Self {
             tolerance: Tolerance { relative, absolute },
-            longest: control::longest(longest),
+            longest: control::longest_step_or_infinity(longest),
             end: now.t,
             ahead: now.clone(),
             now,
@@ -194,7 +194,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
                 }
                 // If the machine does not move, a step is as long as the run.
                 control.step = length.min((end - t).abs()).copysign(end - t);
-                if control.is_too_small(control::least::<f64>(t), left) {
+                if control.is_too_small(control::shortest_step::<f64>(t), left) {
                     lane.is_running = false;
                     *outcome = Outcome::Failed(StepError::StepTooSmall {
                         coordinate: 0,
@@ -225,8 +225,8 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         let at = &self.ahead;
         let t = [at.t, at.t_low];
         let [_, coefficients] = &mut self.coefficients;
-        let found = batch.series(t, &at.q, &at.v, inputs, &mut self.lists, coefficients);
-        if let Err(some) = found {
+        let result = batch.series(t, &at.q, &at.v, inputs, &mut self.lists, coefficients);
+        if let Err(some) = result {
             for (lane, failed) in failed.iter_mut().enumerate() {
                 let t = self.ahead.t[lane];
                 let singular = some.lanes[lane];
@@ -254,13 +254,13 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
                 lane.is_expanded = true;
                 return Outcome::Idle;
             }
-            lane.control.take(h, 0.0, 1.0);
+            lane.control.accept(h, 0.0, 1.0);
             lane.is_running = self.ahead.t[i] != self.end[i];
             return Outcome::Taken;
         };
         // The step may have left the set of states in which the machine can be.
-        let least = control::least::<f64>(self.now.t[i]);
-        if lane.is_expanded && lane.control.give_up(0.1 * h, least) {
+        let least = control::shortest_step::<f64>(self.now.t[i]);
+        if lane.is_expanded && lane.control.reject(0.1 * h, least) {
             return Outcome::GivenUp;
         }
         lane.is_running = false;
@@ -318,7 +318,7 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Advance<'_, V, W> {
         ahead.set_time(now, h, to);
         let h = N::load(h);
         in_blocks!(now.q.as_ref().len(), |start, B| {
-            let [q, v] = taylor::rises::<B, N>(&Rows(coefficients), start, h);
+            let [q, v] = taylor::increments::<B, N>(&Rows(coefficients), start, h);
             for k in 0..B {
                 let i = start + k;
                 let low = N::load(now.v_low.as_ref()[i]);
@@ -367,8 +367,10 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Lengths<'_, V, W> {
             for lane in 0..W {
                 let size = taylor::size_of_rate(q[lane], v[lane]);
                 let over = 1.0 / taylor::bound(size, absolute[lane], tolerance.relative);
-                worst[0][lane] = taylor::worse(worst[0][lane], one[lane], (last - 1) as f64, over);
-                worst[1][lane] = taylor::worse(worst[1][lane], other[lane], last as f64, over);
+                worst[0][lane] =
+                    taylor::larger_ratio(worst[0][lane], one[lane], (last - 1) as f64, over);
+                worst[1][lane] =
+                    taylor::larger_ratio(worst[1][lane], other[lane], last as f64, over);
             }
         }
         let [one, other] = worst;

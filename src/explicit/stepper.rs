@@ -85,8 +85,8 @@ impl<N: Real, S: SystemIn<N>, L: InputLawIn<S, N>> Accelerate<N, S::Vector>
         let Self(system, law) = self;
         let mut inputs = system.default_inputs();
         law.set(system, t, q, v, &mut inputs);
-        let found = system.accelerations(t, q, v, &inputs, a);
-        found.map_err(|singular| N::each(|_| Some(singular)))
+        let result = system.accelerations(t, q, v, &inputs, a);
+        result.map_err(|singular| N::each(|_| Some(singular)))
     }
 }
 

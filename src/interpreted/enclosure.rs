@@ -29,7 +29,7 @@ use lagrangian_scalar::{Dual, Interval, Scalar};
 
 use super::InterpretedMachine;
 use crate::error::NoNumbers;
-use crate::taylor::{bound, length, size_of_rate, worse};
+use crate::taylor::{bound, larger_ratio, length, size_of_rate};
 
 /// Number of coefficients of the accelerations in a step.
 const ORDER: usize = 24;
@@ -47,7 +47,7 @@ const WIDENINGS: usize = 6;
 const WIDENED: f64 = 0.1;
 
 /// The remainder of a step may be this fraction of the width of the set.
-const SHARE: f64 = 1e-3;
+const REMAINDER_SHARE: f64 = 1e-3;
 
 /// A set whose widest number is wider than this is of no use, and steps from it could become arbitrarily short.
 const WIDEST: f64 = 1e3;
@@ -344,7 +344,7 @@ impl Enclosure {
             let over = 1.0 / bound(size, LAST_TERMS, LAST_TERMS);
             for (worst, j) in worst.iter_mut().zip(powers) {
                 let most = row[j].lo().abs().max(row[j].hi().abs());
-                *worst = worse(*worst, most, j as f64, over);
+                *worst = larger_ratio(*worst, most, j as f64, over);
             }
         }
         length(worst, powers)
@@ -359,7 +359,8 @@ impl Enclosure {
         let h = most(step);
         (0..n).all(|i| {
             let size = 1.0 + self.middle[i].abs().max(self.middle[n + i].abs());
-            let allowed = |at: usize| f64::EPSILON * size + SHARE * self.states[at].width();
+            let allowed =
+                |at: usize| f64::EPSILON * size + REMAINDER_SHARE * self.states[at].width();
             let last = most(rest[i][ORDER + 1]) * h.powi(ORDER as i32);
             last * h <= allowed(i) && last * (ORDER + 1) as f64 <= allowed(n + i)
         })
@@ -372,22 +373,22 @@ impl Enclosure {
         let states = self.states.clone();
         let picard = |this: &mut Self, within: &[Interval]| -> Option<Vec<Interval>> {
             let slopes = this.slopes(t, within)?;
-            let moved = states.iter().zip(slopes);
-            let moved: Vec<Interval> = moved.map(|(y, slope)| *y + span * slope).collect();
-            moved.iter().all(|y| y.is_finite()).then_some(moved)
+            let image = states.iter().zip(slopes);
+            let image: Vec<Interval> = image.map(|(y, slope)| *y + span * slope).collect();
+            image.iter().all(|y| y.is_finite()).then_some(image)
         };
         let mut tried = picard(self, &states)?;
         for _ in 0..WIDENINGS {
             let wider: Vec<Interval> = tried.iter().map(|y| widened(*y)).collect();
-            let moved = picard(self, &wider)?;
+            let image = picard(self, &wider)?;
             let is_within = |(inner, outer): (&Interval, &Interval)| {
                 outer.lo() <= inner.lo() && inner.hi() <= outer.hi()
             };
-            if moved.iter().zip(&wider).all(is_within) {
-                return Some(moved);
+            if image.iter().zip(&wider).all(is_within) {
+                return Some(image);
             }
-            let both = tried.iter().zip(&moved);
-            tried = both.map(|(one, other)| hull(*one, *other)).collect();
+            let pairs = tried.iter().zip(&image);
+            tried = pairs.map(|(one, other)| hull(*one, *other)).collect();
         }
         None
     }
@@ -462,8 +463,9 @@ impl Enclosure {
                 let one = ends[i] + moved[i];
                 let other = Interval::from(middle[i]) + by_axes[i];
                 // The motion is in both. The mean value theorem needs the midpoint as well.
-                let both = Interval::new(one.lo().max(other.lo()), one.hi().min(other.hi()));
-                hull(both, Interval::from(middle[i]))
+                let intersection =
+                    Interval::new(one.lo().max(other.lo()), one.hi().min(other.hi()));
+                hull(intersection, Interval::from(middle[i]))
             })
             .collect();
         let all = along.iter().chain(&states);

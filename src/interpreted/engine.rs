@@ -80,11 +80,11 @@ impl MachineCode {
         if !self.pays_in_lanes() {
             return None;
         }
-        let made = self.of_lanes.get_or_init(|| {
-            let made = lagrangian_jit::Library::for_lanes(program.clone(), lanes, false);
-            made.ok().map(Arc::new)
+        let library = self.of_lanes.get_or_init(|| {
+            let library = lagrangian_jit::Library::for_lanes(program.clone(), lanes, false);
+            library.ok().map(Arc::new)
         });
-        made.clone()
+        library.clone()
     }
 
     /// Prepares the code with the parameters of an interpreter.

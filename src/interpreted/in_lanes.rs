@@ -11,7 +11,7 @@ use super::{InterpretedMachine, InterpretedSystem, Named, RunTask};
 use crate::run::Prepared;
 use crate::run::in_lanes::{Machines, run_all};
 use crate::run::run;
-use crate::settings::Of;
+use crate::settings::Subject;
 use crate::solution::RunResult;
 use crate::stepper::in_lanes::{Evaluate, LaneMask, WIDTH, Wide};
 
@@ -37,14 +37,14 @@ fn is_zero(function: &Function) -> bool {
 }
 
 /// Makes all these runs, in lanes if the machine of the first has code for that.
-pub(super) fn made(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
-    let first = tasks.first().map(|(task, _)| &task.of);
+pub(super) fn run_tasks(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
+    let first = tasks.first().map(|(task, _)| &task.subject);
     let machine = match first {
-        Some(Of::Machine(machine)) if machine.may_run_in_lanes() => *machine,
-        _ => return alone(tasks),
+        Some(Subject::Machine(machine)) if machine.may_run_in_lanes() => *machine,
+        _ => return run_one_by_one(tasks),
     };
     let Some(library) = machine.machine_code.of_lanes(&machine.program, WIDTH) else {
-        return alone(tasks);
+        return run_one_by_one(tasks);
     };
     let has = |role| {
         let function = machine.program.function(role);
@@ -58,26 +58,27 @@ pub(super) fn made(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMach
         has_powers: [Role::WorkRate, Role::DissipationRate].map(has),
     };
     let mut all = Vec::new();
-    let mut made: Vec<Option<RunResult<InterpretedMachine>>> = Vec::new();
+    let mut results: Vec<Option<RunResult<InterpretedMachine>>> = Vec::new();
     for (task, start) in tasks {
         match Prepared::new(task, start) {
             Ok(prepared) => {
                 all.push(prepared);
-                made.push(None);
+                results.push(None);
             }
-            Err(error) => made.push(Some(Err(error))),
+            Err(error) => results.push(Some(Err(error))),
         }
     }
     let ended = run_all(&mut all, &mut machines);
     let solutions = all.into_iter().zip(ended);
     let mut solutions =
         solutions.map(|(prepared, ended)| ended.map(|finished| prepared.solution(finished)));
-    let made = made.into_iter();
-    made.filter_map(|made| made.or_else(|| solutions.next()))
+    let results = results.into_iter();
+    results
+        .filter_map(|made| made.or_else(|| solutions.next()))
         .collect()
 }
 
-fn alone(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
+fn run_one_by_one(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
     let tasks = tasks.into_iter();
     tasks.map(|(task, start)| run(task, start)).collect()
 }
@@ -114,9 +115,9 @@ impl InLanes {
         let u = &self.inputs;
         let arguments = SeveralArguments { t, q, v, u, a };
         let several = self.several.as_mut();
-        let held = several.and_then(|several| several.call(role, arguments, results));
+        let mask = several.and_then(|several| several.call(role, arguments, results));
         // Without code every lane is run alone.
-        held.unwrap_or(0)
+        mask.unwrap_or(0)
     }
 }
 
@@ -127,13 +128,13 @@ impl Evaluate for InLanes {
 
     fn powers(&mut self, at: (Wide, &[Wide], &[Wide]), a: &[Wide]) -> ([Wide; 2], LaneMask) {
         let mut powers = [Lanes::splat(0.0); 2];
-        let mut held = !0;
+        let mut mask = !0;
         let roles = [(Role::WorkRate, a), (Role::DissipationRate, &[])];
         for (k, (role, a)) in roles.into_iter().enumerate() {
             if self.has_powers[k] {
-                held &= self.call(role, at, a, &mut powers[k..=k]);
+                mask &= self.call(role, at, a, &mut powers[k..=k]);
             }
         }
-        (powers, held)
+        (powers, mask)
     }
 }

@@ -6,7 +6,7 @@ use std::vec::Vec;
 use lagrangian_program::{Arguments, Interpreter, Program, Role};
 use lagrangian_scalar::Scalar;
 
-use super::{InterpretedMachine, Names, quantities, where_it_stopped};
+use super::{InterpretedMachine, Names, quantities, singular_row};
 use crate::error::NoNumbers;
 use crate::shared_workspace::SharedWorkspace;
 use crate::{Quantity, Real, Singular, SystemIn};
@@ -85,7 +85,7 @@ impl<N: Real + Scalar<Stored = N>> SystemIn<N> for InterpretedSystemIn<N> {
     ) -> Result<(), Singular> {
         let arguments = Arguments { t, q, v, u, a: &[] };
         let called = (self.interpreter.lock()).call(Role::Accelerations, arguments, a);
-        called.map_err(|singular| where_it_stopped(&self.program, singular))
+        called.map_err(|singular| singular_row(&self.program, singular))
     }
 
     fn default_inputs(&self) -> Vec<N> {

@@ -6,13 +6,15 @@ use std::vec::Vec;
 
 use lagrangian_program::series::Expander;
 
-use super::{InterpretedMachine, InterpretedSystem, where_it_stopped};
-use crate::control::{MAX_STEPS, Work, check_count, least};
+use super::{InterpretedMachine, InterpretedSystem, singular_row};
+use crate::control::{MAX_STEPS, Work, check_count, shortest_step};
 use crate::error::NoNumbers;
 use crate::math::rough_log2;
 use crate::roots;
 use crate::step_error::StepError;
-use crate::taylor::{bound, is_slow, length, length_in_slow_motion, size_of_rate, state, worse};
+use crate::taylor::{
+    bound, is_slow, larger_ratio, length, length_in_slow_motion, size_of_rate, state,
+};
 use crate::{Error, Machine, Real, System};
 
 /// The smallest and the largest order of steps.
@@ -178,7 +180,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
     pub fn step(&mut self, end: N) -> Result<(), Error> {
         let (h, is_last) = self.choose(end).map_err(|error| self.to_error(error))?;
         let t = self.t.to_f64();
-        for theta in self.looks(h)? {
+        for theta in self.isolating_fractions(h)? {
             let tau = N::from_f64(theta) * h;
             let (q, v) = state(&self.coefficients, tau);
             let mut numbers = q.iter().zip(&v);
@@ -201,7 +203,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
 
     /// The fractions of a step of length `h` at which to evaluate the assumptions of the description, in order and ending at 1: between
     /// neighbours none of them fails and holds again.
-    fn looks(&self, h: N) -> Result<Vec<f64>, Error> {
+    fn isolating_fractions(&self, h: N) -> Result<Vec<f64>, Error> {
         let inputs = self.system.default_inputs();
         let margin = |theta: f64, index: usize| {
             let tau = N::from_f64(theta) * h;
@@ -213,7 +215,9 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         };
         let mut looks = vec![1.0];
         for index in 0..self.system.program.assumptions.len() {
-            looks.extend(roots::looks(|theta| Ok(margin(theta, index)))?);
+            looks.extend(roots::isolating_fractions(|theta| {
+                Ok(margin(theta, index))
+            })?);
         }
         looks.sort_by(f64::total_cmp);
         looks.dedup();
@@ -240,7 +244,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         let expanded =
             (self.expander).expand::<N>([self.t, N::ZERO], &self.q, &self.v, &self.inputs);
         expanded.map_err(|singular| StepError::Singular {
-            singular: where_it_stopped(&self.system.program, singular),
+            singular: singular_row(&self.system.program, singular),
             t: at,
         })?;
         for i in 0..self.q.len() {
@@ -257,7 +261,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         } else {
             N::from_f64(length.copysign(left))
         };
-        if h.to_f64().abs() <= least::<N>(at).min(0.9 * left.abs()) {
+        if h.to_f64().abs() <= shortest_step::<N>(at).min(0.9 * left.abs()) {
             return Err(StepError::StepTooSmall {
                 coordinate: 0,
                 t: at,
@@ -281,7 +285,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
                     let t = self.t.to_f64();
                     return Err(StepError::NotFinite { coordinate: i, t });
                 }
-                *worst = worse(*worst, c, j as f64, over);
+                *worst = larger_ratio(*worst, c, j as f64, over);
             }
         }
         let by_rates = length(worst, powers);

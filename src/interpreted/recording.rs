@@ -169,7 +169,7 @@ impl Recording {
         let has_books = !run.contact_energies().is_empty();
         for contact in system.unilateral_contacts() {
             let name = contact.name;
-            let [friction, slip] = if contact.rolls {
+            let [friction, slip] = if contact.is_rolling_resistance {
                 ["N*m", "rad/s"]
             } else {
                 ["N", "m/s"]
@@ -207,7 +207,7 @@ impl Recording {
             let books = run.contact_energies_at(state.t);
             let lost = |k: usize| (books.as_ref()).map_or(f64::NAN, |of_each| of_each[k].lost());
             // If a run ends early there may be no accelerations, and then nothing that is computed from them.
-            let (seen, inputs, reactions, energies) = match run.observe_state(state) {
+            let (observation, inputs, reactions, energies) = match run.observe_state(state) {
                 Ok(seen) => {
                     let (kinetic, potential) = (seen.kinetic_energy, seen.potential_energy);
                     let energies = [kinetic, potential, kinetic + potential];
@@ -238,7 +238,7 @@ impl Recording {
             let places = places.map(|(place, _)| place);
             let moving = places.chain(&state.v.values).copied();
             let residual = residual_at(run.energies(), state.t);
-            let outputs = seen.into_iter().zip(&shown);
+            let outputs = observation.into_iter().zip(&shown);
             let outputs = outputs.filter(|(_, is_shown)| **is_shown);
             let outputs = outputs.map(|(value, _)| value);
             let inputs = inputs.into_iter().filter(|_| is_driven);

@@ -38,7 +38,7 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
         self,
         start: Start<InterpretedMachine>,
     ) -> Result<(Solution<InterpretedMachine, L>, Option<Error>), Error> {
-        self.run_by(start, made)
+        self.run_by(start, run_task)
     }
 }
 
@@ -90,10 +90,10 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
     ) -> Vec<RunAsFar<L>> {
         let (mut laws, mut rest) = (Vec::new(), Vec::new());
         for (simulation, start) in simulations {
-            let (of, settings) = (simulation.of, simulation.settings);
+            let (subject, settings) = (simulation.subject, simulation.settings);
             laws.push(simulation.law);
             rest.push((
-                of,
+                subject,
                 settings,
                 simulation.callbacks,
                 simulation.resumed,
@@ -101,10 +101,10 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
             ));
         }
         let tasks = rest.into_iter().zip(&laws).map(|(rest, law)| {
-            let (of, settings, callbacks, resumed, start) = rest;
+            let (subject, settings, callbacks, resumed, start) = rest;
             let law = Law::of(law);
             let task = Task {
-                of,
+                subject,
                 law,
                 settings,
                 callbacks,
@@ -112,11 +112,11 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
             };
             (task, start)
         });
-        let made = run_in_lanes(tasks.collect());
+        let results = run_in_lanes(tasks.collect());
         let with_law = |(made, law): (RunResult<InterpretedMachine>, L)| {
             made.map(|(solution, error)| (solution.with_law(law), error))
         };
-        made.into_iter().zip(laws).map(with_law).collect()
+        results.into_iter().zip(laws).map(with_law).collect()
     }
 }
 
@@ -143,7 +143,7 @@ fn complete<S>((solution, error): (S, Option<Error>)) -> Result<S, Error> {
     }
 }
 
-fn made(
+fn run_task(
     task: Task<'_, InterpretedMachine, Law<'_, InterpretedSystem>>,
     start: Start<InterpretedMachine>,
 ) -> RunResult<InterpretedMachine> {
@@ -152,13 +152,13 @@ fn made(
 
 #[cfg(feature = "jit")]
 fn run_in_lanes(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
-    super::in_lanes::made(tasks)
+    super::in_lanes::run_tasks(tasks)
 }
 
 #[cfg(not(feature = "jit"))]
 fn run_in_lanes(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
     let tasks = tasks.into_iter();
-    tasks.map(|(task, start)| made(task, start)).collect()
+    tasks.map(|(task, start)| run_task(task, start)).collect()
 }
 
 fn run_with_derivatives<'m>(

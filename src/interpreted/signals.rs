@@ -158,7 +158,7 @@ impl Signals {
         let name = |input: usize| machine.names.inputs[input].name.clone();
         let known = self.rules.iter().chain(self.sampled_rules());
         let mut taken: Vec<usize> = known.map(|rule| rule.input).collect();
-        let mut open: Vec<(Rule, Reads)> = Vec::new();
+        let mut open: Vec<(Rule, Dependences)> = Vec::new();
         for (input, signal) in driven {
             if input >= machine.names.inputs.len() {
                 return Err(SignalError::NoSuch(input));
@@ -167,7 +167,7 @@ impl Signals {
                 return Err(SignalError::Twice(name(input)));
             }
             taken.push(input);
-            let reads = Reads::of(program, &signal)?;
+            let reads = Dependences::of(program, &signal)?;
             if reads.accelerations {
                 return Err(SignalError::Accelerations(name(input)));
             }
@@ -189,7 +189,7 @@ impl Signals {
         }
         let mut rules: Vec<Rule> = self.rules.to_vec();
         while !open.is_empty() {
-            let waits = |reads: &Reads| {
+            let waits = |reads: &Dependences| {
                 let mut others = open.iter();
                 others.any(|(other, _)| reads.inputs.contains(&other.input))
             };
@@ -262,11 +262,11 @@ impl Signals {
         let [period, delay] = [sampled.period, sampled.delay];
         simulation.sampled_with_delay(period, delay, move |state, inputs: &mut Named| {
             let (t, q, v) = (state.t, &state.q.values, &state.v.values);
-            let mut seen = inputs.clone();
-            law.set(&system, t, q, v, &mut seen);
+            let mut set_inputs = inputs.clone();
+            law.set(&system, t, q, v, &mut set_inputs);
             for rule in &*sampled.rules {
                 inputs.values[rule.input] =
-                    value(rule, Piece::ALL, &system, (t, q, v), &seen.values);
+                    value(rule, Piece::ALL, &system, (t, q, v), &set_inputs.values);
             }
         })
     }
@@ -288,16 +288,16 @@ fn value(
 }
 
 /// The dependences of a signal.
-struct Reads {
+struct Dependences {
     inputs: Vec<usize>,
     accelerations: bool,
     /// Whether it depends on nothing that changes within a piece of time, except possibly on inputs.
     is_constant: bool,
 }
 
-impl Reads {
-    fn of(program: &Program, signal: &Signal) -> Result<Reads, SignalError> {
-        let mut reads = Reads {
+impl Dependences {
+    fn of(program: &Program, signal: &Signal) -> Result<Dependences, SignalError> {
+        let mut reads = Dependences {
             inputs: Vec::new(),
             accelerations: false,
             is_constant: true,
@@ -324,26 +324,26 @@ impl Reads {
 }
 
 /// The inputs that form a cycle, in the order in which each reads the next.
-fn names_of_circle(open: &[(Rule, Reads)], name: impl Fn(usize) -> String) -> Vec<String> {
+fn names_of_circle(open: &[(Rule, Dependences)], name: impl Fn(usize) -> String) -> Vec<String> {
     let next = |at: usize| {
         let reads = &open[at].1.inputs;
         open.iter()
             .position(|(other, _)| reads.contains(&other.input))
     };
     // Every open rule reads an input of another open rule, so following them from any one ends in a cycle.
-    let mut way: Vec<usize> = Vec::new();
+    let mut path: Vec<usize> = Vec::new();
     let mut at = 0;
     loop {
-        if let Some(since) = way.iter().position(|known| *known == at) {
-            return way[since..]
+        if let Some(since) = path.iter().position(|known| *known == at) {
+            return path[since..]
                 .iter()
                 .map(|at| name(open[*at].0.input))
                 .collect();
         }
-        way.push(at);
+        path.push(at);
         match next(at) {
             Some(found) => at = found,
-            None => return way.iter().map(|at| name(open[*at].0.input)).collect(),
+            None => return path.iter().map(|at| name(open[*at].0.input)).collect(),
         }
     }
 }

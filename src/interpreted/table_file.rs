@@ -69,7 +69,7 @@ impl Display for TableFileError {
 impl core::error::Error for TableFileError {}
 
 /// The largest number of columns that a message lists.
-const SHOWN: usize = 12;
+const MOST_LISTED: usize = 12;
 
 impl TableFile {
     /// Reads comma-separated text, or text with semicolons, with a point as decimal mark. Lines may be empty; a `#`
@@ -270,8 +270,12 @@ impl TableFile {
             let help = match most_similar(name, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => {
-                    let shown: Vec<&str> = names().take(SHOWN).collect();
-                    let more = if names().count() > SHOWN { ", …" } else { "" };
+                    let shown: Vec<&str> = names().take(MOST_LISTED).collect();
+                    let more = if names().count() > MOST_LISTED {
+                        ", …"
+                    } else {
+                        ""
+                    };
                     format!("there are: {}{more}", shown.join(", "))
                 }
             };

@@ -100,7 +100,7 @@ impl Choosing {
 }
 
 /// The finest tolerance of any coordinate, at size 1.
-fn sharpest<V: Vector>(tolerance: &Tolerance<V>) -> f64 {
+fn finest_tolerance<V: Vector>(tolerance: &Tolerance<V>) -> f64 {
     let absolute = tolerance.absolute.as_slice().iter();
     tolerance.relative + absolute.fold(f64::INFINITY, |least, x| least.min(*x))
 }
@@ -131,7 +131,7 @@ pub(super) fn first<S: System>(
     let Some(costs) = costs else {
         return explicit;
     };
-    let tolerance = sharpest(tolerance);
+    let tolerance = finest_tolerance(tolerance);
     let cost = costs[usize::from(tolerance <= taylor::FINE)];
     let saved = EVALUATIONS * steps_for_one(tolerance);
     if cost < saved {
@@ -208,14 +208,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// The fastest rate, if it makes steps by series unstable.
     fn rate_beyond_series(&mut self) -> Option<f64> {
         let length = self.stepper.length_in_series()?;
-        let is_fine = sharpest(self.stepper.tolerance()) <= taylor::FINE;
+        let is_fine = finest_tolerance(self.stepper.tolerance()) <= taylor::FINE;
         let rate = self.stepper.fastest_rate()?;
         let is_beyond = length * rate > REACH_OF_SERIES[usize::from(is_fine)];
         (is_beyond && length.is_finite()).then_some(rate)
     }
 
     fn go_on_implicitly(&mut self, rate: f64) -> Result<(), Error> {
-        let method = implicit(sharpest(self.stepper.tolerance()));
+        let method = implicit(finest_tolerance(self.stepper.tolerance()));
         self.begin_window();
         self.choosing.paying = 0;
         self.go_on_by(method, MethodReason::Stiff { rate })

@@ -95,7 +95,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Err(self.model.explain(error, q, v));
         }
         self.record.unilateral.losses = vec![0.0; touching.modes().len()];
-        if self.settings.method.is_by_impulses() {
+        if self.settings.method.is_time_stepping() {
             return self.begin_stepping(&touching);
         }
         let step = self.settings.first_step.unwrap_or(0.0);
@@ -202,7 +202,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         step: f64,
         at_start: bool,
     ) -> Result<(), Error> {
-        let before = (self.settings.hands_over).then(|| self.stepper.standing());
+        let before = (self.settings.hands_over).then(|| self.stepper.snapshot());
         let stored_before = at_start.then(|| self.stored_now());
         self.forget_values();
         let met = (self.stepper).resolve_contacts(cause, at_start, self.stop, step);
@@ -211,7 +211,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             Err(error) => {
                 let (q, v) = (self.stepper.q().clone(), self.stepper.v().clone());
                 if let Some(before) = before {
-                    self.stepper.bring_back(before);
+                    self.stepper.restore(before);
                     if self.hand_over_unsettled(&error)? {
                         return Ok(());
                     }
@@ -246,7 +246,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             if let Some(steps) = &mut self.record.steps {
                 steps.jump(&self.stepper);
             }
-            self.enter_energies();
+            self.record_energies();
         }
         self.report_changes(&changes_at_instant, at_start);
         // At the start it is only known now what the contacts that touch there take.
@@ -591,7 +591,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let corners: Vec<usize> = system
             .unilateral_contacts()
             .enumerate()
-            .filter(|(k, contact)| contact.faced && touching.modes()[*k] == Mode::Open)
+            .filter(|(k, contact)| contact.has_face && touching.modes()[*k] == Mode::Open)
             .map(|(k, _)| k)
             .collect();
         let mut falls = vec![0.0_f64; touching.modes().len()];

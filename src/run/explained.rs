@@ -16,18 +16,18 @@ const ROUNDINGS: f64 = 16.0;
 
 /// Contributions so far.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Explained {
+pub(crate) struct ExplainedResidual {
     steps: usize,
     /// The sum over all steps, in J.
     by_tolerance: f64,
     /// Round-off of the potential energy by rounding of coordinates, and the largest energies, in J.
     by_rounding: f64,
-    greatest: f64,
+    greatest_energy: f64,
     /// `√Mᵢᵢ`, from the last step whose number was a power of two.
     inertia: Vec<f64>,
 }
 
-impl Explained {
+impl ExplainedResidual {
     /// Adds the contribution of the last step, given the energies at its end. Returns the part of the residual of this step that
     /// tolerance and rounding explain, in J.
     pub fn take<S: System, L: InputLaw<S>, A: Quadratures<S>>(
@@ -41,7 +41,7 @@ impl Explained {
         let n = q.as_slice().len();
         self.steps += 1;
         let of_states = system.state_energy(t, q, v).abs();
-        self.greatest = (self.greatest)
+        self.greatest_energy = (self.greatest_energy)
             .max(energies.kinetic.abs() + energies.potential.abs() + of_states)
             .max(energies.work.abs() + energies.dissipated.abs());
         if self.steps.is_power_of_two() {
@@ -89,7 +89,7 @@ impl Explained {
         }
         let of_step = sqrt((2 * n) as f64) * change;
         self.by_tolerance += of_step;
-        MARGIN * of_step + ROUNDINGS * (f64::EPSILON * self.greatest + self.by_rounding)
+        MARGIN * of_step + ROUNDINGS * (f64::EPSILON * self.greatest_energy + self.by_rounding)
     }
 
     /// Updates the quantities that take many evaluations.
@@ -129,8 +129,8 @@ impl Explained {
     }
 
     /// The total, in J. `turned_over` is the energy that was turned over.
-    pub fn in_all(&self, turned_over: f64) -> f64 {
-        let each = f64::EPSILON * (self.greatest + turned_over) + self.by_rounding;
+    pub fn total(&self, turned_over: f64) -> f64 {
+        let each = f64::EPSILON * (self.greatest_energy + turned_over) + self.by_rounding;
         MARGIN * self.by_tolerance + ROUNDINGS * sqrt(self.steps as f64) * each
     }
 }

@@ -19,16 +19,16 @@ use crate::{ContactTrouble, Error, Machine, StepError, System};
 const WINDOW: usize = 128;
 
 /// Bounces of fewer contacts than this accumulate in geometric series, whose end is found otherwise.
-const FEWEST: usize = 3;
+const FEWEST_CONTACTS: usize = 3;
 
 /// The length of a step, as a fraction of the time in which the largest recent forces would stop the fastest closing gap.
-const PART: f64 = 1.0 / 256.0;
+const STEP_FRACTION: f64 = 1.0 / 256.0;
 
 /// Number of steps without a change of contacts after which every event is located again; it doubles each time that this did not last.
-const QUIET: usize = 64;
+const QUIET_STEPS: usize = 64;
 
 /// The machine is at rest if its kinetic energy is at most this fraction of the largest at the ends of steps of time stepping.
-const REST: f64 = 1e-20;
+const REST_ENERGY: f64 = 1e-20;
 
 /// How frequently contacts change, and how long they have been quiet.
 #[derive(Debug)]
@@ -57,14 +57,14 @@ impl ContactActivity {
     /// For a machine with this number of contacts.
     pub fn new(is_free: bool, contacts: usize) -> Self {
         Self {
-            is_free: is_free && contacts >= FEWEST,
+            is_free: is_free && contacts >= FEWEST_CONTACTS,
             times: VecDeque::new(),
             closing_accelerations: VecDeque::new(),
             is_same_instant: false,
             count: 0,
             last: vec![0; contacts],
             quiet: 0,
-            needed: QUIET,
+            needed: QUIET_STEPS,
             step: 0.0,
             kinetic: 0.0,
         }
@@ -120,7 +120,7 @@ impl ContactActivity {
     fn window(&self) -> Option<f64> {
         let (first, last) = (self.times.front()?, self.times.back()?);
         let since = self.count.saturating_sub(WINDOW);
-        let several = self.last.iter().filter(|last| **last > since).count() >= FEWEST;
+        let several = self.last.iter().filter(|last| **last > since).count() >= FEWEST_CONTACTS;
         (self.times.len() == WINDOW && several).then_some(last - first)
     }
 }
@@ -149,7 +149,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         };
         let closed = self.stepper.touching().iter();
         let closed = closed.flat_map(|touching| touching.modes());
-        let several = closed.filter(|mode| **mode != Mode::Open).count() >= FEWEST;
+        let several = closed.filter(|mode| **mode != Mode::Open).count() >= FEWEST_CONTACTS;
         match trouble {
             ContactTrouble::Unsettled => {}
             // With several contacts the cause may be one of them or the problem that they form together.
@@ -164,14 +164,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if let Some(steps) = &mut self.record.steps {
             steps.jump(&self.stepper);
         }
-        self.enter_energies();
+        self.record_energies();
         self.hand_over(step, None)
     }
 
     /// The length of steps of time stepping.
     fn length_of_steps(&mut self) -> f64 {
         let t = self.stepper.t();
-        let [speed, closing_acceleration] = self.stepper.closing();
+        let [speed, closing_acceleration] = self.stepper.closing_rate_and_acceleration();
         self.activity
             .record_closing_acceleration(closing_acceleration);
         let greatest = self
@@ -183,7 +183,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let scale = Some(speed / greatest).filter(|scale| *scale > 0.0 && scale.is_finite());
         // Without forces that close gaps the only known time scale is the duration of the run so far.
         let scale = scale.unwrap_or(t - self.start).min(self.until - self.start);
-        (PART * scale).min(self.settings.longest_step)
+        (STEP_FRACTION * scale).min(self.settings.longest_step)
     }
 
     fn hand_over(&mut self, step: f64, crowd: Option<(usize, f64)>) -> Result<bool, Error> {
@@ -231,13 +231,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Undoes the last step of time stepping if it was long, because everything was at rest, but ends in motion.
     pub(super) fn undo_step_into_motion(&mut self) -> bool {
-        if self.settings.method.is_by_impulses() || self.stepper.last_step() <= self.activity.step {
+        if self.settings.method.is_time_stepping() || self.stepper.last_step() <= self.activity.step
+        {
             return false;
         }
         let before = self.stepper.stepped();
         let modes = self.stepper.touching().as_ref().map(|now| now.modes());
         let changes = before.map(|(_, before)| before.modes()) != modes;
-        if !changes && self.kinetic_energy_now() <= REST * self.activity.kinetic {
+        if !changes && self.kinetic_energy_now() <= REST_ENERGY * self.activity.kinetic {
             return false;
         }
         self.stepper.retreat(self.stop);
@@ -249,12 +250,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// Continues after a step of time stepping: with longer steps if everything has come to rest, or by locating every event again if
     /// contacts have been quiet for long enough.
     pub(super) fn go_on_after_step(&mut self) -> Result<(), Error> {
-        if self.settings.method.is_by_impulses() || self.stepper.is_done() {
+        if self.settings.method.is_time_stepping() || self.stepper.is_done() {
             return Ok(());
         }
         let kinetic = self.kinetic_energy_now();
         self.activity.kinetic = self.activity.kinetic.max(kinetic);
-        if self.activity.quiet >= QUIET && kinetic <= REST * self.activity.kinetic {
+        if self.activity.quiet >= QUIET_STEPS && kinetic <= REST_ENERGY * self.activity.kinetic {
             let longer = 2.0 * self.stepper.last_step();
             let longest = longer.clamp(self.activity.step, self.settings.longest_step);
             self.stepper.set_longest_step(longest);
@@ -271,7 +272,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let (method, longest) = (self.settings.method, self.settings.longest_step);
         let step = self.stepper.last_step();
         self.activity.needed *= 2;
-        if !self.stepper.forces_are_the_only_ones() {
+        if !self.stepper.contact_forces_are_unique() {
             return Ok(());
         }
         let Ok(changes_at_instant) =
@@ -283,7 +284,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if let Some(steps) = &mut self.record.steps {
             steps.jump(&self.stepper);
         }
-        self.enter_energies();
+        self.record_energies();
         if changes_at_instant.impacts.is_empty() && changes_at_instant.ended.is_empty() {
             let closed = changes_at_instant.after.iter().enumerate();
             let closed: Vec<usize> = closed

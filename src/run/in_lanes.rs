@@ -12,7 +12,7 @@ use crate::stepper::in_lanes::{Evaluate, LaneMask, Tries, Try, WIDTH};
 use crate::{Error, Inputs, Machine};
 
 /// Fewer runs than this are made one after the other, which is faster than in lanes of which most are idle.
-const FEWEST: u32 = 3;
+const FEWEST_RUNS: u32 = 3;
 
 /// The machines of all lanes.
 pub(crate) trait Machines<M: Machine>: Evaluate {
@@ -60,7 +60,8 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
                 let steps = &run.stepper;
                 let goes = is_plain && steps.may_run_in_lanes() && {
                     let tries = tries.get_or_insert_with(|| Tries::new(steps));
-                    tries.goes_with(steps) && machines.put(number, run.model.system, steps.inputs())
+                    tries.is_compatible_with(steps)
+                        && machines.put(number, run.model.system, steps.inputs())
                 };
                 if !goes {
                     let ending = run.go_to_end();
@@ -93,7 +94,7 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
                 together |= 1 << number;
             }
         }
-        if together.count_ones() < FEWEST {
+        if together.count_ones() < FEWEST_RUNS {
             tries.skip()
         } else {
             tries.attempt(together, machines)
@@ -130,7 +131,7 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
                     return None;
                 }
                 Err(error) => {
-                    if let Some(ending) = self.look(Err(error)) {
+                    if let Some(ending) = self.observe_step(Err(error)) {
                         return Some(ending);
                     }
                 }
@@ -151,10 +152,10 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
                 Err(error) => Err(error),
             },
         };
-        self.look(stepped).or_else(|| self.begin_step())
+        self.observe_step(stepped).or_else(|| self.begin_step())
     }
 
-    fn look(&mut self, stepped: Result<(), StepError>) -> Option<End> {
+    fn observe_step(&mut self, stepped: Result<(), StepError>) -> Option<End> {
         let looked = self.run.examine_step(&mut self.between, stepped);
         looked.transpose()
     }

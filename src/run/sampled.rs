@@ -128,8 +128,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             law.piece = piece;
         }
         if let Some(held) = held {
-            law.held = Some(held.clone());
-            self.record.held.push((t, held));
+            law.sampled = Some(held.clone());
+            self.record.sampled_inputs.push((t, held));
         }
         let law = law.clone();
         if let Err(error) = self.stepper.jump_inputs(law) {
@@ -139,7 +139,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let at_start = self.stepper.work().steps == 0;
         if <M::System as System>::MAY_COLLIDE
             && self.stepper.touching().is_some()
-            && !self.stepper.is_by_impulses()
+            && !self.stepper.is_time_stepping()
         {
             let step = self.stepper.next_step();
             self.resolve_contacts_now(Cause::Unspecified, step, at_start)?;
@@ -147,7 +147,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             if let Some(steps) = &mut self.record.steps {
                 steps.jump(&self.stepper);
             }
-            self.enter_energies();
+            self.record_energies();
         }
         if <M::System as System>::MAY_SLIDE && before.is_some() {
             self.record_contacts(before);

@@ -18,7 +18,7 @@ pub(crate) struct Steps<V> {
     /// beginning; after the last step, the same three at its end.
     vectors: Vec<V>,
     /// The stages whose accelerations are kept; the first is the beginning.
-    kept: Vec<usize>,
+    stored_stages: Vec<usize>,
     /// The methods of the steps, each with the index of its first step.
     methods: Vec<(usize, &'static Method)>,
     /// The coefficients of steps by series and by impulses, `of_step` vectors for each.
@@ -33,11 +33,12 @@ impl<V: Vector> Steps<V> {
     /// Memory for the steps of a run that begins with `method` and may change to `others`.
     pub fn new(method: &'static Method, others: &[&'static Method]) -> Self {
         let methods = || others.iter().copied().chain([method]);
-        let is_kept = |stage: &usize| *stage == 0 || methods().any(|method| keeps(method, *stage));
+        let is_kept =
+            |stage: &usize| *stage == 0 || methods().any(|method| stores_stage(method, *stage));
         Self {
             times: Vec::new(),
             vectors: Vec::new(),
-            kept: (0..MAX_STAGES).filter(is_kept).collect(),
+            stored_stages: (0..MAX_STAGES).filter(is_kept).collect(),
             methods: [(0, method)].into(),
             coefficients: Vec::new(),
             of_step: 0,
@@ -70,7 +71,7 @@ impl<V: Vector> Steps<V> {
         }
         self.vectors.push(stepper.q_before().clone());
         self.vectors.push(stepper.v_before().clone());
-        for &stage in &self.kept {
+        for &stage in &self.stored_stages {
             self.vectors.push(stepper.stages()[stage].clone());
         }
         for end in [stepper.q(), stepper.v(), stepper.a()] {
@@ -114,7 +115,7 @@ impl<V: Vector> Steps<V> {
 
     /// The number of vectors of a step.
     fn stride(&self) -> usize {
-        2 + self.kept.len()
+        2 + self.stored_stages.len()
     }
 
     pub(super) fn count(&self) -> usize {
@@ -157,7 +158,7 @@ impl<V: Vector> Steps<V> {
             unreachable!("every step is followed by its end");
         };
         let mut k: [V; MAX_STAGES] = q0.several_zeros_like();
-        for (&stage, a) in self.kept.iter().zip(stages) {
+        for (&stage, a) in self.stored_stages.iter().zip(stages) {
             k[stage].clone_from(a);
         }
         k[method.tableau.stages].clone_from(a1);
@@ -175,7 +176,7 @@ impl<V: Vector> Steps<V> {
 }
 
 /// Whether dense output of a method needs the acceleration of a stage.
-fn keeps(method: &Method, stage: usize) -> bool {
+fn stores_stage(method: &Method, stage: usize) -> bool {
     let (scheme, stages) = (&method.scheme, method.tableau.stages);
     let extra = scheme.rows[..scheme.length].iter().skip(stages + 1);
     let mut rows = extra.chain(&scheme.dense[..scheme.dense_length]);

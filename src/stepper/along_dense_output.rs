@@ -40,17 +40,17 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let mut before = std::vec![[f64::NAN; 3]];
         let mut parts = 1;
         while parts <= MOST_PARTS {
-            let found = self.integrals_in_parts(interpolant, parts)?;
-            let change = |i: usize| (found[0][i] - before[0][i]).abs();
+            let refined = self.integrals_in_parts(interpolant, parts)?;
+            let change = |i: usize| (refined[0][i] - before[0][i]).abs();
             let (work, to_and_fro, lost) = (change(0), change(1), change(2));
-            if work + lost <= bound && to_and_fro <= 0.01 * found[0][1].abs() {
+            if work + lost <= bound && to_and_fro <= 0.01 * refined[0][1].abs() {
                 if let Some(integrals) = self.quadratures.integrals_mut() {
-                    integrals.replace_last(&found);
+                    integrals.replace_last(&refined);
                 }
                 is_known = true;
                 break;
             }
-            before = found;
+            before = refined;
             parts *= 2;
         }
         let Self { model, now, .. } = self;

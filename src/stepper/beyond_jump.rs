@@ -8,13 +8,13 @@ use crate::balance::Quadratures;
 use crate::{InputLaw, System, Vector};
 
 /// How far ahead, in steps: so little that a smooth acceleration hardly changes, and so much that rounding does not hide the motion.
-const AHEAD: f64 = 1e-10;
+const LOOK_AHEAD: f64 = 1e-10;
 
 /// Looks again at this fraction of it: a smooth change is then as many times smaller, and a jump is not.
-const NEARER: f64 = 1.0 / 16.0;
+const SECOND_LOOK_AHEAD: f64 = 1.0 / 16.0;
 
 /// A change of a rate in the step by less than this fraction of the tolerance does not matter.
-const MATTERS: f64 = 1e-6;
+const NEGLIGIBLE_CHANGE: f64 = 1e-6;
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Replaces the acceleration at the beginning of a step of length `h` by the one just after it, if it jumps there, and returns how far
@@ -33,7 +33,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             control,
             ..
         } = self;
-        let ahead = AHEAD * h;
+        let ahead = LOOK_AHEAD * h;
         let mut evaluate = |ahead: f64, along: &S::Vector, a: &mut S::Vector| {
             before.state_ahead(ahead, along, [&mut *q, &mut *v]);
             let t = before.t + (before.t_low + ahead);
@@ -52,8 +52,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return 0.0;
         }
         let jump = change(here, there);
-        let jumps = jump > MATTERS
-            && evaluate(NEARER * ahead, here, nearer)
+        let jumps = jump > NEGLIGIBLE_CHANGE
+            && evaluate(SECOND_LOOK_AHEAD * ahead, here, nearer)
             && change(here, nearer) > 0.5 * jump
             && evaluate(ahead, there, confirmed)
             && change(there, confirmed) < 0.5 * jump;

@@ -66,10 +66,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let (mut here, mut there) = (q.zeros_like(), q.zeros_like());
         let state = [&mut q, &mut v, &mut here, &mut there];
         let at = (now.t, control.last_step);
-        let found = jacobian.find(at, state, &mut |t, q, v, a| {
+        let result = jacobian.find(at, state, &mut |t, q, v, a| {
             model.accelerations(t, q, v, a, &mut control.work)
         });
         model.set_inputs(now.t, &now.q, &now.v);
-        found.ok().map(|()| jacobian.fastest_rate())
+        result.ok().map(|()| jacobian.fastest_rate())
     }
 }

@@ -4,7 +4,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{Model, Stepper, move_by_rounding};
-use crate::balance::{PartOfContact, Quadratures};
+use crate::balance::{ContactShare, Quadratures};
 use crate::constraints::Constraints;
 use crate::contact::{Impact, Mode, ParadoxResolution, UnilateralState};
 use crate::inputs::InputLaw;
@@ -16,7 +16,7 @@ use crate::{StepError, System, Vector};
 const MOST_IMPACTS_AT_ONCE: usize = 1000;
 
 /// The next step is at most this many times as long as the flight that follows an impact, so that it does not miss the flight.
-const FLIGHTS: f64 = 8.0;
+const STEP_TO_FLIGHT_RATIO: f64 = 8.0;
 
 /// The reason for which the next states of contacts are determined.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -252,7 +252,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             };
         }
         touching.set_modes(held);
-        hold(model.system.get(), &touching, now)?;
+        project_onto_closed_contacts(model.system.get(), &touching, now)?;
         let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
         for (k, resting) in resting.iter_mut().enumerate() {
             *resting |= stops(k) || touching.modes()[k] == Mode::Sticks;
@@ -288,7 +288,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         } else {
             stored_before
         };
-        model.constraints = hold(model.system.get(), &touching, now)?;
+        model.constraints = project_onto_closed_contacts(model.system.get(), &touching, now)?;
         changes_at_instant.after = touching.modes().to_vec();
         model.touching = Some(touching);
 
@@ -300,26 +300,27 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             // neither work nor a loss, and shows in the energy balance.
             let work = energy_after - energy_before + impact_losses;
             let lost = impact_losses + changes_at_instant.lost_at_end;
-            self.quadratures.add_at_once(work, lost);
+            self.quadratures.add_instantaneous(work, lost);
         }
         for impact in &changes_at_instant.impacts {
-            let part = PartOfContact {
+            let part = ContactShare {
                 work: impact.work,
-                ..PartOfContact::default()
+                ..ContactShare::default()
             };
-            self.quadratures.share_out_at_once(impact.contact, part);
+            self.quadratures
+                .add_instantaneous_share(impact.contact, part);
         }
         for contact in 0..stored_before.len().max(stored_after.len()) {
             let of = |stored: &[f64]| stored.get(contact).copied().unwrap_or(0.0);
             let released = of(&stored_before) - of(&stored_after);
             if released != 0.0 {
                 // If a force vanishes before its contact has recovered, the energy still stored is lost.
-                self.quadratures.add_at_once(0.0, released);
-                let part = PartOfContact {
+                self.quadratures.add_instantaneous(0.0, released);
+                let part = ContactShare {
                     compliance_loss: released,
-                    ..PartOfContact::default()
+                    ..ContactShare::default()
                 };
-                self.quadratures.share_out_at_once(contact, part);
+                self.quadratures.add_instantaneous_share(contact, part);
             }
         }
         self.begin_again(end, step, changes_at_instant.flight)?;
@@ -344,7 +345,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         );
         self.end = end;
         self.control.step = match flight {
-            Some(flight) if flight > 0.0 => step.min(FLIGHTS * flight),
+            Some(flight) if flight > 0.0 => step.min(STEP_TO_FLIGHT_RATIO * flight),
             _ => step,
         };
         self.control.forget_error();
@@ -372,8 +373,8 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             constraints.accept(&now.q, &now.v);
             if constraints.redundant {
                 // If that fails, the previous rows will do, or the next step returns the error.
-                let held = touching.machine(self.system.get());
-                let _ = constraints.choose_again(&held, now.t, &now.q);
+                let constrained = touching.machine(self.system.get());
+                let _ = constraints.choose_again(&constrained, now.t, &now.q);
             }
         }
     }
@@ -389,17 +390,17 @@ fn stored_by_each<S: System>(
 }
 
 /// Projects a state onto the closed contacts and the constraints; returns the state of these constraints.
-pub(super) fn hold<S: System>(
+pub(super) fn project_onto_closed_contacts<S: System>(
     system: &S,
     touching: &UnilateralState,
     now: &mut Point<S::Vector>,
 ) -> Result<Option<Constraints<S::Vector>>, StepError> {
-    let held = touching.machine(system);
-    if held.constraints().len() == 0 {
+    let constrained = touching.machine(system);
+    if constrained.constraints().len() == 0 {
         return Ok(None);
     }
-    let mut constraints = Constraints::new(&held, &now.q, &now.v);
-    let begun = constraints.begin(&held, &mut now.place(), None);
+    let mut constraints = Constraints::new(&constrained, &now.q, &now.v);
+    let begun = constraints.begin(&constrained, &mut now.place(), None);
     begun.map_err(|error| touching.explain(system, error))?;
     // Contacts that share a load stay dependent for as long as they are closed.
     constraints.at_fork = false;

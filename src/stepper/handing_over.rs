@@ -1,6 +1,6 @@
 //! Changes a run with unilateral contacts from locating every event to time stepping, and back.
 
-use super::contact_changes::{Cause, ContactChanges, hold};
+use super::contact_changes::{Cause, ContactChanges, project_onto_closed_contacts};
 use super::{InImpulses, Stepper};
 use crate::balance::Quadratures;
 use crate::constraints::Constraints;
@@ -12,7 +12,7 @@ use crate::{StepError, System};
 use std::boxed::Box;
 
 /// A copy of the parts of a stepper that change when contacts meet.
-pub(crate) struct Standing<S: System, A> {
+pub(crate) struct Snapshot<S: System, A> {
     now: Point<S::Vector>,
     touching: Option<UnilateralState>,
     constraints: Option<Constraints<S::Vector>>,
@@ -20,9 +20,9 @@ pub(crate) struct Standing<S: System, A> {
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Copies the present state, for [`bring_back`](Self::bring_back).
-    pub(crate) fn standing(&self) -> Standing<S, A> {
-        Standing {
+    /// Copies the present state, for [`restore`](Self::restore).
+    pub(crate) fn snapshot(&self) -> Snapshot<S, A> {
+        Snapshot {
             now: self.now.clone(),
             touching: self.model.touching.clone(),
             constraints: self.model.constraints.clone(),
@@ -31,21 +31,21 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 
     /// Restores a state at the same instant. This also removes the losses of impacts that did not settle.
-    pub(crate) fn bring_back(&mut self, standing: Standing<S, A>) {
-        self.now = standing.now;
-        self.model.touching = standing.touching;
-        self.model.constraints = standing.constraints;
-        self.quadratures = standing.quadratures;
+    pub(crate) fn restore(&mut self, snapshot: Snapshot<S, A>) {
+        self.now = snapshot.now;
+        self.model.touching = snapshot.touching;
+        self.model.constraints = snapshot.constraints;
+        self.quadratures = snapshot.quadratures;
     }
 
     /// Whether the method is time stepping.
-    pub(crate) fn is_by_impulses(&self) -> bool {
+    pub(crate) fn is_time_stepping(&self) -> bool {
         self.impulses.is_some()
     }
 
     /// The fastest rate at which any gap closed so far, in m/s, and the acceleration that forces add to such a rate now, in m/s²:
     /// see [`UnilateralState`].
-    pub(crate) fn closing(&mut self) -> [f64; 2] {
+    pub(crate) fn closing_rate_and_acceleration(&mut self) -> [f64; 2] {
         let Self { model, now, .. } = self;
         model.set_inputs(now.t, &now.q, &now.v);
         let Some(touching) = &model.touching else {
@@ -57,7 +57,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
     /// Whether the forces in the contacts that were closed in the last step
     /// of time stepping would be unique if all of these were constraints.
-    pub(crate) fn forces_are_the_only_ones(&mut self) -> bool {
+    pub(crate) fn contact_forces_are_unique(&mut self) -> bool {
         let Self { model, now, .. } = self;
         model.set_inputs(now.t, &now.q, &now.v);
         let Some(mut touching) = model.touching.clone() else {
@@ -76,7 +76,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if let Some(touching) = &mut model.touching {
             touching.begin_stepping();
             // Only the constraints of the machine remain.
-            model.constraints = hold(model.system.get(), touching, now)?;
+            model.constraints = project_onto_closed_contacts(model.system.get(), touching, now)?;
         }
         let impulses = InImpulses::new(&self.now.q, &self.now.v);
         self.impulses = Some(Box::new(impulses));
@@ -117,7 +117,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 if changes_at_instant.impacts.is_empty() {
                     let taken = energy_before - energy(self);
                     self.quadratures
-                        .add_at_once(0.0, taken - changes_at_instant.lost_at_end);
+                        .add_instantaneous(0.0, taken - changes_at_instant.lost_at_end);
                     changes_at_instant.lost_at_end = taken;
                 }
                 Ok(changes_at_instant)

@@ -42,10 +42,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             tolerance,
         };
         let (q, v) = (&mut stage.0, &mut stage.1);
-        let found = implicit.solve(&task, k, [q, v], |t, q, v, a| {
+        let has_converged = implicit.solve(&task, k, [q, v], |t, q, v, a| {
             model.accelerations(t, q, v, a, work)
         })?;
-        if !found {
+        if !has_converged {
             return Ok(f64::INFINITY);
         }
 

@@ -4,7 +4,7 @@ use std::vec::Vec;
 
 use super::{Model, Stepper};
 use crate::attempt::not_finite;
-use crate::balance::{PartOfContact, Quadratures};
+use crate::balance::{ContactShare, Quadratures};
 use crate::compensated::two_sum;
 use crate::contact::{Mode, SteppedContacts, UnilateralState};
 use crate::stages::Point;
@@ -70,7 +70,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             self.now.copy_from(&self.before);
             return Err(error);
         }
-        self.control.take(h, 0.0, 1.0);
+        self.control.accept(h, 0.0, 1.0);
         self.accept(h);
         if let Some(impulses) = &self.impulses {
             let SteppedContacts {
@@ -79,16 +79,17 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 energy_added,
                 ..
             } = impulses.stepped;
-            self.quadratures.add_at_once(work, lost - energy_added);
+            self.quadratures
+                .add_instantaneous(work, lost - energy_added);
             let lasting = impulses.before.as_ref().map(UnilateralState::modes);
             for impact in &impulses.stepped.impacts {
                 let lasts = lasting.is_some_and(|modes| modes[impact.contact] != Mode::Open);
-                let part = PartOfContact {
+                let part = ContactShare {
                     friction: if lasts { impact.friction_loss() } else { 0.0 },
                     work: impact.work,
                     compliance_loss: 0.0,
                 };
-                (self.quadratures).share_out_at_once(impact.contact, part);
+                (self.quadratures).add_instantaneous_share(impact.contact, part);
             }
         }
         Ok(())
@@ -124,16 +125,16 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         // The rates at the middle, for forces that depend on rates, and the rates at the end, as if nothing touched.
         let touching = model.touching.take();
         let work = &mut control.work;
-        let mut found = model.accelerations(t, q, &before.v, &mut k[1], work);
-        if found.is_ok() {
+        let mut result = model.accelerations(t, q, &before.v, &mut k[1], work);
+        if result.is_ok() {
             v.clone_from(&before.v);
             for (v, a) in v.as_mut_slice().iter_mut().zip(k[1].as_slice()) {
                 *v += half * a;
             }
-            found = model.accelerations(t, q, v, &mut k[1], work);
+            result = model.accelerations(t, q, v, &mut k[1], work);
         }
         model.touching = touching;
-        found?;
+        result?;
         now.v.clone_from(&before.v);
         for (v, a) in now.v.as_mut_slice().iter_mut().zip(k[1].as_slice()) {
             *v += h * a;

@@ -62,9 +62,9 @@ pub(crate) struct Tries {
     is_last: [bool; WIDTH],
     errors: [f64; WIDTH],
     /// Whether the machines have constraints: then a try in lanes ends at the new point, which each stepper projects.
-    are_held: bool,
+    have_constraints: bool,
     /// The lanes in which nothing exceptional happened in the last try.
-    went_well: LaneMask,
+    succeeded: LaneMask,
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
@@ -87,7 +87,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Begins a step and its first try.
     pub(crate) fn begin_in_lanes(&mut self) -> Result<Try, StepError> {
         if self.changed {
-            self.look_again()?;
+            self.refresh_acceleration()?;
         }
         let limits = self.begin_tries()?;
         Ok(self.next_try(limits))
@@ -106,7 +106,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         tries: &Tries,
     ) -> Result<Option<Try>, StepError> {
         let tried = match tries.take(lane, self) {
-            Some(_) if tries.are_held => self.finish(of.h),
+            Some(_) if tries.have_constraints => self.finish(of.h),
             Some(error) => Ok(error),
             None => self.attempt(of.h, of.last),
         };
@@ -141,18 +141,21 @@ impl Tries {
             end: Lanes::splat(of.now.t),
             is_last: [false; WIDTH],
             errors: [0.0; WIDTH],
-            are_held: is_held(of),
-            went_well: 0,
+            have_constraints: has_constraints(of),
+            succeeded: 0,
         }
     }
 
     /// Whether a stepper is compatible with the one that this was made for: the same method and the same relative tolerance.
-    pub fn goes_with<S: System, L, A: Quadratures<S>>(&self, of: &Stepper<'_, S, L, A>) -> bool {
+    pub fn is_compatible_with<S: System, L, A: Quadratures<S>>(
+        &self,
+        of: &Stepper<'_, S, L, A>,
+    ) -> bool {
         std::ptr::eq(self.method, of.method)
             && self.tolerance.relative.to_bits() == of.tolerance.relative.to_bits()
             && self.before.q.len() == of.now.q.as_slice().len()
             && self.powers.is_some() == of.quadratures.integrals().is_some()
-            && self.are_held == is_held(of)
+            && self.have_constraints == has_constraints(of)
     }
 
     /// Puts the beginning of a step and the length of its try into a lane.
@@ -176,12 +179,12 @@ impl Tries {
 
     /// Leaves the next try of every step to its own stepper.
     pub fn skip(&mut self) {
-        self.went_well = 0;
+        self.succeeded = 0;
     }
 
     /// Tries the steps of these lanes. The contents of the others have no effect.
     pub fn attempt(&mut self, which: LaneMask, machines: &mut impl Evaluate) {
-        self.went_well = which;
+        self.succeeded = which;
         <Wide as Number>::run(Attempt(self, machines));
     }
 
@@ -192,12 +195,12 @@ impl Tries {
         lane: usize,
         to: &mut Stepper<'_, S, L, A>,
     ) -> Option<f64> {
-        if self.went_well >> lane & 1 == 0 {
+        if self.succeeded >> lane & 1 == 0 {
             return None;
         }
         let stages = self.method.tableau.stages;
         let error = self.errors[lane];
-        let at_end = !self.are_held && (self.method.scheme.error_needs_end || error <= 1.0);
+        let at_end = !self.have_constraints && (self.method.scheme.error_needs_end || error <= 1.0);
         let known = if at_end { stages + 1 } else { stages };
         for (to, from) in to.k.iter_mut().zip(&self.k).take(known).skip(1) {
             take(to, lane, from);
@@ -233,8 +236,8 @@ impl Tries {
             end,
             is_last,
             errors,
-            are_held,
-            went_well,
+            have_constraints,
+            succeeded,
         } = self;
         let stages = method.tableau.stages;
         let mut powers = powers.as_mut();
@@ -242,19 +245,19 @@ impl Tries {
             let from = (&*before, *h);
             let to = [&mut *q, &mut *v];
             let t = attempt::go_to_stage::<R, _, _>((method, i), from, k, to);
-            *went_well &=
+            *succeeded &=
                 evaluate_stage::<R>((machines, powers.as_deref_mut()), i, (t, q, v), &mut k[i]);
-            if *went_well == 0 {
+            if *succeeded == 0 {
                 return;
             }
         }
         attempt::arrive::<R, _, _>(method, (before, *h), k, now, (*end, is_last));
-        if *are_held {
+        if *have_constraints {
             return;
         }
         if method.scheme.error_needs_end {
             let at = (now.t, &*now.q, &*now.v);
-            *went_well &= evaluate_stage::<R>(
+            *succeeded &= evaluate_stage::<R>(
                 (machines, powers.as_deref_mut()),
                 stages,
                 at,
@@ -262,25 +265,25 @@ impl Tries {
             );
         }
         *errors = attempt::errors::<R, _, _>(method, *h, [before, now], k, tolerance);
-        *went_well &= bits(&attempt::are_finite(&now.q, &now.v));
+        *succeeded &= bits(&attempt::are_finite(&now.q, &now.v));
         let mut good = 0;
         for (lane, error) in errors.iter().enumerate() {
             if !error.is_finite() {
-                *went_well &= !(1 << lane);
+                *succeeded &= !(1 << lane);
             }
             good |= LaneMask::from(*error <= 1.0) << lane;
         }
-        good &= *went_well;
+        good &= *succeeded;
         if !method.scheme.error_needs_end && good != 0 {
             let at = (now.t, &*now.q, &*now.v);
             let fine = evaluate_stage::<R>((machines, powers), stages, at, &mut k[stages]);
-            *went_well &= fine | !good;
+            *succeeded &= fine | !good;
         }
     }
 }
 
 /// Whether a machine has constraints.
-fn is_held<S: System, L, A>(stepper: &Stepper<'_, S, L, A>) -> bool {
+fn has_constraints<S: System, L, A>(stepper: &Stepper<'_, S, L, A>) -> bool {
     stepper.model.system.get().constraints().len() != 0
 }
 
@@ -295,7 +298,7 @@ fn evaluate_stage<R: Scalar<Stored = Wide>>(
     a: &mut [Wide],
 ) -> LaneMask {
     let mut fine = machines.accelerations(at, a);
-    fine &= finite::<R>(a);
+    fine &= finite_lanes::<R>(a);
     if let Some(powers) = powers {
         let (of_stage, known) = machines.powers(at, a);
         powers[stage] = of_stage;
@@ -306,7 +309,7 @@ fn evaluate_stage<R: Scalar<Stored = Wide>>(
 
 /// The lanes in which all of these numbers, or at least their sums, are finite.
 #[inline(always)]
-fn finite<R: Scalar<Stored = Wide>>(a: &[Wide]) -> LaneMask {
+fn finite_lanes<R: Scalar<Stored = Wide>>(a: &[Wide]) -> LaneMask {
     if are_all_finite::<R>(a) {
         return LaneMask::MAX;
     }

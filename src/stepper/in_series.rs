@@ -43,7 +43,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let left = *end - now.t;
         let mut length = taylor.length(tolerance).min(*longest);
         if length.is_nan() {
-            let worst = not_finite_among(taylor.of_now_rows());
+            let worst = not_finite_among(taylor.present_coefficients());
             return Err(StepError::NotFinite {
                 coordinate: worst,
                 t: now.t,
@@ -114,6 +114,6 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
 /// The first coordinate with a coefficient that is not finite.
 fn not_finite_among<V: Vector>(rows: &[V]) -> usize {
-    let found = rows.iter().find_map(|row| not_finite(row, row, 0));
-    found.unwrap_or(0)
+    let coordinate = rows.iter().find_map(|row| not_finite(row, row, 0));
+    coordinate.unwrap_or(0)
 }

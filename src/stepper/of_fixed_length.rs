@@ -107,7 +107,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             self.now.copy_from(&self.before);
             return Err(error);
         }
-        self.control.take(h, 0.0, 1.0);
+        self.control.accept(h, 0.0, 1.0);
         self.accept(h);
         Ok(())
     }

@@ -22,7 +22,7 @@ pub struct Constrained<const N: usize, const M: usize, const NN: usize> {
     /// `∂g/∂t` at `(t, q, p)`.
     pub by_time: fn(f64, &[f64; N], f64) -> [f64; M],
     /// `γ` at `(t, q, v, p)`.
-    pub drift: fn(f64, &[f64; N], &[f64; N], f64) -> [f64; M],
+    pub constraint_bias: fn(f64, &[f64; N], &[f64; N], f64) -> [f64; M],
     /// `V` at `(q, p)`.
     pub potential_energy: fn(&[f64; N], f64) -> f64,
     /// Whether the workspace is an array on the stack instead of being allocated.
@@ -35,7 +35,7 @@ impl<const N: usize, const M: usize, const NN: usize> Constrained<N, M, NN> {
     fn solve(&self, t: f64, q: &[f64; N], v: &[f64; N]) -> Result<([f64; N], [f64; M]), Singular> {
         let f = (self.forces)(t, q, v, self.p);
         let g = (self.matrix)(t, q, self.p);
-        let mut rest = (self.drift)(t, q, v, self.p);
+        let mut rest = (self.constraint_bias)(t, q, v, self.p);
         // (G M⁻¹ Gᵀ) λ = γ − G M⁻¹ f
         let mut schur = [[0.0; M]; M];
         let mut scale = [0.0; M];
@@ -231,8 +231,8 @@ impl<const N: usize, const M: usize, const NN: usize> System for Constrained<N, 
         matrix.copy_from_slice((self.matrix)(t, q, self.p).as_flattened());
     }
 
-    fn constraint_drift(&self, t: f64, q: &[f64; N], v: &[f64; N], drift: &mut [f64]) {
-        drift.copy_from_slice(&(self.drift)(t, q, v, self.p));
+    fn constraint_bias(&self, t: f64, q: &[f64; N], v: &[f64; N], bias: &mut [f64]) {
+        bias.copy_from_slice(&(self.constraint_bias)(t, q, v, self.p));
     }
 
     fn multipliers(
@@ -271,7 +271,7 @@ pub fn circle<const M: usize>() -> Constrained<2, M, 4> {
         },
         matrix: |_, [x, y], _| core::array::from_fn(|k| [x, y].map(|x| (k + 1) as f64 * x)),
         by_time: |_, _, _| [0.0; M],
-        drift: |_, _, [vx, vy], _| {
+        constraint_bias: |_, _, [vx, vy], _| {
             core::array::from_fn(|k| -((k + 1) as f64) * (vx * vx + vy * vy))
         },
         potential_energy: |[_, y], g| g * y,
@@ -298,7 +298,7 @@ pub fn double_pendulum(theta: [f64; 2]) -> Constrained<4, 2, 16> {
             [[2.0 * x1, 2.0 * y1, 0.0, 0.0], [-dx, -dy, dx, dy]]
         },
         by_time: |_, _, _| [0.0; 2],
-        drift: |_, _, [x1, y1, x2, y2], _| {
+        constraint_bias: |_, _, [x1, y1, x2, y2], _| {
             let (dx, dy) = (x2 - x1, y2 - y1);
             [-2.0 * (x1 * x1 + y1 * y1), -2.0 * (dx * dx + dy * dy)]
         },
@@ -321,7 +321,9 @@ pub fn sleigh() -> Constrained<3, 1, 9> {
         positions: |_, _, _| [0.0],
         matrix: |_, [_, _, phi], a| [[-phi.sin(), phi.cos(), -a]],
         by_time: |_, _, _| [0.0],
-        drift: |_, [_, _, phi], [vx, vy, omega], _| [omega * (phi.cos() * vx + phi.sin() * vy)],
+        constraint_bias: |_, [_, _, phi], [vx, vy, omega], _| {
+            [omega * (phi.cos() * vx + phi.sin() * vy)]
+        },
         potential_energy: |_, _| 0.0,
         on_stack: true,
     }
@@ -341,7 +343,7 @@ pub fn winch() -> Constrained<2, 1, 4> {
         positions: |t, [x, y], _| [x * x + y * y - rope(t)[0] * rope(t)[0]],
         matrix: |_, [x, y], _| [[2.0 * x, 2.0 * y]],
         by_time: |t, _, _| [-2.0 * rope(t)[0] * rope(t)[1]],
-        drift: |t, _, [vx, vy], _| {
+        constraint_bias: |t, _, [vx, vy], _| {
             let [l, dl, ddl] = rope(t);
             [2.0 * (dl * dl + l * ddl) - 2.0 * (vx * vx + vy * vy)]
         },
@@ -369,7 +371,7 @@ pub fn bead() -> Constrained<2, 1, 4> {
         positions: |t, [x, y], w| [y * (w * t).cos() - x * (w * t).sin()],
         matrix: |t, _, w| [[-(w * t).sin(), (w * t).cos()]],
         by_time: |t, [x, y], w| [-w * (y * (w * t).sin() + x * (w * t).cos())],
-        drift: |t, [x, y], [vx, vy], w| {
+        constraint_bias: |t, [x, y], [vx, vy], w| {
             let (s, c) = (w * t).sin_cos();
             [2.0 * w * (vy * s + vx * c) + w * w * (y * c - x * s)]
         },
@@ -413,7 +415,7 @@ pub fn parallelogram(theta: f64) -> Constrained<4, 4, 16> {
             ]
         },
         by_time: |_, _, _| [0.0; 4],
-        drift: |_, _, [x1, y1, x2, y2], _| {
+        constraint_bias: |_, _, [x1, y1, x2, y2], _| {
             let (dx, dy) = (x2 - x1, y2 - y1);
             [
                 -2.0 * (x1 * x1 + y1 * y1),

@@ -14,9 +14,9 @@ pub enum Slip {
     Acceleration(usize, f64),
     /// The multiplier of this constraint is off by this factor.
     Multiplier(usize, f64),
-    /// The drift `γ` of this constraint is off by this much in one of
+    /// The bias `γ` of this constraint is off by this much in one of
     /// the two functions that give it.
-    Drift(usize, f64),
+    ConstraintBias(usize, f64),
     /// The machine has a contact, but no workspace to evaluate it, or one of this many numbers.
     Workspace(Option<usize>),
 }
@@ -161,10 +161,10 @@ impl<const N: usize, const M: usize, const NN: usize> System for Tampered<N, M, 
         self.machine.constraint_matrix(t, q, matrix);
     }
 
-    fn constraint_drift(&self, t: f64, q: &[f64; N], v: &[f64; N], drift: &mut [f64]) {
-        self.machine.constraint_drift(t, q, v, drift);
-        if let Slip::Drift(k, by) = self.slip {
-            drift[k] += by;
+    fn constraint_bias(&self, t: f64, q: &[f64; N], v: &[f64; N], bias: &mut [f64]) {
+        self.machine.constraint_bias(t, q, v, bias);
+        if let Slip::ConstraintBias(k, by) = self.slip {
+            bias[k] += by;
         }
     }
 

@@ -90,7 +90,7 @@ lagrangian::machine! {
 fn a_ball_of_a_macro_slips_in_two_directions() {
     let machine = Cue::default();
     let system = machine.prepare();
-    let across: Vec<_> = system.unilateral_contacts().map(|c| c.across).collect();
+    let across: Vec<_> = system.unilateral_contacts().map(|c| c.is_second_tangent).collect();
     assert_eq!(across, [false, true]);
     let slip = [1.0_f64, 0.9];
     let rolls = 2.0 * slip[0].hypot(slip[1]) / (7.0 * 0.2 * 9.81);
@@ -147,7 +147,7 @@ fn a_box_of_a_macro_lands_on_a_polygon() {
     let machine = Landing::default();
     let system = machine.prepare();
     assert_eq!(system.unilateral_contacts().len(), 8);
-    assert!(system.unilateral_contacts().all(|contact| contact.faced));
+    assert!(system.unilateral_contacts().all(|contact| contact.has_face));
     let lands = (2.0 * 0.2_f64 / 9.81).sqrt();
     for method in &METHODS {
         let run = Simulation::new(&machine)

@@ -711,7 +711,7 @@ fn machines_whose_functions_contradict_each_other_are_not_run() {
         for k in 0..M {
             let found = violated(machine, Slip::Multiplier(k, -1.0));
             assert!(found.is_some(), "multiplier {k} of {machine:?}");
-            let (name, is_constraint) = violated(machine, Slip::Drift(k, 1e-3)).unwrap();
+            let (name, is_constraint) = violated(machine, Slip::ConstraintBias(k, 1e-3)).unwrap();
             assert!(is_constraint && name == machine.constraints[k].0, "{name}");
         }
     }

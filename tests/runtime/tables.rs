@@ -2,7 +2,8 @@
 
 use crate::by_hand::toy::Toy;
 use lagrangian::{
-    Between, Beyond, Crossing, Error, METHODS, Method, Piece, Simulation, State, Table, TableError,
+    Crossing, Error, Extrapolation, Interpolation, METHODS, Method, Piece, Simulation, State,
+    Table, TableError,
 };
 
 /// A mass of 1 kg pushed by a force.
@@ -252,14 +253,15 @@ fn splines_are_smooth() {
         let mut values: Vec<f64> = (0..count).map(|_| random() - 0.5).collect();
         let repeats = round % 2 == 1;
         let beyond = if repeats {
-            Beyond::Repeat
+            Extrapolation::Repeat
         } else {
-            Beyond::Hold
+            Extrapolation::Hold
         };
         if repeats {
             values[count - 1] = values[0];
         }
-        let table = Table::new(Between::Cubic, beyond, times.clone(), values.clone()).unwrap();
+        let table =
+            Table::new(Interpolation::Cubic, beyond, times.clone(), values.clone()).unwrap();
         // The derivatives of the cubic on an interval, at one of its ends, from four of its values.
         let derivatives = |row: usize, at_end: bool| {
             let (from, h) = (times[row], times[row + 1] - times[row]);
@@ -312,10 +314,11 @@ fn splines_are_smooth() {
 #[test]
 fn what_repeats_is_the_same_as_written_out() {
     let machine = oscillator();
-    for between in [Between::Hold, Between::Linear] {
+    for between in [Interpolation::Hold, Interpolation::Linear] {
         for start in [-3.3, 0.0, 0.1, 0.7] {
             let times = [start, start + 0.31, start + 0.7];
-            let table = Table::new(between, Beyond::Repeat, times, [1.0, -2.0, 3.0]).unwrap();
+            let table =
+                Table::new(between, Extrapolation::Repeat, times, [1.0, -2.0, 3.0]).unwrap();
             let (mut rows, mut values) = (Vec::new(), Vec::new());
             for round in -10..15 {
                 let from = start + f64::from(round) * 0.7;
@@ -323,11 +326,11 @@ fn what_repeats_is_the_same_as_written_out() {
                 rows.extend([from, from + 0.31, last]);
                 // The value jumps at the end of a round; with `Hold` the last value is not used.
                 values.extend(match between {
-                    Between::Hold => [1.0, -2.0, -2.0],
+                    Interpolation::Hold => [1.0, -2.0, -2.0],
                     _ => [1.0, -2.0, 3.0],
                 });
             }
-            let long = Table::new(between, Beyond::Hold, rows, values).unwrap();
+            let long = Table::new(between, Extrapolation::Hold, rows, values).unwrap();
             for until in [3.9, -2.6] {
                 let ends = [&table, &long].map(|table| {
                     let run = Simulation::new(&machine)
@@ -353,14 +356,18 @@ fn what_repeats_is_the_same_as_written_out() {
                 let before = table.piece(piece.from, false, 8).unwrap();
                 assert_eq!(before.to, piece.from);
                 let left = table.value_in(before, before.to);
-                let known = if between == Between::Hold { -2.0 } else { 3.0 };
+                let known = if between == Interpolation::Hold {
+                    -2.0
+                } else {
+                    3.0
+                };
                 assert!((left - known).abs() < 1e-12, "{round} {left}");
             }
         }
     }
     let ring = Table::new(
-        Between::Cubic,
-        Beyond::Repeat,
+        Interpolation::Cubic,
+        Extrapolation::Repeat,
         [0.0, 0.2, 0.5, 1.0],
         [0.0, 1.0, -1.0, 0.0],
     );
@@ -371,7 +378,9 @@ fn what_repeats_is_the_same_as_written_out() {
 #[test]
 fn a_run_ends_with_the_table_that_ends() {
     let mass = mass();
-    let table = Table::linear(TIMES, VALUES).unwrap().beyond(Beyond::Error);
+    let table = Table::linear(TIMES, VALUES)
+        .unwrap()
+        .with_extrapolation(Extrapolation::Error);
     let table = table.unwrap().named("the table push.csv");
     let run = |until: f64| {
         let simulation = Simulation::new(&mass).until(until);
@@ -393,7 +402,7 @@ fn a_run_ends_with_the_table_that_ends() {
     assert!(table.value(2.5).is_nan());
     // A table whose period is too short for the resolution of the run's time is refused.
     let fast = Table::linear([0.0, 1e-9, 3e-9], [0.0, 1.0, 0.0]).unwrap();
-    let fast = fast.beyond(Beyond::Repeat).unwrap();
+    let fast = fast.with_extrapolation(Extrapolation::Repeat).unwrap();
     assert!(fast.piece(1e-3, true, 8).is_ok() && fast.piece(1e9, true, 8).is_err());
 }
 
@@ -419,12 +428,15 @@ fn what_is_no_table_is_refused() {
     assert_eq!(linear(&[0.0], &[1.0]), Ok(()));
     let one = Table::linear([0.0], [1.0]).unwrap();
     assert_eq!(
-        one.clone().beyond(Beyond::Repeat),
+        one.clone().with_extrapolation(Extrapolation::Repeat),
         Err(TableError::NoPeriod)
     );
     assert_eq!([-5.0, 0.0, 5.0].map(|t| one.value(t)), [1.0; 3]);
     let cubic = Table::cubic([0.0, 1.0], [1.0, 2.0]).unwrap();
-    assert_eq!(cubic.beyond(Beyond::Repeat), Err(TableError::NotPeriodic));
+    assert_eq!(
+        cubic.with_extrapolation(Extrapolation::Repeat),
+        Err(TableError::NotPeriodic)
+    );
     let steep = Table::cubic([0.0, 1e-300, 2e-300], [0.0, 1e100, 0.0]);
     assert_eq!(steep, Err(TableError::TooSteep));
 }

@@ -55,7 +55,7 @@ pub fn public(root: &Path, name: &str) -> Result<Vec<String>, String> {
 }
 
 /// The items that an interface has lost or changed: the lines of `before` that are not in `now`.
-pub fn lost<'a>(before: &'a str, now: &[String]) -> Vec<&'a str> {
+pub fn lost_items<'a>(before: &'a str, now: &[String]) -> Vec<&'a str> {
     let now: BTreeSet<&str> = now.iter().map(String::as_str).collect();
     let lines = before.lines().filter(|line| !line.is_empty());
     lines.filter(|line| !now.contains(line)).collect()
@@ -564,7 +564,7 @@ pub const COMMITTED: [(&str, &str, &str); 1] =
 /// # Errors
 /// A file that cannot be read or written.
 pub fn write(project: &Path) -> Result<String, String> {
-    let mut told = String::new();
+    let mut differences = String::new();
     for (root, name, path) in COMMITTED {
         let now = public(&project.join(root), name)?;
         let path = project.join(path);
@@ -574,10 +574,10 @@ pub fn write(project: &Path) -> Result<String, String> {
             fs::create_dir_all(folder).map_err(wrong)?;
         }
         fs::write(&path, now.join("\n") + "\n").map_err(wrong)?;
-        let lost = lost(&before, &now).len();
-        told += &format!("{name}: {} lines, {lost} removed or changed", now.len());
+        let lost = lost_items(&before, &now).len();
+        differences += &format!("{name}: {} lines, {lost} removed or changed", now.len());
     }
-    Ok(told)
+    Ok(differences)
 }
 
 #[cfg(test)]
@@ -594,7 +594,7 @@ mod tests {
             let now = public(&project().join(root), name).expect("a crate");
             let committed = fs::read_to_string(project().join(path)).unwrap_or_default();
             let known: Vec<String> = committed.lines().map(str::to_owned).collect();
-            let lost = lost(&committed, &now);
+            let lost = lost_items(&committed, &now);
             let new: Vec<&String> = now.iter().filter(|line| !known.contains(line)).collect();
             assert!(
                 lost.is_empty() && new.is_empty(),
@@ -683,7 +683,7 @@ mod tests {
     fn what_is_gone_or_changed_is_lost_and_what_is_new_is_not() {
         let before = of("pub fn a(x: u8) {} pub fn b() {} pub struct C { pub x: u8 }").join("\n");
         let now = of("pub fn a(x: u16) {} pub fn d() {} pub struct C { pub x: u8, pub y: u8 }");
-        let lost = lost(&before, &now);
+        let lost = lost_items(&before, &now);
         assert_eq!(lost, ["it::a: fn a(u8)", "it::b: fn b()"]);
     }
 }

@@ -253,14 +253,14 @@ impl Modules {
         let mut circles = Vec::new();
         for (parent, imports) in &between {
             let names: BTreeSet<&String> = imports.keys().map(|(from, _)| from).collect();
-            let mut told = BTreeSet::new();
+            let mut cycles = BTreeSet::new();
             for name in names {
                 let members: Vec<String> = reached(name, imports)
                     .into_iter()
                     .filter(|other| reached(other, imports).contains(name))
                     .cloned()
                     .collect();
-                if members.is_empty() || !told.insert(members.clone()) {
+                if members.is_empty() || !cycles.insert(members.clone()) {
                     continue;
                 }
                 let within = |(a, b): &(String, String)| members.contains(a) && members.contains(b);
@@ -450,20 +450,20 @@ mod tests {
 
     #[test]
     fn modules_import_in_no_circle() {
-        let mut told = String::new();
+        let mut cycles = String::new();
         let mut imports = 0;
         for root in roots() {
             let modules = Modules::read(&root).expect("a crate");
             imports += modules.imports().len();
             for circle in modules.circles() {
-                told += &format!("{}: {}\n", root.display(), circle.members.join(", "));
+                cycles += &format!("{}: {}\n", root.display(), circle.members.join(", "));
                 for (from, to) in circle.imports {
-                    told += &format!("    {} imports from {}\n", from.join("::"), to.join("::"));
+                    cycles += &format!("    {} imports from {}\n", from.join("::"), to.join("::"));
                 }
             }
         }
         assert!(imports > 1000, "{imports} imports were seen");
-        assert!(told.is_empty(), "{told}");
+        assert!(cycles.is_empty(), "{cycles}");
     }
 
     /// A crate with these files.

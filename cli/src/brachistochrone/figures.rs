@@ -55,11 +55,11 @@ fn figures(found: &Found<'_, '_>) -> Vec<Figure> {
         });
     }
     if let ([first, second], None) = (found.names.as_slice(), &found.angles) {
-        let way = moments.iter().map(|moment| (moment.q[0], moment.q[1]));
+        let points = moments.iter().map(|moment| (moment.q[0], moment.q[1]));
         figures.push(Figure {
             across: first.clone(),
             along: second.clone(),
-            curves: vec![(String::new(), way.collect())],
+            curves: vec![(String::new(), points.collect())],
         });
     }
     let controls = found.names.iter().enumerate().map(|(i, name)| {

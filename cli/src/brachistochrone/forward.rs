@@ -28,15 +28,18 @@ pub fn arrival(
     found: &Found<'_, '_>,
 ) -> Result<Arrival, String> {
     let dag = Dag::new();
-    let reading = Reading::controlled(&call.spec, coordinates).map_err(|why| underived(&why))?;
-    let compiled = reading.compile(&dag).map_err(|why| underived(&why))?;
+    let reading =
+        Reading::controlled(&call.spec, coordinates).map_err(|why| derivation_failure(&why))?;
+    let compiled = reading
+        .compile(&dag)
+        .map_err(|why| derivation_failure(&why))?;
     let start = call::Start {
         parameters: call.parameters.clone(),
         coordinates: Vec::new(),
         rates: Vec::new(),
         running: call.running,
     };
-    let machine = reading::machine(&compiled, &start).map_err(|why| underived(&why))?;
+    let machine = reading::machine(&compiled, &start).map_err(|why| derivation_failure(&why))?;
     let motion = &found.motion;
     let forces = Chebyshev::new(motion.time(), |t| motion.at(t).control);
     let [from, to] = [0, found.moments.len() - 1].map(|k| &found.moments[k].q);
@@ -51,8 +54,8 @@ pub fn arrival(
         .map_err(|error| format!("the machine does not arrive at the end: {error}"))?;
     let pairs = run.end().q.values.iter().zip(to);
     let far = pairs.map(|(q, to)| (q - to).abs()).fold(0.0, f64::max);
-    let way = from.iter().zip(to).map(|(from, to)| (to - from).abs());
-    let off = far / way.fold(f64::MIN_POSITIVE, f64::max);
+    let distances = from.iter().zip(to).map(|(from, to)| (to - from).abs());
+    let off = far / distances.fold(f64::MIN_POSITIVE, f64::max);
     // A machine that sticks or lifts off ends far away.
     if off < 1e-3 {
         Ok(Arrival { off })
@@ -64,8 +67,8 @@ pub fn arrival(
 }
 
 /// The message that the machine with inputs for the control forces cannot be derived, as the end of a sentence.
-fn underived(failure: &Failure) -> String {
-    let said = "the machine with inputs for the control forces cannot be derived";
+fn derivation_failure(failure: &Failure) -> String {
+    let message = "the machine with inputs for the control forces cannot be derived";
     let why = match failure {
         Failure::Spec(wrong) => {
             let errors = wrong.0.diagnostics();
@@ -73,7 +76,7 @@ fn underived(failure: &Failure) -> String {
         }
         _ => None,
     };
-    why.map_or_else(|| said.to_owned(), |why| format!("{said}: {why}"))
+    why.map_or_else(|| message.to_owned(), |why| format!("{message}: {why}"))
 }
 
 /// The interpolating polynomial at Chebyshev points of the second kind. J.-P. Berrut and L. N. Trefethen, *Barycentric

@@ -66,10 +66,10 @@ impl Motion<'_, '_> {
         }
     }
 
-    fn lapses(&self) -> Vec<Lapse> {
+    fn violations(&self) -> Vec<Lapse> {
         match self {
-            Self::Closed(motion) => motion.lapses(),
-            Self::Direct(motion) => motion.lapses(),
+            Self::Closed(motion) => motion.violations(),
+            Self::Direct(motion) => motion.violations(),
         }
     }
 
@@ -131,10 +131,10 @@ impl<'a, 'd> Found<'a, 'd> {
     }
 
     /// The trials of the search.
-    fn tried(&self) -> &[Trial] {
+    fn trials(&self) -> &[Trial] {
         match &self.motion {
             Motion::Closed(_) => &[],
-            Motion::Direct(motion) => motion.tried(),
+            Motion::Direct(motion) => motion.trials(),
         }
     }
 
@@ -216,7 +216,7 @@ impl<'a, 'd> Found<'a, 'd> {
     /// Whether it is a motion of the machine: the guides obey Coulomb's law, and the machine arrives under the control
     /// forces. Otherwise the computed time means nothing.
     pub fn is_motion(&self) -> bool {
-        self.motion.lapses().is_empty() && self.arrival.is_ok()
+        self.motion.violations().is_empty() && self.arrival.is_ok()
     }
 
     /// Warnings about guides that violate Coulomb's law, and about motions that may be faster.
@@ -239,13 +239,13 @@ impl<'a, 'd> Found<'a, 'd> {
         };
         let arrival = self.arrival.as_ref().err();
         let lost = arrival.map(|why| format!("simulated under the control forces, {why}"));
-        let lapses = self.motion.lapses();
+        let lapses = self.motion.violations();
         let lapses = lapses.iter().map(describe).chain(lost);
-        lapses.chain(self.doubt()).collect()
+        lapses.chain(self.warning_of_unfinished()).collect()
     }
 
     /// A warning about candidates that may be faster but were not continued to a motion.
-    fn doubt(&self) -> Option<String> {
+    fn warning_of_unfinished(&self) -> Option<String> {
         let Motion::Direct(motion) = &self.motion else {
             return None;
         };
@@ -297,7 +297,7 @@ impl<'a, 'd> Found<'a, 'd> {
                 Motion::Direct(_) => "direct",
             },
             "because": self.because,
-            "tried": tried::document(self.tried(), &self.names),
+            "tried": tried::document(self.trials(), &self.names),
         })
     }
 
@@ -402,14 +402,14 @@ impl<'a, 'd> Found<'a, 'd> {
     pub fn print(&self, machine: &str) {
         let motion = &self.motion;
         let time = shortest(motion.time());
-        match self.is_motion() {
-            true if self.doubt().is_some() => {
-                output::line(format_args!("{machine}: {time} s is the least time found"));
-            }
-            true => output::line(format_args!("{machine}: {time} s is the least time")),
-            false => output::line(format_args!(
+        if !self.is_motion() {
+            output::line(format_args!(
                 "{machine}: no least time is claimed; the equations give {time} s, but the machine does not move that way"
-            )),
+            ));
+        } else if self.warning_of_unfinished().is_some() {
+            output::line(format_args!("{machine}: {time} s is the least time found"));
+        } else {
+            output::line(format_args!("{machine}: {time} s is the least time"));
         }
         output::line(format_args!("  found in {:.1} µs", 1e6 * self.seconds));
         if let Motion::Direct(direct) = motion {
@@ -422,7 +422,7 @@ impl<'a, 'd> Found<'a, 'd> {
                 direct.stretches(),
                 direct.change()
             ));
-            output::line(format_args!("  {}", compared(direct)));
+            output::line(format_args!("  {}", alternatives(direct)));
         }
         let width = self
             .names
@@ -451,11 +451,11 @@ impl<'a, 'd> Found<'a, 'd> {
             ));
         }
         let constants: Vec<String> = self.constants().iter().map(|c| shortest(*c)).collect();
-        let what = match motion {
+        let quantity = match motion {
             Motion::Closed(_) => "constants of Euler's equations",
             Motion::Direct(_) => "multipliers of the coordinates at the start",
         };
-        output::line(format_args!("  {what}: {}", constants.join(", ")));
+        output::line(format_args!("  {quantity}: {}", constants.join(", ")));
         for (i, guide) in self.guides.iter().enumerate() {
             let (reaction, time) = self.least_reaction(i);
             output::line(format_args!(
@@ -494,8 +494,8 @@ impl<'a, 'd> Found<'a, 'd> {
 }
 
 /// The alternatives with which the motion was compared.
-fn compared<T: Terrain>(motion: &Sought<T>) -> String {
-    let starts = motion.tried().len();
+fn alternatives<T: Terrain>(motion: &Sought<T>) -> String {
+    let starts = motion.trials().len();
     let starts = match starts {
         1 => "1 start".to_owned(),
         _ => format!("{starts} starts"),

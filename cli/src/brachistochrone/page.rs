@@ -29,7 +29,7 @@ pub fn page(
     compiled: &Compiled<'_>,
     machine: &InterpretedMachine,
 ) -> Result<String, Failure> {
-    let (free, broken) = left_to_itself(found, machine);
+    let (free, broken) = motion_without_control(found, machine);
     let fastest = found.at_equal_times(INSTANTS);
     let mut start = machine.start();
     start.q.values.clone_from(&found.moments[0].q);
@@ -67,7 +67,7 @@ pub fn page(
 }
 
 /// The motion from rest at the same position for the same time without control forces; and why it ended early, if it did.
-fn left_to_itself(
+fn motion_without_control(
     found: &Found<'_, '_>,
     machine: &InterpretedMachine,
 ) -> (Option<Recording>, Option<String>) {

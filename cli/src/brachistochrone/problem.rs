@@ -58,7 +58,7 @@ fn problem<'d>(
         .collect();
     let values = |expressions: &[Expr]| at_parameters(compiled, machine, expressions);
     let mass: Vec<Vec<f64>> = form.mass.iter().map(|row| values(row)).collect();
-    let refused = |unsolved: Unsolved| Failure::Run(explained(&unsolved, &names));
+    let refused = |unsolved: Unsolved| Failure::Run(reason(&unsolved, &names));
     let problem = Problem::new(&mass, &values(&form.slope)).map_err(refused)?;
     let guides = guides(form, values)?;
     let add = |problem: Problem, guide| problem.with_guide(guide);
@@ -120,7 +120,7 @@ fn guides<'d>(
 }
 
 /// Why there is no fastest motion, with the names of coordinates instead of indices.
-pub fn explained(unsolved: &Unsolved, names: &[String]) -> String {
+pub fn reason(unsolved: &Unsolved, names: &[String]) -> String {
     let name = |index: usize| names.get(index).map_or("?", String::as_str);
     match unsolved {
         Unsolved::NoInertia { coordinate, .. } => {

@@ -4,13 +4,13 @@ use lagrangian_brachistochrone::Unsolved;
 use lagrangian_brachistochrone::direct::{Outcome, Start, Trial};
 use serde_json::{Map, Value, json};
 
-use super::problem::explained;
+use super::problem::reason;
 use crate::failure::Failure;
 
 /// The failure that there is no fastest motion, with all trials.
 pub fn failure(unsolved: &Unsolved, names: &[String]) -> Failure {
     let Unsolved::NotFound { tried } = unsolved else {
-        return Failure::Run(explained(unsolved, names));
+        return Failure::Run(reason(unsolved, names));
     };
     let lines = tried.iter().enumerate();
     let lines = lines.map(|(number, trial)| format!("\n  {}. {}", number + 1, line(trial, names)));

@@ -44,7 +44,7 @@ impl Kind {
 }
 
 /// Evaluates a machine around its start, at extreme and at nearly singular states.
-pub fn look(compiled: &Compiled<'_>) -> Found {
+pub fn evaluate(compiled: &Compiled<'_>) -> Found {
     let program: &Program = &compiled.program;
     let machine = InterpretedMachine::new(compiled.program.clone());
     let drawn = around_start(&compiled.model, 3, AROUND);
@@ -60,7 +60,7 @@ pub fn look(compiled: &Compiled<'_>) -> Found {
     let mut random = SplitMix(4);
     let extreme = drawn.states.iter().take(EXTREME);
     let extreme: Vec<State> = extreme
-        .map(|state| stretched(program, state, &mut random))
+        .map(|state| extreme_state(program, state, &mut random))
         .filter(|state| judge.satisfies_assumptions(state))
         .collect();
     let singular = drawn.states.iter().take(SINGULAR);
@@ -86,7 +86,7 @@ pub fn look(compiled: &Compiled<'_>) -> Found {
 }
 
 /// An extreme state: angles of many turns, large rates, late time.
-fn stretched(program: &Program, state: &State, random: &mut SplitMix) -> State {
+fn extreme_state(program: &Program, state: &State, random: &mut SplitMix) -> State {
     let mut stretched = state.clone();
     stretched.t *= 10_f64.powf(random.uniform(0.0, 6.0));
     let by = 10_f64.powf(random.uniform(0.0, 6.0));

@@ -58,7 +58,7 @@ pub fn read(name: &str, text: &str) -> Result<Vec<Result<Point, String>>, String
         Ok(list) => list,
         Err(error) if error.is_data() => {
             let at = text.len() - text.trim_start().len();
-            return Err(reader.wrong(at, "expected a list of points, `[{\"q\": …}, …]`"));
+            return Err(reader.message_at(at, "expected a list of points, `[{\"q\": …}, …]`"));
         }
         Err(error) => return Err(reader.no_json(&error)),
     };
@@ -66,8 +66,8 @@ pub fn read(name: &str, text: &str) -> Result<Vec<Result<Point, String>>, String
     let points = numbered.map(|(index, value)| {
         let point = reader.point(value);
         point.map_err(|(at, what)| {
-            let what = format!("point {}: {what}", index + 1);
-            reader.wrong(at, &what)
+            let message = format!("point {}: {what}", index + 1);
+            reader.message_at(at, &message)
         })
     });
     Ok(points.collect())
@@ -83,15 +83,15 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// A message with the line and column of a byte offset.
-    fn wrong(&self, at: usize, what: &str) -> String {
+    fn message_at(&self, at: usize, message: &str) -> String {
         let before = self.text.get(..at).unwrap_or(self.text);
         let line = before.matches('\n').count() + 1;
         let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-        self.placed(line, column, what)
+        self.message_at_line(line, column, message)
     }
 
-    fn placed(&self, line: usize, column: usize, what: &str) -> String {
-        format!("{}: line {line}, column {column}: {what}", self.name)
+    fn message_at_line(&self, line: usize, column: usize, message: &str) -> String {
+        format!("{}: line {line}, column {column}: {message}", self.name)
     }
 
     /// The message for invalid JSON, in words for its author.
@@ -103,8 +103,8 @@ impl<'a> Reader<'a> {
         let at = (0..=at).rev().find(|at| line.is_char_boundary(*at));
         let (before, after) = line.split_at(at.unwrap_or(0));
         let text = error.to_string();
-        let said = text.split(" at line ").next().unwrap_or(&text);
-        let what = match said {
+        let reason = text.split(" at line ").next().unwrap_or(&text);
+        let message = match reason {
             _ if error.is_eof() && self.text.trim().is_empty() => "it is empty",
             _ if error.is_eof() => "the text ends before a bracket or a quotation mark is closed",
             "expected value" | "expected ident" => {
@@ -125,7 +125,7 @@ impl<'a> Reader<'a> {
             "recursion limit exceeded" => "brackets are nested too deeply",
             said => said, // such as `expected `:``
         };
-        self.placed(error.line().max(1), before.chars().count() + 1, what)
+        self.message_at_line(error.line().max(1), before.chars().count() + 1, message)
     }
 
     /// The offset of a slice within the text.
@@ -133,9 +133,9 @@ impl<'a> Reader<'a> {
         (piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
     }
 
-    fn expected(&self, value: &RawValue, what: &str) -> ReadError {
+    fn expected(&self, value: &RawValue, noun: &str) -> ReadError {
         let text = value.get();
-        let found = match text.as_bytes().first() {
+        let kind = match text.as_bytes().first() {
             Some(b'"') => "a string",
             Some(b'{') => "an object",
             Some(b'[') => "a list",
@@ -143,7 +143,7 @@ impl<'a> Reader<'a> {
             Some(b'n') => "null",
             _ => "a number",
         };
-        (self.place(text), format!("expected {what}, found {found}"))
+        (self.place(text), format!("expected {noun}, found {kind}"))
     }
 
     fn point(&self, value: &'a RawValue) -> Result<Point, ReadError> {
@@ -163,8 +163,8 @@ impl<'a> Reader<'a> {
                         Some(near) => format!("did you mean \"{near}\"?"),
                         None => format!("there are: {}", FIELDS.join(", ")),
                     };
-                    let what = format!("a point has no \"{name}\"; {help}");
-                    return Err((self.place(value.get()), what));
+                    let message = format!("a point has no \"{name}\"; {help}");
+                    return Err((self.place(value.get()), message));
                 }
             }
         }
@@ -175,10 +175,10 @@ impl<'a> Reader<'a> {
     fn pairs(
         &self,
         value: &'a RawValue,
-        what: &str,
+        noun: &str,
     ) -> Result<Vec<(String, &'a RawValue)>, ReadError> {
         let pairs: Result<Pairs, _> = serde_json::from_str(value.get());
-        let Pairs(mut pairs) = pairs.map_err(|_| self.expected(value, what))?;
+        let Pairs(mut pairs) = pairs.map_err(|_| self.expected(value, noun))?;
         // Names are normalized like those of a spec: two encodings of é are the same name.
         for (name, _) in &mut pairs {
             if let Cow::Owned(composed) = normalized(name) {
@@ -187,8 +187,8 @@ impl<'a> Reader<'a> {
         }
         for (index, (name, value)) in pairs.iter().enumerate() {
             if pairs[..index].iter().any(|(other, _)| other == name) {
-                let what = format!("\"{name}\" is given more than once");
-                return Err((self.place(value.get()), what));
+                let message = format!("\"{name}\" is given more than once");
+                return Err((self.place(value.get()), message));
             }
         }
         Ok(pairs)
@@ -202,8 +202,8 @@ impl<'a> Reader<'a> {
         match number {
             Ok(number) if number.is_finite() => Ok(number),
             _ if is_number => {
-                let what = "this number is beyond the range of floating-point numbers";
-                Err((self.place(value.get()), what.to_owned()))
+                let message = "this number is beyond the range of floating-point numbers";
+                Err((self.place(value.get()), message.to_owned()))
             }
             _ => Err(self.expected(value, "a number")),
         }

@@ -49,17 +49,18 @@ pub fn rate_unit(unit: &str) -> String {
 ///
 /// # Errors
 /// If the call is invalid.
-pub fn given(call: &call::Fit) -> Result<Vec<Given>, Failure> {
+pub fn read_all(call: &call::Fit) -> Result<Vec<Given>, Failure> {
     let mut all: Vec<Given> = Vec::new();
     for text in &call.data {
-        let given = read(text).map_err(|why| Failure::Call(format!("--data {text}: {why}")))?;
-        if all.iter().any(|other| other.path == given.path) {
+        let experiment =
+            read(text).map_err(|why| Failure::Call(format!("--data {text}: {why}")))?;
+        if all.iter().any(|other| other.path == experiment.path) {
             return Err(Failure::Call(format!(
                 "--data names {} more than once: its measurements would count twice",
-                given.label
+                experiment.label
             )));
         }
-        all.push(given);
+        all.push(experiment);
     }
     Ok(all)
 }
@@ -79,14 +80,14 @@ fn read(text: &str) -> Result<Given, String> {
     };
     let end = ends.filter(is_end).min().ok_or(wanted)?;
     let (path, rest) = text.split_at(end);
-    let mut given = Given {
+    let mut experiment = Given {
         path: PathBuf::from(path),
         label: path.to_owned(),
         sets: Vec::new(),
         starts: [Vec::new(), Vec::new()],
         inputs: Vec::new(),
     };
-    let mut said: Vec<String> = Vec::new();
+    let mut settings: Vec<String> = Vec::new();
     let mut depth = 0_i32;
     for (place, part) in rest
         .split(|c: char| {
@@ -102,18 +103,18 @@ fn read(text: &str) -> Result<Given, String> {
         let name = part.split_once('=').map(|(name, _)| name.trim());
         // Options of a table or of a controller follow it.
         let is_option = !matches!(name, Some(name) if !["end", "every", "delay"].contains(&name));
-        match said.last_mut() {
+        match settings.last_mut() {
             _ if place == 0 => {}
             Some(last) if is_option => {
                 last.push(',');
                 last.push_str(part);
             }
             None if is_option => return Err(wanted.into()),
-            _ => said.push(part.to_owned()),
+            _ => settings.push(part.to_owned()),
         }
     }
     let mut names = BTreeSet::new();
-    for text in &said {
+    for text in &settings {
         let set = call::assignment(text)?;
         if !names.insert(set.name.clone()) {
             return Err(format!("`{}` is set more than once", set.name));
@@ -123,14 +124,14 @@ fn read(text: &str) -> Result<Given, String> {
             Some(rest.strip_suffix(')')?.trim().to_owned())
         };
         if let Some(name) = inside("start") {
-            given.starts[0].push(Assignment { name, ..set });
+            experiment.starts[0].push(Assignment { name, ..set });
         } else if let Some(name) = inside("rate") {
-            given.starts[1].push(Assignment { name, ..set });
+            experiment.starts[1].push(Assignment { name, ..set });
         } else {
             match signals::parse_input(&set.value) {
                 Ok(InputArgument::File { .. }) => {
                     let written = signals::parse_input(&set.value)?;
-                    given.inputs.push((set.name, written));
+                    experiment.inputs.push((set.name, written));
                 }
                 Ok(InputArgument::Sampled { .. }) => {
                     return Err(format!(
@@ -138,11 +139,11 @@ fn read(text: &str) -> Result<Given, String> {
                         set.name
                     ));
                 }
-                Ok(InputArgument::Formula(_)) | Err(_) => given.sets.push(set),
+                Ok(InputArgument::Formula(_)) | Err(_) => experiment.sets.push(set),
             }
         }
     }
-    Ok(given)
+    Ok(experiment)
 }
 
 impl Given {
@@ -177,12 +178,12 @@ impl Given {
                 .map_err(|unknown| wrong(unknown.to_string()))?;
         }
         if !self.sets.is_empty() {
-            let said = compiled
+            let diagnostics = compiled
                 .model
                 .parameter_diagnostics(machine.parameter_values());
-            let error = said
+            let error = diagnostics
                 .iter()
-                .find(|said| said.code.severity() == Severity::Error);
+                .find(|diagnostic| diagnostic.code.severity() == Severity::Error);
             if let Some(error) = error {
                 return Err(wrong(format!("{} [{}]", error.message, error.code)));
             }
@@ -218,7 +219,7 @@ impl Given {
                     .map_err(|unknown| wrong(unknown.to_string()))?;
             }
         }
-        let given = |numbers: &Named| {
+        let known_numbers = |numbers: &Named| {
             numbers
                 .values
                 .iter()
@@ -227,7 +228,7 @@ impl Given {
         };
         Ok(Experiment {
             name: self.label.clone(),
-            start: [given(&start.q), given(&start.v)],
+            start: [known_numbers(&start.q), known_numbers(&start.v)],
             machine,
             signals,
             times: Vec::new(),
@@ -284,9 +285,9 @@ pub fn measure(
     experiments: &mut [Experiment],
 ) -> Result<(Vec<Class>, Vec<String>), Failure> {
     let known = measurable(machine, compiled);
-    let asked = call::names_of(&call.columns).map_err(Failure::Call)?;
-    for (place, name) in asked.iter().enumerate() {
-        if asked[..place].contains(name) {
+    let requested = call::names_of(&call.columns).map_err(Failure::Call)?;
+    for (place, name) in requested.iter().enumerate() {
+        if requested[..place].contains(name) {
             return Err(Failure::Call(format!(
                 "--columns names `{name}` more than once"
             )));
@@ -311,9 +312,9 @@ pub fn measure(
         let mut unused = Vec::new();
         for name in &names {
             let class = known.iter().find(|class| class.name == *name);
-            let is_asked = asked.is_empty() || asked.contains(name);
+            let is_asked = requested.is_empty() || requested.contains(name);
             let Some(class) = class.filter(|_| is_asked) else {
-                if asked.is_empty() {
+                if requested.is_empty() {
                     unused.push(name.as_str());
                 }
                 continue;
@@ -346,7 +347,7 @@ pub fn measure(
                 values,
             });
         }
-        check_times(one, experiment, &names, (&known[..], &asked[..]))?;
+        check_times(one, experiment, &names, (&known[..], &requested[..]))?;
         if !unused.is_empty() {
             let near = unused.iter().find_map(|name| {
                 let near = most_similar(name, known.iter().map(|class| class.name.as_str()))?;
@@ -361,7 +362,7 @@ pub fn measure(
         }
     }
     let is_used = |name: &&String| !classes.iter().any(|class| class.name == **name);
-    if let Some(name) = asked.iter().find(is_used) {
+    if let Some(name) = requested.iter().find(is_used) {
         return Err(Failure::Call(format!(
             "--columns {name}: no table has measurements of it"
         )));
@@ -436,7 +437,7 @@ pub fn count(experiments: &[Experiment]) -> usize {
 }
 
 /// The root mean square of the measurements under one name about their mean; 1 if they are constant.
-pub fn spread(experiments: &[Experiment], class: usize) -> f64 {
+pub fn root_mean_square(experiments: &[Experiment], class: usize) -> f64 {
     let columns = experiments
         .iter()
         .flat_map(|experiment| &experiment.columns);

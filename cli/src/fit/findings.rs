@@ -49,23 +49,23 @@ pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
     let entangled = list(Standing::Entangled);
     if !entangled.is_empty() {
         let all: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-        let told: Vec<String> = result
+        let determined: Vec<String> = result
             .found
             .combinations
             .iter()
             .map(|combination| combination.formula(&all))
             .collect();
-        let told = if told.is_empty() {
+        let determined = if determined.is_empty() {
             "no combination of them is".to_owned()
         } else {
             format!(
                 "only {} {}",
-                told.join(", "),
-                if told.len() == 1 { "is" } else { "are" }
+                determined.join(", "),
+                if determined.len() == 1 { "is" } else { "are" }
             )
         };
         warnings.push(format!(
-            "{} cannot be told apart: {told} determined by these measurements",
+            "{} cannot be told apart: {determined} determined by these measurements",
             entangled.join(", ")
         ));
     }
@@ -388,26 +388,26 @@ fn residuals(result: &Fitted<'_, '_>) -> String {
 
 fn correlations(result: &Fitted<'_, '_>) -> String {
     let statistics = &result.found.statistics;
-    let told: Vec<usize> = (0..result.fit.sought.len())
+    let estimated: Vec<usize> = (0..result.fit.sought.len())
         .filter(|j| statistics.standing[*j] == Standing::Estimated)
         .collect();
-    if told.len() < 2 {
+    if estimated.len() < 2 {
         return String::new();
     }
-    if told.len() > MOST_COLUMNS {
+    if estimated.len() > MOST_COLUMNS {
         return "  correlations: with --json\n".to_owned();
     }
     let name = |j: usize| result.fit.sought[j].name.as_str();
-    let wide = told
+    let wide = estimated
         .iter()
         .map(|j| name(*j).chars().count())
         .max()
         .unwrap_or(0);
     let mut text = String::from("  correlations\n");
-    for (row, j) in told.iter().enumerate() {
+    for (row, j) in estimated.iter().enumerate() {
         let pad = " ".repeat(wide - name(*j).chars().count());
         let _ = write!(text, "    {}{pad}", name(*j));
-        for k in &told[..=row] {
+        for k in &estimated[..=row] {
             let rho = statistics.correlation(*j, *k).unwrap_or(f64::NAN);
             let _ = write!(text, "  {rho:>7.4}");
         }

@@ -115,9 +115,10 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
 /// # Errors
 /// If the call is invalid.
 pub fn check(sought: &[Sought], experiments: usize) -> Result<(), Failure> {
-    let is_said = |one: &&Sought| matches!(one.subject, Subject::Parameter(_)) || experiments == 1;
-    let mut said = sought.iter().filter(is_said);
-    match said.find(|one| one.name.contains('[')) {
+    let has_statement =
+        |one: &&Sought| matches!(one.subject, Subject::Parameter(_)) || experiments == 1;
+    let mut stated = sought.iter().filter(has_statement);
+    match stated.find(|one| one.name.contains('[')) {
         None => Ok(()),
         Some(one) => Err(Failure::Call(format!(
             "--out: `{}` is a member of a family, and a variant of a spec cannot set it separately; --json prints its value",
@@ -128,11 +129,11 @@ pub fn check(sought: &[Sought], experiments: usize) -> Result<(), Failure> {
 
 /// The relative path of a spec from the folder of a file.
 fn relative(spec: &Path, file: Option<&Path>) -> Result<String, Failure> {
-    let whole = |path: &Path| {
+    let canonical = |path: &Path| {
         path.canonicalize()
             .map_err(|error| Failure::Run(format!("cannot find {}: {error}", path.display())))
     };
-    let spec_path = whole(spec)?;
+    let spec_path = canonical(spec)?;
     let Some(folder) = file.and_then(Path::parent) else {
         return Ok(spec_path.to_string_lossy().into_owned());
     };
@@ -141,7 +142,7 @@ fn relative(spec: &Path, file: Option<&Path>) -> Result<String, Failure> {
     } else {
         folder.to_owned()
     };
-    let folder = whole(&folder)?;
+    let folder = canonical(&folder)?;
     let (from, to): (Vec<_>, Vec<_>) = (
         folder.components().collect(),
         spec_path.components().collect(),

@@ -49,18 +49,18 @@ impl<'a> Dependencies<'a> {
         if let Some(state) = state {
             return vec![(state, "constant")];
         }
-        let whole = |role| self.results(role).into_iter().next().unwrap_or_default();
+        let result_of = |role| self.results(role).into_iter().next().unwrap_or_default();
         let sources = match kind {
             Kind::Acceleration(i) => self.accelerations.get(i).cloned().unwrap_or_default(),
-            Kind::Output(i) => whole(Role::Output(i)),
+            Kind::Output(i) => result_of(Role::Output(i)),
             Kind::Multiplier(i) => {
                 let all = self.results(Role::Multipliers);
                 all.into_iter().nth(i).unwrap_or_default()
             }
-            Kind::KineticEnergy => whole(Role::KineticEnergy),
-            Kind::PotentialEnergy => whole(Role::PotentialEnergy),
-            Kind::Fact(i) => whole(Role::Assumption(i)),
-            Kind::Event(i) => whole(Role::Output(self.shown + i)),
+            Kind::KineticEnergy => result_of(Role::KineticEnergy),
+            Kind::PotentialEnergy => result_of(Role::PotentialEnergy),
+            Kind::Fact(i) => result_of(Role::Assumption(i)),
+            Kind::Event(i) => result_of(Role::Output(self.shown + i)),
             // A count does not change while other variables change.
             Kind::Count(_)
             | Kind::Time

@@ -86,8 +86,8 @@ pub fn text(unit: &Unit<'_>) -> String {
     document.open("ModelVariables", &[]);
     for (reference, (variable, row)) in variables.iter().zip(&rows).enumerate() {
         match unit.version {
-            Version::Three => of_three(&mut document, reference, variable, row),
-            Version::Two => of_two(&mut document, reference, variable, row),
+            Version::Three => variable_of_version_3(&mut document, reference, variable, row),
+            Version::Two => variable_of_version_2(&mut document, reference, variable, row),
         }
     }
     document.close();
@@ -271,7 +271,12 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
     }
 }
 
-fn of_three(document: &mut Document, reference: usize, variable: &Variable, row: &Row) {
+fn variable_of_version_3(
+    document: &mut Document,
+    reference: usize,
+    variable: &Variable,
+    row: &Row,
+) {
     let reference = reference.to_string();
     let derivative = row.derivative.map(|k| k.to_string()).unwrap_or_default();
     let of_type = match variable.kind {
@@ -294,7 +299,12 @@ fn of_three(document: &mut Document, reference: usize, variable: &Variable, row:
     );
 }
 
-fn of_two(document: &mut Document, reference: usize, variable: &Variable, row: &Row) {
+fn variable_of_version_2(
+    document: &mut Document,
+    reference: usize,
+    variable: &Variable,
+    row: &Row,
+) {
     let number = reference.to_string();
     document.open(
         "ScalarVariable",

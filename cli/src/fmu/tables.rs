@@ -12,7 +12,7 @@ use crate::call::UnitKind;
 pub fn text(unit: &Unit<'_>) -> String {
     let program = unit.program;
     let starts: Vec<f64> = unit.start.iter().map(|(x, _)| *x).collect();
-    let given = unit
+    let is_given = unit
         .start
         .iter()
         .map(|(_, given)| u8::from(*given).to_string());
@@ -31,7 +31,7 @@ pub fn text(unit: &Unit<'_>) -> String {
     numbers(&mut text, "INPUT_DEFAULTS", &unit.inputs);
     text.push_str("\n/* Where states start that do not follow the parameters. */\n");
     numbers(&mut text, "START", &starts);
-    list(&mut text, "unsigned char", "START_IS_SET", given, "0");
+    list(&mut text, "unsigned char", "START_IS_SET", is_given, "0");
     text.push_str("\n/* For messages. */\n");
     let quoted = |text: String| quoted(&text);
     list(

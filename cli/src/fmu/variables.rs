@@ -185,13 +185,13 @@ fn structured(name: &str) -> String {
 
 /// A name that is not taken yet.
 fn free(name: String, taken: &mut BTreeSet<String>) -> String {
-    let mut found = name.clone();
+    let mut unique = name.clone();
     let mut count = 2;
-    while !taken.insert(found.clone()) {
-        found = format!("'{} ({count})'", name.trim_matches('\''));
+    while !taken.insert(unique.clone()) {
+        unique = format!("'{} ({count})'", name.trim_matches('\''));
         count += 1;
     }
-    found
+    unique
 }
 
 #[cfg(test)]

@@ -41,8 +41,8 @@ pub struct Machine {
 }
 
 /// Writes the machine of a robot, unless there are errors.
-pub fn written(robot: &Robot, file: &str, call: &Import, faults: &mut Faults) -> Option<Machine> {
-    let tree = tree::plant(robot, faults)?;
+pub fn write(robot: &Robot, file: &str, call: &Import, faults: &mut Faults) -> Option<Machine> {
+    let tree = tree::build(robot, faults)?;
     let mut writer = Writer::new(robot, &tree, call);
     writer.drop_massless(faults);
     writer.find_moving();
@@ -317,11 +317,11 @@ impl<'a> Writer<'a> {
         let q = self.several(name, comment, kind, &place, from);
         let mut steps = vec![format!(".shift({}, {}, {})", q[0], q[1], q[2])];
         let ball = self.call.ball.unwrap_or(Ball::Zyx);
-        let what = match ball {
+        let coordinates = match ball {
             Ball::Quaternion => "quaternion",
             Ball::Xyz | Ball::Zyx | Ball::Zxz => "angles",
         };
-        let angles = format!("The {what} of {kind} {}.", quoted(name));
+        let angles = format!("The {coordinates} of {kind} {}.", quoted(name));
         steps.extend(self.ball(name, angles, ball, start));
         steps
     }
@@ -652,7 +652,7 @@ impl<'a> Writer<'a> {
         };
         let mut parts = vec![format!("mass: {mass}")];
         if has_tensor {
-            let turned = tensor::turned(tensor, turns);
+            let turned = tensor::rotated(tensor, turns);
             let labels = ["Ixx", "Iyy", "Izz", "Ixy", "Ixz", "Iyz"];
             let inertia: Vec<String> = labels
                 .iter()
@@ -1163,7 +1163,7 @@ impl<'a> Writer<'a> {
             self.warnings.push(message);
         }
         let name = names::machine(&self.robot.name);
-        let text = self.text.written(&name, &comment, &gravity);
+        let text = self.text.to_text(&name, &comment, &gravity);
         Machine {
             counts: ["coordinates", "bodies", "parameters"].map(|section| self.text.count(section)),
             name,
@@ -1202,12 +1202,12 @@ fn joint_comment(joint: &Joint) -> String {
         Kind::Prismatic => ("m", "N"),
         _ => ("rad", "N*m"),
     };
-    let mut said = String::new();
+    let mut remarks = String::new();
     if let Some([lower, upper]) = &joint.range {
-        said = format!("; between {lower} and {upper} {angle}");
+        remarks = format!("; between {lower} and {upper} {angle}");
     }
     for (name, number) in &joint.remarks {
-        said.push_str(&match *name {
+        remarks.push_str(&match *name {
             "velocity" => format!("; velocity up to {number} {angle}/s"),
             "effort" => format!("; effort up to {number} {force}"),
             "acceleration" | "deceleration" => format!("; {name} up to {number} {angle}/s^2"),
@@ -1217,5 +1217,5 @@ fn joint_comment(joint: &Joint) -> String {
             name => format!("; {name} of the safety controller {number}"),
         });
     }
-    said
+    remarks
 }

@@ -405,14 +405,14 @@ pub fn read(
 ) -> Option<Robot> {
     let root = scene::read(text, folder, file, faults)?;
     if root.name != "mujoco" {
-        let what = match root.name.as_str() {
+        let message = match root.name.as_str() {
             "robot" => "this is URDF: give its file the ending `.urdf`".to_owned(),
             name => format!(
                 "{} is not a model: an MJCF file begins with `<mujoco>`",
                 quoted(name)
             ),
         };
-        faults.add(root.at, what);
+        faults.add(root.at, message);
         return None;
     }
     let classes = Classes::of(&root, faults);
@@ -551,7 +551,9 @@ impl<'e> Reader<'_, '_, 'e> {
             self.count("keyframe");
             homes.clear();
         }
-        homes.into_iter().for_each(|key| self.home(key));
+        homes
+            .into_iter()
+            .for_each(|key| self.read_home_keyframe(key));
         self.settle_mass();
     }
 
@@ -813,13 +815,13 @@ impl<'e> Reader<'_, '_, 'e> {
             ("balanceinertia", "false"),
             ("coordinate", "local"),
         ] {
-            if let Some(said) = element.own(name)
-                && said.value != usual
-                && said.value.parse() != Ok(0.0)
+            if let Some(attribute) = element.own(name)
+                && attribute.value != usual
+                && attribute.value.parse() != Ok(0.0)
             {
                 let message =
                     format!("`{name}` of the compiler changes the model, and is not supported");
-                self.refuse(said.at, name, &message);
+                self.refuse(attribute.at, name, &message);
             }
         }
     }
@@ -831,12 +833,12 @@ impl<'e> Reader<'_, '_, 'e> {
             self.robot.gravity = Some(gravity);
         }
         for name in ["density", "viscosity"] {
-            if let Some(said) = element.own(name)
-                && said.value.parse() != Ok(0.0)
+            if let Some(unsupported) = element.own(name)
+                && unsupported.value.parse() != Ok(0.0)
             {
                 let message =
                     format!("`{name}` of a fluid changes the motion, and is not supported");
-                self.refuse(said.at, name, &message);
+                self.refuse(unsupported.at, name, &message);
             }
         }
         if let Some(groups) = element.own("actuatorgroupdisable")
@@ -898,7 +900,7 @@ impl<'e> Reader<'_, '_, 'e> {
         let Some(name) = name else {
             return Vec::new();
         };
-        let found = match name {
+        let value = match name {
             "quat" => self.numbers::<4>(item, name).map(|numbers| {
                 let [w, x, y, z] = numbers.map(|number| number.value);
                 let quaternion = Quaternion::new(w, x, y, z);
@@ -944,7 +946,7 @@ impl<'e> Reader<'_, '_, 'e> {
                 Some(towards(&z))
             }),
         };
-        match found {
+        match value {
             None => Vec::new(),
             Some(Some(rotation)) => steps::turns(&rotation),
             Some(None) => {

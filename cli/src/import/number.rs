@@ -73,9 +73,9 @@ impl Number {
             Some((mantissa, exponent)) => (mantissa, Some(exponent)),
             None => (unsigned, None),
         };
-        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let (integer, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
         let is_decimal = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
-        if !is_decimal(whole) || !is_decimal(fraction) || whole.len() + fraction.len() == 0 {
+        if !is_decimal(integer) || !is_decimal(fraction) || integer.len() + fraction.len() == 0 {
             return Err(malformed());
         }
         let exponent: i32 = match exponent {
@@ -92,11 +92,13 @@ impl Number {
                 "`{text}` is beyond the range of floating-point numbers: 2.2e-308 to 1.8e308"
             ));
         }
-        let whole = whole.trim_start_matches('0');
-        let kept = match fraction.is_empty() {
-            true => whole.to_owned(),
-            false if whole.is_empty() => format!("0.{fraction}"),
-            false => format!("{whole}.{fraction}"),
+        let integer = integer.trim_start_matches('0');
+        let kept = if fraction.is_empty() {
+            integer.to_owned()
+        } else if integer.is_empty() {
+            format!("0.{fraction}")
+        } else {
+            format!("{integer}.{fraction}")
         };
         let kept = match exponent {
             0 => kept,
@@ -108,7 +110,7 @@ impl Number {
         } else {
             format!("{value:?}")
         };
-        let all = [whole, fraction].concat();
+        let all = [integer, fraction].concat();
         let counted = all.trim_start_matches('0').len();
         let length = |text: &str| i32::try_from(text.len()).unwrap_or(i32::MAX);
         Ok(Number {

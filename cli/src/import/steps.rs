@@ -254,8 +254,8 @@ mod tests {
             ] {
                 let place = |i: usize| (sequence[i], angles_of[i]);
                 let goal = turned([place(0), place(1), place(2)]);
-                let found = angles(&goal, sequence);
-                let place = |i: usize| (sequence[i], found[i].value());
+                let euler_angles = angles(&goal, sequence);
+                let place = |i: usize| (sequence[i], euler_angles[i].value());
                 let again = turned([place(0), place(1), place(2)]);
                 // About ten roundings of numbers up to 1, and of angles up to pi.
                 assert!((again - goal).amax() <= 1e-14, "{angles_of:?} {sequence:?}");

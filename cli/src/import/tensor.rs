@@ -55,7 +55,7 @@ pub fn flaw(tensor: &Tensor) -> Option<String> {
 
 /// The tensor in the axes of a frame, from one in rotated axes: R I Rᵀ. Computed with 106 bits and rounded once; without rotation
 /// the digits are kept.
-pub fn turned(tensor: &Tensor, turns: &Turns) -> Tensor {
+pub fn rotated(tensor: &Tensor, turns: &Turns) -> Tensor {
     if turns.iter().all(|(_, angle)| angle.is_zero()) {
         return tensor.clone();
     }
@@ -136,11 +136,11 @@ mod tests {
         let tensor = numbers(["1", "2.5", "3", "0.1", "0.2", "0.3"]);
         let half_pi = "1.5707963267948966";
         // A rotation about z takes x to y and y to -x.
-        let about_z = turned(&tensor, &turns(["0", "0", half_pi]));
+        let about_z = rotated(&tensor, &turns(["0", "0", half_pi]));
         assert_eq!(texts(&about_z), ["2.5", "1", "3", "-0.1", "-0.3", "0.2"]);
-        let about_x = turned(&tensor, &turns([half_pi, "0", "0"]));
+        let about_x = rotated(&tensor, &turns([half_pi, "0", "0"]));
         assert_eq!(texts(&about_x), ["1", "3", "2.5", "-0.2", "0.1", "-0.3"]);
-        assert_eq!(turned(&tensor, &turns(["0", "0", "0"])), tensor);
+        assert_eq!(rotated(&tensor, &turns(["0", "0", "0"])), tensor);
     }
 
     /// A rod along its own z axis has the tensor m l²/12 (1 - u uᵀ), where u is the direction of z.
@@ -148,7 +148,7 @@ mod tests {
     fn a_rod_in_any_direction() {
         let (roll, pitch, yaw): (f64, f64, f64) = (0.3, -0.7, 1.9);
         let rod = numbers(["0.25", "0.25", "0", "0", "0", "0"]);
-        let turned = turned(&rod, &turns(["0.3", "-0.7", "1.9"]));
+        let turned = rotated(&rod, &turns(["0.3", "-0.7", "1.9"]));
         let (flat, height) = (roll.cos() * pitch.sin(), roll.cos() * pitch.cos());
         let u = [
             yaw.cos() * flat + yaw.sin() * roll.sin(),

@@ -42,7 +42,7 @@ impl Text {
     }
 
     /// The whole machine. `gravity` is written after the bodies.
-    pub fn written(&self, name: &str, comment: &[String], gravity: &str) -> String {
+    pub fn to_text(&self, name: &str, comment: &[String], gravity: &str) -> String {
         let mut text = String::new();
         for paragraph in comment {
             wrap(&mut text, "", paragraph);

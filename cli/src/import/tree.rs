@@ -36,7 +36,7 @@ fn index<'r>(
 }
 
 /// Finds the tree.
-pub fn plant(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
+pub fn build(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
     let Robot { links, joints, .. } = robot;
     let of_link = |link: &'_ Link| link.at;
     let places = index(
@@ -50,11 +50,11 @@ pub fn plant(robot: &Robot, faults: &mut Faults) -> Option<Tree> {
         faults,
     );
     let leader = leaders(joints, &by_name, faults);
-    let mut end = |joint: &Joint, name: &str, what: &str| {
+    let mut end = |joint: &Joint, name: &str, end_name: &str| {
         let found = places.get(name).copied();
         if found.is_none() {
             let message = format!(
-                "the {what} of joint {} is {}, but there is no such link",
+                "the {end_name} of joint {} is {}, but there is no such link",
                 quoted(&joint.name),
                 quoted(name)
             );
@@ -146,7 +146,7 @@ fn leaders(
         let Some(mimic) = &joint.mimic else {
             continue;
         };
-        let told = match by_name.get(mimic.joint.as_str()) {
+        let reason = match by_name.get(mimic.joint.as_str()) {
             None => "there is no such joint".to_owned(),
             Some(leader) if joints[*leader].kind.is_single() => {
                 leaders[index] = Some(*leader);
@@ -160,7 +160,7 @@ fn leaders(
         let (follower, leader) = (quoted(&joint.name), quoted(&mimic.joint));
         faults.add(
             mimic.at,
-            format!("joint {follower} mimics {leader}, but {told}"),
+            format!("joint {follower} mimics {leader}, but {reason}"),
         );
     }
     // A path along leaders with more links than there are joints is a cycle; each joint is visited once.

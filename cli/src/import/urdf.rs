@@ -115,14 +115,14 @@ impl Reader<'_, '_> {
     fn robot(&mut self, root: Node<'_, '_>) {
         let name = root.tag_name().name();
         if name != "robot" {
-            let what = match name {
+            let message = match name {
                 "mujoco" => "this is MJCF: give its file the ending `.xml`".to_owned(),
                 "sdf" => "this is SDF, which is not supported".to_owned(),
                 _ => format!("`{}` is not a robot", name.escape_debug()),
             };
             let help = "a URDF file begins with `<robot name=\"…\">`";
             self.faults
-                .add(root.range().start, format!("{what}: {help}"));
+                .add(root.range().start, format!("{message}: {help}"));
             return;
         }
         self.robot.name = root.attribute("name").unwrap_or_default().to_owned();
@@ -299,13 +299,13 @@ impl Reader<'_, '_> {
     fn gazebo(&mut self, node: Node<'_, '_>) {
         let inner = node.descendants().skip(1);
         let moving = inner.filter(Node::is_element).find(|inner| {
-            let said = inner.text().unwrap_or_default().trim();
+            let text = inner.text().unwrap_or_default().trim();
             let usual = match inner.tag_name().name() {
                 "gravity" => ["true", "1"],
                 "turnGravityOff" | "static" => ["false", "0"],
                 name => return MOTION_OF_GAZEBO.contains(&name),
             };
-            !usual.contains(&said)
+            !usual.contains(&text)
         });
         match moving {
             Some(moving) if !self.is_ignored("gazebo") => {
@@ -569,12 +569,12 @@ impl Reader<'_, '_> {
         known.map(|(_, kind)| *kind).unwrap_or_else(|| {
             let at = attribute.map_or(node.range().start, |attribute| place(&attribute));
             let list: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
-            let what = match name {
+            let message = match name {
                 Some(name) => format!("the type {} of {owner} is not known", quoted(name)),
                 None => format!("{owner} has no type"),
             };
             self.faults
-                .add(at, format!("{what}: there are {}", list.join(", ")));
+                .add(at, format!("{message}: there are {}", list.join(", ")));
             Kind::Fixed
         })
     }
@@ -654,11 +654,11 @@ impl Reader<'_, '_> {
             "k_velocity",
         ];
         self.only(node, owner, &known);
-        let mut found = Vec::new();
+        let mut numbers = Vec::new();
         for name in known {
-            found.extend(self.number(node, owner, name).map(|number| (name, number)));
+            numbers.extend(self.number(node, owner, name).map(|number| (name, number)));
         }
-        found
+        numbers
     }
 
     /// Damping and friction.
@@ -667,7 +667,7 @@ impl Reader<'_, '_> {
             return [(); 2].map(|()| Number::zero());
         };
         self.only(node, owner, &["damping", "friction"]);
-        let found = ["damping", "friction"].map(|name| {
+        let coefficients = ["damping", "friction"].map(|name| {
             let number = self.number(node, owner, name).unwrap_or_else(Number::zero);
             if number.value < 0.0 {
                 let message = format!("`{name}` of {owner} is negative");
@@ -675,7 +675,7 @@ impl Reader<'_, '_> {
             }
             number
         });
-        let has_any = found.iter().any(|number| !number.is_zero());
+        let has_any = coefficients.iter().any(|number| !number.is_zero());
         if has_any && !kind.is_single() && kind != Kind::Fixed {
             let message = format!(
                 "`dynamics` of {owner}: URDF does not define damping and friction of a {} joint: remove them",
@@ -683,7 +683,7 @@ impl Reader<'_, '_> {
             );
             self.faults.add(node.range().start, message);
         }
-        found
+        coefficients
     }
 
     fn mimic(&mut self, node: Node<'_, '_>, kind: Kind, owner: &str) -> Option<Mimic> {

@@ -1,4 +1,3 @@
-
 // The exports for machines with unilateral contacts. This text follows `export.rs`.
 
 use machine::CONTACTS;
@@ -45,14 +44,14 @@ pub unsafe extern "C" fn eval_contacts(
     gaps: *mut f64,
     rates: *mut f64,
     rows: *mut f64,
-    drift: *mut f64,
+    bias: *mut f64,
     coefficients: *mut f64,
 ) {
     let quantities: [(*mut f64, usize, Quantity); 5] = [
         (gaps, C, machine::gaps_of),
         (rates, 2 * C, machine::contact_rates_of),
         (rows, 2 * C * N, machine::contact_matrix_of),
-        (drift, 2 * C, machine::contact_drift_of),
+        (bias, 2 * C, machine::contact_bias_of),
         (coefficients, 4 * C, machine::contact_coefficients_of),
     ];
     // SAFETY: guaranteed by the caller.
@@ -62,7 +61,12 @@ pub unsafe extern "C" fn eval_contacts(
 /// # Safety
 /// The header states the requirements.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn eval_inertia(y: *const f64, t: f64, mass: *mut f64, constraints: *mut f64) {
+pub unsafe extern "C" fn eval_inertia(
+    y: *const f64,
+    t: f64,
+    mass: *mut f64,
+    constraints: *mut f64,
+) {
     let quantities: [(*mut f64, usize, Quantity); 2] = [
         (mass, N * N, machine::mass_matrix_of),
         (constraints, CONSTRAINTS * N, constraint_rows),

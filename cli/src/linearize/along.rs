@@ -122,7 +122,7 @@ fn rows(machine: &InterpretedMachine, trace: &Trace) -> Vec<Row> {
         let mass = DMatrix::from_row_slice(q.len(), q.len(), &mass);
         let mut numbers = vec![0; modes.len()];
         if let Some((older, older_numbers)) = &before {
-            for (k, j) in pairs(&older.modes.modes, modes, &mass) {
+            for (k, j) in matching_modes(&older.modes.modes, modes, &mass) {
                 numbers[j] = older_numbers[k];
             }
         }
@@ -142,11 +142,11 @@ fn rows(machine: &InterpretedMachine, trace: &Trace) -> Vec<Row> {
 }
 
 /// Matches modes, the most similar ones first.
-fn pairs(older: &[Mode], newer: &[Mode], mass: &DMatrix<f64>) -> Vec<(usize, usize)> {
+fn matching_modes(older: &[Mode], newer: &[Mode], mass: &DMatrix<f64>) -> Vec<(usize, usize)> {
     let mut all: Vec<(f64, usize, usize)> = Vec::with_capacity(older.len() * newer.len());
     for (k, one) in older.iter().enumerate() {
         let likeness = newer.iter().enumerate();
-        all.extend(likeness.map(|(j, other)| (alike(one, other, mass), k, j)));
+        all.extend(likeness.map(|(j, other)| (similarity(one, other, mass), k, j)));
     }
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
     let (mut is_taken, mut is_given) = (vec![false; older.len()], vec![false; newer.len()]);
@@ -162,7 +162,7 @@ fn pairs(older: &[Mode], newer: &[Mode], mass: &DMatrix<f64>) -> Vec<(usize, usi
 
 /// The similarity of two modes, from 0 to 1: of their shapes in the metric of inertia (the modal assurance criterion; R. J.
 /// Allemang, *The modal assurance criterion*, Sound and Vibration 37 (2003) 14–21) and, for equal shapes, of their eigenvalues.
-fn alike(one: &Mode, other: &Mode, mass: &DMatrix<f64>) -> f64 {
+fn similarity(one: &Mode, other: &Mode, mass: &DMatrix<f64>) -> f64 {
     let vector = |mode: &Mode| DVector::from_column_slice(&mode.shape);
     let mass = mass.map(|x| Complex::new(x, 0.0));
     let (x, y) = (vector(one), vector(other));

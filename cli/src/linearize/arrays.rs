@@ -17,7 +17,7 @@ pub enum Content {
 }
 
 /// Names without units.
-pub fn plain(labels: &[Label]) -> Vec<String> {
+pub fn names(labels: &[Label]) -> Vec<String> {
     labels.iter().map(|label| label.name.clone()).collect()
 }
 
@@ -29,7 +29,7 @@ pub fn arrays(model: &Model) -> Vec<Array> {
     };
     let text = |name, labels: &[Label]| Array {
         name,
-        content: Content::Text(plain(labels)),
+        content: Content::Text(names(labels)),
     };
     vec![
         matrix("A", &model.a),

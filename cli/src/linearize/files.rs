@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use lagrangian_linear::DMatrix;
 use lagrangian_units::rate_name;
 
-use super::arrays::{arrays, plain};
+use super::arrays::{arrays, names as names_of_labels};
 use super::{Linearization, as_json, frequencies, mat, npz};
 use crate::call;
 use crate::failure::Failure;
@@ -90,7 +90,7 @@ impl Files {
         let rates = names[0].iter().map(|name| rate_name(name, ""));
         let all: Vec<String> = coordinates.chain(rates).collect();
         let [states, inputs, outputs] =
-            [&model.states, &model.inputs, &model.outputs].map(|labels| plain(labels));
+            [&model.states, &model.inputs, &model.outputs].map(|labels| names_of_labels(labels));
         for (name, file) in &self.matrices {
             let drift = DMatrix::from_column_slice(model.drift.len(), 1, &model.drift);
             let (rows, columns, matrix) = match *name {

@@ -90,7 +90,7 @@ fn curves(result: &Linearization) -> Vec<Curve> {
 }
 
 /// The responses, or why there are none.
-fn drawn(result: &Linearization) -> Result<Vec<Curve>, String> {
+fn finite_curves(result: &Linearization) -> Result<Vec<Curve>, String> {
     if result.model.inputs.is_empty() || result.model.outputs.is_empty() {
         return Err(
             "there is no frequency response: the model has no inputs, or no outputs".to_owned(),
@@ -104,7 +104,7 @@ fn drawn(result: &Linearization) -> Result<Vec<Curve>, String> {
 /// # Errors
 /// If there is nothing to draw, or the drawing library fails.
 pub fn bode(title: &str, result: &Linearization) -> Result<String, String> {
-    let curves = drawn(result)?;
+    let curves = finite_curves(result)?;
     let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
     let hertz = |omega: f64| (omega / TAU).log10();
     let gains: Vec<Line> = curves
@@ -159,9 +159,9 @@ pub fn bode(title: &str, result: &Linearization) -> Result<String, String> {
 /// The curves of G(iω) and, mirrored at the real axis, of G(−iω), as SVG text; −1 is marked.
 ///
 /// # Errors
-/// Those of [`bode`].
+/// The errors of [`bode`].
 pub fn nyquist(title: &str, result: &Linearization) -> Result<String, String> {
-    let curves = drawn(result)?;
+    let curves = finite_curves(result)?;
     let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
     let mut sizes: Vec<f64> = curves
         .iter()
@@ -175,7 +175,7 @@ pub fn nyquist(title: &str, result: &Linearization) -> Result<String, String> {
         .map(|curve| {
             let pieces = curve.points.split(|(_, g)| g.norm() > far);
             let pieces = pieces.filter(|piece| !piece.is_empty());
-            let both = pieces.flat_map(|piece| {
+            let parts = pieces.flat_map(|piece| {
                 let part = |sign: f64| {
                     piece
                         .iter()
@@ -184,7 +184,7 @@ pub fn nyquist(title: &str, result: &Linearization) -> Result<String, String> {
                 };
                 [part(1.0), part(-1.0)]
             });
-            both.collect()
+            parts.collect()
         })
         .collect();
     svg_of(48 * UNIT + 2 * PANEL, |backend| {

@@ -139,11 +139,11 @@ pub fn trace(
     let end = |set: &call::Assignment| set.value(option, &unit).map_err(Failure::Call);
     let (first, to) = (end(&vary.ends[0])?, end(&vary.ends[1])?);
     if first == to {
-        let said = format!(
+        let message = format!(
             "{option} {}: the range from {first} to {to} is empty",
             vary.name
         );
-        return Err(Failure::Call(said));
+        return Err(Failure::Call(message));
     }
     let last = vary.count - 1;
     let value = |k: usize| match k {
@@ -152,14 +152,14 @@ pub fn trace(
     };
     for k in 0..=last {
         let machine = tracer.machine_at(value(k));
-        let mut said = compiled
+        let mut diagnostics = compiled
             .model
             .parameter_diagnostics(machine.parameter_values());
         if k > 0 {
             // Warnings are printed only once.
-            said.retain(|diagnostic| diagnostic.code.severity() == Severity::Error);
+            diagnostics.retain(|diagnostic| diagnostic.code.severity() == Severity::Error);
         }
-        diagnostics::refused(&said).map_err(Failure::Call)?;
+        diagnostics::check(&diagnostics).map_err(Failure::Call)?;
         // The first value may happen to remove a time dependence, so other values are checked too.
         if k < 2 || k == last {
             let (q, wanted) = tracer.start(&machine)?;
@@ -179,18 +179,18 @@ pub fn trace(
         let value = value(k);
         let followed = before
             .as_ref()
-            .map(|before| tracer.follow(before, value, MOST_HALVINGS));
+            .map(|before| tracer.continuation(before, value, MOST_HALVINGS));
         let continues = matches!(followed, Some(Ok(_)));
-        let found = match (followed, &before) {
+        let result = match (followed, &before) {
             (Some(Ok(motion)), _) => Ok(motion),
             // The branch has ended; there may be another one.
             (Some(Err(_)), Some(before)) => tracer.from(&before.motion, value),
             _ => tracer.solve_anew(value),
         };
-        if let (Ok(motion), true, Some(before)) = (&found, continues, &before) {
+        if let (Ok(motion), true, Some(before)) = (&result, continues, &before) {
             tracer.locate(before, value, motion, &mut critical);
         }
-        if let Ok(motion) = &found {
+        if let Ok(motion) = &result {
             before = Some(At {
                 value,
                 motion: motion.clone(),
@@ -201,7 +201,7 @@ pub fn trace(
         }
         points.push(Point {
             value,
-            motion: found.map_err(Failure::message),
+            motion: result.map_err(Failure::message),
             continues,
         });
     }
@@ -379,9 +379,9 @@ impl<'a> Tracer<'a> {
     }
 
     /// The continuation of a motion to another value of the parameter.
-    fn follow(&self, from: &At, value: f64, halvings: usize) -> Result<Motion, Failure> {
-        let found = self.from(&from.motion, value);
-        match found {
+    fn continuation(&self, from: &At, value: f64, halvings: usize) -> Result<Motion, Failure> {
+        let result = self.from(&from.motion, value);
+        match result {
             Ok(motion) if is_near(&from.motion, &motion) => return Ok(motion),
             Err(Failure::Call(why)) => return Err(Failure::Call(why)),
             found if halvings == 0 => {
@@ -390,12 +390,12 @@ impl<'a> Tracer<'a> {
             _ => {}
         }
         let middle = 0.5 * (from.value + value);
-        let motion = self.follow(from, middle, halvings - 1)?;
+        let motion = self.continuation(from, middle, halvings - 1)?;
         let middle = At {
             value: middle,
             motion,
         };
-        self.follow(&middle, value, halvings - 1)
+        self.continuation(&middle, value, halvings - 1)
     }
 
     /// Finds the critical values between two neighbours.
@@ -419,7 +419,7 @@ impl<'a> Tracer<'a> {
                 if middle == low.value || middle == high.value || width <= f64::EPSILON * span {
                     break;
                 }
-                let Ok(motion) = self.follow(&low, middle, 2) else {
+                let Ok(motion) = self.continuation(&low, middle, 2) else {
                     break 'changes;
                 };
                 let at = At {

@@ -85,7 +85,7 @@ impl Destination {
     /// The destination of an optional option.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new).
+    /// The errors of [`new`](Self::new).
     pub fn of(
         option: &'static str,
         path: Option<&PathBuf>,
@@ -111,7 +111,7 @@ impl Destination {
     /// Writes a text.
     ///
     /// # Errors
-    /// Those of [`write`](Self::write).
+    /// The errors of [`write`](Self::write).
     pub fn write_text(&self, text: &str) -> Result<(), Failure> {
         self.write(|to| to.write_all(text.as_bytes()))
     }
@@ -130,7 +130,7 @@ impl Destination {
     /// Writes an executable file, with the permissions that linkers give to libraries.
     ///
     /// # Errors
-    /// Those of [`write`](Self::write).
+    /// The errors of [`write`](Self::write).
     pub fn write_executable(&self, bytes: &[u8]) -> Result<(), Failure> {
         self.write_with_mode(0o777, |to| to.write_all(bytes))
     }

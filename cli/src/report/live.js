@@ -116,16 +116,16 @@ class Constraints {
     const [q, v] = [y.subarray(0, n), y.subarray(n)];
     const rows = machine.constraint_matrix(p, t, q);
     const inertia = machine.mass_matrix(p, t, q).map((row, i) => row[i]);
-    const drift = machine.constraint_rates(p, t, q, new Float64Array(n));
+    const ratesAtRest = machine.constraint_rates(p, t, q, new Float64Array(n));
     const sum = (term) => inertia.reduce((total, m, i) => total + term(m, i), 0);
     const sizes = (x) => rows.map((row) => {
       const terms = sum((m, i) => Math.abs(row[i] * x[i]));
-      const [length, whole] = [sum((m, i) => (m > 0 ? row[i] * row[i] / m : 0)), sum((m, i) => m * x[i] * x[i])];
-      return terms + 1e-4 * Math.sqrt(length * whole);
+      const [length, normSquared] = [sum((m, i) => (m > 0 ? row[i] * row[i] / m : 0)), sum((m, i) => m * x[i] * x[i])];
+      return terms + 1e-4 * Math.sqrt(length * normSquared);
     });
     return {
       positions: { residuals: machine.constraint_positions(p, t, q), sizes: sizes(largest[0]).map((size) => size || 1) },
-      rates: { residuals: machine.constraint_rates(p, t, q, v), sizes: sizes(largest[1]).map((size, k) => size + Math.abs(drift[k]) || 1) },
+      rates: { residuals: machine.constraint_rates(p, t, q, v), sizes: sizes(largest[1]).map((size, k) => size + Math.abs(ratesAtRest[k]) || 1) },
     };
   }
 

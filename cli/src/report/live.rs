@@ -42,7 +42,7 @@ pub fn reason_not_live(
     kept: &[String],
 ) -> Option<String> {
     let without = "leave out --live, and the page shows the run of the command; for other values, run it again with --set";
-    let what = if let Some(contact) = program.contacts.first() {
+    let message = if let Some(contact) = program.contacts.first() {
         format!(
             "the page does not determine whether `{contact}` of `sliding` sticks or slides: {without}"
         )
@@ -67,7 +67,7 @@ pub fn reason_not_live(
     } else {
         return None;
     };
-    Some(format!("--live: {what}"))
+    Some(format!("--live: {message}"))
 }
 
 /// Advice for dependent constraints: the page solves for the multipliers of all constraints.
@@ -109,7 +109,7 @@ impl Live<'_> {
         // Values given in the call are fixed; the others follow from the parameters.
         let stated = self.stated.q.values.iter().chain(&self.stated.v.values);
         let usual = own.q.values.iter().chain(&own.v.values);
-        let said: Vec<Option<f64>> = stated
+        let changed: Vec<Option<f64>> = stated
             .zip(usual)
             .map(|(value, usual)| (value.to_bits() != usual.to_bits()).then_some(*value))
             .collect();
@@ -140,7 +140,7 @@ impl Live<'_> {
         let value = json!({
             "parameters": report.machine.parameter_values(),
             "inputs": report.machine.prepare().default_inputs().values,
-            "start": said,
+            "start": changed,
             "states": states,
             "constraints": {
                 "holonomic": program.constraints.iter().map(|it| it.holonomic).collect::<Vec<_>>(),

@@ -293,12 +293,13 @@ fn parameters(report: &Report<'_, '_>) -> String {
             let set = asked.constants.contains(&constant.name.base);
             vec![
                 name(&constant.name),
-                match set {
-                    true => Cell::Raw(format!(
+                if set {
+                    Cell::Raw(format!(
                         "<strong class=\"changed\">{}</strong> <span class=\"default\">set</span>",
                         safe(&shortest(value[0]).replace('-', "−"))
-                    )),
-                    false => figure(value[0]),
+                    ))
+                } else {
+                    figure(value[0])
                 },
                 Cell::Words(unit(&constant.unit_text)),
                 words(&constant.docs),
@@ -391,7 +392,7 @@ fn energy(report: &Report<'_, '_>) -> String {
     let Some(balance) = report.run.energy else {
         return String::new();
     };
-    let row = |what: &str, value: Cell| vec![Cell::Words(what.into()), value];
+    let row = |label: &str, value: Cell| vec![Cell::Words(label.into()), value];
     let share = format!("{:.1e}", balance.relative()).replace('-', "−");
     let mut rows = vec![
         row(
@@ -429,7 +430,7 @@ fn marks(report: &Report<'_, '_>) -> String {
     /// The events at one position.
     struct Mark {
         t: f64,
-        said: String,
+        text: String,
         is_impact: bool,
         others: usize,
     }
@@ -440,13 +441,13 @@ fn marks(report: &Report<'_, '_>) -> String {
         let t = event.state.t;
         let impact = impacts.get(&(t.to_bits(), event.name.as_str()));
         let of_impact = impact.map_or_else(String::new, |impact| format!(": {impact}"));
-        let said = format!("{} at t = {} s{of_impact}", event.name, shortest(t));
+        let text = format!("{} at t = {} s{of_impact}", event.name, shortest(t));
         let is_impact = impact.is_some();
         // The position from 0 to 1000.
         let place = (1000.0 * share(t)).round() as u16;
         let first = Mark {
             t,
-            said,
+            text,
             is_impact,
             others: 0,
         };
@@ -464,14 +465,14 @@ fn marks(report: &Report<'_, '_>) -> String {
     let marks: String = marks
         .into_values()
         .map(|mark| {
-            let said = match mark.others {
-                0 => mark.said,
-                others => format!("{}, and {others} more here", mark.said),
+            let text = match mark.others {
+                0 => mark.text,
+                others => format!("{}, and {others} more here", mark.text),
             };
-            let (said, t) = (safe(&said), mark.t);
+            let (text, t) = (safe(&text), mark.t);
             let class = if mark.is_impact { " class=\"impact\"" } else { "" };
             format!(
-                "<a{class} href=\"#t={t:?}\" style=\"left:{:.1}%\" title=\"{said}\" aria-label=\"{said}\"></a>",
+                "<a{class} href=\"#t={t:?}\" style=\"left:{:.1}%\" title=\"{text}\" aria-label=\"{text}\"></a>",
                 100.0 * share(t)
             )
         })
@@ -485,8 +486,8 @@ fn marks(report: &Report<'_, '_>) -> String {
 
 /// The effects of impacts as text, by the time and the name of their events.
 fn impacts<'a>(report: &'a Report<'_, '_>) -> std::collections::BTreeMap<(u64, &'a str), String> {
-    let told = report.run.contact_events.iter().filter_map(|told| {
-        let impact = told.impact?;
+    let impacts = report.run.contact_events.iter().filter_map(|event| {
+        let impact = event.impact?;
         let [normal, tangential] = impact.impulse;
         let across = impact.across.map_or(0.0, |across| across.impulse);
         let rubbed = tangential.hypot(across);
@@ -496,12 +497,12 @@ fn impacts<'a>(report: &'a Report<'_, '_>) -> std::collections::BTreeMap<(u64, &
             words.push_str(&format!(", {} N s by friction", number(rubbed)));
         }
         words.push_str(&format!(", which took {} J", number(impact.loss)));
-        Some(((told.state.t.to_bits(), told.contact.as_str()), words))
+        Some(((event.state.t.to_bits(), event.contact.as_str()), words))
     });
-    let told: std::collections::BTreeMap<(u64, &str), String> = told.collect();
+    let impacts: std::collections::BTreeMap<(u64, &str), String> = impacts.collect();
     let events = report.run.events.iter().filter_map(|event| {
         let contact = event.name.strip_suffix(" impact")?;
-        let words = told.get(&(event.state.t.to_bits(), contact))?;
+        let words = impacts.get(&(event.state.t.to_bits(), contact))?;
         Some((
             (event.state.t.to_bits(), event.name.as_str()),
             words.clone(),
@@ -569,7 +570,7 @@ fn statistics(report: &Report<'_, '_>, samples: &Samples) -> String {
         asked, run, method, ..
     } = report;
     let statistics = run.statistics;
-    let row = |what: &str, value: String| vec![Cell::Words(what.into()), Cell::Figure(value)];
+    let row = |label: &str, value: String| vec![Cell::Words(label.into()), Cell::Figure(value)];
     let rows = [
         row("spec", asked.file.clone()),
         row(

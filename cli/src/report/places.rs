@@ -95,7 +95,7 @@ impl Experiment {
     }
 
     /// Whether a value is constant.
-    pub fn keeps(&self, place: usize) -> bool {
+    pub fn value_is_constant(&self, place: usize) -> bool {
         self.is_constant(|x| x[place])
     }
 

@@ -31,7 +31,7 @@ pub fn most(coordinates: usize) -> usize {
 
 /// By which factor a run of this length must be recorded more densely than every `interval` for a page. It is a power of
 /// two if the recording is shared, so that the coarser instants are exactly among the finer ones.
-pub fn finer(coordinates: usize, length: f64, interval: f64, shared: bool) -> u32 {
+pub fn finer_count(coordinates: usize, length: f64, interval: f64, shared: bool) -> u32 {
     let fits = (most(coordinates) as f64 * (interval / length).abs()).min(1e6) as u32;
     // At least the recording itself, however dense.
     let fits = fits.max(1);
@@ -288,17 +288,17 @@ mod tests {
     #[test]
     fn rounding_is_not_followed() {
         let alone = vibration(1.0, 16_000);
-        let mut both = alone.clone();
+        let mut recording = alone.clone();
         for (kind, size) in [(Kind::Coordinate, 1e-16), (Kind::Rate, 1e-14)] {
             let values = (0..=16_000).map(|i| size * f64::from(i * i % 7));
-            both.columns.push(Column {
+            recording.columns.push(Column {
                 name: "y".into(),
                 unit: "m".into(),
                 kind,
                 values: values.collect(),
             });
         }
-        let (alone, both) = (Samples::new(&alone), Samples::new(&both));
+        let (alone, both) = (Samples::new(&alone), Samples::new(&recording));
         assert_eq!(both.count, alone.count);
         assert!((both.error - alone.error).abs() <= 1e-3 * alone.error);
     }
@@ -327,12 +327,12 @@ mod tests {
 
     #[test]
     fn a_page_is_recorded_as_often_as_it_has_room_for() {
-        assert_eq!(finer(2, 5.0, 0.005, true), 64);
-        assert_eq!(finer(9, 60.0, 0.06, true), 8);
-        assert_eq!(finer(9, 60.0, 0.06, false), 14);
-        assert_eq!(finer(2, 5.0, 1e-6, true), 1);
+        assert_eq!(finer_count(2, 5.0, 0.005, true), 64);
+        assert_eq!(finer_count(9, 60.0, 0.06, true), 8);
+        assert_eq!(finer_count(9, 60.0, 0.06, false), 14);
+        assert_eq!(finer_count(2, 5.0, 1e-6, true), 1);
         for interval in [1e300, f64::INFINITY, f64::NAN] {
-            assert!((1..=1_000_000).contains(&finer(2, 1.0, interval, true)));
+            assert!((1..=1_000_000).contains(&finer_count(2, 1.0, interval, true)));
         }
     }
 }

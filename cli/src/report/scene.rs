@@ -796,7 +796,7 @@ impl<'d> Finder<'_, 'd> {
     fn twist(&self, twist: Expr<'d>) -> Option<Placed> {
         let same = |angle: Expr<'d>| {
             let rest = [twist - angle];
-            Experiment::new(self.model, &rest).keeps(0)
+            Experiment::new(self.model, &rest).value_is_constant(0)
         };
         let turned = self
             .model
@@ -864,8 +864,8 @@ fn wrench(motion: &[Vec<f64>], wanted: &[f64]) -> Option<[f64; 3]> {
         for (other, other_weights) in &basis {
             let share = dot(&row, other) / dot(other, other);
             row.iter_mut().zip(other).for_each(|(x, y)| *x -= share * y);
-            let both = weights.iter_mut().zip(other_weights);
-            both.for_each(|(x, y)| *x -= share * y);
+            let pairs = weights.iter_mut().zip(other_weights);
+            pairs.for_each(|(x, y)| *x -= share * y);
         }
         if size > 0.0 && dot(&row, &row) > 1e-12 * size {
             basis.push((row, weights));
@@ -875,8 +875,8 @@ fn wrench(motion: &[Vec<f64>], wanted: &[f64]) -> Option<[f64; 3]> {
     for (row, weights) in &basis {
         let share = dot(&rest, row) / dot(row, row);
         rest.iter_mut().zip(row).for_each(|(x, y)| *x -= share * y);
-        let both = found.iter_mut().zip(weights);
-        both.for_each(|(x, y)| *x += share * y);
+        let pairs = found.iter_mut().zip(weights);
+        pairs.for_each(|(x, y)| *x += share * y);
     }
     let exact = dot(&rest, &rest) <= 1e-18 * dot(wanted, wanted);
     (exact && found.iter().all(|x| x.is_finite())).then_some(found)

@@ -346,7 +346,7 @@ const OF_CONTACTS: &str = r#"
 int main(void) {
     enum { N = COORDINATES, C = CONTACTS, K = CONSTRAINTS };
     double y[2 * N], t, numbers[N + C + 2 * C + 2 * C * N + 2 * C + 4 * C + N * N + K * N + 1];
-    double *gaps = numbers + N, *rates = gaps + C, *rows = rates + 2 * C, *drift = rows + 2 * C * N, *coefficients = drift + 2 * C;
+    double *gaps = numbers + N, *rates = gaps + C, *rows = rates + 2 * C, *bias = rows + 2 * C * N, *coefficients = bias + 2 * C;
     double *mass = coefficients + 4 * C, *constraints = mass + N * N, *end = constraints + K * N;
     if (contacts() != C || contact_name(C) || contact_law(-1) || contact_leans(C) != -1) return 2;
     for (int i = 0; i < 2 * N; ++i)
@@ -358,7 +358,7 @@ int main(void) {
     eval_setup(NULL);
     *end = 123;
     eval(y, t, NULL, numbers);
-    eval_contacts(y, t, gaps, rates, rows, drift, coefficients);
+    eval_contacts(y, t, gaps, rates, rows, bias, coefficients);
     eval_contacts(y, t, NULL, NULL, NULL, NULL, NULL);
     eval_inertia(y, t, mass, constraints);
     if (*end != 123) return 5;
@@ -423,7 +423,7 @@ fn check_contacts(name: &str, spec: &Path, names: &[&str]) {
     tell(c, &|to| system.gaps(t, &q, to));
     tell(2 * c, &|to| system.contact_rates(t, &q, &v, to));
     tell(2 * c * n, &|to| system.contact_matrix(t, &q, to));
-    tell(2 * c, &|to| system.contact_drift(t, &q, &v, to));
+    tell(2 * c, &|to| system.contact_bias(t, &q, &v, to));
     tell(4 * c, &|to| system.contact_coefficients(t, &q, &v, to));
     tell(n * n, &|to| system.mass_matrix(t, &q, to));
     tell(k * n, &|to| system.constraint_matrix(t, &q, to));

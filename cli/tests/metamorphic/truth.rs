@@ -63,7 +63,7 @@ pub struct Equations<S> {
     pub bias: Vec<Jet<S>>,
     pub applied: Vec<Jet<S>>,
     pub rows: Vec<Vec<Jet<S>>>,
-    pub drift: Vec<Jet<S>>,
+    pub constraint_bias: Vec<Jet<S>>,
     /// For each guide ∂w/∂v, and dw/dt at zero accelerations.
     slips: Vec<(Vec<Jet<S>>, Jet<S>)>,
 }
@@ -651,7 +651,7 @@ impl<'m, S: Scalar> World<'m, S> {
         });
         let bias = bias.collect();
         let applied = (0..n).map(|i| self.force_on(i)).collect();
-        let rows_and_drift: Vec<(Vec<Jet<S>>, Jet<S>)> = self
+        let rows_and_biases: Vec<(Vec<Jet<S>>, Jet<S>)> = self
             .constraints()
             .iter()
             .enumerate()
@@ -659,7 +659,7 @@ impl<'m, S: Scalar> World<'m, S> {
                 self.row(*holonomic, |world| world.constraints()[k].0.clone())
             })
             .collect();
-        let (rows, drift) = rows_and_drift.into_iter().unzip();
+        let (rows, constraint_bias) = rows_and_biases.into_iter().unzip();
         let slips = (0..self.machine.sliding.len())
             .map(|k| self.row(false, |world| world.slip(k)))
             .collect();
@@ -668,7 +668,7 @@ impl<'m, S: Scalar> World<'m, S> {
             bias,
             applied,
             rows,
-            drift,
+            constraint_bias,
             slips,
         }
     }
@@ -689,12 +689,12 @@ impl<'m, S: Scalar> World<'m, S> {
             }
         });
         let row = row.collect();
-        let drift = if holonomic {
+        let constraint_bias = if holonomic {
             self.rates(|world| world.rates(f))
         } else {
             self.rates(f)
         };
-        (row, drift[0].neg())
+        (row, constraint_bias[0].neg())
     }
 
     fn force_on(&self, i: usize) -> Jet<S> {
@@ -852,11 +852,11 @@ impl<'m, S: Scalar> World<'m, S> {
             (row, e.applied[i].value() - e.bias[i].value())
         };
         let (mut matrix, mut right): (Vec<Vec<S>>, Vec<S>) = (0..n).map(balance).unzip();
-        for (row, drift) in e.rows.iter().zip(&e.drift) {
+        for (row, constraint_bias) in e.rows.iter().zip(&e.constraint_bias) {
             let mut line: Vec<S> = row[..n].iter().map(Jet::value).collect();
             line.resize(length, S::ZERO);
             matrix.push(line);
-            right.push(drift.value());
+            right.push(constraint_bias.value());
         }
         for k in 0..guides {
             let normal = &self.directions(k)[1];
@@ -880,11 +880,11 @@ impl<'m, S: Scalar> World<'m, S> {
             right.push(known);
         }
         for k in &stuck {
-            let (row, drift) = &e.slips[*k];
+            let (row, slip_bias) = &e.slips[*k];
             let mut line: Vec<S> = row[..n].iter().map(Jet::value).collect();
             line.resize(length, S::ZERO);
             matrix.push(line);
-            right.push(drift.value());
+            right.push(slip_bias.value());
         }
         (matrix, right)
     }
@@ -916,7 +916,7 @@ impl<'m, S: Scalar> World<'m, S> {
             let mut sum = if i < n {
                 e.applied[i].sub(&e.bias[i]).part(bit).value()
             } else {
-                e.drift[i - n].part(bit).value()
+                e.constraint_bias[i - n].part(bit).value()
             };
             for (j, a) in accelerations.iter().enumerate() {
                 let entry = if i < n {

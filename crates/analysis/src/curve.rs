@@ -2,7 +2,7 @@
 
 /// How values between rows are interpolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Between {
+pub enum Interpolation {
     /// The Hermite cubic through the values and rates of both rows: its error is h⁴/384 times the fourth derivative.
     Hermite,
     /// The cubic through the two rows before and the two after, at either end through the outermost four rows; used where there are
@@ -12,21 +12,21 @@ pub enum Between {
     Linear,
 }
 
-impl Between {
+impl Interpolation {
     /// The name in words.
     pub fn name(self) -> &'static str {
         match self {
-            Between::Hermite => "cubic with rates",
-            Between::Cubic => "cubic",
-            Between::Linear => "linear",
+            Interpolation::Hermite => "cubic with rates",
+            Interpolation::Cubic => "cubic",
+            Interpolation::Linear => "linear",
         }
     }
 
     /// The factor by which the interpolation error of a smooth curve shrinks where rows are twice as dense.
     fn gain(self) -> f64 {
         match self {
-            Between::Hermite | Between::Cubic => 16.0,
-            Between::Linear => 4.0,
+            Interpolation::Hermite | Interpolation::Cubic => 16.0,
+            Interpolation::Linear => 4.0,
         }
     }
 }
@@ -37,21 +37,21 @@ pub struct Curve<'a> {
     times: &'a [f64],
     values: &'a [f64],
     rates: Option<&'a [f64]>,
-    between: Between,
+    between: Interpolation,
 }
 
 impl<'a> Curve<'a> {
     /// A column, with the column of its rates if there is one. All must be equally long.
     ///
-    /// [`Between::Hermite`] without rates becomes [`Between::Cubic`].
+    /// [`Interpolation::Hermite`] without rates becomes [`Interpolation::Cubic`].
     pub fn new(
         times: &'a [f64],
         values: &'a [f64],
         rates: Option<&'a [f64]>,
-        between: Between,
+        between: Interpolation,
     ) -> Curve<'a> {
         let between = match (between, rates) {
-            (Between::Hermite, None) => Between::Cubic,
+            (Interpolation::Hermite, None) => Interpolation::Cubic,
             (between, _) => between,
         };
         Curve {
@@ -63,7 +63,7 @@ impl<'a> Curve<'a> {
     }
 
     /// How values between rows are interpolated.
-    pub fn between(&self) -> Between {
+    pub fn interpolation(&self) -> Interpolation {
         self.between
     }
 
@@ -94,10 +94,10 @@ impl<'a> Curve<'a> {
         let h = t1 - t0;
         let s = (t - t0) / h;
         match (self.between, self.rates) {
-            (Between::Hermite, Some(rates)) => {
+            (Interpolation::Hermite, Some(rates)) => {
                 hermite(s, [x0, x1], [h * rates[left], h * rates[right]])
             }
-            (Between::Linear, _) => x0 + s * (x1 - x0),
+            (Interpolation::Linear, _) => x0 + s * (x1 - x0),
             _ => {
                 // The four rows around the interval, or the outermost four.
                 let before = left.checked_sub(stride);
@@ -124,12 +124,12 @@ impl<'a> Curve<'a> {
     pub fn interpolation_error(&self) -> f64 {
         let inner = 1..self.times.len().saturating_sub(1);
         let off = inner.map(|row| {
-            let found = match self.between {
+            let interpolated = match self.between {
                 // From rows at odd distances, which are two rows apart.
-                Between::Cubic => self.without(row),
+                Interpolation::Cubic => self.without(row),
                 _ => self.within(row - 1, row + 1, self.times[row], 2),
             };
-            (found - self.values[row]).abs() / self.between.gain()
+            (interpolated - self.values[row]).abs() / self.between.gain()
         });
         off.fold(0.0, f64::max)
     }
@@ -146,7 +146,7 @@ impl<'a> Curve<'a> {
     /// The instants at which the curve crosses a level, each with whether it rises there. Touching the level is no crossing; a
     /// curve that stays on the level crosses it where it leaves on the other side.
     pub fn crossings(&self, level: f64) -> Vec<(f64, bool)> {
-        let mut found = Vec::new();
+        let mut crossings = Vec::new();
         // The last row that was not on the level.
         let mut before: Option<(usize, f64)> = None;
         for (row, x) in self.values.iter().map(|x| x - level).enumerate() {
@@ -159,12 +159,12 @@ impl<'a> Curve<'a> {
                         // Rows in between are on the level: the crossing is at the last of them.
                         _ => self.times[row - 1],
                     };
-                    found.push((t, side < 0.0));
+                    crossings.push((t, side < 0.0));
                 }
                 before = Some((row, x.signum()));
             }
         }
-        found
+        crossings
     }
 
     /// The instant between two rows at which the curve crosses a level, by bisection: 60 steps exhaust the
@@ -253,9 +253,9 @@ mod tests {
         let [times, values, rates] = sine(64, h);
         // Remainders of the interpolation of sin, whose derivatives are at most 1.
         for (between, bound) in [
-            (Between::Hermite, h.powi(4) / 384.0),
-            (Between::Cubic, h.powi(4) / 24.0),
-            (Between::Linear, h.powi(2) / 8.0),
+            (Interpolation::Hermite, h.powi(4) / 384.0),
+            (Interpolation::Cubic, h.powi(4) / 24.0),
+            (Interpolation::Linear, h.powi(2) / 8.0),
         ] {
             let curve = Curve::new(&times, &values, Some(&rates), between);
             let off = (0..6300).map(|k| {
@@ -266,10 +266,10 @@ mod tests {
             assert!(off <= bound * (1.0 + 1e-9), "{between:?}: {off} {bound}");
             assert!(off >= 0.2 * bound, "{between:?}: {off} {bound}");
             // The estimate of the error is the error, up to the factor between the middle of an interval and its ends.
-            let said = curve.interpolation_error();
+            let estimated = curve.interpolation_error();
             assert!(
-                (0.2..5.0).contains(&(said / off)),
-                "{between:?}: {said} {off}"
+                (0.2..5.0).contains(&(estimated / off)),
+                "{between:?}: {estimated} {off}"
             );
         }
     }
@@ -277,15 +277,19 @@ mod tests {
     #[test]
     fn rows_are_met_and_nothing_is_known_beyond_them() {
         let [times, values, rates] = sine(9, 0.3);
-        for between in [Between::Hermite, Between::Cubic, Between::Linear] {
+        for between in [
+            Interpolation::Hermite,
+            Interpolation::Cubic,
+            Interpolation::Linear,
+        ] {
             let curve = Curve::new(&times, &values, Some(&rates), between);
             for (t, x) in times.iter().zip(&values) {
                 assert_eq!(curve.at(*t), *x);
             }
             assert!(curve.at(-1e-9).is_nan() && curve.at(2.41).is_nan());
         }
-        let curve = Curve::new(&times, &values, None, Between::Hermite);
-        assert_eq!(curve.between(), Between::Cubic);
+        let curve = Curve::new(&times, &values, None, Interpolation::Hermite);
+        assert_eq!(curve.interpolation(), Interpolation::Cubic);
     }
 
     #[test]
@@ -295,7 +299,7 @@ mod tests {
         let values = times.map(cubic);
         let rates = times.map(|t| -2.0 + 1.5 * t * t);
         for rates in [None, Some(&rates[..])] {
-            let curve = Curve::new(&times, &values, rates, Between::Hermite);
+            let curve = Curve::new(&times, &values, rates, Interpolation::Hermite);
             for t in [0.1, 0.6, 1.3, 2.9] {
                 // About a dozen operations on numbers up to 10.
                 assert!((curve.at(t) - cubic(t)).abs() < 12.0 * 10.0 * f64::EPSILON);
@@ -306,7 +310,7 @@ mod tests {
     #[test]
     fn crossings_are_where_a_sine_is_zero() {
         let [times, values, rates] = sine(200, 0.1);
-        let curve = Curve::new(&times, &values, Some(&rates), Between::Hermite);
+        let curve = Curve::new(&times, &values, Some(&rates), Interpolation::Hermite);
         let found = curve.crossings(0.0);
         // sin starts on the level and does not cross it there.
         assert_eq!(found.len(), 6);
@@ -316,10 +320,15 @@ mod tests {
             assert_eq!(*rises, k % 2 == 1);
         }
         // Rows on the level, after which the curve leaves on the same side or on the other.
-        let touching = Curve::new(&[0.0, 1.0, 2.0], &[1.0, 0.0, 1.0], None, Between::Linear);
+        let touching = Curve::new(
+            &[0.0, 1.0, 2.0],
+            &[1.0, 0.0, 1.0],
+            None,
+            Interpolation::Linear,
+        );
         assert_eq!(touching.crossings(0.0), []);
         let times = [0.0, 1.0, 2.0, 3.0];
-        let resting = Curve::new(&times, &[1.0, 0.0, 0.0, -1.0], None, Between::Linear);
+        let resting = Curve::new(&times, &[1.0, 0.0, 0.0, -1.0], None, Interpolation::Linear);
         assert_eq!(resting.crossings(0.0), [(2.0, false)]);
     }
 

@@ -107,7 +107,7 @@ fn nearest(curve: &Curve<'_>, t: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::curve::{Between, common_times};
+    use crate::curve::{Interpolation, common_times};
 
     #[test]
     fn two_sines_are_apart_as_the_formula_says() {
@@ -124,8 +124,8 @@ mod tests {
             .iter()
             .map(|t| t.sin() + 0.01 * (2.0 * t).sin())
             .collect();
-        let one = Curve::new(&t1, &x1, Some(&v1), Between::Hermite);
-        let other = Curve::new(&t2, &x2, None, Between::Hermite);
+        let one = Curve::new(&t1, &x1, Some(&v1), Interpolation::Hermite);
+        let other = Curve::new(&t2, &x2, None, Interpolation::Hermite);
         let times = common_times(&t1, &t2);
         let found = difference(&times, &one, &other).unwrap();
         // Instants are at most 2π/1777 apart, so the maximum is missed by 0.01 (2·step/2)²/2; the interpolation
@@ -144,18 +144,23 @@ mod tests {
     #[test]
     fn a_constant_is_measured_by_its_value() {
         let times = [0.0, 1.0, 2.0];
-        let one = Curve::new(&times, &[10.0, 10.0 + 1e-12, 10.0], None, Between::Linear);
-        let other = Curve::new(&times, &[10.0, 10.0, 10.1], None, Between::Linear);
+        let one = Curve::new(
+            &times,
+            &[10.0, 10.0 + 1e-12, 10.0],
+            None,
+            Interpolation::Linear,
+        );
+        let other = Curve::new(&times, &[10.0, 10.0, 10.1], None, Interpolation::Linear);
         let found = difference(&times, &one, &other).unwrap();
         assert!(found.is_constant);
         assert!((found.relative().unwrap() - 0.01).abs() < 1e-12);
-        let nothing = Curve::new(&times, &[0.0; 3], None, Between::Linear);
+        let nothing = Curve::new(&times, &[0.0; 3], None, Interpolation::Linear);
         assert_eq!(
             difference(&times, &nothing, &nothing).unwrap().relative(),
             Some(0.0)
         );
         assert_eq!(difference(&times, &nothing, &one).unwrap().relative(), None);
-        let gap = Curve::new(&times, &[f64::NAN; 3], None, Between::Linear);
+        let gap = Curve::new(&times, &[f64::NAN; 3], None, Interpolation::Linear);
         assert_eq!(difference(&times, &one, &gap), None);
     }
 }

@@ -1,6 +1,6 @@
 //! Maxima and minima of a curve.
 
-use crate::curve::{Between, Curve, hermite};
+use crate::curve::{Curve, Interpolation, hermite};
 
 /// A maximum or a minimum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,11 +19,11 @@ pub struct Extreme {
 /// Ripples are left out: on both sides of a maximum the curve must fall by more than `least` before it reaches a greater value, a
 /// gap or its end; minima accordingly.
 pub fn extremes(curve: &Curve<'_>, rates: Option<&[f64]>, least: f64) -> Vec<Extreme> {
-    let rates = rates.filter(|_| curve.between() == Between::Hermite);
+    let rates = rates.filter(|_| curve.interpolation() == Interpolation::Hermite);
     let (times, values) = (curve.times(), curve.values());
     let is_known =
         |row: usize| values[row].is_finite() && rates.is_none_or(|rates| rates[row].is_finite());
-    let mut found = Vec::new();
+    let mut extremes = Vec::new();
     let mut row = 0;
     while row < values.len() {
         let first = row;
@@ -41,17 +41,17 @@ pub fn extremes(curve: &Curve<'_>, rates: Option<&[f64]>, least: f64) -> Vec<Ext
                 &turns,
                 [values[0], values[values.len() - 1]],
                 least,
-                &mut found,
+                &mut extremes,
             );
         }
         row += 1;
     }
-    found
+    extremes
 }
 
 /// The extremes of the cubics between rows at which rates change sign.
 fn by_rates(times: &[f64], values: &[f64], rates: &[f64]) -> Vec<Extreme> {
-    let mut found = Vec::new();
+    let mut extremes = Vec::new();
     // The last row at which the rate was not 0.
     let mut before: Option<(usize, f64)> = None;
     for (row, rate) in rates.iter().enumerate() {
@@ -70,7 +70,7 @@ fn by_rates(times: &[f64], values: &[f64], rates: &[f64]) -> Vec<Extreme> {
                 // The rates of rows in between are 0.
                 _ => (times[last + 1], values[last + 1]),
             };
-            found.push(Extreme {
+            extremes.push(Extreme {
                 t,
                 value,
                 is_maximum: sign > 0.0,
@@ -78,7 +78,7 @@ fn by_rates(times: &[f64], values: &[f64], rates: &[f64]) -> Vec<Extreme> {
         }
         before = Some((row, rate.signum()));
     }
-    found
+    extremes
 }
 
 /// The turning point of a cubic whose slopes at 0 and 1 have opposite signs: the only root of its derivative in between.
@@ -101,7 +101,7 @@ fn turning([x0, x1]: [f64; 2], [d0, d1]: [f64; 2]) -> f64 {
 
 /// Rows greater or less than their neighbours, moved to the vertex of the parabola through the three.
 fn by_values(times: &[f64], values: &[f64]) -> Vec<Extreme> {
-    let mut found = Vec::new();
+    let mut extremes = Vec::new();
     let mut row = 1;
     while row + 1 < values.len() {
         // Equal neighbouring rows are one extreme.
@@ -119,7 +119,7 @@ fn by_values(times: &[f64], values: &[f64]) -> Vec<Extreme> {
             } else {
                 (0.5 * (times[row] + times[end]), values[row])
             };
-            found.push(Extreme {
+            extremes.push(Extreme {
                 t,
                 value,
                 is_maximum: up > 0.0,
@@ -127,7 +127,7 @@ fn by_values(times: &[f64], values: &[f64]) -> Vec<Extreme> {
         }
         row = end + 1;
     }
-    found
+    extremes
 }
 
 /// The vertex of the parabola through three points.
@@ -188,7 +188,7 @@ mod tests {
         let values: Vec<f64> = times.iter().map(|t| t.sin()).collect();
         let rates: Vec<f64> = times.iter().map(|t| t.cos()).collect();
         let rates = with_rates.then_some(rates.as_slice());
-        let curve = Curve::new(&times, &values, rates, Between::Hermite);
+        let curve = Curve::new(&times, &values, rates, Interpolation::Hermite);
         let found = extremes(&curve, rates, 0.0);
         assert_eq!(found.len(), 6);
         for (k, extreme) in found.iter().enumerate() {
@@ -215,10 +215,10 @@ mod tests {
             .iter()
             .map(|t| t.sin() + 1e-3 * (40.0 * t).sin())
             .collect();
-        let curve = Curve::new(&times, &values, None, Between::Cubic);
+        let curve = Curve::new(&times, &values, None, Interpolation::Cubic);
         assert_eq!(extremes(&curve, None, 0.05).len(), 6);
         let flat = [0.0, 1.0, 1.0, 0.0, 0.5];
-        let curve = Curve::new(&times[..5], &flat, None, Between::Cubic);
+        let curve = Curve::new(&times[..5], &flat, None, Interpolation::Cubic);
         let found = extremes(&curve, None, 0.0);
         assert_eq!(found.len(), 2);
         // Up to its end the curve rises by only 0.53.
@@ -248,7 +248,7 @@ mod tests {
             let slopes = |t: &f64| -(-t).exp() + 0.04 * (40.0 * t + 0.1 * f64::from(phase)).cos();
             let rates: Vec<f64> = times.iter().map(slopes).collect();
             for rates in [None, Some(rates.as_slice())] {
-                let curve = Curve::new(&times, &values, rates, Between::Hermite);
+                let curve = Curve::new(&times, &values, rates, Interpolation::Hermite);
                 assert!(extremes(&curve, rates, 0.0).len() > 20);
                 assert_eq!(extremes(&curve, rates, 3e-3), []);
             }
@@ -291,7 +291,7 @@ mod tests {
     fn a_gap_is_an_end() {
         let times: Vec<f64> = (0..9).map(f64::from).collect();
         let values = [0.0, 2.0, 1.5, f64::NAN, 0.0, 3.0, 0.0, 0.2, 0.1];
-        let curve = Curve::new(&times, &values, None, Between::Cubic);
+        let curve = Curve::new(&times, &values, None, Interpolation::Cubic);
         let found = extremes(&curve, None, 1.0);
         assert!(
             found.len() == 1 && (found[0].t - 5.0).abs() < 0.5,

@@ -53,7 +53,7 @@ impl Window {
 
     /// The transform of `e^{2πi x n/N}` under the window at frequency 0, relative to that at x = 0: the response of
     /// the window to a line x bins away.
-    fn seen(self, x: f64, count: usize) -> Complex<f64> {
+    fn leakage(self, x: f64, count: usize) -> Complex<f64> {
         let terms = self.terms();
         let mut sum = terms[0] * dirichlet(x, count);
         for (j, a) in terms.iter().enumerate().skip(1) {
@@ -74,8 +74,8 @@ fn dirichlet(x: f64, count: usize) -> Complex<f64> {
         Complex::new(1.0, 0.0)
     } else {
         // The sine of π x is computed from the distance of x to the nearest integer, so that it is exactly 0 at integers.
-        let whole = x.round();
-        let sine = (PI * (x - whole)).sin() * if whole % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        let nearest = x.round();
+        let sine = (PI * (x - nearest)).sin() * if nearest % 2.0 == 0.0 { 1.0 } else { -1.0 };
         Complex::from_polar(sine / (count * below), PI * x * (count - 1.0) / count)
     }
 }
@@ -184,7 +184,7 @@ impl Spectrum {
         let Some(greatest) = tops.first().map(|k| self.amplitudes[*k]) else {
             return Vec::new();
         };
-        let mut found: Vec<(usize, Wave)> = Vec::new();
+        let mut waves: Vec<(usize, Wave)> = Vec::new();
         let mut left = self.transform.clone();
         // The mean of the samples of a truncated sine differs from that of the sine, and has leakage of its own.
         let mut still = Wave {
@@ -192,7 +192,7 @@ impl Spectrum {
             amplitude: Complex::new(0.0, 0.0),
         };
         for top in tops {
-            if found.len() == most || self.amplitudes[top] < least * greatest {
+            if waves.len() == most || self.amplitudes[top] < least * greatest {
                 break;
             }
             if left[top].norm() < OWN * self.amplitudes[top] || self.amplitudes[top] == 0.0 {
@@ -200,14 +200,14 @@ impl Spectrum {
             }
             let wave = self.wave(&left, top);
             self.add(&mut left, wave, -1.0);
-            found.push((top, wave));
+            waves.push((top, wave));
             // Lines found under the leakage of others are refined without it.
             for _ in 0..ROUNDS {
                 self.add(&mut left, still, 1.0);
                 // The wave coincides with its image there.
                 still.amplitude = Complex::new(0.5 * left[0].re, 0.0);
                 self.add(&mut left, still, -1.0);
-                for (top, own) in &mut found {
+                for (top, own) in &mut waves {
                     // Adds the wave alone, without its image, whose leakage also remains here.
                     self.add_one(&mut left, own.place, own.amplitude);
                     let wave = self.wave(&left, *top);
@@ -217,7 +217,7 @@ impl Spectrum {
                 }
             }
         }
-        let mut lines: Vec<Line> = found
+        let mut lines: Vec<Line> = waves
             .into_iter()
             .map(|(_, wave)| Line {
                 frequency: wave.place * self.resolution,
@@ -237,15 +237,15 @@ impl Spectrum {
         let side = if above >= below { 1.0 } else { -1.0 };
         let ratio = above.max(below) / size(top);
         // The ratio of neighbour to peak grows with the shift of the line, for shifts from 0 to 1.
-        let seen = |x: f64| self.window.seen(x, self.count).norm();
-        let at_rest = seen(1.0);
+        let leakage = |x: f64| self.window.leakage(x, self.count).norm();
+        let at_rest = leakage(1.0);
         let shift = if ratio <= at_rest {
             0.0
         } else {
             let (mut low, mut high) = (0.0, 1.0);
             for _ in 0..60 {
                 let middle = 0.5 * (low + high);
-                if seen(1.0 - middle) < ratio * seen(middle) {
+                if leakage(1.0 - middle) < ratio * leakage(middle) {
                     low = middle
                 } else {
                     high = middle
@@ -254,7 +254,7 @@ impl Spectrum {
             0.5 * (low + high)
         };
         let place = top as f64 + side * shift;
-        let amplitude = transform[top] / self.window.seen(place - top as f64, self.count);
+        let amplitude = transform[top] / self.window.leakage(place - top as f64, self.count);
         Wave { place, amplitude }
     }
 
@@ -337,8 +337,8 @@ mod tests {
                         re += (x - mean) * window.weight(n, count) * angle.cos();
                         im += (x - mean) * window.weight(n, count) * angle.sin();
                     }
-                    let both = if k == 0 || 2 * k == count { 1.0 } else { 2.0 };
-                    let sum = both * f64::hypot(re, im) / total;
+                    let multiplicity = if k == 0 || 2 * k == count { 1.0 } else { 2.0 };
+                    let sum = multiplicity * f64::hypot(re, im) / total;
                     // `count` terms of size 20, divided by a mean weight of a third.
                     let bound = 20.0 * 3.0 * 8.0 * count as f64 * f64::EPSILON;
                     assert!(
@@ -362,7 +362,7 @@ mod tests {
                     let mut leakage = vec![Complex::new(0.0, 0.0); spectrum.transform.len()];
                     spectrum.add_one(&mut leakage, place, Complex::new(0.6, -0.8));
                     for (k, x) in leakage.iter().enumerate() {
-                        let seen = window.seen(place - k as f64, count);
+                        let seen = window.leakage(place - k as f64, count);
                         let error = (x - Complex::new(0.6, -0.8) * seen).norm();
                         // Both formulas round the angle π x, of up to N/2 π, and differences of angles: ε N/CLOSE of a response of
                         // 1/CLOSE, up to four of them, with the weights of Blackman and Harris divided by the first.

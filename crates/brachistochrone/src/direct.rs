@@ -98,7 +98,7 @@ pub fn solve<T: Terrain>(terrain: T, from: &[f64], to: &[f64]) -> Result<Sought<
 /// [`solve`] with a given number of equal time stretches, for studies of the error.
 ///
 /// # Errors
-/// Those of [`solve`].
+/// The errors of [`solve`].
 pub fn solve_on<T: Terrain>(
     terrain: T,
     from: &[f64],

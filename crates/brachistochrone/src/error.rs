@@ -11,7 +11,7 @@ pub enum Unsolved {
     /// A list or a matrix does not have as many entries as there are coordinates.
     Size {
         /// The list or matrix.
-        what: &'static str,
+        list: &'static str,
         /// The expected number.
         expected: usize,
         /// The number found.
@@ -20,7 +20,7 @@ pub enum Unsolved {
     /// A number is infinite or not a number.
     NotFinite {
         /// The list or matrix.
-        what: &'static str,
+        list: &'static str,
     },
     /// The mass matrix is not symmetric.
     NotSymmetric {
@@ -88,11 +88,11 @@ impl Display for Unsolved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Size {
-                what,
+                list: what,
                 expected,
                 found,
             } => write!(f, "{what} has {found} entries where {expected} are needed"),
-            Self::NotFinite { what } => {
+            Self::NotFinite { list: what } => {
                 write!(f, "{what} has an entry that is not a finite number")
             }
             Self::NotSymmetric { row, column } => write!(

@@ -40,7 +40,7 @@ pub struct Arc {
 
 /// The error that the end lies outside the directions that extremals reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Beyond {
+pub struct OutOfReach {
     /// The greatest angle between the first direction and the end, in rad.
     pub reach: f64,
 }
@@ -52,7 +52,7 @@ impl Arc {
     ///
     /// # Errors
     /// If the angle is not below the greatest one. For κ = 0 the greatest angle itself is reached, by a whole arch.
-    pub fn to(angle: f64, kappa: f64) -> Result<Arc, Beyond> {
+    pub fn to(angle: f64, kappa: f64) -> Result<Arc, OutOfReach> {
         let gauss = Gauss::new();
         if angle <= STRAIGHT {
             return Ok(Arc::new(gauss, kappa, STRAIGHT));
@@ -61,7 +61,7 @@ impl Arc {
         if kappa == 0.0 && (angle - FRAC_PI_2).abs() <= 4.0 * f64::EPSILON {
             return Ok(Arc::new(gauss, kappa, PI));
         }
-        let seen = |delta: f64| {
+        let polar_angle = |delta: f64| {
             let [ahead, aside, _] = gauss.integrate(&|u| integrands(kappa, delta, u), 0.0, delta);
             aside.atan2(ahead)
         };
@@ -70,14 +70,14 @@ impl Arc {
         let reach = if kappa >= 0.0 {
             FRAC_PI_2 - kappa.atan()
         } else {
-            seen(high)
+            polar_angle(high)
         };
         if angle.is_nan() || angle >= reach || low >= high {
-            return Err(Beyond { reach });
+            return Err(OutOfReach { reach });
         }
-        let (mut below, mut above) = (seen(low) - angle, seen(high) - angle);
+        let (mut below, mut above) = (polar_angle(low) - angle, polar_angle(high) - angle);
         if above < 0.0 {
-            return Err(Beyond { reach });
+            return Err(OutOfReach { reach });
         }
         // The Illinois method, G. Dahlquist and Å. Björck, *Numerical Methods* (1974), ch. 6, with bisection
         // where it stalls.
@@ -90,7 +90,7 @@ impl Arc {
                 _ => low - below * (high - low) / (above - below),
             };
             let at = between.clamp(low, high);
-            let value = seen(at) - angle;
+            let value = polar_angle(at) - angle;
             if value < 0.0 {
                 (low, below) = (at, value);
                 above /= 2.0;
@@ -231,11 +231,11 @@ impl Arc {
         let gains = |z: f64| {
             (0..=MOMENTS).any(|moment| {
                 let u = self.delta * f64::from(moment) / f64::from(MOMENTS);
-                let whole = self.delta.sin() * first.cos() * self.factors(u)[0];
+                let bound = self.delta.sin() * first.cos() * self.factors(u)[0];
                 let end = u.sin() * (u + z - self.delta - first).cos() * (-self.kappa * z).exp();
                 let now = (self.delta - u).sin() * (u + z + first).cos() * (self.kappa * z).exp();
                 // About twenty operations have rounded.
-                end + now > whole * (1.0 + 32.0 * f64::EPSILON)
+                end + now > bound * (1.0 + 32.0 * f64::EPSILON)
             })
         };
         [-1.0, 1.0].map(|side| {
@@ -278,8 +278,8 @@ fn integrands(kappa: f64, delta: f64, u: f64) -> [f64; 3] {
     let (sin, cos) = u.sin_cos();
     let [minus, plus] = factors(kappa, delta, u);
     let slowness = plus / (minus * minus);
-    let way = sin * slowness / minus;
-    [way * cos, way * sin, slowness]
+    let distance = sin * slowness / minus;
+    [distance * cos, distance * sin, slowness]
 }
 
 #[cfg(test)]
@@ -316,9 +316,9 @@ mod tests {
                 // The remaining displacement, in the frame of the first direction, and V e^{κu}, with S = 1.
                 let state = |delta: f64, u: f64| {
                     let arc = Arc::new(Gauss::new(), kappa, delta);
-                    let (whole, so_far) = (arc.whole(), arc.so_far(u));
+                    let (total, so_far) = (arc.whole(), arc.so_far(u));
                     let speed = arc.speed(u).0 * (kappa * u).exp();
-                    [speed, whole[0] - so_far[0], whole[1] - so_far[1]]
+                    [speed, total[0] - so_far[0], total[1] - so_far[1]]
                 };
                 let mut signs = Vec::new();
                 for step in 1..20 {

@@ -272,22 +272,22 @@ fn refuse_loops(inertia: &Matrix, skew: &impl Fn(usize, usize) -> f64) -> Result
     }
 }
 
-fn check(what: &'static str, matrix: &[Vec<f64>], n: usize) -> Result<(), Unsolved> {
+fn check(name: &'static str, matrix: &[Vec<f64>], n: usize) -> Result<(), Unsolved> {
     if matrix.len() != n {
         let found = matrix.len();
         return Err(Unsolved::Size {
-            what,
+            list: name,
             expected: n,
             found,
         });
     }
-    matrix.iter().try_for_each(|row| check_list(what, row, n))
+    matrix.iter().try_for_each(|row| check_list(name, row, n))
 }
 
-pub(super) fn check_list(what: &'static str, list: &[f64], n: usize) -> Result<(), Unsolved> {
+pub(super) fn check_list(name: &'static str, list: &[f64], n: usize) -> Result<(), Unsolved> {
     if list.len() != n || n == 0 {
         return Err(Unsolved::Size {
-            what,
+            list: name,
             expected: n.max(1),
             found: list.len(),
         });
@@ -295,6 +295,6 @@ pub(super) fn check_list(what: &'static str, list: &[f64], n: usize) -> Result<(
     if list.iter().all(|x| x.is_finite()) {
         Ok(())
     } else {
-        Err(Unsolved::NotFinite { what })
+        Err(Unsolved::NotFinite { list: name })
     }
 }

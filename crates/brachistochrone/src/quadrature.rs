@@ -69,17 +69,18 @@ impl Gauss {
         from: f64,
         to: f64,
     ) -> std::vec::Vec<(f64, [f64; N])> {
-        let whole = self.stretch(f, from, to);
-        let scale = whole.map(f64::abs);
+        let estimate = self.stretch(f, from, to);
+        let scale = estimate.map(f64::abs);
         let mut done = std::vec![(from, [0.0; N])];
-        let mut open = std::vec![(from, to, whole)];
+        let mut open = std::vec![(from, to, estimate)];
         while let Some((from, to, whole)) = open.pop() {
             let middle = from + (to - from) / 2.0;
             let halves = [self.stretch(f, from, middle), self.stretch(f, middle, to)];
             let good = (0..N).all(|k| {
-                let both = halves[0][k] + halves[1][k];
+                let refined = halves[0][k] + halves[1][k];
                 // Halving does not make an infinite integral finite; callers check the value.
-                (both - whole[k]).abs() <= TOLERANCE * scale[k].max(both.abs()) || !both.is_finite()
+                (refined - whole[k]).abs() <= TOLERANCE * scale[k].max(refined.abs())
+                    || !refined.is_finite()
             });
             if good || done.len() + open.len() >= MOST {
                 for (end, half) in [(middle, halves[0]), (to, halves[1])] {

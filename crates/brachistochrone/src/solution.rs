@@ -5,7 +5,7 @@ use super::linear::{dot, times};
 use super::plane::Arc;
 use super::problem::{Frame, Problem, check_list};
 
-/// The number of intervals into which [`Brachistochrone::lapses`] divides the motion to check the guides.
+/// The number of intervals into which [`Brachistochrone::violations`] divides the motion to check the guides.
 const CHECK_POINTS: u32 = 256;
 
 /// The fastest motion from rest at one position to another.
@@ -80,14 +80,14 @@ impl Problem {
         let n = self.coordinates();
         check_list("the start", from, n)?;
         check_list("the end", to, n)?;
-        let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
-        check_list("the way to the end", &way, n)?;
-        if way.iter().all(|x| *x == 0.0) {
+        let displacement: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
+        check_list("the way to the end", &displacement, n)?;
+        if displacement.iter().all(|x| *x == 0.0) {
             return Err(Unsolved::SameEnds);
         }
-        let frame = Frame::new(self, &way)?;
+        let frame = Frame::new(self, &displacement)?;
         let arc = Arc::to(frame.angle, frame.kappa)
-            .map_err(|beyond| self.beyond(&way, frame.angle, beyond.reach))?;
+            .map_err(|beyond| self.beyond(&displacement, frame.angle, beyond.reach))?;
         Ok(Brachistochrone::new(self.clone(), frame, arc, from, to))
     }
 
@@ -202,13 +202,13 @@ impl Brachistochrone {
         };
         let [ahead, aside, time] = self.arc.so_far(u);
         let (sin, cos) = self.first.sin_cos();
-        let way = along(cos * ahead - sin * aside, sin * ahead + cos * aside);
+        let displacement = along(cos * ahead - sin * aside, sin * ahead + cos * aside);
         // Applied one after the other, because the unit of displacement may overflow where the displacement in that unit underflows.
         let scaled = |x: &f64| x * self.scale / self.descent * self.scale;
         let q = self
             .start
             .iter()
-            .zip(&way)
+            .zip(&displacement)
             .map(|(start, x)| start + scaled(x))
             .collect();
         let (sin, cos) = (self.first + u).sin_cos();
@@ -250,18 +250,18 @@ impl Brachistochrone {
 
     /// Guides that slip backwards, or whose reaction becomes negative, at one of 257 moments: there the assumed friction is
     /// not that of Coulomb.
-    pub fn lapses(&self) -> Vec<Lapse> {
+    pub fn violations(&self) -> Vec<Lapse> {
         let moments =
             (0..=CHECK_POINTS).map(|k| self.after_part(f64::from(k) / f64::from(CHECK_POINTS)));
         let guides = &self.problem.guides;
         let names: Vec<String> = guides.iter().map(|guide| guide.name.clone()).collect();
         let slip = |guide: usize, moment: &Moment| dot(&guides[guide].along, &moment.direction);
-        lapses(&names, &moments.collect::<Vec<_>>(), slip)
+        violations(&names, &moments.collect::<Vec<_>>(), slip)
     }
 }
 
 /// The violations of Coulomb's law by guides at these moments; `slip` is that of a motion with unit [`Moment::direction`].
-pub(super) fn lapses(
+pub(super) fn violations(
     guides: &[String],
     moments: &[Moment],
     slip: impl Fn(usize, &Moment) -> f64,

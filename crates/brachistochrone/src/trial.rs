@@ -78,7 +78,7 @@ pub struct Trial {
 
 impl Trial {
     /// Its duration, in s, if it is less than `known` and was not continued to a local minimum.
-    pub(crate) fn doubt(&self, known: f64) -> Option<f64> {
+    pub(crate) fn shorter_duration_of_unfinished(&self, known: f64) -> Option<f64> {
         let time = match self.outcome {
             Outcome::NotSmooth { time } | Outcome::NotLeast { time, .. } => time,
             _ => return None,

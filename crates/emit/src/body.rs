@@ -241,7 +241,7 @@ pub fn unchecked(
     let results = body.results();
     let guards = function.guards.iter();
     let guards = guards.map(|guard| [guard.pivot, guard.scale].map(|value| body.bound(value)));
-    let ready = program::ready(function);
+    let ready = program::ready_times(function);
     let places = 0..function.results.len();
     let latest = places.max_by_key(|&place| ready[function.results[place].index()]);
     Unchecked {

@@ -232,7 +232,7 @@ impl<'a> Emitter<'a> {
         for (i, slot) in program.coordinates.iter().enumerate() {
             let docs = slot.docs.split_whitespace().collect::<Vec<_>>().join(" ");
             let name = slot.name.to_string();
-            let what = match state_of(&name) {
+            let meaning = match state_of(&name) {
                 Some(state) => format!(
                     "the state {state}, {}, in v, its integral over time in q",
                     rate_unit(&name, &slot.unit_text)
@@ -241,7 +241,7 @@ impl<'a> Emitter<'a> {
             };
             writer.comment(
                 " *",
-                comment_text(&format!("    [{i}] {what}  {docs}")).trim_end(),
+                comment_text(&format!("    [{i}] {meaning}  {docs}")).trim_end(),
             );
         }
         writer.line(" *");

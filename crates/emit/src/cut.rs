@@ -150,7 +150,7 @@ impl<'a> Cutter<'a> {
 
     /// The piece of the operations `start..end`.
     fn piece(&mut self, start: usize, end: usize) -> Piece {
-        let whole = self.function;
+        let function = self.function;
         let mut piece = Builder {
             cutter: self,
             code: Vec::new(),
@@ -159,11 +159,11 @@ impl<'a> Cutter<'a> {
         for index in start..end {
             let value = Value(index as u32);
             // The piece that has the sine or the cosine has stored its partner too.
-            if !is_leaf(whole.op(value)) && !piece.cutter.slots.contains_key(&value) {
+            if !is_leaf(function.op(value)) && !piece.cutter.slots.contains_key(&value) {
                 piece.take(value);
             }
         }
-        let guards: Vec<Guard> = whole
+        let guards: Vec<Guard> = function
             .guards
             .iter()
             .filter(|guard| (start..end).contains(&checked_at(guard)))
@@ -177,7 +177,7 @@ impl<'a> Cutter<'a> {
         let mut kept: Vec<Value> = values
             .keys()
             .copied()
-            .filter(|&value| !is_leaf(whole.op(value)) && self.last_use[value.index()] >= end)
+            .filter(|&value| !is_leaf(function.op(value)) && self.last_use[value.index()] >= end)
             .filter(|value| !self.slots.contains_key(value))
             .collect();
         kept.sort();
@@ -198,7 +198,7 @@ impl<'a> Cutter<'a> {
         let shape = Shape::Vector(results.len());
         Piece {
             function: Function {
-                role: whole.role,
+                role: function.role,
                 code,
                 shape,
                 results,

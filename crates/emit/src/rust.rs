@@ -131,7 +131,7 @@ pub const CONTACT_ROLES: [Role; 7] = [
     Role::Gaps,
     Role::ContactRates,
     Role::ContactMatrix,
-    Role::ContactDrift,
+    Role::ContactBias,
     Role::ContactCoefficients,
 ];
 
@@ -279,7 +279,7 @@ impl<'a> Emitter<'a> {
         if !program.docs.is_empty() {
             self.writer.line("//!");
         }
-        let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let count = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
         let mut size = vec![
             count(program.coordinates.len(), "coordinate"),
             count(program.parameters.len(), "parameter"),

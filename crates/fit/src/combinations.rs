@@ -79,7 +79,7 @@ pub fn combinations(
                 })
             });
             if moves {
-                return made(Kind::Product, &rows, &involved);
+                return combinations_of_kind(Kind::Product, &rows, &involved);
             }
         }
     }
@@ -109,10 +109,10 @@ pub fn combinations(
         })
     });
     let kind = if moves { Kind::Sum } else { Kind::Local };
-    made(kind, &rows, &involved)
+    combinations_of_kind(kind, &rows, &involved)
 }
 
-fn made(kind: Kind, rows: &[Vec<f64>], involved: &[usize]) -> Vec<Combination> {
+fn combinations_of_kind(kind: Kind, rows: &[Vec<f64>], involved: &[usize]) -> Vec<Combination> {
     let combination = |row: &Vec<f64>| Combination {
         kind,
         terms: involved

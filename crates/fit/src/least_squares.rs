@@ -211,7 +211,7 @@ pub fn minimize(
         // If the full Gauss–Newton step promises next to nothing, round-off and errors of the residuals decide whether the
         // sum falls. That step is then tried, and accepted if the derivatives show that it is nearer to the minimum.
         let half = 0.5 * squares(&at.residuals);
-        let whole = step(
+        let full_step = step(
             &at,
             &free,
             bounds,
@@ -219,9 +219,9 @@ pub fn minimize(
             f64::INFINITY,
             options.derivatives,
         );
-        let is_level = promise(&at, &whole) <= options.reduction * half;
+        let is_level = promise(&at, &full_step) <= options.reduction * half;
         let step = if is_level {
-            whole
+            full_step
         } else {
             step(&at, &free, bounds, &scale, radius, options.derivatives)
         };
@@ -257,7 +257,7 @@ pub fn minimize(
                 Ending::Reduction
             };
             let next = match residuals {
-                Some(residuals) => moved(problem, &at, trial, residuals)?,
+                Some(residuals) => after_step(problem, &at, trial, residuals)?,
                 None => at.clone(),
             };
             let free = self::free(&next, bounds);
@@ -285,7 +285,7 @@ pub fn minimize(
         if ratio > KEPT
             && let Some(residuals) = residuals
         {
-            at = moved(problem, &at, trial, residuals)?;
+            at = after_step(problem, &at, trial, residuals)?;
             grow(&mut scale, &at.jacobian);
             is_first = false;
         }
@@ -294,7 +294,7 @@ pub fn minimize(
 }
 
 /// The search after an accepted step.
-fn moved(
+fn after_step(
     problem: &mut dyn Problem,
     at: &Minimum,
     x: Vec<f64>,
@@ -315,7 +315,7 @@ fn moved(
 }
 
 /// Which numbers are at a bound such that the sum of squares falls only outward.
-pub fn held(at: &Minimum, bounds: &[[f64; 2]]) -> Vec<bool> {
+pub fn active_bounds(at: &Minimum, bounds: &[[f64; 2]]) -> Vec<bool> {
     let gradient = at
         .jacobian
         .tr_mul(&DVector::from_column_slice(&at.residuals));
@@ -329,7 +329,7 @@ pub fn held(at: &Minimum, bounds: &[[f64; 2]]) -> Vec<bool> {
 }
 
 fn free(at: &Minimum, bounds: &[[f64; 2]]) -> Vec<usize> {
-    let held = held(at, bounds).into_iter().enumerate();
+    let held = active_bounds(at, bounds).into_iter().enumerate();
     held.filter(|(_, held)| !held).map(|(j, _)| j).collect()
 }
 

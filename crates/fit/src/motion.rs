@@ -280,7 +280,7 @@ impl Fit<'_> {
     ///
     /// # Errors
     /// If the search was interrupted.
-    pub fn found(&mut self, minimum: Minimum, is_scaled: bool) -> Result<Found, Trouble> {
+    pub fn result(&mut self, minimum: Minimum, is_scaled: bool) -> Result<Found, Trouble> {
         let exact = self.exact();
         let sizes: Vec<f64> = self
             .sizes()
@@ -341,8 +341,8 @@ impl Fit<'_> {
 
     /// Sets in a start the values of the experiment and the fitted numbers.
     fn set_start(&self, experiment: usize, x: &[f64], q: &mut [f64], v: &mut [f64]) {
-        let given = &self.experiments[experiment].start;
-        for (numbers, given) in [(&mut *q, &given[0]), (&mut *v, &given[1])] {
+        let start = &self.experiments[experiment].start;
+        for (numbers, given) in [(&mut *q, &start[0]), (&mut *v, &start[1])] {
             for (number, given) in numbers.iter_mut().zip(given) {
                 *number = given.unwrap_or(*number);
             }
@@ -384,10 +384,10 @@ impl Fit<'_> {
         let simulation = own.signals.drive(Simulation::new(&machine), &machine);
         let simulation = self.keep(self.set(simulation, own));
         let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
-        let seen = &mut rows;
+        let recorded = &mut rows;
         let run = simulation
             .each_step(move |step| {
-                while let Some(t) = next_due_time(&own.times, seen.len(), step.span()) {
+                while let Some(t) = next_due_time(&own.times, recorded.len(), step.span()) {
                     let State { q, v, .. } = step.state(t)?;
                     let (q, v) = (q.values, v.values);
                     let mut a = vec![0.0; q.len()];
@@ -401,7 +401,7 @@ impl Fit<'_> {
                         Quantity::Rate(i) => v[i],
                         Quantity::Output(i) => system.output(i, t, &q, &v, &a, &u.values),
                     };
-                    seen.push(Row {
+                    recorded.push(Row {
                         values: own.columns.iter().map(value).collect(),
                         by: Vec::new(),
                     });
@@ -409,7 +409,7 @@ impl Fit<'_> {
                 Ok(())
             })
             .run_interpreted(start);
-        run.map_err(|error| self.trouble(own, error))?;
+        run.map_err(|error| self.failure(own, error))?;
         self.whole(own, rows)
     }
 
@@ -449,7 +449,7 @@ impl Fit<'_> {
         let start = self.start(experiment, x)?;
         let simulation = self.keep(Simulation::new(&machine).until(start.t));
         let run = simulation.run_interpreted(start);
-        let run = run.map_err(|error| self.trouble(&self.experiments[experiment], error))?;
+        let run = run.map_err(|error| self.failure(&self.experiments[experiment], error))?;
         Ok(run.start().clone())
     }
 
@@ -491,7 +491,7 @@ impl Fit<'_> {
         Ok(change.map(|list| list.into_iter().map(|by| by * size).collect()))
     }
 
-    fn trouble(&self, experiment: &Experiment, error: lagrangian::Error) -> Trouble {
+    fn failure(&self, experiment: &Experiment, error: lagrangian::Error) -> Trouble {
         if (self.running.stop)() {
             Trouble::Stopped
         } else {
@@ -616,7 +616,7 @@ impl Fit<'_> {
                 most_steps: self.running.most_steps,
             };
             let run = across::run(&wanted, &start).map_err(|why| match why {
-                NoDerivatives::Run(error) => RunFailure::Trouble(self.trouble(own, error)),
+                NoDerivatives::Run(error) => RunFailure::Trouble(self.failure(own, error)),
                 broken => RunFailure::WithoutDerivatives(broken.to_string()),
             })?;
             let row = |t: &f64| -> Result<Row, lagrangian::Error> {
@@ -629,7 +629,7 @@ impl Fit<'_> {
                 ))
             };
             let rows: Result<Vec<Row>, _> = own.times.iter().map(row).collect();
-            let rows = rows.map_err(|error| self.trouble(own, error))?;
+            let rows = rows.map_err(|error| self.failure(own, error))?;
             let off = if is_held {
                 self.off_constraints(experiment, x, run.end(), &here)
             } else {
@@ -641,10 +641,10 @@ impl Fit<'_> {
         let simulation = Simulation::new(&varied).law(VariedLaw(&own.signals));
         let simulation = self.set(simulation, own);
         let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
-        let seen = &mut rows;
+        let recorded = &mut rows;
         let (system, at) = (&system, &at);
         let simulation = simulation.each_step(move |step| {
-            while let Some(t) = next_due_time(&own.times, seen.len(), step.span()) {
+            while let Some(t) = next_due_time(&own.times, recorded.len(), step.span()) {
                 let State { q, v, .. } = step.state(t)?;
                 let mut a = vec![0.0; q.len()];
                 let mut u = system.default_inputs();
@@ -652,12 +652,12 @@ impl Fit<'_> {
                     u = step.inputs(t, &q, &v);
                     step.accelerations((t, &q, &v), &u, &mut a)?;
                 }
-                seen.push(at(system, (t, &q, &v), (&a, &u)));
+                recorded.push(at(system, (t, &q, &v), (&a, &u)));
             }
             Ok(())
         });
         let run = VariedLaw::run(simulation, start);
-        let run = run.map_err(|error| self.trouble(own, error))?;
+        let run = run.map_err(|error| self.failure(own, error))?;
         let off = if is_held {
             self.off_constraints(experiment, x, run.end(), &here)
         } else {
@@ -709,10 +709,12 @@ impl Fit<'_> {
             starts::off_constraints(&machine, &at, change, parameter)
         });
         // `f64::max` would ignore NaN, which must be reported.
-        shares.fold(0.0, |most: f64, off| match off.is_nan() {
-            true => off,
-            false if most.is_nan() => most,
-            false => most.max(off),
+        shares.fold(0.0, |most: f64, off| {
+            if off.is_nan() || most.is_nan() {
+                f64::NAN
+            } else {
+                most.max(off)
+            }
         })
     }
 

@@ -51,14 +51,14 @@ const SETTLED: f64 = 1e-6;
 /// The most alternations of searches and estimates.
 const MOST_TURNS: usize = 50;
 
-/// The lowest minimum of several searches: the first from the initial guess, the others from the points of [`spread`].
+/// The lowest minimum of several searches: the first from the initial guess, the others from the points of [`distributed_starts`].
 ///
 /// # Errors
 /// If there is no minimum.
 pub fn search(fit: &mut Fit<'_>, count: usize, sigmas: Sigmas) -> Result<SearchResults, Failed> {
     let mut searches = Vec::new();
     for index in 0..count.max(1) {
-        let from = spread(&fit.sought, index);
+        let from = distributed_starts(&fit.sought, index);
         let end = match fit.search(&from) {
             Ok(minimum) => Ok(minimum),
             Err(Trouble::NoValue(why)) => Err(why),
@@ -78,20 +78,20 @@ pub fn search(fit: &mut Fit<'_>, count: usize, sigmas: Sigmas) -> Result<SearchR
         Err(why) => return Err(Failed::NoStart(why.clone())),
     };
     if sigmas == Sigmas::Estimated {
-        minimum = settled(fit, minimum)?;
+        minimum = with_estimated_deviations(fit, minimum)?;
     }
-    let found = fit
-        .found(minimum, sigmas == Sigmas::Equal)
+    let result = fit
+        .result(minimum, sigmas == Sigmas::Equal)
         .map_err(Failed::Trouble)?;
     Ok(SearchResults {
-        found,
+        found: result,
         searches,
         best,
     })
 }
 
 /// The minimum with the standard deviations estimated from its own residuals.
-fn settled(fit: &mut Fit<'_>, mut minimum: Minimum) -> Result<Minimum, Failed> {
+fn with_estimated_deviations(fit: &mut Fit<'_>, mut minimum: Minimum) -> Result<Minimum, Failed> {
     for _ in 0..MOST_TURNS {
         let estimated = fit.estimated_sigmas(&minimum);
         let pairs = estimated.iter().zip(&fit.sigmas);
@@ -111,7 +111,7 @@ fn settled(fit: &mut Fit<'_>, mut minimum: Minimum) -> Result<Minimum, Failed> {
 /// They are the points of the additive sequence of the generalized golden ratio, which fill a box evenly and are the same in every
 /// run (M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018). Between positive bounds more than a decade
 /// apart the logarithms are distributed evenly.
-pub fn spread(sought: &[Sought], index: usize) -> Vec<f64> {
+pub fn distributed_starts(sought: &[Sought], index: usize) -> Vec<f64> {
     if index == 0 {
         return sought.iter().map(|one| one.from).collect();
     }

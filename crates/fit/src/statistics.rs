@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::least_squares::{Minimum, held};
+use crate::least_squares::{Minimum, active_bounds};
 
 /// How far the data determine a fitted number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub struct Statistics {
     /// How many measurements there are.
     pub measurements: usize,
     /// The number of directions that the residuals determine.
-    pub told: usize,
+    pub determined: usize,
     /// The number of measurements minus the number of these directions.
     pub freedom: usize,
     /// The sum of squares of the weighted residuals.
@@ -59,7 +59,7 @@ impl Statistics {
         let norms: Vec<f64> = at.jacobian.column_iter().map(|c| c.norm()).collect();
         let effect = |j: usize| norms[j] * sizes[j].abs();
         let greatest = (0..count).map(effect).fold(0.0, f64::max);
-        let held = held(at, bounds);
+        let held = active_bounds(at, bounds);
         let mut standing: Vec<Standing> = (0..count)
             .map(|j| match (held[j], effect(j) > exact * greatest) {
                 (true, _) => Standing::Bound,
@@ -100,10 +100,10 @@ impl Statistics {
         let outside = part(&lost, &|_| 1.0);
         let mut null = DMatrix::zeros(count, lost.len());
         // A null direction is known to about the square root of the relative error of the derivatives.
-        let seen = exact.sqrt();
+        let threshold = exact.sqrt();
         for (a, j) in open.iter().enumerate() {
             let share = outside.row(a).norm() * norms[*j];
-            if share > seen {
+            if share > threshold {
                 standing[*j] = Standing::Entangled;
                 for i in 0..lost.len() {
                     null[(*j, i)] = outside[(a, i)];
@@ -112,7 +112,7 @@ impl Statistics {
         }
         Statistics {
             measurements: at.residuals.len(),
-            told: kept.len(),
+            determined: kept.len(),
             freedom,
             chi_squared,
             variance,

@@ -191,14 +191,20 @@ pub fn run<'m>(wanted: &Wanted<'m>, start: &State<Vec<f64>>) -> Result<Across<'m
         ..
     } = wanted;
     let system = machine.prepare();
-    if let Some(contact) = system.unilateral_contacts().find(|contact| contact.across) {
+    if let Some(contact) = system
+        .unilateral_contacts()
+        .find(|contact| contact.is_second_tangent)
+    {
         return Err(NoDerivatives::Broken {
             t: start.t,
             contact: contact.name.to_owned(),
             why: "slips in two directions, for which there are no derivatives across changes of contacts",
         });
     }
-    if let Some(contact) = system.unilateral_contacts().find(|contact| contact.faced) {
+    if let Some(contact) = system
+        .unilateral_contacts()
+        .find(|contact| contact.has_face)
+    {
         return Err(NoDerivatives::Broken {
             t: start.t,
             contact: contact.name.to_owned(),
@@ -289,28 +295,28 @@ impl<'m> Passing<'_, 'm> {
         let mut excursions = vec![0.0; phase.modes.len()];
         let mut changes = 0;
         let all: Vec<_> = base.contact_phases().collect();
-        for (index, told) in all.iter().enumerate() {
+        for (index, event) in all.iter().enumerate() {
             let ends = all.get(index + 1).map_or(base.end().t, |next| next.since);
             let mut after = Phase {
-                modes: told.modes.to_vec(),
+                modes: event.modes.to_vec(),
                 ..phase.clone()
             };
-            for (layer, is_loaded) in after.layers.iter_mut().zip(&told.loaded) {
+            for (layer, is_loaded) in after.layers.iter_mut().zip(&event.loaded) {
                 layer.is_loaded = *is_loaded;
             }
             // The values are those of the run itself, so they carry no error of the variational integration.
-            let here = base.at(told.since).map_err(NoDerivatives::Run)?;
+            let here = base.at(event.since).map_err(NoDerivatives::Run)?;
             if index == 0 {
                 self.put_values(&mut state, &here);
-                self.check_start(&state, &after, &told.impacts)?;
+                self.check_start(&state, &after, &event.impacts)?;
             } else {
                 let change = Change {
-                    t: told.since,
+                    t: event.since,
                     before: &phase,
                     after: &mut after,
-                    cause: told.cause,
-                    hits: &told.impacts,
-                    ended: told.ended,
+                    cause: event.cause,
+                    hits: &event.impacts,
+                    ended: event.ended,
                     excursions: &excursions,
                 };
                 self.cross_change(change, &mut state, &here)?;
@@ -318,16 +324,16 @@ impl<'m> Passing<'_, 'm> {
             }
             phase = after;
             for (k, excursion) in excursions.iter_mut().enumerate() {
-                if phase.is_closed(k) || told.impacts.iter().any(|(contact, _)| *contact == k) {
+                if phase.is_closed(k) || event.impacts.iter().any(|(contact, _)| *contact == k) {
                     *excursion = 0.0;
                 }
             }
             let is_last = index + 1 == all.len();
-            if ends > told.since || is_last && parts.is_empty() {
+            if ends > event.since || is_last && parts.is_empty() {
                 self.check_forces(&state, &phase)?;
                 let part = self.part(&phase, state.clone(), ends)?;
                 let mut gaps = vec![0.0; excursions.len()];
-                for t in [told.since, 0.5 * (told.since + ends), ends] {
+                for t in [event.since, 0.5 * (event.since + ends), ends] {
                     let at = part.run.at(t).map_err(NoDerivatives::Run)?;
                     system.gaps(t, &at.q[..self.n].to_vec(), &mut gaps);
                     for (excursion, gap) in excursions.iter_mut().zip(&gaps) {
@@ -433,11 +439,14 @@ impl<'m> Passing<'_, 'm> {
         };
         let system = varied.prepare();
         let n = self.n;
-        let both = |list: &[Number]| -> Vec<f64> {
+        let with_derivatives = |list: &[Number]| -> Vec<f64> {
             let values = list.iter().map(|x| x.value);
             values.chain(list.iter().map(|x| x.derivative)).collect()
         };
-        let (q, v) = (both(&state[1..=n]), both(&state[n + 1..]));
+        let (q, v) = (
+            with_derivatives(&state[1..=n]),
+            with_derivatives(&state[n + 1..]),
+        );
         let mut inputs = system.default_inputs();
         VariedLaw(self.wanted.signals).set(&system, state[0].value, &q, &v, &mut inputs);
         let own = inputs.own.values.iter().zip(&inputs.by[0]);

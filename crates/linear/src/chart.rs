@@ -44,8 +44,8 @@ impl Chart {
         let inputs = system.default_inputs().values;
         let q = &x.as_slice()[..n];
         let reduced = Reduced::new(machine, &system, &inputs, &[]);
-        let given: Vec<bool> = (0..n).map(|j| kept[j] || kept[n + j]).collect();
-        let choice = reduced.choose(q, &given)?;
+        let is_kept: Vec<bool> = (0..n).map(|j| kept[j] || kept[n + j]).collect();
+        let choice = reduced.choose(q, &is_kept)?;
         let mut picked = choice.places();
         picked.retain(|j| !goes_on[*j]);
         picked.sort_unstable();
@@ -63,7 +63,7 @@ impl Chart {
     }
 
     /// The indices of these numbers in a state.
-    pub fn picked(&self) -> &[usize] {
+    pub fn indices(&self) -> &[usize] {
         &self.picked
     }
 

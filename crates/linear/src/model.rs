@@ -258,7 +258,7 @@ pub fn along(
     };
     let named_request = NamedRequest::new(machine, &system, request, at.choice)?;
     smooth(&mut reduced, &named_request, &at)?;
-    let (mut here, bounds) = settled(&mut reduced, &named_request, &at)?;
+    let (mut here, bounds) = without_roundoff(&mut reduced, &named_request, &at)?;
     goes_on(
         &mut reduced,
         &named_request,
@@ -329,7 +329,7 @@ pub fn about(
     };
     let named_request = NamedRequest::new(machine, &system, request, &choice)?;
     smooth(&mut reduced, &named_request, &at)?;
-    let (here, bounds) = settled(&mut reduced, &named_request, &at)?;
+    let (here, bounds) = without_roundoff(&mut reduced, &named_request, &at)?;
     let (wide, s) = (constants(&place.q), constants(&place.s));
     let rates = reduced.evaluate(&choice, &wide, &s)?.rates;
     let v = rates.iter().map(|v| v.value.hi()).collect();
@@ -589,7 +589,7 @@ fn matrices(
     let drift = places.iter().map(|j| value(&here.rates[*j]));
     let drift = drift.chain(here.accelerations.iter().map(value));
     let outputs = here.outputs.len();
-    let mut found = Matrices {
+    let mut matrices = Matrices {
         a: DMatrix::zeros(states, states),
         b: DMatrix::zeros(states, named_request.request.inputs.len()),
         c: DMatrix::zeros(outputs, states),
@@ -615,17 +615,17 @@ fn matrices(
         }
         let there = respond(reduced, named_request, choice, &q, &s)?;
         for (i, x) in rows(&there).into_iter().enumerate() {
-            found.a[(i, column)] = x;
+            matrices.a[(i, column)] = x;
         }
         for (i, x) in there.outputs.iter().enumerate() {
-            found.c[(i, column)] = slope(x);
+            matrices.c[(i, column)] = slope(x);
         }
         for (i, step) in direction.iter().enumerate() {
             if !at.records[i] {
-                found.basis[(i, column)] = step.hi();
+                matrices.basis[(i, column)] = step.hi();
             }
             if !at.records[i] || integrals[i] {
-                found.basis[(n + i, column)] = slope(&there.rates[i]);
+                matrices.basis[(n + i, column)] = slope(&there.rates[i]);
             }
         }
     }
@@ -636,13 +636,13 @@ fn matrices(
         s[k].derivative = DoubleDouble::ZERO;
         let column = kept + k;
         for (i, x) in rows(&there).into_iter().enumerate() {
-            found.a[(i, column)] = x;
+            matrices.a[(i, column)] = x;
         }
         for (i, x) in there.outputs.iter().enumerate() {
-            found.c[(i, column)] = slope(x);
+            matrices.c[(i, column)] = slope(x);
         }
         for i in (0..n).filter(|i| !at.records[*i] || integrals[*i]) {
-            found.basis[(n + i, column)] = slope(&there.rates[i]);
+            matrices.basis[(n + i, column)] = slope(&there.rates[i]);
         }
     }
     for (column, &input) in named_request.request.inputs.iter().enumerate() {
@@ -651,21 +651,21 @@ fn matrices(
         reduced.inputs_mut()[input].derivative = DoubleDouble::ZERO;
         let there = there?;
         for (i, x) in rows(&there).into_iter().enumerate() {
-            found.b[(i, column)] = x;
+            matrices.b[(i, column)] = x;
         }
         for (i, x) in there.outputs.iter().enumerate() {
-            found.d[(i, column)] = slope(x);
+            matrices.d[(i, column)] = slope(x);
         }
     }
-    let numbers = found.each().into_iter().flat_map(|m| m.iter());
+    let numbers = matrices.each().into_iter().flat_map(|m| m.iter());
     if numbers.copied().any(|x| !x.is_finite()) {
         return Err(Fault::NotFinite(places.first().copied().unwrap_or(0)));
     }
-    Ok(found)
+    Ok(matrices)
 }
 
 /// The matrices, in which entries within round-off are set to 0, and bounds on the effect of rounding on each entry.
-fn settled(
+fn without_roundoff(
     reduced: &mut Reduced<'_>,
     named_request: &NamedRequest<'_>,
     at: &At<'_>,

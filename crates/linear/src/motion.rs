@@ -14,7 +14,7 @@
 use nalgebra::{Complex, DMatrix};
 
 use crate::reduced::{Choice, Fault, Linearized, Place, Reduced, divided};
-use crate::search::{Found, settled};
+use crate::search::{Found, without_roundoff};
 use crate::spectrum::{self, Linear, Mode, Modes};
 
 /// By how much moving coordinates are shifted, in rad, m or relative to the coordinate, to test whether anything
@@ -208,8 +208,8 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
             choice.independent.first().copied().unwrap_or(0),
         ))
     };
-    let by_places = settled(&here.by_places, &bounds.by_places);
-    let by_rates = settled(&here.by_rates, &bounds.by_rates);
+    let by_places = without_roundoff(&here.by_places, &bounds.by_places);
+    let by_rates = without_roundoff(&here.by_rates, &bounds.by_rates);
     let k = divided(&here.mass, &by_places).ok_or_else(singular)?;
     let c = divided(&here.mass, &by_rates).ok_or_else(singular)?;
     let inverse = divided(&here.mass, &DMatrix::identity(moving, moving)).ok_or_else(singular)?;
@@ -217,7 +217,7 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
     let k_bounds = &inverse * (&bounds.by_places + &bounds.mass * k.abs());
     let c_bounds = &inverse * (&bounds.by_rates + &bounds.mass * c.abs());
     let column = |m: &DMatrix<f64>| DMatrix::from_fn(m.nrows(), kept.len(), |i, j| m[(i, kept[j])]);
-    let p = column(&settled(
+    let p = column(&without_roundoff(
         &here.rate_dependent_by_places,
         &bounds.rate_dependent_by_places,
     ));
@@ -246,7 +246,7 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
     };
     let mut modes = spectrum::modes(&linear).ok_or(Unsteady::NoEigenvalues)?;
     modes.free += places.len() - kept.len();
-    let tangent = column(&settled(&here.tangent, &bounds.tangent));
+    let tangent = column(&without_roundoff(&here.tangent, &bounds.tangent));
     for mode in &mut modes.modes {
         mode.shape = in_coordinates(&tangent, &records, mode);
     }

@@ -289,9 +289,9 @@ impl fmt::Display for NoOrbit {
                 "no orbit was found near the start: after {rounds} iterations the motion returns only to within {residual:.1e}; start \
                  nearer to it, or let the motion settle first if the orbit attracts"
             ),
-            NoOrbit::Jump(said, found) => write!(
+            NoOrbit::Jump(predicted, found) => write!(
                 f,
-                "the variational equations do not describe how runs differ ({said:.3e} in place of {found:.3e}), as where a force jumps; \
+                "the variational equations do not describe how runs differ ({predicted:.3e} in place of {found:.3e}), as where a force jumps; \
                  make it smooth"
             ),
             NoOrbit::Eigenvalues => f.write_str("the multipliers cannot be found"),
@@ -480,8 +480,8 @@ impl Search<'_> {
         Ok(Orbit {
             advance,
             shifts: self.sought.shifts.clone(),
-            states: chart.picked().to_vec(),
-            residual: self.share(&self.gap(&x, &passage.x), &x),
+            states: chart.indices().to_vec(),
+            residual: self.largest_relative_entry(&self.gap(&x, &passage.x), &x),
             start: self.named(&x),
             period,
             monodromy: passage.monodromy,
@@ -709,7 +709,7 @@ impl Search<'_> {
     }
 
     /// The largest entry, each relative to `max(1, |x|)`.
-    fn share(&self, gap: &DVector<f64>, x: &DVector<f64>) -> f64 {
+    fn largest_relative_entry(&self, gap: &DVector<f64>, x: &DVector<f64>) -> f64 {
         let shares = gap.iter().zip(x.iter());
         shares.fold(0.0, |most, (gap, x)| most.max(gap.abs() / x.abs().max(1.0)))
     }
@@ -774,7 +774,7 @@ impl Search<'_> {
         }
         let names: Vec<&str> = system.coordinates().map(|of| of.name).collect();
         let mut sensitive = Sensitive::new(self.machine).with_start_on_constraints();
-        for &of in chart.picked() {
+        for &of in chart.indices() {
             sensitive = if of < n {
                 sensitive.by_start(names[of])
             } else {
@@ -800,7 +800,7 @@ impl Search<'_> {
         let (q, v) = (&run.end().q, &run.end().v);
         let there = q.value.values.iter().chain(&v.value.values).copied();
         let mut there = DVector::from_iterator(2 * n, there);
-        let picked = chart.picked();
+        let picked = chart.indices();
         let monodromy = DMatrix::from_fn(picked.len(), picked.len(), |i, j| match picked[i] {
             of if of < n => q.by[j].values[of],
             of => v.by[j].values[of - n],
@@ -865,7 +865,7 @@ impl Search<'_> {
         let end = run.end();
         let all = end.q[..n].iter().chain(&end.v[..n]).copied();
         let there = DVector::from_iterator(2 * n, all);
-        let picked = chart.picked();
+        let picked = chart.indices();
         let monodromy = DMatrix::from_fn(picked.len(), picked.len(), |i, j| match picked[i] {
             of if of < n => end.q[(j + 1) * n + of],
             of => end.v[(j + 1) * n + of - n],
@@ -895,7 +895,7 @@ impl Search<'_> {
         let mass = DMatrix::from_row_slice(n, n, &mass);
         let spread = chart.spread(self.machine, self.sought.start.t, x);
         let spread = spread.map_err(|_| NoOrbit::Constraints)?;
-        let places = chart.picked().iter().filter(|of| **of < n).count();
+        let places = chart.indices().iter().filter(|of| **of < n).count();
         let (size, speeds) = (chart.size(), chart.size() - places);
         let factor = |across: DMatrix<f64>| -> DMatrix<f64> {
             let size = across.ncols();
@@ -951,7 +951,7 @@ impl Search<'_> {
         let normal = scale.transpose() * (&scale * &rate);
         let distance = {
             let (normal, place) = (normal.clone(), place.clone());
-            let picked = chart.picked().to_vec();
+            let picked = chart.indices().to_vec();
             let fours = self.machine.program().quaternions.clone();
             move |state: &State<Named>| -> f64 {
                 let sign = |k: usize| {
@@ -1014,7 +1014,7 @@ impl Search<'_> {
             let mut shorter = None;
             for part in [2.0, 3.0, 5.0] {
                 let there = self.end(x, *period / part, tolerance)?;
-                if self.share(&self.gap(x, &there), x) <= CLOSED * tolerance {
+                if self.largest_relative_entry(&self.gap(x, &there), x) <= CLOSED * tolerance {
                     shorter = Some(*period / part);
                 }
             }
@@ -1109,7 +1109,7 @@ impl Search<'_> {
             let scale = self.scale(&chart, &x, *period)?;
             let own_gap = chart.of(&gap);
             let off = (&scale * &own_gap).norm();
-            if self.share(&gap, &x) <= tolerance {
+            if self.largest_relative_entry(&gap, &x) <= tolerance {
                 break;
             }
             let better = (rounds < MOST_ROUNDS).then(|| {
@@ -1142,13 +1142,13 @@ impl Search<'_> {
                     (x, *period, passage) = (next, length, there);
                     rounds += 1;
                     let other = self.chart(&x)?;
-                    if other.picked() != chart.picked() {
+                    if other.indices() != chart.indices() {
                         passage = self.passage(&other, &x, *period, tolerance)?;
                         chart = other;
                     }
                 }
-                None if self.share(&gap, &x) <= CLOSED * tolerance => break,
-                None => return Err(NoOrbit::Lost(self.share(&gap, &x), rounds)),
+                None if self.largest_relative_entry(&gap, &x) <= CLOSED * tolerance => break,
+                None => return Err(NoOrbit::Lost(self.largest_relative_entry(&gap, &x), rounds)),
             }
         }
         // A state at rest returns after any time.
@@ -1172,7 +1172,7 @@ impl Search<'_> {
         is_free: bool,
     ) -> Option<(DVector<f64>, f64)> {
         let size = chart.size();
-        let is_free_number = |k: &usize| !self.sought.kept[chart.picked()[*k]];
+        let is_free_number = |k: &usize| !self.sought.kept[chart.indices()[*k]];
         let free: Vec<usize> = (0..size).filter(is_free_number).collect();
         let columns = DMatrix::from_fn(size, free.len(), |i, j| f64::from(i == free[j]));
         let metric = columns.transpose() * scale.transpose() * scale * &columns;
@@ -1214,7 +1214,7 @@ impl Search<'_> {
     ) -> Result<(), NoOrbit> {
         let tolerance = self.sought.tolerance;
         let direction = DVector::from_fn(chart.size(), |j, _| {
-            (((3 + 7 * j) * 29 % 97) as f64 / 97.0 - 0.4) * x[chart.picked()[j]].abs().max(1.0)
+            (((3 + 7 * j) * 29 % 97) as f64 / 97.0 - 0.4) * x[chart.indices()[j]].abs().max(1.0)
         });
         let direction = &direction / direction.norm();
         let difference = |h: f64| -> Result<DVector<f64>, NoOrbit> {
@@ -1228,15 +1228,15 @@ impl Search<'_> {
         };
         let [coarse, fine] = [2e-5, 1e-5].map(difference);
         let (coarse, fine) = (coarse?, fine?);
-        let said = &passage.monodromy * &direction;
-        let off = (&said - &fine).amax();
+        let predicted = &passage.monodromy * &direction;
+        let off = (&predicted - &fine).amax();
         // The error of the finer difference is a third of the difference between the two where it is quadratic in the change; the
         // error of the ends of runs, divided by the change, comes on top.
         let size = passage.monodromy.amax().max(1.0);
         let known = 4.0 * (&coarse - &fine).amax() + CLOSED * tolerance * size / 1e-5;
         let significant = 1e-3 * size;
         if off > known.max(significant) {
-            Err(NoOrbit::Jump(said.amax(), fine.amax()))
+            Err(NoOrbit::Jump(predicted.amax(), fine.amax()))
         } else {
             Ok(())
         }
@@ -1282,8 +1282,8 @@ impl Search<'_> {
         };
         let rest = across.transpose() * &scaled * &across;
         let rest_bounds = across.abs().transpose() * &scaled_bounds * across.abs();
-        let found = poles(&rest, &rest_bounds).ok_or(NoOrbit::Eigenvalues)?;
-        let mut found: Vec<Multiplier> = found
+        let poles_of_rest = poles(&rest, &rest_bounds).ok_or(NoOrbit::Eigenvalues)?;
+        let mut rest_multipliers: Vec<Multiplier> = poles_of_rest
             .into_iter()
             .map(|pole| Multiplier {
                 value: pole.lambda,
@@ -1291,7 +1291,7 @@ impl Search<'_> {
                 is_trivial: false,
             })
             .collect();
-        found.sort_by(|a, b| {
+        rest_multipliers.sort_by(|a, b| {
             let key = |one: &Multiplier| (one.value.norm(), one.value.im);
             let ((a1, a2), (b1, b2)) = (key(a), key(b));
             // Both of a conjugate pair have the same modulus, bit for bit.
@@ -1308,7 +1308,7 @@ impl Search<'_> {
         let least = (NOTHING * values.max()).max(scaled_bounds.norm());
         let open = values.iter().filter(|x| **x <= least).count();
         let own = open.saturating_sub(usize::from(has_phase));
-        multipliers.extend(found);
+        multipliers.extend(rest_multipliers);
         Ok((multipliers, own))
     }
 }
@@ -1422,25 +1422,25 @@ where
     let mut known: Vec<(f64, Orbit)> = Vec::new();
     let (mut points, mut changes) = (Vec::new(), Vec::new());
     for (k, &value) in values.iter().enumerate() {
-        let mut found = solve(value, &beside(&known, value))?;
-        if let (Err(_), Some((at, _))) = (&found, known.last()) {
+        let mut solution = solve(value, &beside(&known, value))?;
+        if let (Err(_), Some((at, _))) = (&solution, known.last()) {
             // Shorter steps, starting from the last orbit.
             let (mut at, mut step) = (*at, 0.5 * (value - *at));
             let mut halved = 1;
-            let mut way = known.clone();
+            let mut orbits = known.clone();
             while halved <= MOST_BETWEEN {
                 let next = if ((value - at) / step) < 1.5 {
                     value
                 } else {
                     at + step
                 };
-                match solve(next, &beside(&way, next))? {
+                match solve(next, &beside(&orbits, next))? {
                     Ok(orbit) if next == value => {
-                        found = Ok(orbit);
+                        solution = Ok(orbit);
                         break;
                     }
                     Ok(orbit) => {
-                        way.push((next, orbit));
+                        orbits.push((next, orbit));
                         at = next;
                     }
                     Err(_) => {
@@ -1450,10 +1450,10 @@ where
                 }
             }
         }
-        if let (Err(none), 0) = (&found, k) {
+        if let (Err(none), 0) = (&solution, k) {
             return Err(none.clone().into());
         }
-        if let Ok(orbit) = &found {
+        if let Ok(orbit) = &solution {
             if let Some((before, older)) = known.last()
                 && older.outside() != orbit.outside()
             {
@@ -1467,7 +1467,7 @@ where
         }
         points.push(Point {
             value,
-            orbit: found,
+            orbit: solution,
         });
     }
     Ok(Trace { points, changes })
@@ -1514,10 +1514,13 @@ fn located<E>(
         .filter(|one| one.side() == Side::Grows);
     let nearest = outside.min_by(|a, b| a.value.norm().total_cmp(&b.value.norm()));
     let multiplier = nearest.map_or(Complex::new(1.0, 0.0), |one| one.value);
-    let change = match multiplier.im.abs() <= 1e-6 {
-        true if multiplier.re > 0.0 => Change::Fold,
-        true => Change::Doubling,
-        false => Change::Torus,
+    let is_real = multiplier.im.abs() <= 1e-6;
+    let change = if !is_real {
+        Change::Torus
+    } else if multiplier.re > 0.0 {
+        Change::Fold
+    } else {
+        Change::Doubling
     };
     Ok(Changed {
         between: [low.0, high.0],

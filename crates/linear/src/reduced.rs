@@ -316,7 +316,7 @@ impl<'a> Reduced<'a> {
         // The entries for quaternion lengths follow those of the machine's own constraints.
         let of_each = match role {
             Role::ConstraintMatrix => q.len(),
-            Role::ConstraintRates | Role::ConstraintDrift | Role::ConstraintPositions => 1,
+            Role::ConstraintRates | Role::ConstraintBias | Role::ConstraintPositions => 1,
             _ => 0,
         };
         let (own, of_lengths) = results.split_at_mut(count - of_each * self.fours.len());
@@ -330,7 +330,7 @@ impl<'a> Reduced<'a> {
             match role {
                 Role::ConstraintMatrix => four.iter().for_each(|&i| held[i] = q[i]),
                 Role::ConstraintRates => held[0] = dot(four, q, v),
-                Role::ConstraintDrift => held[0] = -dot(four, v, v),
+                Role::ConstraintBias => held[0] = -dot(four, v, v),
                 _ => held[0] = (dot(four, q, q) - Number::ONE) * Number::from_f64(0.5),
             }
         }
@@ -345,7 +345,7 @@ impl<'a> Reduced<'a> {
             (Role::Forces, n),
             (Role::ConstraintMatrix, m * n),
             (Role::ConstraintRates, m),
-            (Role::ConstraintDrift, m),
+            (Role::ConstraintBias, m),
             (Role::ConstraintPositions, m),
         ]
         .map(|(role, count)| self.call(role, (q, v), count, t))
@@ -579,7 +579,7 @@ impl<'a> Reduced<'a> {
                 let step = lower.transpose().solve_upper_triangular(&step);
                 let mut step = step.ok_or(Fault::Singular(0))?;
                 (0..n).filter(|j| !may(*j)).for_each(|j| step[j] = 0.0);
-                let longest = share(&step, &near);
+                let longest = largest_relative_change(&step, &near);
                 if !longest.is_finite() {
                     return Err(Fault::Unmet(worst));
                 }
@@ -587,7 +587,7 @@ impl<'a> Reduced<'a> {
                 if !is_damped || longest <= NEARLY_MET {
                     break (step, longest);
                 }
-                let tried: Vec<DoubleDouble> = moved(q, &step);
+                let tried: Vec<DoubleDouble> = after_step(q, &step);
                 if scaled(&self.positions(&tried)).norm() < residuals.norm() {
                     damping = if damping < LEAST_DAMPING {
                         0.0
@@ -605,7 +605,7 @@ impl<'a> Reduced<'a> {
             if longest == 0.0 || (longest <= NEARLY_MET && longest >= 0.25 * before) {
                 break;
             }
-            q.copy_from_slice(&moved(q, &step));
+            q.copy_from_slice(&after_step(q, &step));
             if longest <= 1e-26 {
                 break;
             }
@@ -668,8 +668,8 @@ impl<'a> Reduced<'a> {
             v[j] = row[count];
             along[j].copy_from_slice(&row[..count]);
         }
-        let drift = self.call(Role::ConstraintDrift, (q, &v), m, self.time);
-        let right = choice.rows.iter().map(|&k| vec![drift[k]]).collect();
+        let bias = self.call(Role::ConstraintBias, (q, &v), m, self.time);
+        let right = choice.rows.iter().map(|&k| vec![bias[k]]).collect();
         let solved = solve(square, right).map_err(|_| singular())?;
         let lower = self.call(
             Role::MassMatrix,
@@ -985,7 +985,7 @@ fn damped(
 }
 
 /// Coordinates after a step.
-fn moved(q: &[DoubleDouble], step: &DVector<f64>) -> Vec<DoubleDouble> {
+fn after_step(q: &[DoubleDouble], step: &DVector<f64>) -> Vec<DoubleDouble> {
     let pairs = q.iter().zip(step.iter());
     pairs
         .map(|(q, step)| *q - DoubleDouble::from(*step))
@@ -993,7 +993,7 @@ fn moved(q: &[DoubleDouble], step: &DVector<f64>) -> Vec<DoubleDouble> {
 }
 
 /// The largest change, each in rad, m, or relative to its coordinate.
-pub fn share(step: &DVector<f64>, q: &[f64]) -> f64 {
+pub fn largest_relative_change(step: &DVector<f64>, q: &[f64]) -> f64 {
     let shares = step.iter().zip(q).map(|(x, q)| x.abs() / q.abs().max(1.0));
     shares.fold(0.0, f64::max)
 }

@@ -22,7 +22,7 @@ use lagrangian_scalar::DoubleDouble;
 use nalgebra::{DMatrix, DVector};
 
 use crate::rank::{self, Direction};
-use crate::reduced::{Choice, Fault, Linearized, Place, Reduced, share};
+use crate::reduced::{Choice, Fault, Linearized, Place, Reduced, largest_relative_change};
 
 /// The most steps; Newton's method takes about five, and a few more for each radian of displacement.
 pub const MOST_STEPS: usize = 200;
@@ -164,20 +164,20 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
         if longest <= TOLERANCE {
             // The last step is taken too, unless that would move a state that is exact already.
             if longest > 0.0 {
-                match here.moved(reduced, &step, 1.0, &mut rates.clone(), wanted) {
+                match here.after_step(reduced, &step, 1.0, &mut rates.clone(), wanted) {
                     Ok(there) if there.scaled.norm() < here.scaled.norm() => here = there,
                     // The coordinates are singular at the end of this step, so a state beside it is meaningless.
                     Err(lost @ Lost::Fault(Fault::Singular(_))) => return Err(lost),
                     _ => {}
                 }
             }
-            return here.settled(steps);
+            return here.balanced(steps);
         }
         let mut part = (LONGEST_STEP / longest).min(1.0);
         let (mut next, mut fault) = (None, None);
         for _ in 0..MOST_HALVINGS {
             let mut moved_rates = rates.clone();
-            match here.moved(reduced, &step, part, &mut moved_rates, wanted) {
+            match here.after_step(reduced, &step, part, &mut moved_rates, wanted) {
                 Ok(there) if here.is_better(&there, &step, part) => {
                     next = Some((there, moved_rates));
                     break;
@@ -190,12 +190,12 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
         }
         match next {
             Some(next) => (here, rates) = next,
-            None if here.largest_irreducible_force().is_some() => return here.settled(steps),
+            None if here.largest_irreducible_force().is_some() => return here.balanced(steps),
             None => return Err(fault.unwrap_or(Lost::NoEnd(steps))),
         }
     }
     if here.is_dominated_by_irreducible_forces() {
-        here.settled(wanted.steps)
+        here.balanced(wanted.steps)
     } else {
         Err(Lost::NoEnd(wanted.steps))
     }
@@ -282,7 +282,7 @@ impl Point {
         };
         let stiffness = here.stiffness(&choice);
         let rough = of(&here.covariant, &bounds.covariant);
-        let (stiffness, rough) = (kept(&settled(&stiffness, &rough)), kept(&rough));
+        let (stiffness, rough) = (kept(&without_roundoff(&stiffness, &rough)), kept(&rough));
         let mut matrix = right(&left(&stiffness));
         let mut rough = &size_left * rough * &size_right;
 
@@ -296,7 +296,7 @@ impl Point {
             })
         };
         let (by_rates, rough_rates) = (columns(&here.by_rates), columns(&bounds.by_rates));
-        let matrix_of_rates = left(&settled(&by_rates, &rough_rates));
+        let matrix_of_rates = left(&without_roundoff(&by_rates, &rough_rates));
         let not_finite = || {
             Lost::Fault(Fault::NotFinite(
                 choice.independent.first().copied().unwrap_or(0),
@@ -304,24 +304,24 @@ impl Point {
         };
         let by_rates = rank::directions_beyond(&matrix_of_rates, &(&size_left * rough_rates));
         let by_rates = by_rates.ok_or_else(not_finite)?;
-        let whole = matrix.clone();
+        let original = matrix.clone();
         for direction in by_rates.iter().filter(|d| !d.is_free()) {
             let share = direction.left.transpose() * &matrix;
             matrix -= &direction.left * share;
         }
         if !solved.is_empty() {
             // Projecting out the components that the rates balance leaves round-off of the size of the whole matrix.
-            let size = rank::tolerance(count) * whole.norm();
+            let size = rank::tolerance(count) * original.norm();
             let size = DMatrix::from_element(count, count, size);
             rough += size;
-            matrix = settled(&matrix, &rough);
+            matrix = without_roundoff(&matrix, &rough);
         }
         let stiffness = rank::directions_beyond(&matrix, &rough).ok_or_else(not_finite)?;
         let forces = here.forces.column(0).into_owned();
         Ok(Point {
             scaled: lower.solve_lower_triangular(&forces).unwrap_or(forces),
             rounding: &size_left * bounds.forces.column(0),
-            matrix: whole,
+            matrix: original,
             stiffness,
             matrix_of_rates,
             by_rates,
@@ -396,12 +396,12 @@ impl Point {
     /// The largest change, each in rad, m, or relative to its coordinate.
     fn longest(&self, step: &Step) -> f64 {
         let rates: Vec<f64> = self.solved.iter().map(|c| self.place.s[*c].hi()).collect();
-        let change = share(&self.rates_of(step), &rates);
-        share(&self.in_coordinates(step), &self.place.q()).max(change)
+        let change = largest_relative_change(&self.rates_of(step), &rates);
+        largest_relative_change(&self.in_coordinates(step), &self.place.q()).max(change)
     }
 
     /// The point after a fraction of a step.
-    fn moved(
+    fn after_step(
         &self,
         reduced: &mut Reduced<'_>,
         step: &Step,
@@ -446,9 +446,9 @@ impl Point {
             return false;
         };
         let length = |step: &Step| step.along.norm() + step.rates.norm();
-        let whole = length(step);
-        length(&self.step_for(&forces)) <= (1.0 - part / 4.0) * whole
-            || length(&self.step_for(&(forces - predicted))) <= 0.75 * part * whole
+        let norm = length(step);
+        length(&self.step_for(&forces)) <= (1.0 - part / 4.0) * norm
+            || length(&self.step_for(&(forces - predicted))) <= 0.75 * part * norm
     }
 
     /// Whether forces that no step can remove are most of the remaining forces.
@@ -483,10 +483,13 @@ impl Point {
         wanted: &Wanted,
     ) -> Option<Point> {
         let along = self.lower.transpose().solve_upper_triangular(forces)?;
-        let given = |c: usize| wanted.steady[self.choice.independent[c]];
-        let along = DVector::from_fn(along.len(), |c, _| if given(c) { 0.0 } else { along[c] });
+        let is_prescribed = |c: usize| wanted.steady[self.choice.independent[c]];
+        let along = DVector::from_fn(
+            along.len(),
+            |c, _| if is_prescribed(c) { 0.0 } else { along[c] },
+        );
         let displaced = &self.here.along * &along;
-        let longest = share(&displaced, &self.place.q());
+        let longest = largest_relative_change(&displaced, &self.place.q());
         if !(longest > 0.0 && longest.is_finite()) {
             return None;
         }
@@ -494,7 +497,7 @@ impl Point {
             along: self.apart.transpose() * along,
             rates: DVector::zeros(self.scaled.len()),
         };
-        self.moved(reduced, &step, FALL / longest, rates, wanted)
+        self.after_step(reduced, &step, FALL / longest, rates, wanted)
             .ok()
     }
 
@@ -527,7 +530,7 @@ impl Point {
     }
 
     /// The result at the end of the search, if forces are in balance there.
-    fn settled(self, steps: usize) -> Result<Found, Lost> {
+    fn balanced(self, steps: usize) -> Result<Found, Lost> {
         if let Some(worst) = self.largest_irreducible_force() {
             let a = self.lower.transpose().solve_upper_triangular(&self.scaled);
             let a = a.unwrap_or_else(|| self.scaled.clone());
@@ -573,6 +576,6 @@ fn factor(mass: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, us
 }
 
 /// Sets entries within their bounds to 0.
-pub fn settled(matrix: &DMatrix<f64>, bounds: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn without_roundoff(matrix: &DMatrix<f64>, bounds: &DMatrix<f64>) -> DMatrix<f64> {
     matrix.zip_map(bounds, |x, bound| if x.abs() <= bound { 0.0 } else { x })
 }

@@ -180,12 +180,12 @@ pub fn modes(linear: &Linear) -> Option<Modes> {
     let (n, _) = linear.len();
     let mut all = Modes::default();
     for part in rank::parts(&linear.sizes([1.0; 3])) {
-        let found = connected(linear.part(&part))?;
-        all.free += found.free;
-        all.drifts += found.drifts;
-        all.lost += found.lost;
-        all.lost_below = all.lost_below.max(found.lost_below);
-        all.modes.extend(found.modes.into_iter().map(|mode| {
+        let modes = connected(linear.part(&part))?;
+        all.free += modes.free;
+        all.drifts += modes.drifts;
+        all.lost += modes.lost;
+        all.lost_below = all.lost_below.max(modes.lost_below);
+        all.modes.extend(modes.modes.into_iter().map(|mode| {
             let mut shape = vec![Complex::new(0.0, 0.0); n];
             for (place, x) in part.iter().zip(&mode.shape) {
                 shape[*place] = *x;
@@ -240,13 +240,13 @@ fn connected(linear: Linear) -> Option<Modes> {
     let none = DMatrix::zeros(along.nrows(), n);
     let bounds = assembled(&p_bounds, &none, &k_bounds, &linear.c_bounds, &bound.abs());
 
-    let mut found = Modes {
+    let mut modes = Modes {
         free: count,
         drifts,
         ..Modes::default()
     };
     for Free { direction, slowest } in free {
-        found.modes.push(Mode {
+        modes.modes.push(Mode {
             lambda: Complex::new(0.0, 0.0),
             error: slowest * rate,
             shape: shape(&direction.map(|x| Complex::new(x, 0.0)), &scales),
@@ -272,21 +272,21 @@ fn connected(linear: Linear) -> Option<Modes> {
             zeros += times;
             // A drift along a direction that is counted already.
             if zeros > drifts {
-                found.lost = zeros - drifts;
-                found.lost_below = found.lost_below.max(error * rate);
+                modes.lost = zeros - drifts;
+                modes.lost_below = modes.lost_below.max(error * rate);
             }
             continue;
         }
         for _ in 0..times {
             let amplitudes = amplitudes(&linear, *raw, right, &bound);
-            found.modes.push(Mode {
+            modes.modes.push(Mode {
                 lambda: lambda * rate,
                 error: error * rate,
                 shape: shape(&amplitudes, &scales),
             });
         }
     }
-    Some(found)
+    Some(modes)
 }
 
 /// The amplitudes of all coordinates, up to a factor, from an eigenvector `(w, v)`: those of moving coordinates are
@@ -465,9 +465,9 @@ impl Split {
             let [across, _] =
                 null_space(&by_place.transpose(), rank::tolerance(n) * by_place.norm())?;
             let across = columns(m + moving, &across);
-            let asked = across.tr_mul(&by_rate);
+            let projected = across.tr_mul(&by_rate);
             let terms = across.abs().tr_mul(&by_rate.abs());
-            null_space(&asked, rank::tolerance(n) * terms.norm())?[0].len()
+            null_space(&projected, rank::tolerance(n) * terms.norm())?[0].len()
         } else {
             // The damping along free directions, and the size of its terms.
             let y = columns(n, &lefts).rows(0, moving).into_owned();

@@ -54,7 +54,7 @@ pub const DRIFT: f64 = 1e-5;
 /// constraints, in which a cause changes a number, and `brought` the projected one.
 ///
 /// # Errors
-/// Those of `brought`, or that the start has no derivative.
+/// The errors of `brought`, or that the start has no derivative.
 pub fn change(
     machine: &InterpretedMachine,
     cause: Cause,
@@ -67,8 +67,8 @@ pub fn change(
         let mut sizes = [own.abs(), largest].into_iter();
         sizes.find(|size| *size > 0.0).unwrap_or(1.0)
     };
-    let given = from(machine);
-    let (q, v) = (&given.q.values, &given.v.values);
+    let start = from(machine);
+    let (q, v) = (&start.q.values, &start.v.values);
     let (size, parameter) = match cause {
         Cause::Parameter(index) => {
             let own = machine.parameter_values().get(index).copied();
@@ -118,7 +118,7 @@ pub fn drifted(
 /// is the scale of the number; `parameter` is its index if it is a parameter.
 ///
 /// # Errors
-/// Those of `start`, or that the start has no derivative.
+/// The errors of `start`, or that the start has no derivative.
 pub fn derivative(
     machine: &InterpretedMachine,
     start: impl Fn(f64) -> Result<State<Named>, String>,

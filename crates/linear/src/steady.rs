@@ -38,13 +38,13 @@ pub fn motion(
     let inputs = system.default_inputs().values;
     let mut reduced = Reduced::new(machine, &system, &inputs, &states(q, &wanted.given()));
     let wanted = &wanted.with_states(&reduced.integrals());
-    let found = search::find(&mut reduced, q, wanted);
-    let found = found.map_err(|lost| match start_is_unsteady(&mut reduced, q, wanted) {
+    let result = search::find(&mut reduced, q, wanted);
+    let equilibrium = result.map_err(|lost| match start_is_unsteady(&mut reduced, q, wanted) {
         // If the equations depend on a moving coordinate, forces cannot stay in balance; that is the better explanation.
         Some(unsteady) => NoMotion::Unsteady(unsteady),
         None => NoMotion::Lost(lost),
     })?;
-    let motion = motion::near(&mut reduced, found, &wanted.steady);
+    let motion = motion::near(&mut reduced, equilibrium, &wanted.steady);
     motion.map_err(NoMotion::Unsteady)
 }
 
@@ -107,7 +107,7 @@ pub fn drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Resul
         Role::Forces,
         Role::ConstraintMatrix,
         Role::ConstraintRates,
-        Role::ConstraintDrift,
+        Role::ConstraintBias,
         Role::ConstraintPositions,
     ];
     if !roles.iter().any(reads_time) {

@@ -83,12 +83,12 @@ fn slopes(machine: &InterpretedMachine, q: &[f64], v: &[f64]) -> DMatrix<f64> {
 
 /// The tolerance is some thousand roundings of the largest number: elimination in `f64` loses as many where masses
 /// differ by a factor of a thousand.
-fn assert_close(found: &DMatrix<f64>, exact: &DMatrix<f64>, what: &str) {
+fn assert_close(found: &DMatrix<f64>, exact: &DMatrix<f64>, name: &str) {
     let size = exact.amax().max(found.amax());
     let off = (found - exact).amax();
     assert!(
         off <= 1e4 * f64::EPSILON * size,
-        "{what}: off by {off:e} of {size:e}"
+        "{name}: off by {off:e} of {size:e}"
     );
 }
 

@@ -361,7 +361,7 @@ impl<'m> VariedLaw<'m> {
     /// again where they are called.
     ///
     /// # Errors
-    /// Those of [`Simulation::run`].
+    /// The errors of [`Simulation::run`].
     pub fn run<'a>(
         simulation: Simulation<'a, Varied<'m>, VariedLaw<'m>>,
         start: State<Vec<f64>>,

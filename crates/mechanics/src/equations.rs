@@ -192,7 +192,7 @@ impl<'d> Equations<'d> {
             || refusal::refuse_unoriented(model, report)
             || refusal::refuse_many_coordinates(model, report)
             || refusal::refuse_many_constraints(model, report)
-            || lengths::refuse(model, report)
+            || lengths::report_dependence_on_lengths(model, report)
         {
             return None;
         }

@@ -431,15 +431,15 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         Role::ConstraintPositions => constraints.map(|c| c.position.unwrap_or(zero)).collect(),
         Role::ConstraintRates => constraints.map(|c| c.rate).collect(),
         Role::ConstraintMatrix => constraints.flat_map(|c| c.row.iter().copied()).collect(),
-        Role::ConstraintDrift => constraints.map(|c| c.drift).collect(),
+        Role::ConstraintBias => constraints.map(|c| c.bias).collect(),
         Role::Slips => sliding.map(|s| s.slip).collect(),
         Role::SlipMatrix => sliding.flat_map(|s| s.row.iter().copied()).collect(),
-        Role::SlipDrift => sliding.map(|s| s.drift).collect(),
+        Role::SlipBias => sliding.map(|s| s.bias).collect(),
         Role::Gaps => unilateral.iter().map(|u| u.gap).collect(),
         Role::ContactFaces => unilateral.iter().filter_map(|u| u.face).flatten().collect(),
         Role::ContactRates => directions.map(|d| d.rate).collect(),
         Role::ContactMatrix => directions.flat_map(|d| d.row.iter().copied()).collect(),
-        Role::ContactDrift => directions.map(|d| d.drift).collect(),
+        Role::ContactBias => directions.map(|d| d.bias).collect(),
         Role::ContactCoefficients => unilateral.iter().flat_map(|u| u.coefficients).collect(),
         Role::Output(index) => vec![equations.outputs[index]],
         Role::Assumption(index) => vec![model.assumptions[index].excess],
@@ -548,8 +548,8 @@ impl<'m, 'd> Lowering<'m, 'd> {
     fn name(&mut self, names: &[(Expr<'d>, Expr<'d>)]) {
         for (name, meaning) in names {
             self.lower(&[*meaning]);
-            let whole = self.graph.opaque(self.values[&meaning.id()]);
-            self.values.insert(name.id(), whole);
+            let value = self.graph.opaque(self.values[&meaning.id()]);
+            self.values.insert(name.id(), value);
         }
     }
 
@@ -603,13 +603,13 @@ impl<'m, 'd> Lowering<'m, 'd> {
         let mut forces = values(quantities, Role::Forces)?;
         let coordinates = forces.len();
         let rows = values(constraints, Role::ConstraintMatrix).unwrap_or_default();
-        let drifts = values(constraints, Role::ConstraintDrift).unwrap_or_default();
+        let biases = values(constraints, Role::ConstraintBias).unwrap_or_default();
         // A machine whose coordinates are all determined by constraints has rows without entries.
-        for k in 0..drifts.len() {
+        for k in 0..biases.len() {
             matrix.extend(&rows[k * coordinates..][..coordinates]);
             matrix.extend(vec![Scaled::ZERO; k + 1]);
         }
-        forces.extend(drifts);
+        forces.extend(biases);
         let system = System {
             matrix,
             forces,
@@ -1029,14 +1029,14 @@ fn derivatives<'d>(
     };
     let slopes = (source.slopes)(accelerations.form.basis);
     let system = lowering.system(quantities, source.quantities)?;
-    let asked = derivatives::DerivativeInput {
+    let input = derivatives::DerivativeInput {
         system: &system,
         multipliers: source.multipliers,
         unprojected,
         residual_derivatives: &slopes,
         known_pivots: &accelerations.known_pivots,
     };
-    (!slopes.is_empty()).then(|| derivatives::derivatives(lowering, &asked))
+    (!slopes.is_empty()).then(|| derivatives::derivatives(lowering, &input))
 }
 
 /// The drafts of a solution; pivots that depend on parameters alone are kept apart.

@@ -6,7 +6,7 @@
 //!
 //! * energies, `M`, `h`, `Q`, `f`, the power of drives and dampers, outputs, assumptions and
 //!   the start;
-//! * residual, rate, row and drift of each constraint; slip, row and drift of each guide;
+//! * residual, rate, row and bias of each constraint; slip, row and bias of each guide;
 //! * accelerations, multipliers, and their dependence on friction forces, by substitution into
 //!   `M a = f + Gᵀλ + Σ τᵀF`, `G a = γ` and the equations of the displacements that would open
 //!   the guides;
@@ -152,7 +152,7 @@ pub struct Unproved {
 /// The numbers in which a program was found wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Witness {
-    /// Those of the prime field.
+    /// The numbers of the prime field.
     Field,
     /// Double-doubles with a bound of their error.
     States,
@@ -471,7 +471,7 @@ struct Computed<R> {
     applied: Vec<R>,
     forces: Vec<R>,
     rows: Vec<R>,
-    drift: Vec<R>,
+    constraint_bias: Vec<R>,
 }
 
 /// Runs a program in one kind of numbers and compares it.
@@ -580,11 +580,11 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.interpreter.prepare(&state.parameters);
         self.guards.prepare(&state.parameters);
         let are_facts = facts.iter().all(|x| x.is_positive());
-        let asked: Vec<Expr<'d>> = self.sides.iter().map(|(argument, _)| *argument).collect();
-        let asked = machine.values(&asked, &state);
+        let arguments: Vec<Expr<'d>> = self.sides.iter().map(|(argument, _)| *argument).collect();
+        let values = machine.values(&arguments, &state);
         let compared = self.compare_at(state, &facts);
         if compared.is_ok() {
-            for ((_, sides), argument) in self.sides.iter_mut().zip(asked) {
+            for ((_, sides), argument) in self.sides.iter_mut().zip(values) {
                 sides[0] |= (-argument).is_positive();
                 sides[1] |= argument.is_positive();
             }
@@ -636,7 +636,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         (0..len).map(one).collect()
     }
 
-    fn wrong(&self, role: Role, index: usize) -> Verdict {
+    fn disagreement_at(&self, role: Role, index: usize) -> Verdict {
         let point = self.number;
         Disagreement::Result { role, index, point }.into()
     }
@@ -659,7 +659,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if difference.vanishes()? {
             Ok(())
         } else {
-            Err(self.wrong(role, index))
+            Err(self.disagreement_at(role, index))
         }
     }
 
@@ -699,7 +699,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             applied: self.call(Role::Applied, at, n)?,
             forces: self.call(Role::Forces, at, n)?,
             rows: self.call(Role::ConstraintMatrix, at, n * m)?,
-            drift: self.call(Role::ConstraintDrift, at, m)?,
+            constraint_bias: self.call(Role::ConstraintBias, at, m)?,
         })
     }
 
@@ -747,7 +747,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let applied = Sum::products(w, &computed.applied);
         if !applied.plus(-literal.applied).vanishes()? {
             let at_row = |i: usize| (computed.applied[i], self.literal(at, i).applied);
-            return Err(self.wrong(Role::Applied, first_difference(n, at_row)));
+            return Err(self.disagreement_at(Role::Applied, first_difference(n, at_row)));
         }
         for i in 0..n {
             let sum = Sum::of([computed.forces[i], -computed.applied[i], computed.bias[i]]);
@@ -773,7 +773,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let biases: Vec<R> = (0..n).map(|i| self.literal(&coasting, i).inertia).collect();
         let differs = |(a, b): (&R, &R)| matches!(equal(*a, *b), Ok(false));
         if let Some(i) = biases.iter().zip(&computed.bias).position(differs) {
-            return self.wrong(Role::Bias, i);
+            return self.disagreement_at(Role::Bias, i);
         }
         for (i, &bias) in biases.iter().enumerate() {
             let found = Sum::of(
@@ -790,10 +790,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                     (found, self.literal(&one, i).inertia - bias)
                 };
                 let j = first_difference(n, entry);
-                return self.wrong(Role::MassMatrix, Shape::index(i, j));
+                return self.disagreement_at(Role::MassMatrix, Shape::index(i, j));
             }
         }
-        self.wrong(Role::MassMatrix, 0)
+        self.disagreement_at(Role::MassMatrix, 0)
     }
 
     /// Compares the power of drives and dampers by the balance of energy, which holds for any
@@ -840,7 +840,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if is_balanced {
             Ok(())
         } else {
-            Err(self.wrong(Role::WorkRate, 0))
+            Err(self.disagreement_at(Role::WorkRate, 0))
         }
     }
 
@@ -853,7 +853,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     ) -> Result<(), Verdict> {
         let (n, m) = (w.len(), literal.constraints.len());
         if m != self.parts.program.constraints.len() {
-            return Err(self.wrong(Role::ConstraintRates, 0));
+            return Err(self.disagreement_at(Role::ConstraintRates, 0));
         }
         let positions = self.call(Role::ConstraintPositions, at, m)?;
         let rates = self.call(Role::ConstraintRates, at, m)?;
@@ -875,13 +875,13 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             if !along.vanishes()? {
                 let entry = |j: usize| (row[j], self.literal(at, j).constraints[k].along);
                 let j = first_difference(n, entry);
-                return Err(self.wrong(Role::ConstraintMatrix, k * n + j));
+                return Err(self.disagreement_at(Role::ConstraintMatrix, k * n + j));
             }
-            let drift = Sum::products(row, &at.a).plus(-computed.drift[k]);
+            let residual = Sum::products(row, &at.a).plus(-computed.constraint_bias[k]);
             self.compare_difference(
-                Role::ConstraintDrift,
+                Role::ConstraintBias,
                 k,
-                drift.plus(-constraint.acceleration),
+                residual.plus(-constraint.acceleration),
             )?;
         }
         Ok(())
@@ -897,20 +897,22 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     ) -> Result<Vec<R>, Verdict> {
         let (n, count) = (w.len(), literal.sliding.len());
         if count != self.parts.program.contacts.len() {
-            return Err(self.wrong(Role::Slips, 0));
+            return Err(self.disagreement_at(Role::Slips, 0));
         }
         if count == 0 {
             return Ok(Vec::new());
         }
         let slips = self.call(Role::Slips, at, count)?;
         let rows = self.call(Role::SlipMatrix, at, count * n)?;
-        let drifts = self.call(Role::SlipDrift, at, count)?;
+        let biases = self.call(Role::SlipBias, at, count)?;
         let mut signs = Vec::with_capacity(count);
         for (k, contact) in literal.sliding.iter().enumerate() {
-            let sign = match equal(slips[k], contact.slip)? {
-                true => R::ONE,
-                false if !R::IS_ORDERED => -R::ONE,
-                false => return Err(self.wrong(Role::Slips, k)),
+            let sign = if equal(slips[k], contact.slip)? {
+                R::ONE
+            } else if !R::IS_ORDERED {
+                -R::ONE
+            } else {
+                return Err(self.disagreement_at(Role::Slips, k));
             };
             self.compare(Role::Slips, k, slips[k], sign * contact.slip)?;
             let row = &rows[k * n..][..n];
@@ -918,16 +920,16 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             if !along.vanishes()? {
                 let entry = |j: usize| (row[j], sign * self.literal(at, j).sliding[k].slip_along);
                 let j = first_difference(n, entry);
-                return Err(self.wrong(Role::SlipMatrix, k * n + j));
+                return Err(self.disagreement_at(Role::SlipMatrix, k * n + j));
             }
-            let rate = Sum::products(row, &at.a).plus(drifts[k]);
-            self.compare_difference(Role::SlipDrift, k, rate.plus(-(sign * contact.slip_rate)))?;
+            let rate = Sum::products(row, &at.a).plus(biases[k]);
+            self.compare_difference(Role::SlipBias, k, rate.plus(-(sign * contact.slip_rate)))?;
             signs.push(sign);
         }
         Ok(signs)
     }
 
-    /// Compares the unilateral contacts: gaps; the rates, rows and drifts of both directions, each
+    /// Compares the unilateral contacts: gaps; the rates, rows and biases of both directions, each
     /// like those of a constraint that would hold the contact; and the coefficients.
     fn check_unilateral(
         &mut self,
@@ -937,7 +939,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     ) -> Result<(), Verdict> {
         let (n, count) = (w.len(), literal.unilateral.len());
         if count != self.parts.program.unilateral.len() {
-            return Err(self.wrong(Role::Gaps, 0));
+            return Err(self.disagreement_at(Role::Gaps, 0));
         }
         if count == 0 {
             return Ok(());
@@ -945,14 +947,14 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let gaps = self.call(Role::Gaps, at, count)?;
         let rates = self.call(Role::ContactRates, at, 2 * count)?;
         let rows = self.call(Role::ContactMatrix, at, 2 * count * n)?;
-        let drifts = self.call(Role::ContactDrift, at, 2 * count)?;
+        let biases = self.call(Role::ContactBias, at, 2 * count)?;
         let coefficients = self.call(Role::ContactCoefficients, at, 4 * count)?;
         let of_faces: Vec<R> = (literal.unilateral.iter())
             .filter_map(|contact| contact.face)
             .flatten()
             .collect();
         if self.parts.program.sizes().faces * 3 != of_faces.len() {
-            return Err(self.wrong(Role::ContactFaces, 0));
+            return Err(self.disagreement_at(Role::ContactFaces, 0));
         }
         if !of_faces.is_empty() {
             let faces = self.call(Role::ContactFaces, at, of_faces.len())?;
@@ -971,8 +973,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 let row = &rows[i * n..][..n];
                 let along = Sum::products(row, w).plus(-direction.along);
                 self.compare_difference(Role::ContactMatrix, i * n, along)?;
-                let rate = Sum::products(row, &at.a).plus(drifts[i]);
-                self.compare_difference(Role::ContactDrift, i, rate.plus(-direction.acceleration))?;
+                let rate = Sum::products(row, &at.a).plus(biases[i]);
+                self.compare_difference(Role::ContactBias, i, rate.plus(-direction.acceleration))?;
             }
             for (i, &expected) in contact.coefficients.iter().enumerate() {
                 let i = 4 * k + i;
@@ -996,7 +998,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             }
             match Sum::of([found, -expected]).vanishes() {
                 Ok(true) => self.has_had_value[i] = true,
-                Ok(false) => return Err(self.wrong(role, 0)),
+                Ok(false) => return Err(self.disagreement_at(role, 0)),
                 Err(_) => {}
             }
         }
@@ -1143,7 +1145,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     ) -> Result<(), Verdict> {
         let (n, point) = (a.len(), self.number);
         for (constraint, row) in computed.rows.chunks(n.max(1)).enumerate() {
-            let open = Sum::products(row, a).plus(-computed.drift[constraint]);
+            let open = Sum::products(row, a).plus(-computed.constraint_bias[constraint]);
             if !open.vanishes()? {
                 // A dependent constraint may contradict the others. Then no accelerations exist, and
                 // the run reports it if it gets there.
@@ -1200,7 +1202,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let (multipliers, rest) = rest.split_at(m);
         let (slip_rates, normals) = rest.split_at(count);
         let rows = self.call(Role::SlipMatrix, at, count * n)?;
-        let drifts = self.call(Role::SlipDrift, at, count)?;
+        let biases = self.call(Role::SlipBias, at, count)?;
         let mut forces = computed.forces.clone();
         for (row, &friction) in rows.chunks(n).zip(&friction_forces) {
             for (force, &tau) in forces.iter_mut().zip(row) {
@@ -1209,7 +1211,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
         self.check_balance(computed, a, multipliers, &forces)?;
         for (k, row) in rows.chunks(n).enumerate() {
-            let rate = Sum::products(row, a).plus(drifts[k]).plus(-slip_rates[k]);
+            let rate = Sum::products(row, a).plus(biases[k]).plus(-slip_rates[k]);
             self.compare_difference(Role::Friction, n + m + k, rate)?;
         }
 
@@ -1226,13 +1228,13 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             }
         }
         if layout.axes != 1 {
-            let told = responses[layout.directions()..].chunks_exact(3);
-            for (k, (told, contact)) in told.zip(&contacts).enumerate() {
+            let directions = responses[layout.directions()..].chunks_exact(3);
+            for (k, (direction, contact)) in directions.zip(&contacts).enumerate() {
                 // Compared up to sign, because square roots in a field have none.
                 for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
                     let place = layout.directions() + 3 * k + j;
                     let expected = contact.reference_direction[i] * contact.reference_direction[j];
-                    self.compare(Role::Friction, place, told[i] * told[j], expected)?;
+                    self.compare(Role::Friction, place, direction[i] * direction[j], expected)?;
                 }
             }
         }
@@ -1381,11 +1383,11 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             },
         );
         let product = pivots.fold(R::ONE, |product, pivot| product * pivot);
-        let whole = determinant(lower, n);
-        if !whole.is_finite() || !product.is_finite() {
+        let expected = determinant(lower, n);
+        if !expected.is_finite() || !product.is_finite() {
             return Err(Verdict::Undefined);
         }
-        if !equal(product, whole)? {
+        if !equal(product, expected)? {
             return wrong();
         }
         // Coordinates that constraints hold because they have no inertia have another scale.
@@ -1428,7 +1430,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 let slope = self.derivatives_along(at, &one)?[i];
                 self.compare(role, i * width + 1 + column, row[column], slope)?;
             }
-            return Err(self.wrong(role, i * width + 1));
+            return Err(self.disagreement_at(role, i * width + 1));
         }
         Ok(())
     }

@@ -40,7 +40,7 @@ pub trait Sines: Vector {
         for (pair, angle) in all.iter_mut().zip(angles) {
             let (sin, cos) = sin_cos_near(angle.0);
             *pair = (Register(sin), Register(cos));
-            are_near = Self::both(are_near, is_near(angle.0));
+            are_near = Self::mask_and(are_near, is_near(angle.0));
         }
         (all, Self::all(are_near))
     }

@@ -95,7 +95,7 @@ pub trait Number: Copy {
     /// a small machine.
     ///
     /// # Errors
-    /// Those of the computation; `result` is then left unchanged.
+    /// The errors of the computation; `result` is then left unchanged.
     #[inline(always)]
     fn run_in_place<R, E, K>(kernel: K, result: &mut R) -> Result<(), E>
     where

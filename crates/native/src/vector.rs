@@ -114,7 +114,7 @@ pub trait Vector: Copy {
     /// `yes` where the mask is true, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// The masks' logical and.
-    fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    fn mask_and(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// Whether the mask is true everywhere.
     fn all(mask: Self::Mask) -> bool;
 
@@ -225,7 +225,7 @@ impl Vector for f64 {
         if mask { yes } else { no }
     }
     #[inline(always)]
-    fn both(a: bool, b: bool) -> bool {
+    fn mask_and(a: bool, b: bool) -> bool {
         a & b
     }
     #[inline(always)]
@@ -332,7 +332,7 @@ impl<const N: usize> Vector for [f64; N] {
         each(|i| if mask[i] { yes[i] } else { no[i] })
     }
     #[inline(always)]
-    fn both(a: [bool; N], b: [bool; N]) -> [bool; N] {
+    fn mask_and(a: [bool; N], b: [bool; N]) -> [bool; N] {
         each(|i| a[i] & b[i])
     }
     #[inline(always)]

@@ -87,7 +87,7 @@ macro_rules! register {
         is_odd |$odd:ident| $is_odd:expr;
         compare $compare:ident;
         select |$which:ident, $yes:ident, $no:ident| $select:expr;
-        both $both:ident;
+        mask_and $mask_and:ident;
         all |$every:ident| $all:expr;
     ) => {
         $(#[$doc])*
@@ -137,7 +137,7 @@ macro_rules! register {
                 let ($yes, $no) = ($yes.0, $no.0);
                 $name($select)
             });
-            register!(@ both(a: $mask, b: $mask) -> $mask { $both(a, b) });
+            register!(@ mask_and(a: $mask, b: $mask) -> $mask { $mask_and(a, b) });
             register!(@ all($every: $mask) -> bool { $all });
             register!(@ first(self) -> f64 { $first(self.0) });
             register!(@ call<P: Piece>(piece: P) -> P::Output { $with(piece) });
@@ -206,7 +206,7 @@ register! {
     is_odd |x| _mm_castsi128_pd(_mm_slli_epi64::<63>(_mm_castpd_si128(x)));
     compare _mm_cmp_pd;
     select |mask, yes, no| _mm_blendv_pd(no, yes, mask);
-    both _mm_and_pd;
+    mask_and _mm_and_pd;
     all |mask| _mm_movemask_pd(mask) == 0b11;
 }
 
@@ -222,7 +222,7 @@ register! {
     is_odd |x| _mm256_castsi256_pd(_mm256_slli_epi64::<63>(_mm256_castpd_si256(x)));
     compare _mm256_cmp_pd;
     select |mask, yes, no| _mm256_blendv_pd(no, yes, mask);
-    both _mm256_and_pd;
+    mask_and _mm256_and_pd;
     all |mask| _mm256_movemask_pd(mask) == 0b1111;
 }
 
@@ -239,7 +239,7 @@ register! {
     is_odd |x| _mm256_castsi256_pd(_mm256_slli_epi64::<63>(_mm256_castpd_si256(x)));
     compare _mm256_cmp_pd;
     select |mask, yes, no| _mm256_blendv_pd(no, yes, mask);
-    both _mm256_and_pd;
+    mask_and _mm256_and_pd;
     all |mask| _mm256_movemask_pd(mask) == 0b1111;
 }
 
@@ -253,7 +253,7 @@ register! {
     is_odd |x| _mm512_movepi64_mask(_mm512_slli_epi64::<63>(_mm512_castpd_si512(x)));
     compare _mm512_cmp_pd_mask;
     select |mask, yes, no| _mm512_mask_blend_pd(mask, no, yes);
-    both _kand_mask8;
+    mask_and _kand_mask8;
     all |mask| _kortestc_mask8_u8(mask, mask) == 1;
 }
 
@@ -340,8 +340,8 @@ impl Vector for TwiceFour {
         )
     }
     #[inline(always)]
-    fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask {
-        (Four::both(a.0, b.0), Four::both(a.1, b.1))
+    fn mask_and(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        (Four::mask_and(a.0, b.0), Four::mask_and(a.1, b.1))
     }
     #[inline(always)]
     fn all(mask: Self::Mask) -> bool {
@@ -487,7 +487,7 @@ impl Vector for One {
         if mask { yes } else { no }
     }
     #[inline(always)]
-    fn both(a: bool, b: bool) -> bool {
+    fn mask_and(a: bool, b: bool) -> bool {
         a & b
     }
     #[inline(always)]

@@ -55,7 +55,7 @@ fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
     let chapter = Chapter {
         compiled,
         model: &compiled.model,
-        shares: groups::shares(&compiled.model),
+        shares: groups::force_shares(&compiled.model),
         properties: EquationProperties::of(&compiled.model, &compiled.equations),
     };
     let sections = [

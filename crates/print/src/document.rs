@@ -184,22 +184,26 @@ pub fn columns(head: &[Words], rows: &[Vec<Words>]) -> Vec<Column> {
         let cells = rows.filter_map(|row| row.get(k));
         cells.map(width_of_words).fold(0.0, f32::max)
     };
-    let column = |k: usize| match k + 1 == head.len() {
-        _ if is_numeric(rows, k) => Column::Numbers(natural(k)),
-        true => Column::Wrapped(DESCRIPTION),
-        false => Column::Line(natural(k)),
+    let column = |k: usize| {
+        if is_numeric(rows, k) {
+            Column::Numbers(natural(k))
+        } else if k + 1 == head.len() {
+            Column::Wrapped(DESCRIPTION)
+        } else {
+            Column::Line(natural(k))
+        }
     };
     let mut columns: Vec<Column> = (0..head.len()).map(column).collect();
-    let whole: f32 = columns.iter().map(|column| column.width()).sum();
+    let total: f32 = columns.iter().map(|column| column.width()).sum();
     let line_width = |column: &Column| match column {
         Column::Line(width) => *width,
         _ => 0.0,
     };
     let by_width = |a: &&mut Column, b: &&mut Column| line_width(a).total_cmp(&line_width(b));
-    if whole > PAGE
+    if total > PAGE
         && let Some(widest) = columns.iter_mut().max_by(by_width)
     {
-        let left = line_width(widest) - (whole - PAGE);
+        let left = line_width(widest) - (total - PAGE);
         *widest = Column::Wrapped(left.max(LEAST_WRAPPED));
     }
     columns

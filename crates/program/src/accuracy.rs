@@ -84,7 +84,7 @@ impl<'p> AccuracyTest<'p> {
         let moved = moved.collect();
         let functions = program.functions.iter().map(|function| function.role);
         // Stages compute parts of the accelerations that only other stages read.
-        let whole = functions.filter(|role| {
+        let candidates = functions.filter(|role| {
             !matches!(
                 role,
                 Role::AtTime | Role::AtPosition | Role::AccelerationsAt
@@ -97,7 +97,7 @@ impl<'p> AccuracyTest<'p> {
             perturbed: moved,
             random,
             states: 0,
-            ratios: whole
+            ratios: candidates
                 .map(|role| (role, Vec::new(), Worst::default()))
                 .collect(),
         }
@@ -230,20 +230,21 @@ impl<'p> AccuracyTest<'p> {
 
     /// The results, in the order of the program's functions, without those that have no value at any state.
     pub fn finish(self) -> Vec<Accuracy> {
-        let seen = self
+        let ratios = self
             .ratios
             .into_iter()
             .filter(|(_, shares, _)| !shares.is_empty());
-        seen.map(|(role, mut shares, worst)| {
-            shares.sort_by(f64::total_cmp);
-            Accuracy {
-                role,
-                known: shares.len(),
-                median: shares[shares.len() / 2],
-                worst,
-            }
-        })
-        .collect()
+        ratios
+            .map(|(role, mut shares, worst)| {
+                shares.sort_by(f64::total_cmp);
+                Accuracy {
+                    role,
+                    known: shares.len(),
+                    median: shares[shares.len() / 2],
+                    worst,
+                }
+            })
+            .collect()
     }
 }
 

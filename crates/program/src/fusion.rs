@@ -133,17 +133,17 @@ impl Timing {
             // When the factors of a product that can be contracted are known.
             let factors = |value: Value| match function.op(value) {
                 Op::Mul(a, b) if uses[value.index()] == 1 => {
-                    Some(timing.ready(*a).max(timing.ready(*b)))
+                    Some(timing.ready_time(*a).max(timing.ready_time(*b)))
                 }
                 _ => None,
             };
             let (side, start) = match op {
                 Op::Add(a, b) | Op::Sub(a, b) => match (factors(*a), factors(*b)) {
                     (Some(left), Some(right)) if left < right => {
-                        (Some(Side::Right), right.max(timing.ready(*a)))
+                        (Some(Side::Right), right.max(timing.ready_time(*a)))
                     }
-                    (Some(left), _) => (Some(Side::Left), left.max(timing.ready(*b))),
-                    (None, Some(right)) => (Some(Side::Right), right.max(timing.ready(*a))),
+                    (Some(left), _) => (Some(Side::Left), left.max(timing.ready_time(*b))),
+                    (None, Some(right)) => (Some(Side::Right), right.max(timing.ready_time(*a))),
                     (None, None) => (None, timing.latest(op)),
                 },
                 _ => (None, timing.latest(op)),
@@ -154,20 +154,20 @@ impl Timing {
         timing
     }
 
-    fn ready(&self, value: Value) -> u64 {
+    fn ready_time(&self, value: Value) -> u64 {
         self.ready[value.index()]
     }
 
     /// When the last operand is known.
     fn latest(&self, op: &Op) -> u64 {
-        let known = op.operands().map(|operand| self.ready(operand));
+        let known = op.operands().map(|operand| self.ready_time(operand));
         known.max().unwrap_or(0)
     }
 }
 
 /// For each operation, how long after the arguments its value is known if only its operands delay
 /// it, in tenths of a cycle.
-pub fn ready(function: &Function) -> Vec<u64> {
+pub fn ready_times(function: &Function) -> Vec<u64> {
     Timing::of(function).ready
 }
 
@@ -225,12 +225,12 @@ mod tests {
         assert_eq!(fused(&result)[4], None);
         let doubled = function(&[Op::Mul(v(0), v(1)), Op::Add(v(3), v(3))], 1);
         assert_eq!(fused(&doubled)[4], None);
-        let both = [
+        let operations = [
             Op::Mul(v(0), v(1)),
             Op::Add(v(2), v(3)),
             Op::Sub(v(4), v(3)),
         ];
-        assert_eq!(fused(&function(&both, 1)), [None; 6]);
+        assert_eq!(fused(&function(&operations, 1)), [None; 6]);
     }
 
     #[test]

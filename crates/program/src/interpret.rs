@@ -471,14 +471,14 @@ impl<S: Scalar> Tape<S> {
             register.push(to);
             if let Step::Sin { a, .. } | Step::Cos { a, .. } = step {
                 let earlier = circular.get(&a).copied();
-                let both = match (earlier.map(|earlier| steps[earlier]), step) {
+                let destinations = match (earlier.map(|earlier| steps[earlier]), step) {
                     (Some(Step::Sin { to: sin, .. }), Step::Cos { to: cos, .. })
                     | (Some(Step::Cos { to: cos, .. }), Step::Sin { to: sin, .. }) => {
                         Some((sin, cos))
                     }
                     _ => None,
                 };
-                if let (Some(earlier), Some((sin, cos))) = (earlier, both) {
+                if let (Some(earlier), Some((sin, cos))) = (earlier, destinations) {
                     steps[earlier] = Step::SinCos { sin, cos, a };
                     continue;
                 }

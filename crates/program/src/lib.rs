@@ -59,7 +59,7 @@ mod verify;
 pub use choose::{Basis, Candidate, Choice, Form, MOST_ROUNDING, best};
 pub use cost::{Cost, cycles};
 pub use count::Counts;
-pub use fusion::{Contracted, Contraction, Contractions, Side, fused, ready, uses};
+pub use fusion::{Contracted, Contraction, Contractions, Side, fused, ready_times, uses};
 pub use interpret::{Arguments, Interpreter};
 pub use mutate::{Mutant, mutants};
 pub use packs::{Pack, PackedOperation, Statement, packs};

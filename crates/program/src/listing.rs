@@ -214,13 +214,13 @@ impl<'a> Listing<'a> {
         }
         for guard in guards {
             let program = self.program;
-            let what = match guard.coordinate.checked_sub(program.dimension()) {
+            let pivot = match guard.coordinate.checked_sub(program.dimension()) {
                 None => format!("inertia of {}", program.coordinates[guard.coordinate].name),
                 Some(k) => format!("constraint {}", program.constraints[k].name),
             };
             let _ = writeln!(
                 text,
-                "  require {} > {:e} * {}  // {what}",
+                "  require {} > {:e} * {}  // {pivot}",
                 self.name(guard.pivot),
                 guard.tolerance,
                 self.name(guard.scale),

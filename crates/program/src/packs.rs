@@ -160,8 +160,8 @@ impl<'a> Finder<'a> {
 
     /// The distance up to which two values look alike.
     fn common_distance(&self, a: Value, b: Value) -> usize {
-        let both = self.colors[a.index()].iter().zip(&self.colors[b.index()]);
-        both.take_while(|(a, b)| a == b).count()
+        let pairs = self.colors[a.index()].iter().zip(&self.colors[b.index()]);
+        pairs.take_while(|(a, b)| a == b).count()
     }
 
     /// How well two operands go together, 0 for not at all. With `is_strict`, operations must already be a pair.
@@ -190,8 +190,8 @@ impl<'a> Finder<'a> {
         is_strict: bool,
     ) -> Option<(u32, Vec<[Value; 2]>)> {
         let (first, second) = (self.node(x), self.node(y));
-        let what = first.operation?;
-        if x == y || second.operation != Some(what) || first.depth != second.depth {
+        let operation = first.operation?;
+        if x == y || second.operation != Some(operation) || first.depth != second.depth {
             return None;
         }
         let rated = |order: [usize; 3]| {
@@ -206,7 +206,7 @@ impl<'a> Finder<'a> {
             rate.map(|rate| (rate, columns))
         };
         let straight = rated([0, 1, 2]);
-        let crossed = if what.commutes() {
+        let crossed = if operation.commutes() {
             rated([1, 0, 2])
         } else {
             None
@@ -281,12 +281,12 @@ impl<'a> Finder<'a> {
                     }
                 }
             }
-            self.follow(x, y);
+            self.pair_users(x, y);
         }
     }
 
     /// Pairs the operations that use both values of a pair.
-    fn follow(&mut self, x: Value, y: Value) {
+    fn pair_users(&mut self, x: Value, y: Value) {
         let [first, second] = [x, y].map(|value| &self.node(value).users);
         if first.len().max(second.len()) > MOST_ALIKE {
             return;
@@ -424,7 +424,7 @@ fn nodes(function: &Function) -> Vec<Node> {
     let mut nodes: Vec<Node> = Vec::with_capacity(n);
     for (index, op) in function.code.iter().enumerate() {
         let value = Value(index as u32);
-        let mut what = None;
+        let mut operation = None;
         let mut operands: Vec<Value> = op.operands().collect();
         let mut kind = hash(Kind::Operation(op.with_operands(|_| Value(0))));
         let sort = match op {
@@ -445,7 +445,7 @@ fn nodes(function: &Function) -> Vec<Node> {
             _ if is_early[index] => ValueKind::Argument(7),
             _ if contractions.is_part(value) => ValueKind::Absent,
             _ => {
-                what = match (contractions.sum(value), op) {
+                operation = match (contractions.sum(value), op) {
                     (Some(sum), _) => {
                         let [a, b] = sum.factors;
                         operands = vec![a, b, sum.term];
@@ -469,8 +469,8 @@ fn nodes(function: &Function) -> Vec<Node> {
         let below = operands.iter().map(|operand| nodes[operand.index()].depth);
         nodes.push(Node {
             value_kind: sort,
-            operation: what,
-            kind: hash((sort, what, kind)),
+            operation,
+            kind: hash((sort, operation, kind)),
             depth: match sort {
                 ValueKind::Operation => 1 + below.max().unwrap_or(0),
                 _ => 0,
@@ -553,8 +553,8 @@ mod tests {
             op(Op::Mul(inertia, inertia))
         };
         let (left, right) = (limb(&mut op, 0), limb(&mut op, 1));
-        let both = op(Op::Add(left, right));
-        let results = vec![op(Op::Div(both, left)), op(last(both, right))];
+        let sum = op(Op::Add(left, right));
+        let results = vec![op(Op::Div(sum, left)), op(last(sum, right))];
         Function {
             role: Role::Accelerations,
             shape: Shape::Vector(2),

@@ -82,17 +82,17 @@ impl Argument {
 pub enum Needs {
     /// All of them.
     Nothing,
-    /// Those with bilateral constraints.
+    /// Machines with bilateral constraints.
     Constraints,
-    /// Those with guided contacts.
+    /// Machines with guided contacts.
     Contacts,
-    /// Those with unilateral contacts.
+    /// Machines with unilateral contacts.
     Unilateral,
-    /// Those with unilateral contacts of polygons.
+    /// Machines with unilateral contacts of polygons.
     Faces,
-    /// Those whose first-order states store energy.
+    /// Machines whose first-order states store energy.
     Stores,
-    /// Those for which it is requested.
+    /// Machines whose spec requests it.
     Request,
 }
 
@@ -242,8 +242,8 @@ quantities! {
         "constraint_matrix", "G", "g*", Rows(Constraint, Coordinate), [Time Coordinates], Constraints, Seldom, "E30"
     }
     /// Right-hand side `gamma` of `G a = gamma`.
-    ConstraintDrift => {
-        "constraint_drift", "gamma", "gamma*", Each(Constraint), [Time Coordinates Velocities], Constraints, Seldom,
+    ConstraintBias => {
+        "constraint_bias", "gamma", "gamma*", Each(Constraint), [Time Coordinates Velocities], Constraints, Seldom,
         "E30"
     }
     /// Accelerations `a`.
@@ -260,8 +260,8 @@ quantities! {
     /// Slip matrix `tau`, the derivatives of the slips by the rates.
     SlipMatrix => { "slip_matrix", "tau", "tau*", Rows(Contact, Coordinate), [Time Coordinates], Contacts, Seldom, "E32" }
     /// Rates `dw/dt` of the slips where all accelerations are 0.
-    SlipDrift => {
-        "slip_drift", "sigma", "drift*", Each(Contact), [Time Coordinates Velocities], Contacts, Seldom, "E32"
+    SlipBias => {
+        "slip_bias", "sigma", "bias*", Each(Contact), [Time Coordinates Velocities], Contacts, Seldom, "E32"
     }
     /// What there is without friction, and what a unit of each friction force adds to it: accelerations, multipliers,
     /// `dw/dt` and the normal reaction of each contact; behind these the coefficients of friction. A machine with
@@ -280,8 +280,8 @@ quantities! {
         "contact_matrix", "", "w*", Rows(Direction, Coordinate), [Time Coordinates], Unilateral, Seldom, "E52"
     }
     /// Rates `dgamma/dt` of unilateral contacts where all accelerations are 0.
-    ContactDrift => {
-        "contact_drift", "", "drift*", Each(Direction), [Time Coordinates Velocities], Unilateral, Seldom, "E53"
+    ContactBias => {
+        "contact_bias", "", "bias*", Each(Direction), [Time Coordinates Velocities], Unilateral, Seldom, "E53"
     }
     /// Coefficients of unilateral contacts: restitution along the normal and along the tangent (of contacts that
     /// yield the parameters of their force), friction, static

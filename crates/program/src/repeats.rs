@@ -331,7 +331,7 @@ impl Steps {
                 step.operands.iter().all(known)
             });
         let period = first.period + second.period;
-        let (found, _) = finder.follow(start, period, start + period * count);
+        let (found, _) = finder.count_iterations(start, period, start + period * count);
         let fused = finder.repeat(start, period, count);
         let fused = fused.filter(|_| is_in_order && found == count)?;
         Some((steps.steps, fused))
@@ -540,7 +540,7 @@ impl<'a> Finder<'a> {
                 start = known.start + known.period * known.count;
                 continue;
             }
-            let (count, next) = self.follow(start, period, end);
+            let (count, next) = self.count_iterations(start, period, end);
             if count < FEWEST {
                 start = next.max(start + 1);
                 continue;
@@ -550,7 +550,7 @@ impl<'a> Finder<'a> {
             let best = (start..start + 2 * period)
                 .step_by(period.div_ceil(MOST_PHASES))
                 .filter_map(|start| {
-                    let (count, _) = self.follow(start, period, end);
+                    let (count, _) = self.count_iterations(start, period, end);
                     self.repeat(start, period, count).map(|r| self.rate(&r))
                 })
                 .max_by_key(|c| (c.saving, std::cmp::Reverse(c.start)));
@@ -567,7 +567,7 @@ impl<'a> Finder<'a> {
     }
 
     /// The number of iterations from a step on, and where to search next if there are too few.
-    fn follow(&self, start: usize, period: usize, limit: usize) -> (usize, usize) {
+    fn count_iterations(&self, start: usize, period: usize, limit: usize) -> (usize, usize) {
         let mut end = start + period;
         let mut next = start + 1;
         while end < limit {

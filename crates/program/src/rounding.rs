@@ -296,8 +296,8 @@ impl<'f> Linear<'f> {
                     (cos, [-sin, 0.0])
                 }
                 Op::Unary(call, a) => {
-                    let both = unary(call, Dual::variable(at(a)));
-                    (both.value, [both.derivative, 0.0])
+                    let dual = unary(call, Dual::variable(at(a)));
+                    (dual.value, [dual.derivative, 0.0])
                 }
                 Op::Binary(call, a, b) => {
                     let (x, y) = (at(a), at(b));

@@ -445,10 +445,10 @@ impl Elimination {
             lower: system.at_random(graph),
         };
         let mut pattern = Pattern::new(&Entries::new(&system.matrix, n));
-        let whole = pattern.kinds.clone();
+        let kinds = pattern.kinds.clone();
         // A constraint waits for all its coordinates.
         let is_ready = |k: usize, left: &[usize]| {
-            let waits_for = |&&i: &&usize| i < system.coordinates && whole[k][i] != Kind::Zero;
+            let waits_for = |&&i: &&usize| i < system.coordinates && kinds[k][i] != Kind::Zero;
             k < system.coordinates || left.iter().find(waits_for).is_none()
         };
         let mut elimination = Elimination {

@@ -331,10 +331,14 @@ impl Scalar for Ball {
         if self.is_zero() {
             return Ball::ZERO;
         }
-        match self.least() > 0.0 {
-            true if self.centre.hi() < 0.0 => -Ball::ONE,
-            true => Ball::ONE,
-            false => Ball::UNKNOWN,
+        if self.least() > 0.0 {
+            if self.centre.hi() < 0.0 {
+                -Ball::ONE
+            } else {
+                Ball::ONE
+            }
+        } else {
+            Ball::UNKNOWN
         }
     }
 
@@ -397,21 +401,21 @@ mod tests {
             }
             // (a/d + b/(3d))·(c/(7b)) − a/(5c) = (3a + b) c/(21 b d) − a/(5c), exactly.
             let ball = |n: i64, d: i64| Ball::from_ratio(n, 1) / Ball::from_ratio(d, 1);
-            let found = (ball(a, d) + ball(b, 3 * d)) * ball(c, 7 * b) - ball(a, 5 * c);
+            let quotient_by_balls = (ball(a, d) + ball(b, 3 * d)) * ball(c, 7 * b) - ball(a, 5 * c);
             let numerator = (3 * a + b) * c * 5 * c - a * 21 * b * d;
             let denominator = 21 * b * d * 5 * c;
             // Multiplied by the denominator it is an integer, which is exact.
-            let whole = found * Ball::from_ratio(denominator, 1);
-            assert!(whole.contains(numerator as f64), "{a} {b} {c} {d}");
+            let product = quotient_by_balls * Ball::from_ratio(denominator, 1);
+            assert!(product.contains(numerator as f64), "{a} {b} {c} {d}");
             // Some ten operations, each bounded by a few roundings of the largest terms, and as much again.
             let size = (15 * a.abs() + 5 * b.abs()) * c * c + 21 * (a * b * d).abs();
             let size = size as f64;
             assert!(
-                whole.radius() < 256.0 * 0.5f64.powi(104) * size,
-                "{whole:?}"
+                product.radius() < 256.0 * 0.5f64.powi(104) * size,
+                "{product:?}"
             );
             let (a, b) = (numerator as f64, 1e-18 * numerator as f64);
-            assert!(numerator == 0 || !(whole - Ball::from_f64(a)).contains(b));
+            assert!(numerator == 0 || !(product - Ball::from_f64(a)).contains(b));
             tried += 1;
         }
         assert!(tried > 1500);

@@ -705,7 +705,7 @@ fn root_of_integer(mut n: u64) -> Residue {
     if n == 0 {
         return Residue::ZERO;
     }
-    let mut whole: i64 = 1;
+    let mut cofactor: i64 = 1;
     let mut root = Field::ONE;
     for q in 2..1 << 11 {
         let mut power = 0;
@@ -714,7 +714,7 @@ fn root_of_integer(mut n: u64) -> Residue {
             power += 1;
         }
         for _ in 0..power / 2 {
-            whole *= q as i64;
+            cofactor *= q as i64;
         }
         if power % 2 == 1 {
             root = root * Field::real(q).root().unwrap_or(Field::ZERO);
@@ -722,11 +722,11 @@ fn root_of_integer(mut n: u64) -> Residue {
     }
     let rest = n.isqrt();
     if rest * rest == n {
-        whole *= rest as i64;
+        cofactor *= rest as i64;
     } else {
         root = root * Field::real(n % P).root().unwrap_or(Field::ZERO);
     }
-    Residue::from_rational(Ratio::integer(whole)) * Residue::opaque(root, true)
+    Residue::from_rational(Ratio::integer(cofactor)) * Residue::opaque(root, true)
 }
 
 /// An integer m and n with x = m·2ⁿ, for finite x.

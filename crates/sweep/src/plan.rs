@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use lagrangian::{Between, Beyond};
+use lagrangian::{Extrapolation, Interpolation};
 use lagrangian_spec::source::Files;
 use lagrangian_symbolic::Rational;
 use serde::{Deserialize, Serialize};
@@ -118,10 +118,10 @@ pub enum Law {
         values: Vec<f64>,
         /// The interpolation between the times; linear by default.
         #[serde(default)]
-        between: Between,
+        between: Interpolation,
         /// The extrapolation before the first and after the last time; constant by default.
         #[serde(default)]
-        beyond: Beyond,
+        beyond: Extrapolation,
     },
 }
 
@@ -304,7 +304,7 @@ impl Plan {
         let other = fields
             .iter()
             .filter(|(name, value)| *name != "chunk" && was.get(name.as_str()) != Some(value));
-        let said = other.map(|(name, value)| {
+        let differences = other.map(|(name, value)| {
             let before = was.get(name).cloned().unwrap_or_default();
             let [value, before] = [value, &before].map(ToString::to_string);
             match name.as_str() {
@@ -313,7 +313,7 @@ impl Plan {
                 _ => format!("{name}: {value}, was {before}"),
             }
         });
-        said.collect()
+        differences.collect()
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use lagrangian::interpreted::{InterpretedMachine, Signal, Signals, TableFile};
-use lagrangian::{Between, Beyond, Table};
+use lagrangian::{Extrapolation, Interpolation, Table};
 use lagrangian_spec::diagnostic::{Report, most_similar};
 use lagrangian_spec::model::Model;
 use lagrangian_spec::resolve::value_in;
@@ -35,9 +35,9 @@ pub enum InputArgument {
         /// The column; by default the one with the name of the input.
         column: Option<String>,
         /// The interpolation between rows.
-        between: Between,
+        between: Interpolation,
         /// The extrapolation before the first and after the last row.
-        beyond: Beyond,
+        beyond: Extrapolation,
     },
 }
 
@@ -63,13 +63,13 @@ pub fn parse_input(text: &str) -> Result<InputArgument, String> {
     };
     let (mut between, mut beyond) = (None, None);
     for option in parts(options).into_iter().skip(1).map(str::trim) {
-        let said = match option {
-            "hold" => between.replace(Between::Hold).is_some(),
-            "linear" => between.replace(Between::Linear).is_some(),
-            "cubic" => between.replace(Between::Cubic).is_some(),
-            "end=hold" => beyond.replace(Beyond::Hold).is_some(),
-            "end=error" => beyond.replace(Beyond::Error).is_some(),
-            "end=repeat" => beyond.replace(Beyond::Repeat).is_some(),
+        let is_repeated = match option {
+            "hold" => between.replace(Interpolation::Hold).is_some(),
+            "linear" => between.replace(Interpolation::Linear).is_some(),
+            "cubic" => between.replace(Interpolation::Cubic).is_some(),
+            "end=hold" => beyond.replace(Extrapolation::Hold).is_some(),
+            "end=error" => beyond.replace(Extrapolation::Error).is_some(),
+            "end=repeat" => beyond.replace(Extrapolation::Repeat).is_some(),
             _ => {
                 let near = most_similar(option, FILE_OPTIONS.iter().copied());
                 let near = near.map(|near| format!("; did you mean `{near}`?"));
@@ -80,7 +80,7 @@ pub fn parse_input(text: &str) -> Result<InputArgument, String> {
                 ));
             }
         };
-        if said {
+        if is_repeated {
             return Err(format!(
                 "`{option}` is given beside another option of its kind"
             ));
@@ -143,16 +143,16 @@ fn formula(text: &str) -> Result<InputArgument, String> {
         let time = |least: f64| {
             let (mut sources, mut report) = (Sources::new(), Report::new());
             let time = value_in(value.trim(), "s", &mut sources, &mut report);
-            let said = report.diagnostics().into_iter();
-            let said: Vec<String> = said.map(|wrong| wrong.message.clone()).collect();
+            let messages = report.diagnostics().into_iter();
+            let messages: Vec<String> = messages.map(|wrong| wrong.message.clone()).collect();
             match time {
                 Some(time) if time.is_finite() && time >= least => Ok(time),
                 Some(_) if least == 0.0 => Err(format!("`{option}`: a delay must not be negative")),
                 Some(_) => Err(format!("`{option}`: a period must be greater than 0")),
-                None => Err(format!("`{option}`: {}", said.join("; "))),
+                None => Err(format!("`{option}`: {}", messages.join("; "))),
             }
         };
-        let said = match name.trim() {
+        let is_repeated = match name.trim() {
             "every" => every.replace(time(f64::MIN_POSITIVE)?).is_some(),
             "delay" => delay.replace(time(0.0)?).is_some(),
             _ => {
@@ -161,7 +161,7 @@ fn formula(text: &str) -> Result<InputArgument, String> {
                 ));
             }
         };
-        if said {
+        if is_repeated {
             return Err(format!("`{name}` is given twice"));
         }
     }
@@ -408,18 +408,26 @@ mod tests {
                 "max(x,y), every=0.1, delay=20*ms",
                 sampled("max(x,y)", 0.1, 0.02),
             ),
-            ("a.csv", file("a.csv", None, Between::Linear, Beyond::Hold)),
+            (
+                "a.csv",
+                file("a.csv", None, Interpolation::Linear, Extrapolation::Hold),
+            ),
             (
                 "a,b (1).CSV:q[1,2],hold,end=repeat",
-                file("a,b (1).CSV", Some("q[1,2]"), Between::Hold, Beyond::Repeat),
+                file(
+                    "a,b (1).CSV",
+                    Some("q[1,2]"),
+                    Interpolation::Hold,
+                    Extrapolation::Repeat,
+                ),
             ),
             (
                 "C:\\runs\\a.csv.parquet:push,end=error,cubic",
                 file(
                     "C:\\runs\\a.csv.parquet",
                     Some("push"),
-                    Between::Cubic,
-                    Beyond::Error,
+                    Interpolation::Cubic,
+                    Extrapolation::Error,
                 ),
             ),
         ] {
@@ -437,8 +445,8 @@ mod tests {
             ("x,every=1,every=1", "given twice"),
             ("x,often", "`every=TIME`"),
         ] {
-            let said = parse_input(text).expect_err(text);
-            assert!(said.contains(why), "{text}: {said}");
+            let message = parse_input(text).expect_err(text);
+            assert!(message.contains(why), "{text}: {message}");
         }
     }
 }

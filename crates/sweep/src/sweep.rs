@@ -134,7 +134,7 @@ impl VariedQuantity {
 /// If the machine has nothing of this name; suggests a similar name.
 pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
     let place = VariedQuantity::of(name, model);
-    let (what, wanted) = match &place {
+    let (kind, wanted) = match &place {
         VariedQuantity::Set(name) => ("parameter or input", name),
         VariedQuantity::Start(name) | VariedQuantity::Rate(name) => ("coordinate", name),
     };
@@ -177,7 +177,7 @@ pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
         None if known.is_empty() => "there are none".to_owned(),
         None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
     };
-    Err(format!("no {what} named `{wanted}`; {help}"))
+    Err(format!("no {kind} named `{wanted}`; {help}"))
 }
 
 impl Sweep {
@@ -194,7 +194,7 @@ impl Sweep {
         };
         let places = check(&plan, &plain)?;
         let names = names(&plan, &plain);
-        let asked: Vec<OutputFormula<'_>> = names
+        let output_formulas: Vec<OutputFormula<'_>> = names
             .iter()
             .map(|(name, source_name, text, unit)| OutputFormula {
                 name,
@@ -204,7 +204,7 @@ impl Sweep {
             })
             .collect();
         let (mut sources, mut report) = (Sources::new(), Report::new());
-        let with = match asked.as_slice() {
+        let with = match output_formulas.as_slice() {
             [] => Some(plain),
             asked => model(&plan, &constants, &dag, asked, &mut sources, &mut report),
         };
@@ -212,7 +212,7 @@ impl Sweep {
         let Some(compiled) = compiled else {
             return Err(PlanError::Spec(Box::new((report, sources))));
         };
-        let own = compiled.model.outputs.len() - asked.len();
+        let own = compiled.model.outputs.len() - output_formulas.len();
         let formulas: Vec<Formula> = (own..)
             .zip(&compiled.model.outputs[own..])
             .map(|(output, formula)| Formula {
@@ -220,10 +220,10 @@ impl Sweep {
                 reads_accelerations: formula.value.stage() == stage::ACCELERATION,
             })
             .collect();
-        for ((_, said, text, _), formula) in names.iter().zip(&formulas) {
-            if formula.reads_accelerations && !said.starts_with("--reduce") {
+        for ((_, source_name, text, _), formula) in names.iter().zip(&formulas) {
+            if formula.reads_accelerations && !source_name.starts_with("--reduce") {
                 return Err(PlanError::Plan(format!(
-                    "{said}: `{text}` depends on accelerations, which depend on it in turn or jump where contacts change; only \
+                    "{source_name}: `{text}` depends on accelerations, which depend on it in turn or jump where contacts change; only \
                      reductions may"
                 )));
             }
@@ -535,10 +535,10 @@ impl Sweep {
             cache: StateCache::default(),
         };
         let refused = refuses.and_then(|model| {
-            let said = model.parameter_diagnostics(machine.parameter_values());
-            let error = said
+            let diagnostics = model.parameter_diagnostics(machine.parameter_values());
+            let error = diagnostics
                 .iter()
-                .find(|said| said.code.severity() == Severity::Error)?;
+                .find(|diagnostic| diagnostic.code.severity() == Severity::Error)?;
             Some(format!("{} [{}]", error.message, error.code))
         });
         PreparedRun {
@@ -595,14 +595,14 @@ impl Sweep {
             if self.signals.is_sampled() {
                 // This copy evaluates formulas; the run itself knows the held values of controllers.
                 let system = system.clone();
-                let seen = move |seen: &Observation<InterpretedMachine>| {
+                let output_of = move |seen: &Observation<InterpretedMachine>| {
                     let (q, v, u) = (&seen.q.values, &seen.v.values, &seen.inputs.values);
                     system.output(output, seen.t, q, v, &[], u)
                 };
                 simulation = if watch.ends {
-                    simulation.until_event_on(&watch.name, Crossing::Any, seen)
+                    simulation.until_event_on(&watch.name, Crossing::Any, output_of)
                 } else {
-                    simulation.event_on(&watch.name, Crossing::Any, seen)
+                    simulation.event_on(&watch.name, Crossing::Any, output_of)
                 };
                 continue;
             }
@@ -1002,14 +1002,14 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity>, PlanErro
     set.extend(plan.inputs.iter().map(|(name, _)| name.as_str()));
     let starts = plan.start.iter().map(|(name, _)| format!("start({name})"));
     let rates = plan.rate.iter().map(|(name, _)| format!("rate({name})"));
-    let both: Vec<String> = starts.chain(rates).collect();
+    let starts_and_rates: Vec<String> = starts.chain(rates).collect();
     let mut seen = std::collections::BTreeSet::new();
     for name in &varied {
         unit_of(model, name).map_err(PlanError::Plan)?;
         if !seen.insert(*name) {
             return wrong(format!("`{name}` is varied more than once"));
         }
-        if set.contains(name) || both.iter().any(|given| given == name) {
+        if set.contains(name) || starts_and_rates.iter().any(|given| given == name) {
             return wrong(format!(
                 "`{name}` is varied, but also has one value for all runs"
             ));
@@ -1019,7 +1019,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity>, PlanErro
         .set
         .iter()
         .map(|(name, _)| name.as_str())
-        .chain(both.iter().map(String::as_str))
+        .chain(starts_and_rates.iter().map(String::as_str))
     {
         unit_of(model, name).map_err(PlanError::Plan)?;
     }

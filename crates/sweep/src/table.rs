@@ -234,7 +234,7 @@ mod with_parquet {
 
     impl<W: Write + Send> Writer<W> {
         /// Starts a file with columns like those of these rows, and with metadata.
-        pub fn new(to: W, rows: &Rows, said: &[(&str, String)]) -> io::Result<Self> {
+        pub fn new(to: W, rows: &Rows, entries: &[(&str, String)]) -> io::Result<Self> {
             let field = |column: &crate::rows::Column| {
                 let (physical, logical) = match column.kind {
                     Kind::Count => (Physical::INT64, Some(LogicalType::integer(64, false))),
@@ -255,11 +255,11 @@ mod with_parquet {
             let schema = Type::group_type_builder("sweep")
                 .with_fields(fields?)
                 .build()?;
-            let said = said
+            let metadata = entries
                 .iter()
                 .map(|(name, value)| KeyValue::new((*name).to_owned(), value.clone()));
             let properties = WriterProperties::builder()
-                .set_key_value_metadata(Some(said.collect()))
+                .set_key_value_metadata(Some(metadata.collect()))
                 .build();
             let writer = SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties))?;
             Ok(Writer(writer))
@@ -448,8 +448,12 @@ mod with_parquet {
     /// The metadata value under a name in a Parquet file.
     pub fn metadata(path: &Path, name: &str) -> Option<String> {
         let reader = SerializedFileReader::new(File::open(path).ok()?).ok()?;
-        let said = reader.metadata().file_metadata().key_value_metadata()?;
-        said.iter().find(|said| said.key == name)?.value.clone()
+        let metadata = reader.metadata().file_metadata().key_value_metadata()?;
+        metadata
+            .iter()
+            .find(|entry| entry.key == name)?
+            .value
+            .clone()
     }
 }
 

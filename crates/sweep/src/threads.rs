@@ -49,13 +49,13 @@ pub fn chunk_length(sweep: &Sweep) -> u64 {
         return 1;
     }
     let is_over = AtomicBool::new(false);
-    let (tell, told) = mpsc::channel::<()>();
+    let (sender, receiver) = mpsc::channel::<()>();
     let began = Instant::now();
     let mut done = 0;
     std::thread::scope(|scope| {
         let is_over = &is_over;
         scope.spawn(move || {
-            if told.recv_timeout(CHUNK_DURATION) == Err(mpsc::RecvTimeoutError::Timeout) {
+            if receiver.recv_timeout(CHUNK_DURATION) == Err(mpsc::RecvTimeoutError::Timeout) {
                 is_over.store(true, Ordering::Relaxed);
             }
         });
@@ -65,7 +65,7 @@ pub fn chunk_length(sweep: &Sweep) -> u64 {
             }
             done += 1;
         }
-        drop(tell);
+        drop(sender);
     });
     let each = began.elapsed().as_secs_f64() / done.max(1) as f64;
     let mut fit = (CHUNK_DURATION.as_secs_f64() / each.max(1e-9)) as u64;
@@ -126,16 +126,16 @@ pub fn run_all(
         }
     };
     std::thread::scope(|scope| {
-        let (tell, told) = mpsc::channel::<()>();
+        let (sender, receiver) = mpsc::channel::<()>();
         for _ in 0..threads.clamp(1, wanted.len().max(1)) {
-            let tell = tell.clone();
+            let tell = sender.clone();
             scope.spawn(move || {
                 let _lives = tell;
                 work();
             });
         }
-        drop(tell);
-        while told.recv_timeout(REPORT_INTERVAL) == Err(mpsc::RecvTimeoutError::Timeout) {
+        drop(sender);
+        while receiver.recv_timeout(REPORT_INTERVAL) == Err(mpsc::RecvTimeoutError::Timeout) {
             watch(Progress {
                 done: done.load(Ordering::Relaxed),
                 failed: failed.load(Ordering::Relaxed),

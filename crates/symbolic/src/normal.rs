@@ -223,11 +223,11 @@ pub fn difference<'d>(
         }
         let mut folded = |polynomial: &Polynomial| fold::fold(arena, polynomial.clone());
         let termwise = [folded(&more), folded(&less)];
-        let whole = [folded(derived), folded(printed)];
+        let undivided = [folded(derived), folded(printed)];
         let changed = more.len() + less.len() > 0;
         let weight = |pair: &[Polynomial; 2]| pair[0].weight() + pair[1].weight();
-        let [more, less] = if changed && weight(&whole) < weight(&termwise) {
-            whole
+        let [more, less] = if changed && weight(&undivided) < weight(&termwise) {
+            undivided
         } else {
             termwise
         };

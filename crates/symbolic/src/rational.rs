@@ -74,13 +74,13 @@ impl Rational {
             Some((mantissa, exponent)) => (mantissa, parse_exponent(exponent)?),
             None => (text, 0),
         };
-        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-        if !whole.starts_with(|c: char| c.is_ascii_digit()) || fraction.starts_with('_') {
+        let (integer, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        if !integer.starts_with(|c: char| c.is_ascii_digit()) || fraction.starts_with('_') {
             return None;
         }
         let mut digits = String::new();
         let mut places: i64 = 0;
-        for (part, counts) in [(whole, 0), (fraction, 1)] {
+        for (part, counts) in [(integer, 0), (fraction, 1)] {
             for c in part.chars().filter(|&c| c != '_') {
                 if !c.is_ascii_digit() {
                     return None;

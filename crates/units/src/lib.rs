@@ -192,9 +192,9 @@ impl Unit {
         // Counts this large are meaningless and are dropped.
         let remembered = |count: i8| {
             let count = i64::from(count).saturating_mul(numerator);
-            let whole = count.checked_rem(denominator) == Some(0);
+            let is_integer = count.checked_rem(denominator) == Some(0);
             let count = i8::try_from(count.checked_div(denominator).unwrap_or(0));
-            if whole { count.unwrap_or(0) } else { 0 }
+            if is_integer { count.unwrap_or(0) } else { 0 }
         };
         let unit = Unit {
             twice,

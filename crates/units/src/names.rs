@@ -77,8 +77,8 @@ pub fn rate_unit(coordinate: &str, unit: &str) -> String {
 /// The name of the rate of a coordinate, or of a member of a family: `der(theta)`, `der(q[3])`; for the time
 /// integral of a state the state: `i` for `integral(i)`.
 pub fn rate_name(coordinate: &str, index: impl fmt::Display) -> String {
-    let whole = format!("{coordinate}{index}");
-    state_of(&whole).unwrap_or_else(|| format!("der({whole})"))
+    let name = format!("{coordinate}{index}");
+    state_of(&name).unwrap_or_else(|| format!("der({name})"))
 }
 
 /// A variable by which accelerations can be differentiated.

@@ -89,7 +89,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
 /// The magnitude of a velocity. If a single rate produces it, it is written as the magnitude of that rate
 /// times a length that does not vanish with it, so that the force is differentiable at rest too.
 fn speed<'d>(resolver: &Resolver<'_, 'd, '_>, velocity: &[Expr<'d>]) -> Expr<'d> {
-    let whole = || resolver.length(velocity);
+    let speed = || resolver.length(velocity);
     let is_rate = |&symbol: &Symbol| resolver.dag.stage_of(symbol) == stage::VELOCITY;
     let rates: BTreeSet<Symbol> = velocity
         .iter()
@@ -97,7 +97,7 @@ fn speed<'d>(resolver: &Resolver<'_, 'd, '_>, velocity: &[Expr<'d>]) -> Expr<'d>
         .filter(is_rate)
         .collect();
     let [rate] = rates.iter().copied().collect::<Vec<_>>()[..] else {
-        return whole();
+        return speed();
     };
     let slopes: Vec<Expr<'d>> = velocity.iter().map(|w| w.diff(rate)).collect();
     let rate = resolver.dag.expr_of(rate);
@@ -107,7 +107,7 @@ fn speed<'d>(resolver: &Resolver<'_, 'd, '_>, velocity: &[Expr<'d>]) -> Expr<'d>
     if is_all {
         rate.abs() * resolver.distance(&slopes)
     } else {
-        whole()
+        speed()
     }
 }
 

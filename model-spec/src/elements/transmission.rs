@@ -135,13 +135,13 @@ fn check<'d>(resolver: &mut Resolver<'_, 'd, '_>, joined: Expr<'d>, span: Span) 
 fn pair<'a>(
     resolver: &mut Resolver<'a, '_, '_>,
     written: &'a Expression,
-    what: &str,
+    noun: &str,
 ) -> Option<[&'a Expression; 2]> {
     match &written.kind {
         ExpressionKind::Error => None,
         ExpressionKind::Tuple(parts) if parts.len() == 2 => Some([&parts[0], &parts[1]]),
         _ => {
-            let message = format!("{what} are expected here, `(first, second)`");
+            let message = format!("{noun} are expected here, `(first, second)`");
             resolver.error(Code::WrongDimension, written.span, message);
             None
         }

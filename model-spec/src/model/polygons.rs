@@ -119,8 +119,8 @@ pub fn contact_frame<'d>(model: &Model<'d>, corner: &Corner<'d>) -> ContactFrame
     let (_, axes) = point_and_axes(model, corner.other_polygon.on, &[dag.zero(); 2]);
     let [x, y] = Face::of(model, corner).normal;
     let in_ground = |along: [Expr<'d>; 2]| -> Vec<Expr<'d>> {
-        let both = axes[0].iter().zip(&axes[1]);
-        both.map(|(&e, &f)| along[0] * e + along[1] * f).collect()
+        let pairs = axes[0].iter().zip(&axes[1]);
+        pairs.map(|(&e, &f)| along[0] * e + along[1] * f).collect()
     };
     ContactFrame {
         point: point_and_axes(

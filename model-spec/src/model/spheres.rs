@@ -122,12 +122,12 @@ fn relative_to_sphere<'d>(
     let [spin, of_other] = [first, other].map(|sphere| angular_velocity(model, sphere.on, rate));
     let (r, big) = (first.radius, other.radius);
     let sign = if is_inside { 1 } else { -1 };
-    let both: Vec<Expr<'d>> = spin
+    let relative: Vec<Expr<'d>> = spin
         .iter()
         .zip(&of_other)
         .map(|(&own, &other)| r * own * sign - big * other)
         .collect();
-    let turned = cross(&both, &direction);
+    let turned = cross(&relative, &direction);
     let slip: Vec<Expr<'d>> = velocity.iter().zip(&turned).map(|(&v, &t)| v + t).collect();
     let normal: Vec<Expr<'d>> = direction.iter().map(|&e| -e * sign).collect();
     RelativeMotion {

@@ -613,7 +613,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     fn keyword<T: Copy>(
         &mut self,
         written: &'a Expression,
-        what: &str,
+        noun: &str,
         all: &[T],
         name: fn(T) -> &'static str,
     ) -> Option<T> {
@@ -627,8 +627,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let known = all.iter().copied().find(|one| name(*one) == word);
         if known.is_none() {
             let message = match word {
-                "" => format!("the name of a {what} is expected here"),
-                word => format!("no {what} is called `{word}`"),
+                "" => format!("the name of a {noun} is expected here"),
+                word => format!("no {noun} is called `{word}`"),
             };
             let names: Vec<String> = all.iter().map(|one| format!("`{}`", name(*one))).collect();
             let diagnostic = Diagnostic::new(Code::UnknownName, written.span, message);

@@ -72,14 +72,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     pub fn vector(
         &mut self,
         expression: &'a Expression,
-        what: &str,
+        noun: &str,
         scope: Scope<'a>,
     ) -> Option<Vector<'d>> {
         match self.value(expression, scope) {
             Value::Vector(vector) => Some(vector),
             Value::Unknown => None,
             other => {
-                self.wrong_kind(what, &other, expression);
+                self.wrong_kind(noun, &other, expression);
                 None
             }
         }
@@ -106,12 +106,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     pub fn vector_in(
         &mut self,
         expression: &'a Expression,
-        what: &str,
+        noun: &str,
         unit: Unit,
         reason: &str,
         scope: Scope<'a>,
     ) -> Option<Vector<'d>> {
-        let vector = self.vector(expression, what, scope.with_expected_unit(unit))?;
+        let vector = self.vector(expression, noun, scope.with_expected_unit(unit))?;
         self.require_unit(vector.unit, unit, expression.span, reason);
         self.refuse_hidden_unit(expression, vector.unit, unit);
         Some(vector)

@@ -103,7 +103,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The frame that is turned about one of its axes.
-    fn turned(&mut self, parent: PoseId, axis: usize, angle: Expr<'d>) -> PoseId {
+    fn rotated(&mut self, parent: PoseId, axis: usize, angle: Expr<'d>) -> PoseId {
         let key = (parent, Some(axis), vec![angle.id()]);
         self.add_pose(key, |resolver| {
             let from = resolver.pose(parent);
@@ -373,7 +373,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     }
                 }
                 _ => match self.turn(link, Self::frame_scope(scope)) {
-                    Some((axis, angle)) => Value::Frame(self.turned(frame, axis, angle)),
+                    Some((axis, angle)) => Value::Frame(self.rotated(frame, axis, angle)),
                     None => Value::Unknown,
                 },
             },
@@ -524,17 +524,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let scalar = scalar?;
             let is_coordinate =
                 scalar.expr.as_symbol().is_some() && scalar.expr.stage() == stage::POSITION;
-            let message = match is_coordinate {
-                false => {
-                    "the four numbers that turn a frame must be coordinates, and this is not one"
-                }
-                true if e.contains(&scalar.expr) => {
-                    "the four numbers that turn a frame must be four different coordinates"
-                }
-                true => {
-                    e.push(scalar.expr);
-                    continue;
-                }
+            let message = if !is_coordinate {
+                "the four numbers that turn a frame must be coordinates, and this is not one"
+            } else if e.contains(&scalar.expr) {
+                "the four numbers that turn a frame must be four different coordinates"
+            } else {
+                e.push(scalar.expr);
+                continue;
             };
             let diagnostic = Diagnostic::new(Code::WrongArguments, argument.span, message);
             self.push(diagnostic.help("declare `coordinates { e[0]: 1 = 1, e[1..3]: 1 }`, and write `.turn(e[0], e[1], e[2], e[3])`"));

@@ -684,15 +684,15 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             return alone;
         };
-        let whole = self.integer(index, Some(scope));
+        let value = self.integer(index, Some(scope));
         if alone.is_some() {
             self.not_a_family(name, index.span);
             return None;
         }
-        let whole = whole?;
-        let member = self.groups[group].members.get(&Some(whole)).copied();
+        let value = value?;
+        let member = self.groups[group].members.get(&Some(value)).copied();
         if member.is_none() {
-            self.index_out_of_range(group, index.span, whole);
+            self.index_out_of_range(group, index.span, value);
         }
         member
     }
@@ -746,8 +746,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let help = match (members.first(), members.last()) {
             (Some(first), Some(last)) => {
                 let span = i128::from(*last) - i128::from(*first) + 1;
-                let whole = span == members.len() as i128;
-                let gaps = if whole { "" } else { ", with gaps" };
+                let is_complete = span == members.len() as i128;
+                let gaps = if is_complete { "" } else { ", with gaps" };
                 format!("the members are `{base}[{first}]` to `{base}[{last}]`{gaps}")
             }
             _ => "the family has no members".to_owned(),
@@ -771,8 +771,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             "an index has no unit",
         );
         let value = scalar.expr.as_constant();
-        let whole = value.as_ref().and_then(|value| value.as_integer());
-        if whole.is_none() {
+        let integer = value.as_ref().and_then(|value| value.as_integer());
+        if integer.is_none() {
             let message = match (value, scalar.number) {
                 (Some(value), _) if value.is_integer() => {
                     "an index has at most 18 digits, and this has more".to_owned()
@@ -783,11 +783,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             };
             self.error(Code::IndexNotWhole, expression.span, message);
         }
-        whole
+        integer
     }
 
     /// Reports a name that is not declared.
-    pub(super) fn unknown_name(&mut self, what: &str, name: &'a Ident, namespaces: &[Namespace]) {
+    pub(super) fn unknown_name(&mut self, noun: &str, name: &'a Ident, namespaces: &[Namespace]) {
         if self.incomplete || name.text.is_empty() {
             return;
         }
@@ -836,7 +836,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 }
             }
         };
-        let message = format!("{what} named `{}`", name.text);
+        let message = format!("{noun} named `{}`", name.text);
         self.push(with_help(
             Diagnostic::new(Code::UnknownName, name.span, message),
             help,
@@ -875,12 +875,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     pub(super) fn known_group(
         &mut self,
         namespace: Namespace,
-        what: &str,
+        noun: &str,
         name: &'a Ident,
     ) -> Option<usize> {
         let group = self.find_group(namespace, &name.text);
         if group.is_none() {
-            self.unknown_name(what, name, &[namespace]);
+            self.unknown_name(noun, name, &[namespace]);
         }
         group
     }
@@ -889,11 +889,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     pub(super) fn named_member(
         &mut self,
         namespace: Namespace,
-        what: &str,
+        noun: &str,
         reference: &'a Reference,
         scope: Scope<'a>,
     ) -> Option<MemberId> {
-        let group = self.known_group(namespace, what, &reference.base)?;
+        let group = self.known_group(namespace, noun, &reference.base)?;
         self.member(group, &reference.base, reference.index.as_deref(), scope)
     }
 }

@@ -26,7 +26,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     pub fn start_rates(&mut self, layers: &'a [Spec], coordinates: &mut [Coordinate<'d>]) {
         for (layer, spec) in layers.iter().enumerate() {
             let is_inherited = layer + 1 < layers.len();
-            let mut said: FxHashMap<usize, Span> = FxHashMap::default();
+            let mut span_of: FxHashMap<usize, Span> = FxHashMap::default();
             for item in &spec.rates {
                 let range = match &item.name.index {
                     Index::Range(range) => Some(range),
@@ -42,7 +42,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                         resolver.start_rate(item, index, scope, is_inherited)
                     });
                     for (coordinate, rate) in rates.into_iter().flatten() {
-                        if let Some(first) = said.insert(coordinate, item.span) {
+                        if let Some(first) = span_of.insert(coordinate, item.span) {
                             self.duplicate_rate(item, first);
                         }
                         if let Some(coordinate) = coordinates.get_mut(coordinate) {

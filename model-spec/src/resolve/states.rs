@@ -37,7 +37,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let mut failed = states.len() != members.len();
         for (layer, spec) in layers.iter().enumerate() {
             let is_inherited = layer + 1 < layers.len();
-            let mut said: FxHashMap<MemberId, Span> = FxHashMap::default();
+            let mut span_of: FxHashMap<MemberId, Span> = FxHashMap::default();
             for item in &spec.state_rates {
                 let range = match &item.name.index {
                     Index::Range(range) => Some(range),
@@ -54,7 +54,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     });
                     failed |= found.is_none();
                     for (member, rate) in found.into_iter().flatten() {
-                        if let Some(first) = said.insert(member, item.span) {
+                        if let Some(first) = span_of.insert(member, item.span) {
                             self.duplicate_state_rate(item, first);
                         }
                         rates.insert(member, rate);
@@ -196,7 +196,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         &mut self,
         expression: Expr<'d>,
         span: Span,
-        what: &str,
+        noun: &str,
         help: &'static str,
     ) -> bool {
         let coordinates = self.members_of(SectionKind::Coordinates);
@@ -209,7 +209,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return false;
         };
         let message = format!(
-            "{what} cannot depend on the rate of `{}`",
+            "{noun} cannot depend on the rate of `{}`",
             self.name(member)
         );
         self.push(Diagnostic::new(Code::ForbiddenDependence, span, message).help(help));
@@ -221,7 +221,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         &mut self,
         expression: Expr<'d>,
         span: Span,
-        what: &str,
+        noun: &str,
         help: &'static str,
     ) -> bool {
         let states = self.members_of(SectionKind::States);
@@ -233,7 +233,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let Some(member) = found else {
             return false;
         };
-        let message = format!("{what} cannot depend on the state `{}`", self.name(member));
+        let message = format!("{noun} cannot depend on the state `{}`", self.name(member));
         self.push(Diagnostic::new(Code::ForbiddenDependence, span, message).help(help));
         true
     }

@@ -226,8 +226,8 @@ fn number_in(cell: &str) -> Option<Rational> {
         Some(digits) => ("", digits),
         None => ("", cell),
     };
-    let whole = if digits.starts_with('.') { "0" } else { "" };
-    Rational::parse_decimal(&format!("{sign}{whole}{digits}"))
+    let leading_zero = if digits.starts_with('.') { "0" } else { "" };
+    Rational::parse_decimal(&format!("{sign}{leading_zero}{digits}"))
 }
 
 /// The measure of a unit as a spec would write it.

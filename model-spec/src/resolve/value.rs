@@ -132,20 +132,20 @@ pub(crate) struct Limit {
 }
 
 /// A limit that allows nothing later than a stage.
-pub(crate) const fn limit(stage: Stage, what: &'static str, help: &'static str) -> Limit {
+pub(crate) const fn limit(stage: Stage, noun: &'static str, help: &'static str) -> Limit {
     let code = Code::ForbiddenDependence;
     Limit {
         stage,
-        subject: what,
+        subject: noun,
         code,
         help,
     }
 }
 
-const fn constant_mass(what: &'static str) -> Limit {
+const fn constant_mass(noun: &'static str) -> Limit {
     Limit {
         stage: stage::PARAMETER,
-        subject: what,
+        subject: noun,
         code: Code::VariableMass,
         help: "the equations hold for bodies of constant mass and inertia; what flows in or out \
                would carry momentum that they do not include",

@@ -134,11 +134,11 @@ fn hanging_body<'d>(model: &Model<'d>) -> Option<(crate::source::Span, String)> 
                 values[0].abs() <= 1e-12 * values[1].abs()
             });
             if stationary {
-                let what = format!(
+                let subject = format!(
                     "the body `{}` hangs or stands at {} = 0",
                     body.name, angle.name
                 );
-                return Some((body.span, what));
+                return Some((body.span, subject));
             }
         }
     }
@@ -159,9 +159,9 @@ fn body_on_springs(model: &Model<'_>) -> Option<(crate::source::Span, String)> {
         matches!(one, Contribution::Stored(Energy::Quadratic(of)) if length(of))
     };
     let (element, _) = model.contributions().find(|(_, one)| carries(one))?;
-    let what = format!(
+    let subject = format!(
         "the {} `{}` carries the body `{}`",
         element.section.noun, element.name, body.name
     );
-    rests.then_some((body.span, what))
+    rests.then_some((body.span, subject))
 }

@@ -74,7 +74,7 @@ impl Parser<'_> {
         if !self.is_mark('-') {
             return self.power();
         }
-        if !self.descend(start) {
+        if !self.increase_depth(start) {
             return self.error(start);
         }
         self.at += 1;
@@ -95,7 +95,7 @@ impl Parser<'_> {
         if self.failed || !self.is_mark('^') {
             return base;
         }
-        if !self.descend(sign) {
+        if !self.increase_depth(sign) {
             return base;
         }
         self.at += 1;
@@ -274,7 +274,7 @@ impl Parser<'_> {
     /// Enters a bracket, one level deeper.
     pub(super) fn enter_nested(&mut self, delimiter: Delimiter) -> Option<Group> {
         let start = self.next_span();
-        if !self.descend(start) {
+        if !self.increase_depth(start) {
             return None;
         }
         let group = self.enter(delimiter);
@@ -291,7 +291,7 @@ impl Parser<'_> {
     }
 
     /// Increases the depth by one level, or reports an error.
-    fn descend(&mut self, place: Span) -> bool {
+    fn increase_depth(&mut self, place: Span) -> bool {
         if self.depth >= NESTING_LIMIT {
             let message = format!("this expression is nested more than {NESTING_LIMIT} deep");
             let deep = Diagnostic::new(Code::NestedTooDeeply, place, message);

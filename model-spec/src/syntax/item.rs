@@ -92,8 +92,8 @@ impl Parser<'_> {
     }
 
     /// A name in a declaration: `theta`, `link[0]`, `q[1..N]`, `bob[i in 1..N]`.
-    pub(super) fn declared(&mut self, what: &str) -> Option<Declared> {
-        let base = self.ident(what)?;
+    pub(super) fn declared(&mut self, noun: &str) -> Option<Declared> {
+        let base = self.ident(noun)?;
         let mut declared = Declared {
             span: base.span,
             base,

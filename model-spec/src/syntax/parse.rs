@@ -176,8 +176,8 @@ impl<'t> Parser<'t> {
     }
 
     /// Reports a duplicate where only one is allowed.
-    pub(super) fn report_duplicate(&mut self, span: Span, what: &str, first: Span) {
-        let again = Diagnostic::new(Code::SaidTwice, span, format!("{what} is given twice"));
+    pub(super) fn report_duplicate(&mut self, span: Span, noun: &str, first: Span) {
+        let again = Diagnostic::new(Code::SaidTwice, span, format!("{noun} is given twice"));
         self.report_error(again.help("keep one of them").note(first, "the first"));
     }
 
@@ -271,7 +271,7 @@ impl<'t> Parser<'t> {
         self.expect_mark('=');
     }
 
-    pub(super) fn ident(&mut self, what: &str) -> Option<Ident> {
+    pub(super) fn ident(&mut self, noun: &str) -> Option<Ident> {
         let word = self.peek().filter(|word| word.kind == TokenKind::Ident);
         match word {
             Some(word) => {
@@ -282,7 +282,7 @@ impl<'t> Parser<'t> {
                 })
             }
             None => {
-                self.unexpected(what);
+                self.unexpected(noun);
                 None
             }
         }

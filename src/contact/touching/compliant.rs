@@ -11,7 +11,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{ContactKinematics, Margin, Mode, UnilateralState};
-use crate::balance::PartOfContact;
+use crate::balance::ContactShare;
 use crate::{Compliance, ContactEnergies, System};
 
 /// The law of a contact that yields, and what it remembers.
@@ -249,7 +249,7 @@ impl UnilateralState {
     pub fn energies(
         &self,
         contact: usize,
-        part: PartOfContact,
+        part: ContactShare,
         impact_loss: f64,
         crushing_work: f64,
     ) -> ContactEnergies {

@@ -132,7 +132,7 @@ impl<S: System> System for Held<'_, S> {
                     break;
                 }
             }
-            let rolls = contact.is_some_and(|(_, contact)| contact.rolls);
+            let rolls = contact.is_some_and(|(_, contact)| contact.is_rolling_resistance);
             Constraint {
                 name: contact.map_or("", |(_, contact)| contact.name),
                 unit: match direction % 2 {
@@ -175,9 +175,9 @@ impl<S: System> System for Held<'_, S> {
         self.with_contacts(q.as_slice().len(), matrix, own, contacts, 1.0);
     }
 
-    fn constraint_drift(&self, t: f64, q: &S::Vector, v: &S::Vector, drift: &mut [f64]) {
-        let own = |to: &mut [f64]| self.system.constraint_drift(t, q, v, to);
-        let contacts = |to: &mut [f64]| self.system.contact_drift(t, q, v, to);
+    fn constraint_bias(&self, t: f64, q: &S::Vector, v: &S::Vector, drift: &mut [f64]) {
+        let own = |to: &mut [f64]| self.system.constraint_bias(t, q, v, to);
+        let contacts = |to: &mut [f64]| self.system.contact_bias(t, q, v, to);
         // A constraint says what `G a` is to be, a contact what its rate is without it.
         self.with_contacts(1, drift, own, contacts, -1.0);
     }

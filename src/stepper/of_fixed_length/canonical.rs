@@ -31,8 +31,8 @@ pub(super) struct Canonical<V, M> {
     factor: M,
     shares: Vec<f64>,
     /// For each coordinate, the first one of the same unit; and the largest rate of that unit.
-    alike: Vec<usize>,
-    greatest: Vec<f64>,
+    first_of_unit: Vec<usize>,
+    greatest_rates: Vec<f64>,
     rates: V,
     ahead: V,
     behind: V,
@@ -58,8 +58,8 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
             matrix: M::zeros(n * n),
             factor: M::zeros(n * n),
             shares: std::vec![0.0; n],
-            alike: units.map(|(i, one)| first(one.unit).unwrap_or(i)).collect(),
-            greatest: std::vec![0.0; n],
+            first_of_unit: units.map(|(i, one)| first(one.unit).unwrap_or(i)).collect(),
+            greatest_rates: std::vec![0.0; n],
             rates: q.zeros_like(),
             ahead: q.zeros_like(),
             behind: q.zeros_like(),
@@ -115,8 +115,8 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
         force: &mut V,
     ) {
         let Self {
-            alike,
-            greatest,
+            first_of_unit,
+            greatest_rates,
             rates,
             ahead,
             behind,
@@ -128,11 +128,11 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
         for (force, bias) in force.as_mut_slice().iter_mut().zip(ahead.as_slice()) {
             *force -= bias;
         }
-        greatest.fill(0.0);
-        for (v, &first) in v.as_slice().iter().zip(&*alike) {
-            greatest[first] = greatest[first].max(v.abs());
+        greatest_rates.fill(0.0);
+        for (v, &first) in v.as_slice().iter().zip(&*first_of_unit) {
+            greatest_rates[first] = greatest_rates[first].max(v.abs());
         }
-        if greatest.iter().all(|x| *x == 0.0) {
+        if greatest_rates.iter().all(|x| *x == 0.0) {
             return;
         }
         for (rate, v) in rates.as_mut_slice().iter_mut().zip(v.as_slice()) {
@@ -144,10 +144,10 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
             *force -= 0.25 * (ahead.as_slice()[i] - behind.as_slice()[i]);
         }
         rates.clone_from(v);
-        for (i, &first) in alike.iter().enumerate() {
+        for (i, &first) in first_of_unit.iter().enumerate() {
             let here = v.as_slice()[i];
             // Of the size of the rates; any increment is exact except for rounding.
-            let by = match greatest[first] {
+            let by = match greatest_rates[first] {
                 0.0 => 1.0,
                 size => size,
             };
@@ -173,13 +173,13 @@ pub(super) struct ConvergenceTest {
 }
 
 /// An iteration that has not converged after this many rounds converges too slowly: the step is too long.
-const MOST_ROUNDS: usize = 100;
+const MOST_ITERATIONS: usize = 100;
 
 /// The iteration may end once the square of a change is below this relative to the rates; it ends when changes no longer decrease.
-const CLOSE: f64 = 1e-22;
+const CONVERGED: f64 = 1e-22;
 
 impl ConvergenceTest {
-    pub const NONE: Self = Self {
+    pub const START: Self = Self {
         count: 0,
         before: f64::INFINITY,
     };
@@ -187,21 +187,25 @@ impl ConvergenceTest {
     /// Whether that was the last iteration, given its change and the size of the changed quantity; `None` if the change is not finite or
     /// there were too many iterations.
     pub fn is_last(&mut self, change: f64, size: f64) -> Option<bool> {
-        self.is_last_beside(change, (size, 0.0))
+        self.is_last_with_rounding(change, (size, 0.0))
     }
 
     /// [`is_last`](Self::is_last) with a given change by rounding alone.
-    pub fn is_last_beside(&mut self, change: f64, (size, rounding): (f64, f64)) -> Option<bool> {
+    pub fn is_last_with_rounding(
+        &mut self,
+        change: f64,
+        (size, rounding): (f64, f64),
+    ) -> Option<bool> {
         self.count += 1;
         let before = core::mem::replace(&mut self.before, change);
-        let is_close = change <= CLOSE * size + rounding;
+        let is_close = change <= CONVERGED * size + rounding;
         if !change.is_finite() {
             return None;
         }
         if change == 0.0 || (is_close && change >= before) {
             return Some(true);
         }
-        if self.count < MOST_ROUNDS {
+        if self.count < MOST_ITERATIONS {
             Some(false)
         } else {
             is_close.then_some(true)

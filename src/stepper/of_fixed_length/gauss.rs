@@ -94,7 +94,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 *rate += tableau.c[i + 1] * h * a;
             }
         }
-        let mut rounds = ConvergenceTest::NONE;
+        let mut rounds = ConvergenceTest::START;
         loop {
             for (i, (place, force)) in places.iter_mut().zip(&mut *forces).enumerate() {
                 for j in 0..n {

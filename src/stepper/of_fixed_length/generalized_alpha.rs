@@ -20,16 +20,16 @@ use crate::stages::Point;
 use crate::{InputLaw, StepError, System, Vector};
 
 /// The number of iterations within which Newton's method converges; otherwise the step is too long.
-const ROUNDS: usize = 12;
+const MOST_ITERATIONS: usize = 12;
 
 /// Error left by Newton's method, relative to the tolerance.
-const LEFT: f64 = 0.01;
+const NEWTON_TOLERANCE: f64 = 0.01;
 
 /// Round-off left by Newton's method, in units of the last place.
 const ROUNDOFF: f64 = 8.0;
 
 /// An iteration that leaves more than this fraction of the change stagnates.
-const STAGNATES: f64 = 0.5;
+const STAGNATION: f64 = 0.5;
 
 /// The number of halvings after which a distance is of the size of round-off.
 const HALVINGS: usize = 50;
@@ -44,7 +44,7 @@ pub(crate) struct GeneralizedAlpha {
     jacobian: Jacobian,
     matrix: Lu<f64>,
     /// The step length of the matrix; 0 if there is none.
-    factored: f64,
+    factored_step: f64,
     /// Whether iterations with this matrix have converged, and not only begun with a small change.
     contracts: bool,
     /// `α` at the end of the last step and at its beginning; empty if it equals the acceleration of the machine.
@@ -75,7 +75,7 @@ impl GeneralizedAlpha {
             },
             jacobian: Jacobian::new(system),
             matrix: Lu::new(n),
-            factored: 0.0,
+            factored_step: 0.0,
             contracts: false,
             alpha: [Vec::new(), Vec::new()],
             change: std::vec![0.0; n],
@@ -88,7 +88,7 @@ impl GeneralizedAlpha {
     }
 
     pub fn forget(&mut self) {
-        self.factored = 0.0;
+        self.factored_step = 0.0;
         self.alpha[0].clear();
     }
 
@@ -116,14 +116,14 @@ impl GeneralizedAlpha {
         let n = self.change.len();
         let [by_position, by_rate] = self.factors(h);
         let jacobian = &self.jacobian;
-        let found = self.matrix.factor(|i, j| {
+        let factored = self.matrix.factor(|i, j| {
             let one = if i == j { 1.0 } else { 0.0 };
             let at = i * n + j;
             one - by_rate * jacobian.by_rates[at] - by_position * jacobian.by_coordinates[at]
         });
-        self.factored = if found { h } else { 0.0 };
+        self.factored_step = if factored { h } else { 0.0 };
         self.contracts = false;
-        found
+        factored
     }
 }
 
@@ -148,7 +148,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         before.clone_from(now);
         // An old Jacobian is used as long as Newton's method converges with it.
-        let is_fresh = alpha.factored != h;
+        let is_fresh = alpha.factored_step != h;
         let mut solved = !is_fresh && self.newton_of_alpha(h)?;
         if !solved {
             let Self {
@@ -201,7 +201,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let stages = method.tableau.stages;
         for i in 0..alpha.change.len() {
             let ahead = alpha.ahead(i, k[0].as_slice()[i], k[stages].as_slice()[i]);
-            let [by_q, by_v] = alpha.rises(i, h, before.v.as_slice()[i], ahead);
+            let [by_q, by_v] = alpha.increments(i, h, before.v.as_slice()[i], ahead);
             let low = before.v_low.as_slice()[i];
             add(&mut now.q, &mut now.q_low, i, by_q + h * low);
             add(&mut now.v, &mut now.v_low, i, by_v);
@@ -242,7 +242,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let (to, scratch) = (&mut to[0], &mut rest[MAX_STAGES - 2 - stages]);
         to.clone_from(from);
         let mut size_before = f64::INFINITY;
-        for round in 1..=ROUNDS {
+        for round in 1..=MOST_ITERATIONS {
             alpha.end((before, h), [from, &*to], [&mut *q, &mut *v]);
             model.accelerations(t, q, v, scratch, &mut control.work)?;
             let pairs = scratch.as_slice().iter().zip(to.as_slice());
@@ -253,7 +253,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             // as that of a very stiff part, and any residual causes hardly a change.
             let is_small = |(i, residual): (usize, &f64)| {
                 let relative = tolerance.relative * before.v.as_slice()[i].abs();
-                let tolerable = LEFT * (tolerance.absolute.as_slice()[i] + relative);
+                let tolerable = NEWTON_TOLERANCE * (tolerance.absolute.as_slice()[i] + relative);
                 let roundoff = 4.0 * f64::EPSILON * alpha.jacobian.noise[i];
                 residual.abs() <= (tolerable / h.abs()).max(roundoff)
             };
@@ -268,7 +268,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                     (by_rate * change, v.as_slice()[i]),
                 ];
                 for (by, y) in moves {
-                    let tolerable = LEFT * (absolute + tolerance.relative * y.abs());
+                    let tolerable = NEWTON_TOLERANCE * (absolute + tolerance.relative * y.abs());
                     let least = tolerable.max(ROUNDOFF * f64::EPSILON * y.abs());
                     let ratio = by.abs() / least;
                     // NaN must not count as zero.
@@ -282,13 +282,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             if !size.is_finite() {
                 return Ok(false);
             }
-            alpha.contracts |= round > 1 && size <= STAGNATES * size_before;
+            alpha.contracts |= round > 1 && size <= STAGNATION * size_before;
             let is_confirmed = are_small || alpha.contracts;
-            let stands = round > 2 && size > STAGNATES * size_before;
-            if is_confirmed && (size <= 1.0 || (stands && LEFT * size <= 1.0)) {
+            let stagnates = round > 2 && size > STAGNATION * size_before;
+            if is_confirmed && (size <= 1.0 || (stagnates && NEWTON_TOLERANCE * size <= 1.0)) {
                 return Ok(true);
             }
-            if stands {
+            if stagnates {
                 return Ok(false);
             }
             size_before = size;
@@ -317,8 +317,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let mut at = |to: &S::Vector| {
             let mut a = to.zeros_like();
             alpha.end((before, h), [from, to], [&mut *q, &mut *v]);
-            let found = model.accelerations(t, q, v, &mut a, &mut control.work);
-            found.ok().map(|()| a)
+            let result = model.accelerations(t, q, v, &mut a, &mut control.work);
+            result.ok().map(|()| a)
         };
         let change = |one: &S::Vector, other: &S::Vector| {
             let pairs = one.as_slice().iter().zip(other.as_slice());
@@ -327,7 +327,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let mut find = || {
             let here = at(&to)?;
             let there = at(&here)?;
-            let whole = change(&here, &there);
+            let total = change(&here, &there);
             let mut ends = [(to.clone(), here.clone()), (here.clone(), there)];
             for _ in 0..HALVINGS {
                 let mut middle = ends[0].0.clone();
@@ -338,7 +338,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 ends[usize::from(is_first)] = (middle, a);
             }
             let [(_, before), (_, after)] = &ends;
-            Some(whole > 0.0 && change(before, after) > JUMP * whole)
+            Some(total > 0.0 && change(before, after) > JUMP * total)
         };
         find().unwrap_or(false)
     }
@@ -355,14 +355,14 @@ impl GeneralizedAlpha {
         let pairs = from.as_slice().iter().zip(to.as_slice());
         for (i, (from, to)) in pairs.enumerate() {
             let ahead = self.ahead(i, *from, *to);
-            let [by_q, by_v] = self.rises(i, h, before.v.as_slice()[i], ahead);
+            let [by_q, by_v] = self.increments(i, h, before.v.as_slice()[i], ahead);
             q.as_mut_slice()[i] = before.q.as_slice()[i] + (before.q_low.as_slice()[i] + by_q);
             v.as_mut_slice()[i] = before.v.as_slice()[i] + (before.v_low.as_slice()[i] + by_v);
         }
     }
 
     /// The changes of a position and its rate in a step that ends with `ahead`.
-    fn rises(&self, i: usize, h: f64, rate: f64, ahead: f64) -> [f64; 2] {
+    fn increments(&self, i: usize, h: f64, rate: f64, ahead: f64) -> [f64; 2] {
         let Weights { beta, gamma, .. } = self.weights;
         let behind = self.alpha[1][i];
         [

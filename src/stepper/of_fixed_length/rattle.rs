@@ -30,12 +30,12 @@ pub(crate) struct Rattle<V, M> {
     momenta: V,
     half_way: V,
     scratch: V,
-    held: Held,
+    constraints: EndConstraints,
 }
 
 /// The constraints at both ends.
 #[derive(Clone, Debug)]
-struct Held {
+struct EndConstraints {
     /// `G`, row after row.
     rows: [Vec<f64>; 2],
     /// `G M⁻¹` at the beginning, then at the end.
@@ -71,7 +71,7 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
             momenta: zeros.clone(),
             half_way: zeros.clone(),
             scratch: zeros,
-            held: Held {
+            constraints: EndConstraints {
                 rows: [numbers(m * n), numbers(m * n)],
                 by_force: numbers(m * n),
                 matrix: numbers(m * m),
@@ -83,7 +83,7 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
     }
 }
 
-impl Held {
+impl EndConstraints {
     fn is_empty(&self) -> bool {
         self.multipliers.is_empty()
     }
@@ -151,7 +151,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             momenta,
             half_way,
             scratch,
-            held,
+            constraints,
         } = rattle;
         let singular = |singular| StepError::Singular {
             singular,
@@ -169,16 +169,16 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         momenta.as_mut_slice().fill(0.0);
         start.add_momenta(1.0, &before.v, momenta);
         start.add_momenta(1.0, &before.v_low, momenta);
-        if !held.is_empty() {
-            system.constraint_matrix(before.t, &before.q, &mut held.rows[0]);
-            if !held.factor(0, start, half * h) {
+        if !constraints.is_empty() {
+            system.constraint_matrix(before.t, &before.q, &mut constraints.rows[0]);
+            if !constraints.factor(0, start, half * h) {
                 return Err(not_solved);
             }
-            held.multipliers.fill(0.0);
+            constraints.multipliers.fill(0.0);
         }
         // Round-off in the constraints changes the rates too, however slow they are; from rest it is their only change.
         let mut rounding = 0.0;
-        if !held.is_empty() {
+        if !constraints.is_empty() {
             scratch.as_mut_slice().fill(0.0);
             start.add_momenta(1.0, &before.q, scratch);
             rounding = 16.0 * f64::EPSILON * f64::EPSILON * dot(scratch, &before.q).abs() / (h * h);
@@ -188,7 +188,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             *rate += half * a;
         }
         there.clone_from(here);
-        let mut rounds = ConvergenceTest::NONE;
+        let mut rounds = ConvergenceTest::START;
         loop {
             model.set_inputs(before.t, &before.q, here);
             let system = model.system.get();
@@ -198,11 +198,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             for (p, force) in half_way.as_mut_slice().iter_mut().zip(force.as_slice()) {
                 *p += half * force;
             }
-            held.add_forces(0, half, &held.multipliers, half_way);
+            constraints.add_forces(0, half, &constraints.multipliers, half_way);
             let mut change = 0.0;
             let mut size = dot(half_way, here).abs();
             // The resulting change of the rates at the beginning, then of those at the end.
-            improve(start, half_way, here, scratch, &mut change);
+            set_rates(start, half_way, here, scratch, &mut change);
             for j in 0..n {
                 let rates = here.as_slice()[j] + there.as_slice()[j];
                 now.q.as_mut_slice()[j] =
@@ -210,17 +210,21 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             }
             ahead.go_to(system, now.t, &now.q).map_err(singular)?;
             size += dot(half_way, there).abs();
-            improve(ahead, half_way, there, scratch, &mut change);
-            if !held.is_empty() {
-                system.constraint_positions(now.t, &now.q, &mut held.residuals);
-                held.solve();
-                for (multiplier, residual) in held.multipliers.iter_mut().zip(&held.residuals) {
+            set_rates(ahead, half_way, there, scratch, &mut change);
+            if !constraints.is_empty() {
+                system.constraint_positions(now.t, &now.q, &mut constraints.residuals);
+                constraints.solve();
+                for (multiplier, residual) in constraints
+                    .multipliers
+                    .iter_mut()
+                    .zip(&constraints.residuals)
+                {
                     *multiplier -= residual;
                 }
                 // The resulting change of the rates at both ends, so that the next iteration begins on the constraints.
                 for (at, rates) in [(&*start, &mut *here), (&*ahead, &mut *there)] {
                     scratch.as_mut_slice().fill(0.0);
-                    held.add_forces(0, -half, &held.residuals, scratch);
+                    constraints.add_forces(0, -half, &constraints.residuals, scratch);
                     force.clone_from(scratch);
                     at.to_rates(scratch.as_mut_slice());
                     change += dot(force, scratch).abs();
@@ -229,7 +233,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                     }
                 }
             }
-            match rounds.is_last_beside(change, (size, rounding)) {
+            match rounds.is_last_with_rounding(change, (size, rounding)) {
                 Some(true) => break,
                 Some(false) => {}
                 None => return Err(not_solved),
@@ -254,15 +258,15 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         for (j, by) in half_way.as_slice().iter().enumerate() {
             add(&mut now.v, &mut now.v_low, j, *by);
         }
-        if !held.is_empty() {
-            system.constraint_matrix(now.t, &now.q, &mut held.rows[1]);
-            if !held.factor(1, ahead, 1.0) {
+        if !constraints.is_empty() {
+            system.constraint_matrix(now.t, &now.q, &mut constraints.rows[1]);
+            if !constraints.factor(1, ahead, 1.0) {
                 return Err(not_solved);
             }
-            system.constraint_rates(now.t, &now.q, &now.v, &mut held.residuals);
-            held.solve();
+            system.constraint_rates(now.t, &now.q, &now.v, &mut constraints.residuals);
+            constraints.solve();
             scratch.as_mut_slice().fill(0.0);
-            held.add_forces(1, 1.0, &held.residuals, scratch);
+            constraints.add_forces(1, 1.0, &constraints.residuals, scratch);
             ahead.to_rates(scratch.as_mut_slice());
             for (j, by) in scratch.as_slice().iter().enumerate() {
                 add(&mut now.v, &mut now.v_low, j, -by);
@@ -273,7 +277,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 }
 
 /// Sets the rates to those of the momenta `p`, and adds the square of the change in the metric of inertia to `change`.
-fn improve<V: Vector, M: Vector>(
+fn set_rates<V: Vector, M: Vector>(
     at: &Canonical<V, M>,
     p: &V,
     rates: &mut V,

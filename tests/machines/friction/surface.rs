@@ -163,14 +163,14 @@ fn a_bead_in_a_shell_obeys_the_equations_typed_by_hand() {
         let size = m * (G + speed * speed / r);
         assert_near(first.normal, normal, 1e-12 * size);
         assert_near(first.slip.hypot(second.slip), speed, 1e-13 * (1.0 + speed));
-        let friction = match speed == 0.0 {
-            true if weight.abs() <= mu0 * normal => {
-                rests += 1;
-                assert!(first.sticks && second.sticks, "{theta}");
-                [-weight, 0.0]
-            }
-            true => [mu * normal * -weight.signum(), 0.0],
-            false => slip.map(|w| -mu * normal * w / speed),
+        let friction = if speed != 0.0 {
+            slip.map(|w| -mu * normal * w / speed)
+        } else if weight.abs() <= mu0 * normal {
+            rests += 1;
+            assert!(first.sticks && second.sticks, "{theta}");
+            [-weight, 0.0]
+        } else {
+            [mu * normal * -weight.signum(), 0.0]
         };
         slides += usize::from(!first.sticks);
         assert_near(

@@ -491,11 +491,11 @@ static void sizesOfTerms(Unit *unit, int level, double *to) {
     const int n = COORDINATES;
     const State *now = &unit->now;
     const double *q = now->states, *v = q + n, *x = level == 0 ? q : v;
-    double drift[CONSTRAINTS + 1], whole = 0.0;
+    double rates_at_rest[CONSTRAINTS + 1], norm_squared = 0.0;
     unitConstraintMatrix(&unit->prepared, now->time, q, v, now->inputs, unit->rows);
     if (level == 1) {
         static const double at_rest[COORDINATES + 1];
-        unitConstraintRates(&unit->prepared, now->time, q, at_rest, now->inputs, drift);
+        unitConstraintRates(&unit->prepared, now->time, q, at_rest, now->inputs, rates_at_rest);
     }
     double sizes[COORDINATES + 1];
     for (int i = 0; i < n; ++i) {
@@ -504,15 +504,15 @@ static void sizesOfTerms(Unit *unit, int level, double *to) {
     for (int i = 0; level == 0 && i < ANGLES; ++i) {
         if (sizes[ANGLE[i]] < 1.0) sizes[ANGLE[i]] = 1.0;
     }
-    for (int i = 0; i < n; ++i) whole += unit->inertia[i] * sizes[i] * sizes[i];
+    for (int i = 0; i < n; ++i) norm_squared += unit->inertia[i] * sizes[i] * sizes[i];
     for (int k = 0; k < CONSTRAINTS; ++k) {
-        double terms = level == 0 ? 0.0 : drift[k] < 0.0 ? -drift[k] : drift[k], length = 0.0;
+        double terms = level == 0 ? 0.0 : rates_at_rest[k] < 0.0 ? -rates_at_rest[k] : rates_at_rest[k], length = 0.0;
         for (int i = 0; i < n; ++i) {
             const double g = unit->rows[k * n + i];
             terms += (g < 0.0 ? -g : g) * sizes[i];
             if (unit->inertia[i] > 0.0) length += g * g / unit->inertia[i];
         }
-        const double size = terms + OF_INERTIA * sqrt(length * whole);
+        const double size = terms + OF_INERTIA * sqrt(length * norm_squared);
         to[k] = size > 0.0 ? size : 1.0;
     }
 }

@@ -39,13 +39,13 @@ impl<'e> Reader<'_, '_, 'e> {
 
     /// A name that no link or joint has yet.
     fn name(&mut self, name: String) -> String {
-        let mut given = name.clone();
+        let mut unique = name.clone();
         let mut number = 2_usize;
-        while !self.given.insert(given.clone()) {
-            given = format!("{name}_{number}");
+        while !self.given.insert(unique.clone()) {
+            unique = format!("{name}_{number}");
             number += 1;
         }
-        given
+        unique
     }
 
     fn body(&mut self, element: &'e Element, parent: &Parent, class: usize, outer: &Pose) {
@@ -53,15 +53,15 @@ impl<'e> Reader<'_, '_, 'e> {
         let item = Item::of(element, class, called(element));
         self.only(element, &item.owner, "body");
         for (name, usual) in [("mocap", "false"), ("gravcomp", "0")] {
-            if let Some(said) = element.own(name)
-                && said.value != usual
-                && said.value.parse() != Ok(0.0)
+            if let Some(attribute) = element.own(name)
+                && attribute.value != usual
+                && attribute.value.parse() != Ok(0.0)
             {
                 let message = format!(
                     "`{name}` of {} changes the motion, and is not supported",
                     item.owner
                 );
-                self.refuse(said.at, name, &message);
+                self.refuse(attribute.at, name, &message);
             }
         }
         let name = match element.own("name") {
@@ -264,7 +264,7 @@ impl<'e> Reader<'_, '_, 'e> {
                 }
                 let at = self
                     .attribute_of(item, name)
-                    .map_or(element.at, |said| said.at);
+                    .map_or(element.at, |attribute| attribute.at);
                 let message = format!(
                     "`{name}` of {} belongs to a {label} joint, which is not supported",
                     item.owner
@@ -554,7 +554,7 @@ impl<'e> Reader<'_, '_, 'e> {
             None => found.inertial.is_none(),
         };
         if let (Some((inertial, pose)), false) = (&found.inertial, from_geometry) {
-            return self.written(inertial, pose, link);
+            return self.given_inertia(inertial, pose, link);
         }
         if !from_geometry {
             return None;
@@ -574,7 +574,7 @@ impl<'e> Reader<'_, '_, 'e> {
             mass,
             centre,
             tensor,
-        } = Solid::joined(&found.solids);
+        } = Solid::combine(&found.solids);
         let entries = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
         Some(Inertial {
             mass: Number::computed(mass),
@@ -586,7 +586,12 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 
     /// The inertia given by an element `inertial`, in a frame with this pose in the body.
-    fn written(&mut self, element: &'e Element, frame: &Pose, link: &Parent) -> Option<Inertial> {
+    fn given_inertia(
+        &mut self,
+        element: &'e Element,
+        frame: &Pose,
+        link: &Parent,
+    ) -> Option<Inertial> {
         let item = Item::of(element, 0, format!("body {}", quoted(&link.name)));
         self.only(element, &item.owner, "inertial");
         let Pose { xyz, turns } = frame.then(&self.pose(&item));

@@ -40,8 +40,8 @@ impl<'e> Reader<'_, '_, 'e> {
             "springlength",
         ];
         for name in acts {
-            if let Some(said) = self.attribute_of(&item, name)
-                && said
+            if let Some(attribute) = self.attribute_of(&item, name)
+                && attribute
                     .value
                     .split_whitespace()
                     .any(|number| number.parse() != Ok(0.0))
@@ -156,12 +156,12 @@ impl<'e> Reader<'_, '_, 'e> {
                 damping: number(self, "kv", 1.0),
             }),
             "position" => {
-                if let Some(said) = self.attribute_of(item, "dampratio")
-                    && said.value.parse() != Ok(0.0)
+                if let Some(attribute) = self.attribute_of(item, "dampratio")
+                    && attribute.value.parse() != Ok(0.0)
                 {
                     let message =
                         format!("`dampratio` of {} is not supported: write `kv`", item.owner);
-                    self.refuse(said.at, "dampratio", &message);
+                    self.refuse(attribute.at, "dampratio", &message);
                 }
                 Some(Law::Position {
                     stiffness: number(self, "kp", 1.0),
@@ -179,15 +179,15 @@ impl<'e> Reader<'_, '_, 'e> {
             ("gaintype", &["fixed"]),
             ("biastype", &["none", "affine"]),
         ] {
-            if let Some(said) = self.attribute_of(item, name)
-                && !fine.contains(&said.value.as_str())
+            if let Some(attribute) = self.attribute_of(item, name)
+                && !fine.contains(&attribute.value.as_str())
             {
                 let message = format!(
                     "`{name}` of {} is {}, which is not supported",
                     item.owner,
-                    quoted(&said.value)
+                    quoted(&attribute.value)
                 );
-                self.refuse(said.at, "general", &message);
+                self.refuse(attribute.at, "general", &message);
                 return None;
             }
         }

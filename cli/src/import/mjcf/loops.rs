@@ -15,7 +15,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl<'e> Reader<'_, '_, 'e> {
     /// The pose of a body in the reference configuration of all joints; `None` if there is no body of this name.
-    fn at_rest(&self, body: &str) -> Option<Rest> {
+    fn reference_pose(&self, body: &str) -> Option<Rest> {
         let mut rests = HashMap::from([(
             "world",
             Rest {
@@ -43,10 +43,10 @@ impl<'e> Reader<'_, '_, 'e> {
     /// The body that an attribute names, or the world.
     fn body_of(&mut self, item: &Item<'e>, name: &str) -> Option<(String, Rest)> {
         let (body, at) = match self.attribute_of(item, name) {
-            Some(said) => (said.value.clone(), said.at),
+            Some(attribute) => (attribute.value.clone(), attribute.at),
             None => ("world".to_owned(), item.element.at),
         };
-        let rest = self.at_rest(&body);
+        let rest = self.reference_pose(&body);
         if rest.is_none() {
             let message = format!(
                 "`{name}` of {} is {}, but there is no such body",
@@ -77,12 +77,12 @@ impl<'e> Reader<'_, '_, 'e> {
             return self.count(&format!("inactive `equality` of {kind}"));
         }
         for name in ["site1", "site2"] {
-            if let Some(said) = self.attribute_of(&item, name) {
+            if let Some(attribute) = self.attribute_of(&item, name) {
                 let message = format!(
                     "`{name}` of {} is not supported: write `body1`, `body2` and `anchor`",
                     item.owner
                 );
-                return self.refuse(said.at, kind, &message);
+                return self.refuse(attribute.at, kind, &message);
             }
         }
         let needed = if is_weld {
@@ -156,7 +156,7 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 
     /// Reads the keyframe `home`, in which the machine starts.
-    pub(super) fn home(&mut self, key: &'e Element) {
+    pub(super) fn read_home_keyframe(&mut self, key: &'e Element) {
         let item = self.item(key, 0);
         if let Some((q, at)) = self.list(&item, "qpos") {
             self.home_places(&item, &q, at);
@@ -166,7 +166,7 @@ impl<'e> Reader<'_, '_, 'e> {
         }
         if let Some((u, at)) = self.list(&item, "ctrl") {
             if u.len() != self.actuators {
-                return self.miscounted(&item, "ctrl", [self.actuators, u.len()], at);
+                return self.report_count(&item, "ctrl", [self.actuators, u.len()], at);
             }
             for drive in &mut self.robot.drives {
                 drive.usual = u.get(drive.number).cloned().unwrap_or_default();
@@ -174,7 +174,13 @@ impl<'e> Reader<'_, '_, 'e> {
         }
     }
 
-    fn miscounted(&mut self, item: &Item<'e>, name: &str, [wanted, found]: [usize; 2], at: usize) {
+    fn report_count(
+        &mut self,
+        item: &Item<'e>,
+        name: &str,
+        [wanted, found]: [usize; 2],
+        at: usize,
+    ) {
         let message = format!(
             "`{name}` of {}: {wanted} numbers are expected, but there are {found}",
             item.owner
@@ -192,7 +198,7 @@ impl<'e> Reader<'_, '_, 'e> {
         let wanted = self.robot.joints.iter().map(|joint| length(joint.kind));
         let wanted = wanted.sum();
         if q.len() != wanted {
-            return self.miscounted(item, "qpos", [wanted, q.len()], at);
+            return self.report_count(item, "qpos", [wanted, q.len()], at);
         }
         let mut rest = q;
         for joint in &mut self.robot.joints {
@@ -230,7 +236,7 @@ impl<'e> Reader<'_, '_, 'e> {
         let wanted = self.robot.joints.iter().map(|joint| length(joint.kind));
         let wanted = wanted.sum();
         if v.len() != wanted {
-            return self.miscounted(item, "qvel", [wanted, v.len()], at);
+            return self.report_count(item, "qvel", [wanted, v.len()], at);
         }
         let mut rest = v;
         let mut is_turning = false;

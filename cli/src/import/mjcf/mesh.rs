@@ -139,7 +139,7 @@ impl Mesh {
     pub fn inside(&self, inside: Inside) -> Option<Volume> {
         let corners = |face: &[usize; 3]| face.map(|point| self.points[point]);
         let area = |[a, b, c]: [Vector3<f64>; 3]| (b - a).cross(&(c - a)).norm() / 2.0;
-        let whole: f64 = self.faces.iter().map(|face| area(corners(face))).sum();
+        let total: f64 = self.faces.iter().map(|face| area(corners(face))).sum();
         let middle: Vector3<f64> = self
             .faces
             .iter()
@@ -148,7 +148,7 @@ impl Mesh {
                 (a + b + c) / 3.0 * area([a, b, c])
             })
             .sum();
-        let middle = middle / whole;
+        let middle = middle / total;
         let pyramid = |top: Vector3<f64>, face: &[usize; 3]| {
             let [a, b, c] = corners(face).map(|corner| corner - top);
             let volume = a.dot(&b.cross(&c)) / 6.0;

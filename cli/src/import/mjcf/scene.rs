@@ -208,15 +208,15 @@ impl<'e> Classes<'e> {
 
     /// Which of these elements a class or its ancestors set attributes for.
     pub fn tags<'t>(&self, class: usize, among: &[&'t str]) -> Vec<&'t str> {
-        let mut found = Vec::new();
+        let mut attributes = Vec::new();
         let mut at = Some(class);
         while let Some(class) = at {
             let class = &self.list[class];
             let is_there = |tag: &&&str| class.elements.iter().any(|element| element.name == **tag);
-            found.extend(among.iter().filter(is_there));
+            attributes.extend(among.iter().filter(is_there));
             at = class.above;
         }
-        found
+        attributes
     }
 
     /// Where the attributes of an element come from: the element itself, then the elements of its class with a name among

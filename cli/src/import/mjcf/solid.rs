@@ -93,10 +93,10 @@ impl Solid {
     }
 
     /// Combines several solids, about their common centre (Steiner).
-    pub fn joined(parts: &[Solid]) -> Solid {
+    pub fn combine(parts: &[Solid]) -> Solid {
         if let [only] = parts {
             return Solid {
-                tensor: cleaned(only.tensor),
+                tensor: without_roundoff(only.tensor),
                 ..only.clone()
             };
         }
@@ -114,12 +114,12 @@ impl Solid {
         Solid {
             mass,
             centre,
-            tensor: cleaned(parts.iter().map(shifted).sum()),
+            tensor: without_roundoff(parts.iter().map(shifted).sum()),
         }
     }
 }
 
-fn cleaned(tensor: Matrix3<f64>) -> Matrix3<f64> {
+fn without_roundoff(tensor: Matrix3<f64>) -> Matrix3<f64> {
     let largest = tensor.amax();
     tensor.map(|entry| {
         if entry.abs() <= ROUNDING * largest {

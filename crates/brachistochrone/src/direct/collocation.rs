@@ -258,10 +258,10 @@ impl Path {
                 beside(k - 1, k, lambdas[k - 1])
             };
         }
-        let mut found: Vec<Stage> = Vec::new();
+        let mut last_stages: Vec<Stage> = Vec::new();
         for k in (0..moments.len()).rev() {
             let PointWithoutMultipliers { q, w, z, .. } = &states[k];
-            let (p, z) = match (k, found.last()) {
+            let (p, z) = match (k, last_stages.last()) {
                 // At rest the values are those of the point after it.
                 (0, Some(after)) => (after.y[m..m + n].to_vec(), after.z.clone()),
                 _ if k == last && level.is_some() => {
@@ -277,13 +277,13 @@ impl Path {
             if !y.iter().chain(&z).all(|x| x.is_finite()) {
                 return None;
             }
-            found.push(Stage { y, z });
+            last_stages.push(Stage { y, z });
         }
-        found.reverse();
-        let last = found.pop()?;
+        last_stages.reverse();
+        let last = last_stages.pop()?;
         let mut nodes: Vec<Vec<f64>> = Vec::new();
         let mut stages = Vec::new();
-        for stretch in found.chunks(POINTS + 1) {
+        for stretch in last_stages.chunks(POINTS + 1) {
             nodes.push(stretch[0].y.clone());
             stages.push(stretch[1..].to_vec());
         }
@@ -385,7 +385,7 @@ impl Path {
         (most, small): (usize, f64),
     ) -> Option<Path> {
         let scales = self.scales(system);
-        let mut rest = self.rest(system, from, to, &scales);
+        let mut rest = self.residuals(system, from, to, &scales);
         for _ in 0..most {
             if budget.is_spent() {
                 return None;
@@ -398,7 +398,7 @@ impl Path {
             let mut part = 1.0;
             for halving in 0..=HALVINGS {
                 let next = self.moved(&step, part);
-                let left = next.rest(system, from, to, &scales);
+                let left = next.residuals(system, from, to, &scales);
                 // A step at the level of round-off cannot reduce the residual, and is accepted.
                 if left < rest || size < small {
                     (self, rest) = (next, left);
@@ -460,7 +460,7 @@ impl Path {
     }
 
     /// The residuals of the conditions, relative to the scales.
-    fn rest(&self, system: &impl Pontryagin, from: &[f64], to: &[f64], scales: &[f64]) -> f64 {
+    fn residuals(&self, system: &impl Pontryagin, from: &[f64], to: &[f64], scales: &[f64]) -> f64 {
         let (m, n) = (system.states(), from.len());
         let rule = Rule::new();
         let h = self.time / self.stretches() as f64;
@@ -733,13 +733,16 @@ fn linearized(
     let (m, c) = (system.states(), system.controls());
     let (rule, wide) = (Rule::new(), 2 * m + c);
     let size = POINTS * wide;
-    let found: Vec<(Vec<f64>, Vec<Vec<f64>>)> = stages
+    let curvatures: Vec<(Vec<f64>, Vec<Vec<f64>>)> = stages
         .iter()
         .map(|stage| system.curvatures(&stage.y, &stage.z))
         .collect();
-    let rate: Vec<Vec<f64>> = found.iter().map(|(s, _)| rates(s, m, |x| -x)).collect();
+    let rate: Vec<Vec<f64>> = curvatures
+        .iter()
+        .map(|(s, _)| rates(s, m, |x| -x))
+        .collect();
     let turn = |row: &Vec<f64>| row.iter().map(|x| -x).collect::<Vec<f64>>();
-    let by: Vec<Vec<Vec<f64>>> = found.iter().map(|(_, s)| rates(s, m, turn)).collect();
+    let by: Vec<Vec<Vec<f64>>> = curvatures.iter().map(|(_, s)| rates(s, m, turn)).collect();
     let mut matrix = std::vec![std::vec![0.0; size]; size];
     let mut right = std::vec![std::vec![0.0; 2 * m + 2]; size];
     for (j, stage) in stages.iter().enumerate() {
@@ -760,8 +763,8 @@ fn linearized(
         }
         for i in 0..c {
             let row = j * wide + 2 * m + i;
-            matrix[row][j * wide..(j + 1) * wide].copy_from_slice(&found[j].1[2 * m + i]);
-            right[row][0] = -found[j].0[2 * m + i];
+            matrix[row][j * wide..(j + 1) * wide].copy_from_slice(&curvatures[j].1[2 * m + i]);
+            right[row][0] = -curvatures[j].0[2 * m + i];
         }
     }
     let factors = Lu::new(matrix)?;

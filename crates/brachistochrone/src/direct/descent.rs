@@ -92,7 +92,7 @@ impl Polygon {
         Polygon { places }
     }
 
-    fn moved(&self, step: &[f64], part: f64) -> Polygon {
+    fn displaced(&self, step: &[f64], part: f64) -> Polygon {
         let n = self.places[0].len();
         let mut places = self.places.clone();
         let last = places.len() - 1;
@@ -137,7 +137,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
         let along: Vec<N> = start.iter().zip(end).map(|(a, b)| *b - *a).collect();
         let kinetic = match (kinetic, before) {
             (Some(kinetic), Some(before)) if self.rough => {
-                kinetic * self.turned(before, start, &along)
+                kinetic * self.energy_factor_of_corner(before, start, &along)
             }
             _ => kinetic.unwrap_or(N::ZERO),
         };
@@ -197,7 +197,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
     }
 
     /// The factor by which a corner changes the energy.
-    fn turned<N: Scalar>(&self, before: &[N], corner: &[N], along: &[N]) -> N {
+    fn energy_factor_of_corner<N: Scalar>(&self, before: &[N], corner: &[N], along: &[N]) -> N {
         let inertia = self.terrain.inertia(corner);
         let came = [corner[0] - before[0], corner[1] - before[1]];
         let half = N::from_f64(0.5);
@@ -327,7 +327,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
     }
 
     /// The longest displacement of a corner, relative to the length of the polygon.
-    fn reach(&self, polygon: &Polygon, step: &[f64]) -> f64 {
+    fn longest_displacement(&self, polygon: &Polygon, step: &[f64]) -> f64 {
         let n = polygon.places[0].len();
         let inertia = self
             .terrain
@@ -340,8 +340,8 @@ impl<'a, T: Terrain> Descent<'a, T> {
             let along: Vec<f64> = pair[0].iter().zip(&pair[1]).map(|(a, b)| b - a).collect();
             length(&along)
         });
-        let whole: f64 = pieces.sum();
-        step.chunks(n).map(length).fold(0.0, f64::max) / whole
+        let total: f64 = pieces.sum();
+        step.chunks(n).map(length).fold(0.0, f64::max) / total
     }
 
     /// Improves a polygon with this energy at the start until its objective is within this fraction of the local minimum,
@@ -371,19 +371,19 @@ impl<'a, T: Terrain> Descent<'a, T> {
             if gain.is_nan() || gain <= part * traversal.objective() {
                 return Ok(());
             }
-            let mut share = (REACH / self.reach(polygon, &step)).min(1.0);
-            let mut found = None;
+            let mut share = (REACH / self.longest_displacement(polygon, &step)).min(1.0);
+            let mut accepted = None;
             for _ in 0..HALVINGS {
-                let next = polygon.moved(&step, share);
+                let next = polygon.displaced(&step, share);
                 let walk_there = self.traversal(&next, added);
                 let least = traversal.objective() - ENOUGH * share * gain;
                 if let Some(there) = walk_there.filter(|there| there.objective() <= least) {
-                    found = Some((next, there));
+                    accepted = Some((next, there));
                     break;
                 }
                 share *= 0.5;
             }
-            let Some((next, there)) = found else {
+            let Some((next, there)) = accepted else {
                 if history.is_empty() {
                     return Ok(()); // Round-off is reached.
                 }

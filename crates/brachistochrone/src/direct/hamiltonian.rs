@@ -154,11 +154,11 @@ impl<T: Terrain> Driven<T> {
         let rows = (0..=free).map(|i| columns.iter().map(|column| column[i]).collect());
         let mut right: Vec<f64> = known.iter().map(|x| -lambda * x).collect();
         right[free] += 1.0;
-        let mut found = Lu::new(rows.collect())?.solve(&right);
-        let own = found.split_off(n);
+        let mut solution = Lu::new(rows.collect())?.solve(&right);
+        let own = solution.split_off(n);
         let mut z = control[..free].to_vec();
         z.extend(own);
-        Some((found, z))
+        Some((solution, z))
     }
 
     /// `ln E` and `ln √φ` of (9), differentiated along the direction in which the position is dual.

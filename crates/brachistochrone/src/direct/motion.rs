@@ -8,7 +8,7 @@ use super::hamiltonian::Driven;
 use super::pontryagin::Pontryagin;
 use super::rule::{Rule, through};
 use crate::linear::{Cholesky, Lu, dot};
-use crate::solution::{Lapse, Moment, lapses};
+use crate::solution::{Lapse, Moment, violations};
 use crate::trial::{Outcome, Trial};
 
 /// The number of moments at which guides and sudden turns are checked.
@@ -48,17 +48,17 @@ impl<T: Terrain> Sought<T> {
     }
 
     /// All trials and their outcomes; this motion is the fastest of those that were found.
-    pub fn tried(&self) -> &[Trial] {
+    pub fn trials(&self) -> &[Trial] {
         &self.tried
     }
 
     /// The durations of other local minima, in s, the fastest first; none is less than that of this motion.
     pub fn others(&self) -> Vec<f64> {
-        let found = self.tried.iter().filter_map(|trial| match trial.outcome {
+        let durations = self.tried.iter().filter_map(|trial| match trial.outcome {
             Outcome::Found { time } => Some(time),
             _ => None,
         });
-        let mut times: Vec<f64> = found.collect();
+        let mut times: Vec<f64> = durations.collect();
         times.sort_by(f64::total_cmp);
         times.drain(..times.len().min(1));
         times
@@ -68,7 +68,10 @@ impl<T: Terrain> Sought<T> {
     /// that is a local minimum. While there are any, this motion may not be the fastest.
     pub fn doubts(&self) -> Vec<f64> {
         let time = self.time();
-        let doubts = self.tried.iter().filter_map(|trial| trial.doubt(time));
+        let doubts = self
+            .tried
+            .iter()
+            .filter_map(|trial| trial.shorter_duration_of_unfinished(time));
         doubts.collect()
     }
 
@@ -107,9 +110,9 @@ impl<T: Terrain> Sought<T> {
     /// States and multipliers at a time, by integrating one stretch from the last node before it.
     fn stage(&self, time: f64) -> Stage {
         let count = self.stretches();
-        let whole = (time / self.time()).clamp(0.0, 1.0) * count as f64;
-        let k = (whole as usize).min(count - 1);
-        let part = whole - k as f64;
+        let position = (time / self.time()).clamp(0.0, 1.0) * count as f64;
+        let k = (position as usize).min(count - 1);
+        let part = position - k as f64;
         let (start, old) = (&self.path.nodes[k], &self.path.stages[k]);
         let points = Rule::new().points;
         let mut states = std::vec![(0.0, start.as_slice())];
@@ -208,7 +211,7 @@ impl<T: Terrain> Sought<T> {
     }
 
     /// Guides that slip backwards, or whose reaction becomes negative.
-    pub fn lapses(&self) -> Vec<Lapse> {
+    pub fn violations(&self) -> Vec<Lapse> {
         let looks = (0..=CHECK_POINTS)
             .map(|k| self.at(self.time() * f64::from(k) / f64::from(CHECK_POINTS)));
         let moments: Vec<Moment> = looks.collect();
@@ -216,7 +219,7 @@ impl<T: Terrain> Sought<T> {
             let terrain = &self.system.terrain;
             terrain.contacts(&moment.q, &moment.direction, &moment.a).0[guide].slip
         };
-        lapses(&self.system.terrain.guides(), &moments, slip)
+        violations(&self.system.terrain.guides(), &moments, slip)
     }
 
     /// The range of sudden turns of the direction, in rad, among which none would be faster at any moment (Weierstrass);

@@ -18,10 +18,10 @@ pub trait Pontryagin {
         let slopes = (0..numbers.len()).map(|i| {
             numbers[i].derivative = 1.0;
             let (y, z) = numbers.split_at(y.len());
-            let found = self.value(y, z);
+            let dual = self.value(y, z);
             numbers[i].derivative = 0.0;
-            value = found.value;
-            found.derivative
+            value = dual.value;
+            dual.derivative
         });
         let slopes = slopes.collect();
         (value, slopes)
@@ -39,10 +39,10 @@ pub trait Pontryagin {
             for j in 0..=i {
                 numbers[j].value.derivative = 1.0;
                 let (y, z) = numbers.split_at(y.len());
-                let found = self.value(y, z).derivative;
+                let slope = self.value(y, z).derivative;
                 numbers[j].value.derivative = 0.0;
-                slopes[i] = found.value;
-                (second[i][j], second[j][i]) = (found.derivative, found.derivative);
+                slopes[i] = slope.value;
+                (second[i][j], second[j][i]) = (slope.derivative, slope.derivative);
             }
             numbers[i].derivative = Dual::constant(0.0);
         }

@@ -11,7 +11,7 @@ use super::descent::{Descent, Polygon, Stop, Traversal};
 use super::frozen::frozen;
 use super::hamiltonian::Driven;
 use super::motion::Sought;
-use super::ways::{PIECES, guessed, ways};
+use super::ways::{PIECES, guessed, initial_paths};
 use super::{SKEW, Terrain, between, rows, symmetric};
 use crate::error::Unsolved;
 use crate::linear::{Cholesky, Matrix, dot};
@@ -135,9 +135,9 @@ impl Search {
             stretches: self.stretches,
         };
         let mut tried = Vec::new();
-        let found = if looks {
-            let mut found = hunt.follow(starts, &mut tried);
-            if let Some(smooth) = smooth.filter(|_| may_be_improved(&found, &tried)) {
+        let motions = if looks {
+            let mut motions = hunt.continue_from(starts, &mut tried);
+            if let Some(smooth) = smooth.filter(|_| may_be_improved(&motions, &tried)) {
                 budget.allow(budget.spent() + self.budget);
                 let smooth = Counted::new(&smooth, &budget);
                 let starts = self.starts(&smooth, from, to);
@@ -147,22 +147,22 @@ impl Search {
                     level: None,
                     ..hunt
                 };
-                hunt.add_motions_with_friction(&without, starts, &mut found, &mut tried);
+                hunt.add_motions_with_friction(&without, starts, &mut motions, &mut tried);
             }
             // Closed forms have no finite multipliers if the ends are level.
-            if found.is_empty() && hunt.level.is_none() {
+            if motions.is_empty() && hunt.level.is_none() {
                 let (outcome, smooth) = hunt.continued_from_frozen(tried.len());
                 tried.push(Trial {
                     start: Start::Frozen,
                     outcome,
                 });
-                found.extend(smooth);
+                motions.extend(smooth);
             }
-            fastest(found)
+            fastest(motions)
         } else {
             None
         };
-        let Some(Smooth { path, change, .. }) = found else {
+        let Some(Smooth { path, change, .. }) = motions else {
             return Err(if falls && rise.work >= 0.0 {
                 Unsolved::NotBelow { rise: rise.work }
             } else {
@@ -184,7 +184,7 @@ impl Search {
     fn starts(&self, terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Polygon)> {
         let guesses = self.guesses.iter();
         let guesses = guesses.map(|places| (Start::Guess, guessed(terrain, places, from, to)));
-        guesses.chain(ways(terrain, from, to)).collect()
+        guesses.chain(initial_paths(terrain, from, to)).collect()
     }
 
     fn refuse_lists(&self, n: usize, from: &[f64], to: &[f64]) -> Result<(), Unsolved> {
@@ -192,22 +192,22 @@ impl Search {
         let places = places.map(|place| ("a position of the guess", place));
         let ends = [("the start", from), ("the end", to)];
         for (what, list) in ends.into_iter().chain(places) {
-            let found = list.len();
-            if found != n || n == 0 {
+            let length = list.len();
+            if length != n || n == 0 {
                 let expected = n.max(1);
                 return Err(Unsolved::Size {
-                    what,
+                    list: what,
                     expected,
-                    found,
+                    found: length,
                 });
             }
             if !list.iter().all(|x| x.is_finite()) {
-                return Err(Unsolved::NotFinite { what });
+                return Err(Unsolved::NotFinite { list: what });
             }
         }
         if let Some(short) = self.guesses.iter().find(|places| places.len() < 2) {
             return Err(Unsolved::Size {
-                what: "the guess",
+                list: "the guess",
                 expected: 2,
                 found: short.len(),
             });
@@ -233,15 +233,15 @@ struct SearchState<'a, T> {
 
 impl<T: Terrain> SearchState<'_, T> {
     /// Adds the motions to which these starts lead.
-    fn follow(&self, starts: Vec<(Start, Polygon)>, tried: &mut Vec<Trial>) -> Vec<Smooth> {
-        let mut found: Vec<Smooth> = Vec::new();
+    fn continue_from(&self, starts: Vec<(Start, Polygon)>, tried: &mut Vec<Trial>) -> Vec<Smooth> {
+        let mut motions: Vec<Smooth> = Vec::new();
         for candidate in self.candidates(starts, tried) {
             let trial = candidate.trial;
-            let (outcome, smooth) = self.smoothed(candidate, &found);
+            let (outcome, smooth) = self.smoothed(candidate, &motions);
             tried[trial].outcome = outcome;
-            found.extend(smooth);
+            motions.extend(smooth);
         }
-        found
+        motions
     }
 
     /// Adds the motions found by continuation in friction, from those of the machine without friction.
@@ -305,14 +305,14 @@ impl<T: Terrain> SearchState<'_, T> {
 
     /// Distinct polygons of locally least time, the fastest first; every start is recorded as a trial.
     fn candidates(&self, starts: Vec<(Start, Polygon)>, tried: &mut Vec<Trial>) -> Vec<Candidate> {
-        let mut found: Vec<Candidate> = Vec::new();
+        let mut candidates: Vec<Candidate> = Vec::new();
         for (start, mut polygon) in starts {
             let trial = tried.len();
             let made_traversable = self.descent.made_traversable(&mut polygon);
             let traversed = made_traversable.and_then(|_| self.descent.fastest(&mut polygon));
             let outcome = match traversed {
                 Ok(traversal) => {
-                    let same = found.iter().find(|known| {
+                    let same = candidates.iter().find(|known| {
                         let far =
                             distance(&self.system.terrain, &known.polygon.places, &polygon.places);
                         far < SAME[1]
@@ -321,7 +321,7 @@ impl<T: Terrain> SearchState<'_, T> {
                     match same {
                         Some(known) => Outcome::Same { trial: known.trial },
                         None => {
-                            found.push(Candidate {
+                            candidates.push(Candidate {
                                 trial,
                                 polygon,
                                 traversal,
@@ -335,8 +335,8 @@ impl<T: Terrain> SearchState<'_, T> {
             };
             tried.push(Trial { start, outcome });
         }
-        found.sort_by(|a, b| a.traversal.time().total_cmp(&b.traversal.time()));
-        found
+        candidates.sort_by(|a, b| a.traversal.time().total_cmp(&b.traversal.time()));
+        candidates
     }
 
     /// The smooth motion near a polygon.
@@ -390,7 +390,7 @@ impl<T: Terrain> SearchState<'_, T> {
 
     /// The path with converged duration, if it is new and a local minimum.
     fn classified(&self, trial: usize, path: Path, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
-        let Some((path, change)) = self.settled(path) else {
+        let Some((path, change)) = self.refine(path) else {
             return (Outcome::Unfinished, None);
         };
         let same = known.iter().find(|known| {
@@ -425,7 +425,7 @@ impl<T: Terrain> SearchState<'_, T> {
 
     /// Halves the stretches until the duration converges, or the budget is exhausted; returns the path with the
     /// last change of duration, in s.
-    fn settled(&self, mut path: Path) -> Option<(Path, f64)> {
+    fn refine(&self, mut path: Path) -> Option<(Path, f64)> {
         let mut change = f64::INFINITY;
         let most = self.stretches.unwrap_or(STRETCHES);
         let [from, to] = self.ends;
@@ -489,7 +489,10 @@ fn fastest(found: Vec<Smooth>) -> Option<Smooth> {
 fn may_be_improved(found: &[Smooth], tried: &[Trial]) -> bool {
     let best = found.iter().map(|smooth| smooth.path.time);
     let best = best.fold(f64::INFINITY, f64::min);
-    found.is_empty() || tried.iter().any(|trial| trial.doubt(best).is_some())
+    found.is_empty()
+        || tried
+            .iter()
+            .any(|trial| trial.shorter_duration_of_unfinished(best).is_some())
 }
 
 /// Whether two machines differ anywhere on the straight path, at rest.
@@ -515,9 +518,9 @@ fn distance(terrain: &impl Terrain, one: &[Vec<f64>], other: &[Vec<f64>]) -> f64
             .sum();
         square.max(0.0).sqrt()
     };
-    let whole: f64 = one.windows(2).map(|pair| apart(&pair[0], &pair[1])).sum();
+    let total: f64 = one.windows(2).map(|pair| apart(&pair[0], &pair[1])).sum();
     let pairs = one.iter().zip(other);
-    pairs.map(|(x, y)| apart(x, y)).fold(0.0, f64::max) / whole
+    pairs.map(|(x, y)| apart(x, y)).fold(0.0, f64::max) / total
 }
 
 /// Columns orthonormal in the metric `sym A` of the start, which define the frame of directions.

@@ -13,14 +13,14 @@ pub const PIECES: usize = 16;
 const ASIDE: [&[f64]; 2] = [&[0.35, 1.0], &[0.5]];
 
 /// The straight path, and paths that deviate to either side of it, orthogonally in the metric of its middle.
-pub fn ways(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Polygon)> {
+pub fn initial_paths(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Polygon)> {
     let n = from.len();
     let metric = symmetric(terrain.inertia(&between(from, to, 0.5)), n);
     let product =
         |x: &[f64], y: &[f64]| -> f64 { (0..n * n).map(|k| metric[k] * x[k / n] * y[k % n]).sum() };
     let straight: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
     let length = product(&straight, &straight).max(0.0).sqrt();
-    let mut found = std::vec![(Start::Straight, bowed(from, to, &std::vec![0.0; n]))];
+    let mut paths = std::vec![(Start::Straight, bowed(from, to, &std::vec![0.0; n]))];
     // Gram–Schmidt orthogonalization; the unit vector nearest to the straight path is left out.
     let mut across: Vec<Vec<f64>> = std::vec![straight.iter().map(|x| x / length).collect()];
     let share = |i: &usize| product(&across[0], &unit(n, *i)).abs() / metric[i * n + i].sqrt();
@@ -41,11 +41,11 @@ pub fn ways(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Pol
             for side in [1.0, -1.0] {
                 let by: Vec<f64> = direction.iter().map(|x| side * part * length * x).collect();
                 let polygon = bowed(from, to, &by);
-                found.push((Start::Bowed { by }, polygon));
+                paths.push((Start::Bowed { by }, polygon));
             }
         }
     }
-    found
+    paths
 }
 
 fn unit(n: usize, i: usize) -> Vec<f64> {
@@ -77,17 +77,17 @@ pub fn guessed(terrain: &impl Terrain, places: &[Vec<f64>], from: &[f64], to: &[
     let n = from.len();
     let metric = symmetric(terrain.inertia(&between(from, to, 0.5)), n);
     let mut lengths = std::vec![0.0];
-    let mut whole = 0.0;
+    let mut sum = 0.0;
     for pair in places.windows(2) {
         let along: Vec<f64> = pair[0].iter().zip(&pair[1]).map(|(a, b)| b - a).collect();
         let mass: Vec<f64> = metric.chunks(n).map(|row| dot(row, &along)).collect();
-        whole += dot(&along, &mass).max(0.0).sqrt();
-        lengths.push(whole);
+        sum += dot(&along, &mass).max(0.0).sqrt();
+        lengths.push(sum);
     }
     let [first, last] = [&places[0], &places[places.len() - 1]];
     let place = |k: usize| {
         let part = (k as f64 / PIECES as f64).powi(2);
-        let length = part * whole;
+        let length = part * sum;
         let after = lengths
             .partition_point(|l| *l < length)
             .clamp(1, places.len() - 1);

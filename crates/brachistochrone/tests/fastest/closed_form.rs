@@ -116,7 +116,7 @@ fn the_papers_example_to_thirteen_digits() {
     };
     close("N₂", reactions(0), 22.9868432, 1e-6);
     close("N₁/cos α", reactions(1), 5.5393470, 1e-6);
-    assert_eq!(motion.lapses(), vec![]);
+    assert_eq!(motion.violations(), vec![]);
 }
 
 /// A polyline of N pieces is slower than the fastest motion; for large N the relative difference is proportional to N⁻².
@@ -841,12 +841,12 @@ fn a_reaction_that_becomes_negative_is_told() {
     let problem = problem.with_guide(wire).unwrap();
     // At the start it falls at nearly g, so the reaction g − 2 q̈ is negative.
     let motion = problem.solve(&[0.0, 0.0], &[1.0, 1.0]).unwrap();
-    let lapses = motion.lapses();
+    let lapses = motion.violations();
     assert_eq!(lapses.len(), 1, "{lapses:?}");
     assert!(
         !lapses[0].backwards && lapses[0].least < 0.0 && lapses[0].time == 0.0,
         "{lapses:?}"
     );
     let back = problem.solve(&[0.0, 0.0], &[-1.0, 1.0]).unwrap();
-    assert!(back.lapses().iter().any(|lapse| lapse.backwards));
+    assert!(back.violations().iter().any(|lapse| lapse.backwards));
 }

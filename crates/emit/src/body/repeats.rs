@@ -139,7 +139,7 @@ pub trait Loops: Language {
     /// A variable that may be set again.
     fn variable_to_set(&self, writer: &mut Writer, name: &str, value: &str);
     /// Sets a variable or an element.
-    fn set(&self, writer: &mut Writer, what: &str, value: &str);
+    fn set(&self, writer: &mut Writer, target: &str, value: &str);
     /// The head of a loop that counts from 0; without a name the counter is not used.
     fn open_loop(&self, writer: &mut Writer, counter: Option<&str>, count: usize);
     /// A guard whose coordinate depends on the counter.

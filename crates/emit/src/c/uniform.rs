@@ -315,8 +315,8 @@ impl Emitter<'_> {
         writer.gap();
         writer.line("/* Coordinates and their rates at the start. */");
         writer.open("static void unitStart(const double *x, double *to) {");
-        let given = program.start.results.len();
-        for i in given..2 * program.dimension() {
+        let count = program.start.results.len();
+        for i in count..2 * program.dimension() {
             writer.line(format!("to[{i}] = 0.0;"));
         }
         self.fill_parameters(writer);

@@ -431,10 +431,13 @@ impl Emitter<'_> {
                 ("order", format!("{runtime}::ImpactOrder::{order}")),
                 ("painleve", format!("{runtime}::Painleve::{painleve}")),
                 ("compliance", compliance),
-                ("rubs", contact.has_friction.to_string()),
-                ("rolls", contact.is_rolling_resistance.to_string()),
-                ("across", contact.is_second_tangent.to_string()),
-                ("faced", contact.has_face.to_string()),
+                ("has_friction", contact.has_friction.to_string()),
+                (
+                    "is_rolling_resistance",
+                    contact.is_rolling_resistance.to_string(),
+                ),
+                ("is_second_tangent", contact.is_second_tangent.to_string()),
+                ("has_face", contact.has_face.to_string()),
             ];
             let fields = fields.map(|(name, value)| (name.to_owned(), Layout::Atom(value)));
             Layout::Struct(format!("{runtime}::UnilateralContact"), fields.to_vec())

@@ -137,8 +137,8 @@ impl Language for Rust<'_> {
         Some(Text::call(format!("{a}.{method}({}, {})", b.text, c.text)))
     }
 
-    fn pack(&self, what: PackedOperation, operands: &[[Text; 2]]) -> Option<String> {
-        let method = match what {
+    fn pack(&self, operation: PackedOperation, operands: &[[Text; 2]]) -> Option<String> {
+        let method = match operation {
             PackedOperation::Add => "add_each",
             PackedOperation::Sub => "sub_each",
             PackedOperation::Mul => "mul_each",
@@ -147,8 +147,8 @@ impl Language for Rust<'_> {
             PackedOperation::Contraction(Contracted::Sub) => "mul_sub_each",
             PackedOperation::Contraction(Contracted::SubFrom) => "neg_mul_add_each",
         };
-        let both = |[a, b]: &[Text; 2]| format!("[{}, {}]", a.text, b.text);
-        let operands: Vec<String> = operands.iter().map(both).collect();
+        let array = |[a, b]: &[Text; 2]| format!("[{}, {}]", a.text, b.text);
+        let operands: Vec<String> = operands.iter().map(array).collect();
         Some(format!(
             "{}::{method}({})",
             self.number(),
@@ -202,8 +202,8 @@ impl Loops for Rust<'_> {
     fn places(&self, source: Source) -> Vec<ArrayElement> {
         let emitter = self.emitter;
         let element = |array: &str, index: u32| {
-            let whole = self.loaded(format!("{array}[@]"));
-            let (before, after) = whole.split_once('@').unwrap_or((&whole, ""));
+            let element = self.loaded(format!("{array}[@]"));
+            let (before, after) = element.split_once('@').unwrap_or((&element, ""));
             ArrayElement::new(before, index as usize, after)
         };
         match source {
@@ -243,8 +243,8 @@ impl Loops for Rust<'_> {
         writer.statement(&format!("let mut {name} ="), &format!("{value};"));
     }
 
-    fn set(&self, writer: &mut Writer, what: &str, value: &str) {
-        writer.statement(&format!("{what} ="), &format!("{value};"));
+    fn set(&self, writer: &mut Writer, target: &str, value: &str) {
+        writer.statement(&format!("{target} ="), &format!("{value};"));
     }
 
     fn open_loop(&self, writer: &mut Writer, counter: Option<&str>, count: usize) {

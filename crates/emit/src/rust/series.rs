@@ -150,7 +150,7 @@ impl Emitter<'_> {
         Some(series.series().clone())
     }
 
-    fn written(&self, series: &Series) -> SeriesCode {
+    fn generate(&self, series: &Series) -> SeriesCode {
         written(series, &self.types.register, &self.inputs.paths)
     }
 
@@ -162,7 +162,7 @@ impl Emitter<'_> {
     /// The constants of the series in `prepare`: their field, its type and its value.
     pub(super) fn constants_of_series(&mut self) -> Option<(String, Layout)> {
         let series = self.series()?;
-        let constants = self.written(&series).constants;
+        let constants = self.generate(&series).constants;
         if constants.is_empty() {
             return None;
         }
@@ -180,7 +180,7 @@ impl Emitter<'_> {
     /// The number of constants of the series.
     pub(super) fn number_of_constants_of_series(&self) -> Option<usize> {
         let series = self.series()?;
-        let count = self.written(&series).constants.len();
+        let count = self.generate(&series).constants.len();
         (count > 0).then_some(count)
     }
 
@@ -241,7 +241,7 @@ impl Emitter<'_> {
         let Some(series) = self.series() else {
             return;
         };
-        let written = self.written(&series);
+        let written = self.generate(&series);
         self.struct_of_lists(&written.packs);
         let runtime = self.options.runtime.clone();
         let Types {

@@ -86,13 +86,13 @@ impl Emitter<'_> {
         let n = self.program.dimension();
         let f64 = self.types.known("f64");
         let vector = format!("[{f64}; {n}]");
-        let error = |what: &str| {
+        let result_type = |ok_type: &str| {
             format!(
-                "{}<{what}, {runtime}::Singular>",
+                "{}<{ok_type}, {runtime}::Singular>",
                 self.types.known("Result")
             )
         };
-        let (position_result, last_result) = (error("Self::AtPosition"), error("()"));
+        let (position_result, last_result) = (result_type("Self::AtPosition"), result_type("()"));
         let after_time = if time {
             self.types.at_time.clone()
         } else {

@@ -165,21 +165,21 @@ impl Emitter<'_> {
             .chunks(2)
             .map(|pair| [pair[0].clone(), pair[1].clone()])
             .collect();
-        let mut found = Vec::new();
+        let mut rows = Vec::new();
         for (i, (constant, list)) in self.lists_of_pivots(function, &pivots).iter().enumerate() {
             let name = match i {
                 0 => "pivots".to_owned(),
                 i => format!("pivots_{i}"),
             };
             self.writer.expression(&format!("let {name} = "), list, ";");
-            found.push(match i {
+            rows.push(match i {
                 0 => format!("{constant}.vanished({name})"),
                 _ => format!(".or({constant}.vanished({name}))"),
             });
         }
         let prepared = match self.prepared_literal(|slot| values[slot].clone(), &families) {
             Layout::Struct(name, mut fields) if !function.guards.is_empty() => {
-                fields.push(("singular".into(), Layout::Atom(found.concat())));
+                fields.push(("singular".into(), Layout::Atom(rows.concat())));
                 Layout::Struct(name, fields)
             }
             prepared => prepared,

@@ -187,7 +187,7 @@ fn errors_are_as_large_as_covariances_say() {
         let mut fit = fit(columns, sigmas.to_vec());
         let minimum = fit.search(&[28.0, 0.5, 0.19, -0.4]).expect("a minimum");
         assert!(minimum.ending.is_minimum());
-        let found = fit.found(minimum, false).expect("statistics");
+        let found = fit.result(minimum, false).expect("statistics");
         let off = found.minimum.x.iter().zip(TRUTH).map(|(x, y)| x - y);
         let off = DVector::from_iterator(4, off);
         let covariance = &found.statistics.covariance;

@@ -61,8 +61,10 @@ impl Phase {
         Phase {
             modes: vec![ContactMode::Open; contacts().len()],
             compliances: contacts().map(|contact| contact.compliance).collect(),
-            rolls: contacts().map(|contact| contact.rolls).collect(),
-            has_friction: contacts().map(|contact| contact.rubs).collect(),
+            rolls: contacts()
+                .map(|contact| contact.is_rolling_resistance)
+                .collect(),
+            has_friction: contacts().map(|contact| contact.has_friction).collect(),
             layers: vec![layer; contacts().len()],
             constraints: system.constraints().len(),
         }
@@ -98,7 +100,7 @@ pub(crate) struct Place<'i> {
     /// Normal and tangential rates of each contact.
     pub rates: Vec<Number>,
     rows: Vec<Number>,
-    drifts: Vec<Number>,
+    biases: Vec<Number>,
     /// Normal and tangential restitution, friction and static friction of each contact.
     coefficients: Vec<Number>,
     mass: Vec<Number>,
@@ -156,7 +158,7 @@ impl<'i> Place<'i> {
             gaps: call(Role::Gaps, contacts)?,
             rates: call(Role::ContactRates, 2 * contacts)?,
             rows: call(Role::ContactMatrix, 2 * contacts * n)?,
-            drifts: call(Role::ContactDrift, 2 * contacts)?,
+            biases: call(Role::ContactBias, 2 * contacts)?,
             coefficients: call(Role::ContactCoefficients, 4 * contacts)?,
             held: call(Role::ConstraintMatrix, phase.constraints * n)?,
             mass,
@@ -181,7 +183,7 @@ impl<'i> Place<'i> {
 
     /// The rate of change of the rate in a direction, for accelerations `a`.
     pub fn acceleration(&self, direction: usize, a: &[Number]) -> Number {
-        self.drifts[direction] + dot(self.row(direction), a)
+        self.biases[direction] + dot(self.row(direction), a)
     }
 
     /// The accelerations without contact forces.
@@ -327,10 +329,10 @@ impl<'i> Place<'i> {
             row[..n].copy_from_slice(&sought.row);
             row[size] = sought.change;
         }
-        let mut found = eliminate(&mut rows, size)?;
-        let forces = found.split_off(n + m);
-        found.truncate(n);
-        Some((found, forces))
+        let mut accelerations = eliminate(&mut rows, size)?;
+        let forces = accelerations.split_off(n + m);
+        accelerations.truncate(n);
+        Some((accelerations, forces))
     }
 }
 
@@ -374,13 +376,13 @@ fn eliminate(rows: &mut [Number], size: usize) -> Option<Vec<Number>> {
             }
         }
     }
-    let mut found = vec![ZERO; size];
+    let mut solution = vec![ZERO; size];
     for k in (0..size).rev() {
         let row = &rows[k * width..][..width];
-        let known = (k + 1..size).fold(row[size], |sum, j| sum - row[j] * found[j]);
-        found[k] = known / row[k];
+        let known = (k + 1..size).fold(row[size], |sum, j| sum - row[j] * solution[j]);
+        solution[k] = known / row[k];
     }
-    Some(found)
+    Some(solution)
 }
 
 /// Adds a multiple of a row.

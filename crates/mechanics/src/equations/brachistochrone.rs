@@ -141,13 +141,13 @@ impl<'d> Brachistochronic<'d> {
         let name = |i: usize| model.coordinates[i].name.to_string();
         let mass = (0..n).map(|i| {
             let entries = (0..n).map(|j| {
-                let what = format!(
+                let entry_name = format!(
                     "the mass a of `{}` and `{}`",
                     name(i.max(j)),
                     name(i.min(j))
                 );
                 let entry = *equations.mass_matrix.get(i.max(j), i.min(j));
-                checked(model, entry, &what, of_place, &mut unmet)
+                checked(model, entry, &entry_name, of_place, &mut unmet)
             });
             entries.collect()
         });
@@ -166,20 +166,20 @@ impl<'d> Brachistochronic<'d> {
             .filter_map(|sliding| sliding_guide(model, sliding, [of_place, of_motion], &mut unmet))
             .collect();
         // The matrix is symmetric, and each entry is reported once.
-        let mut told = Vec::new();
+        let mut distinct = Vec::new();
         for condition in unmet {
-            if !told.contains(&condition) {
-                told.push(condition);
+            if !distinct.contains(&condition) {
+                distinct.push(condition);
             }
         }
-        if told.is_empty() {
+        if distinct.is_empty() {
             Ok(Brachistochronic {
                 mass,
                 slope,
                 guides,
             })
         } else {
-            Err(told)
+            Err(distinct)
         }
     }
 }
@@ -197,12 +197,18 @@ fn sliding_guide<'d>(
         });
         return None;
     };
-    let mut of = |value: Expr<'d>, what: &str, reach: Dependence| {
-        checked(model, value, &format!("{what} of `{name}`"), reach, unmet)
+    let mut of = |value: Expr<'d>, coefficient: &str, reach: Dependence| {
+        checked(
+            model,
+            value,
+            &format!("{coefficient} of `{name}`"),
+            reach,
+            unmet,
+        )
     };
-    let mut each = |list: &[Expr<'d>], what: &str| -> Vec<Expr<'d>> {
+    let mut each = |list: &[Expr<'d>], coefficient: &str| -> Vec<Expr<'d>> {
         list.iter()
-            .map(|&value| of(value, what, of_place))
+            .map(|&value| of(value, coefficient, of_place))
             .collect()
     };
     let along = each(&sliding.row, "the direction");
@@ -241,7 +247,7 @@ enum Dependence {
 fn checked<'d>(
     model: &Model<'d>,
     value: Expr<'d>,
-    what: &str,
+    coefficient: &str,
     reach: Dependence,
     unmet: &mut Vec<UnmetCondition>,
 ) -> Expr<'d> {
@@ -268,7 +274,7 @@ fn checked<'d>(
     let found = named.into_iter().find(|(symbol, _)| changes(symbol));
     if found.is_some() || reach == Dependence::Parameters {
         unmet.push(UnmetCondition::Varies {
-            coefficient: what.to_owned(),
+            coefficient: coefficient.to_owned(),
             variable: found.map_or_else(|| "the motion".to_owned(), |(_, name)| name),
         });
     }

@@ -102,15 +102,15 @@ impl Carrying {
 /// Reports for every guide what leaves its reaction undetermined. Returns true if anything does.
 pub(super) fn refuse_undetermined_reactions(model: &Model<'_>, report: &mut Report) -> bool {
     let mut tested = Vec::new();
-    let mut found = Motion::<Residue>::of(model)
+    let mut errors = Motion::<Residue>::of(model)
         .map_or_else(Vec::new, |motion| motion.errors(model, &mut tested));
     // Ordinary numbers are used if the prime field has no values for the motion, or for some of the forces.
-    if found.is_empty() && (tested.is_empty() || tested.contains(&false)) {
-        found = Motion::<f64>::of(model)
+    if errors.is_empty() && (tested.is_empty() || tested.contains(&false)) {
+        errors = Motion::<f64>::of(model)
             .map_or_else(Vec::new, |motion| motion.errors(model, &mut tested));
     }
-    let refused = !found.is_empty();
-    found.into_iter().for_each(|found| report.push(found));
+    let refused = !errors.is_empty();
+    errors.into_iter().for_each(|found| report.push(found));
     refused
 }
 
@@ -430,9 +430,9 @@ impl<T: Number> Motion<T> {
             let mut pairs = target.iter().zip(column);
             pairs.all(|(&x, &y)| is_zero(x - factor * y))
         };
-        let found = columns[..self.coordinates].iter().position(fits)?;
+        let fitting = columns[..self.coordinates].iter().position(fits)?;
         let mut solved = vec![T::ZERO; columns.len()];
-        solved[found] = target[row] / columns[found][row];
+        solved[fitting] = target[row] / columns[fitting][row];
         Some(solved)
     }
 
@@ -706,12 +706,12 @@ impl<T: Number> Motion<T> {
             unconnected.fill(false);
         }
         let pairs = self.parts.iter().zip(&unconnected);
-        let found: Vec<Diagnostic> = pairs
+        let diagnostics: Vec<Diagnostic> = pairs
             .filter(|(_, unconnected)| **unconnected)
             .map(|(part, _)| unconnected_part(model, guide, part.kind))
             .collect();
-        if !found.is_empty() {
-            return found;
+        if !diagnostics.is_empty() {
+            return diagnostics;
         }
         let message = format!(
             "something moves with `{body}`, but the spec does not state what connects them: what the guide `{name}` carries is not determined"
@@ -722,15 +722,15 @@ impl<T: Number> Motion<T> {
 }
 
 /// The message for a part that moves with the body of a guide without being tied to it.
-fn unconnected_part(model: &Model<'_>, guide: usize, what: PartKind) -> Diagnostic {
+fn unconnected_part(model: &Model<'_>, guide: usize, part: PartKind) -> Diagnostic {
     let sliding = model.sliding()[guide];
     let (body, name) = (&model.bodies[sliding.body].name, sliding.name_in_spec());
-    let message = |what: &str| {
+    let message = |subject: &str| {
         format!(
-            "{what} moves with `{body}`, but the spec does not state what connects them: what the guide `{name}` carries is not determined"
+            "{subject} moves with `{body}`, but the spec does not state what connects them: what the guide `{name}` carries is not determined"
         )
     };
-    let diagnostic = match what {
+    let diagnostic = match part {
         PartKind::Body(other) => {
             let other = &model.bodies[other];
             let message = message(&format!("`{}`", other.name));
@@ -808,9 +808,9 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
     ) {
         let Element { name, span, .. } = element;
         let by_place = &self.relaxed.x.q;
-        let what = format!("the {} `{name}`", element.section.noun);
-        let mut acting = |expression, by, what: &str| {
-            test(&|| self.force_of_expression((expression, by), what, *span));
+        let owner = format!("the {} `{name}`", element.section.noun);
+        let mut acting = |expression, by, subject: &str| {
+            test(&|| self.force_of_expression((expression, by), subject, *span));
         };
         match contribution {
             Contribution::Stored(Energy::Quadratic(of))
@@ -818,32 +818,32 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
                 if of.torsional {
                     acting(of.measure, by_place, &format!("the twist of `{name}`"))
                 } else {
-                    let what = format!("the stretch of {what}");
-                    test(&|| self.stretch(of.measure, &what, *span));
+                    let subject = format!("the stretch of {owner}");
+                    test(&|| self.stretch(of.measure, &subject, *span));
                 }
             }
             Contribution::Stored(Energy::Given(value)) => {
                 let parts = addends(*value).into_iter();
-                parts.for_each(|part| acting(part, by_place, &what));
+                parts.for_each(|part| acting(part, by_place, &owner));
             }
             Contribution::Dissipated(Energy::Given(value)) => {
                 let parts = addends(*value).into_iter();
-                parts.for_each(|part| acting(part, &self.relaxed.x.v, &what));
+                parts.for_each(|part| acting(part, &self.relaxed.x.v, &owner));
             }
             Contribution::Load(Load::Point { at, force }) => {
-                test(&|| self.force_at_point(&what, (at, force), *span));
+                test(&|| self.force_at_point(&owner, (at, force), *span));
             }
             Contribution::Load(Load::Coordinate { coordinate, .. }) => {
                 let on = self.relaxed.model.coordinates[*coordinate].q;
-                acting(on, by_place, &what);
+                acting(on, by_place, &owner);
             }
             Contribution::Load(Load::Along {
                 measure, torsional, ..
             }) => {
                 if *torsional {
-                    acting(*measure, by_place, &what)
+                    acting(*measure, by_place, &owner)
                 } else {
-                    test(&|| self.stretch(*measure, &what, *span))
+                    test(&|| self.stretch(*measure, &owner, *span))
                 }
             }
             // A torque acts on a body that is known to turn; the others act on bodies directly.
@@ -924,11 +924,11 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
         }))
     }
 
-    fn diagnostic(&self, guide: usize, span: Span, what: &str, help: &str) -> Diagnostic {
+    fn diagnostic(&self, guide: usize, span: Span, subject: &str, help: &str) -> Diagnostic {
         let sliding = self.model.sliding()[guide];
         let body = &self.model.bodies[sliding.body].name;
         let message = format!(
-            "{what} moves with `{body}` but is not expressed by the position of `{body}`: its force across the guide `{}` is not determined",
+            "{subject} moves with `{body}` but is not expressed by the position of `{body}`: its force across the guide `{}` is not determined",
             sliding.name_in_spec()
         );
         let diagnostic = Diagnostic::new(Code::Untied, span, message);
@@ -954,21 +954,21 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
         if entries.all(is_constant) {
             return Some(None);
         }
-        let what = format!("the constraint `{}`", equation.name);
+        let subject = format!("the constraint `{}`", equation.name);
         let help = "express it by positions of bodies, such as `norm(a.at - b.at) = l`";
-        Some(Some(self.diagnostic(guide, span, &what, help)))
+        Some(Some(self.diagnostic(guide, span, &subject, help)))
     }
 
     /// Tests a stretch in coordinates: along a spring that lies along the guide it grows by a metre
     /// for each metre of displacement.
-    fn stretch(&self, stretch: Expr<'d>, what: &str, span: Span) -> TestResult {
+    fn stretch(&self, stretch: Expr<'d>, subject: &str, span: Span) -> TestResult {
         let across =
             self.first_undetermined(stretch, &self.relaxed.x.q, |_, guide, mismatch| {
                 let e = &self.motion.directions[guide];
                 !self.is_zero(mismatch * mismatch - dot(e, e))
             })?;
         let help = "give it `from` and `to`, points of bodies; or, if it acts only along the guide, give its energy under `potentials`";
-        Some(across.map(|guide| self.diagnostic(guide, span, what, help)))
+        Some(across.map(|guide| self.diagnostic(guide, span, subject, help)))
     }
 
     /// Tests a force that is the derivative of an expression: an energy, a dissipation by its rates, or a
@@ -978,7 +978,7 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
     fn force_of_expression(
         &self,
         (expression, by): (Expr<'d>, &[Symbol]),
-        what: &str,
+        subject: &str,
         span: Span,
     ) -> TestResult {
         let undetermined = self.first_undetermined(expression, by, |slopes, guide, _| {
@@ -987,13 +987,13 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
             along.is_some_and(|(_, along)| self.motion.is_undetermined(guide, along, forces))
         })?;
         let help = "express it by positions of bodies; or build one body on the frame of the other, so that the guide carries what acts between them";
-        Some(undetermined.map(|guide| self.diagnostic(guide, span, what, help)))
+        Some(undetermined.map(|guide| self.diagnostic(guide, span, subject, help)))
     }
 
     /// Tests a force at a point in coordinates, which must act along the guide.
     fn force_at_point(
         &self,
-        what: &str,
+        subject: &str,
         (at, value): (&[Expr<'d>], &[Expr<'d>]),
         span: Span,
     ) -> TestResult {
@@ -1014,10 +1014,10 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
                 .any(|slopes| !self.is_zero(along.mismatch(slopes.iter().copied())));
             moves && self.motion.is_across(*guide, &value)
         });
-        let what = format!("the point of {what}");
+        let subject = format!("the point of {subject}");
         let help =
             "express it by the position of the body, such as `body.at`, or by a point of its frame";
-        Some(across.map(|(guide, _)| self.diagnostic(*guide, span, &what, help)))
+        Some(across.map(|(guide, _)| self.diagnostic(*guide, span, &subject, help)))
     }
 }
 

@@ -37,7 +37,7 @@ pub struct ConstraintEquation<'d> {
     /// The row of `G(q, t)`.
     pub row: Vec<Expr<'d>>,
     /// `γ(q, v, t)`.
-    pub drift: Expr<'d>,
+    pub bias: Expr<'d>,
     /// The symbol of its multiplier `λ`.
     pub multiplier: Expr<'d>,
     /// The unit of `g`, or of `φ` if there is no `g`.
@@ -81,27 +81,27 @@ impl<'d> ConstraintEquation<'d> {
 /// The constraints of a machine, beginning with those of the section `constraints`.
 pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
     let x = Variables::of(model);
-    let said = model.constraints().into_iter().map(|constraint| {
-        let mut said = constraint.expression;
-        let standing = |said: Expr<'d>| {
-            let rates = x.v.iter().copied().filter(|&v| said.depends_on(v));
+    let rates_of_constraints = model.constraints().into_iter().map(|constraint| {
+        let mut expression = constraint.expression;
+        let rates_in = |expression: Expr<'d>| {
+            let rates = x.v.iter().copied().filter(|&v| expression.depends_on(v));
             rates.collect::<Vec<_>>()
         };
-        let rates = standing(said);
+        let rates = rates_in(expression);
         if !rates.is_empty() {
             // Rates that cancel do not count, whatever the form of the expression.
-            let gone = identity::irrelevant(model.dag, &[said], rates);
-            said = identity::with_zeros_for(model.dag, vec![said], &gone)[0];
+            let gone = identity::irrelevant(model.dag, &[expression], rates);
+            expression = identity::with_zeros_for(model.dag, vec![expression], &gone)[0];
         }
-        let statement = if standing(said).is_empty() {
-            Statement::Position(said)
+        let statement = if rates_in(expression).is_empty() {
+            Statement::Position(expression)
         } else {
-            Statement::Rate(said)
+            Statement::Rate(expression)
         };
         let name = constraint.name.to_string();
         equation(model, &x, name, statement, constraint.unit)
     });
-    let mut all: Vec<_> = said.collect();
+    let mut all: Vec<_> = rates_of_constraints.collect();
     for rolling in model.rolling() {
         all.extend(of_rolling(model, &x, rolling));
     }
@@ -112,8 +112,8 @@ pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
 pub(super) fn spans(model: &Model<'_>) -> Vec<Span> {
     let rolling = model.rolling();
     let rolling = rolling.iter().flat_map(|r| [r.span, r.span]);
-    let said = model.constraints();
-    said.iter().map(|c| c.span).chain(rolling).collect()
+    let constraints = model.constraints();
+    constraints.iter().map(|c| c.span).chain(rolling).collect()
 }
 
 /// The rates `φ` of constraints at zero velocities: 0 except for rheonomic ones.
@@ -154,7 +154,7 @@ fn equation<'d>(
         position,
         rate,
         row,
-        drift: -coasting.of(rate),
+        bias: -coasting.of(rate),
         multiplier: model
             .dag
             .symbol(&format!("lambda({name})"), stage::ACCELERATION),

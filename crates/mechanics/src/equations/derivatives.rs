@@ -33,7 +33,7 @@ pub(super) fn constrained_residual<'d>(
     let kept = constraints.iter().map(|c| {
         let along = model.coordinates.iter().zip(&c.row);
         let along = along.map(|(coordinate, &g)| -(g * coordinate.a));
-        dag.sum([c.drift].into_iter().chain(along))
+        dag.sum([c.bias].into_iter().chain(along))
     });
     held.chain(kept).collect()
 }

@@ -287,13 +287,13 @@ fn orthonormalized_with_indices(rows: &[Row]) -> Vec<(usize, Row)> {
         .filter(|(_, row)| length(row) > DEPENDENT * longest.max(1e-300))
         .map(|(place, row)| (place, unit(row)))
         .collect();
-    let mut found: Vec<(usize, Row)> = Vec::new();
+    let mut chosen: Vec<(usize, Row)> = Vec::new();
     while let Some(next) = (0..left.len()).max_by(|&a, &b| {
         let lengths = [a, b].map(|k| length(&left[k].1));
         lengths[0].total_cmp(&lengths[1]).then(b.cmp(&a))
     }) {
         let (place, row) = left.swap_remove(next);
-        let known: Vec<Row> = found.iter().map(|(_, row)| row.clone()).collect();
+        let known: Vec<Row> = chosen.iter().map(|(_, row)| row.clone()).collect();
         let row = orthogonal_part(&known, row);
         if length(&row) <= DEPENDENT {
             break;
@@ -302,9 +302,9 @@ fn orthonormalized_with_indices(rows: &[Row]) -> Vec<(usize, Row)> {
         for (_, other) in &mut left {
             *other = orthogonal_part(std::slice::from_ref(&row), std::mem::take(other));
         }
-        found.push((place, row));
+        chosen.push((place, row));
     }
-    found
+    chosen
 }
 
 /// The shortest step that satisfies, to first order, as many constraints as are independent.

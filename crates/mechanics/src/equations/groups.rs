@@ -32,7 +32,7 @@ pub struct Share<'d> {
 }
 
 /// The applied forces by element: their sum is `Q`, eq. (E6).
-pub fn shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
+pub fn force_shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
     let dag = model.dag;
     let x = Variables::of(model);
     let approximations = Approximations::of(model);
@@ -97,8 +97,8 @@ pub fn shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
 
     // Forces: their virtual work.
     let projection = Projection::of(model, &x);
-    for (element, said) in elements() {
-        let acting: Vec<_> = said
+    for (element, contribution) in elements() {
+        let acting: Vec<_> = contribution
             .contributions
             .iter()
             .filter_map(Contribution::load)

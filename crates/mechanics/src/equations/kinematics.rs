@@ -284,9 +284,9 @@ impl Chains {
                 }
                 &Step::Turn { axis, angle } if self.needed[index] => {
                     if self.needed_origin[index] {
-                        twist.linear = turned(&twist.linear, axis, angle);
+                        twist.linear = rotated(&twist.linear, axis, angle);
                     }
-                    twist.angular = turned(&twist.angular, axis, angle);
+                    twist.angular = rotated(&twist.angular, axis, angle);
                     twist.angular[axis] = twist.angular[axis] + rate.of(angle);
                 }
                 Step::Quaternion(e) if self.needed[index] => {
@@ -338,9 +338,9 @@ impl Chains {
                 }
                 &Step::Turn { axis, angle } if self.needed[index] => {
                     if self.needed_origin[index] {
-                        here.linear = turned(&here.linear, axis, angle);
+                        here.linear = rotated(&here.linear, axis, angle);
                     }
-                    here.angular = turned(&here.angular, axis, angle);
+                    here.angular = rotated(&here.angular, axis, angle);
                     let angle_rate = rate.of(angle);
                     let (next, last) = others(axis);
                     here.angular[axis] = here.angular[axis] + rate.twice(angle);
@@ -378,7 +378,7 @@ impl Chains {
         for (index, pose) in model.poses.iter().enumerate() {
             let parent = vectors.get(pose.parent.index()).copied().unwrap_or(ground);
             vectors.push(match pose.step {
-                Step::Turn { axis, angle } if self.needed[index] => turned(&parent, axis, angle),
+                Step::Turn { axis, angle } if self.needed[index] => rotated(&parent, axis, angle),
                 Step::Quaternion(e) if self.needed[index] => {
                     components_along(&quaternion::axes(&e), &parent)
                 }
@@ -413,7 +413,7 @@ pub(super) fn along_axes<'d>(model: &Model<'d>, pose: PoseId, ground: &[Expr<'d>
         });
     }
     let turn = |vector, step: &Step<'d>| match step {
-        &Step::Turn { axis, angle } => turned(&vector, axis, angle),
+        &Step::Turn { axis, angle } => rotated(&vector, axis, angle),
         Step::Quaternion(e) => components_along(&quaternion::axes(e), &vector),
         Step::Ground | Step::Shift(_) => vector,
     };
@@ -539,7 +539,7 @@ pub(super) fn others(axis: usize) -> (usize, usize) {
 }
 
 /// `Rᵀu`: the components of a vector in axes that are turned by `angle` about one of them.
-fn turned<'d>(u: &Vector<'d>, axis: usize, angle: Expr<'d>) -> Vector<'d> {
+fn rotated<'d>(u: &Vector<'d>, axis: usize, angle: Expr<'d>) -> Vector<'d> {
     let (next, last) = others(axis);
     let (sin, cos) = (angle.sin(), angle.cos());
     let mut result = *u;

@@ -62,7 +62,7 @@ pub struct OracleSliding<'d> {
     /// `∂w/∂vᵢ`.
     pub row: Vec<Expr<'d>>,
     /// `Σ vᵢ ∂w/∂qᵢ + ∂w/∂t`.
-    pub drift: Expr<'d>,
+    pub bias: Expr<'d>,
     /// `dw/dt` with the accelerations in it.
     pub slip_rate: Expr<'d>,
     /// In space the unit vector that determines the pressing part of the reaction: the normal of a surface, or the tangent of a curve.
@@ -206,7 +206,7 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
         let slip = closed(rates[k].slip);
         let row: Vec<Expr<'d>> = (0..n).map(|i| slip.diff(x.v[i])).collect();
         let moving = (0..n).map(|i| slip.diff(x.q[i]) * model.coordinates[i].v);
-        let drift = dag.sum(moving.chain([slip.diff(x.t)]));
+        let bias = dag.sum(moving.chain([slip.diff(x.t)]));
         let accelerating = row
             .iter()
             .zip(&model.coordinates)
@@ -219,8 +219,8 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
         OracleSliding {
             reference_direction: telling,
             slip,
-            slip_rate: dag.sum(accelerating.chain([drift])),
-            drift,
+            slip_rate: dag.sum(accelerating.chain([bias])),
+            bias,
             reactions: guides[k].axes.iter().map(reaction).collect(),
             coefficients: [
                 sliding.friction,

@@ -18,7 +18,7 @@ use super::kinematics::Variables;
 
 /// Refuses dependence on the lengths of quaternions, and approximations in a machine that has any. Returns true if
 /// anything is refused.
-pub(super) fn refuse(model: &Model<'_>, report: &mut Report) -> bool {
+pub(super) fn report_dependence_on_lengths(model: &Model<'_>, report: &mut Report) -> bool {
     let Some(first) = model.quaternions.first() else {
         return false;
     };
@@ -114,8 +114,8 @@ impl<'d> LengthVariation<'d> {
         }
         for (element, contribution) in model.contributions() {
             if self.works_on_length(contribution, four) {
-                let what = element.section.item;
-                found.push((format!("{what} `{}`", element.name), element.span));
+                let noun = element.section.item;
+                found.push((format!("{noun} `{}`", element.name), element.span));
             }
         }
         for circle in &model.circles {
@@ -163,11 +163,11 @@ impl<'d> LengthVariation<'d> {
             Contribution::Load(Load::Along { measure, .. }) => self.depends_on_length(*measure),
             Contribution::Load(Load::Coordinate { coordinate, .. }) => four.contains(coordinate),
             Contribution::Constraint(constraint) => {
-                let said = constraint.expression;
-                if said.stage() > stage::POSITION {
-                    self.depends_on_length_rate(said)
+                let expression = constraint.expression;
+                if expression.stage() > stage::POSITION {
+                    self.depends_on_length_rate(expression)
                 } else {
-                    self.depends_on_length(said)
+                    self.depends_on_length(expression)
                 }
             }
             // These act on frames and bodies, or are not part of the equations of motion.

@@ -320,11 +320,12 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         if energies.is_empty() {
             return Dual::constant(R::ZERO);
         }
-        let given: Vec<Expr<'d>> = model.coordinates.iter().filter_map(|c| c.rate).collect();
-        let mut given = self.values(&given, at).into_iter();
+        let rates_of_states: Vec<Expr<'d>> =
+            model.coordinates.iter().filter_map(|c| c.rate).collect();
+        let mut rates_of_states = self.values(&rates_of_states, at).into_iter();
         let rates = model.coordinates.iter().zip(&at.a);
         let rates: Vec<R> = rates
-            .map(|(c, &a)| c.rate.and_then(|_| given.next()).unwrap_or(a))
+            .map(|(c, &a)| c.rate.and_then(|_| rates_of_states.next()).unwrap_or(a))
             .collect();
         let values = all(model, &energies, |symbol| {
             match self.meanings.get(&symbol) {
@@ -545,9 +546,9 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let mut of_face = None;
         let (gap, slip, across) = match &contact.geometry {
             ContactGeometry::Corner(corner) => {
-                let found = on_polygon(model, corner, x);
-                of_face = Some((found.opening, found.beyond));
-                (found.height, found.slip, None)
+                let corner_motion = on_polygon(model, corner, x);
+                of_face = Some((corner_motion.opening, corner_motion.beyond));
+                (corner_motion.height, corner_motion.slip, None)
             }
             ContactGeometry::Circles(touching) => {
                 touch(&model.circles[touching.circle], touching.surface)
@@ -1194,7 +1195,7 @@ fn on_polygon<'d, R: Scalar>(
     }
     weights[0] = left;
     let place = points[*corner];
-    let mut found = CornerOnPolygon {
+    let mut corner_on_polygon = CornerOnPolygon {
         opening: fold(
             (0..faces).map(|k| distance(k, place)).collect(),
             Moving::max,
@@ -1205,9 +1206,9 @@ fn on_polygon<'d, R: Scalar>(
     };
     for (k, &weight) in weights.iter().enumerate() {
         let others = (0..faces).filter(|j| *j != k);
-        found.height = found.height + weight * distance(k, place);
-        found.beyond =
-            found.beyond + weight * fold(others.map(|j| distance(j, place)).collect(), Moving::max);
+        corner_on_polygon.height = corner_on_polygon.height + weight * distance(k, place);
+        corner_on_polygon.beyond = corner_on_polygon.beyond
+            + weight * fold(others.map(|j| distance(j, place)).collect(), Moving::max);
         // The polygon's own point under the corner moves with the end of the face, and turns about it.
         let arm = [0, 1].map(|i| (place[i] - ends[k][i]).value);
         let carried = [-(turning * arm[1]), turning * arm[0]];
@@ -1215,9 +1216,9 @@ fn on_polygon<'d, R: Scalar>(
             let velocity = place[i].derivative - ends[k][i].derivative - carried[i];
             -edges[k][i].value * velocity
         });
-        found.slip = found.slip + weight.value * (along[0] + along[1]);
+        corner_on_polygon.slip = corner_on_polygon.slip + weight.value * (along[0] + along[1]);
     }
-    found
+    corner_on_polygon
 }
 
 /// The distance of a circle from touching a surface, and the slip velocity of the touching points.

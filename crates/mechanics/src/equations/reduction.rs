@@ -72,26 +72,26 @@ pub fn dependents<'d>(
     model: &Model<'d>,
     constraints: &[ConstraintEquation<'d>],
 ) -> Vec<Dependent<'d>> {
-    let mut found: Vec<Dependent<'d>> = Vec::new();
+    let mut dependents: Vec<Dependent<'d>> = Vec::new();
     if constraints.is_empty() || !model.approximations.is_empty() {
-        return found;
+        return dependents;
     }
     let x = Variables::of(model);
     let uses = uses(model, &x);
     loop {
-        let settled: BTreeSet<usize> = found.iter().map(|d| d.constraint).collect();
+        let settled: BTreeSet<usize> = dependents.iter().map(|d| d.constraint).collect();
         let mut open = (0..constraints.len()).filter(|k| !settled.contains(k));
-        let next = open.find_map(|k| dependent(model, &x, &uses, &found, k, &constraints[k]));
+        let next = open.find_map(|k| dependent(model, &x, &uses, &dependents, k, &constraints[k]));
         let Some(next) = next else {
-            return found;
+            return dependents;
         };
         let map = replacements(&x, std::slice::from_ref(&next));
-        for before in &mut found {
+        for before in &mut dependents {
             let parts = [before.position, before.rate, before.acceleration];
             let put = substitute(model.dag, &parts, &map);
             [before.position, before.rate, before.acceleration] = [put[0], put[1], put[2]];
         }
-        found.push(next);
+        dependents.push(next);
     }
 }
 
@@ -118,8 +118,8 @@ fn dependent<'d>(
     constraint: &ConstraintEquation<'d>,
 ) -> Option<Dependent<'d>> {
     let dag = model.dag;
-    let said = constraint.position.unwrap_or(constraint.rate);
-    let said = substitute(dag, &[said], &replacements(x, found))[0];
+    let equation = constraint.position.unwrap_or(constraint.rate);
+    let equation = substitute(dag, &[equation], &replacements(x, found))[0];
     let variables = match constraint.position {
         Some(_) => &x.q,
         None => &x.v,
@@ -127,7 +127,7 @@ fn dependent<'d>(
     let is_left = |i: &usize| !found.iter().any(|d| d.coordinate == *i);
     let left: Vec<usize> = (0..variables.len()).filter(is_left).collect();
     let slope = |&i: &usize| {
-        let slope = said.diff(variables[i]);
+        let slope = equation.diff(variables[i]);
         identity::as_function_of_parameters(slope).map(|slope| (i, slope))
     };
     let slopes: Vec<(usize, Expr<'d>)> = left.iter().filter_map(slope).collect();
@@ -141,7 +141,7 @@ fn dependent<'d>(
     };
     let &(coordinate, coefficient) = usable.min_by_key(by_use)?;
     let at_zero = [(variables[coordinate], dag.zero())];
-    let rest = substitute(dag, &[said], &at_zero)[0];
+    let rest = substitute(dag, &[equation], &at_zero)[0];
     let (position, offset) = match constraint.position {
         Some(_) => (-(rest / coefficient), None),
         None => {
@@ -149,7 +149,7 @@ fn dependent<'d>(
             let others = slopes.iter().filter(|(i, _)| *i != coordinate);
             let along = others.map(|&(i, slope)| -(slope / coefficient) * dag.expr_of(x.q[i]));
             let at_rest: Vec<_> = left.iter().map(|&i| (x.v[i], dag.zero())).collect();
-            let alone = substitute(dag, &[said], &at_rest)[0];
+            let alone = substitute(dag, &[equation], &at_rest)[0];
             let alone = identity::as_function_of_parameters(alone)?;
             let driven = -(alone / coefficient) * model.time;
             let shared = dag.sum(along.chain([driven]));

@@ -343,7 +343,7 @@ pub(super) fn refuse_undefined(
     let slopes = equations.residual_derivatives.iter().flatten();
     let undefined = energies.iter().find(|(_, energy)| energy.is_undefined());
     let all = equations.forces.iter().chain(equations.mass_matrix.lower());
-    let what = match undefined {
+    let subject = match undefined {
         Some((name, _)) => format!("the {name}"),
         None if all.clone().any(|entry| entry.is_undefined()) => "an equation of motion".to_owned(),
         None if slopes.clone().any(|entry| entry.is_undefined()) => {
@@ -354,12 +354,16 @@ pub(super) fn refuse_undefined(
     let diagnostic = match model.approximations.first() {
         Some(approximation) => {
             let name = &model.coordinates[approximation.coordinate].name;
-            let message = format!("{what} has no expansion about `{name} = 0`");
+            let message = format!("{subject} has no expansion about `{name} = 0`");
             Diagnostic::new(Code::NoExpansion, approximation.span, message)
                 .help("a distance that vanishes there has a kink: treat the coordinate exactly")
         }
-        None => Diagnostic::new(Code::Undefined, model.span, format!("{what} has no value"))
-            .help("something divides by zero, or takes a root or a logarithm that does not exist"),
+        None => Diagnostic::new(
+            Code::Undefined,
+            model.span,
+            format!("{subject} has no value"),
+        )
+        .help("something divides by zero, or takes a root or a logarithm that does not exist"),
     };
     report.push(diagnostic);
     true

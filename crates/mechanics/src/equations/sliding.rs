@@ -48,7 +48,7 @@ pub struct SlidingEquation<'d> {
     /// `τ(q, t) = ∂w/∂v`.
     pub row: Vec<Expr<'d>>,
     /// `dw/dt` at `a = 0`.
-    pub drift: Expr<'d>,
+    pub bias: Expr<'d>,
     /// The direction `e(q, t)`, of length 1.
     pub direction: Vec<Expr<'d>>,
     /// The normal `n(q, t)` of the surface on which it slides, of any length, and which of its tangents the direction is; none
@@ -208,7 +208,7 @@ pub(super) fn sliding<'d>(
             name: sliding.name.to_string(),
             slip,
             row,
-            drift: coasting.of(slip),
+            bias: coasting.of(slip),
             direction: guide.along.clone(),
             surface: (sliding.normal.clone().zip(sliding.tangent)),
             reactions,
@@ -445,11 +445,11 @@ impl<'d> Reactions<'d> {
         let mut rows = Vec::with_capacity(offs.len());
         let mut shares = Vec::with_capacity(offs.len());
         for k in axes {
-            let whole = along(k, &|i| -unbalanced[i]);
+            let component = along(k, &|i| -unbalanced[i]);
             let at_rest: Vec<_> = x.a[..n].iter().map(|&a| (a, dag.zero())).collect();
             rows.push(Reaction {
-                load: substitute(dag, &[whole], &at_rest)[0],
-                by_accelerations: gradient(dag, whole, &x.a[..n]),
+                load: substitute(dag, &[component], &at_rest)[0],
+                by_accelerations: gradient(dag, component, &x.a[..n]),
                 by_multipliers: constraints
                     .iter()
                     .map(|c| along(k, &|i| -c.row[i]))

@@ -65,7 +65,7 @@ pub struct DirectionEquation<'d> {
     /// `w(q, t)`, one entry for each coordinate.
     pub row: Vec<Expr<'d>>,
     /// `δ(q, v, t)`.
-    pub drift: Expr<'d>,
+    pub bias: Expr<'d>,
 }
 
 /// The unilateral contacts of a machine, in their order.
@@ -108,13 +108,13 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             None => e,
         };
         let zero = model.dag.zero();
-        let rubs = contact.friction.is_some();
+        let has_friction = contact.friction.is_some();
         let (gap, rate, slip) = match of_face {
             // These select among features, and multiplied out they would be long.
-            Some((rate, _)) => (gap, rate, if rubs { slip } else { zero }),
+            Some((rate, _)) => (gap, rate, if has_friction { slip } else { zero }),
             None => {
                 let gap = plain(gap);
-                let slip = if rubs { plain(slip) } else { zero };
+                let slip = if has_friction { plain(slip) } else { zero };
                 (gap, x.without_acceleration(model).of(gap), slip)
             }
         };
@@ -134,12 +134,12 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
             order: contact.response.order().unwrap_or_default(),
             painleve: contact.response.painleve(),
             compliance: contact.response.compliance(),
-            has_friction: rubs,
+            has_friction,
             is_rolling_resistance: false,
             is_second_tangent: false,
             face: of_face.map(|(_, face)| face),
         };
-        if let (true, Some(across)) = (rubs, across) {
+        if let (true, Some(across)) = (has_friction, across) {
             // It shares the gap and the normal of the preceding contact; only the other component of the slip is its own.
             let [normal, _] = own.directions.clone();
             let second = UnilateralEquation {
@@ -184,6 +184,6 @@ fn direction<'d>(model: &Model<'d>, x: &Variables<'d>, rate: Expr<'d>) -> Direct
     DirectionEquation {
         rate,
         row,
-        drift: x.without_acceleration(model).of(rate),
+        bias: x.without_acceleration(model).of(rate),
     }
 }

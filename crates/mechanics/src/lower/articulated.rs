@@ -765,12 +765,12 @@ impl<'d> Front<'d> {
             .filter(|id| *id != first && !self.coordinates.contains_key(id))
             .filter(|id| !touched.is_disjoint(&self.coordinates_of_node[id]))
             .collect();
-        let both = |update: &Update<'d>, id: &Id| {
+        let touches_both = |update: &Update<'d>, id: &Id| {
             update.column.contains_key(&first) && update.column.contains_key(id)
         };
         let coupled = |id: &&Id| {
             self.form[&first].contains_key(*id)
-                || self.pending.iter().any(|update| both(update, id))
+                || self.pending.iter().any(|update| touches_both(update, id))
         };
         for &id in others.iter().filter(coupled) {
             let composition = self.composition(id)?;
@@ -929,11 +929,11 @@ impl<'d> Front<'d> {
                     .iter()
                     .filter(|f| stage(f) <= Stage::PARAMETER)
                     .count();
-                let whole = self.product_of(&factors);
-                let is_new = self.names.iter().all(|(_, meaning)| *meaning != whole);
+                let product = self.product_of(&factors);
+                let is_new = self.names.iter().all(|(_, meaning)| *meaning != product);
                 if known > 0 && known < factors.len() && is_new {
                     let name = self.dag.symbol("coefficient", c.stage());
-                    self.names.push((name, whole));
+                    self.names.push((name, product));
                 }
             }
         }
@@ -1143,10 +1143,10 @@ impl<'d> Front<'d> {
         // differently along it, so each pair has its own.
         let zero = self.dag.zero();
         let load = |pair: &InertialPair<'d>| {
-            let seen = self.free_falls.get(&pair.u.id()).copied().unwrap_or(zero);
+            let known = self.free_falls.get(&pair.u.id()).copied().unwrap_or(zero);
             (
                 pair.u,
-                pair.weight * (pair.free_fall.unwrap_or(zero) - seen),
+                pair.weight * (pair.free_fall.unwrap_or(zero) - known),
             )
         };
         machine.inertia.iter().map(load).collect()

@@ -36,7 +36,7 @@ pub(super) fn solve<'d>(
     }
     let start = Shape::index(n, 0);
     let (matrix, below) = system.matrix.split_at(start);
-    let (forces, drifts) = system.forces.split_at(n);
+    let (forces, biases) = system.forces.split_at(n);
     let open = System {
         matrix: matrix.to_vec(),
         forces: forces.to_vec(),
@@ -59,12 +59,12 @@ pub(super) fn solve<'d>(
         coordinates: count,
         held_constraints: Vec::new(),
     };
-    for ((k, row), drift) in rows.iter().enumerate().zip(drifts) {
+    for ((k, row), bias) in rows.iter().enumerate().zip(biases) {
         for column in &columns[..=k] {
             let entry = with_products(graph, Scaled::ZERO, row, column);
             closing.matrix.push(entry);
         }
-        let free = with_products(graph, drift.negated(), row, &solved.accelerations);
+        let free = with_products(graph, bias.negated(), row, &solved.accelerations);
         closing.forces.push(free.negated());
     }
     let elimination = Elimination::of(graph, &closing);

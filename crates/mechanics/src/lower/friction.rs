@@ -66,7 +66,7 @@ pub(super) fn friction<'d>(
 /// The nodes of a contact.
 struct Contact {
     row: Vec<Scaled>,
-    drift: Scaled,
+    bias: Scaled,
     reactions: Vec<Component>,
     friction: Scaled,
     static_friction: Scaled,
@@ -94,7 +94,7 @@ impl Contact {
         };
         let mut one = |expression| many(&[expression])[0];
         Contact {
-            drift: one(sliding.drift),
+            bias: one(sliding.bias),
             friction: one(sliding.friction),
             static_friction: one(sliding.static_friction),
             reference_direction: telling,
@@ -148,7 +148,7 @@ fn results(
             .iter()
             .map(|contact| {
                 let start = if part == 0 {
-                    contact.drift
+                    contact.bias
                 } else {
                     Scaled::ZERO
                 };

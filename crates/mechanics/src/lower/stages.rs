@@ -40,8 +40,8 @@ pub(super) fn staged<'d>(
     for (basis, solution) in solutions(lowering, source, at_once) {
         for factored in [false, true] {
             let known = &at_once.known_pivots;
-            let way = staged_functions(lowering, &solution, known, (basis, factored), apart);
-            ways.extend(way);
+            let functions = staged_functions(lowering, &solution, known, (basis, factored), apart);
+            ways.extend(functions);
         }
     }
     // Among those with equal repeated cost, the one with the lowest total cost.
@@ -163,19 +163,19 @@ fn staged_functions(
         return None;
     }
     net.separate_stages(apart);
-    let whole = planned.draft(Some(&mut lowering.graph), net, basis, factored);
+    let complete = planned.draft(Some(&mut lowering.graph), net, basis, factored);
     let draft = |function: Function| Draft {
         form: Form {
             role: function.role,
-            ..whole.form
+            ..complete.form
         },
         function,
-        prepared: whole.prepared.clone(),
+        prepared: complete.prepared.clone(),
         known_pivots: Vec::new(),
     };
-    let functions = stages::split(&whole.function, apart);
+    let functions = stages::split(&complete.function, apart);
     Some(Staged {
         drafts: functions.into_iter().map(draft).collect(),
-        whole,
+        whole: complete,
     })
 }

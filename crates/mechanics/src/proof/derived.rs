@@ -201,7 +201,7 @@ impl<'p, R: Number> Comparison<'p, R> {
         }
     }
 
-    fn wrong(&self, role: Role, index: usize) -> Verdict {
+    fn disagreement_at(&self, role: Role, index: usize) -> Verdict {
         let point = self.number;
         Disagreement::Result { role, index, point }.into()
     }
@@ -227,13 +227,13 @@ impl<'p, R: Number> Comparison<'p, R> {
         }
         for (index, (&found, &expected)) in found.iter().zip(&expected).enumerate() {
             if !equal(found, expected)? {
-                return Err(self.wrong(role, index));
+                return Err(self.disagreement_at(role, index));
             }
         }
         if found.len() == expected.len() {
             Ok(())
         } else {
-            Err(self.wrong(role, 0))
+            Err(self.disagreement_at(role, 0))
         }
     }
 
@@ -255,7 +255,7 @@ impl<'p, R: Number> Comparison<'p, R> {
         if sum.vanishes()? && found.len() == direction.len() {
             Ok(())
         } else {
-            Err(self.wrong(Role::Adjoint, 0))
+            Err(self.disagreement_at(Role::Adjoint, 0))
         }
     }
 
@@ -279,7 +279,7 @@ impl<'p, R: Number> Comparison<'p, R> {
         if sum.vanishes()? && found.len() == direction.len() {
             Ok(())
         } else {
-            Err(self.wrong(role, 0))
+            Err(self.disagreement_at(role, 0))
         }
     }
 }

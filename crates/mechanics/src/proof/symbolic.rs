@@ -221,7 +221,7 @@ pub fn prove(
         quantities.extend([
             vector(Role::Slips, contacts.iter().map(|c| c.slip).collect()),
             vector(Role::SlipMatrix, rows),
-            vector(Role::SlipDrift, contacts.iter().map(|c| c.drift).collect()),
+            vector(Role::SlipBias, contacts.iter().map(|c| c.bias).collect()),
         ]);
     }
     let dependents = dependents(model, &crate::equations::constraints(model));
@@ -433,12 +433,12 @@ impl<'a, 'd> Point<'a, 'd> {
             if let Some(constraint) = open.iter().position(|left| *left != Residue::ZERO) {
                 return Err(Disagreement::Constraint { constraint, point }.into());
             }
-            let drift = self.call(Role::ConstraintDrift, residuals.len())?;
+            let bias = self.call(Role::ConstraintBias, residuals.len())?;
             let coasting = self.evaluate(&residuals, &vec![Residue::ZERO; n])?;
             let differs =
                 |(drift, coasting): (&Residue, &Residue)| *drift + *coasting != Residue::ZERO;
-            if let Some(index) = drift.iter().zip(&coasting).position(differs) {
-                let role = Role::ConstraintDrift;
+            if let Some(index) = bias.iter().zip(&coasting).position(differs) {
+                let role = Role::ConstraintBias;
                 return Err(Disagreement::Result { role, index, point }.into());
             }
         }
@@ -524,8 +524,8 @@ impl<'a, 'd> Point<'a, 'd> {
                 let expected = self.evaluate(&contact.reference_direction, a)?;
                 for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
                     let place = layout.directions() + 3 * k;
-                    let told = responses[place + i] * responses[place + j];
-                    if told != expected[i] * expected[j] {
+                    let found = responses[place + i] * responses[place + j];
+                    if found != expected[i] * expected[j] {
                         return Err(wrong(place + j));
                     }
                 }

@@ -324,8 +324,8 @@ impl<'m, 'd> Lowering<'m, 'd> {
 
     fn tanh_of(&self, a: RowId) -> Option<RowId> {
         let is = |row: &Row| matches!(row, Row::Tanh(of, _) if *of == a);
-        let found = self.rows.iter().position(is);
-        found.map(|index| RowId(index as u32))
+        let index_of_row = self.rows.iter().position(is);
+        index_of_row.map(|index| RowId(index as u32))
     }
 
     /// Two rows that are derivatives of each other.

@@ -134,7 +134,7 @@ fn motion(
     let mut known: Known = velocities.map(|(v, by)| (v, random(v) + by)).collect();
     let value = |symbol: Symbol| among(&known, symbol).unwrap_or_else(|| random(symbol));
     // M a = f + Gᵀ λ and G a = γ.
-    let drifts = constraints.iter().map(|c| -c.drift);
+    let drifts = constraints.iter().map(|c| -c.bias);
     let right = equations.forces.iter().copied().chain(drifts);
     let solution = balanced(model, equations, right, value)?;
     let symbols = model.coordinates.iter().map(|c| c.a);

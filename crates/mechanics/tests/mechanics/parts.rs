@@ -246,7 +246,7 @@ fn same_constraints(text: &str, elements: &str, written: &str) {
             assert_eq!(one.unit, other.unit, "{name}");
             let same = |a, b| assert_eq!(identity::equal(a, b), Some(true), "{name}");
             same(one.rate, other.rate);
-            same(one.drift, other.drift);
+            same(one.bias, other.bias);
             one.row
                 .iter()
                 .zip(&other.row)

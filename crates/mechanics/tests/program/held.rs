@@ -71,7 +71,7 @@ fn solved(program: &Program, state: [&[f64]; 2]) -> Vec<f64> {
     let get = |role, len| call(program, role, len, state).expect("nothing is divided");
     let matrix = get(Role::MassMatrix, Shape::Symmetric(n).len());
     let rows = get(Role::ConstraintMatrix, n * m);
-    let right = [get(Role::Forces, n), get(Role::ConstraintDrift, m)].concat();
+    let right = [get(Role::Forces, n), get(Role::ConstraintBias, m)].concat();
     let entry = |i: usize, j: usize| match (i < n, j < n) {
         (true, true) => matrix[Shape::index(i.max(j), i.min(j))],
         (true, false) => -rows[(j - n) * n + i],

@@ -72,7 +72,7 @@ impl<'d> Chapter<'_, 'd> {
                 rows.extend(self.equality(name, entry, ""));
             }
         }
-        rows.extend(self.equality(Math::letter('γ'), constraint.drift, ""));
+        rows.extend(self.equality(Math::letter('γ'), constraint.bias, ""));
         vec![heading, Block::Formula(rows)]
     }
 

@@ -78,10 +78,10 @@ impl<'d> Chapter<'_, 'd> {
             rows.extend(Row::lines(&left.then(Sign::To, right), 0, &note));
         }
         let mut alone =
-            |note: &str, terms: &[(Expr<'d>, &str)], said: &[Quoted], changed: &[usize]| {
+            |note: &str, terms: &[(Expr<'d>, &str)], quoted_terms: &[Quoted], changed: &[usize]| {
                 for k in (0..terms.len()).filter(|k| !changed.contains(k)) {
-                    let term = self.quoted(terms[k].0, &said[k]);
-                    let note = format!("{note}{}{}", terms[k].1, side(&said[k]));
+                    let term = self.quoted(terms[k].0, &quoted_terms[k]);
+                    let note = format!("{note}{}{}", terms[k].1, side(&quoted_terms[k]));
                     rows.extend(Row::lines(&term, 0, &note));
                 }
             };
@@ -92,13 +92,17 @@ impl<'d> Chapter<'_, 'd> {
     }
 
     /// A term on its side of the equation. Where algebra has simplified it, as ṫ to 1, it is shown as printed.
-    fn quoted(&self, term: Expr<'d>, said: &Quoted) -> Math {
+    fn quoted(&self, term: Expr<'d>, quoted_term: &Quoted) -> Math {
         let dots = |text: &str| text.matches("der(").count();
-        let term = if said.on_the_right { -term } else { term };
+        let term = if quoted_term.on_the_right {
+            -term
+        } else {
+            term
+        };
         let is_lost = term.size() <= READABLE
-            && dots(&said.text) != dots(&lagrangian_symbolic::text(term, self.model.dag));
+            && dots(&quoted_term.text) != dots(&lagrangian_symbolic::text(term, self.model.dag));
         if is_lost {
-            Math::text(said.text.clone())
+            Math::text(quoted_term.text.clone())
         } else {
             self.shown(term)
         }

@@ -175,9 +175,9 @@ fn assignment(rows: usize, columns: usize, cost: impl Fn(usize, usize) -> u64) -
         let (mut row, mut last) = (newcomer, None);
         let end = loop {
             for column in (0..columns).filter(|&column| !settled[column]) {
-                let way = cost(row, column) - of_row[row] - of_column[column];
-                if way < shortest[column] {
-                    (shortest[column], before[column]) = (way, last);
+                let reduced_cost = cost(row, column) - of_row[row] - of_column[column];
+                if reduced_cost < shortest[column] {
+                    (shortest[column], before[column]) = (reduced_cost, last);
                 }
             }
             let open = (0..columns).filter(|&column| !settled[column]);

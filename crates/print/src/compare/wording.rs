@@ -33,7 +33,7 @@ pub(super) fn words<'d>(
     let dropped = mend.drop.iter().zip(&found);
     let drop = dropped.map(|(&term, found)| {
         let on_the_right = is_right(found);
-        let said = |found: &&PrintedTerm<'d>| {
+        let text_of = |found: &&PrintedTerm<'d>| {
             if on_the_right && own_sides {
                 found.opposite().text()
             } else {
@@ -41,7 +41,7 @@ pub(super) fn words<'d>(
             }
         };
         Quoted {
-            text: found.as_ref().map_or_else(|| usual(term), said),
+            text: found.as_ref().map_or_else(|| usual(term), text_of),
             on_the_right,
         }
     });

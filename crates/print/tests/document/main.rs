@@ -40,7 +40,7 @@ fn groups_add_up_to_the_equations() {
          Compiled {
              model, equations, ..
          }| {
-            let shares = groups::shares(model);
+            let shares = groups::force_shares(model);
             let mut differences = Vec::new();
             for i in 0..model.coordinates.len() {
                 let inertia = model.coordinates.iter().enumerate();
@@ -71,7 +71,7 @@ fn sources_add_up_to_energies_and_forces() {
          Compiled {
              model, equations, ..
          }| {
-            let shares = groups::shares(model);
+            let shares = groups::force_shares(model);
             let dag = model.dag;
             let energy = |is_part: &dyn Fn(Kind) -> bool| {
                 let parts = shares.iter().filter(|part| is_part(part.kind));
@@ -116,7 +116,7 @@ fn velocity_terms_are_what_their_notes_say() {
          Compiled {
              model, equations, ..
          }| {
-            let shares = groups::shares(model);
+            let shares = groups::force_shares(model);
             // Squares grow fourfold when all rates double and keep their sign when one rate changes its sign. Products of
             // two rates also grow fourfold, but change their sign. Terms of drives do neither.
             for i in 0..model.coordinates.len() {

@@ -344,13 +344,12 @@ impl Series {
             ($a:expr, $b:expr) => {{
                 let sum = to.convolution(row, 0);
                 let (b_0, a_m) = (to.first($b), to.newest($a));
-                match self.is_force(row) {
-                    true => to.multiply_add(a_m, b_0, sum),
-                    false => {
-                        let (a_0, b_m) = (to.first($a), to.newest($b));
-                        let sum = to.multiply_add(a_m, b_0, sum);
-                        to.multiply_add(a_0, b_m, sum)
-                    }
+                if self.is_force(row) {
+                    to.multiply_add(a_m, b_0, sum)
+                } else {
+                    let (a_0, b_m) = (to.first($a), to.newest($b));
+                    let sum = to.multiply_add(a_m, b_0, sum);
+                    to.multiply_add(a_0, b_m, sum)
                 }
             }};
         }

@@ -22,7 +22,7 @@ impl Series {
         let rows = self.rows.into_iter().enumerate();
         let rows = rows.filter(|(index, _)| kept(index));
         Series {
-            rows: rows.map(|(_, row)| row.moved(&place)).collect(),
+            rows: rows.map(|(_, row)| row.renumbered(&place)).collect(),
             levels: (0..self.levels.len())
                 .filter(kept)
                 .map(|index| self.levels[index])
@@ -180,7 +180,7 @@ impl Row {
     }
 
     /// This row with its operands renumbered.
-    fn moved(mut self, place: &[RowId]) -> Row {
+    fn renumbered(mut self, place: &[RowId]) -> Row {
         let to = |row: &mut RowId| *row = place[row.index()];
         match &mut self {
             Row::Number(_)

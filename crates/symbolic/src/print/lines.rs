@@ -246,7 +246,7 @@ fn fences(marks: &[Mark]) -> Vec<f32> {
                 if matches!(form, Form::Parentheses | Form::Bars) {
                     fences[opened] = WIDTHS[inside];
                 }
-                let whole = match form {
+                let height = match form {
                     Form::Parentheses | Form::Bars => inside,
                     Form::Power | Form::Index | Form::IndexAndPower => inside.max(1),
                     Form::Dots(_) => inside.max(2),
@@ -255,7 +255,7 @@ fn fences(marks: &[Mark]) -> Vec<f32> {
                     Form::Fraction | Form::Under | Form::Matrix(_) => 4,
                 };
                 if let Some((.., around)) = open.last_mut() {
-                    *around = (*around).max(whole);
+                    *around = (*around).max(height);
                 }
             }
             _ => {}

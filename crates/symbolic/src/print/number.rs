@@ -47,12 +47,12 @@ pub(super) fn shape(number: &Rational) -> Shape {
     };
     let digits = i128::from(above) * i128::from(10i64.pow(places as u32) / below);
     let digits = format!("{digits:0>width$}", width = places + 1);
-    let (whole, rest) = digits.split_at(digits.len() - places);
+    let (integer, rest) = digits.split_at(digits.len() - places);
     let leading_zeros = rest.len() - rest.trim_start_matches('0').len();
-    if whole == "0" && leading_zeros >= 3 {
+    if integer == "0" && leading_zeros >= 3 {
         return scientific(&rest[leading_zeros..], -(leading_zeros as i64));
     }
-    Shape::Decimal(format!("{whole}.{rest}"))
+    Shape::Decimal(format!("{integer}.{rest}"))
 }
 
 /// `d.ddd·10^n` for `0.ddd·10^point`.

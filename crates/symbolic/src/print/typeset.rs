@@ -193,18 +193,18 @@ impl<'a> Writer<'a> {
         power: Option<u32>,
         next: &mut Vec<Piece>,
     ) {
-        let whole = |id: Id| vec![Piece::Node(id, Place::Whole)];
+        let unbracketed = |id: Id| vec![Piece::Node(id, Place::Whole)];
         let x = arguments[0];
         match function {
-            Function::Sqrt => form(Form::Root, [whole(x)], next),
-            Function::Abs => form(Form::Bars, [whole(x)], next),
+            Function::Sqrt => form(Form::Root, [unbracketed(x)], next),
+            Function::Abs => form(Form::Bars, [unbracketed(x)], next),
             Function::Exp => {
                 let base = vec![Piece::Mark(Mark::Letter('e'))];
-                form(Form::Power, [base, whole(x)], next);
+                form(Form::Power, [base, unbracketed(x)], next);
             }
             Function::Pow => {
                 let base = vec![Piece::Node(x, Place::Base)];
-                form(Form::Power, [base, whole(arguments[1])], next);
+                form(Form::Power, [base, unbracketed(arguments[1])], next);
             }
             _ => {
                 let name = vec![Piece::Mark(Mark::Function(function.name()))];
@@ -224,7 +224,7 @@ impl<'a> Writer<'a> {
                         if index > 0 {
                             list.push(sign(Sign::Comma));
                         }
-                        list.extend(whole(argument));
+                        list.extend(unbracketed(argument));
                     }
                     form(Form::Parentheses, [list], next);
                 }

@@ -50,12 +50,12 @@ fn friction_that_is_added_in_steps_leads_to_the_closed_form() {
         let (polar, from, end) = polar(friction, to, centre);
         let found = Search::new().solve(polar, &from, &end);
         let found = found.unwrap_or_else(|error| panic!("{friction}, {to:?}: {error}"));
-        let followed = found.tried().iter().find_map(|trial| match trial.start {
+        let followed = found.trials().iter().find_map(|trial| match trial.start {
             Start::Frictionless { time: Some(time) } => Some((time, trial)),
             _ => None,
         });
         let Some((time, trial)) = followed else {
-            panic!("{friction}, {to:?}: {:?}", found.tried());
+            panic!("{friction}, {to:?}: {:?}", found.trials());
         };
         match trial.outcome {
             Outcome::Found { .. } => alone += 1,
@@ -139,7 +139,7 @@ fn friction_that_is_not_known_apart_is_not_taken_away() {
         .budget(400_000)
         .solve(Whole(polar), &from, &end);
     let tried = match &found {
-        Ok(found) => found.tried(),
+        Ok(found) => found.trials(),
         Err(Unsolved::NotFound { tried }) => tried,
         Err(error) => panic!("{error}"),
     };

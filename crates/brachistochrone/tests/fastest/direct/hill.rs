@@ -232,7 +232,7 @@ fn every_end_about_a_hill_is_reached_along_the_first_ray() {
             for other in motion.others() {
                 assert!(near(other), "{to:?}: {other} of {times:?}");
             }
-            assert!(motion.doubts().is_empty(), "{to:?}: {:?}", motion.tried());
+            assert!(motion.doubts().is_empty(), "{to:?}: {:?}", motion.trials());
         }
     }
 }
@@ -256,10 +256,10 @@ fn mirrored_ends_have_mirrored_motions() {
 fn both_ways_round_a_hill_are_found() {
     let motion = found([1.0, 0.0]);
     let others = motion.others();
-    assert_eq!(others.len(), 1, "{:?}", motion.tried());
+    assert_eq!(others.len(), 1, "{:?}", motion.trials());
     assert!((others[0] - motion.time()).abs() < 1e-12);
     // The start is lower than the top, so no motion passes over it.
-    let straight = &motion.tried()[0];
+    let straight = &motion.trials()[0];
     assert_eq!(straight.start, Start::Straight);
     assert!(
         matches!(straight.outcome, Outcome::Lacks { energy } if energy > 0.0 && energy < 2.0 * G)
@@ -282,9 +282,9 @@ fn a_guess_is_a_start_and_its_ends_are_moved() {
         .solve(HILL, &FROM, &to)
         .expect("a motion");
     assert_eq!(motion.time(), both.time());
-    assert_eq!(motion.tried()[0].start, Start::Guess);
-    let Outcome::Found { time } = motion.tried()[0].outcome else {
-        panic!("{:?}", motion.tried());
+    assert_eq!(motion.trials()[0].start, Start::Guess);
+    let Outcome::Found { time } = motion.trials()[0].outcome else {
+        panic!("{:?}", motion.trials());
     };
     assert!((time - both.others()[0]).abs() < 1e-10 && time > both.time());
     for (guess, what) in [
@@ -292,7 +292,7 @@ fn a_guess_is_a_start_and_its_ends_are_moved() {
         (vec![vec![-1.0, 0.0], vec![1.0]], "a position of the guess"),
     ] {
         let error = Search::new().guess(guess).solve(HILL, &FROM, &to).err();
-        assert!(matches!(error, Some(Unsolved::Size { what: found, .. }) if found == what));
+        assert!(matches!(error, Some(Unsolved::Size { list: found, .. }) if found == what));
     }
 }
 

@@ -123,19 +123,19 @@ impl<'s> Recorder<'s> {
     }
 
     /// A value that exists already, whenever it is needed.
-    fn given(&mut self, text: String) -> Operand {
+    fn existing_value(&mut self, text: String) -> Operand {
         self.push(Op::Given(text))
     }
 
     /// `of::<N>(…)`.
     pub fn constructed(&mut self, function: &str) -> Operand {
         let text = format!("{}::{function}", self.code.number());
-        self.given(text)
+        self.existing_value(text)
     }
 
     fn variable(&mut self, carried: Carried) -> Operand {
         self.carried.insert(carried);
-        self.given(carried.name())
+        self.existing_value(carried.name())
     }
 
     /// The current order plus `more`, as a number.
@@ -224,7 +224,7 @@ impl<'s> Recorder<'s> {
     /// The value of a row at the start.
     pub fn value(&mut self, row: RowId) {
         if let Row::Time = self.series.rows[row.index()] {
-            let low = self.given("n(t[1])".into());
+            let low = self.existing_value("n(t[1])".into());
             self.low[row.index()] = Some(low);
         }
         let value = self.series.value(row, self);
@@ -527,7 +527,7 @@ impl Arithmetic for Recorder<'_> {
             Operand::MinusOne
         } else {
             let text = language::rational(self.code.number(), value).text;
-            self.given(text)
+            self.existing_value(text)
         }
     }
     fn pi(&mut self) -> Operand {
@@ -536,19 +536,19 @@ impl Arithmetic for Recorder<'_> {
     fn parameter(&mut self, index: u32) -> Operand {
         let names = self.parameters.as_ref();
         let name = names.map_or("", |names| names[index as usize].as_str());
-        self.given(format!("self.{name}"))
+        self.existing_value(format!("self.{name}"))
     }
     fn input(&mut self, index: u32) -> Operand {
         let text = format!("n(u.{})", self.inputs[index as usize]);
-        self.given(text)
+        self.existing_value(text)
     }
     fn time(&mut self) -> Operand {
-        self.given("n(t[0])".into())
+        self.existing_value("n(t[0])".into())
     }
     fn motion(&mut self, coordinate: u32, is_rate: bool) -> Operand {
         match (self.m, is_rate) {
-            (0, false) => self.given(format!("n(q[{coordinate}])")),
-            (0, true) | (1, false) => self.given(format!("n(v[{coordinate}])")),
+            (0, false) => self.existing_value(format!("n(q[{coordinate}])")),
+            (0, true) | (1, false) => self.existing_value(format!("n(v[{coordinate}])")),
             (_, false) => Operand::Zero,
             (_, true) => self.variable(Carried::Rate(coordinate)),
         }
@@ -568,7 +568,7 @@ impl Arithmetic for Recorder<'_> {
                 let at = self.constants.len();
                 self.constants.push(row);
                 let part = std::mem::replace(&mut self.part, Part::Start);
-                let read = self.given(format!("n(p.series[{at}])"));
+                let read = self.existing_value(format!("n(p.series[{at}])"));
                 self.part = part;
                 read
             }
@@ -629,9 +629,9 @@ impl Arithmetic for Recorder<'_> {
         if self.series.is_integral(row) {
             [order, self.scaled[row.index()].unwrap_or(Operand::Zero)]
         } else {
-            let both = self.order(2);
-            let both = self.multiply(order, both);
-            [both, self.newest[row.index()].unwrap_or(Operand::Zero)]
+            let two = self.order(2);
+            let factor = self.multiply(order, two);
+            [factor, self.newest[row.index()].unwrap_or(Operand::Zero)]
         }
     }
     fn convolution(&mut self, row: RowId, number: usize) -> Operand {
@@ -649,7 +649,7 @@ impl Arithmetic for Recorder<'_> {
         }
         let (kind, lane) = self.places[&convolution];
         let letter = ["w", "s"][kind];
-        let sum = self.given(format!("{letter}{}[{}]", lane / WIDTH, lane % WIDTH));
+        let sum = self.existing_value(format!("{letter}{}[{}]", lane / WIDTH, lane % WIDTH));
         let carried = |Stream { row, weighted }: Stream| {
             if weighted {
                 Carried::Weighted(row)
@@ -681,8 +681,8 @@ impl Arithmetic for Recorder<'_> {
         }
         let angle = self.first(row);
         let pair = self.push(Op::Circular(vec![angle]));
-        let both = [false, true].map(|cos| self.push(Op::Member(pair, 0, cos)));
-        let turned = self.corrected_sin_cos(row, both);
+        let sin_cos = [false, true].map(|cos| self.push(Op::Member(pair, 0, cos)));
+        let turned = self.corrected_sin_cos(row, sin_cos);
         self.circular.insert(row, turned);
         turned
     }

@@ -22,7 +22,7 @@ pub enum Operand {
 pub enum Part {
     /// Before the loop over orders.
     Start,
-    /// In it.
+    /// In the loop over orders.
     Order,
 }
 

@@ -143,11 +143,11 @@ impl Configurations<'_, '_> {
             // K. Levenberg, A method for the solution of certain non-linear problems in least squares, 1944.
             let step = damped_step(&rows, &residuals, &gradient, damping)?;
             let there: Row = place.iter().zip(step).map(|(&q, d)| q - d).collect();
-            let seen = look(&there).map(|(mut residuals, mut rows)| {
+            let scaled = look(&there).map(|(mut residuals, mut rows)| {
                 scale(&mut residuals, &mut rows);
                 (residuals, rows)
             });
-            match seen {
+            match scaled {
                 Some(seen) if dot(&seen.0, &seen.0) < squares => {
                     (residuals, rows) = seen;
                     place = there;
