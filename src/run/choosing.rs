@@ -6,8 +6,9 @@
 //! * At the start the costs decide: of a step by Taylor series, and of the steps of `dop853` that cover it.
 //! * If stability limits explicit steps, the run changes to a Radau method. The test of DOP853 detects this, and in series the fastest
 //!   rate of the machine does.
-//! * It changes from a Radau method back to `dop853` if its steps have cost more than stable explicit ones would: evaluations, and the
-//!   solution of linear equations, in evaluations.
+//! * It changes from a Radau method back to `dop853` if its steps have cost more than explicit ones would: evaluations, and the solution of
+//!   linear equations, in evaluations. Explicit ones would cost what those before the change have cost, as long as the machine is no
+//!   faster than it was there, or what stable ones cost that are no longer than the implicit ones.
 
 use super::Run;
 use crate::balance::Quadratures;
@@ -53,8 +54,15 @@ const MULTIPLICATIONS: f64 = 50.0;
 /// Number of implicit steps that are evaluated together.
 const WINDOW: usize = 8;
 
-/// Number of consecutive windows in which explicit steps must cost less; it doubles with each return to an explicit method.
+/// Number of consecutive windows in which explicit steps must cost less; it doubles with each return to an explicit method from one that had
+/// cost less.
 const WINDOWS: usize = 2;
+
+/// Least number of explicit steps whose evaluations are counted before a change to an implicit method.
+const MEASURED: usize = 16;
+
+/// After a change to an implicit method that never cost less, so many times as many explicit steps are taken until the next test.
+const PATIENCE: usize = 4;
 
 /// State of the choice of methods in a run.
 #[derive(Debug)]
@@ -66,6 +74,13 @@ pub(super) struct Choosing {
     /// The number of consecutive windows in which explicit steps would have cost less, and the number required.
     paying: usize,
     needed: usize,
+    /// Time and work at two instants in the explicit steps so far, at least [`MEASURED`] steps apart.
+    marks: [(f64, Work); 2],
+    /// Evaluations by explicit steps before the change to the implicit method, per second of the motion, and the fastest rate there.
+    measured: Option<(f64, f64)>,
+    /// Whether the implicit method has cost less in any window since that change.
+    has_paid: bool,
+    between_tests: usize,
 }
 
 impl Choosing {
@@ -77,6 +92,10 @@ impl Choosing {
             since: (0.0, Work::default(), 0.0),
             paying: 0,
             needed: WINDOWS,
+            marks: [(0.0, Work::default()); 2],
+            measured: None,
+            has_paid: false,
+            between_tests: STEPS_BETWEEN_TESTS,
         }
     }
 
@@ -180,6 +199,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 None => Ok(()),
             };
         }
+        self.mark();
         match self.stepper.stiff_since() {
             Some(_) => {
                 let rate = self.stepper.fastest_rate().unwrap_or(0.0);
@@ -214,8 +234,24 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         (is_beyond && length.is_finite()).then_some(rate)
     }
 
+    /// Remembers time and work of explicit steps from time to time.
+    fn mark(&mut self) {
+        let now = (self.stepper.t(), self.stepper.work());
+        let [_, last] = self.choosing.marks;
+        if now.1.steps >= last.1.steps + MEASURED {
+            self.choosing.marks = [last, now];
+        }
+    }
+
     fn go_on_implicitly(&mut self, rate: f64) -> Result<(), Error> {
         let method = implicit(sharpest(self.stepper.tolerance()));
+        let (since, before) = self.choosing.marks[0];
+        let evaluations = self.stepper.work().evaluations - before.evaluations;
+        let is_explicit = self.stepper.coefficients().is_none();
+        let measured = evaluations as f64 / (self.stepper.t() - since).abs();
+        let is_measured = is_explicit && before.steps > 0 && measured.is_finite();
+        self.choosing.measured = is_measured.then_some((measured, rate));
+        self.choosing.has_paid = false;
         self.begin_window();
         self.choosing.paying = 0;
         self.go_on_by(method, MethodReason::Stiff { rate })
@@ -234,25 +270,50 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if steps < WINDOW {
             return Ok(());
         }
-        let Some(rate) = self.stepper.fastest_rate() else {
-            return Ok(());
-        };
-        let stable = rate * (self.stepper.t() - since).abs() / REACH;
-        let explicit = EVALUATIONS * stable.max(steps as f64);
+        let span = (self.stepper.t() - since).abs();
         let multiplications = self.stepper.multiplications() - multiplications;
         let coordinates = self.stepper.q().as_slice().len().max(1);
         let implicit = (work.evaluations - before.evaluations) as f64
             + multiplications / (MULTIPLICATIONS * coordinates as f64);
-        self.choosing.paying = if explicit < implicit {
-            self.choosing.paying + 1
-        } else {
-            0
+        let as_long = EVALUATIONS * steps as f64;
+        let (as_before, rate_before) = match self.choosing.measured {
+            Some((measured, rate)) => (measured * span, rate),
+            None => (f64::INFINITY, 0.0),
         };
         self.begin_window();
+        if as_long.min(as_before) >= implicit {
+            self.choosing.paying = 0;
+            self.choosing.has_paid = true;
+            return Ok(());
+        }
+        let Some(rate) = self.stepper.fastest_rate() else {
+            return Ok(());
+        };
+        let stable = EVALUATIONS * rate * span / REACH;
+        let faster = if rate_before > 0.0 {
+            (rate / rate_before).max(1.0)
+        } else {
+            1.0
+        };
+        let explicit = stable.max(as_long).min(as_before * faster);
+        if explicit >= implicit {
+            self.choosing.paying = 0;
+            self.choosing.has_paid = true;
+            return Ok(());
+        }
+        self.choosing.paying += 1;
         if self.choosing.paying < self.choosing.needed {
             return Ok(());
         }
-        self.choosing.needed *= 2;
+        if self.choosing.has_paid {
+            self.choosing.needed *= 2;
+        } else {
+            let between = self.choosing.between_tests.saturating_mul(PATIENCE);
+            self.choosing.between_tests = between;
+            self.stepper.test_stiffness_every(between);
+        }
+        let now = (self.stepper.t(), self.stepper.work());
+        self.choosing.marks = [now; 2];
         self.go_on_by(Method::DOP853, MethodReason::NotStiff { rate })
     }
 

@@ -114,6 +114,33 @@ fn runs_of_the_library_end_at_the_references() {
     ends_there("double_pendulum_chaotic", &METHODS[0], 1e-14, 1e-4);
 }
 
+/// On springs of 2e9 N/m the crusher's steps are limited by stability now and then, but Radau methods take as many evaluations, and more steps. A run
+/// that chooses its method tries them in 16 steps after no less than 115 explicit ones, and then less and less often: a tenth of the evaluations.
+#[test]
+fn a_run_that_chooses_its_method_leaves_one_that_costs_more() {
+    let known = KnownRun::named("stiff_crusher");
+    let machine = machine(&known);
+    let mut start = machine.start();
+    let (q, v) = known.start.split_at(known.start.len() / 2);
+    start.q.values.copy_from_slice(q);
+    start.v.values.copy_from_slice(v);
+    for tolerance in [1e-3, 1e-4] {
+        let simulation = || {
+            let simulation = Simulation::new(&machine).tolerance(tolerance);
+            simulation.forget_steps().until(known.until)
+        };
+        let explicit = simulation().method(Method::DOP853).run(start.clone());
+        let chosen = simulation().automatic().run(start.clone()).unwrap();
+        let count = chosen.statistics().evaluations as f64;
+        let limit = 1.1 * explicit.unwrap().statistics().evaluations as f64;
+        assert!(
+            count <= limit,
+            "{tolerance}: {count}, {:?}",
+            chosen.choices()
+        );
+    }
+}
+
 /// The state that Kepler's equation gives after 1000 turns has the energy and the areal velocity of the start to all digits of
 /// double-doubles, and the run ends there.
 #[test]
