@@ -51,7 +51,7 @@ pub(crate) struct Implicit {
     n: usize,
     jacobian: Jacobian,
     age: JacobianAge,
-    /// Its fastest rate, once it was asked for.
+    /// Its fastest rate, in 1/s, once it was asked for.
     rate: Option<f64>,
     /// The derivatives at the beginning of the step are those this time later, in s, because the accelerations jump there; otherwise 0.
     ahead: f64,
@@ -61,12 +61,13 @@ pub(crate) struct Implicit {
     factored: f64,
     in_real: Vec<f64>,
     in_complex: Vec<[Vec<f64>; 2]>,
-    /// The number of multiplications in all factorizations and solutions so far.
+    /// The number of multiplications that linear equations and sums over stages have taken so far.
     multiplications: f64,
     /// The residuals of the stages, later their changes.
     change: Vec<Vec<f64>>,
-    /// The changes of positions and velocities at a stage, and the inverses of those of accelerations that do not matter.
+    /// The changes of positions and of velocities at a stage.
     moved: [Vec<f64>; 2],
+    /// The factors that make changes of positions and of velocities relative to what Newton's method may leave of them.
     scales: [Vec<f64>; 2],
     /// Memory for Jacobians at each stage, once they were needed, and the number of steps for which they remain in use.
     apart: Option<Box<StageJacobians>>,
@@ -166,7 +167,7 @@ impl Implicit {
             .get_or_insert_with(|| self.jacobian.fastest_rate())
     }
 
-    /// The number of multiplications of real numbers in all factorizations and solutions so far.
+    /// The number of multiplications of real numbers that linear equations and sums over stages have taken so far.
     pub fn multiplications(&self) -> f64 {
         self.multiplications
     }
@@ -254,6 +255,12 @@ impl Implicit {
     /// The systems of all eigenvalues, of which a complex one counts as four: so many multiplications take the place of one.
     fn systems_at_once(&self) -> f64 {
         1.0 + 4.0 * self.complex.len() as f64
+    }
+
+    /// The number of multiplications of a sum over all stages for each stage.
+    fn sums(&self) -> f64 {
+        let stages = self.change.len();
+        (stages * stages * self.n) as f64
     }
 
     /// Factorizes all matrices for a step of length `h`.

@@ -1,6 +1,6 @@
 //! Derivatives of the accelerations with respect to the state, by finite differences.
 
-use super::lu::subtract_real;
+use super::lu::add_multiple;
 use crate::math::{rough_exp2, rough_log2, sqrt};
 use crate::{StepError, System, Vector};
 use std::vec::Vec;
@@ -24,7 +24,7 @@ fn irregular(i: usize) -> f64 {
 /// Adds `factor` times the product of a matrix, column after column, with a vector.
 pub(crate) fn add_product(to: &mut [f64], factor: f64, matrix: &[f64], x: &[f64]) {
     for (column, x) in matrix.chunks_exact(to.len().max(1)).zip(x) {
-        subtract_real(to, -factor * x, column);
+        add_multiple(to, factor * x, column);
     }
 }
 

@@ -1,7 +1,7 @@
 //! LU factorization of real and complex matrices, `P A = L U`.
 //!
 //! Matrices are stored column after column, real and imaginary parts apart: elimination and substitution then subtract multiples of columns,
-//! which are independent of each other and so computed several at once. Sums over rows would wait for each term in turn.
+//! whose entries are independent of each other, so that the processor computes several at once. A sum over a row would wait for each term.
 
 use std::vec::Vec;
 
@@ -13,6 +13,7 @@ fn size<const P: usize>(number: Parts<P>) -> f64 {
     number.iter().map(|part| part.abs()).sum()
 }
 
+/// The product of two numbers.
 fn times<const P: usize>(x: Parts<P>, y: Parts<P>) -> Parts<P> {
     let mut product = x;
     match (&mut product[..], &x[..], &y[..]) {
@@ -24,6 +25,7 @@ fn times<const P: usize>(x: Parts<P>, y: Parts<P>) -> Parts<P> {
     product
 }
 
+/// The inverse of a number.
 fn inverse<const P: usize>(x: Parts<P>) -> Parts<P> {
     let mut inverse = x;
     match &mut inverse[..] {
@@ -49,15 +51,15 @@ fn subtract<const P: usize>(x: [&mut [f64]; P], factor: Parts<P>, y: [&[f64]; P]
                 im[i] -= of_re * y_im[i] + of_im * y_re[i];
             }
         }
-        (x, factor, y) => subtract_real(x[0], factor[0], y[0]),
+        (x, factor, y) => add_multiple(x[0], -factor[0], y[0]),
     }
 }
 
-/// `x − factor · y` for real numbers.
+/// `x + factor · y` for real numbers.
 #[inline(always)]
-pub(crate) fn subtract_real(x: &mut [f64], factor: f64, y: &[f64]) {
+pub(crate) fn add_multiple(x: &mut [f64], factor: f64, y: &[f64]) {
     for (x, y) in x.iter_mut().zip(y) {
-        *x -= factor * y;
+        *x += factor * y;
     }
 }
 
@@ -111,18 +113,23 @@ impl<const P: usize> Lu<P> {
         let n = self.n;
         for k in 0..n {
             let at = |i: usize| self.parts.each_ref().map(|part| part[k * n + i]);
-            let (mut pivot, mut greatest) = (k, size(at(k)));
-            for i in k + 1..n {
+            let (mut pivot, mut greatest) = (k, 0.0);
+            for i in k..n {
                 let size = size(at(i));
+                // NaN below the pivot would spread only to solutions.
+                if !size.is_finite() {
+                    return false;
+                }
                 if size > greatest {
                     (pivot, greatest) = (i, size);
                 }
             }
-            // NaN is no pivot either.
-            if !(greatest > 0.0 && greatest.is_finite()) {
+            let inverse = inverse(at(pivot));
+            // Not even of a pivot whose inverse, or whose square, is beyond the range of numbers.
+            let of_inverse = size(inverse);
+            if !(of_inverse > 0.0 && of_inverse.is_finite()) {
                 return false;
             }
-            let inverse = inverse(at(pivot));
             self.pivots[k] = pivot;
             self.inverses[k] = inverse;
             if pivot != k {
@@ -224,5 +231,15 @@ mod tests {
         let mut lu = Lu::new(2);
         assert!(!lu.factor(|j, [column]| (0..2).for_each(|i| column[i] = a[i][j])));
         assert!(!lu.factor(|_, [column]| column.fill(f64::NAN)));
+        // NaN beside a pivot that it does not become.
+        let a = [[1.0, 0.0], [f64::NAN, 1.0]];
+        assert!(!lu.factor(|j, [column]| (0..2).for_each(|i| column[i] = a[i][j])));
+        // Their inverses are not numbers, or 0.
+        let mut lu = Lu::new(1);
+        assert!(!lu.factor(|_, [column]| column[0] = 1e-310));
+        let mut lu = Lu::new(1);
+        for huge in [1e-200, 1e200] {
+            assert!(!lu.factor(|_, [re, im]| (re[0], im[0]) = (huge, huge)));
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Newton's method for the stages of a step.
 
 use super::jacobian::Jacobian;
-use super::lu::{self, Lu, subtract_real};
+use super::lu::{self, Lu, add_multiple};
 use super::{Implicit, Solved, StepProblem};
 use crate::math::{rough_power, sqrt};
 use crate::methods::MAX_STAGES;
@@ -148,7 +148,7 @@ impl Implicit {
             let stage = stage.as_mut_slice();
             stage.fill(0.0);
             for (weight, known) in weights.iter().zip(&self.known) {
-                subtract_real(stage, -weight, known);
+                add_multiple(stage, *weight, known);
             }
         }
     }
@@ -174,6 +174,8 @@ impl Implicit {
         let most = self.most_rounds();
         for round in 1..=most {
             self.rounds = round;
+            // Two for the states of the stages, two for the eigenvectors, and two for the size of the change.
+            self.multiplications += 6.0 * self.sums();
             let mut is_confirmed = is_measured || round > 1;
             let solved = match self.steps_apart {
                 0 => {
@@ -330,7 +332,7 @@ impl Implicit {
         } = self;
         in_real.fill(0.0);
         for (left, change) in spectrum.left_of_real.iter().zip(&*change) {
-            subtract_real(in_real, -left, change);
+            add_multiple(in_real, *left, change);
         }
         self.real.solve([in_real]);
         let pairs = spectrum.pairs.iter().zip(&self.complex);
@@ -338,8 +340,8 @@ impl Implicit {
             re.fill(0.0);
             im.fill(0.0);
             for ([left_re, left_im], change) in pair.left.iter().zip(&*change) {
-                subtract_real(re, -left_re, change);
-                subtract_real(im, -left_im, change);
+                add_multiple(re, *left_re, change);
+                add_multiple(im, *left_im, change);
             }
             matrix.solve([re, im]);
         }
@@ -351,14 +353,13 @@ impl Implicit {
             for ([z_re, z_im], pair) in in_complex.iter().zip(spectrum.pairs) {
                 // Together with the conjugate, twice the real part.
                 let [re, im] = pair.right[stage];
-                subtract_real(change, -2.0 * re, z_re);
-                subtract_real(change, 2.0 * im, z_im);
+                add_multiple(change, 2.0 * re, z_re);
+                add_multiple(change, -2.0 * im, z_im);
             }
         }
     }
 
-    /// Determines the changes of accelerations at the stages whose effect on positions and on velocities may be left as the error of Newton's
-    /// method, or is round-off; stores their inverses in `scales`.
+    /// Computes `scales`: a change of size 1 is the error that Newton's method may leave, or round-off.
     fn measure<V: Vector>(&mut self, task: &StepProblem<'_, V>) {
         let StepProblem {
             before, tolerance, ..
@@ -381,8 +382,7 @@ impl Implicit {
         }
     }
 
-    /// The change of positions and velocities of the stages, as root mean square over all of them; 1 is
-    /// the error that Newton's method may leave, or round-off.
+    /// The change of positions and velocities of the stages, as root mean square over all of them, in units of what may be left.
     fn size_of_change<V>(&mut self, task: &StepProblem<'_, V>) -> f64 {
         let stages = self.change.len();
         let [position, velocity] = &mut self.moved;
@@ -393,8 +393,8 @@ impl Implicit {
             velocity.fill(0.0);
             for term in row.terms() {
                 let change = &self.change[term.stage - 1];
-                subtract_real(position, -term.position, change);
-                subtract_real(velocity, -term.velocity, change);
+                add_multiple(position, term.position, change);
+                add_multiple(velocity, term.velocity, change);
             }
             let scales = of_position.iter().zip(of_velocity);
             for ((position, velocity), (of_position, of_velocity)) in

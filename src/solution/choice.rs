@@ -21,7 +21,7 @@ pub struct MethodChoice {
 #[non_exhaustive]
 pub enum MethodReason {
     /// A step by Taylor series, which costs `cost` evaluations of the accelerations, replaces steps of `dop853` with at least as
-    /// many evaluations, `saved`.
+    /// many evaluations, `saved`, that would be as accurate.
     SeriesPays {
         /// The cost of a step by series, in evaluations of the accelerations.
         cost: f64,
@@ -43,7 +43,7 @@ pub enum MethodReason {
         /// The rate, in 1/s; 0 if only the lengths of steps revealed it.
         rate: f64,
     },
-    /// The fastest part of the machine has become so slow that explicit steps cost less.
+    /// Explicit steps cost less than those of the implicit method: the fastest part of the machine has become slow, or accuracy limits both.
     NotStiff {
         /// Its rate, in 1/s.
         rate: f64,
