@@ -61,7 +61,7 @@ pub(crate) struct Implicit {
     factored: f64,
     in_real: Vec<f64>,
     in_complex: Vec<[Vec<f64>; 2]>,
-    /// The number of multiplications that linear equations and sums over stages have taken so far.
+    /// The time that linear equations and sums over stages have taken so far, as a number of multiplications.
     multiplications: f64,
     /// The residuals of the stages, later their changes.
     change: Vec<Vec<f64>>,
@@ -167,7 +167,7 @@ impl Implicit {
             .get_or_insert_with(|| self.jacobian.fastest_rate())
     }
 
-    /// The number of multiplications of real numbers that linear equations and sums over stages have taken so far.
+    /// The time that linear equations and sums over stages have taken so far, as a number of multiplications of real numbers.
     pub fn multiplications(&self) -> f64 {
         self.multiplications
     }
@@ -252,17 +252,6 @@ impl Implicit {
         ROUNDS + ROUNDS_OF_PAIR * (self.spectrum.pairs.len() - 1)
     }
 
-    /// The systems of all eigenvalues, of which a complex one counts as four: so many multiplications take the place of one.
-    fn systems_at_once(&self) -> f64 {
-        1.0 + 4.0 * self.complex.len() as f64
-    }
-
-    /// The number of multiplications of a sum over all stages for each stage.
-    fn sums(&self) -> f64 {
-        let stages = self.change.len();
-        (stages * stages * self.n) as f64
-    }
-
     /// Factorizes all matrices for a step of length `h`.
     fn factor(&mut self, h: f64) -> bool {
         if self.factored == h {
@@ -270,7 +259,8 @@ impl Implicit {
         }
         self.factored = 0.0;
         let n = self.n;
-        self.multiplications += lu::factorization(n) * self.systems_at_once();
+        let factorizations = self.complex.iter().map(Lu::factorization);
+        self.multiplications += self.real.factorization() + factorizations.sum::<f64>();
         let Jacobian {
             by_coordinates,
             by_rates,
@@ -398,7 +388,7 @@ impl Implicit {
         let step = h * self.spectrum.real;
         add_product(rates, step, &self.jacobian.by_coordinates, positions);
         self.real.solve([rates]);
-        self.multiplications += 2.0 * lu::solution(self.n);
+        self.multiplications += 2.0 * self.real.solution();
         for (position, rate) in positions.iter_mut().zip(rates) {
             *position += step * *rate;
         }

@@ -63,16 +63,14 @@ pub(crate) fn add_multiple(x: &mut [f64], factor: f64, y: &[f64]) {
     }
 }
 
-/// The number of multiplications that [`Lu::factor`] takes for `n` unknowns.
-pub(crate) fn factorization(n: usize) -> f64 {
-    let n = n as f64;
-    n * n * n / 3.0
-}
+/// What a loop over a column takes besides its multiplications, as a number of multiplications. Measured solutions for 4 to 64 unknowns take
+/// 0.2 ns · (n² + 2 · 25 n) to within a sixth, with 4 n² if they are complex, and factorizations for 9 to 64 unknowns take
+/// 0.2 ns · (n³/3 + 25 n²) to within a fourth.
+const LOOP: f64 = 25.0;
 
-/// The number of multiplications that [`Lu::solve`] takes for `n` unknowns.
-pub(crate) fn solution(n: usize) -> f64 {
-    let n = n as f64;
-    n * n
+/// The time of so many sums over columns of `n` numbers, as a number of multiplications.
+pub(crate) fn sums(count: usize, n: usize) -> f64 {
+    count as f64 * (n as f64 + LOOP)
 }
 
 /// A matrix of real (`P = 1`) or complex (`P = 2`) numbers and its factorization, in memory that is reused.
@@ -164,6 +162,18 @@ impl<const P: usize> Lu<P> {
             }
         }
         true
+    }
+
+    /// The time that [`factor`](Self::factor) takes, as a number of multiplications of real numbers.
+    pub fn factorization(&self) -> f64 {
+        let n = self.n as f64;
+        n * n * ((P * P) as f64 * n / 3.0 + LOOP)
+    }
+
+    /// The time that [`solve`](Self::solve) takes, as a number of multiplications of real numbers.
+    pub fn solution(&self) -> f64 {
+        let n = self.n as f64;
+        n * ((P * P) as f64 * n + 2.0 * LOOP)
     }
 
     /// Solves for a right-hand side in place.

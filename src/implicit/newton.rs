@@ -175,14 +175,15 @@ impl Implicit {
         for round in 1..=most {
             self.rounds = round;
             // Two for the states of the stages, two for the eigenvectors, and two for the size of the change.
-            self.multiplications += 6.0 * self.sums();
+            self.multiplications += lu::sums(6 * self.change.len() * self.change.len(), self.n);
             let mut is_confirmed = is_measured || round > 1;
             let solved = match self.steps_apart {
                 0 => {
                     self.residuals(task, k, [q, v], accelerations)?;
                     is_confirmed = is_confirmed || self.residuals_are_small(task);
                     self.solve_by_eigenvectors();
-                    self.multiplications += lu::solution(self.n) * self.systems_at_once();
+                    let solutions = self.complex.iter().map(Lu::solution);
+                    self.multiplications += self.real.solution() + solutions.sum::<f64>();
                     true
                 }
                 _ => {
@@ -307,14 +308,14 @@ impl Implicit {
                 subtract(here, &k[stage], &mut self.change[stage - 1]);
                 Ok(())
             });
-            self.multiplications += lu::factorization(self.n * self.change.len());
+            self.multiplications += apart.matrix.factorization();
             found.map(|()| apart.factor(task))
         } else {
             self.residuals(task, k, [q, v], accelerations)
                 .map(|()| true)
         };
         if solved == Ok(true) {
-            self.multiplications += lu::solution(self.n * self.change.len());
+            self.multiplications += apart.matrix.solution();
             apart.solve(&mut self.change);
         }
         self.apart = Some(apart);
