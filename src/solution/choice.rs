@@ -57,11 +57,11 @@ impl Display for MethodReason {
         match self {
             Self::SeriesPays { cost, saved } => write!(
                 f,
-                "a step by series costs {cost:.0} evaluations, and the same time interval {saved:.0} in steps of dop853"
+                "a step by series costs {cost:.0} evaluations, and the same time interval {saved:.0} in steps of dop853 that are as accurate"
             ),
             Self::SeriesCosts { cost, saved } => write!(
                 f,
-                "a step by series would cost {cost:.0} evaluations, where the same time interval takes {saved:.0}"
+                "a step by series would cost {cost:.0} evaluations, where the same time interval takes {saved:.0} in steps of dop853 that are as accurate"
             ),
             Self::Explicit => f.write_str("nothing is known to be stiff"),
             Self::Stiff { rate } if *rate > 0.0 => write!(
