@@ -29,8 +29,8 @@ use crate::stages::{Point, weigh_one};
 use crate::step_error::StepError;
 use crate::tolerance::{SAFETY, Tolerance};
 use crate::{System, Vector};
-use jacobian::Jacobian;
-use lu::{Complex, Lu};
+use jacobian::{Jacobian, add_product};
+use lu::Lu;
 use newton::{ROUNDS, ROUNDS_OF_PAIR, StageJacobians};
 use std::boxed::Box;
 use std::vec::Vec;
@@ -51,18 +51,24 @@ pub(crate) struct Implicit {
     n: usize,
     jacobian: Jacobian,
     age: JacobianAge,
+    /// Its fastest rate, in 1/s, once it was asked for.
+    rate: Option<f64>,
     /// The derivatives at the beginning of the step are those this time later, in s, because the accelerations jump there; otherwise 0.
     ahead: f64,
     /// `I − h μ a_v − h² μ² a_q` for all eigenvalues, factorized, and their `h`; 0 for none.
-    real: Lu<f64>,
-    complex: Vec<Lu<Complex>>,
+    real: Lu<1>,
+    complex: Vec<Lu<2>>,
     factored: f64,
     in_real: Vec<f64>,
-    in_complex: Vec<Vec<Complex>>,
-    /// The number of multiplications in all factorizations and solutions so far.
+    in_complex: Vec<[Vec<f64>; 2]>,
+    /// The time that linear equations and sums over stages have taken so far, as a number of multiplications.
     multiplications: f64,
     /// The residuals of the stages, later their changes.
     change: Vec<Vec<f64>>,
+    /// The changes of positions and of velocities at a stage.
+    moved: [Vec<f64>; 2],
+    /// The factors that make changes of positions and of velocities relative to what Newton's method may leave of them.
+    scales: [Vec<f64>; 2],
     /// Memory for Jacobians at each stage, once they were needed, and the number of steps for which they remain in use.
     apart: Option<Box<StageJacobians>>,
     steps_apart: usize,
@@ -127,14 +133,17 @@ impl Implicit {
             n,
             jacobian: Jacobian::new(system),
             age: JacobianAge::None,
+            rate: None,
             ahead: 0.0,
             real: Lu::new(n),
             complex: std::vec![Lu::new(n); pairs],
             factored: 0.0,
             in_real: zeros(),
-            in_complex: std::vec![std::vec![Complex::default(); n]; pairs],
+            in_complex: std::vec![[zeros(), zeros()]; pairs],
             multiplications: 0.0,
             change: std::vec![zeros(); stages],
+            moved: [zeros(), zeros()],
+            scales: [zeros(), zeros()],
             apart: None,
             steps_apart: 0,
             known: std::vec![zeros(); stages],
@@ -152,11 +161,13 @@ impl Implicit {
     }
 
     /// The fastest rate of the motion, in 1/s, according to the Jacobian that is kept.
-    pub fn fastest_rate(&self) -> f64 {
-        self.jacobian.fastest_rate()
+    pub fn fastest_rate(&mut self) -> f64 {
+        *self
+            .rate
+            .get_or_insert_with(|| self.jacobian.fastest_rate())
     }
 
-    /// The number of multiplications of real numbers in all factorizations and solutions so far.
+    /// The time that linear equations and sums over stages have taken so far, as a number of multiplications of real numbers.
     pub fn multiplications(&self) -> f64 {
         self.multiplications
     }
@@ -202,6 +213,7 @@ impl Implicit {
                 let at = (task.before.t + self.ahead, task.h);
                 self.jacobian.find(at, scratch, &mut accelerations)?;
                 self.age = JacobianAge::Fresh;
+                self.rate = None;
                 self.factored = 0.0;
             }
             let solved = if self.factor(task.h) {
@@ -240,11 +252,6 @@ impl Implicit {
         ROUNDS + ROUNDS_OF_PAIR * (self.spectrum.pairs.len() - 1)
     }
 
-    /// The systems of all eigenvalues, of which a complex one counts as four: so many multiplications take the place of one.
-    fn systems_at_once(&self) -> f64 {
-        1.0 + 4.0 * self.complex.len() as f64
-    }
-
     /// Factorizes all matrices for a step of length `h`.
     fn factor(&mut self, h: f64) -> bool {
         if self.factored == h {
@@ -252,26 +259,34 @@ impl Implicit {
         }
         self.factored = 0.0;
         let n = self.n;
-        self.multiplications += lu::factorization(n) * self.systems_at_once();
+        let factorizations = self.complex.iter().map(Lu::factorization);
+        self.multiplications += self.real.factorization() + factorizations.sum::<f64>();
         let Jacobian {
             by_coordinates,
             by_rates,
             ..
         } = &self.jacobian;
-        let one = |i, j| if i == j { 1.0 } else { 0.0 };
+        let column = |j: usize| {
+            let of_rate = &by_rates[j * n..][..n];
+            of_rate.iter().zip(&by_coordinates[j * n..][..n])
+        };
         let step = h * self.spectrum.real;
-        let real = self.real.factor(|i, j| {
-            let at = i * n + j;
-            one(i, j) - step * (by_rates[at] + step * by_coordinates[at])
+        let real = self.real.factor(|j, [to]| {
+            for (entry, (by_v, by_q)) in to.iter_mut().zip(column(j)) {
+                *entry = -step * (by_v + step * by_q);
+            }
+            to[j] += 1.0;
         });
-        let factor = |(matrix, pair): (&mut Lu<Complex>, &Conjugates)| {
+        let factor = |(matrix, pair): (&mut Lu<2>, &Conjugates)| {
             let [re, im] = pair.value.map(|part| h * part);
-            matrix.factor(|i, j| {
-                let (by_q, by_v) = (by_coordinates[i * n + j], by_rates[i * n + j]);
-                Complex {
-                    re: one(i, j) - re * by_v - (re * re - im * im) * by_q,
-                    im: -im * by_v - 2.0 * re * im * by_q,
+            let square = [re * re - im * im, 2.0 * re * im];
+            matrix.factor(|j, [to_re, to_im]| {
+                let entries = to_re.iter_mut().zip(to_im);
+                for ((to_re, to_im), (by_v, by_q)) in entries.zip(column(j)) {
+                    *to_re = -re * by_v - square[0] * by_q;
+                    *to_im = -im * by_v - square[1] * by_q;
                 }
+                to_re[j] += 1.0;
             })
         };
         let complex = self.complex.iter_mut().zip(self.spectrum.pairs).all(factor);
@@ -371,13 +386,9 @@ impl Implicit {
             rates[i] = h * velocity + self.change[1][i];
         }
         let step = h * self.spectrum.real;
-        let rows = self.jacobian.by_coordinates.chunks_exact(self.n.max(1));
-        for (rate, row) in rates.iter_mut().zip(rows) {
-            let by: f64 = row.iter().zip(&*positions).map(|(a, e)| a * e).sum();
-            *rate += step * by;
-        }
-        self.real.solve(rates);
-        self.multiplications += 2.0 * lu::solution(self.n);
+        add_product(rates, step, &self.jacobian.by_coordinates, positions);
+        self.real.solve([rates]);
+        self.multiplications += 2.0 * self.real.solution();
         for (position, rate) in positions.iter_mut().zip(rates) {
             *position += step * *rate;
         }
@@ -440,6 +451,7 @@ impl Implicit {
             stays = self.steps_apart > 0;
             if let Some(apart) = &self.apart {
                 self.jacobian.take(apart.last());
+                self.rate = None;
                 self.factored = 0.0;
             }
         }

@@ -152,8 +152,9 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let ended = resumed.filter(|resumed| resumed.t == start.t);
         let ended = ended.and_then(|resumed| resumed.event);
         let inputs_stay = law.is_constant() && callbacks.sampled.is_none();
+        let at = (start.t, &q, &v);
         let chosen =
-            (settings.automatic).then(|| choosing::first(&system, &tolerance, inputs_stay));
+            (settings.automatic).then(|| choosing::first(&system, at, &tolerance, inputs_stay));
         if let Some((method, _)) = chosen {
             settings.method = method;
         }

@@ -268,10 +268,10 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// Chooses the method by machine, tolerance and motion, and may change it during the run; [`Solution::choices`] lists the choices with
     /// times and reasons.
     ///
-    /// It begins with [`TAYLOR`](crate::TAYLOR) if the machine has a series whose steps cost less than the steps of [`Method::DOP853`]
-    /// over the same time at this tolerance ([`System::series_cost`](crate::System::series_cost)), otherwise with `dop853`. When stability
-    /// and not accuracy limits the steps, it changes to a Radau method, of order 5, 9 or 13 depending on the tolerance, and back once its
-    /// steps have taken more evaluations than explicit ones would. A machine with unilateral contacts [hands over](Self::hand_over) to
+    /// It begins with [`TAYLOR`](crate::TAYLOR) if the machine has a series whose steps cost less than steps of [`Method::DOP853`] over the
+    /// same time that are as accurate ([`System::series_cost`](crate::System::series_cost)), otherwise with `dop853`. When stability and not
+    /// accuracy limits the steps, it changes to a Radau method, of order 5, 9 or 13 depending on the tolerance, and back once its steps,
+    /// linear equations included, have cost more than explicit ones would. A machine with unilateral contacts [hands over](Self::hand_over) to
     /// time stepping and back, and is not tested for stiffness. All decisions follow from counts, never from a clock: the same call gives
     /// the same bits.
     ///

@@ -1,5 +1,6 @@
 //! Derivatives of the accelerations with respect to the state, by finite differences.
 
+use super::lu::add_multiple;
 use crate::math::{rough_exp2, rough_log2, sqrt};
 use crate::{StepError, System, Vector};
 use std::vec::Vec;
@@ -20,6 +21,13 @@ fn irregular(i: usize) -> f64 {
     0.5 + turns.fract()
 }
 
+/// Adds `factor` times the product of a matrix, column after column, with a vector.
+pub(crate) fn add_product(to: &mut [f64], factor: f64, matrix: &[f64], x: &[f64]) {
+    for (column, x) in matrix.chunks_exact(to.len().max(1)).zip(x) {
+        add_multiple(to, factor * x, column);
+    }
+}
+
 /// The derivatives `∂a/∂q` and `∂a/∂v`.
 #[derive(Clone, Debug)]
 pub(crate) struct Jacobian {
@@ -27,7 +35,7 @@ pub(crate) struct Jacobian {
     /// For each coordinate, the first of the same unit.
     alike: Vec<usize>,
     is_angle: Vec<bool>,
-    /// Row after row.
+    /// Column after column.
     pub by_coordinates: Vec<f64>,
     pub by_rates: Vec<f64>,
     /// Typical sizes of the coordinates, then of the rates.
@@ -109,10 +117,10 @@ impl Jacobian {
                     _ => &mut self.by_rates,
                 };
                 let pairs = there.as_slice().iter().zip(here.as_slice());
-                for (i, (there, here)) in pairs.enumerate() {
-                    let derivative = (there - here) / difference;
-                    derivatives[i * n + j] = derivative;
-                    self.noise[i] += derivative.abs() * size;
+                let column = derivatives[j * n..][..n].iter_mut();
+                for ((derivative, noise), (there, here)) in column.zip(&mut self.noise).zip(pairs) {
+                    *derivative = (there - here) / difference;
+                    *noise += derivative.abs() * size;
                 }
             }
         }
@@ -131,13 +139,11 @@ impl Jacobian {
         let mut logarithm = 0.0;
         for round in 0..2 * ROUNDS {
             let (by_q, by_v) = state.split_at(n);
-            next[..n].copy_from_slice(by_v);
-            for i in 0..n {
-                let row = i * n..(i + 1) * n;
-                let of_q = self.by_coordinates[row.clone()].iter().zip(by_q);
-                let of_v = self.by_rates[row].iter().zip(by_v);
-                next[n + i] = of_q.chain(of_v).map(|(a, x)| a * x).sum();
-            }
+            let (of_q, of_v) = next.split_at_mut(n);
+            of_q.copy_from_slice(by_v);
+            of_v.fill(0.0);
+            add_product(of_v, 1.0, &self.by_coordinates, by_q);
+            add_product(of_v, 1.0, &self.by_rates, by_v);
             let size = next.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
             if size == 0.0 {
                 return 0.0;

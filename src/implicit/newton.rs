@@ -1,7 +1,7 @@
 //! Newton's method for the stages of a step.
 
 use super::jacobian::Jacobian;
-use super::lu::{self, Complex, Lu};
+use super::lu::{self, Lu, add_multiple};
 use super::{Implicit, Solved, StepProblem};
 use crate::math::{rough_power, sqrt};
 use crate::methods::MAX_STAGES;
@@ -37,7 +37,7 @@ const FAR: f64 = 0.01;
 pub(super) struct StageJacobians {
     jacobians: Vec<Jacobian>,
     /// Its rows and columns are the accelerations of the first stage, then of the second, and so on.
-    matrix: Lu<f64>,
+    matrix: Lu<1>,
     x: Vec<f64>,
 }
 
@@ -70,21 +70,18 @@ impl StageJacobians {
             jacobians, matrix, ..
         } = self;
         // By blocks, so that the stage of an entry is not found by a division.
-        matrix.factor_rows(|row, entries| {
-            let (stage, i) = (row / n, row % n);
-            let jacobian = &jacobians[stage];
-            let by_coordinates = &jacobian.by_coordinates[i * n..][..n];
-            let by_rates = &jacobian.by_rates[i * n..][..n];
-            let blocks = entries.chunks_exact_mut(n).zip(&weights[stage]);
-            for (other, (block, [velocity, position])) in blocks.enumerate() {
-                let derivatives = by_rates.iter().zip(by_coordinates);
-                for (j, (entry, (by_rate, by_coordinate))) in
-                    block.iter_mut().zip(derivatives).enumerate()
-                {
-                    let one = if (other, j) == (stage, i) { 1.0 } else { 0.0 };
-                    *entry = one - velocity * by_rate - position * by_coordinate;
+        matrix.factor(|column, [entries]| {
+            let (other, j) = (column / n, column % n);
+            for (stage, block) in entries.chunks_exact_mut(n).enumerate() {
+                let [velocity, position] = weights[stage][other];
+                let of_rate = &jacobians[stage].by_rates[j * n..][..n];
+                let of_coordinate = &jacobians[stage].by_coordinates[j * n..][..n];
+                let derivatives = of_rate.iter().zip(of_coordinate);
+                for (entry, (by_rate, by_coordinate)) in block.iter_mut().zip(derivatives) {
+                    *entry = -velocity * by_rate - position * by_coordinate;
                 }
             }
+            entries[column] += 1.0;
         })
     }
 
@@ -94,7 +91,7 @@ impl StageJacobians {
         for (x, change) in self.x.chunks_exact_mut(n.max(1)).zip(&*change) {
             x.copy_from_slice(change);
         }
-        self.matrix.solve(&mut self.x);
+        self.matrix.solve([&mut self.x]);
         for (x, change) in self.x.chunks_exact(n.max(1)).zip(change) {
             change.copy_from_slice(x);
         }
@@ -148,8 +145,10 @@ impl Implicit {
                 }
                 *weight = above / below;
             }
-            for (i, k) in stage.as_mut_slice().iter_mut().enumerate() {
-                *k = (0..count).map(|j| weights[j] * self.known[j][i]).sum();
+            let stage = stage.as_mut_slice();
+            stage.fill(0.0);
+            for (weight, known) in weights.iter().zip(&self.known) {
+                add_multiple(stage, *weight, known);
             }
         }
     }
@@ -164,6 +163,7 @@ impl Implicit {
         accelerations: &mut impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
     ) -> Result<Solved, StepError> {
         self.predict(task, k);
+        self.measure(task);
         let [q, v] = scratch;
         let mut anew = self.steps_apart > 0;
         let is_measured = self.left < 1.0;
@@ -174,13 +174,16 @@ impl Implicit {
         let most = self.most_rounds();
         for round in 1..=most {
             self.rounds = round;
+            // Two for the states of the stages, two for the eigenvectors, and two for the size of the change.
+            self.multiplications += lu::sums(6 * self.change.len() * self.change.len(), self.n);
             let mut is_confirmed = is_measured || round > 1;
             let solved = match self.steps_apart {
                 0 => {
                     self.residuals(task, k, [q, v], accelerations)?;
                     is_confirmed = is_confirmed || self.residuals_are_small(task);
                     self.solve_by_eigenvectors();
-                    self.multiplications += lu::solution(self.n) * self.systems_at_once();
+                    let solutions = self.complex.iter().map(Lu::solution);
+                    self.multiplications += self.real.solution() + solutions.sum::<f64>();
                     true
                 }
                 _ => {
@@ -305,14 +308,14 @@ impl Implicit {
                 subtract(here, &k[stage], &mut self.change[stage - 1]);
                 Ok(())
             });
-            self.multiplications += lu::factorization(self.n * self.change.len());
+            self.multiplications += apart.matrix.factorization();
             found.map(|()| apart.factor(task))
         } else {
             self.residuals(task, k, [q, v], accelerations)
                 .map(|()| true)
         };
         if solved == Ok(true) {
-            self.multiplications += lu::solution(self.n * self.change.len());
+            self.multiplications += apart.matrix.solution();
             apart.solve(&mut self.change);
         }
         self.apart = Some(apart);
@@ -328,54 +331,46 @@ impl Implicit {
             change,
             ..
         } = self;
-        for i in 0..self.n {
-            let along = |weights: &mut dyn Iterator<Item = f64>| {
-                let products = weights
-                    .zip(&*change)
-                    .map(|(weight, change)| weight * change[i]);
-                products.sum::<f64>()
-            };
-            in_real[i] = along(&mut spectrum.left_of_real.iter().copied());
-            for (z, pair) in in_complex.iter_mut().zip(spectrum.pairs) {
-                z[i] = Complex {
-                    re: along(&mut pair.left.iter().map(|[re, _]| *re)),
-                    im: along(&mut pair.left.iter().map(|[_, im]| *im)),
-                };
-            }
+        in_real.fill(0.0);
+        for (left, change) in spectrum.left_of_real.iter().zip(&*change) {
+            add_multiple(in_real, *left, change);
         }
-        self.real.solve(in_real);
-        for (matrix, z) in self.complex.iter().zip(&mut *in_complex) {
-            matrix.solve(z);
+        self.real.solve([in_real]);
+        let pairs = spectrum.pairs.iter().zip(&self.complex);
+        for ([re, im], (pair, matrix)) in in_complex.iter_mut().zip(pairs) {
+            re.fill(0.0);
+            im.fill(0.0);
+            for ([left_re, left_im], change) in pair.left.iter().zip(&*change) {
+                add_multiple(re, *left_re, change);
+                add_multiple(im, *left_im, change);
+            }
+            matrix.solve([re, im]);
         }
         for (stage, change) in change.iter_mut().enumerate() {
             let real = spectrum.right_of_real[stage];
-            for (i, (change, x)) in change.iter_mut().zip(&*in_real).enumerate() {
+            for (change, x) in change.iter_mut().zip(&*in_real) {
                 *change = real * x;
-                for (z, pair) in in_complex.iter().zip(spectrum.pairs) {
-                    // Together with the conjugate, twice the real part.
-                    let [re, im] = pair.right[stage];
-                    *change += 2.0 * (re * z[i].re - im * z[i].im);
-                }
+            }
+            for ([z_re, z_im], pair) in in_complex.iter().zip(spectrum.pairs) {
+                // Together with the conjugate, twice the real part.
+                let [re, im] = pair.right[stage];
+                add_multiple(change, 2.0 * re, z_re);
+                add_multiple(change, -2.0 * im, z_im);
             }
         }
     }
 
-    /// The change of positions and velocities of the stages, as root mean square over all of them; 1 is
-    /// the error that Newton's method may leave, or round-off.
-    fn size_of_change<V: Vector>(&self, task: &StepProblem<'_, V>) -> f64 {
-        let &StepProblem {
-            method,
-            before,
-            h,
-            tolerance,
+    /// Computes `scales`: a change of size 1 is the error that Newton's method may leave, or round-off.
+    fn measure<V: Vector>(&mut self, task: &StepProblem<'_, V>) {
+        let StepProblem {
+            before, tolerance, ..
         } = task;
         let share = self.share(task);
-        let mut sum = 0.0;
+        let h = task.h.abs();
+        let Jacobian { sizes, noise, .. } = &self.jacobian;
         for i in 0..self.n {
-            let Jacobian { sizes, noise, .. } = &self.jacobian;
             let (q, v) = (before.q.as_slice()[i].abs(), before.v.as_slice()[i].abs());
             // In a stiff machine the forces determine positions only to within their round-off.
-            let h = h.abs();
             let of_forces = (sizes[0][i] / h).min(h * noise[i]);
             let roundoff = 4.0 * f64::EPSILON * of_forces;
             let absolute = tolerance.absolute.as_slice()[i];
@@ -383,18 +378,33 @@ impl Implicit {
                 let tolerable = share * (absolute + tolerance.relative * y);
                 tolerable.max(4.0 * f64::EPSILON * y + roundoff)
             };
-            let (least_q, least_v) = (least(q, h * roundoff), least(v, roundoff));
-            for row in &method.scheme.rows[1..=self.change.len()] {
-                let (mut position, mut velocity) = (0.0, 0.0);
-                for term in row.terms() {
-                    let change = self.change[term.stage - 1][i];
-                    position += term.position * change;
-                    velocity += term.velocity * change;
-                }
-                let (q, v) = (h * h * position / least_q, h * velocity / least_v);
+            self.scales[0][i] = h * h / least(q, h * roundoff);
+            self.scales[1][i] = h / least(v, roundoff);
+        }
+    }
+
+    /// The change of positions and velocities of the stages, as root mean square over all of them, in units of what may be left.
+    fn size_of_change<V>(&mut self, task: &StepProblem<'_, V>) -> f64 {
+        let stages = self.change.len();
+        let [position, velocity] = &mut self.moved;
+        let [of_position, of_velocity] = &self.scales;
+        let mut sum = 0.0;
+        for row in &task.method.scheme.rows[1..=stages] {
+            position.fill(0.0);
+            velocity.fill(0.0);
+            for term in row.terms() {
+                let change = &self.change[term.stage - 1];
+                add_multiple(position, term.position, change);
+                add_multiple(velocity, term.velocity, change);
+            }
+            let scales = of_position.iter().zip(of_velocity);
+            for ((position, velocity), (of_position, of_velocity)) in
+                position.iter().zip(&*velocity).zip(scales)
+            {
+                let (q, v) = (position * of_position, velocity * of_velocity);
                 sum += q * q + v * v;
             }
         }
-        sqrt(sum / (2 * self.change.len() * self.n.max(1)) as f64)
+        sqrt(sum / (2 * stages * self.n.max(1)) as f64)
     }
 }

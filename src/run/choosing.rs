@@ -6,8 +6,9 @@
 //! * At the start the costs decide: of a step by Taylor series, and of the steps of `dop853` that cover it.
 //! * If stability limits explicit steps, the run changes to a Radau method. The test of DOP853 detects this, and in series the fastest
 //!   rate of the machine does.
-//! * It changes from a Radau method back to `dop853` if its steps have cost more than stable explicit ones would: evaluations, and the
-//!   solution of linear equations, in evaluations.
+//! * It changes from a Radau method back to `dop853` if its steps have cost more than explicit ones would: evaluations, and the solution of
+//!   linear equations, in evaluations. Explicit ones would cost what those before the change have cost, more where the machine is faster
+//!   than there, or else what stable ones cost that are no longer than the implicit ones.
 
 use super::Run;
 use crate::balance::Quadratures;
@@ -31,6 +32,10 @@ pub(super) const CANDIDATES: [&Method; 4] = [
 /// Number of evaluations in a step of `dop853`.
 const EVALUATIONS: f64 = 12.0;
 
+/// The search for the end of assumptions that are not linear, in a step by series, takes about as long as this many evaluations: what a step of
+/// the spherical pendulum takes (`docs/benchmarks.md`) beyond its estimate, with 12 coefficients as well as with 20.
+const SEARCH: f64 = 5.0;
+
 /// Number of explicit steps between stiffness tests: so small that the work until a stiff machine is detected is a small part of the work
 /// of an implicit method for the whole motion.
 const STEPS_BETWEEN_TESTS: usize = 100;
@@ -46,15 +51,26 @@ const REACH_OF_SERIES: [f64; 2] = [5.0, 7.6];
 /// Where the stability region of `dop853` ends, in the same units.
 const REACH: f64 = 6.1;
 
-/// An evaluation takes about as long as this many multiplications of linear equations for each coordinate: the crusher's 200 cycles, for
-/// nine coordinates, and half a cycle for a multiplication.
-const MULTIPLICATIONS: f64 = 50.0;
+/// An evaluation takes about as long as this many multiplications of linear equations for each coordinate: 17 to 24 ns, measured with the crusher
+/// and chains of 8 and 16 links, where a multiplication takes 0.2 ns.
+const MULTIPLICATIONS: f64 = 100.0;
 
 /// Number of implicit steps that are evaluated together.
 const WINDOW: usize = 8;
 
-/// Number of consecutive windows in which explicit steps must cost less; it doubles with each return to an explicit method.
-const WINDOWS: usize = 2;
+/// Number of consecutive windows in which explicit steps must cost less, and the largest: it doubles with each return to an explicit method
+/// from one that had cost less in between.
+const WINDOWS: [usize; 2] = [2, 16];
+
+/// Least number of explicit steps by which the cost before a change to an implicit method is measured: of those that stability limits, the test
+/// has seen 15.
+const MEASURED: usize = 16;
+
+/// After a change to an implicit method that never cost less, so many times as many explicit steps are taken until the next test.
+const PATIENCE: usize = 4;
+
+/// Largest number of explicit steps between tests, as of an explicit method. An attempt of 16 implicit steps is then one part in 40 of the work.
+const MOST_STEPS_BETWEEN_TESTS: usize = 1000;
 
 /// State of the choice of methods in a run.
 #[derive(Debug)]
@@ -66,6 +82,23 @@ pub(super) struct Choosing {
     /// The number of consecutive windows in which explicit steps would have cost less, and the number required.
     paying: usize,
     needed: usize,
+    /// Two instants in the explicit steps so far, at least [`MEASURED`] steps apart, and the number of steps tried until then. The earlier one is
+    /// where the measurement of their cost begins.
+    marks: [(f64, usize); 2],
+    /// What explicit steps have cost before the change to the implicit method.
+    before: Option<Explicit>,
+    /// Whether the implicit method has cost less in any window since that change.
+    has_paid: bool,
+    between_tests: usize,
+}
+
+/// The cost of explicit steps before a change to an implicit method.
+#[derive(Clone, Copy, Debug)]
+struct Explicit {
+    /// Evaluations per second of the motion.
+    evaluations: f64,
+    /// The fastest rate there, in 1/s.
+    rate: f64,
 }
 
 impl Choosing {
@@ -76,7 +109,11 @@ impl Choosing {
             choices: Vec::new(),
             since: (0.0, Work::default(), 0.0),
             paying: 0,
-            needed: WINDOWS,
+            needed: WINDOWS[0],
+            marks: [(0.0, 0); 2],
+            before: None,
+            has_paid: false,
+            between_tests: STEPS_BETWEEN_TESTS,
         }
     }
 
@@ -105,23 +142,24 @@ fn finest_tolerance<V: Vector>(tolerance: &Tolerance<V>) -> f64 {
     tolerance.relative + absolute.fold(f64::INFINITY, |least, x| least.min(*x))
 }
 
-/// The number of steps of `dop853` that cover one step by series, both as long as this tolerance allows.
+/// The number of steps of `dop853` that cover one step by series at this tolerance with the same error at the end.
 ///
-/// Steps of order p are proportional to τ^(1/(p + 1)), so the ratio is a power of the tolerance; its size at one tolerance is that of the
-/// double pendulum, and the crusher has 0.9 to 1.1 times that (`docs/benchmarks.md`). At coarse tolerances series are computed to a tenth
-/// of the tolerance.
+/// Steps of order p are proportional to τ^(1/(p + 1)), so the ratio is a power of the tolerance; its size at one tolerance is fitted to
+/// the motions of `benches/time_against_error.rs` (`docs/benchmarks.md`). At the same tolerance the ratio is 0.7 of this, 0.9 at fine ones, but
+/// the errors of series are then smaller: by up to 400 times at coarse tolerances, to a tenth of which series are computed.
 fn steps_for_one(tolerance: f64) -> f64 {
     let (size, at, power) = match tolerance {
-        coarse if coarse > taylor::FINE => (0.63, 2e-4, 1.0 / 9.0 - 1.0 / 13.0),
-        middle if middle > 1e-8 => (1.39, 2e-6, 1.0 / 9.0 - 1.0 / 21.0),
-        _ => (2.09, 2e-8, 1.0 / 9.0 - 1.0 / 21.0),
+        coarse if coarse > taylor::FINE => (1.07, 2e-4, 1.0 / 9.0 - 1.0 / 13.0),
+        middle if middle > 1e-8 => (1.95, 2e-6, 1.0 / 9.0 - 1.0 / 21.0),
+        _ => (2.3, 2e-8, 1.0 / 9.0 - 1.0 / 21.0),
     };
     size * crate::math::power(at / tolerance, power)
 }
 
-/// The method to begin with, and the reason.
+/// The method to begin with at this state, and the reason.
 pub(super) fn first<S: System>(
     system: &S,
+    (t, q, v): (f64, &S::Vector, &S::Vector),
     tolerance: &Tolerance<S::Vector>,
     inputs_stay: bool,
 ) -> (&'static Method, MethodReason) {
@@ -132,7 +170,11 @@ pub(super) fn first<S: System>(
         return explicit;
     };
     let tolerance = finest_tolerance(tolerance);
-    let cost = costs[usize::from(tolerance <= taylor::FINE)];
+    let inputs = system.default_inputs();
+    let is_searched =
+        !system.has_linear_assumptions() && system.assumptions(t, q, v, &inputs).len() != 0;
+    let search = if is_searched { SEARCH } else { 0.0 };
+    let cost = costs[usize::from(tolerance <= taylor::FINE)] + search;
     let saved = EVALUATIONS * steps_for_one(tolerance);
     if cost < saved {
         (Method::TAYLOR, MethodReason::SeriesPays { cost, saved })
@@ -157,6 +199,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Ok(());
         }
         self.stepper.test_stiffness_every(STEPS_BETWEEN_TESTS);
+        self.choosing.marks = [self.tried(); 2];
         match self.rate_beyond_series() {
             Some(rate) => self.go_on_by(Method::DOP853, MethodReason::Stiff { rate }),
             None => Ok(()),
@@ -180,6 +223,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 None => Ok(()),
             };
         }
+        self.mark();
         match self.stepper.stiff_since() {
             Some(_) => {
                 let rate = self.stepper.fastest_rate().unwrap_or(0.0);
@@ -214,10 +258,37 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         (is_beyond && length.is_finite()).then_some(rate)
     }
 
+    /// The present instant and the number of steps tried so far. Evaluations would not do, since a record of the run takes some as well.
+    fn tried(&self) -> (f64, usize) {
+        let Work {
+            steps, rejected, ..
+        } = self.stepper.work();
+        (self.stepper.t(), steps + rejected)
+    }
+
+    /// Remembers where the explicit steps are, from time to time.
+    fn mark(&mut self) {
+        let now = self.tried();
+        let [_, last] = self.choosing.marks;
+        if now.1 >= last.1 + MEASURED {
+            self.choosing.marks = [last, now];
+        }
+    }
+
+    /// What the latest explicit steps have cost, if there were enough of them.
+    fn cost_of_explicit(&self, rate: f64) -> Option<Explicit> {
+        let ((since, before), (t, tried)) = (self.choosing.marks[0], self.tried());
+        let evaluations = EVALUATIONS * (tried - before) as f64 / (t - since).abs();
+        let is_measured = self.stepper.coefficients().is_none() && tried >= before + MEASURED;
+        (is_measured && evaluations.is_finite()).then_some(Explicit { evaluations, rate })
+    }
+
     fn go_on_implicitly(&mut self, rate: f64) -> Result<(), Error> {
         let method = implicit(finest_tolerance(self.stepper.tolerance()));
-        self.begin_window();
+        self.choosing.before = self.cost_of_explicit(rate);
+        self.choosing.has_paid = false;
         self.choosing.paying = 0;
+        self.begin_window();
         self.go_on_by(method, MethodReason::Stiff { rate })
     }
 
@@ -226,7 +297,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.choosing.since = (stepper.t(), stepper.work(), stepper.multiplications());
     }
 
-    /// Returns to an explicit method if that would have cost less, in steps that are stable and no longer than those of the implicit one.
+    /// Returns to an explicit method if that would have cost less.
     fn leave_implicit(&mut self) -> Result<(), Error> {
         let (since, before, multiplications) = self.choosing.since;
         let work = self.stepper.work();
@@ -234,25 +305,49 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if steps < WINDOW {
             return Ok(());
         }
-        let Some(rate) = self.stepper.fastest_rate() else {
-            return Ok(());
-        };
-        let stable = rate * (self.stepper.t() - since).abs() / REACH;
-        let explicit = EVALUATIONS * stable.max(steps as f64);
         let multiplications = self.stepper.multiplications() - multiplications;
         let coordinates = self.stepper.q().as_slice().len().max(1);
         let implicit = (work.evaluations - before.evaluations) as f64
             + multiplications / (MULTIPLICATIONS * coordinates as f64);
-        self.choosing.paying = if explicit < implicit {
-            self.choosing.paying + 1
-        } else {
-            0
-        };
+        let span = (self.stepper.t() - since).abs();
         self.begin_window();
+
+        // Explicit steps are no longer than the implicit ones, since they are not known to be more accurate, and they are stable; but they cost no
+        // more than before the change where the machine is no faster.
+        let as_long = EVALUATIONS * steps as f64;
+        let known = self.choosing.before;
+        let as_before = known.map_or(f64::INFINITY, |of| span * of.evaluations);
+        let rate_before = known.map_or(0.0, |of| of.rate);
+        let explicit = |rate: f64| {
+            let stable = EVALUATIONS * rate * span / REACH;
+            let faster = if rate > rate_before {
+                rate / rate_before
+            } else {
+                1.0
+            };
+            stable.max(as_long).min(as_before * faster)
+        };
+        // The rate costs as much as some evaluations. It is found only where explicit steps cost less at the lowest.
+        let may_pay = as_long.min(as_before) < implicit;
+        let rate = may_pay.then(|| self.stepper.fastest_rate()).flatten();
+        let Some(rate) = rate.filter(|rate| explicit(*rate) < implicit) else {
+            self.choosing.paying = 0;
+            self.choosing.has_paid = true;
+            return Ok(());
+        };
+        self.choosing.paying += 1;
         if self.choosing.paying < self.choosing.needed {
             return Ok(());
         }
-        self.choosing.needed *= 2;
+        if self.choosing.has_paid {
+            self.choosing.needed = (2 * self.choosing.needed).min(WINDOWS[1]);
+            self.choosing.between_tests = STEPS_BETWEEN_TESTS;
+        } else {
+            let more = PATIENCE * self.choosing.between_tests;
+            self.choosing.between_tests = more.min(MOST_STEPS_BETWEEN_TESTS);
+        }
+        self.stepper
+            .test_stiffness_every(self.choosing.between_tests);
         self.go_on_by(Method::DOP853, MethodReason::NotStiff { rate })
     }
 
@@ -264,6 +359,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if let Some(steps) = &mut self.record.steps {
             steps.go_on_by(method);
         }
+        self.choosing.marks = [self.tried(); 2];
         let t = self.stepper.t();
         // A method that was chosen at the start and left before the first step was never used.
         if (self.choosing.choices.last()).is_some_and(|last| last.t == t) {

@@ -21,7 +21,7 @@ pub struct MethodChoice {
 #[non_exhaustive]
 pub enum MethodReason {
     /// A step by Taylor series, which costs `cost` evaluations of the accelerations, replaces steps of `dop853` with at least as
-    /// many evaluations, `saved`.
+    /// many evaluations, `saved`, that would be as accurate.
     SeriesPays {
         /// The cost of a step by series, in evaluations of the accelerations.
         cost: f64,
@@ -43,7 +43,7 @@ pub enum MethodReason {
         /// The rate, in 1/s; 0 if only the lengths of steps revealed it.
         rate: f64,
     },
-    /// The fastest part of the machine has become so slow that explicit steps cost less.
+    /// Explicit steps cost less than those of the implicit method: the fastest part of the machine has become slow, or accuracy limits both.
     NotStiff {
         /// Its rate, in 1/s.
         rate: f64,
@@ -57,11 +57,11 @@ impl Display for MethodReason {
         match self {
             Self::SeriesPays { cost, saved } => write!(
                 f,
-                "a step by series costs {cost:.0} evaluations, and the same time interval {saved:.0} in steps of dop853"
+                "a step by series costs {cost:.0} evaluations, and the same time interval {saved:.0} in steps of dop853 that are as accurate"
             ),
             Self::SeriesCosts { cost, saved } => write!(
                 f,
-                "a step by series would cost {cost:.0} evaluations, where the same time interval takes {saved:.0}"
+                "a step by series would cost {cost:.0} evaluations, where the same time interval takes {saved:.0} in steps of dop853 that are as accurate"
             ),
             Self::Explicit => f.write_str("nothing is known to be stiff"),
             Self::Stiff { rate } if *rate > 0.0 => write!(

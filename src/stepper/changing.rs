@@ -52,7 +52,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// respect to `(q, v)`. Implicit methods use the derivatives that they keep; otherwise one evaluation and two for each
     /// coordinate are needed.
     pub(crate) fn fastest_rate(&mut self) -> Option<f64> {
-        if let Some(implicit) = &self.implicit {
+        if let Some(implicit) = &mut self.implicit {
             return Some(implicit.fastest_rate());
         }
         let Self {

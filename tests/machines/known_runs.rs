@@ -5,7 +5,8 @@ use crate::support::known_ends::{CHAOTIC_AT_10, CRUSHER_AT_5, REGULAR_AT_100};
 use crate::support::known_runs::KnownRun;
 use crate::support::library;
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{METHODS, Machine, Method, Simulation};
+use lagrangian::{METHODS, Machine, Method, Simulation, State, System, Vector};
+use lagrangian_machines::{Crusher9, DoublePendulum};
 use lagrangian_scalar::DoubleDouble;
 
 /// The machine of a known run, interpreted.
@@ -112,6 +113,110 @@ fn runs_of_the_library_end_at_the_references() {
     }
     // This motion amplifies errors by 10⁹.
     ends_there("double_pendulum_chaotic", &METHODS[0], 1e-14, 1e-4);
+}
+
+/// On springs of 2e9 N/m the crusher's steps are limited by stability now and then, but those of a Radau method are limited by accuracy and are more. A run
+/// that chooses its method tries it for 16 steps after no less than 115 explicit ones, and less and less often: a tenth of the work.
+#[test]
+fn a_run_that_chooses_its_method_leaves_one_that_costs_more() {
+    let known = KnownRun::named("stiff_crusher");
+    let machine = machine(&known);
+    let mut start = machine.start();
+    let (q, v) = known.start.split_at(known.start.len() / 2);
+    start.q.values.copy_from_slice(q);
+    start.v.values.copy_from_slice(v);
+    for tolerance in [1e-3, 1e-4] {
+        let simulation = || {
+            let simulation = Simulation::new(&machine).tolerance(tolerance);
+            simulation.forget_steps().until(known.until)
+        };
+        let explicit = simulation().method(Method::DOP853).run(start.clone());
+        let chosen = simulation().automatic().run(start.clone()).unwrap();
+        let count = chosen.statistics().evaluations as f64;
+        let limit = 1.1 * explicit.unwrap().statistics().evaluations as f64;
+        let choices = chosen.choices();
+        assert!(count <= limit, "{tolerance}: {count}, {choices:?}");
+        let ends = choices.iter().skip(1).map(|next| next.t);
+        let pieces = choices.iter().zip(ends.chain([known.until]));
+        let by_radau = pieces.filter(|(choice, _)| choice.method.tableau.name == "radau5");
+        let share: f64 = by_radau.map(|(choice, end)| end - choice.t).sum();
+        assert!(share < 0.1 * known.until, "{tolerance}: {choices:?}");
+    }
+}
+
+/// Asserts that the method that a run chooses reaches each error, at whatever tolerance, with at most 1.2 times the work of `dop853` and of Taylor series.
+///
+/// The work of a step by series is what it is estimated to be, [`System::series_cost`]: with 12 coefficients above 1e-5, the sum of both tolerances.
+fn costs_hardly_more<M: Machine>(name: &str, machine: &M) {
+    let known = KnownRun::named(name);
+    let system = machine.prepare();
+    let vector = |numbers: &[f64]| {
+        let mut vector = <M::System as System>::Vector::zeros(numbers.len());
+        vector.as_mut_slice().copy_from_slice(numbers);
+        system.to_coordinates(&vector)
+    };
+    let (q, v) = known.start.split_at(known.start.len() / 2);
+    let start = State {
+        t: 0.0,
+        q: vector(q),
+        v: vector(v),
+    };
+    let costs = system.series_cost().expect("a series");
+    // The work and the error at each tolerance.
+    let points = |method: Option<&'static Method>| {
+        let run = |power: i32| {
+            let tolerance = 10_f64.powi(-power);
+            let simulation = Simulation::new(machine).tolerance(tolerance);
+            let simulation = match method {
+                Some(method) => simulation.method(method),
+                None => simulation.automatic(),
+            };
+            let simulation = simulation.forget_steps().until(known.until);
+            let run = simulation.run(start.clone()).expect("a run");
+            let chosen = run.choices();
+            assert!(chosen.len() <= 1, "{name}, {tolerance}: {chosen:?}");
+            let method = method.unwrap_or_else(|| chosen[0].method);
+            let (steps, evaluations) = (run.statistics().steps, run.statistics().evaluations);
+            let of_series = if method.tableau.name == "taylor" {
+                (costs[usize::from(power > 5)] - 1.0) * steps as f64
+            } else {
+                0.0
+            };
+            let end = [&run.end().q, &run.end().v].map(|x| system.to_vector(x));
+            let error = known.error(end.iter().flat_map(Vector::as_slice));
+            (evaluations as f64 + of_series, error)
+        };
+        (2..=12).map(run).collect::<Vec<_>>()
+    };
+    let chosen = points(None);
+    let others = [Method::DOP853, Method::TAYLOR].map(|method| points(Some(method)));
+    for error in [1e-3, 1e-5, 1e-7, 1e-9, 1e-11] {
+        let least = |points: &[(f64, f64)]| {
+            let reached = points.iter().filter(|(_, other)| *other <= error);
+            reached.fold(f64::INFINITY, |least, (work, _)| work.min(least))
+        };
+        let best = others.iter().map(|points| least(points));
+        let best = best.fold(f64::INFINITY, f64::min);
+        let ratio = least(&chosen) / best;
+        assert!(
+            best.is_infinite() || ratio <= 1.2,
+            "{name}, {error}: {ratio}"
+        );
+    }
+}
+
+#[test]
+fn a_chosen_method_costs_hardly_more_than_the_best_one_at_the_same_error() {
+    let pendulum = DoublePendulum::default();
+    let crusher = Crusher9::default();
+    costs_hardly_more("double_pendulum_regular", &pendulum);
+    costs_hardly_more("crusher", &crusher);
+    let on_stiff_springs = Crusher9 {
+        cx: 2e9,
+        cy: 1.6e9,
+        ..crusher
+    };
+    costs_hardly_more("stiff_crusher", &on_stiff_springs);
 }
 
 /// The state that Kepler's equation gives after 1000 turns has the energy and the areal velocity of the start to all digits of

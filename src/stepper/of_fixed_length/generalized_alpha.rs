@@ -42,7 +42,7 @@ const JUMP: f64 = 1e-3;
 pub(crate) struct GeneralizedAlpha {
     weights: Weights,
     jacobian: Jacobian,
-    matrix: Lu<f64>,
+    matrix: Lu<1>,
     /// The step length of the matrix; 0 if there is none.
     factored_step: f64,
     /// Whether iterations with this matrix have converged, and not only begun with a small change.
@@ -116,10 +116,13 @@ impl GeneralizedAlpha {
         let n = self.change.len();
         let [by_position, by_rate] = self.factors(h);
         let jacobian = &self.jacobian;
-        let factored = self.matrix.factor(|i, j| {
-            let one = if i == j { 1.0 } else { 0.0 };
-            let at = i * n + j;
-            one - by_rate * jacobian.by_rates[at] - by_position * jacobian.by_coordinates[at]
+        let factored = self.matrix.factor(|j, [column]| {
+            let of_coordinate = &jacobian.by_coordinates[j * n..][..n];
+            let of_rate = &jacobian.by_rates[j * n..][..n];
+            for (entry, (by_q, by_v)) in column.iter_mut().zip(of_coordinate.iter().zip(of_rate)) {
+                *entry = -by_rate * by_v - by_position * by_q;
+            }
+            column[j] += 1.0;
         });
         self.factored_step = if factored { h } else { 0.0 };
         self.contracts = false;
@@ -258,7 +261,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 residual.abs() <= (tolerable / h.abs()).max(roundoff)
             };
             let are_small = alpha.change.iter().enumerate().all(is_small);
-            alpha.matrix.solve(&mut alpha.change);
+            alpha.matrix.solve([&mut alpha.change]);
             let mut size = 0.0_f64;
             for (i, change) in alpha.change.iter().enumerate() {
                 to.as_mut_slice()[i] += change;
