@@ -29,8 +29,8 @@ pub(crate) enum Cause {
     Leaves(usize),
     /// The slip of a contact has stopped.
     Stops(usize),
-    /// The friction of a contact is used up.
-    Breaks(usize),
+    /// The friction of a contact is used up; it begins to slip in this direction.
+    Breaks(usize, [f64; 2]),
     /// A compliant contact begins to press.
     Presses(usize),
     /// A layer turns from loading to unloading, or comes back to its greatest depth.
@@ -99,13 +99,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             cause => cause,
         };
         let known = match cause {
-            Cause::Breaks(k) if touching.second(k).is_some() => Some((k, Mode::Skids([0.0; 2]))),
             Cause::Lifts(k) | Cause::Leaves(k) => Some((k, Mode::Open)),
-            Cause::Breaks(k) => {
-                let at = (t, &now.q, &now.v, &model.inputs);
-                let friction = touching.reaction(model.system.get(), at)?.forces[k][1];
-                Some((k, Mode::Slides(-friction.signum())))
+            Cause::Breaks(k, direction) if touching.second(k).is_some() => {
+                Some((k, Mode::Skids(direction)))
             }
+            Cause::Breaks(k, [along, _]) => Some((k, Mode::Slides(along.signum()))),
             Cause::Unspecified | Cause::Stops(_) | Cause::Presses(_) | Cause::Turns(_) => None,
         };
         let pairs: Vec<usize> = (0..touching.modes().len())
@@ -271,6 +269,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             if !let_go.is_empty() {
                 modes = touching.settled(system, at, &closed, &resting, &let_go)?;
             }
+        }
+        if let Cause::Lifts(_) = cause {
+            // Contacts that lift at the same instant, by symmetry, would otherwise close each other again and again.
+            let was_open =
+                |k: usize| changes_at_instant.before[k] == Mode::Open && !touching.is_compliant(k);
+            modes = touching.without_unpressed(system, at, modes, was_open)?;
         }
         touching.set_modes(modes);
         touching.record_slips(model.system.get(), t, &now.q, &now.v);
