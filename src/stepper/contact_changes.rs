@@ -18,6 +18,10 @@ const MOST_IMPACTS_AT_ONCE: usize = 1000;
 /// The next step is at most this many times as long as the flight that follows an impact, so that it does not miss the flight.
 const FLIGHTS: f64 = 8.0;
 
+/// A slip that has stopped is removed without a further question if that changes the kinetic energy by at most this share: a slip is located to the
+/// tolerance of the step, and its square is less.
+const SHARE_OF_REST: f64 = 1e-9;
+
 /// The reason for which the next states of contacts are determined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cause {
@@ -249,8 +253,32 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 mode => mode,
             };
         }
-        touching.set_modes(held);
-        hold(model.system.get(), &touching, now)?;
+        touching.set_modes(held.clone());
+        let as_found = now.clone();
+        let held_now = hold(model.system.get(), &touching, now);
+        let is_held = held_now.is_ok()
+            && energy(model, now) >= (1.0 - SHARE_OF_REST) * energy(model, &as_found);
+        if !is_held && (0..held.len()).any(stops) {
+            // Near a dead centre a slip stops whatever friction does, and to hold it there would stop the machine. So forces decide first.
+            *now = as_found.clone();
+            let with_slip = |k: usize| if stops(k) { Mode::Slides(0.0) } else { held[k] };
+            touching.set_modes((0..held.len()).map(with_slip).collect());
+            hold(model.system.get(), &touching, now)?;
+            let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
+            for (k, resting) in resting.iter_mut().enumerate() {
+                *resting |= stops(k) || touching.modes()[k] == Mode::Sticks;
+            }
+            let at = (t, &now.q, &now.v, &model.inputs);
+            let goes_on = touching.settled(model.system.get(), at, &closed, &resting, &[])?;
+            if (0..held.len()).any(|k| stops(k) && goes_on[k] == Mode::Sticks) {
+                held_now?;
+                *now = as_found;
+                touching.set_modes(held);
+                hold(model.system.get(), &touching, now)?;
+            }
+        } else {
+            held_now?;
+        }
         let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
         for (k, resting) in resting.iter_mut().enumerate() {
             *resting |= stops(k) || touching.modes()[k] == Mode::Sticks;

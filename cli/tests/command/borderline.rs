@@ -277,6 +277,50 @@ fn what_drives_a_body_does_work_in_its_impacts() {
     close(number(&run["unilateral_contacts"][0]["work"]), done, 1e-12);
 }
 
+/// A crank drives a block to and fro over a floor with friction, which takes μ m g of its way: from its energy J ω²/2 + m (r ω sin θ)²/2. At each dead centre
+/// the slip stops, and no force of the floor could keep it at rest there.
+#[test]
+fn a_slip_passes_the_dead_centre_of_a_crank() {
+    let spec = Scratch::new(
+        "crank.machine",
+        "machine Crank in plane {
+            parameters { m: kg = 1, J: kg*m^2 = 0.5, r: m = 0.2, mu: 1 = 0.3, w: rad/s = 5, g: m/s^2 = 9.81 }
+            coordinates { theta: rad = 1, y: m, der(theta): rad/s = w }
+            bodies { wheel { mass: 1, inertia: J, at: (0, 0), angle: theta }, block { mass: m, at: (r*cos(theta), y) } }
+            gravity (0, -g);
+            contacts { floor { gap: y, slip: der(r*cos(theta)), restitution: 0, friction: mu } }
+        }",
+    );
+    for method in ["dop853", "dopri5", "radau5"] {
+        for tolerance in ["1e-3", "1e-6", "1e-9", "1e-12"] {
+            let output = lagrangian(&[
+                "simulate",
+                spec.path(),
+                "--until",
+                "1.9",
+                "--json",
+                "--method",
+                method,
+                "--tolerance",
+                tolerance,
+            ]);
+            let run: Value = serde_json::from_slice(&output.stdout).expect("a document");
+            assert_eq!(run["error"], Value::Null, "{method} {tolerance}");
+            let (theta, rate) = (number(&run["q"]["theta"]), number(&run["v"]["theta"]));
+            let energy =
+                |theta: f64, rate: f64| 0.5 * (0.5 + (0.2 * theta.sin()).powi(2)) * rate * rate;
+            let turns = (theta / std::f64::consts::PI).floor();
+            assert_eq!(turns, 2.0);
+            let way = 0.2 * ((1.0_f64.cos() + 1.0) + 2.0 + (1.0 - theta.cos()));
+            let lost = energy(1.0, 5.0) - energy(theta, rate);
+            // Some forty steps.
+            let within = 40.0 * tolerance.parse::<f64>().expect("a number");
+            close(lost, 0.3 * 9.81 * way, within);
+            assert_eq!(events(&run, "reverses").len(), 2, "{method} {tolerance}");
+        }
+    }
+}
+
 /// Newton's law with different coefficients along normal and tangent creates energy in an oblique impact with friction: with inverse masses 1.45 and −0.6,
 /// e = 1, eₜ = 0 and rates −v and 0.2 v the impulse along the tangent is 0.91 v/2.25, and the gain ½ 0.2 v times that. A gain that is less than the
 /// rounding of the potential energy, 1 J, cannot be seen in a balance of energies, and nothing is said of it.
