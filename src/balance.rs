@@ -74,7 +74,7 @@ pub struct ContactShare {
     pub friction: f64,
     /// Losses in its compliance, by damping or by the energy left when it opens; for a layer the work that crushes it.
     pub compliance_loss: f64,
-    /// Work that moving walls do through it.
+    /// Work that prescribed motion does against its forces.
     pub work: f64,
 }
 
@@ -449,7 +449,7 @@ pub struct ContactEnergies {
     pub damping_loss: f64,
     /// Work that crushed its layer, in J.
     pub crushing_work: f64,
-    /// Work that moving walls did through it, in J: a part of the work of the drive.
+    /// Work that prescribed motion did against its forces, in J: moving walls, driven bodies, moving constraints. A part of the work of the drives.
     pub work: f64,
 }
 

@@ -21,6 +21,7 @@
 
 mod cone;
 mod delassus;
+mod drives;
 mod event;
 mod force;
 mod impact;
@@ -30,7 +31,7 @@ mod routh;
 mod stepping;
 mod touching;
 
-pub use event::{ContactEvent, ContactEventKind, ContactImpact, ImpactAcross};
+pub use event::{ContactEvent, ContactEventKind, ContactImpact, ContactTally, ImpactAcross};
 pub use force::{UnilateralForce, penetrations, unilateral_forces};
 pub(crate) use impact::{Impact, ParadoxResolution};
 pub(crate) use stepping::SteppedContacts;

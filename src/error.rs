@@ -278,6 +278,12 @@ pub enum Error {
     NoEnergyBalance,
     /// A time within the run was requested, but its steps were not kept (`forget_steps`).
     StepsForgotten,
+    /// The states of the unilateral contacts at this time were not kept, see
+    /// [`forget_contact_phases`](crate::Simulation::forget_contact_phases).
+    ContactsForgotten {
+        /// Time, in s.
+        t: f64,
+    },
     /// An [`ExplicitStepper`](crate::ExplicitStepper) or an [`Ensemble`](crate::Ensemble) cannot do what was requested.
     Stepper {
         /// The reason, as in the message of its [`StepError`].
@@ -762,6 +768,12 @@ impl Display for Error {
                 write!(
                     f,
                     "no energy balance was computed; set `energy_balance(true)`"
+                )
+            }
+            Self::ContactsForgotten { t } => {
+                write!(
+                    f,
+                    "the states of the contacts at t = {t} s were not kept; leave out `forget_contact_phases()`"
                 )
             }
             Self::StepsForgotten => {

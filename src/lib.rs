@@ -160,7 +160,7 @@ pub use vector::Vector;
 
 #[cfg(feature = "std")]
 pub use contact::{
-    ContactEvent, ContactEventKind, ContactImpact, ImpactAcross, Mode as ContactMode,
+    ContactEvent, ContactEventKind, ContactImpact, ContactTally, ImpactAcross, Mode as ContactMode,
     UnilateralForce, penetrations, unilateral_forces,
 };
 #[cfg(feature = "std")]

@@ -6,12 +6,14 @@ use crate::balance::ContactShare;
 use crate::constraints::Constraints;
 use crate::contact::{Impact, Mode as ContactMode, UnilateralState};
 use crate::stepper::Cause;
-use crate::{ContactEnergies, ContactEvent, ContactImpact, System, Warning};
+use crate::{ContactEnergies, ContactEvent, ContactImpact, ContactTally, System, Warning};
 
 /// The states of the contacts from some instant on.
 #[derive(Clone, Debug)]
 pub(crate) struct Phase<V> {
     pub since: f64,
+    /// The end of what is known of it, where later phases were forgotten; infinite if it lasts up to the next.
+    pub until: f64,
     pub touching: UnilateralState,
     /// The change with which it began, and its cause.
     pub change: Change,
@@ -139,7 +141,7 @@ impl<V> Phase<V> {
                 Some(Cause::Unspecified) => PhaseCause::Asked,
                 Some(Cause::Lifts(k) | Cause::Leaves(k)) => PhaseCause::Lifts(k),
                 Some(Cause::Stops(k)) => PhaseCause::Stops(k),
-                Some(Cause::Breaks(k)) => PhaseCause::Breaks(k),
+                Some(Cause::Breaks(k, _)) => PhaseCause::Breaks(k),
                 Some(Cause::Presses(k)) => PhaseCause::Presses(k),
                 Some(Cause::Turns(k)) => PhaseCause::Turns(k),
                 None => PhaseCause::Stepped,
@@ -155,6 +157,12 @@ impl<V> Phase<V> {
 pub(crate) struct UnilateralRecord<C, V> {
     pub phases: Vec<Phase<V>>,
     pub events: Vec<ContactEvent<C>>,
+    /// What is known of each contact without its events.
+    pub tallies: Vec<ContactTally>,
+    /// The time of the last event of a contact, if there was one.
+    pub last_event: Option<f64>,
+    /// The time of the last event of a watched function.
+    pub last_watched: f64,
     /// For each contact the energy lost in its impacts, in J.
     pub losses: Vec<f64>,
     /// The energies of each contact, at the same instants as the energies of the machine.
@@ -171,6 +179,9 @@ impl<C, V> Default for UnilateralRecord<C, V> {
         UnilateralRecord {
             phases: Vec::new(),
             events: Vec::new(),
+            tallies: Vec::new(),
+            last_event: None,
+            last_watched: f64::NEG_INFINITY,
             losses: Vec::new(),
             energy_entries: Vec::new(),
             last: Vec::new(),
@@ -181,6 +192,19 @@ impl<C, V> Default for UnilateralRecord<C, V> {
 }
 
 impl<C, V> UnilateralRecord<C, V> {
+    /// Adds a phase. Unless `keeps_all`, it replaces the one before, other than the first, if nothing needs that: no sample or event since it
+    /// began, of which the last was at `last_needed`.
+    pub fn push_phase(&mut self, phase: Phase<V>, keeps_all: bool, last_needed: f64) {
+        if !keeps_all
+            && self.phases.len() > 1
+            && let Some(forgotten) = self.phases.pop_if(|last| last_needed < last.since)
+            && let Some(known) = self.phases.last_mut()
+        {
+            known.until = known.until.min(forgotten.since);
+        }
+        self.phases.push(phase);
+    }
+
     /// The warning to be reported, if any.
     pub fn warning<S: System>(&self, system: &S) -> Option<Warning> {
         let (contact, t, gain) = self.worst?;

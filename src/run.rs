@@ -524,6 +524,14 @@ struct Record<M: Machine> {
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 
+impl<M: Machine> Record<M> {
+    /// Records an event of a watched function.
+    fn push_watched(&mut self, event: Event<Coordinates<M>>) {
+        self.unilateral.last_watched = event.state.t;
+        self.events.push(event);
+    }
+}
+
 /// The motion within the last step, computed on first use.
 type LastInterpolant<M> = Option<Interpolant<VectorOf<M>>>;
 
@@ -900,14 +908,19 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             record,
             ..
         } = self;
-        event::find(
+        let known = record.events.len();
+        let found = event::find(
             &mut callbacks.watches,
             end,
             &model.observed_system,
             stepper,
             interpolant,
             &mut record.events,
-        )
+        );
+        if let Some(newest) = record.events[known..].last() {
+            record.unilateral.last_watched = newest.state.t;
+        }
+        found
     }
 
     /// Ends the run at an event within the last step, by repeating the step up to the event. So the end and the energy balance are as
@@ -958,7 +971,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 for event in events.take_while(|event| (event.state.t - t) * (to - t) > 0.0) {
                     event.state = state.clone();
                 }
-                self.record.events.push(Event {
+                self.record.push_watched(Event {
                     name: name.clone(),
                     crossing: found.crossing,
                     state,

@@ -65,6 +65,10 @@ pub(crate) struct Settings {
     pub energy_balance: bool,
     /// Whether the energies after every step are kept, or only the first and the last.
     pub keep_energies: bool,
+    /// Whether the states of contacts are kept at all times, or only those of samples, events and the end.
+    pub keep_contact_phases: bool,
+    /// Whether the events of unilateral contacts are kept, or only counted.
+    pub keep_contact_events: bool,
     /// Whether both tolerances were given as one number.
     pub one_tolerance: bool,
     /// Whether the run changes to time stepping when contacts change too often.

@@ -72,6 +72,8 @@ impl<'a, M: Machine> Simulation<'a, M> {
                 keep_steps: true,
                 energy_balance: false,
                 keep_energies: true,
+                keep_contact_phases: true,
+                keep_contact_events: true,
                 one_tolerance: true,
                 hands_over: false,
                 automatic: false,
@@ -370,6 +372,20 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// Keeps only the first and the last energies, and the first that are not finite, so that the energy balance needs constant memory.
     pub fn forget_energies(mut self) -> Self {
         self.settings.keep_energies = false;
+        self
+    }
+
+    /// Keeps the states of unilateral contacts only where samples, events of watched functions, and the end of the run need them, so that their memory
+    /// does not grow with the number of impacts. No effect if steps are kept.
+    pub fn forget_contact_phases(mut self) -> Self {
+        self.settings.keep_contact_phases = false;
+        self
+    }
+
+    /// Counts the events of unilateral contacts and keeps none of them: neither in [`Solution::contact_events`] nor among the
+    /// [`events`](Solution::events), but in [`Solution::contact_tallies`].
+    pub fn forget_contact_events(mut self) -> Self {
+        self.settings.keep_contact_events = false;
         self
     }
 

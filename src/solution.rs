@@ -26,8 +26,8 @@ use crate::settings::Settings;
 use crate::step_error::StepError;
 use crate::stepper::project;
 use crate::{
-    ContactEnergies, ContactEvent, ContactPhase, Coordinates, Energies, EnergyBalance, Error,
-    Inputs, Machine, State, System, Vector, Warning,
+    ContactEnergies, ContactEvent, ContactPhase, ContactTally, Coordinates, Energies,
+    EnergyBalance, Error, Inputs, Machine, State, System, Vector, Warning,
 };
 
 /// The result of a run: the state of the machine at every instant, and its events.
@@ -241,6 +241,9 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
             self.system.to_vector(&state.v),
         );
         let inputs = self.inputs(state.t, &q, &v);
+        if !self.unilateral.phases.is_empty() && self.phase_at(state.t).is_none() {
+            return Err(Error::ContactsForgotten { t: state.t });
+        }
         self.constraint_state_at(state.t)
             .observe::<M>(&self.system, state, inputs)
     }
@@ -399,14 +402,20 @@ impl<M: Machine, L> Solution<M, L> {
         &self.unilateral.events
     }
 
-    /// The phase of the unilateral contacts at a time within the run; at a change, the phase after it.
+    /// For each unilateral contact the number of its impacts and when it closed last, also if its events were not kept; empty if nothing happened.
+    pub fn contact_tallies(&self) -> &[ContactTally] {
+        &self.unilateral.tallies
+    }
+
+    /// The phase of the unilateral contacts at a time within the run; at a change, the phase after it. Nothing if it was not kept.
     fn phase_at(&self, t: f64) -> Option<&Phase<VectorOf<M>>> {
         let phases = &self.unilateral.phases;
         let after = phases.partition_point(|phase| phase.since <= t);
-        phases.get(after.saturating_sub(1))
+        let phase = phases.get(after.saturating_sub(1))?;
+        (t < phase.until).then_some(phase)
     }
 
-    /// The phases of the unilateral contacts, from one change to the next.
+    /// The phases of the unilateral contacts, from one change to the next; those that were kept.
     pub fn contact_phases(&self) -> impl ExactSizeIterator<Item = ContactPhase<'_>> {
         self.unilateral.phases.iter().map(Phase::public_view)
     }
@@ -421,7 +430,7 @@ impl<M: Machine, L> Solution<M, L> {
         0.0
     }
 
-    /// Which unilateral contacts are closed at a time within the run, in their order.
+    /// Which unilateral contacts are closed at a time within the run, in their order; empty if that was not kept.
     pub fn closed_contacts(&self, t: f64) -> Vec<bool> {
         let modes = self.phase_at(t).map(|phase| phase.touching.modes());
         let modes = modes.unwrap_or_default().iter();

@@ -35,16 +35,10 @@ fn accounts(run: &Run) -> Vec<Account> {
     let books = run.contact_energies();
     let contacts = run.system().unilateral_contacts().enumerate();
     let of_contact = |(k, contact): (usize, UnilateralContact<'_>)| {
-        let own = || {
-            run.contact_events()
-                .iter()
-                .filter(|event| event.contact == contact.name)
-        };
-        let of_kind = |kind| own().filter(move |event| event.kind == kind);
-        let closes = of_kind(ContactEventKind::Closes).next_back();
+        let tally = run.contact_tallies().get(k).copied().unwrap_or_default();
         Account {
             name: contact.name.to_owned(),
-            impacts: of_kind(ContactEventKind::Impact).count(),
+            impacts: tally.impacts,
             energies: books.get(k).copied().unwrap_or_else(|| {
                 let mut energies = ContactEnergies::default();
                 energies.impact_loss = run.impact_losses().get(k).copied().unwrap_or(0.0);
@@ -56,7 +50,7 @@ fn accounts(run: &Run) -> Vec<Account> {
             is_compliant: contact.compliance.is_some(),
             is_layer: contact.compliance == Some(Compliance::Layer),
             rolls: contact.is_rolling_resistance,
-            closed_at: closes.map(|event| (event.state.t, event.time_error)),
+            closed_at: tally.closed_at.map(|t| (t, tally.time_error)),
             is_closed: closed.get(k).copied().unwrap_or(false),
         }
     };
@@ -119,7 +113,7 @@ pub fn is_of_contact(run: &Run, event: &Event<Named>) -> bool {
 
 /// The lines of the summary.
 pub fn lines(run: &Run) -> Vec<String> {
-    // Fixed walls do no work except by round-off.
+    // Where nothing moves as prescribed, this work is round-off.
     let turned_over = run
         .energy_balance()
         .map_or(0.0, |balance| balance.turned_over);
@@ -159,7 +153,7 @@ pub fn lines(run: &Run) -> Vec<String> {
         }
         if energies.work.abs() > rounding {
             line.push_str(&format!(
-                "; moving walls did {:.6e} J of work",
+                "; prescribed motion did {:.6e} J of work",
                 energies.work
             ));
         }

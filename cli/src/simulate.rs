@@ -228,6 +228,13 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         check_samples("--every", interval, call.until)?;
         simulation = simulation.every(interval / f64::from(finer));
     }
+    if !recorded {
+        // Only the end is reported, and events if they are asked for.
+        simulation = simulation.forget_energies().forget_contact_phases();
+        if !call.spec.json {
+            simulation = simulation.forget_contact_events();
+        }
+    }
     simulation = reading::keep(simulation, &call.keep);
     if is_auto {
         simulation = simulation.automatic();

@@ -81,6 +81,19 @@ impl ContactEventKind {
     }
 }
 
+/// How often a unilateral contact took part in impacts, and when it closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct ContactTally {
+    /// The number of its impacts.
+    pub impacts: usize,
+    /// When it closed last, in s.
+    pub closed_at: Option<f64>,
+    /// By how much this time may be off, in s, as in [`ContactEvent::time_error`].
+    pub time_error: f64,
+}
+
 /// What an impact did to a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

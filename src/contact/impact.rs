@@ -4,6 +4,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
+use super::drives::{ActingContact, Drives};
 use super::problem::{self, Answer, ContactUnknowns};
 use super::routh::{self, Expansion, SingleImpact};
 use super::touching::{ContactKinematics, UnilateralState};
@@ -37,7 +38,7 @@ pub(crate) struct Impact {
     pub impulse: [f64; 2],
     /// In J.
     pub loss: f64,
-    /// What walls that move by themselves did in it, in J.
+    /// What prescribed motion did in it, in J.
     pub work: f64,
 }
 
@@ -54,6 +55,15 @@ pub(crate) enum ParadoxResolution {
     Opens(usize),
     /// An impact without a collision, and how it changes the rates.
     Impact { impact: Impact, change: Vec<f64> },
+}
+
+/// The mean of rates before a change and after it.
+fn between<V: Vector>(v: &V, change: &[f64]) -> V {
+    let mut mean = v.clone();
+    for (v, by) in mean.as_mut_slice().iter_mut().zip(change) {
+        *v += 0.5 * by;
+    }
+    mean
 }
 
 impl UnilateralState {
@@ -74,6 +84,7 @@ impl UnilateralState {
                 touches && here.is_within(k, q.as_slice())
             })
             .collect();
+        let rest = self.rest(&here, self.speed, |k| touches[k]);
         let closes = touches
             .iter()
             .enumerate()
@@ -82,8 +93,7 @@ impl UnilateralState {
                     && !self.is_compliant(k)
                     && self.carrier(k).is_none()
                     && !(as_held && self.modes()[k] != Mode::Open);
-                let least = LEAST_BOUNCE * 1e-3 * self.speed;
-                may && here.rates[2 * k] < -here.rate_rounding(2 * k).max(least)
+                may && here.rates[2 * k] < -here.rate_rounding(2 * k).max(rest)
             })
             .collect();
         (touches, closes)
@@ -182,13 +192,19 @@ impl UnilateralState {
             let gap_rate = [0.0, by(0)];
             let slip = [slip, slip + by(1)];
             let loss = -0.5 * (impulse[0] * gap_rate[1] + impulse[1] * (slip[0] + slip[1]));
+            let acting = ActingContact {
+                contact: k,
+                forces: impulse,
+                rates: [0.5 * gap_rate[1], 0.5 * (slip[0] + slip[1])],
+            };
+            let mean = between(v, &change);
             let impact = Impact {
                 contact: k,
                 gap_rate,
                 slip,
                 impulse,
                 loss,
-                work: here.work_of_walls(k, impulse, v.as_slice()),
+                work: Drives::new(system, (t, q)).work(&here, &acting, &mean, || change.clone()),
             };
             return Ok(Some(ParadoxResolution::Impact { impact, change }));
         }
@@ -225,6 +241,9 @@ impl UnilateralState {
         let impulses = self.impulses(t, &here, &colliding, &g, &before)?;
 
         let width = directions.len();
+        let change = inertia.response(&images, impulses.iter().flatten().copied());
+        let mean = between(v, &change);
+        let drives = Drives::new(system, (t, q));
         let mut impacts = Vec::with_capacity(colliding.len());
         for (place, &k) in colliding.iter().enumerate() {
             let [gap_rate, slip] = [0, 1].map(|part| {
@@ -239,16 +258,21 @@ impl UnilateralState {
             let loss = -0.5
                 * (impulse[0] * (gap_rate[0] + gap_rate[1]) + impulse[1] * (slip[0] + slip[1]));
             self.speed = self.speed.max(-gap_rate[0]);
+            let acting = ActingContact {
+                contact: k,
+                forces: impulse,
+                rates: [gap_rate, slip].map(|[before, after]| 0.5 * (before + after)),
+            };
+            let response = || inertia.response(&images[2 * place..][..2], impulse);
             impacts.push(Impact {
                 contact: k,
                 gap_rate,
                 slip,
                 impulse,
                 loss,
-                work: here.work_of_walls(k, impulse, v.as_slice()),
+                work: drives.work(&here, &acting, &mean, response),
             });
         }
-        let change = inertia.response(&images, impulses.into_iter().flatten());
         for (v, by) in v.as_mut_slice().iter_mut().zip(change) {
             *v += by;
         }
@@ -421,16 +445,16 @@ impl UnilateralState {
         closed: &[bool],
     ) -> Vec<bool> {
         let here = ContactKinematics::of(system, t, q, v);
+        let rest = self.rest(&here, self.greatest_rate(), |k| closed[k]);
         let rests = |k: usize| {
             if !closed[k] {
                 return false;
             }
-            let least = super::touching::ROUNDING * self.greatest_rate();
             if self.has_two_tangents(k) {
                 let [slip, rounding] = self.slip(&here, k);
-                return slip[0].hypot(slip[1]) <= rounding[0].hypot(rounding[1]).max(least);
+                return slip[0].hypot(slip[1]) <= rounding[0].hypot(rounding[1]).max(rest);
             }
-            here.rates[2 * k + 1].abs() <= here.rate_rounding(2 * k + 1).max(least)
+            here.rates[2 * k + 1].abs() <= here.rate_rounding(2 * k + 1).max(rest)
         };
         (0..here.gaps.len()).map(rests).collect()
     }
@@ -499,6 +523,7 @@ impl UnilateralState {
         as_held: bool,
     ) -> Vec<bool> {
         let here = ContactKinematics::of(system, t, q, v);
+        let rest = self.rest(&here, self.speed, |k| touches[k]);
         let mut persisting: Vec<bool> = (touches.iter().enumerate())
             .map(|(k, touches)| {
                 if self.is_compliant(k) {
@@ -511,8 +536,7 @@ impl UnilateralState {
                 if as_held && self.modes()[k] != Mode::Open {
                     return true;
                 }
-                let rounding = || here.rate_rounding(2 * k).max(1e-12 * self.speed);
-                *touches && here.rates[2 * k].abs() <= rounding()
+                *touches && here.rates[2 * k].abs() <= here.rate_rounding(2 * k).max(rest)
             })
             .collect();
         self.copy_from_carriers(&mut persisting);

@@ -15,6 +15,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
+use super::drives::{ActingContact, Drives};
 use super::problem::{self, ContactUnknowns};
 use super::touching::{At, ContactKinematics, Reaction, SATURATED};
 use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, UnilateralState};
@@ -155,6 +156,11 @@ impl UnilateralState {
             *v += by;
         }
 
+        let mut mean = before.clone();
+        for (mean, after) in mean.as_mut_slice().iter_mut().zip(v.as_slice()) {
+            *mean = 0.5 * (*mean + after);
+        }
+        let drives = Drives::new(system, (t, q));
         let mut stepped = SteppedContacts::default();
         let width = directions.len();
         let slip_after = |place: usize| {
@@ -210,13 +216,19 @@ impl UnilateralState {
             };
             forces[k] = impulse.map(|impulse| impulse / h);
             stepped.lost += loss;
+            let acting = ActingContact {
+                contact: k,
+                forces: impulse,
+                rates: [gap_rate, slip].map(|[before, after]| 0.5 * (before + after)),
+            };
+            let response = || inertia.response(&images[2 * place..][..2], impulse);
             stepped.impacts.push(Impact {
                 contact: k,
                 gap_rate,
                 slip,
                 impulse,
                 loss,
-                work: here.work_of_walls(k, impulse, before.as_slice()),
+                work: drives.work(&here, &acting, &mean, response),
             });
         }
         if !stepped.impacts.is_empty() {

@@ -7,6 +7,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
+use super::drives::{ActingContact, Drives};
 use super::lcp;
 use super::problem::{self, ContactUnknowns};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
@@ -169,11 +170,15 @@ impl ContactKinematics {
         ROUNDING * terms + 8.0 * f64::EPSILON * (t * self.rates[direction]).abs()
     }
 
+    /// How large the terms of a rate are together.
+    fn rate_terms(&self, direction: usize) -> f64 {
+        let (_, _, v) = &self.at;
+        terms(self.row(direction), v) + self.rates[direction].abs()
+    }
+
     /// Below which a rate is rest.
     pub fn rate_rounding(&self, direction: usize) -> f64 {
-        let (_, _, v) = &self.at;
-        let terms = terms(self.row(direction), v);
-        let rounding = ROUNDING * (terms + self.rates[direction].abs());
+        let rounding = ROUNDING * self.rate_terms(direction);
         match self.on_face(direction / 2) {
             // A face that lies on another one turns by rounding, and what slides along it has so much of a rate.
             Some(face) if direction.is_multiple_of(2) => {
@@ -253,8 +258,9 @@ impl ContactKinematics {
         (left + cancelled).min(most)
     }
 
-    /// What walls that move by themselves do against the forces of a contact, in W, or against its impulses, in J.
-    pub fn work_of_walls(&self, contact: usize, forces: [f64; 2], v: &[f64]) -> f64 {
+    /// What walls that move by themselves do against the forces of a contact, in W, or against its impulses, in J, if nothing else moves by itself.
+    pub fn work_of_walls(&self, contact: usize, forces: [f64; 2]) -> f64 {
+        let (_, _, v) = &self.at;
         let of_direction = |part: usize| {
             // The rate that there would be if the machine were at rest.
             let direction = 2 * contact + part;
@@ -307,6 +313,22 @@ struct OpenEquations {
     order: lcp::Order,
 }
 
+impl OpenEquations {
+    /// The change of all unknowns for a unit of each undetermined one.
+    fn null_space(&self) -> Vec<Vec<f64>> {
+        let mut of_unit = self.order.null_space(&self.matrix);
+        for of_unit in &mut of_unit {
+            let most = of_unit.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let is_rounding = |x: &&mut f64| x.abs() <= SATURATED * most;
+            of_unit
+                .iter_mut()
+                .filter(is_rounding)
+                .for_each(|x| *x = 0.0);
+        }
+        of_unit
+    }
+}
+
 /// The distribution of forces among contacts at which the least margin is greatest.
 struct SharedLoad {
     /// The margin of each contact that shares forces, and nothing for the others.
@@ -343,8 +365,8 @@ pub(crate) struct Margins {
     /// For each contact: that it presses, that it slips as it does or sticks, and that a layer is loaded or unloaded
     /// as it is; that a corner of a polygon is on its face.
     pub each: Vec<[Margin; 4]>,
-    /// Whether the forces that they are taken from are the only ones.
-    pub is_only: bool,
+    /// Which contacts have forces that the equations of motion leave undetermined.
+    pub shares: Vec<bool>,
 }
 
 /// What contacts do and take, in W.
@@ -434,6 +456,24 @@ impl UnilateralState {
     /// The greatest rate of a contact so far, at which gaps closed or something began to slip: rates within rounding of it are rest.
     pub(super) fn greatest_rate(&self) -> f64 {
         self.speed.max(self.slip)
+    }
+
+    /// Below which the rates of all contacts that touch are rest: the rounding of the greatest rate `so_far`, and of the terms of their
+    /// present rates. A run that continues from a state of another one has only the latter to compare with, and what rests in it
+    /// beside a moving contact has rates that are only as small as the rounding of that one.
+    pub(super) fn rest(
+        &self,
+        here: &ContactKinematics,
+        so_far: f64,
+        touches: impl Fn(usize) -> bool,
+    ) -> f64 {
+        // The rate of what resists rolling is in other units.
+        let is_counted = |k: &usize| touches(*k) && (self.carrier[*k].is_none() || self.across[*k]);
+        let terms = (0..self.modes.len())
+            .filter(is_counted)
+            .flat_map(|k| [2 * k, 2 * k + 1])
+            .map(|direction| here.rate_terms(direction));
+        ROUNDING * terms.fold(so_far, f64::max)
     }
 
     /// The fastest rate at which any gap closed so far, in m/s.
@@ -588,6 +628,21 @@ impl UnilateralState {
                 t,
             },
         }
+    }
+
+    /// The direction in which a contact that sticks would slip without its friction, if that is more than rounding.
+    pub fn pull_along<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        contact: usize,
+    ) -> Result<Option<[f64; 2]>, StepError> {
+        let reaction = self.reaction(system, at)?;
+        let along = |contact: usize| reaction.forces[contact][1];
+        let pull = [-along(contact), -self.second(contact).map_or(0.0, along)];
+        let size = pull[0].hypot(pull[1]);
+        let is_more = size > ROUNDING_OF_FORCES * reaction.sizes[contact];
+        Ok(is_more.then(|| pull.map(|part| part / size)))
     }
 
     /// Says of what leans what is said of the contact that it leans on.
@@ -791,27 +846,37 @@ impl UnilateralState {
         }
     }
 
+    /// Which contacts have forces that the equations of motion leave undetermined.
+    fn sharing(&self, reaction: &Reaction) -> Vec<bool> {
+        let mut shares = vec![false; self.modes.len()];
+        let Some(equations) = &reaction.open_equations else {
+            return shares;
+        };
+        let of_unit = equations.null_space();
+        for (unknown, (place, _)) in equations.unknowns.iter().enumerate() {
+            shares[equations.closed[*place]] |= of_unit.iter().any(|own| own[unknown] != 0.0);
+        }
+        // What leans on a contact is limited by its normal force, and both tangents of a contact by one.
+        for (k, on) in self.carrier.iter().enumerate() {
+            if let Some(on) = *on {
+                shares[k] |= shares[on];
+                shares[on] |= shares[k] && self.across[k];
+            }
+        }
+        shares
+    }
+
     /// The distribution of undetermined forces at which the least margin of the contacts is greatest, (E78). Nothing where friction acts along
     /// two tangents, since that problem is not linear.
     fn shared_load(&self, here: &ContactKinematics, reaction: &Reaction) -> Option<SharedLoad> {
+        let equations = reaction.open_equations.as_ref()?;
         let OpenEquations {
-            closed,
-            unknowns,
-            matrix,
-            order,
-        } = reaction.open_equations.as_ref()?;
+            closed, unknowns, ..
+        } = equations;
         if closed.iter().any(|k| self.has_two_tangents(*k)) {
             return None;
         }
-        let mut of_unit = order.null_space(matrix);
-        for of_unit in &mut of_unit {
-            let most = of_unit.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let is_rounding = |x: &&mut f64| x.abs() <= SATURATED * most;
-            of_unit
-                .iter_mut()
-                .filter(is_rounding)
-                .for_each(|x| *x = 0.0);
-        }
+        let of_unit = equations.null_space();
         let free = of_unit.len();
         let mut by = vec![0.0; 2 * free * closed.len()];
         let mut sharers = vec![Sharer::default(); closed.len()];
@@ -972,6 +1037,42 @@ impl UnilateralState {
         Ok(known)
     }
 
+    /// These states, but open for those of some contacts that press no more than rounding, and for what leans on these.
+    pub fn without_unpressed<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        mut modes: Vec<Mode>,
+        may_open: impl Fn(usize) -> bool,
+    ) -> Result<Vec<Mode>, StepError> {
+        let closing: Vec<usize> = (0..modes.len())
+            .filter(|k| modes[*k] != Mode::Open && self.carrier[*k].is_none() && may_open(*k))
+            .collect();
+        if closing.is_empty() {
+            return Ok(modes);
+        }
+        let mut touching = self.clone();
+        touching.set_modes(modes.clone());
+        let margins = touching.margins(system, at)?.each;
+        for k in closing {
+            let [presses, ..] = margins[k];
+            if presses.value <= presses.rounding {
+                modes[k] = Mode::Open;
+            }
+        }
+        self.copy_openings_from_carriers(&mut modes);
+        Ok(modes)
+    }
+
+    /// Opens what leans on an open contact.
+    fn copy_openings_from_carriers(&self, modes: &mut [Mode]) {
+        for (k, on) in self.carrier.iter().enumerate() {
+            if on.is_some_and(|on| modes[on] == Mode::Open) {
+                modes[k] = Mode::Open;
+            }
+        }
+    }
+
     /// The multipliers of the constraints of the machine, with what the contacts press.
     ///
     /// They are those of `M a = f + Σ wᵀλ + Gᵀ λ_G`; of constraints that depend on each other, one of the sets that do.
@@ -1036,9 +1137,23 @@ impl UnilateralState {
         // lost and not stored.
         let (mut on_coordinates, mut taken, mut lost) = (0.0, 0.0, 0.0);
         let mut of_each = vec![ContactShare::default(); self.modes.len()];
+        let drives = Drives::new(system, (t, q));
+        let inertia = drives.is_moving.then(|| Inertia::new(system, t, q));
+        let inertia = inertia.and_then(Result::ok);
         let parts = reaction.forces.iter().zip(&mut of_each).enumerate();
         for (k, (force, own)) in parts.filter(|(k, _)| self.modes[*k] != Mode::Open) {
-            own.work = here.work_of_walls(k, *force, v.as_slice());
+            let acting = ActingContact {
+                contact: k,
+                forces: *force,
+                rates: [here.rates[2 * k], here.rates[2 * k + 1]],
+            };
+            own.work = drives.work(&here, &acting, v, || match &inertia {
+                Some(inertia) => {
+                    let images = [2 * k, 2 * k + 1].map(|d| inertia.image(here.row(d)));
+                    inertia.response(&images, *force)
+                }
+                None => vec![f64::NAN; here.n],
+            });
             for (part, force) in force.iter().enumerate() {
                 let row = here.row(2 * k + part).iter().zip(v.as_slice());
                 on_coordinates += force * row.map(|(w, v)| w * v).sum::<f64>();
@@ -1078,12 +1193,14 @@ impl UnilateralState {
         if self.is_free() {
             return Ok(Margins {
                 each: margins,
-                is_only: true,
+                shares: vec![false; self.modes.len()],
             });
         }
         let (t, q, v, _) = at;
         let here = ContactKinematics::of(system, t, q, v);
         let reaction = self.reaction_here(system, at, Some(&here))?;
+        // The same allowance as in `resting`: a contact that is at rest there does not stop once more here.
+        let rest = self.rest(&here, self.greatest_rate(), |k| self.modes[k] != Mode::Open);
         for (k, margin) in margins.iter_mut().enumerate() {
             let tangential = reaction.forces[k][1];
             // Where a torque resists rolling, the normal force is that of the contact, which says itself whether it presses.
@@ -1124,19 +1241,16 @@ impl UnilateralState {
                     });
                     let slips = Margin {
                         value: heading[0] * slip[0] + heading[1] * slip[1],
-                        rounding: rounding[0]
-                            .hypot(rounding[1])
-                            .max(ROUNDING * self.greatest_rate()),
+                        rounding: rounding[0].hypot(rounding[1]).max(rest),
                     };
                     [presses, slips, loads, stays]
                 }
                 Mode::Slides(0.0) => [presses, Margin::ENDLESS, loads, stays],
                 Mode::Slides(sign) => {
-                    // The same allowance as in `resting`: a contact that is at rest there does not stop once more here.
                     let rounding = here.rate_rounding_in_time(2 * k + 1, reaction.slip_terms[k]);
                     let slips = Margin {
                         value: sign * here.rates[2 * k + 1],
-                        rounding: rounding.max(ROUNDING * self.greatest_rate()),
+                        rounding: rounding.max(rest),
                     };
                     [presses, slips, loads, stays]
                 }
@@ -1156,8 +1270,13 @@ impl UnilateralState {
             };
         }
         let in_plane = !self.across.contains(&true);
+        let shares = self.sharing(&reaction);
         let is_doubtful = |(k, margin): (usize, &[Margin; 4])| {
-            let shared = if self.is_compliant(k) { 1..2 } else { 0..2 };
+            let shared = match (shares[k], self.is_compliant(k)) {
+                (false, _) => 0..0,
+                (true, true) => 1..2,
+                (true, false) => 0..2,
+            };
             margin[shared].iter().any(|m| {
                 if in_plane {
                     // A margin of 0 counts as well: the search for an instant would end where it is 0 with these forces.
@@ -1167,7 +1286,10 @@ impl UnilateralState {
                 }
             })
         };
-        let shared_kinds = |k: usize| [!self.is_compliant(k), self.modes[k] == Mode::Sticks];
+        let shared_kinds = |k: usize| {
+            let kinds = [!self.is_compliant(k), self.modes[k] == Mode::Sticks];
+            kinds.map(|is_shared| is_shared && shares[k])
+        };
         if reaction.is_only {
             // Each margin is that of the contact.
         } else if !margins.iter().enumerate().any(is_doubtful) {
@@ -1214,7 +1336,7 @@ impl UnilateralState {
         }
         Ok(Margins {
             each: margins,
-            is_only: reaction.is_only,
+            shares,
         })
     }
 
@@ -1326,6 +1448,7 @@ impl UnilateralState {
         let mut breaks: Vec<bool> = (solved_contacts.iter())
             .map(|&k| matches!(known_mode(k), Some(Mode::Skids(_))))
             .collect();
+        let mut unsettled = solved_contacts[0];
         for _ in 0..=solved_contacts.len() {
             let mut unknowns = Vec::with_capacity(solved_contacts.len());
             for (place, &k) in solved_contacts.iter().enumerate() {
@@ -1453,15 +1576,24 @@ impl UnilateralState {
                         // What does not begin to slip sticks, also where others could hold it: contacts that share a load may
                         // share it so that the friction of one is used up.
                         let is_held = size < most * (1.0 - SATURATED) || is_still;
-                        if is_held && !breaks[place] || (size == 0.0 && is_still) {
+                        // Without any friction that is used up, only who says that it begins to slip can say in which direction.
+                        let known_direction = match known_mode(k) {
+                            Some(Mode::Skids(direction)) => direction,
+                            _ => [0.0; 2],
+                        };
+                        let is_unknown = known_direction == [0.0; 2];
+                        if is_held && !breaks[place] || (size == 0.0 && is_still && is_unknown) {
                             Mode::Sticks
                         } else {
                             if kinetic != at_rest && !breaks[place] {
                                 (breaks[place], breaks_away) = (true, true);
+                                unsettled = k;
                                 breaks[place + 1] = true;
                             }
                             if size > 0.0 {
                                 Mode::Skids(used.map(|used| -used / size))
+                            } else if is_still {
+                                Mode::Skids(known_direction)
                             } else {
                                 Mode::Skids(slips.map(|(slip, _)| slip / speeds_up))
                             }
@@ -1474,9 +1606,10 @@ impl UnilateralState {
                         let [kinetic, at_rest] = here.friction(k);
                         let most = at_rest * normal;
                         let (slips, rounding) = after(1);
-                        // Contacts that share a load may share it so that the friction of one is used up while others hold it. As long as
-                        // it does not begin to slip it has its static friction, without which they could no longer hold.
-                        let is_held = kinetic != at_rest && slips.abs() <= rounding;
+                        // What does not begin to slip sticks, although its friction is used up: contacts that share a load may share it so
+                        // while others hold it; and if it has just stopped, or starts exactly at its limit, what follows decides. A slip
+                        // that begins later is found by its friction, one that is assumed here and does not begin would stop at once.
+                        let is_held = slips.abs() <= rounding;
                         // What has friction left sticks, whatever rounding makes of its slip.
                         let sign = match is_held || tangential.abs() < most * (1.0 - SATURATED) {
                             true => 0.0,
@@ -1488,7 +1621,9 @@ impl UnilateralState {
                             0.0 => Mode::Sticks,
                             sign => {
                                 slipping[place] = Some(sign);
-                                breaks_away |= kinetic != at_rest;
+                                if kinetic != at_rest {
+                                    (breaks_away, unsettled) = (true, k);
+                                }
                                 Mode::Slides(sign)
                             }
                         }
@@ -1516,7 +1651,7 @@ impl UnilateralState {
             }
         }
         Err(StepError::Contact {
-            contact: solved_contacts[0],
+            contact: self.first(unsettled),
             trouble: ContactTrouble::Unsettled,
             t,
         })

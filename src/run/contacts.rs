@@ -15,8 +15,8 @@ use crate::solution::Ending;
 use crate::step_error::StepError;
 use crate::stepper::{Cause, ContactChanges};
 use crate::{
-    ContactEvent, ContactEventKind, ContactImpact, ContactTrouble, Error, ImpactAcross, Machine,
-    Stepper, System, Vector,
+    ContactEvent, ContactEventKind, ContactImpact, ContactTally, ContactTrouble, Error,
+    ImpactAcross, Machine, Stepper, System, Vector,
 };
 
 /// How often contacts may change at one instant, for each of them and beyond.
@@ -54,15 +54,29 @@ const VANISHED: f64 = 1.5e-8;
 pub(super) const APPROACH: f64 = 0.9;
 pub(super) const LEAST_APPROACH: f64 = 1e-9;
 
+/// Where nothing yet pulls at a contact that begins to slip, the next place to look at is so many times as far.
+const LATER: f64 = 4.0;
+
+/// How many roundings the energies of a machine have: as many as in its energy balance.
+const ROUNDINGS_OF_ENERGIES: f64 = 16.0;
+
 /// A change that waits for the stepper to come to its instant.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PendingChange {
-    cause: Cause,
-    /// The contact whose gap closes.
-    closes: Option<usize>,
+    change: FoundChange,
     /// The step to go on with.
     step: f64,
     corrected: usize,
+}
+
+/// A change of contacts that is found in a step.
+#[derive(Clone, Copy, Debug)]
+struct FoundChange {
+    cause: Cause,
+    /// The contact that changes, or one of several.
+    contact: usize,
+    /// Whether its gap closes.
+    closes: bool,
 }
 
 /// What is told of a contact: which, what, the direction of its slip along both tangents, and its impact if it is one.
@@ -115,9 +129,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if let Some(pending_change) = pending_change {
             // A gap is 0 at the end of the step, and not only on its dense output.
             if self.stepper.is_done()
-                && let Some(contact) = pending_change.closes
+                && pending_change.change.closes
                 && pending_change.corrected < CORRECTIONS
             {
+                let contact = pending_change.change.contact;
                 let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
                 let Some(touching) = self.stepper.touching() else {
                     return Ok(AfterContacts::Keep);
@@ -140,14 +155,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if !looks {
             return Ok(AfterContacts::Keep);
         }
-        let Some((t, cause, closes)) = self.contact_found(interpolant)? else {
+        let Some((t, change)) = self.contact_found(interpolant)? else {
             return Ok(AfterContacts::Keep);
         };
         let step = self.stepper.last_step();
         self.stepper.retreat(t);
         *pending_change = Some(PendingChange {
-            cause,
-            closes,
+            change,
             step,
             corrected: 0,
         });
@@ -165,13 +179,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         pending_change: &mut Option<PendingChange>,
         (last_t, times): &mut (f64, usize),
     ) -> Result<Option<Ending>, Error> {
-        let Some(PendingChange {
-            cause,
-            step,
-            closes,
-            ..
-        }) = pending_change.take()
-        else {
+        let Some(PendingChange { change, step, .. }) = pending_change.take() else {
             return Ok(None);
         };
         let t = self.stepper.t();
@@ -180,7 +188,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let contacts = self.model.system.unilateral_contacts().len();
         if *times > MOST_CHANGES_AT_ONCE * (1 + contacts) {
             let error = StepError::Contact {
-                contact: closes.unwrap_or(0),
+                contact: change.contact,
                 trouble: ContactTrouble::Unsettled,
                 t,
             };
@@ -191,7 +199,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Err(self.model.explain(error, q, v));
         }
         let v_before = self.stepper.v().clone();
-        self.resolve_contacts_now(cause, step, false)?;
+        self.resolve_contacts_now(change.cause, step, false)?;
         self.hand_over_if_changes_are_frequent()?;
         self.watch_jumps(&v_before)
     }
@@ -409,12 +417,29 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             .collect();
         reported.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         // Events that follow the end of bounces are not reported before it: their time is as uncertain.
-        let latest = self.record.unilateral.events.last();
-        let mut latest = latest.map_or(now.t, |event| event.state.t);
+        let mut latest = self.record.unilateral.last_event.unwrap_or(now.t);
+        self.record
+            .unilateral
+            .tallies
+            .resize(names.len(), ContactTally::default());
         for (left, (contact, kind, direction, impact)) in reported {
             let mut state = now.clone();
             latest = (now.t + left).min(self.until).max(latest);
             state.t = latest;
+            let time_error = left.max(latest - now.t);
+            let kept = &mut self.record.unilateral;
+            kept.last_event = Some(latest);
+            let tally = &mut kept.tallies[contact];
+            match kind {
+                ContactEventKind::Impact => tally.impacts += 1,
+                ContactEventKind::Closes => {
+                    (tally.closed_at, tally.time_error) = (Some(latest), time_error);
+                }
+                _ => {}
+            }
+            if !self.settings.keep_contact_events {
+                continue;
+            }
             self.record.events.push(Event {
                 name: std::format!("{} {}", names[contact], kind.word()),
                 crossing: match kind {
@@ -431,7 +456,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 state,
                 direction: direction[0],
                 across: direction[1],
-                time_error: left.max(latest - now.t),
+                time_error,
                 impact,
             });
         }
@@ -468,13 +493,24 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         (contacts.nth(contact)).is_some_and(|contact| contact.compliance.is_some())
     }
 
-    /// Notes impacts that have created energy beyond rounding.
+    /// Notes impacts that have created energy beyond rounding: that of the impulses, and that of the energies at hand, in whose balance no less
+    /// can be seen.
     pub(super) fn record_energy_gains(&mut self, impacts: &[Impact], t: f64) {
         let loss: f64 = impacts.iter().map(|impact| impact.loss).sum();
         let turned_over: f64 = (impacts.iter())
             .map(|i| (i.impulse[0] * i.gap_rate[0]).abs() + (i.impulse[1] * i.slip[0]).abs())
             .sum();
-        if -loss <= 1e-12 * (turned_over + self.record.kinetic_energy) {
+        if loss >= 0.0 {
+            return;
+        }
+        let (t_now, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
+        let inputs = self.model.inputs(t_now, q, v);
+        let known = |energy: f64| if energy.is_nan() { 0.0 } else { energy.abs() };
+        let kinetic = known(self.kinetic_energy_now()).max(self.record.kinetic_energy);
+        let potential =
+            known(self.model.system.potential_energy(t_now, q, &inputs) + self.stored_now());
+        let of_energies = ROUNDINGS_OF_ENERGIES * f64::EPSILON * (kinetic + potential);
+        if -loss <= 1e-12 * (turned_over + kinetic) + of_energies {
             return;
         }
         let kept = &mut self.record.unilateral;
@@ -516,7 +552,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             if !watch.crossing.counts(crossing) {
                 continue;
             }
-            record.events.push(Event {
+            record.push_watched(Event {
                 name: watch.name.clone(),
                 crossing,
                 state: now.clone(),
@@ -565,11 +601,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
-    /// When contacts change in the last step, why, and which gap closes.
+    /// When contacts change in the last step, and how.
     fn contact_found(
         &mut self,
         interpolant: &mut LastInterpolant<M>,
-    ) -> Result<Option<(f64, Cause, Option<usize>)>, Error> {
+    ) -> Result<Option<(f64, FoundChange)>, Error> {
         let Self { model, stepper, .. } = self;
         let Some(touching) = stepper.touching().clone() else {
             return Ok(None);
@@ -606,7 +642,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         for theta in thetas {
             let looked = event::interpolated_at(stepper, theta);
             let now = clearances(&looked);
-            let mut earliest: Option<(f64, Cause, Option<usize>)> = None;
+            let mut earliest: Option<(f64, FoundChange)> = None;
             for (k, mode) in touching.modes().iter().enumerate() {
                 if *mode != Mode::Open || touching.carrier(k).is_some() {
                     continue;
@@ -656,7 +692,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     } else {
                         Cause::Unspecified
                     };
-                    earliest = Some((found, cause, Some(k)));
+                    let change = FoundChange {
+                        cause,
+                        contact: k,
+                        closes: true,
+                    };
+                    earliest = Some((found, change));
                 }
             }
             if !touching.is_free() {
@@ -665,6 +706,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     let inputs = model.inputs(*t, q, v);
                     touching
                         .margins(system, (*t, q, v, &inputs))
+                        .map_err(|error| model.explain(error, q, v))
+                };
+                let pull = |k: usize, (t, q, v): &Triple<VectorOf<M>>| {
+                    let inputs = model.inputs(*t, q, v);
+                    touching
+                        .pull_along(system, (*t, q, v, &inputs), k)
                         .map_err(|error| model.explain(error, q, v))
                 };
                 let seen = margins(&looked)?;
@@ -689,7 +736,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     if !at_second.each[k][kind].is_lost_since(at_first.each[k][kind]) {
                         continue;
                     }
-                    let is_only = at_second.is_only;
+                    let shares = at_second.shares[k];
                     let margin = |theta| Ok(exactly(theta)?.each[k][kind].value);
                     let mut found =
                         event::last_positive([theta_before, theta], roundoff, &mut &margin)?;
@@ -697,14 +744,23 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     let mode = touching.modes()[k];
                     let is_of_motion = kind == 3 || kind == 1 && matches!(mode, Mode::Slides(_));
                     let is_shared =
-                        !is_only && !is_of_motion && (kind == 1 || !touching.is_compliant(k));
+                        shares && !is_of_motion && (kind == 1 || !touching.is_compliant(k));
                     let mut cause = match (is_shared, mode, kind) {
                         (true, ..) => Cause::Unspecified,
                         (_, _, 3) => Cause::Leaves(k),
                         (_, _, 0) => Cause::Lifts(k),
                         (_, _, 2) => Cause::Turns(k),
                         (_, Mode::Slides(_) | Mode::Skids(_), _) => Cause::Stops(k),
-                        _ => Cause::Breaks(k),
+                        _ => {
+                            let pull = |theta: f64| {
+                                if theta == 0.0 {
+                                    return pull(k, &beginning);
+                                }
+                                let looked = event::state_at(system, stepper, interpolant, theta)?;
+                                pull(k, &looked)
+                            };
+                            Cause::Breaks(k, beginning_slip([found, theta], roundoff, pull)?)
+                        }
                     };
                     if is_shared {
                         found = (found + BEYOND).min(theta);
@@ -717,23 +773,48 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                         }
                     }
                     if earliest.is_none_or(|(known, ..)| found < known) {
-                        earliest = Some((found, cause, None));
+                        let change = FoundChange {
+                            cause,
+                            contact: k,
+                            closes: false,
+                        };
+                        earliest = Some((found, change));
                     }
                 }
             }
-            if let Some((theta, cause, closes)) = earliest {
+            if let Some((theta, change)) = earliest {
                 let t = if theta == 0.0 {
                     beginning.0
                 } else {
                     let interpolant = step_motion(interpolant, stepper, system)?;
                     interpolant.time_at(theta)
                 };
-                return Ok(Some((t, cause, closes)));
+                return Ok(Some((t, change)));
             }
             (before, theta_before) = (now, theta);
         }
         Ok(None)
     }
+}
+
+/// The direction in which a contact begins to slip whose friction is used up `from` there: it is pulled in this direction there or, if nothing pulls it
+/// yet, as where it has no friction and the force on it begins to grow, just after that. `to` is where it is seen.
+fn beginning_slip(
+    [from, to]: [f64; 2],
+    roundoff: f64,
+    mut pull: impl FnMut(f64) -> Result<Option<[f64; 2]>, Error>,
+) -> Result<[f64; 2], Error> {
+    if let Some(direction) = pull(from)? {
+        return Ok(direction);
+    }
+    let mut part = roundoff;
+    while part < to - from {
+        if let Some(direction) = pull(from + part)? {
+            return Ok(direction);
+        }
+        part *= LATER;
+    }
+    Ok(pull(to)?.unwrap_or_default())
 }
 
 /// Where a gap with kinks that is open at two looks falls below zero between them: from where it is open to where it is least.

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::vec;
 use std::vec::Vec;
 
-use super::Run;
+use super::{Record, Run, VectorOf};
 use crate::balance::Quadratures;
 use crate::contact::Mode;
 use crate::inputs::InputLaw;
@@ -223,7 +223,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(true)
     }
 
-    fn kinetic_energy_now(&self) -> f64 {
+    pub(super) fn kinetic_energy_now(&self) -> f64 {
         let stepper = &self.stepper;
         let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
         self.model.system.kinetic_energy(t, q, v)
@@ -310,12 +310,28 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// Records the present states of the contacts.
     pub(super) fn keep_phase(&mut self, change: Change) {
         if let Some(touching) = self.stepper.touching() {
-            self.record.unilateral.phases.push(Phase {
+            let phase = Phase {
                 since: self.stepper.t(),
+                until: f64::INFINITY,
                 touching: touching.for_later_observation(),
                 change,
                 constraints: self.stepper.constraints().clone(),
-            });
+            };
+            self.push_phase(phase);
         }
+    }
+
+    /// Records the states of the contacts from some time on, and forgets those before if the settings allow it and nothing needs them.
+    pub(super) fn push_phase(&mut self, phase: Phase<VectorOf<M>>) {
+        let Record {
+            samples,
+            unilateral,
+            ..
+        } = &mut self.record;
+        let keeps_all = self.settings.keep_steps || self.settings.keep_contact_phases;
+        let sampled = samples.last().map(|sample| sample.t);
+        let last_needed =
+            sampled.map_or(unilateral.last_watched, |t| t.max(unilateral.last_watched));
+        unilateral.push_phase(phase, keeps_all, last_needed);
     }
 }

@@ -20,8 +20,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             .check_stepping(self.model.system, (t, q, v))
             .map_err(|error| self.model.explain(error, q, v))?;
         self.record.unilateral.last = vec![false; touching.modes().len()];
-        self.record.unilateral.phases.push(Phase {
+        self.push_phase(Phase {
             since: t,
+            until: f64::INFINITY,
             touching: touching.clone(),
             change: Change::default(),
             constraints: self.stepper.constraints().clone(),
@@ -95,8 +96,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.enter_contact_events(reported, &[]);
         let is_new = !impacts.is_empty() || before != now.modes();
         if is_new {
-            self.record.unilateral.phases.push(Phase {
+            self.push_phase(Phase {
                 since: self.stepper.t_before(),
+                until: f64::INFINITY,
                 touching: now.for_later_observation(),
                 change: Change::default(),
                 constraints: self.stepper.constraints().clone(),

@@ -18,6 +18,10 @@ const MOST_IMPACTS_AT_ONCE: usize = 1000;
 /// The next step is at most this many times as long as the flight that follows an impact, so that it does not miss the flight.
 const STEP_TO_FLIGHT_RATIO: f64 = 8.0;
 
+/// A slip that has stopped is removed without a further question if that changes the kinetic energy by at most this share: a slip is located to the
+/// tolerance of the step, and its square is less.
+const SHARE_OF_REST: f64 = 1e-9;
+
 /// The reason for which the next states of contacts are determined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cause {
@@ -29,8 +33,8 @@ pub(crate) enum Cause {
     Leaves(usize),
     /// The slip of a contact has stopped.
     Stops(usize),
-    /// The friction of a contact is used up.
-    Breaks(usize),
+    /// The friction of a contact is used up; it begins to slip in this direction.
+    Breaks(usize, [f64; 2]),
     /// A compliant contact begins to press.
     Presses(usize),
     /// A layer turns from loading to unloading, or comes back to its greatest depth.
@@ -99,13 +103,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             cause => cause,
         };
         let known = match cause {
-            Cause::Breaks(k) if touching.second(k).is_some() => Some((k, Mode::Skids([0.0; 2]))),
             Cause::Lifts(k) | Cause::Leaves(k) => Some((k, Mode::Open)),
-            Cause::Breaks(k) => {
-                let at = (t, &now.q, &now.v, &model.inputs);
-                let friction = touching.reaction(model.system.get(), at)?.forces[k][1];
-                Some((k, Mode::Slides(-friction.signum())))
+            Cause::Breaks(k, direction) if touching.second(k).is_some() => {
+                Some((k, Mode::Skids(direction)))
             }
+            Cause::Breaks(k, [along, _]) => Some((k, Mode::Slides(along.signum()))),
             Cause::Unspecified | Cause::Stops(_) | Cause::Presses(_) | Cause::Turns(_) => None,
         };
         let pairs: Vec<usize> = (0..touching.modes().len())
@@ -251,8 +253,32 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 mode => mode,
             };
         }
-        touching.set_modes(held);
-        project_onto_closed_contacts(model.system.get(), &touching, now)?;
+        touching.set_modes(held.clone());
+        let as_found = now.clone();
+        let held_now = project_onto_closed_contacts(model.system.get(), &touching, now);
+        let is_held = held_now.is_ok()
+            && energy(model, now) >= (1.0 - SHARE_OF_REST) * energy(model, &as_found);
+        if !is_held && (0..held.len()).any(stops) {
+            // Near a dead centre a slip stops whatever friction does, and to hold it there would stop the machine. So forces decide first.
+            *now = as_found.clone();
+            let with_slip = |k: usize| if stops(k) { Mode::Slides(0.0) } else { held[k] };
+            touching.set_modes((0..held.len()).map(with_slip).collect());
+            project_onto_closed_contacts(model.system.get(), &touching, now)?;
+            let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
+            for (k, resting) in resting.iter_mut().enumerate() {
+                *resting |= stops(k) || touching.modes()[k] == Mode::Sticks;
+            }
+            let at = (t, &now.q, &now.v, &model.inputs);
+            let goes_on = touching.settled(model.system.get(), at, &closed, &resting, &[])?;
+            if (0..held.len()).any(|k| stops(k) && goes_on[k] == Mode::Sticks) {
+                held_now?;
+                *now = as_found;
+                touching.set_modes(held);
+                project_onto_closed_contacts(model.system.get(), &touching, now)?;
+            }
+        } else {
+            held_now?;
+        }
         let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
         for (k, resting) in resting.iter_mut().enumerate() {
             *resting |= stops(k) || touching.modes()[k] == Mode::Sticks;
@@ -271,6 +297,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             if !let_go.is_empty() {
                 modes = touching.settled(system, at, &closed, &resting, &let_go)?;
             }
+        }
+        if let Cause::Lifts(_) = cause {
+            // Contacts that lift at the same instant, by symmetry, would otherwise close each other again and again.
+            let was_open =
+                |k: usize| changes_at_instant.before[k] == Mode::Open && !touching.is_compliant(k);
+            modes = touching.without_unpressed(system, at, modes, was_open)?;
         }
         touching.set_modes(modes);
         touching.record_slips(model.system.get(), t, &now.q, &now.v);

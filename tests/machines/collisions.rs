@@ -3,7 +3,8 @@
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{
-    ContactEventKind, Machine, Method, Simulation, Solution, System, Vector, unilateral_forces,
+    ContactEventKind, Crossing, Error, Machine, Method, Simulation, Solution, System, Vector,
+    unilateral_forces,
 };
 
 /// The tolerance of a step, relative and absolute.
@@ -100,6 +101,65 @@ fn a_million_impacts_of_a_ball_are_booked() {
 
 /// A crusher whose debalance turns at 40 rad/s, slowly enough that its parts never come to roll on each other for good. Its impacts go on in
 /// sequences that accumulate, with phases of rolling and slipping between them.
+/// A ball that loses nothing falls for √(2h/g) and then hits the floor after every two of these. What is known of it without its impacts is their number.
+#[test]
+fn a_run_keeps_no_more_of_its_impacts_than_it_is_asked_for() {
+    let ball = machine("bouncing_ball", &[("e", 1.0)]);
+    let simulation = |until: f64| {
+        Simulation::new(&ball)
+            .method(Method::named("dop853").expect("the default method"))
+            .tolerance(TOLERANCE)
+            .until(until)
+            .energy_balance(true)
+            .forget_steps()
+            .forget_energies()
+            .forget_contact_phases()
+    };
+    let until = 200.0;
+    let fall = (2.0_f64 / 9.81).sqrt();
+    let expected = ((until / fall + 1.0) / 2.0).floor() as usize;
+    let full = simulation(until)
+        .run_interpreted(ball.start())
+        .expect("a run");
+    assert_eq!(impacts(&full), expected);
+    let counted = simulation(until)
+        .forget_contact_events()
+        .run_interpreted(ball.start())
+        .expect("a run");
+    for run in [&full, &counted] {
+        assert_eq!(run.contact_tallies()[0].impacts, expected);
+        assert_eq!(run.contact_tallies()[0].closed_at, None);
+        // The first and the last.
+        assert_eq!(run.contact_phases().len(), 2);
+        assert_eq!(run.energies().len(), 2);
+        assert_eq!(run.end(), full.end());
+        assert_eq!(run.closed_contacts(until), [false]);
+        assert!(run.closed_contacts(0.5 * until).is_empty());
+        let mut before = run.end().clone();
+        before.t = 0.5 * until;
+        let forgotten = Error::ContactsForgotten { t: before.t };
+        assert_eq!(run.observe_state(&before).unwrap_err(), forgotten);
+    }
+    assert!(counted.contact_events().is_empty() && counted.events().is_empty());
+    // What samples and other events need is kept.
+    let sampled = simulation(10.0)
+        .every(1.0)
+        .event("top", Crossing::Falling, |state| state.v.values[0] - 1e-3)
+        .run_interpreted(ball.start())
+        .expect("a run");
+    let tops = sampled.events().iter().filter(|event| event.name == "top");
+    let states = sampled
+        .samples()
+        .iter()
+        .chain(tops.map(|event| &event.state));
+    for state in states {
+        let seen = sampled.observe_state(state).expect("it is kept");
+        assert_eq!(seen.unilateral[0].normal, 0.0);
+        assert!((seen.a.values[0] + 9.81).abs() < 1e-12);
+    }
+    assert!(sampled.contact_phases().len() <= 2 + 11 + 12);
+}
+
 fn crusher(until: f64, least: usize) {
     let run = run(&machine("colliding_crusher", &[("w", 40.0)]), until);
     let count = impacts(&run);

@@ -2,6 +2,7 @@
 
 mod audit;
 mod books;
+mod borderline;
 mod brachistochrone;
 mod browser;
 mod choosing;

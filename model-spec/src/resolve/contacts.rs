@@ -223,7 +223,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.push(diagnostic.help(help));
             return None;
         }
-        if circles.len() < 2 {
+        // A family may have one member, or none, and then has no pairs.
+        if circles.len() < 2 && circles.iter().any(|(index, _)| index.is_none()) {
             let message = format!(
                 "`{}` is one {one}, and a pair needs two",
                 reference.base.text
