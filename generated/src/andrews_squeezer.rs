@@ -20,7 +20,7 @@
 //! | `constraint_positions` | 14 | 21 | 0 | 7 | 0 | 49 |
 //! | `constraint_rates` | 21 | 18 | 0 | 7 | 0 | 53 |
 //! | `constraint_matrix` | 16 | 9 | 0 | 7 | 0 | 39 |
-//! | `constraint_drift` | 28 | 20 | 0 | 7 | 0 | 62 |
+//! | `constraint_bias` | 28 | 20 | 0 | 7 | 0 | 62 |
 //! | `accelerations` | 252 | 195 | 10 | 7 | 1 | 472 |
 //! | `multipliers` | 239 | 185 | 10 | 7 | 1 | 449 |
 //! | `kinetic_energy` | 51 | 22 | 0 | 4 | 0 | 81 |
@@ -887,7 +887,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[y6] = d*sin(beta + Theta)*(der(beta) + der(Theta))^2 - rr*sin(beta)*der(beta)^2
 ///     - u*cos(epsilon)*der(epsilon)^2 + zf*sin(Omega + epsilon)*(der(Omega) + der(epsilon))^2
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 7],
     v: &[S; 7],
@@ -1642,7 +1642,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 7]) 
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(p, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

@@ -15,7 +15,7 @@
 //! | `constraint_positions` | 5 | 3 | 0 | 0 | 0 | 8 |
 //! | `constraint_rates` | 31 | 17 | 0 | 2 | 0 | 52 |
 //! | `constraint_matrix` | 31 | 6 | 0 | 2 | 0 | 41 |
-//! | `constraint_drift` | 67 | 40 | 0 | 2 | 0 | 111 |
+//! | `constraint_bias` | 67 | 40 | 0 | 2 | 0 | 111 |
 //! | `accelerations` | 182 | 102 | 4 | 2 | 0 | 292 |
 //! | `multipliers` | 164 | 86 | 4 | 2 | 0 | 258 |
 //! | `kinetic_energy` | 15 | 8 | 0 | 1 | 0 | 25 |
@@ -396,7 +396,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[around] = …
 /// gamma[down] = …
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 6],
     v: &[S; 6],
@@ -880,7 +880,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(p, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

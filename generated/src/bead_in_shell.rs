@@ -15,7 +15,7 @@
 //! | `forces` | 7 | 1 | 0 | 1 | 0 | 10 |
 //! | `slips` | 27 | 12 | 1 | 2 | 2 | 46 |
 //! | `slip_matrix` | 27 | 12 | 1 | 2 | 2 | 46 |
-//! | `slip_drift` | 65 | 30 | 1 | 2 | 2 | 102 |
+//! | `slip_bias` | 65 | 30 | 1 | 2 | 2 | 102 |
 //! | `friction` | 151 | 77 | 2 | 2 | 2 | 236 |
 //! | `kinetic_energy` | 4 | 1 | 0 | 1 | 0 | 6 |
 //! | `potential_energy` | 1 | 0 | 0 | 1 | 0 | 2 |
@@ -326,7 +326,7 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]
 /// sigma[shells] = …
 /// sigma[shells.across] = …
 /// ```
-pub fn slip_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn slip_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
@@ -366,9 +366,9 @@ pub fn slip_drift<S: ::lagrangian::emitted::Scalar>(
     let t26 = (t22 * (theta_dot * cos_phi) - t8 * S::from_f64(2.0)) * (t21 * t14);
     let t27 = t18 * (t12 * t24 - t13 * t16) - theta_dot * (t5 * p.k9 - t8 * p.k0);
     let t28 = t18 * (t24 * t14 - t13 * t17) - theta_dot * (p.k0 * t7 + p.k9 * t6);
-    let drift1 = t27 * (sin_theta * t15) + p.R * (t26 - t17 * (S::ONE + t3 * t21));
-    let drift2 = sin_theta * t28 + p.R * (t25 - t16 * (t15 + t4 * t20));
-    [drift1, drift2]
+    let bias1 = t27 * (sin_theta * t15) + p.R * (t26 - t17 * (S::ONE + t3 * t21));
+    let bias2 = sin_theta * t28 + p.R * (t25 - t16 * (t15 + t4 * t20));
+    [bias1, bias2]
 }
 
 /// What there is without friction, and what a unit of each friction force adds to it:
@@ -622,7 +622,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         vector forces(p, t, q, v, u) = forces(p, q, v);
         numbers slips(p, t, q, v) = slips(p, q, v);
         numbers slip_matrix(p, t, q) = slip_matrix(p, q);
-        numbers slip_drift(p, t, q, v) = slip_drift(p, q, v);
+        numbers slip_bias(p, t, q, v) = slip_bias(p, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

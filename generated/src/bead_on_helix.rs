@@ -335,7 +335,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         vector forces(p, t, q, v, u) = forces(p);
         numbers slips(p, t, q, v) = slips(p, v);
         numbers slip_matrix(p, t, q) = slip_matrix(p);
-        numbers slip_drift(p, t, q, v);
+        numbers slip_bias(p, t, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

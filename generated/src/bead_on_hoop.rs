@@ -389,7 +389,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1], 
         vector forces(p, t, q, v, u) = forces(p, q);
         numbers slips(p, t, q, v) = slips(p, v);
         numbers slip_matrix(p, t, q) = slip_matrix(p);
-        numbers slip_drift(p, t, q, v);
+        numbers slip_bias(p, t, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

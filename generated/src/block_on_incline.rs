@@ -381,7 +381,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
         vector forces(p, t, q, v, u) = forces(p, t, q);
         numbers slips(p, t, q, v) = slips(v);
         numbers slip_matrix(p, t, q) = slip_matrix();
-        numbers slip_drift(p, t, q, v);
+        numbers slip_bias(p, t, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, t, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, t, q);
         number dissipation(p, t, q, v, u);

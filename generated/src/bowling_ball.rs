@@ -287,7 +287,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         numbers gaps(p, t, q) = gaps(p, q);
         numbers contact_rates(p, t, q, v) = contact_rates(p, v);
         numbers contact_matrix(p, t, q) = contact_matrix(p);
-        numbers contact_drift(p, t, q, v);
+        numbers contact_bias(p, t, q, v);
         numbers contact_coefficients(p, t, q, v) = contact_coefficients(p);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);

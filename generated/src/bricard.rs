@@ -18,7 +18,7 @@
 //! | `constraint_positions` | 32 | 25 | 0 | 5 | 0 | 67 |
 //! | `constraint_rates` | 98 | 64 | 0 | 5 | 0 | 172 |
 //! | `constraint_matrix` | 96 | 48 | 0 | 5 | 0 | 154 |
-//! | `constraint_drift` | 205 | 185 | 0 | 5 | 0 | 400 |
+//! | `constraint_bias` | 205 | 185 | 0 | 5 | 0 | 400 |
 //! | `accelerations` | 806 | 604 | 10 | 5 | 0 | 1430 |
 //! | `multipliers` | 768 | 570 | 10 | 5 | 0 | 1358 |
 //! | `kinetic_energy` | 86 | 48 | 0 | 4 | 0 | 142 |
@@ -905,7 +905,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[tips] = …
 /// gamma[turns] = …
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
@@ -2476,7 +2476,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(p, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

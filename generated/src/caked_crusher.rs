@@ -16,7 +16,7 @@
 //! | `forces` | 67 | 44 | 0 | 4 | 0 | 119 |
 //! | `constraint_positions` | 0 | 2 | 0 | 0 | 0 | 2 |
 //! | `constraint_rates` | 6 | 6 | 0 | 0 | 0 | 12 |
-//! | `constraint_drift` | 2 | 2 | 0 | 0 | 0 | 4 |
+//! | `constraint_bias` | 2 | 2 | 0 | 0 | 0 | 4 |
 //! | `accelerations` | 117 | 81 | 3 | 4 | 0 | 209 |
 //! | `multipliers` | 204 | 131 | 6 | 4 | 0 | 349 |
 //! | `kinetic_energy` | 41 | 27 | 0 | 4 | 0 | 76 |
@@ -819,7 +819,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[mortar_in_cylinder.slip] = -der(s1)*der(phi1)
 /// gamma[pestle_in_mortar.slip] = -der(s2)*der(phi2)
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(v: &[S; 9]) -> [S; 4] {
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(v: &[S; 9]) -> [S; 4] {
     let s1_dot = v[3];
     let phi1_dot = v[4];
     let s2_dot = v[6];
@@ -1420,7 +1420,7 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, t, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u) = dissipation(p, v);

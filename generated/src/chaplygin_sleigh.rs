@@ -14,7 +14,7 @@
 //! | `forces` | 4 | 0 | 0 | 1 | 0 | 6 |
 //! | `constraint_rates` | 2 | 1 | 0 | 1 | 0 | 5 |
 //! | `constraint_matrix` | 0 | 1 | 0 | 1 | 0 | 3 |
-//! | `constraint_drift` | 4 | 1 | 0 | 1 | 0 | 7 |
+//! | `constraint_bias` | 4 | 1 | 0 | 1 | 0 | 7 |
 //! | `accelerations` | 22 | 8 | 1 | 1 | 0 | 33 |
 //! | `multipliers` | 10 | 4 | 1 | 1 | 0 | 17 |
 //! | `kinetic_energy` | 9 | 4 | 0 | 1 | 0 | 15 |
@@ -216,7 +216,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> [S; 3]
 /// ```text
 /// gamma[blade] = cos(phi)*der(x)*der(phi) + sin(phi)*der(y)*der(phi)
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 1] {
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 1] {
     let phi = q[2];
     let x_dot = v[0];
     let y_dot = v[1];
@@ -407,7 +407,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> Outp
         numbers constraint_positions(p, t, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u);
         number dissipation(p, t, q, v, u);

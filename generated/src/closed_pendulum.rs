@@ -16,7 +16,7 @@
 //! | `constraint_positions` | 2 | 9 | 0 | 5 | 0 | 21 |
 //! | `constraint_rates` | 12 | 8 | 0 | 5 | 0 | 30 |
 //! | `constraint_matrix` | 10 | 0 | 0 | 5 | 0 | 20 |
-//! | `constraint_drift` | 17 | 8 | 0 | 5 | 0 | 35 |
+//! | `constraint_bias` | 17 | 8 | 0 | 5 | 0 | 35 |
 //! | `accelerations` | 258 | 179 | 6 | 5 | 0 | 453 |
 //! | `multipliers` | 205 | 125 | 6 | 5 | 0 | 346 |
 //! | `kinetic_energy` | 52 | 26 | 0 | 5 | 0 | 88 |
@@ -565,7 +565,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[across] = l*sin(q[1])*der(q[1])^2 + l*sin(q[2])*der(q[2])^2 + l*sin(q[3])*der(q[3])^2
 ///     + l*sin(q[4])*der(q[4])^2 + l*sin(q[5])*der(q[5])^2
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
@@ -1165,7 +1165,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(p, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

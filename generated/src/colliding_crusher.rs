@@ -19,7 +19,7 @@
 //! | `gaps` | 8 | 11 | 0 | 0 | 2 | 21 |
 //! | `contact_rates` | 38 | 41 | 2 | 0 | 2 | 83 |
 //! | `contact_matrix` | 12 | 17 | 2 | 0 | 2 | 33 |
-//! | `contact_drift` | 87 | 63 | 4 | 0 | 2 | 156 |
+//! | `contact_bias` | 87 | 63 | 4 | 0 | 2 | 156 |
 //! | `kinetic_energy` | 27 | 16 | 0 | 1 | 0 | 45 |
 //! | `potential_energy` | 7 | 7 | 0 | 0 | 0 | 14 |
 //! | `dissipation` | 7 | 7 | 0 | 0 | 0 | 14 |
@@ -746,7 +746,7 @@ pub fn contact_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S;
 ///     2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
 /// [inner.slip] = …
 /// ```
-pub fn contact_drift<S: ::lagrangian::emitted::Scalar>(q: &[S; 9], v: &[S; 9]) -> [S; 4] {
+pub fn contact_bias<S: ::lagrangian::emitted::Scalar>(q: &[S; 9], v: &[S; 9]) -> [S; 4] {
     let x = q[0];
     let y = q[1];
     let x1 = q[3];
@@ -806,11 +806,11 @@ pub fn contact_drift<S: ::lagrangian::emitted::Scalar>(q: &[S; 9], v: &[S; 9]) -
     let t44 = y1_dot * t41;
     let t45 = t42 - y2 * t43 + (t44 - y1_dot * t40);
     let t46 = t37 - t36 * (x1_dot * y2) + (t38 - t16 * t36) - t39;
-    let drift1 = t14 * (S::from_f64(-0.5) * (t13 - t7 * (S::from_f64(2.0) * t2)));
-    let drift2 = t28 + (t24 + y1 * t22 + (t26 + y_dot * t25) - t27);
-    let drift3 = t35 * (S::from_f64(-0.5) * (t34 - t32 * (S::from_f64(2.0) * t30)));
-    let drift4 = t46 + (t42 - y2_dot * t40 + (t44 - y1 * t43) - t45);
-    [drift1, drift2, drift3, drift4]
+    let bias1 = t14 * (S::from_f64(-0.5) * (t13 - t7 * (S::from_f64(2.0) * t2)));
+    let bias2 = t28 + (t24 + y1 * t22 + (t26 + y_dot * t25) - t27);
+    let bias3 = t35 * (S::from_f64(-0.5) * (t34 - t32 * (S::from_f64(2.0) * t30)));
+    let bias4 = t46 + (t42 - y2_dot * t40 + (t44 - y1 * t43) - t45);
+    [bias1, bias2, bias3, bias4]
 }
 
 /// Coefficients of unilateral contacts: restitution along the normal and along the tangent (of
@@ -1201,7 +1201,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         numbers gaps(p, t, q) = gaps(p, q);
         numbers contact_rates(p, t, q, v) = contact_rates(p, q, v);
         numbers contact_matrix(p, t, q) = contact_matrix(p, q);
-        numbers contact_drift(p, t, q, v) = contact_drift(q, v);
+        numbers contact_bias(p, t, q, v) = contact_bias(q, v);
         numbers contact_coefficients(p, t, q, v) = contact_coefficients(p);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, t, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);

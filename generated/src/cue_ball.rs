@@ -18,7 +18,7 @@
 //! | `gaps` | 0 | 1 | 0 | 0 | 0 | 1 |
 //! | `contact_rates` | 7 | 4 | 0 | 2 | 0 | 15 |
 //! | `contact_matrix` | 4 | 0 | 0 | 2 | 0 | 8 |
-//! | `contact_drift` | 10 | 2 | 0 | 2 | 0 | 16 |
+//! | `contact_bias` | 10 | 2 | 0 | 2 | 0 | 16 |
 //! | `kinetic_energy` | 15 | 8 | 0 | 1 | 0 | 25 |
 //! | `potential_energy` | 1 | 0 | 0 | 0 | 0 | 1 |
 //!
@@ -386,7 +386,7 @@ pub fn contact_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S;
 ///     - r*sin(a)*sin(b)*der(b)*der(c)
 /// [cloth.across.slip] = r*cos(b)*der(b)*der(c)
 /// ```
-pub fn contact_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn contact_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 6],
     v: &[S; 6],
@@ -400,9 +400,9 @@ pub fn contact_drift<S: ::lagrangian::emitted::Scalar>(
     let (sin_b, cos_b) = b.sin_cos();
     let t0 = sin_a_ * b_dot;
     let zero = S::ZERO;
-    let drift2 = p.r * (c_dot * (cos_b * (cos_a_ * a_dot) - t0 * sin_b) + t0 * a_dot);
-    let drift4 = cos_b * (c_dot * (p.r * b_dot));
-    [zero, drift2, zero, drift4]
+    let bias2 = p.r * (c_dot * (cos_b * (cos_a_ * a_dot) - t0 * sin_b) + t0 * a_dot);
+    let bias4 = cos_b * (c_dot * (p.r * b_dot));
+    [zero, bias2, zero, bias4]
 }
 
 /// Coefficients of unilateral contacts: restitution along the normal and along the tangent (of
@@ -493,7 +493,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         numbers gaps(p, t, q) = gaps(p, q);
         numbers contact_rates(p, t, q, v) = contact_rates(p, q, v);
         numbers contact_matrix(p, t, q) = contact_matrix(p, q);
-        numbers contact_drift(p, t, q, v) = contact_drift(p, q, v);
+        numbers contact_bias(p, t, q, v) = contact_bias(p, q, v);
         numbers contact_coefficients(p, t, q, v) = contact_coefficients(p);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);

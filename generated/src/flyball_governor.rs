@@ -19,7 +19,7 @@
 //! | `constraint_positions` | 5 | 3 | 0 | 1 | 0 | 10 |
 //! | `constraint_rates` | 8 | 3 | 0 | 1 | 0 | 13 |
 //! | `constraint_matrix` | 5 | 2 | 0 | 1 | 0 | 9 |
-//! | `constraint_drift` | 13 | 5 | 0 | 1 | 0 | 20 |
+//! | `constraint_bias` | 13 | 5 | 0 | 1 | 0 | 20 |
 //! | `accelerations` | 36 | 15 | 2 | 1 | 0 | 55 |
 //! | `multipliers` | 31 | 14 | 1 | 1 | 0 | 48 |
 //! | `kinetic_energy` | 8 | 3 | 0 | 1 | 0 | 12 |
@@ -358,7 +358,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// ```text
 /// gamma[links] = -l*s*cos(alpha)*der(alpha)^2/b - 2*l*sin(alpha)*der(alpha)*der(s)/b - der(s)^2/b
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -588,7 +588,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 3], u: &Inputs<S>) ->
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(p, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

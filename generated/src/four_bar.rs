@@ -17,7 +17,7 @@
 //! | `constraint_positions` | 6 | 5 | 0 | 3 | 0 | 17 |
 //! | `constraint_rates` | 9 | 4 | 0 | 3 | 0 | 19 |
 //! | `constraint_matrix` | 6 | 0 | 0 | 3 | 0 | 12 |
-//! | `constraint_drift` | 12 | 4 | 0 | 3 | 0 | 22 |
+//! | `constraint_bias` | 12 | 4 | 0 | 3 | 0 | 22 |
 //! | `accelerations` | 68 | 36 | 3 | 3 | 0 | 113 |
 //! | `multipliers` | 58 | 28 | 3 | 3 | 0 | 95 |
 //! | `kinetic_energy` | 16 | 6 | 0 | 2 | 0 | 26 |
@@ -403,7 +403,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[across] = a*sin(crank)*der(crank)^2 + b*sin(coupler)*der(coupler)^2
 ///     - c*sin(rocker)*der(rocker)^2
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -704,7 +704,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(p, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

@@ -19,7 +19,7 @@
 //! | `constraint_positions` | 4 | 10 | 0 | 5 | 0 | 24 |
 //! | `constraint_rates` | 14 | 8 | 0 | 5 | 0 | 32 |
 //! | `constraint_matrix` | 12 | 0 | 0 | 5 | 0 | 22 |
-//! | `constraint_drift` | 19 | 8 | 0 | 5 | 0 | 37 |
+//! | `constraint_bias` | 19 | 8 | 0 | 5 | 0 | 37 |
 //! | `accelerations` | 158 | 88 | 6 | 5 | 0 | 262 |
 //! | `multipliers` | 139 | 72 | 6 | 5 | 0 | 227 |
 //! | `kinetic_energy` | 27 | 12 | 0 | 4 | 0 | 47 |
@@ -433,7 +433,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[across[2]] = -l*(sin(crank[2])*der(crank[2])^2 - sin(crank[1])*der(crank[1])^2 -
 ///     sin(coupler[2])*der(coupler[2])^2)
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
@@ -917,7 +917,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(p, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

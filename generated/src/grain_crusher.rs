@@ -17,7 +17,7 @@
 //! | `forces` | 67 | 44 | 0 | 4 | 0 | 119 |
 //! | `constraint_positions` | 0 | 2 | 0 | 0 | 0 | 2 |
 //! | `constraint_rates` | 5 | 7 | 0 | 0 | 0 | 12 |
-//! | `constraint_drift` | 1 | 1 | 0 | 0 | 0 | 2 |
+//! | `constraint_bias` | 1 | 1 | 0 | 0 | 0 | 2 |
 //! | `accelerations` | 116 | 79 | 3 | 4 | 0 | 206 |
 //! | `multipliers` | 192 | 121 | 6 | 4 | 0 | 327 |
 //! | `kinetic_energy` | 41 | 27 | 0 | 4 | 0 | 76 |
@@ -827,7 +827,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// ```text
 /// gamma[mortar_in_cylinder.slip] = -der(s1)*der(phi1)
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(v: &[S; 9]) -> [S; 4] {
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(v: &[S; 9]) -> [S; 4] {
     let s1_dot = v[3];
     let phi1_dot = v[4];
     let zero = S::ZERO;
@@ -1439,7 +1439,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, t, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u) = dissipation(p, v);

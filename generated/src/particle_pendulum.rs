@@ -13,7 +13,7 @@
 //! | `constraint_positions` | 6 | 6 | 0 | 0 | 0 | 12 |
 //! | `constraint_rates` | 6 | 6 | 0 | 0 | 0 | 12 |
 //! | `constraint_matrix` | 6 | 2 | 0 | 0 | 0 | 8 |
-//! | `constraint_drift` | 6 | 4 | 0 | 0 | 0 | 10 |
+//! | `constraint_bias` | 6 | 4 | 0 | 0 | 0 | 10 |
 //! | `accelerations` | 37 | 19 | 2 | 0 | 0 | 58 |
 //! | `multipliers` | 32 | 18 | 2 | 0 | 0 | 52 |
 //! | `kinetic_energy` | 6 | 3 | 0 | 0 | 0 | 9 |
@@ -307,7 +307,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[upper_rod] = -der(x1)^2/l1 - der(y1)^2/l1
 /// gamma[lower_rod] = -1/2*(2*(der(x2) - der(x1))^2 + 2*(der(y2) - der(y1))^2)/l2
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 4]) -> [S; 2] {
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 4]) -> [S; 2] {
     let x1_dot = v[0];
     let y1_dot = v[1];
     let x2_dot = v[2];
@@ -527,7 +527,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(p, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(p, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

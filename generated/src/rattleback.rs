@@ -16,7 +16,7 @@
 //! | `constraint_positions` | 9 | 4 | 0 | 2 | 1 | 18 |
 //! | `constraint_rates` | 70 | 33 | 1 | 3 | 1 | 111 |
 //! | `constraint_matrix` | 62 | 32 | 1 | 3 | 1 | 102 |
-//! | `constraint_drift` | 199 | 110 | 2 | 3 | 1 | 318 |
+//! | `constraint_bias` | 199 | 110 | 2 | 3 | 1 | 318 |
 //! | `accelerations` | 353 | 207 | 8 | 3 | 1 | 575 |
 //! | `multipliers` | 334 | 200 | 8 | 3 | 1 | 549 |
 //! | `kinetic_energy` | 27 | 14 | 0 | 2 | 0 | 45 |
@@ -502,7 +502,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[along] = …
 /// gamma[across] = …
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 6],
     v: &[S; 6],
@@ -1263,7 +1263,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(p, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

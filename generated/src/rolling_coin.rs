@@ -15,7 +15,7 @@
 //! | `forces` | 24 | 9 | 0 | 2 | 0 | 37 |
 //! | `constraint_rates` | 5 | 3 | 0 | 1 | 0 | 10 |
 //! | `constraint_matrix` | 0 | 1 | 0 | 1 | 0 | 3 |
-//! | `constraint_drift` | 6 | 2 | 0 | 1 | 0 | 10 |
+//! | `constraint_bias` | 6 | 2 | 0 | 1 | 0 | 10 |
 //! | `accelerations` | 101 | 56 | 5 | 2 | 0 | 166 |
 //! | `multipliers` | 84 | 41 | 5 | 2 | 0 | 134 |
 //! | `kinetic_energy` | 20 | 10 | 0 | 2 | 0 | 34 |
@@ -353,7 +353,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[ahead] = sin(heading)*der(x)*der(heading) - cos(heading)*der(y)*der(heading)
 /// gamma[across] = cos(heading)*der(x)*der(heading) + sin(heading)*der(y)*der(heading)
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(q: &[S; 5], v: &[S; 5]) -> [S; 2] {
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(q: &[S; 5], v: &[S; 5]) -> [S; 2] {
     let heading = q[2];
     let x_dot = v[0];
     let y_dot = v[1];
@@ -707,7 +707,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         numbers constraint_positions(p, t, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

@@ -16,7 +16,7 @@
 //! | `forces` | 8 | 3 | 0 | 1 | 0 | 13 |
 //! | `constraint_positions` | 0 | 1 | 0 | 0 | 0 | 1 |
 //! | `constraint_rates` | 2 | 2 | 0 | 0 | 0 | 4 |
-//! | `constraint_drift` | 1 | 1 | 0 | 0 | 0 | 2 |
+//! | `constraint_bias` | 1 | 1 | 0 | 0 | 0 | 2 |
 //! | `accelerations` | 2 | 0 | 0 | 1 | 0 | 3 |
 //! | `multipliers` | 17 | 8 | 2 | 1 | 0 | 29 |
 //! | `kinetic_energy` | 11 | 4 | 0 | 1 | 0 | 17 |
@@ -282,7 +282,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// ```text
 /// gamma[contact.slip] = -der(s)*der(phi)
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(v: &[S; 3]) -> [S; 2] {
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(v: &[S; 3]) -> [S; 2] {
     let s_dot = v[0];
     let phi_dot = v[1];
     let zero = S::ZERO;
@@ -464,7 +464,7 @@ pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

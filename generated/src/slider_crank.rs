@@ -19,7 +19,7 @@
 //! | `constraint_positions` | 4 | 3 | 0 | 2 | 0 | 11 |
 //! | `constraint_rates` | 6 | 4 | 0 | 2 | 0 | 14 |
 //! | `constraint_matrix` | 4 | 0 | 0 | 2 | 0 | 8 |
-//! | `constraint_drift` | 8 | 2 | 0 | 2 | 0 | 14 |
+//! | `constraint_bias` | 8 | 2 | 0 | 2 | 0 | 14 |
 //! | `accelerations` | 53 | 29 | 3 | 2 | 0 | 89 |
 //! | `multipliers` | 45 | 22 | 3 | 2 | 0 | 74 |
 //! | `kinetic_energy` | 16 | 6 | 0 | 2 | 0 | 26 |
@@ -363,7 +363,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
 /// gamma[along] = a*cos(theta)*der(theta)^2 + b*cos(phi)*der(phi)^2
 /// gamma[across] = a*sin(theta)*der(theta)^2 + b*sin(phi)*der(phi)^2
 /// ```
-pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
+pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -636,7 +636,7 @@ pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
         numbers constraint_positions(p, t, q) = constraint_positions(p, q);
         numbers constraint_rates(p, t, q, v) = constraint_rates(p, q, v);
         numbers constraint_matrix(p, t, q) = constraint_matrix(p, q);
-        numbers constraint_drift(p, t, q, v) = constraint_drift(p, q, v);
+        numbers constraint_bias(p, t, q, v) = constraint_bias(p, q, v);
         number kinetic_energy(p, t, q, v) = kinetic_energy(p, q, v);
         number potential_energy(p, t, q, u) = potential_energy(p, q);
         number dissipation(p, t, q, v, u);

@@ -90,7 +90,10 @@ lagrangian::machine! {
 fn a_ball_of_a_macro_slips_in_two_directions() {
     let machine = Cue::default();
     let system = machine.prepare();
-    let across: Vec<_> = system.unilateral_contacts().map(|c| c.is_second_tangent).collect();
+    let across: Vec<_> = system
+        .unilateral_contacts()
+        .map(|c| c.is_second_tangent)
+        .collect();
     assert_eq!(across, [false, true]);
     let slip = [1.0_f64, 0.9];
     let rolls = 2.0 * slip[0].hypot(slip[1]) / (7.0 * 0.2 * 9.81);
