@@ -551,6 +551,38 @@ fn a_driven_oscillator_answers_as_its_frequency_response_says() {
     assert!(found["rounds"].as_u64().expect("a count") <= 2);
 }
 
+/// What is crushed stays so: a motion that crushes a layer in its first period does not return, although coordinates and rates may after that period.
+#[test]
+fn a_motion_that_crushes_a_layer_does_not_return() {
+    let wall = |wall: &str| {
+        let text = "machine Wall in plane {
+            parameters { k: N/m = 40, c: N*s/m = 0.8, F: N = 4, w: rad/s = 5, k1: N/m = 300, k2: N/m = 900, l: m = 0.1 }
+            coordinates { x: m }
+            bodies { mass { mass: 1, at: (x, 0) } }
+            springs { back { stiffness: k, stretch: x } }
+            dampers { oil { damping: c, stretch: x } }
+            forces { drive { on: x, value: F*cos(w*t + 3) } }
+            contacts { wall { gap: l - x, compliance: WALL } }
+        }";
+        text.replace("WALL", wall)
+    };
+    let layer = Scratch::new("layer.machine", &wall("layer(k1, k2)"));
+    let settled = ["--period", "2*pi/w", "--settle", "100"];
+    let (status, said) = refused(&[&[layer.path()][..], &settled].concat());
+    assert_eq!(status, 1, "{said}");
+    assert!(said.contains("crushes the layer of `wall`"), "{said}");
+    // Without the wall in reach, and where unloading gives back everything, the motion returns.
+    let far = orbit(&[&[layer.path(), "--set", "l=1"][..], &settled].concat());
+    assert_eq!(far["stability"], "stable");
+    let same = orbit(&[&[layer.path(), "--set", "k2=300"][..], &settled].concat());
+    let spring = Scratch::new("spring.machine", &wall("linear(k1, 0*c)"));
+    let spring = orbit(&[&[spring.path()][..], &settled].concat());
+    for (part, name) in [("q", "x"), ("v", "x")] {
+        let [own, other] = [&same, &spring].map(|found| number(&found["at"][part][name]));
+        assert!((own - other).abs() < CLOSE, "{own} {other}");
+    }
+}
+
 #[test]
 fn a_wheel_that_turns_has_an_orbit_up_to_whole_turns() {
     // An unbalanced wheel that turns freely: φ advances by 2π, with ½ J φ′² + m g e sin φ constant.

@@ -29,7 +29,7 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
-use lagrangian::{ContactMode, Crossing, Machine, Sensitive, Simulation, State, System};
+use lagrangian::{Compliance, ContactMode, Crossing, Machine, Sensitive, Simulation, State, System};
 use lagrangian_program::{Op, Role, Source};
 use lagrangian_units::{rate_name, state_of};
 use nalgebra::{Complex, DMatrix, DVector};
@@ -451,6 +451,7 @@ impl Search<'_> {
             (x, more) = self.newton(x, &mut period, is_free, is_autonomous)?;
             rounds += more;
         }
+        self.check_uncrushed(&x, period)?;
         let tolerance = self.sought.tolerance;
         let chart = &self.chart(&x)?;
         let passage = self.passage(chart, &x, period, tolerance)?;
@@ -564,6 +565,32 @@ impl Search<'_> {
             Some((contact, _)) => Err(NoOrbit::Refused(format!(
                 "the contact `{}` is closed where the period begins, at the start or where the search has led: start from a state of \
                  the orbit at which no contact is closed",
+                contact.name
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Checks that the motion crushes no layer. A run begins with layers that nothing has crushed yet, and what is crushed stays so: the depth of a
+    /// layer does not return, even if coordinates and rates do, and the next period is another motion.
+    fn check_uncrushed(&self, x: &DVector<f64>, period: f64) -> Result<(), NoOrbit> {
+        let system = self.machine.prepare();
+        let mut contacts = system.unilateral_contacts();
+        if !contacts.any(|contact| contact.compliance == Some(Compliance::Layer)) {
+            return Ok(());
+        }
+        let start = self.named(x);
+        let run = Simulation::new(self.machine)
+            .tolerance(self.sought.tolerance)
+            .until(start.t + period)
+            .run_interpreted(start)
+            .map_err(|error| NoOrbit::Run(error.to_string()))?;
+        let works = run.crushing_work();
+        let mut contacts = system.unilateral_contacts().zip(works);
+        match contacts.find(|(_, work)| *work > 0.0) {
+            Some((contact, work)) => Err(NoOrbit::Refused(format!(
+                "the motion crushes the layer of `{}` by {work:.3e} J in a period, so that it does not return to its start, where nothing is crushed \
+                 yet; once nothing more is crushed, the layer is a spring that pushes: give it `linear(k2, 0)` behind the thickness that is lost",
                 contact.name
             ))),
             None => Ok(()),
