@@ -583,6 +583,40 @@ fn a_motion_that_crushes_a_layer_does_not_return() {
     }
 }
 
+/// A ball that leaps over a wavy floor and bounces on its crests, between which it flies for the time T = 2 √(2 (h − A)/g): it advances by a wave in that
+/// time. Other leaps over a crest return to their height and speeds as well, but not to the same place of a wave.
+#[test]
+fn a_ball_leaps_over_waves_by_whole_waves() {
+    let floor = |slip: &str| {
+        let text = "machine Waves in plane {
+            parameters { g: m/s^2 = 9.81, A: m = 0.02, wave: m = 0.5, w: rad/s = 5, mu: 1 = 0.3, u: m/s = 1 }
+            coordinates { x: m = -0.25, y: m = 0.5, der(x): m/s = 0.8 }
+            bodies { ball { mass: 1, at: (x, y) } }
+            gravity (0, -g);
+            contacts { floor { gap: y - A*cos(2*pi*x/wave), restitution: 1 SLIP } }
+        }";
+        text.replace("SLIP", slip)
+    };
+    let smooth = Scratch::new("smooth.machine", &floor(""));
+    let leap = [smooth.path(), "--near", "0.63", "--keep", "y,der(y)"];
+    let found = orbit(&[&leap[..], &["--advance", "x=0.5"]].concat());
+    let period = 2.0 * (2.0 * (0.5 - 0.02) / 9.81_f64).sqrt();
+    assert!((number(&found["period"]) - period).abs() < CLOSE);
+    assert!((number(&found["at"]["v"]["x"]) - 0.5 / period).abs() < CLOSE);
+    let (status, said) = refused(&[&leap[..], &["--advance", "x=0.2"]].concat());
+    assert_eq!(status, 1, "{said}");
+    for words in ["is not the same", "the contact `floor` touches differs"] {
+        assert!(said.contains(words), "{said}");
+    }
+    // Friction that changes with time drives it; a belt that runs steadily does not.
+    for (friction, is_driven) in [("mu*(1 + 0.9*sin(w*t))", true), ("mu", false)] {
+        let slip = format!(", slip: der(x) - u, friction: {friction}");
+        let belt = Scratch::new("belt.machine", &floor(&slip));
+        let (_, said) = refused(&[belt.path(), "--near", "0.63"]);
+        assert_eq!(said.contains("change with time"), is_driven, "{said}");
+    }
+}
+
 #[test]
 fn a_wheel_that_turns_has_an_orbit_up_to_whole_turns() {
     // An unbalanced wheel that turns freely: φ advances by 2π, with ½ J φ′² + m g e sin φ constant.

@@ -529,28 +529,57 @@ impl Search<'_> {
         steady::drives(self.machine, &self.sought.start.q.values, &wanted)
     }
 
-    /// The gaps of contacts at a state, and their normal and tangential rates when the machine is at rest.
-    fn walls(&self, t: f64, x: &DVector<f64>) -> Vec<f64> {
+    /// What contacts are at a state: their gaps, their normal and tangential rates, and the coefficients of their laws.
+    fn touches(&self, t: f64, q: &[f64], v: &[f64]) -> [Vec<f64>; 3] {
         let system = self.machine.prepare();
         let contacts = system.unilateral_contacts().len();
-        let q = x.as_slice()[..self.n].to_vec();
-        let (mut gaps, mut rates) = (vec![0.0; contacts], vec![0.0; 2 * contacts]);
-        system.gaps(t, &q, &mut gaps);
-        system.contact_rates(t, &q, &vec![0.0; self.n], &mut rates);
-        gaps.extend(rates);
-        gaps
+        let (q, v) = (q.to_vec(), v.to_vec());
+        let mut found = [1, 2, 4].map(|numbers| vec![0.0; numbers * contacts]);
+        let [gaps, rates, coefficients] = &mut found;
+        system.gaps(t, &q, gaps);
+        system.contact_rates(t, &q, &v, rates);
+        system.contact_coefficients(t, &q, &v, coefficients);
+        found
     }
 
-    /// Whether the walls of contacts move by themselves.
+    /// Whether contacts change with time: their walls move, other than a belt does at a constant speed, or the coefficients of their laws change.
     fn walls_move(&self) -> bool {
         let start = &self.sought.start;
-        let x = DVector::from_column_slice(&start.q.values);
-        let here = self.walls(start.t, &x);
-        let contacts = here.len() / 3;
-        [0.0, 0.37, 1.91, 17.3].into_iter().any(|later| {
-            let there = self.walls(start.t + later, &x);
-            there[contacts..].iter().any(|rate| *rate != 0.0)
+        let rest = vec![0.0; self.n];
+        let at = |later: f64| {
+            let found = self.touches(start.t + later, &start.q.values, &rest);
+            found.concat()
+        };
+        let now = at(0.0);
+        let changes = |(now, later): (&f64, &f64)| now != later && !(now.is_nan() && later.is_nan());
+        [0.37, 1.91, 17.3].into_iter().any(|later| {
+            let later = at(later);
+            now.iter().zip(&later).any(changes)
         })
+    }
+
+    /// The name of a contact that is not the same at two times and states, which have the same rates.
+    fn other_contact(&self, places: [(f64, &DVector<f64>); 2]) -> Option<String> {
+        // The rounding of the period, or of a turn, changes a phase by as much.
+        const SAME: f64 = 1e-6;
+        let system = self.machine.prepare();
+        let [here, there] = places.map(|(t, x)| {
+            let (q, v) = x.as_slice().split_at(self.n);
+            self.touches(t, q, v)
+        });
+        let largest = |of: &[f64]| of.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        // Gaps are lengths, and rates speeds; coefficients have nothing in common.
+        let sizes = [Some(largest(&here[0])), Some(largest(&here[1])), None];
+        let mut kinds = here.iter().zip(&there).zip(sizes);
+        let contact = kinds.find_map(|((here, there), size)| {
+            let differs = |(here, there): (&f64, &f64)| {
+                (here - there).abs() > SAME * size.unwrap_or(here.abs().max(there.abs()))
+            };
+            let at = here.iter().zip(there).position(differs)?;
+            Some(at * system.unilateral_contacts().len() / here.len())
+        })?;
+        let contact = system.unilateral_contacts().nth(contact)?;
+        Some(contact.name.to_owned())
     }
 
     /// Checks that no contact is closed at the start: only there do neighbouring states differ in every
@@ -1087,21 +1116,12 @@ impl Search<'_> {
                 // The rounding of the period, or of a turn, changes a phase by as much, and forces may amplify it.
                 (0..self.n).find(|k| off(k) > 1e-6 * size)
             };
-            if !is_autonomous {
-                // Moving walls must also be where they were one period earlier.
-                let [here, there] = [t, t + period].map(|t| self.walls(t, &state));
-                let size = here.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-                let differs = |(here, there): (&f64, &f64)| (here - there).abs() > 1e-6 * size;
-                if let Some(k) = here.iter().zip(&there).position(differs) {
-                    let contacts = here.len() / 3;
-                    let contact = if k < contacts { k } else { (k - contacts) / 2 };
-                    let mut names = system.unilateral_contacts();
-                    let name = names.nth(contact).map_or("?", |contact| contact.name);
-                    return Err(NoOrbit::OtherPeriod(
-                        format!("what the contact `{name}` touches"),
-                        period,
-                    ));
-                }
+            // Accelerations are those with all contacts open, and walls must be the same as well.
+            let touched = |name: String| format!("what the contact `{name}` touches");
+            if !is_autonomous
+                && let Some(name) = self.other_contact([(t, &state), (t + period, &state)])
+            {
+                return Err(NoOrbit::OtherPeriod(touched(name), period));
             }
             if !is_autonomous
                 && let Some(k) = self.rate(t + period, &state).as_ref().and_then(differs)
@@ -1112,6 +1132,10 @@ impl Search<'_> {
                 let there = self.rate(t, &(&state + &self.advance));
                 if let Some(k) = there.as_ref().and_then(differs) {
                     return Err(NoOrbit::OtherPlace(name(k)));
+                }
+                let there = &state + &self.advance;
+                if let Some(name) = self.other_contact([(t, &state), (t, &there)]) {
+                    return Err(NoOrbit::OtherPlace(touched(name)));
                 }
             }
         }
