@@ -73,8 +73,7 @@ impl UnilateralState {
         let touches: Vec<bool> = (0..here.gaps.len())
             .map(|k| {
                 let has_touched = touched.get(k).copied().unwrap_or(false);
-                let touches =
-                    has_touched || self.modes()[k] != Mode::Open || here.is_gap_closed(k);
+                let touches = has_touched || self.modes()[k] != Mode::Open || here.is_gap_closed(k);
                 touches && here.is_within(k, q.as_slice())
             })
             .collect();

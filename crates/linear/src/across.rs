@@ -835,8 +835,7 @@ impl<'m> Passing<'_, 'm> {
                     // whether it is saturated. What still slips has not stuck.
                     let terms = row.iter().zip(&place.v);
                     let terms: f64 = terms.map(|(w, v)| (w.value * v.value).abs()).sum();
-                    let goes_on =
-                        left.abs() > (ROUNDING * size).max(ROUND_OFF_OF_SLIP * terms);
+                    let goes_on = left.abs() > (ROUNDING * size).max(ROUND_OFF_OF_SLIP * terms);
                     !goes_on && own.impulse[1].abs() < most * (1.0 - SATURATED)
                 };
                 if sticks {

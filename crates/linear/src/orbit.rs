@@ -29,7 +29,9 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
-use lagrangian::{Compliance, ContactMode, Crossing, Machine, Sensitive, Simulation, State, System};
+use lagrangian::{
+    Compliance, ContactMode, Crossing, Machine, Sensitive, Simulation, State, System,
+};
 use lagrangian_program::{Op, Role, Source};
 use lagrangian_units::{rate_name, state_of};
 use nalgebra::{Complex, DMatrix, DVector};
@@ -551,7 +553,8 @@ impl Search<'_> {
             found.concat()
         };
         let now = at(0.0);
-        let changes = |(now, later): (&f64, &f64)| now != later && !(now.is_nan() && later.is_nan());
+        let changes =
+            |(now, later): (&f64, &f64)| now != later && !(now.is_nan() && later.is_nan());
         [0.37, 1.91, 17.3].into_iter().any(|later| {
             let later = at(later);
             now.iter().zip(&later).any(changes)
