@@ -868,9 +868,10 @@ impl<'m> Passing<'_, 'm> {
             // The gap of a contact that stays closed without an impulse does not open before the impact, nor does it in any variation: what round-off
             // leaves of its rate would count where the impact itself is as weak.
             let is_idle = idle.last().is_some_and(|(_, contact)| contact == k);
-            let change = match is_idle {
-                true => zero(),
-                false => zero() - (one + restitution) * place.rates[2 * k],
+            let change = if is_idle {
+                zero()
+            } else {
+                zero() - (one + restitution) * place.rates[2 * k]
             };
             sought.push(Sought {
                 along,
