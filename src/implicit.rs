@@ -415,7 +415,14 @@ impl Implicit {
 
     /// The factor for the step length after a step that was rejected with that error. The error is infinite if the step could
     /// not be solved.
-    pub fn reject(&self, error: f64, exponent: f64, shrink: f64) -> f64 {
+    ///
+    /// The step is repeated with the derivatives at its beginning, as in the program RADAU5. Those of an earlier step may belong to a far stiffer
+    /// part of the motion: then one iteration changes hardly anything and counts as converged, the estimate is filtered away or does not shrink
+    /// with the step, and no contraction is measured that would tell.
+    pub fn reject(&mut self, error: f64, exponent: f64, shrink: f64) -> f64 {
+        if self.age == JacobianAge::Old && self.steps_apart == 0 {
+            self.age = JacobianAge::None;
+        }
         if error.is_finite() {
             self.step_factor(error, exponent).max(shrink)
         } else {

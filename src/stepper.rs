@@ -1085,9 +1085,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     }
 
     /// The factor for the length of the next try after this one was rejected.
-    fn reduction(&self, error: f64) -> f64 {
+    fn reduction(&mut self, error: f64) -> f64 {
         #[cfg(feature = "std")]
-        if let Some(implicit) = &self.implicit {
+        if let Some(implicit) = &mut self.implicit {
             let (shrink, _) = self.method.tableau.step_change;
             return implicit.reject(error, control::error_exponent(self.method), shrink);
         }

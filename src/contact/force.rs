@@ -45,7 +45,7 @@ pub fn unilateral_forces<S: System>(
 ) -> Result<Vec<UnilateralForce>, StepError> {
     let (t, q, v, _) = at;
     let mut touching = UnilateralState::new(system);
-    let (touches, _) = touching.near(system, (t, q, v), true);
+    let (touches, _) = touching.near(system, (t, q, v), true, &[]);
     let closed = touching.persisting(system, (t, q, v), &touches, true);
     let resting = touching.resting(system, (t, q, v), &closed);
     let (modes, shares) = touching.settled_by_forces(system, at, &closed, &resting, &[])?;

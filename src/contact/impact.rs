@@ -70,17 +70,20 @@ impl UnilateralState {
     /// Which contacts touch, and which of these close.
     ///
     /// What is held is at rest, whatever rounding makes of its rate, as long as the rates are `as_held`: no impact has
-    /// changed them at this instant.
+    /// changed them at this instant. What has `touched` at this instant before an impact still does after it: the gap is as it was, but without the rate
+    /// at which it closed its rounding would be less, down to nothing for a gap that is a coordinate.
     pub fn near<S: System>(
         &self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
         as_held: bool,
+        touched: &[bool],
     ) -> (Vec<bool>, Vec<bool>) {
         let here = ContactKinematics::of(system, t, q, v);
         let touches: Vec<bool> = (0..here.gaps.len())
             .map(|k| {
-                let touches = self.modes()[k] != Mode::Open || here.is_gap_closed(k);
+                let has_touched = touched.get(k).copied().unwrap_or(false);
+                let touches = has_touched || self.modes()[k] != Mode::Open || here.is_gap_closed(k);
                 touches && here.is_within(k, q.as_slice())
             })
             .collect();

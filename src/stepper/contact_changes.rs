@@ -122,6 +122,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 model.system.get(),
                 place,
                 changes_at_instant.impacts.is_empty(),
+                &touches,
             );
             touches = near;
             let Some(contact) = closes.iter().position(|closes| *closes) else {

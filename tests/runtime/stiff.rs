@@ -466,6 +466,34 @@ fn rigid(t: f64) -> [f64; 2] {
     [run.end().q[0], run.end().v[0]]
 }
 
+/// A spherical pendulum that passes beside its lowest point, in the angles from there and about the vertical; `p` is the rate of the second at the start.
+///
+/// Its angular momentum `sin² θ φ̇` about the vertical is conserved. At the lowest point φ turns by half a turn at once, so the motion looks stiff there and
+/// nowhere else. Each tenth of the distance takes as many steps as the one before.
+#[test]
+fn a_motion_past_a_pole_of_its_coordinates_is_not_taken_for_stiff_afterwards() {
+    let tolerance = 1e-10;
+    let passing = |p: f64| {
+        let beside = Toy {
+            p,
+            ..Toy::new(([1.0, 0.0], [0.0, p]), |_, q, v, _, _| {
+                let (sin, cos) = q[0].sin_cos();
+                [
+                    sin * cos * v[1] * v[1] - G * sin,
+                    -2.0 * cos / sin * v[0] * v[1],
+                ]
+            })
+        };
+        let run = run_by(&RADAU_OF_HIGH_ORDER[0], &beside, tolerance, 1.0);
+        let momentum = |q: &[f64; 2], v: &[f64; 2]| q[0].sin().powi(2) * v[1];
+        let change = momentum(&run.end().q, &run.end().v) - momentum(&[1.0, 0.0], &[0.0, p]);
+        assert!(change.abs() <= limit(&run, tolerance), "{p:e}: {change:e}");
+        run.statistics().steps
+    };
+    let (far, near) = (passing(1e-6), passing(1e-10));
+    assert!(near <= 2 * far, "{far} {near}");
+}
+
 #[test]
 fn a_pendulum_on_a_stiffer_and_stiffer_spring_tends_to_the_pendulum() {
     let [theta, omega] = rigid(5.0);

@@ -73,6 +73,34 @@ fn a_ball_comes_to_rest_where_its_bounces_accumulate() {
     close(number(&run["energy_residual"]), 0.0, 1e-12);
 }
 
+/// A block that falls to the ground and stays there glides on against a damper, by v m/c (1 − exp(−c t/m)). Whether its height is a little above 0 or below
+/// when it lands is for rounding to say; so it falls from many heights.
+#[test]
+fn what_lands_without_a_bounce_stays_down() {
+    let spec = Scratch::new(
+        "landing.machine",
+        "machine Landing in plane {
+            parameters { m: kg = 0.3, c: N*s/m = 0.05, g: m/s^2 = 9.81, h: m = 0.2, v: m/s = 2.3 }
+            coordinates { x: m, y: m = h, der(x): m/s = v }
+            bodies { block { mass: m, at: (x, y) } }
+            gravity (0, -g);
+            dampers { air { damping: c, stretch: x } }
+            contacts { ground { gap: y, restitution: 0 } }
+        }",
+    );
+    for i in 0..40 {
+        let h = 0.2 + 0.001_37 * f64::from(i);
+        let run = simulate(spec.path(), 0.9, &[&format!("h={h:?}")]);
+        is_good(&run);
+        let impacts = events(&run, "impact");
+        assert_eq!((impacts.len(), events(&run, "closes").len()), (1, 1), "{h}");
+        close(number(&impacts[0]["t"]), (2.0 * h / 9.81).sqrt(), 1e-14);
+        let gone = 2.3 * 0.3 / 0.05 * (1.0 - (-0.05 * 0.9 / 0.3_f64).exp());
+        close(number(&run["q"]["x"]), gone, 1e-11);
+        close(number(&run["q"]["y"]), 0.0, 1e-15);
+    }
+}
+
 /// A ball whose height is measured from far below has the same accumulation time, as far as the rounding of its position allows: bounces as low as
 /// round-off are ended before they become noise.
 #[test]

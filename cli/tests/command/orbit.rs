@@ -551,6 +551,80 @@ fn a_driven_oscillator_answers_as_its_frequency_response_says() {
     assert!(found["rounds"].as_u64().expect("a count") <= 2);
 }
 
+/// What is crushed stays so: a motion that crushes a layer in its first period does not return, although coordinates and rates may after that period.
+#[test]
+fn a_motion_that_crushes_a_layer_does_not_return() {
+    let wall = |wall: &str| {
+        let text = "machine Wall in plane {
+            parameters { k: N/m = 40, c: N*s/m = 0.8, F: N = 4, w: rad/s = 5, k1: N/m = 300, k2: N/m = 900, l: m = 0.1 }
+            coordinates { x: m }
+            bodies { mass { mass: 1, at: (x, 0) } }
+            springs { back { stiffness: k, stretch: x } }
+            dampers { oil { damping: c, stretch: x } }
+            forces { drive { on: x, value: F*cos(w*t + 3) } }
+            contacts { wall { gap: l - x, compliance: WALL } }
+        }";
+        text.replace("WALL", wall)
+    };
+    let layer = Scratch::new("layer.machine", &wall("layer(k1, k2)"));
+    let settled = ["--period", "2*pi/w", "--settle", "100"];
+    let (status, said) = refused(&[&[layer.path()][..], &settled].concat());
+    assert_eq!(status, 1, "{said}");
+    assert!(said.contains("crushes the layer of `wall`"), "{said}");
+    // Without the wall in reach, and where unloading gives back everything, the motion returns.
+    let far = orbit(&[&[layer.path(), "--set", "l=1"][..], &settled].concat());
+    assert_eq!(far["stability"], "stable");
+    let same = orbit(&[&[layer.path(), "--set", "k2=300"][..], &settled].concat());
+    let spring = Scratch::new("spring.machine", &wall("linear(k1, 0*c)"));
+    let spring = orbit(&[&[spring.path()][..], &settled].concat());
+    for (part, name) in [("q", "x"), ("v", "x")] {
+        let [own, other] = [&same, &spring].map(|found| number(&found["at"][part][name]));
+        assert!((own - other).abs() < CLOSE, "{own} {other}");
+    }
+}
+
+/// A ball that leaps over a wavy floor and bounces on its crests, between which it flies for the time T = 2 √(2 (h − A)/g): it advances by a wave in that
+/// time. Other leaps over a crest return to their height and speeds as well, but not to the same place of a wave.
+#[test]
+fn a_ball_leaps_over_waves_by_whole_waves() {
+    let floor = |slip: &str| {
+        let text = "machine Waves in plane {
+            parameters { g: m/s^2 = 9.81, A: m = 0.02, wave: m = 0.5, w: rad/s = 5, mu: 1 = 0.3, u: m/s = 1 }
+            coordinates { x: m = -0.25, y: m = 0.5, der(x): m/s = 0.8 }
+            bodies { ball { mass: 1, at: (x, y) } }
+            gravity (0, -g);
+            contacts { floor { gap: y - A*cos(2*pi*x/wave), restitution: 1 SLIP } }
+        }";
+        text.replace("SLIP", slip)
+    };
+    let smooth = Scratch::new("smooth.machine", &floor(""));
+    let leap = [smooth.path(), "--near", "0.63", "--keep", "y,der(y)"];
+    let found = orbit(&[&leap[..], &["--advance", "x=0.5"]].concat());
+    let period = 2.0 * (2.0 * (0.5 - 0.02) / 9.81_f64).sqrt();
+    assert!((number(&found["period"]) - period).abs() < CLOSE);
+    assert!((number(&found["at"]["v"]["x"]) - 0.5 / period).abs() < CLOSE);
+    let (status, said) = refused(&[&leap[..], &["--advance", "x=0.2"]].concat());
+    assert_eq!(status, 1, "{said}");
+    for words in ["is not the same", "the contact `floor` touches differs"] {
+        assert!(said.contains(words), "{said}");
+    }
+    // Friction that changes with time drives it.
+    let rubs = floor(", slip: der(x) - u, friction: mu*(1 + 0.9*sin(w*t))");
+    let rubs = Scratch::new("rubs.machine", &rubs);
+    let (_, said) = refused(&[rubs.path(), "--near", "0.63"]);
+    assert!(said.contains("change with time"), "{said}");
+    // A belt that runs steadily does not: the ball goes along with it.
+    let belt = Scratch::new("belt.machine", &floor(", slip: der(x) - u, friction: mu"));
+    let period = 2.0 * (2.0 * 0.5 / 9.81_f64).sqrt();
+    let along = format!("x={period:?}");
+    let along = ["--set", "A=0", "--rate", "x=1", "--advance", &along];
+    let near = [belt.path(), "--near", "0.63", "--keep", "y,der(y)"];
+    let found = orbit(&[&near[..], &along].concat());
+    assert_eq!(found["autonomous"], true);
+    assert!((number(&found["period"]) - period).abs() < CLOSE);
+    assert!((number(&found["at"]["v"]["x"]) - 1.0).abs() < CLOSE);
+}
+
 #[test]
 fn a_wheel_that_turns_has_an_orbit_up_to_whole_turns() {
     // An unbalanced wheel that turns freely: φ advances by 2π, with ½ J φ′² + m g e sin φ constant.

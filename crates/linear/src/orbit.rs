@@ -29,7 +29,9 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
-use lagrangian::{ContactMode, Crossing, Machine, Sensitive, Simulation, State, System};
+use lagrangian::{
+    Compliance, ContactMode, Crossing, Machine, Sensitive, Simulation, State, System,
+};
 use lagrangian_program::{Op, Role, Source};
 use lagrangian_units::{rate_name, state_of};
 use nalgebra::{Complex, DMatrix, DVector};
@@ -451,6 +453,7 @@ impl Search<'_> {
             (x, more) = self.newton(x, &mut period, is_free, is_autonomous)?;
             rounds += more;
         }
+        self.check_uncrushed(&x, period)?;
         let tolerance = self.sought.tolerance;
         let chart = &self.chart(&x)?;
         let passage = self.passage(chart, &x, period, tolerance)?;
@@ -528,28 +531,58 @@ impl Search<'_> {
         steady::drives(self.machine, &self.sought.start.q.values, &wanted)
     }
 
-    /// The gaps of contacts at a state, and their normal and tangential rates when the machine is at rest.
-    fn walls(&self, t: f64, x: &DVector<f64>) -> Vec<f64> {
+    /// What contacts are at a state: their gaps, their normal and tangential rates, and the coefficients of their laws.
+    fn touches(&self, t: f64, q: &[f64], v: &[f64]) -> [Vec<f64>; 3] {
         let system = self.machine.prepare();
         let contacts = system.unilateral_contacts().len();
-        let q = x.as_slice()[..self.n].to_vec();
-        let (mut gaps, mut rates) = (vec![0.0; contacts], vec![0.0; 2 * contacts]);
-        system.gaps(t, &q, &mut gaps);
-        system.contact_rates(t, &q, &vec![0.0; self.n], &mut rates);
-        gaps.extend(rates);
-        gaps
+        let (q, v) = (q.to_vec(), v.to_vec());
+        let mut found = [1, 2, 4].map(|numbers| vec![0.0; numbers * contacts]);
+        let [gaps, rates, coefficients] = &mut found;
+        system.gaps(t, &q, gaps);
+        system.contact_rates(t, &q, &v, rates);
+        system.contact_coefficients(t, &q, &v, coefficients);
+        found
     }
 
-    /// Whether the walls of contacts move by themselves.
+    /// Whether contacts change with time: their walls move, other than a belt does at a constant speed, or the coefficients of their laws change.
     fn walls_move(&self) -> bool {
         let start = &self.sought.start;
-        let x = DVector::from_column_slice(&start.q.values);
-        let here = self.walls(start.t, &x);
-        let contacts = here.len() / 3;
-        [0.0, 0.37, 1.91, 17.3].into_iter().any(|later| {
-            let there = self.walls(start.t + later, &x);
-            there[contacts..].iter().any(|rate| *rate != 0.0)
+        let rest = vec![0.0; self.n];
+        let at = |later: f64| {
+            let found = self.touches(start.t + later, &start.q.values, &rest);
+            found.concat()
+        };
+        let now = at(0.0);
+        let changes =
+            |(now, later): (&f64, &f64)| now != later && !(now.is_nan() && later.is_nan());
+        [0.37, 1.91, 17.3].into_iter().any(|later| {
+            let later = at(later);
+            now.iter().zip(&later).any(changes)
         })
+    }
+
+    /// The name of a contact that is not the same at two times and states, which have the same rates.
+    fn other_contact(&self, places: [(f64, &DVector<f64>); 2]) -> Option<String> {
+        // The rounding of the period, or of a turn, changes a phase by as much.
+        const SAME: f64 = 1e-6;
+        let system = self.machine.prepare();
+        let [here, there] = places.map(|(t, x)| {
+            let (q, v) = x.as_slice().split_at(self.n);
+            self.touches(t, q, v)
+        });
+        let largest = |of: &[f64]| of.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        // Gaps are lengths, and rates speeds; coefficients have nothing in common.
+        let sizes = [Some(largest(&here[0])), Some(largest(&here[1])), None];
+        let mut kinds = here.iter().zip(&there).zip(sizes);
+        let contact = kinds.find_map(|((here, there), size)| {
+            let differs = |(here, there): (&f64, &f64)| {
+                (here - there).abs() > SAME * size.unwrap_or(here.abs().max(there.abs()))
+            };
+            let at = here.iter().zip(there).position(differs)?;
+            Some(at * system.unilateral_contacts().len() / here.len())
+        })?;
+        let contact = system.unilateral_contacts().nth(contact)?;
+        Some(contact.name.to_owned())
     }
 
     /// Checks that no contact is closed at the start: only there do neighbouring states differ in every
@@ -564,6 +597,32 @@ impl Search<'_> {
             Some((contact, _)) => Err(NoOrbit::Refused(format!(
                 "the contact `{}` is closed where the period begins, at the start or where the search has led: start from a state of \
                  the orbit at which no contact is closed",
+                contact.name
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Checks that the motion crushes no layer. A run begins with layers that nothing has crushed yet, and what is crushed stays so: the depth of a
+    /// layer does not return, even if coordinates and rates do, and the next period is another motion.
+    fn check_uncrushed(&self, x: &DVector<f64>, period: f64) -> Result<(), NoOrbit> {
+        let system = self.machine.prepare();
+        let mut contacts = system.unilateral_contacts();
+        if !contacts.any(|contact| contact.compliance == Some(Compliance::Layer)) {
+            return Ok(());
+        }
+        let start = self.named(x);
+        let run = Simulation::new(self.machine)
+            .tolerance(self.sought.tolerance)
+            .until(start.t + period)
+            .run_interpreted(start)
+            .map_err(|error| NoOrbit::Run(error.to_string()))?;
+        let works = run.crushing_work();
+        let mut contacts = system.unilateral_contacts().zip(works);
+        match contacts.find(|(_, work)| *work > 0.0) {
+            Some((contact, work)) => Err(NoOrbit::Refused(format!(
+                "the motion crushes the layer of `{}` by {work:.3e} J in a period, so that it does not return to its start, where nothing is crushed \
+                 yet; once nothing more is crushed, the layer is a spring that pushes: give it `linear(k2, 0)` behind the thickness that is lost",
                 contact.name
             ))),
             None => Ok(()),
@@ -1060,21 +1119,12 @@ impl Search<'_> {
                 // The rounding of the period, or of a turn, changes a phase by as much, and forces may amplify it.
                 (0..self.n).find(|k| off(k) > 1e-6 * size)
             };
-            if !is_autonomous {
-                // Moving walls must also be where they were one period earlier.
-                let [here, there] = [t, t + period].map(|t| self.walls(t, &state));
-                let size = here.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-                let differs = |(here, there): (&f64, &f64)| (here - there).abs() > 1e-6 * size;
-                if let Some(k) = here.iter().zip(&there).position(differs) {
-                    let contacts = here.len() / 3;
-                    let contact = if k < contacts { k } else { (k - contacts) / 2 };
-                    let mut names = system.unilateral_contacts();
-                    let name = names.nth(contact).map_or("?", |contact| contact.name);
-                    return Err(NoOrbit::OtherPeriod(
-                        format!("what the contact `{name}` touches"),
-                        period,
-                    ));
-                }
+            // Accelerations are those with all contacts open, and walls must be the same as well.
+            let touched = |name: String| format!("what the contact `{name}` touches");
+            if !is_autonomous
+                && let Some(name) = self.other_contact([(t, &state), (t + period, &state)])
+            {
+                return Err(NoOrbit::OtherPeriod(touched(name), period));
             }
             if !is_autonomous
                 && let Some(k) = self.rate(t + period, &state).as_ref().and_then(differs)
@@ -1085,6 +1135,10 @@ impl Search<'_> {
                 let there = self.rate(t, &(&state + &self.advance));
                 if let Some(k) = there.as_ref().and_then(differs) {
                     return Err(NoOrbit::OtherPlace(name(k)));
+                }
+                let there = &state + &self.advance;
+                if let Some(name) = self.other_contact([(t, &state), (t, &there)]) {
+                    return Err(NoOrbit::OtherPlace(touched(name)));
                 }
             }
         }

@@ -34,7 +34,7 @@ pub(crate) fn machine_with(name: &str, set: &[(&str, f64)]) -> InterpretedMachin
     machine
 }
 
-fn of(name: &str, text: &str) -> InterpretedMachine {
+pub(crate) fn of(name: &str, text: &str) -> InterpretedMachine {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let model = lagrangian_spec::model(&dag, name, text, &[], &mut Disk, &mut sources, &mut report);
     let compiled = model.and_then(|model| Compiled::new(model, &mut report));
