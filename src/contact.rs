@@ -25,6 +25,7 @@ mod drives;
 mod event;
 mod force;
 mod impact;
+mod kinematics;
 mod lcp;
 mod problem;
 mod routh;
@@ -34,8 +35,9 @@ mod touching;
 pub use event::{ContactEvent, ContactEventKind, ContactImpact, ContactTally, ImpactAcross};
 pub use force::{UnilateralForce, penetrations, unilateral_forces};
 pub(crate) use impact::{Impact, ParadoxResolution};
+pub(crate) use kinematics::ROUNDING;
 pub(crate) use stepping::SteppedContacts;
 pub use touching::Mode;
-pub(crate) use touching::{ROUNDING, UnilateralState};
+pub(crate) use touching::UnilateralState;
 
 use crate::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};

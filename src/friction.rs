@@ -16,7 +16,7 @@
 //! ([`System::second_tangents`]). The two obey the same law together, with the direction of the slip in place of its sign:
 //!
 //! ```text
-//! skids    F = −μ |N| w/|w|                   until w = 0
+//! slides   F = −μ |N| w/|w|                   until w = 0
 //! sticks   dw/dt = 0,  |F| ≤ μ₀ |N|           until |F| = μ₀ |N|
 //! ```
 //!
@@ -107,7 +107,7 @@ pub(crate) struct Contacts {
     count: usize,
     /// The contacts that are second tangents of surfaces, as a bit mask.
     seconds: usize,
-    /// The state of each contact. The direction of a skidding contact is the one at the beginning of the step: the motion is continued
+    /// The state of each contact. The direction of a sliding contact is the one at the beginning of the step: the motion is continued
     /// smoothly through rest, as if the slip reversed, and the step then ends there.
     pub mode: Mode,
     /// The largest slips so far.
@@ -341,9 +341,9 @@ impl Contacts {
         }
     }
 
-    /// Records the directions of skidding contacts at the beginning of a step.
+    /// Records the directions of sliding contacts at the beginning of a step.
     pub fn record_headings<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
-        if self.skids() {
+        if self.slides_on_surface() {
             let as_seen = Contacts {
                 continues_through_rest: false,
                 ..self.clone()
@@ -361,8 +361,8 @@ impl Contacts {
         }
     }
 
-    fn skids(&self) -> bool {
-        self.seconds != 0 && self.mode.motion[..self.count].contains(&Motion::Skids)
+    fn slides_on_surface(&self) -> bool {
+        self.seconds != 0 && self.mode.motion[..self.count].contains(&Motion::SlidesAlong)
     }
 
     /// The first of the two tangents of each contact on a surface.
@@ -379,16 +379,16 @@ impl Contacts {
             <= AT_REST * length([self.sizes[first], self.sizes[second]])
     }
 
-    /// The state of each contact with these slips. A skidding contact goes along its slip, or has come through rest since the step
+    /// The state of each contact with these slips. A sliding contact goes along its slip, or has come through rest since the step
     /// began, in which case its slip counts as reversed.
     fn mode_of(&self, slips: &Each) -> Mode {
         let mut mode = self.mode;
-        if !self.skids() {
+        if !self.slides_on_surface() {
             return mode;
         }
         for k in self
             .on_surfaces()
-            .filter(|k| self.mode.motion[*k] == Motion::Skids)
+            .filter(|k| self.mode.motion[*k] == Motion::SlidesAlong)
         {
             let speed = length([slips[k], slips[k + 1]]);
             let greatest = length([self.sizes[k], self.sizes[k + 1]]);
@@ -410,7 +410,7 @@ impl Contacts {
 
     /// [`mode_of`](Self::mode_of) at a state.
     fn mode_at<S: System>(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Mode {
-        if self.skids() {
+        if self.slides_on_surface() {
             self.mode_of(&slips(system, t, q, v))
         } else {
             self.mode
@@ -516,7 +516,7 @@ impl Contacts {
                         };
                         [reserve, Margin::ENDLESS]
                     }
-                    Motion::Skids => {
+                    Motion::SlidesAlong => {
                         let heading = &self.mode.slip_direction;
                         let value = heading[k] * slips[k] + heading[k + 1] * slips[k + 1];
                         let rounding = 0.0;
@@ -557,7 +557,7 @@ impl Contacts {
                 }
                 let cause = match (self.mode.motion[k], kind) {
                     (Motion::Sticks, _) => Cause::BrokeAway,
-                    (Motion::Slides(_), 0) | (Motion::Skids, _) => Cause::Stopped,
+                    (Motion::Slides(_), 0) | (Motion::SlidesAlong, _) => Cause::Stopped,
                     (Motion::Slides(_), _) => Cause::Turned,
                 };
                 let contact = k;
@@ -606,7 +606,9 @@ impl Contacts {
         let now = slips(system, t, q, v[0]);
         let k = change.contact;
         let veers = match (self.mode.motion[k], change.cause) {
-            (Motion::Skids, Cause::Stopped) => !self.has_stopped(system, (t, q, v[0], u), k)?,
+            (Motion::SlidesAlong, Cause::Stopped) => {
+                !self.has_stopped(system, (t, q, v[0], u), k)?
+            }
             (_, cause) => cause == Cause::Veered,
         };
         if veers {
@@ -618,13 +620,13 @@ impl Contacts {
             *rests = match self.mode.motion[k] {
                 Motion::Sticks => true,
                 Motion::Slides(_) => now[k].abs() <= AT_REST * self.sizes[k],
-                Motion::Skids => false,
+                Motion::SlidesAlong => false,
             };
         }
-        let skidding = self
+        let sliding = self
             .on_surfaces()
-            .filter(|k| self.mode.motion[*k] == Motion::Skids);
-        for k in skidding {
+            .filter(|k| self.mode.motion[*k] == Motion::SlidesAlong);
+        for k in sliding {
             let stops = change.cause == Cause::Stopped && change.contact == k;
             let rests = stops || self.is_slow(k, &now);
             (resting[k], resting[k + 1]) = (rests, rests);
@@ -641,7 +643,7 @@ impl Contacts {
         let at = |singular| StepError::Singular { singular, t };
         if change.cause == Cause::BrokeAway && self.seconds >> (k + 1) & 1 != 0 {
             // On a surface the law of friction determines the direction.
-            (motion[k], motion[k + 1]) = (Some(Motion::Skids), Some(Motion::Skids));
+            (motion[k], motion[k + 1]) = (Some(Motion::SlidesAlong), Some(Motion::SlidesAlong));
             (slip_direction[k], slip_direction[k + 1]) = (0.0, 0.0);
         } else if change.cause == Cause::BrokeAway {
             let held = with_parts(system, t, q, v, u, |parts, _| {
@@ -677,7 +679,7 @@ impl Contacts {
             excluded: match change.cause {
                 Cause::BrokeAway | Cause::Veered => None,
                 // It may continue in another direction.
-                Cause::Stopped if own.1 == Motion::Skids => None,
+                Cause::Stopped if own.1 == Motion::SlidesAlong => None,
                 Cause::Turned => Some((own.0, own.1, Some(self.mode.press[k]))),
                 // It did not even begin to slide in this direction.
                 Cause::Stopped if is_at_once => Some((own.0, own.1, None)),
@@ -721,7 +723,7 @@ impl Contacts {
         self.mode.motion[..self.count].contains(&Motion::Sticks)
     }
 
-    /// Whether a skidding contact whose slip has become perpendicular to its direction at the beginning of the step has come to rest:
+    /// Whether a sliding contact whose slip has become perpendicular to its direction at the beginning of the step has come to rest:
     /// then the slip is an error left by the step, and not a turn.
     #[cfg(feature = "std")]
     fn has_stopped<S: System>(
@@ -753,7 +755,7 @@ impl Contacts {
         change: Change,
     ) -> bool {
         change.cause == Cause::Stopped
-            && self.mode.motion[change.contact] == Motion::Skids
+            && self.mode.motion[change.contact] == Motion::SlidesAlong
             && !self.is_slow(change.contact, &slips(system, t, q, v))
     }
 

@@ -140,10 +140,13 @@ pub fn extremes(
                 let rises = evaluate(&slopes, one) > 0.0;
                 while other - one > 1e-14 {
                     let middle = 0.5 * (one + other);
-                    match (evaluate(&slopes, middle) > 0.0) == rises {
-                        true if middle > one => one = middle,
-                        false if middle < other => other = middle,
-                        _ => break,
+                    let is_before = (evaluate(&slopes, middle) > 0.0) == rises;
+                    if is_before && middle > one {
+                        one = middle;
+                    } else if !is_before && middle < other {
+                        other = middle;
+                    } else {
+                        break;
                     }
                 }
                 take(extent, a + (b - a) * 0.5 * (1.0 + 0.5 * (one + other)))?;

@@ -836,7 +836,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     _ => ("presses the other way", Crossing::Falling),
                 },
                 Motion::Sticks => ("sticks", Crossing::Falling),
-                Motion::Slides(_) | Motion::Skids => ("slides", Crossing::Rising),
+                Motion::Slides(_) | Motion::SlidesAlong => ("slides", Crossing::Rising),
             };
             let at = (t, self.stepper.q().clone(), self.stepper.v().clone());
             self.record.events.push(Event {

@@ -119,7 +119,7 @@ fn has_no_code_of_absent_features(program: &str) {
             "resolve_penetration",
             include_str!("../src/contact/stepping.rs"),
         ),
-        ("look_beside", include_str!("../src/constraints/start.rs")),
+        ("find_branch", include_str!("../src/constraints/start.rs")),
     ] {
         assert!(
             source.contains(&format!("fn {name}<")),

@@ -11,7 +11,7 @@
 //! `P = −λ ∂g/∂t`. If the same machine has coordinates relative to this wall, `γ` is free of `t` and the momentum is not `M v`; P is the same, since
 //! energies, forces and rates are. All this holds for impulses as well, with the means of `v` and `γ` before and after.
 
-use super::touching::ContactKinematics;
+use super::kinematics::ContactKinematics;
 use crate::math::sqrt;
 use crate::{System, Vector};
 

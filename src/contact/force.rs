@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use super::touching::ContactKinematics;
+use super::kinematics::ContactKinematics;
 use super::{Mode, UnilateralState};
 use crate::{StepError, System};
 
@@ -14,7 +14,7 @@ pub struct UnilateralForce {
     pub gap: f64,
     /// How fast it opens, in m/s.
     pub gap_rate: f64,
-    /// How fast it slips, in m/s; 0 without friction. Of the [rolling](crate::UnilateralContact::rolls) of a contact how fast it turns,
+    /// How fast it slips, in m/s; 0 without friction. Of the [rolling](crate::UnilateralContact::is_rolling_resistance) of a contact how fast it turns,
     /// in rad/s.
     pub slip: f64,
     /// What presses, in N.

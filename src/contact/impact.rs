@@ -5,9 +5,10 @@ use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives};
+use super::kinematics::{ContactKinematics, ROUNDING};
 use super::problem::{self, Answer, ContactUnknowns};
 use super::routh::{self, Expansion, SingleImpact};
-use super::touching::{ContactKinematics, UnilateralState};
+use super::touching::UnilateralState;
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Mode, Painleve};
 use crate::{Singular, StepError, System, Vector};
 
@@ -424,7 +425,7 @@ impl UnilateralState {
         if opening <= 0.0 || gap_acceleration >= 0.0 || last <= 0.0 || share >= 1.0 {
             return None;
         }
-        let rounding = here.gap_rounding(contact) * (f64::EPSILON / super::touching::ROUNDING);
+        let rounding = here.gap_rounding(contact) * (f64::EPSILON / ROUNDING);
         let least = (2.0 * -gap_acceleration * LEAST_HEIGHT * rounding).sqrt();
         let limit = least.max(LEAST_BOUNCE * self.speed);
         (opening <= limit).then(|| 2.0 * opening / -gap_acceleration / (1.0 - share))
@@ -492,7 +493,7 @@ impl UnilateralState {
         slip[0].hypot(slip[1]) <= STOPPED * least
     }
 
-    /// Whether a contact that skids has come to rest where its slip is at right angles to what it was when the step began: then it
+    /// Whether a contact that slides has come to rest where its slip is at right angles to what it was when the step began: then it
     /// is what the step has left of it, and not a turn.
     pub fn has_stopped<S: System>(
         &self,
@@ -500,7 +501,7 @@ impl UnilateralState {
         at: super::touching::At<'_, S>,
         contact: usize,
     ) -> Result<bool, StepError> {
-        let Mode::Skids(_) = self.modes()[contact] else {
+        let Mode::SlidesAlong(_) = self.modes()[contact] else {
             return Ok(true);
         };
         let (t, q, v, _) = at;

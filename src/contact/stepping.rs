@@ -16,8 +16,9 @@ use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives};
+use super::kinematics::ContactKinematics;
 use super::problem::{self, ContactUnknowns};
-use super::touching::{At, ContactKinematics, Reaction, SATURATED};
+use super::touching::{At, Reaction, SATURATED};
 use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, UnilateralState};
 use crate::{Singular, StepError, System, Vector};
 
@@ -188,31 +189,33 @@ impl UnilateralState {
                 None => impulse[0],
             };
             let most = here.friction(k)[0] * pressing;
-            modes[k] = match self.has_friction(k) {
-                true if self.first(k) != k => modes[k - 1],
-                true if self.second(k).is_some() => {
-                    let used = [0, 1].map(|part| answer.forces[place + part][1]);
-                    let size = used[0].hypot(used[1]);
-                    let slips = [0, 1].map(|part| slip_after(place + part));
-                    let speed = slips[0].hypot(slips[1]);
-                    let [_, rounding] = self.slip(&here, k);
-                    if size < most * (1.0 - SATURATED) {
-                        Mode::Sticks
-                    } else if size > 0.0 {
-                        Mode::Skids(used.map(|used| -used / size))
-                    } else if speed > rounding[0].hypot(rounding[1]) {
-                        Mode::Skids(slips.map(|slip| slip / speed))
-                    } else {
-                        Mode::Sticks
-                    }
+            modes[k] = if !self.has_friction(k) {
+                Mode::Slides(0.0)
+            } else if self.first(k) != k {
+                modes[k - 1]
+            } else if self.second(k).is_some() {
+                let used = [0, 1].map(|part| answer.forces[place + part][1]);
+                let size = used[0].hypot(used[1]);
+                let slips = [0, 1].map(|part| slip_after(place + part));
+                let speed = slips[0].hypot(slips[1]);
+                let [_, rounding] = self.slip(&here, k);
+                if size < most * (1.0 - SATURATED) {
+                    Mode::Sticks
+                } else if size > 0.0 {
+                    Mode::SlidesAlong(used.map(|used| -used / size))
+                } else if speed > rounding[0].hypot(rounding[1]) {
+                    Mode::SlidesAlong(slips.map(|slip| slip / speed))
+                } else {
+                    Mode::Sticks
                 }
-                false => Mode::Slides(0.0),
-                true if impulse[1].abs() < most * (1.0 - SATURATED) => Mode::Sticks,
-                true if impulse[1] != 0.0 => Mode::Slides(-impulse[1].signum()),
-                true if slip[1].abs() > here.rate_rounding(2 * k + 1) => {
-                    Mode::Slides(slip[1].signum())
-                }
-                true => Mode::Sticks,
+            } else if impulse[1].abs() < most * (1.0 - SATURATED) {
+                Mode::Sticks
+            } else if impulse[1] != 0.0 {
+                Mode::Slides(-impulse[1].signum())
+            } else if slip[1].abs() > here.rate_rounding(2 * k + 1) {
+                Mode::Slides(slip[1].signum())
+            } else {
+                Mode::Sticks
             };
             forces[k] = impulse.map(|impulse| impulse / h);
             stepped.lost += loss;

@@ -8,6 +8,7 @@ use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives};
+use super::kinematics::{ContactKinematics, ROUNDING};
 use super::lcp;
 use super::problem::{self, ContactUnknowns};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
@@ -15,9 +16,6 @@ use crate::balance::ContactShare;
 use crate::{Pivot, Singular, StepError, System, Vector};
 use compliant::ComplianceState;
 pub(crate) use held::Held;
-
-/// A gap within this of its scale is closed, and a rate within this of its scale is rest.
-pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// Forces and accelerations below this, relative to the terms that they are the sum of, are rounding.
 const ROUNDING_OF_FORCES: f64 = 1e-11;
@@ -32,18 +30,18 @@ pub enum Mode {
     Open,
     /// It touches and slips, forward or backward; 0 where it has no friction.
     Slides(f64),
-    /// It touches and slips in space, in the direction of its slip. Through rest that is followed as if it went on backwards, as it
-    /// was when the step began: its components are kept here, of length 1.
-    Skids([f64; 2]),
+    /// It touches and slips in space, in this direction, of length 1: that of the slip when the step began. A slip that passes through
+    /// rest is continued as if it went backwards along it.
+    SlidesAlong([f64; 2]),
     /// It touches and does not slip.
     Sticks,
 }
 
 impl Mode {
-    /// Whether contacts do the same, in whatever direction they skid.
+    /// Whether contacts do the same, in whatever direction they slip.
     pub fn is_like(self, other: Mode) -> bool {
         match (self, other) {
-            (Mode::Skids(_), Mode::Skids(_)) => true,
+            (Mode::SlidesAlong(_), Mode::SlidesAlong(_)) => true,
             _ => self == other,
         }
     }
@@ -52,7 +50,7 @@ impl Mode {
     pub fn direction(self) -> [f64; 2] {
         match self {
             Mode::Slides(sign) => [sign, 0.0],
-            Mode::Skids(heading) => heading,
+            Mode::SlidesAlong(heading) => heading,
             Mode::Open | Mode::Sticks => [0.0; 2],
         }
     }
@@ -83,208 +81,10 @@ pub(crate) struct UnilateralState {
     pub(super) slip: f64,
     /// How fast each contact opened after its last impact.
     pub openings: Vec<f64>,
-    /// Whether a direction is followed through rest, within a step: see [`Mode::Skids`].
+    /// Whether a direction is followed through rest, within a step: see [`Mode::SlidesAlong`].
     continues_through_rest: bool,
     /// In time stepping the mean forces of the last step along normal and tangent, in N.
     stepped: Option<Vec<[f64; 2]>>,
-}
-
-/// Gaps, rates and all that belongs to them at a state.
-pub(super) struct ContactKinematics {
-    pub n: usize,
-    pub gaps: Vec<f64>,
-    pub rates: Vec<f64>,
-    pub rows: Vec<f64>,
-    pub drifts: Vec<f64>,
-    pub coefficients: Vec<f64>,
-    /// Time and state, which rounding is relative to.
-    at: (f64, Vec<f64>, Vec<f64>),
-    /// Where contacts with faces of polygons are on these; empty where no contact is one.
-    pub faces: Vec<Option<OnFace>>,
-}
-
-/// Where a corner is on a face of a polygon.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct OnFace {
-    /// How far it is outside of the face, in m.
-    pub height: f64,
-    /// How far it is beyond the ends of that, in m, and how fast that grows.
-    pub beyond: f64,
-    pub beyond_rate: f64,
-}
-
-/// Where the contacts that are with faces of polygons are on these; nothing where no contact is one.
-pub(super) fn faces<S: System>(
-    system: &S,
-    (t, q, v): (f64, &S::Vector, &S::Vector),
-) -> Vec<Option<OnFace>> {
-    let count = system
-        .unilateral_contacts()
-        .filter(|one| one.has_face)
-        .count();
-    if count == 0 {
-        return Vec::new();
-    }
-    let mut numbers = vec![0.0; 3 * count];
-    system.contact_faces(t, q, v, &mut numbers);
-    let mut all = numbers.chunks_exact(3);
-    let mut next = || {
-        let own = all.next()?;
-        Some(OnFace {
-            height: own[0],
-            beyond: own[1],
-            beyond_rate: own[2],
-        })
-    };
-    (system.unilateral_contacts())
-        .map(|contact| if contact.has_face { next() } else { None })
-        .collect()
-}
-
-impl ContactKinematics {
-    pub fn of<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> ContactKinematics {
-        let (n, m) = (q.as_slice().len(), system.unilateral_contacts().len());
-        let mut here = ContactKinematics {
-            n,
-            gaps: vec![0.0; m],
-            rates: vec![0.0; 2 * m],
-            rows: vec![0.0; 2 * m * n],
-            drifts: vec![0.0; 2 * m],
-            coefficients: vec![0.0; 4 * m],
-            at: (t, q.as_slice().to_vec(), v.as_slice().to_vec()),
-            faces: faces(system, (t, q, v)),
-        };
-        system.gaps(t, q, &mut here.gaps);
-        system.contact_rates(t, q, v, &mut here.rates);
-        system.contact_matrix(t, q, &mut here.rows);
-        system.contact_bias(t, q, v, &mut here.drifts);
-        system.contact_coefficients(t, q, v, &mut here.coefficients);
-        here
-    }
-
-    /// Below which the gap of a contact is closed. Asked of few contacts: it takes the whole row of one.
-    pub fn gap_rounding(&self, contact: usize) -> f64 {
-        let (t, q, _) = &self.at;
-        let direction = 2 * contact;
-        let terms = terms(self.row(direction), q);
-        ROUNDING * terms + 8.0 * f64::EPSILON * (t * self.rates[direction]).abs()
-    }
-
-    /// How large the terms of a rate are together.
-    fn rate_terms(&self, direction: usize) -> f64 {
-        let (_, _, v) = &self.at;
-        terms(self.row(direction), v) + self.rates[direction].abs()
-    }
-
-    /// Below which a rate is rest.
-    pub fn rate_rounding(&self, direction: usize) -> f64 {
-        let rounding = ROUNDING * self.rate_terms(direction);
-        match self.on_face(direction / 2) {
-            // A face that lies on another one turns by rounding, and what slides along it has so much of a rate.
-            Some(face) if direction.is_multiple_of(2) => {
-                rounding + ROUNDING * face.beyond_rate.abs()
-            }
-            _ => rounding,
-        }
-    }
-
-    /// Bound on the rounding of a rate that changes with an acceleration whose terms have this size: that of its own terms, and what the terms of the
-    /// acceleration make of the rounding of time. Where a machine is locked these terms cancel, and all its rates are rounding.
-    pub fn rate_rounding_in_time(&self, direction: usize, acceleration_terms: f64) -> f64 {
-        self.rate_rounding(direction) + 8.0 * f64::EPSILON * self.at.0.abs() * acceleration_terms
-    }
-
-    /// Whether the gap of a contact is no more than rounding.
-    pub fn is_gap_closed(&self, contact: usize) -> bool {
-        self.gaps[contact] <= self.gap_rounding(contact)
-    }
-
-    /// Where a corner is on a face of a polygon, if it is one.
-    pub fn on_face(&self, contact: usize) -> Option<OnFace> {
-        self.faces.get(contact).copied().flatten()
-    }
-
-    /// Whether a contact is where it may touch. A corner on the end of a face, within rounding, is on that face unless it leaves it.
-    pub fn is_within(&self, contact: usize, q: &[f64]) -> bool {
-        let Some(face) = self.on_face(contact) else {
-            return true;
-        };
-        // The coordinate along the face need not be one of those that move the corner off it.
-        let size = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let rounding = self.gap_rounding(contact) + ROUNDING * size;
-        let stays = face.beyond_rate <= self.rate_rounding(2 * contact);
-        face.beyond < -rounding || (face.beyond <= rounding && stays)
-    }
-
-    /// How far a contact is outside of what it touches: of a corner of a polygon outside of its face, wherever that ends.
-    pub fn height(&self, contact: usize) -> f64 {
-        let face = self.on_face(contact);
-        face.map_or(self.gaps[contact], |face| face.height)
-    }
-
-    pub fn row(&self, direction: usize) -> &[f64] {
-        &self.rows[direction * self.n..][..self.n]
-    }
-
-    /// How fast a rate of a contact changes with these accelerations, and how large the terms of that are.
-    pub fn acceleration(&self, direction: usize, a: &[f64]) -> [f64; 2] {
-        let drift = self.drifts[direction];
-        let terms = self.row(direction).iter().zip(a).map(|(w, a)| w * a);
-        [
-            drift + terms.clone().sum::<f64>(),
-            drift.abs() + terms.map(f64::abs).sum::<f64>(),
-        ]
-    }
-
-    /// The round-off of the acceleration of a gap, in m/s², where rates of size `rate` are known to [`ROUNDING`] of it.
-    ///
-    /// The acceleration contains squares of rates divided by a radius of curvature, and rates at rest are not exactly 0. The radius is estimated
-    /// by the terms of the gap, or by the distance travelled at this rate until now. This may be too large, but by less than the factor
-    /// between round-off and [`ROUNDING`]. The result is at most 16 times the sum of these squares.
-    pub fn acceleration_rounding(&self, contact: usize, rate: f64) -> f64 {
-        let (t, q, v) = &self.at;
-        let row = self.row(2 * contact);
-        let own = terms(row, v);
-        let rate = rate.max(own);
-        let length = terms(row, q).max(rate * t.abs());
-        if length == 0.0 {
-            return 0.0;
-        }
-        let squares = self.drifts.iter().step_by(2).map(|drift| drift.abs());
-        let most = 16.0 * squares.sum::<f64>();
-        // The square of a rate at rest, and the round-off of squares of rates that cancel.
-        let left = ROUNDING * rate * (ROUNDING * rate / length);
-        let cancelled = 64.0 * f64::EPSILON * own * (own / length);
-        (left + cancelled).min(most)
-    }
-
-    /// What walls that move by themselves do against the forces of a contact, in W, or against its impulses, in J, if nothing else moves by itself.
-    pub fn work_of_walls(&self, contact: usize, forces: [f64; 2]) -> f64 {
-        let (_, _, v) = &self.at;
-        let of_direction = |part: usize| {
-            // The rate that there would be if the machine were at rest.
-            let direction = 2 * contact + part;
-            let by_machine = self.row(direction).iter().zip(v);
-            let at_rest = self.rates[direction] - by_machine.map(|(w, v)| w * v).sum::<f64>();
-            -forces[part] * at_rest
-        };
-        of_direction(0) + of_direction(1)
-    }
-
-    pub fn friction(&self, contact: usize) -> [f64; 2] {
-        let own = &self.coefficients[4 * contact..][..4];
-        [own[2], own[3]]
-    }
-
-    pub fn restitution(&self, contact: usize) -> [f64; 2] {
-        let own = &self.coefficients[4 * contact..][..4];
-        [own[0], own[1]]
-    }
-}
-
-/// How large the terms of a rate, or of a place, are together.
-fn terms(row: &[f64], y: &[f64]) -> f64 {
-    row.iter().zip(y).map(|(w, y)| (w * y).abs()).sum()
 }
 
 /// Accelerations, and the forces in contacts that go with them.
@@ -542,11 +342,11 @@ impl UnilateralState {
         ]
     }
 
-    /// The component along this tangent of the direction in which a contact skids. Where it has come through rest since the step
+    /// The component along this tangent of the direction in which a contact slides. Where it has come through rest since the step
     /// began it is taken to slip backwards, so that its friction changes smoothly through there: that it has is found, and the
     /// step ends there.
     fn slip_direction(&self, here: &ContactKinematics, contact: usize) -> f64 {
-        let Mode::Skids(heading) = self.modes[contact] else {
+        let Mode::SlidesAlong(heading) = self.modes[contact] else {
             return 0.0;
         };
         let part = usize::from(self.across[contact]);
@@ -572,18 +372,22 @@ impl UnilateralState {
         }
     }
 
-    /// Takes note of the directions in which contacts skid where a step begins.
+    /// Takes note of the directions in which contacts slide where a step begins.
     pub fn record_headings<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
-        if !self.modes.iter().any(|mode| matches!(mode, Mode::Skids(_))) {
+        if !self
+            .modes
+            .iter()
+            .any(|mode| matches!(mode, Mode::SlidesAlong(_)))
+        {
             return;
         }
         let here = ContactKinematics::of(system, t, q, v);
         for k in 0..self.modes.len() {
-            if let Mode::Skids(_) = self.modes[k] {
+            if let Mode::SlidesAlong(_) = self.modes[k] {
                 let [slip, rounding] = self.slip(&here, k);
                 let speed = slip[0].hypot(slip[1]);
                 if speed > rounding[0].hypot(rounding[1]) {
-                    self.modes[k] = Mode::Skids(slip.map(|slip| slip / speed));
+                    self.modes[k] = Mode::SlidesAlong(slip.map(|slip| slip / speed));
                 }
             }
         }
@@ -591,12 +395,12 @@ impl UnilateralState {
 
     /// The error where contacts that are asked together have no answer.
     pub(super) fn unsolved(&self, solved_contacts: &[usize], t: f64) -> StepError {
-        let trouble = match solved_contacts.iter().any(|k| self.across[*k]) {
-            true => ContactTrouble::Unsolved,
-            false if solved_contacts.iter().any(|k| self.has_friction[*k]) => {
-                ContactTrouble::Paradox
-            }
-            false => ContactTrouble::NotHeld,
+        let trouble = if solved_contacts.iter().any(|k| self.across[*k]) {
+            ContactTrouble::Unsolved
+        } else if solved_contacts.iter().any(|k| self.has_friction[*k]) {
+            ContactTrouble::Paradox
+        } else {
+            ContactTrouble::NotHeld
         };
         StepError::Contact {
             contact: solved_contacts[0],
@@ -841,7 +645,7 @@ impl UnilateralState {
     fn share(&self, here: &ContactKinematics, contact: usize) -> f64 {
         match self.modes[contact] {
             Mode::Slides(sign) => -sign * here.friction(contact)[0],
-            Mode::Skids(_) => -self.slip_direction(here, contact) * here.friction(contact)[0],
+            Mode::SlidesAlong(_) => -self.slip_direction(here, contact) * here.friction(contact)[0],
             Mode::Open | Mode::Sticks => 0.0,
         }
     }
@@ -1158,7 +962,7 @@ impl UnilateralState {
                 let row = here.row(2 * k + part).iter().zip(v.as_slice());
                 on_coordinates += force * row.map(|(w, v)| w * v).sum::<f64>();
             }
-            if let Mode::Slides(_) | Mode::Skids(_) = self.modes[k] {
+            if let Mode::Slides(_) | Mode::SlidesAlong(_) = self.modes[k] {
                 own.friction = -force[1] * here.rates[2 * k + 1];
                 taken += own.friction;
             }
@@ -1234,7 +1038,7 @@ impl UnilateralState {
                 Mode::Open => continue,
                 // What a contact does along both tangents is asked of the first.
                 _ if self.across[k] => continue,
-                Mode::Skids(heading) => {
+                Mode::SlidesAlong(heading) => {
                     let [slip, _] = self.slip(&here, k);
                     let rounding = [k, k + 1].map(|tangent| {
                         here.rate_rounding_in_time(2 * tangent + 1, reaction.slip_terms[tangent])
@@ -1444,9 +1248,9 @@ impl UnilateralState {
                 }
             })
             .collect();
-        // Which contacts with two tangents are at rest and will skid: in which direction is for their friction to say.
+        // Which contacts with two tangents are at rest and will slide: in which direction is for their friction to say.
         let mut breaks: Vec<bool> = (solved_contacts.iter())
-            .map(|&k| matches!(known_mode(k), Some(Mode::Skids(_))))
+            .map(|&k| matches!(known_mode(k), Some(Mode::SlidesAlong(_))))
             .collect();
         let mut unsettled = solved_contacts[0];
         for _ in 0..=solved_contacts.len() {
@@ -1561,7 +1365,7 @@ impl UnilateralState {
                     // It is said with the first tangent what is done along both.
                     _ if self.across[k] => modes[k - 1],
                     Some(sign) if self.second(k).is_some() => {
-                        Mode::Skids([sign, slipping[place + 1].unwrap_or(0.0)])
+                        Mode::SlidesAlong([sign, slipping[place + 1].unwrap_or(0.0)])
                     }
                     Some(sign) => Mode::Slides(sign),
                     None if self.second(k).is_some() => {
@@ -1578,7 +1382,7 @@ impl UnilateralState {
                         let is_held = size < most * (1.0 - SATURATED) || is_still;
                         // Without any friction that is used up, only who says that it begins to slip can say in which direction.
                         let known_direction = match known_mode(k) {
-                            Some(Mode::Skids(direction)) => direction,
+                            Some(Mode::SlidesAlong(direction)) => direction,
                             _ => [0.0; 2],
                         };
                         let is_unknown = known_direction == [0.0; 2];
@@ -1591,11 +1395,11 @@ impl UnilateralState {
                                 breaks[place + 1] = true;
                             }
                             if size > 0.0 {
-                                Mode::Skids(used.map(|used| -used / size))
+                                Mode::SlidesAlong(used.map(|used| -used / size))
                             } else if is_still {
-                                Mode::Skids(known_direction)
+                                Mode::SlidesAlong(known_direction)
                             } else {
-                                Mode::Skids(slips.map(|(slip, _)| slip / speeds_up))
+                                Mode::SlidesAlong(slips.map(|(slip, _)| slip / speeds_up))
                             }
                         }
                     }
@@ -1611,11 +1415,14 @@ impl UnilateralState {
                         // that begins later is found by its friction, one that is assumed here and does not begin would stop at once.
                         let is_held = slips.abs() <= rounding;
                         // What has friction left sticks, whatever rounding makes of its slip.
-                        let sign = match is_held || tangential.abs() < most * (1.0 - SATURATED) {
-                            true => 0.0,
-                            false if most > 0.0 => -tangential.signum(),
-                            false if slips.abs() > rounding => slips.signum(),
-                            false => 0.0,
+                        let sign = if is_held || tangential.abs() < most * (1.0 - SATURATED) {
+                            0.0
+                        } else if most > 0.0 {
+                            -tangential.signum()
+                        } else if slips.abs() > rounding {
+                            slips.signum()
+                        } else {
+                            0.0
                         };
                         match sign {
                             0.0 => Mode::Sticks,
@@ -1638,7 +1445,7 @@ impl UnilateralState {
                 let lets_go = |k: usize| match modes[k] {
                     Mode::Open => closed[k],
                     Mode::Slides(sign) => self.has_friction[k] && sign != 0.0,
-                    Mode::Skids(_) | Mode::Sticks => false,
+                    Mode::SlidesAlong(_) | Mode::Sticks => false,
                 };
                 let is_asked = known_modes.is_empty();
                 let some_let_go = is_asked && (0..modes.len()).any(|k| resting[k] && lets_go(k));

@@ -38,7 +38,7 @@ pub(crate) enum Motion {
     /// It slides forward (1) or backward (−1).
     Slides(f64),
     /// It slides on a surface, along both of its tangents, in the direction [`Mode::slip_direction`].
-    Skids,
+    SlidesAlong,
 }
 
 /// The states of the contacts: their motion, and the sides to which they press (1 or −1).
@@ -46,7 +46,7 @@ pub(crate) enum Motion {
 pub(crate) struct Mode {
     pub motion: [Motion; MOST_CONTACTS],
     pub press: Each,
-    /// For skidding contacts the components of their direction along the two tangents; both are 0 if the direction is not known.
+    /// For sliding contacts the components of their direction along the two tangents; both are 0 if the direction is not known.
     pub slip_direction: Each,
 }
 
@@ -56,7 +56,7 @@ impl Mode {
         match self.motion[contact] {
             Motion::Sticks => 0.0,
             Motion::Slides(sign) => sign,
-            Motion::Skids => self.slip_direction[contact],
+            Motion::SlidesAlong => self.slip_direction[contact],
         }
     }
 }
@@ -273,7 +273,7 @@ impl Parts<'_> {
         for (k, row) in rows[..count].iter_mut().enumerate() {
             let (entry, factor, own) = match mode.motion[k] {
                 Motion::Sticks => (self.slip_rate(k), 1.0, 0.0),
-                Motion::Slides(_) | Motion::Skids => {
+                Motion::Slides(_) | Motion::SlidesAlong => {
                     let normal = self.components(k).start;
                     (
                         normal,
@@ -454,7 +454,9 @@ impl Parts<'_> {
                     self.used(k, friction_forces)
                         <= most + ROUNDING * (most + self.static_friction(k) * terms)
                 }
-                Motion::Slides(_) | Motion::Skids => mode.press[k] * normal >= -ROUNDING * terms,
+                Motion::Slides(_) | Motion::SlidesAlong => {
+                    mode.press[k] * normal >= -ROUNDING * terms
+                }
             }
         })
     }
@@ -470,8 +472,8 @@ impl Parts<'_> {
         match mode.motion[contact] {
             Motion::Sticks => true,
             Motion::Slides(sign) => sign * rate >= -ROUNDING * terms,
-            Motion::Skids if self.layout.is_second(contact) => true,
-            Motion::Skids => {
+            Motion::SlidesAlong if self.layout.is_second(contact) => true,
+            Motion::SlidesAlong => {
                 let [across, more] = self.sum(self.slip_rate(contact + 1), friction_forces);
                 let ahead =
                     mode.slip_direction[contact] * rate + mode.slip_direction[contact + 1] * across;
@@ -754,7 +756,7 @@ pub(super) type Turned = (usize, Motion, f64);
 pub(super) struct OpenStates {
     /// The motion of each contact, if known.
     pub motion: [Option<Motion>; MOST_CONTACTS],
-    /// The direction of each contact that is known to skid; 0 if the direction is unknown too.
+    /// The direction of each contact that is known to slide; 0 if the direction is unknown too.
     pub slip_direction: Each,
     /// A state that has just proved impossible: a contact, its motion, and possibly the side to which it presses.
     pub excluded: Option<(usize, Motion, Option<f64>)>,
@@ -775,7 +777,7 @@ impl OpenStates {
         for k in (0..layout.k).filter(|k| layout.has_second(*k)) {
             let speed = length([slips[k], slips[k + 1]]);
             for k in [k, k + 1] {
-                open_states.motion[k] = (speed != 0.0).then_some(Motion::Skids);
+                open_states.motion[k] = (speed != 0.0).then_some(Motion::SlidesAlong);
                 open_states.slip_direction[k] = if speed != 0.0 { slips[k] / speed } else { 0.0 };
             }
         }
@@ -797,10 +799,11 @@ impl OpenStates {
         let mut several = None;
         let mut unknown = None;
         let mut look = |mode: Mode, friction_forces: Each| {
-            // That a contact skids may be known without its direction.
+            // That a contact slides may be known without its direction.
             let is_asked = |k: usize| {
-                let skids = self.motion[k] == Some(Motion::Skids) && parts.layout.has_second(k);
-                skids && self.slip_direction[k] == 0.0 && self.slip_direction[k + 1] == 0.0
+                let slides =
+                    self.motion[k] == Some(Motion::SlidesAlong) && parts.layout.has_second(k);
+                slides && self.slip_direction[k] == 0.0 && self.slip_direction[k + 1] == 0.0
             };
             let accelerates_in_its_direction = |k: usize| {
                 let is_known = self.motion[k].is_some() && !is_asked(k);
@@ -835,8 +838,8 @@ impl OpenStates {
         self.each(parts.layout, &mut |mode| {
             let (mut open, mut number) = ([0; MOST_CONTACTS], 0);
             for k in 0..count {
-                let skids = mode.motion[k] == Motion::Skids && parts.layout.has_second(k);
-                if skids && mode.slip_direction[k] == 0.0 && mode.slip_direction[k + 1] == 0.0 {
+                let slides = mode.motion[k] == Motion::SlidesAlong && parts.layout.has_second(k);
+                if slides && mode.slip_direction[k] == 0.0 && mode.slip_direction[k + 1] == 0.0 {
                     open[number] = k;
                     number += 1;
                 }
@@ -878,7 +881,7 @@ impl OpenStates {
         ];
         // In space a guide has no sides.
         const IN_SPACE: [(Motion, f64); 3] = [IN_PLANE[0], IN_PLANE[1], IN_PLANE[3]];
-        const ON_SURFACE: [(Motion, f64); 2] = [IN_PLANE[0], (Motion::Skids, 1.0)];
+        const ON_SURFACE: [(Motion, f64); 2] = [IN_PLANE[0], (Motion::SlidesAlong, 1.0)];
         let count = layout.k;
         let states = |k: usize| match layout.axes {
             1 => &IN_PLANE[..],
@@ -901,7 +904,7 @@ impl OpenStates {
                 } else {
                     states(k)[digit]
                 };
-                if mode.motion[k] == Motion::Skids {
+                if mode.motion[k] == Motion::SlidesAlong {
                     mode.slip_direction[k] = self.slip_direction[k];
                 }
                 is_open &= self.motion[k].is_none_or(|known| known == mode.motion[k]);

@@ -361,8 +361,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, to),
                 (Mode::Slides(from), Mode::Sticks) if from != 0.0 => (Sticks, 0.0),
                 (Mode::Sticks, Mode::Slides(to)) if to != 0.0 => (Slips, to),
-                (Mode::Skids(_), Mode::Sticks) => (Sticks, 0.0),
-                (Mode::Sticks, Mode::Skids(_)) => (Slips, 0.0),
+                (Mode::SlidesAlong(_), Mode::Sticks) => (Sticks, 0.0),
+                (Mode::Sticks, Mode::SlidesAlong(_)) => (Slips, 0.0),
                 _ => continue,
             };
             let directions = match kind {
@@ -750,7 +750,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                         (_, _, 3) => Cause::Leaves(k),
                         (_, _, 0) => Cause::Lifts(k),
                         (_, _, 2) => Cause::Turns(k),
-                        (_, Mode::Slides(_) | Mode::Skids(_), _) => Cause::Stops(k),
+                        (_, Mode::Slides(_) | Mode::SlidesAlong(_), _) => Cause::Stops(k),
                         _ => {
                             let pull = |theta: f64| {
                                 if theta == 0.0 {

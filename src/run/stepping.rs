@@ -79,8 +79,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, *to),
                 (Mode::Slides(from), Mode::Sticks) if *from != 0.0 => (Sticks, 0.0),
                 (Mode::Sticks, Mode::Slides(to)) if *to != 0.0 => (Slips, *to),
-                (Mode::Skids(_), Mode::Sticks) => (Sticks, 0.0),
-                (Mode::Sticks, Mode::Skids(_)) => (Slips, 0.0),
+                (Mode::SlidesAlong(_), Mode::Sticks) => (Sticks, 0.0),
+                (Mode::Sticks, Mode::SlidesAlong(_)) => (Slips, 0.0),
                 _ => continue,
             };
             let directions = match kind.0 {

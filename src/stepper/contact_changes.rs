@@ -105,7 +105,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let known = match cause {
             Cause::Lifts(k) | Cause::Leaves(k) => Some((k, Mode::Open)),
             Cause::Breaks(k, direction) if touching.second(k).is_some() => {
-                Some((k, Mode::Skids(direction)))
+                Some((k, Mode::SlidesAlong(direction)))
             }
             Cause::Breaks(k, [along, _]) => Some((k, Mode::Slides(along.signum()))),
             Cause::Unspecified | Cause::Stops(_) | Cause::Presses(_) | Cause::Turns(_) => None,

@@ -329,7 +329,7 @@ fn constraints_that_contradict_each_other_are_named() {
         positions: |t, [x, _], _| [x + 1.0, x + 1.0 - t * t],
         matrix: |_, _, _| [[1.0, 0.0], [1.0, 0.0]],
         by_time: |t, _, _| [0.0, -2.0 * t],
-        drift: |_, _, _, _| [0.0, 2.0],
+        constraint_bias: |_, _, _, _| [0.0, 2.0],
         ..circle::<2>()
     };
     assert_eq!(named(&error(&parting)).0, "again");
@@ -337,7 +337,7 @@ fn constraints_that_contradict_each_other_are_named() {
     let later = Constrained {
         positions: |t, [x, _], _| [x + 1.0, x + 1.0 - t.powi(4)],
         by_time: |t, _, _| [0.0, -4.0 * t.powi(3)],
-        drift: |t, _, _, _| [0.0, 12.0 * t * t],
+        constraint_bias: |t, _, _, _| [0.0, 12.0 * t * t],
         ..parting
     };
     assert_eq!(named(&error(&later)), ("again".into(), vec!["rod".into()]));
@@ -389,7 +389,7 @@ fn a_start_is_brought_onto_the_constraints_and_says_how_far() {
         constraints: [("sum", true), ("rest", true)],
         positions: |_, q, _| [q[0] + q[1] - 5.0, q[2]],
         matrix: |_, _, _| [[1.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
-        drift: |_, _, _, _| [0.0; 2],
+        constraint_bias: |_, _, _, _| [0.0; 2],
         ..heavy
     };
     let start = State {
@@ -687,7 +687,7 @@ fn what_has_no_inertia_may_be_held_by_a_constraint() {
         forces: |_, [x, _], _, _| [-8.0 * x, 0.0],
         positions: |_, [x, y], _| [x - y],
         matrix: |_, _, _| [[1.0, -1.0]],
-        drift: |_, _, _, _| [0.0],
+        constraint_bias: |_, _, _, _| [0.0],
         ..circle::<1>()
     };
     let (mut a, mut multipliers) = ([0.0; 2], [0.0]);

@@ -51,9 +51,10 @@ fn a_whole_run_of_the_core_allocates_nothing() {
     }
 }
 
-/// Vectors and matrices of an implicit method: those of its derivatives (8), of both factorizations (4) and of its stages (10), in
-/// one box, and the lists that hold one item per stage or per pair of eigenvalues (4).
-const ROOM_OF_IMPLICIT: u64 = 9 + 4 + 10 + 1 + 4;
+/// Vectors and matrices of an implicit method with three stages: those of its derivatives (9), of the real factorization (matrix, inverse
+/// diagonal, exchanges) and of the complex one (two matrices), of their right-hand sides (3), of its stages (two each), of changes, their
+/// scales and errors (two each), in one box, and the lists that hold one item per stage or per pair of eigenvalues (4).
+const ROOM_OF_IMPLICIT: u64 = 9 + (3 + 4) + 3 + 2 * 3 + 3 * 2 + 1 + 4;
 
 #[test]
 fn inputs_and_a_balance_of_energy_allocate_nothing() {

@@ -318,7 +318,7 @@ fn spherical() -> Constrained<3, 1, 9> {
         positions: |_, q, _| [0.5 * (q.iter().map(|x| x * x).sum::<f64>() - 1.0)],
         matrix: |_, q, _| [*q],
         by_time: |_, _, _| [0.0],
-        drift: |_, _, v, _| [-v.iter().map(|v| v * v).sum::<f64>()],
+        constraint_bias: |_, _, v, _| [-v.iter().map(|v| v * v).sum::<f64>()],
         potential_energy: |q, g| g * q[2],
         on_stack: true,
     }

@@ -634,7 +634,7 @@ fn shaft(k: f64, start: f64) -> Constrained<4, 2, 16> {
             ]
         },
         by_time: |_, _, _| [0.0; 2],
-        drift: |_, [_, phi1, phi2, _], [_, w1, w2, _], _| {
+        constraint_bias: |_, [_, phi1, phi2, _], [_, w1, w2, _], _| {
             [
                 -CRANK * phi1.cos() * w1 * w1 - ROD * phi2.cos() * w2 * w2,
                 CRANK * phi1.sin() * w1 * w1 + ROD * phi2.sin() * w2 * w2,

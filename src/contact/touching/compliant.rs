@@ -10,7 +10,8 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::{ContactKinematics, Margin, Mode, UnilateralState};
+use super::super::kinematics::{ContactKinematics, faces};
+use super::{Margin, Mode, UnilateralState};
 use crate::balance::ContactShare;
 use crate::{Compliance, ContactEnergies, System};
 
@@ -184,7 +185,7 @@ impl UnilateralState {
                 is_rate_of_value: true,
             };
             let mut all: Vec<Clearance> = pairs.map(of_gap).collect();
-            for (own, face) in all.iter_mut().zip(super::faces(system, (t, q, v))) {
+            for (own, face) in all.iter_mut().zip(faces(system, (t, q, v))) {
                 if let Some(face) = face.filter(|face| face.beyond > face.height) {
                     own.rate = face.beyond_rate;
                 }

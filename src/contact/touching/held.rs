@@ -3,7 +3,8 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::{Mode, UnilateralState, faces};
+use super::super::kinematics::faces;
+use super::{Mode, UnilateralState};
 use crate::forward::forward;
 use crate::{Constraint, System, UnilateralContact, Vector};
 
