@@ -3,7 +3,7 @@
 use lagrangian::interpreted::{InterpretedMachine, Named, Recording};
 use lagrangian::methods::Method;
 use lagrangian::{Ending, Solution, State, System};
-use lagrangian_cli::report::{CallSettings, Report, finer};
+use lagrangian_cli::report::{CallSettings, Report, finer_count};
 use lagrangian_mechanics::Compiled;
 use lagrangian_sweep::verdict;
 use numpy::PyArray1;
@@ -109,7 +109,7 @@ impl Run {
         let parts = if duration == 0.0 {
             0
         } else {
-            1000 * u64::from(finer(dimension, duration, duration / 1000.0, false))
+            1000 * u64::from(finer_count(dimension, duration, duration / 1000.0, false))
         };
         let time = |k: u64| {
             if k == parts {

@@ -120,7 +120,7 @@ def test_tables_drive_inputs_to_the_bits_of_the_command(oscillator, tmp_path):
     one, two = (oscillator.simulate(3, inputs={"force": line}) for line in lines)
     assert np.array_equal(one.q, two.q) and one["force"].max() == pytest.approx(3, abs=1e-2)
     for wrong, why in (
-        (lg.Table([0, 1], [1, 2], beyond="error"), "ends"),
+        (lg.Table([0, 1], [1, 2], beyond="error"), "no value next to t = 1 s"),
         (lg.Table([1, 0], [1, 2]), "not later"),
         (f"{path}:speed", "no column"),
         (path.with_suffix(".txt"), "no table"),

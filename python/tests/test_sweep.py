@@ -71,7 +71,7 @@ def test_what_a_sweep_refuses(oscillator):
     for settings, error, why in (
         ({"vary": {"kk": [1, 2]}}, ValueError, "did you mean `k`"),
         ({"vary": {"k": lg.Uniform(1, 2)}}, ValueError, "samples"),
-        ({"vary": {"k": [1, 2], "m": [1]}, "together": ["k", "m"]}, ValueError, "as many"),
+        ({"vary": {"k": [1, 2], "m": [1]}, "together": ["k", "m"]}, ValueError, "must have the same number"),
         ({"vary": {"k": [1, 2]}, "inputs": {"force": lambda t, q, v: 0.0}}, TypeError, "function in Python"),
         ({"vary": {"k": [1, 2]}, "reduce": {"p": "most(x)"}}, lg.UnknownName, "reduction"),
         ({"vary": {"k": [1, 2]}, "reduce": {"p": "max(y)"}}, lg.SpecError, "`y`"),
