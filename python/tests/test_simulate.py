@@ -123,7 +123,7 @@ def test_tables_drive_inputs_to_the_bits_of_the_command(oscillator, tmp_path):
         (lg.Table([0, 1], [1, 2], beyond="error"), "no value next to t = 1 s"),
         (lg.Table([1, 0], [1, 2]), "not later"),
         (f"{path}:speed", "no column"),
-        (path.with_suffix(".txt"), "no table"),
+        (path.with_suffix(".txt"), "is not a table"),
     ):
         with pytest.raises((ValueError, lg.LagrangianError), match=why):
             oscillator.simulate(3, inputs={"force": wrong})

@@ -77,7 +77,7 @@ def test_what_a_sweep_refuses(oscillator):
         ({"vary": {"k": [1, 2]}, "reduce": {"p": "max(y)"}}, lg.SpecError, "`y`"),
         ({"vary": {"k": [1, 2]}, "record": "sometimes"}, ValueError, "record"),
         ({"vary": {"k": [1, 2]}, "engine": "steam"}, ValueError, "engine"),
-        ({"vary": {"k": [1, 2]}, "record": ["every=1", "event=e"], "events": {"e": "x"}}, ValueError, "one kind"),
+        ({"vary": {"k": [1, 2]}, "record": ["every=1", "event=e"], "events": {"e": "x"}}, ValueError, "drawn in one way"),
     ):
         with pytest.raises(error, match=why):
             oscillator.sweep(until=1, **settings)
