@@ -95,7 +95,7 @@ fn contacts_that_lift_at_the_same_instant_stay_open() {
             let lifts = events(&run, "lifts");
             let lifted: Vec<f64> = lifts.iter().map(|event| number(&event["t"])).collect();
             assert_eq!(lifted.len(), 2, "{method} {tolerance}: {lifted:?}");
-            close(lifted[0], 0.382_666_127_380_947_06, within);
+            close(lifted[0], 0.382_666_127_380_947_1, within);
             close(lifted[1], lifted[0], within);
             close(number(&run["q"]["x2"]), 0.198_519_157_850_942_83, within);
             close(number(&run["q"]["y3"]), -0.845_155_608_333_112_7, within);
