@@ -6,6 +6,13 @@ use serde_json::Value;
 use crate::collisions::{close, events, is_good, number, simulate};
 use crate::support::{Scratch, lagrangian};
 
+fn simulate_by(spec: &Scratch, until: &str, method: &str, tolerance: &str) -> Value {
+    let arguments = ["simulate", spec.path(), "--until", until, "--json"];
+    let by = ["--method", method, "--tolerance", tolerance];
+    let output = lagrangian(&[&arguments[..], &by].concat());
+    serde_json::from_slice(&output.stdout).expect("a document")
+}
+
 /// A block without friction, pushed by F sin(ω t) from rest: x = F/(m ω) t − F/(m ω²) sin(ω t). At the start nothing pushes, and there is no
 /// friction whose direction could tell which way it will slip. In space it is pushed along both tangents.
 #[test]
@@ -79,18 +86,7 @@ fn contacts_that_lift_at_the_same_instant_stay_open() {
         for tolerance in ["1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-12"] {
             // Some twenty steps, each with an error of at most the tolerance.
             let within = 20.0 * tolerance.parse::<f64>().expect("a number");
-            let output = lagrangian(&[
-                "simulate",
-                spec.path(),
-                "--until",
-                "0.42",
-                "--json",
-                "--method",
-                method,
-                "--tolerance",
-                tolerance,
-            ]);
-            let run: Value = serde_json::from_slice(&output.stdout).expect("a document");
+            let run = simulate_by(&spec, "0.42", method, tolerance);
             assert_eq!(run["error"], Value::Null, "{method} {tolerance}");
             let lifts = events(&run, "lifts");
             let lifted: Vec<f64> = lifts.iter().map(|event| number(&event["t"])).collect();
@@ -293,18 +289,7 @@ fn a_slip_passes_the_dead_centre_of_a_crank() {
     );
     for method in ["dop853", "dopri5", "radau5"] {
         for tolerance in ["1e-3", "1e-6", "1e-9", "1e-12"] {
-            let output = lagrangian(&[
-                "simulate",
-                spec.path(),
-                "--until",
-                "1.9",
-                "--json",
-                "--method",
-                method,
-                "--tolerance",
-                tolerance,
-            ]);
-            let run: Value = serde_json::from_slice(&output.stdout).expect("a document");
+            let run = simulate_by(&spec, "1.9", method, tolerance);
             assert_eq!(run["error"], Value::Null, "{method} {tolerance}");
             let (theta, rate) = (number(&run["q"]["theta"]), number(&run["v"]["theta"]));
             let energy =

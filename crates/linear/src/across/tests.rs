@@ -263,7 +263,7 @@ fn stones_that_skim_and_then_slide_change_as_their_closed_form_does() {
         for (stone, height) in [h, h + h].into_iter().enumerate() {
             let truth = skims([e, g, mu, height, speed], until).derivative;
             let own = run.end().q[4 * (k + 1) + stone];
-            // A sequence ends when the rates are 1e-9 of the first, after n = 30 impacts. What is left of the sums changes by less than
+            // A sequence ends when the rates are 1e-9 of the first, after n = 30 impacts. The remainders of the sums change by less than
             // n eⁿ⁻¹ (1 + e)/(1 − e) times their terms, which are below 1 m here.
             let bound = 30.0 * 2e-9 * 3.0;
             assert!((own - truth).abs() < bound, "{}: {own} {truth}", names[k]);
