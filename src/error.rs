@@ -32,6 +32,9 @@ pub enum Error {
     /// Machine code was requested and is not available.
     #[cfg(feature = "interpreter")]
     NoMachineCode(of_specs::NoMachineCode),
+    /// A run in other numbers than `f64` was requested and is not possible.
+    #[cfg(feature = "interpreter")]
+    NoNumbers(of_specs::NoNumbers),
     /// An additional force was requested for a machine with guided contacts ([`Adapted`](crate::Adapted)).
     HasFriction(crate::HasFriction),
     /// The energy balance was requested for a system that does not define its energies
@@ -487,6 +490,8 @@ impl Display for Error {
             Self::MissingParameters(missing) => write!(f, "{missing}"),
             #[cfg(feature = "interpreter")]
             Self::NoMachineCode(none) => write!(f, "{none}"),
+            #[cfg(feature = "interpreter")]
+            Self::NoNumbers(none) => write!(f, "{none}"),
             Self::HasFriction(error) => write!(f, "{error}"),
             Self::EnergiesUnknown { t } => write!(
                 f,

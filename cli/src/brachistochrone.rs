@@ -4,7 +4,6 @@ mod figures;
 mod forward;
 mod found;
 mod guess;
-mod landscape;
 mod page;
 mod problem;
 mod tried;
@@ -13,7 +12,7 @@ use std::time::Instant;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, System};
-use lagrangian_brachistochrone::direct::Search;
+use lagrangian_brachistochrone::direct::{FastestMotion, Search};
 use lagrangian_mechanics::Compiled;
 use lagrangian_symbolic::Dag;
 use lagrangian_units::rate_name;
@@ -94,7 +93,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
         }
         Form::Varying(landscape, because) => {
             let search = guess.into_iter().fold(Search::new(), Search::guess);
-            let found = search.solve(*landscape, &from, &to);
+            let found = FastestMotion::find(&search, *landscape, &from, &to);
             (found.map(Box::new).map(Motion::Direct), because)
         }
     };
@@ -123,7 +122,7 @@ fn write(
     [out, plot, report]: &[Option<Destination>; 3],
     compiled: &Compiled<'_>,
     machine: &InterpretedMachine,
-    found: &Found<'_, '_>,
+    found: &Found<'_>,
 ) -> Result<(), Failure> {
     if let Some(file) = out {
         table::write(&found.recording(), file)?;
@@ -143,7 +142,7 @@ fn ends(
     call: &call::Brachistochrone,
     compiled: &Compiled<'_>,
     machine: &InterpretedMachine,
-    form: &Form<'_, '_>,
+    form: &Form<'_>,
 ) -> Result<[Vec<f64>; 2], Failure> {
     let problem = match form {
         Form::Constant(problem) if call.natural => Some(problem),

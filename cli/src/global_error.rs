@@ -7,7 +7,7 @@
 
 use std::iter;
 
-use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::interpreted::{InterpretedMachine, Named, PreciseRun};
 use lagrangian::{LEAST_RELATIVE_TOLERANCE, State};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_program::series::NoSeries;
@@ -73,13 +73,16 @@ pub fn estimate(
     let rounding = again(tolerance, perturbed(start)).map(|other| differences(&other, end));
     let wide = series.and_then(|series| {
         let machine = machine.clone().with_series(series);
-        let to = (start, end.t);
-        let by = &lagrangian::TAYLOR;
-        precise::run_to(&machine, to, by, (WIDE_TOLERANCE, max_steps)).ok()
+        let run = PreciseRun {
+            method: &lagrangian::TAYLOR,
+            tolerance: WIDE_TOLERANCE,
+            max_steps,
+        };
+        run.end(&machine, start, end.t).ok()
     });
     if let Some(wide) = wide {
         return Ok(Estimate {
-            errors: wide.errors(end),
+            errors: precise::errors(&wide, end),
             rounding,
             how: Reference::Wide,
         });

@@ -1,9 +1,11 @@
 //! `lagrangian simulate --precision dd` and `--validated`: runs with more digits, and proved bounds.
 
-use lagrangian::interpreted::{Enclosure, InterpretedMachine, SeriesStepper};
+use lagrangian::interpreted::{
+    Enclosure, InterpretedMachine, Named, PreciseEnd, PreciseRun, SeriesStepper,
+};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::scalar::{DoubleDouble, Interval, Scalar};
-use lagrangian::{ExplicitStepper, Machine, State, Work};
+use lagrangian::{Machine, State, Work};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_symbolic::Dag;
 use lagrangian_units::state_of;
@@ -31,17 +33,10 @@ const EXPLICIT_TOLERANCE: f64 = 1e-24;
 /// The factor by which the tolerance of the comparison run is coarser.
 const COARSER: f64 = 100.0;
 
-/// The end of a run in double-doubles.
-pub struct End {
-    q: Vec<DoubleDouble>,
-    v: Vec<DoubleDouble>,
-    work: Work,
-}
-
 /// A machine with its series, if it has one, at the start of a call.
 struct Ready {
     machine: InterpretedMachine,
-    start: State<lagrangian::interpreted::Named>,
+    start: State<Named>,
 }
 
 /// The machine of a call that may only request the end of its run.
@@ -79,56 +74,6 @@ fn prepare(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
     progress::now("deriving the series");
     let machine = machine.with_series(ProvedSeries::derive(&compiled.model));
     Ok(Ready { machine, start })
-}
-
-/// Runs a machine in double-doubles, by Taylor series or by an explicit method.
-///
-/// # Errors
-/// If such a run is not possible.
-pub fn run_to(
-    machine: &InterpretedMachine,
-    (start, until): (&State<lagrangian::interpreted::Named>, f64),
-    method: &'static Method,
-    (tolerance, max_steps): (f64, usize),
-) -> Result<End, Failure> {
-    let until = DoubleDouble::from_f64(until);
-    let (q, v) = (&start.q.values, &start.v.values);
-    if std::ptr::eq(method, &TAYLOR) {
-        let stepper = SeriesStepper::from_state(machine, tolerance, (start.t, q, v));
-        let mut stepper = stepper.map_err(Failure::run)?;
-        stepper.set_max_steps(max_steps);
-        stepper.advance_to(until).map_err(Failure::run)?;
-        return Ok(End {
-            q: stepper.q().to_vec(),
-            v: stepper.v().to_vec(),
-            work: stepper.work(),
-        });
-    }
-    let system = machine.prepare_in::<DoubleDouble>().map_err(Failure::run)?;
-    let numbers =
-        |values: &[f64]| -> Vec<_> { values.iter().map(|x| DoubleDouble::from_f64(*x)).collect() };
-    let start = State {
-        t: start.t,
-        q: numbers(q),
-        v: numbers(v),
-    };
-    let builder = ExplicitStepper::builder(system).method(method);
-    let builder = builder.tolerance(tolerance).max_steps(max_steps);
-    let stepper = builder
-        .start(start)
-        .map_err(|error| step_failure(machine, error));
-    let mut stepper = stepper?;
-    let advanced = stepper.advance_to(until);
-    advanced.map_err(|error| step_failure(machine, error))?;
-    Ok(End {
-        q: stepper.q().clone(),
-        v: stepper.v().clone(),
-        work: stepper.work(),
-    })
-}
-
-fn step_failure(machine: &InterpretedMachine, error: lagrangian::StepError) -> Failure {
-    Failure::run(lagrangian::Error::of_step(error, &machine.prepare()))
 }
 
 /// `--precision dd`.
@@ -173,11 +118,16 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
     };
     let tolerance = call.tolerance.unwrap_or(least);
     progress::now("integrating in double-double");
-    let to = (&start, call.until);
-    let end = run_to(&machine, to, method, (tolerance, call.max_steps))?;
-    let beside = (COARSER * tolerance, call.max_steps);
-    let coarser = run_to(&machine, to, method, beside)?;
-    let differences = end.differences(&coarser);
+    let end_at = |tolerance| {
+        let run = PreciseRun {
+            method,
+            tolerance,
+            max_steps: call.max_steps,
+        };
+        run.end(&machine, &start, call.until).map_err(Failure::run)
+    };
+    let end = end_at(tolerance)?;
+    let differences = differences(&end, &end_at(COARSER * tolerance)?);
     let (_, greatest) = worst(&differences);
     let names: Vec<&str> = start.q.iter().map(|(name, _)| name).collect();
     if call.spec.json {
@@ -234,26 +184,21 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
     Ok(())
 }
 
-impl End {
-    /// The difference of another end from this one, relative to 1 + |y|: coordinates, then rates.
-    fn differences(&self, other: &End) -> Vec<f64> {
-        let of = |one: &[DoubleDouble], other: &[DoubleDouble]| -> Vec<f64> {
-            let pairs = one.iter().zip(other);
-            let difference = |(a, b): (&DoubleDouble, &DoubleDouble)| relative(*a, *b);
-            pairs.map(difference).collect()
-        };
-        [of(&self.q, &other.q), of(&self.v, &other.v)].concat()
-    }
+/// The difference of two ends, relative to 1 + |y|: coordinates, then rates.
+fn differences(end: &PreciseEnd, other: &PreciseEnd) -> Vec<f64> {
+    let ends = end.q.iter().chain(&end.v);
+    let others = other.q.iter().chain(&other.v);
+    ends.zip(others).map(|(a, b)| relative(*a, *b)).collect()
+}
 
-    /// The error of the end of a run in `f64`: coordinates, then rates, in their units.
-    pub fn errors(&self, end: &State<lagrangian::interpreted::Named>) -> Vec<f64> {
-        let exact = self.q.iter().chain(&self.v);
-        let found = end.q.values.iter().chain(&end.v.values);
-        exact
-            .zip(found)
-            .map(|(exact, found)| (*exact - DoubleDouble::from_f64(*found)).abs().to_f64())
-            .collect()
-    }
+/// The error of the end of a run in `f64`: coordinates, then rates, in their units.
+pub fn errors(exact: &PreciseEnd, found: &State<Named>) -> Vec<f64> {
+    let exact = exact.q.iter().chain(&exact.v);
+    let found = found.q.values.iter().chain(&found.v.values);
+    exact
+        .zip(found)
+        .map(|(exact, found)| (*exact - DoubleDouble::from_f64(*found)).abs().to_f64())
+        .collect()
 }
 
 fn relative(exact: DoubleDouble, other: DoubleDouble) -> f64 {

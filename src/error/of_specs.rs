@@ -138,3 +138,9 @@ impl From<NoMachineCode> for Error {
         Self::NoMachineCode(error)
     }
 }
+
+impl From<NoNumbers> for Error {
+    fn from(error: NoNumbers) -> Self {
+        Self::NoNumbers(error)
+    }
+}

@@ -25,7 +25,7 @@ const POINTS: u32 = 48;
 pub fn arrival(
     call: &call::Brachistochrone,
     coordinates: &[Coordinate<'_>],
-    found: &Found<'_, '_>,
+    found: &Found<'_>,
 ) -> Result<Arrival, String> {
     let dag = Dag::new();
     let reading =

@@ -2,11 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use lagrangian_brachistochrone::direct::{Sought, Terrain, Trial};
+use lagrangian_brachistochrone::direct::{FastestMotion, Sought, Terrain, Trial};
 use lagrangian_brachistochrone::{Brachistochrone, Lapse, Moment, Problem};
 use serde_json::{Map, Value, json};
 
-use super::landscape::Landscape;
 use super::tried;
 use crate::numbers::shortest;
 use crate::output;
@@ -16,19 +15,19 @@ use crate::recording::{Column, Kind, Recording};
 const MOMENTS: u32 = 200;
 
 /// A fastest motion, from either method.
-pub enum Motion<'a, 'd> {
+pub enum Motion<'d> {
     /// In closed form, under the conditions (17).
     Closed(Box<Brachistochrone>),
     /// By the direct method, if these are not met.
-    Direct(Box<Sought<Landscape<'a, 'd>>>),
+    Direct(Box<FastestMotion<'d>>),
 }
 
-impl Motion<'_, '_> {
+impl Motion<'_> {
     /// The duration, in s.
     pub fn time(&self) -> f64 {
         match self {
             Self::Closed(motion) => motion.time(),
-            Self::Direct(motion) => motion.time(),
+            Self::Direct(motion) => motion.sought().time(),
         }
     }
 
@@ -43,7 +42,7 @@ impl Motion<'_, '_> {
     fn after_part(&self, part: f64) -> Moment {
         match self {
             Self::Closed(motion) => motion.after_part(part),
-            Self::Direct(motion) => motion.at(part * motion.time()),
+            Self::Direct(motion) => motion.at(part * motion.sought().time()),
         }
     }
 
@@ -62,7 +61,7 @@ impl Motion<'_, '_> {
                 let guides = motion.problem().guides().iter();
                 guides.map(|guide| guide.name.clone()).collect()
             }
-            Self::Direct(motion) => motion.terrain().guides(),
+            Self::Direct(motion) => motion.sought().terrain().guides(),
         }
     }
 
@@ -89,8 +88,8 @@ pub struct Arrival {
 }
 
 /// The result, and the coordinates in which it is reported.
-pub struct Found<'a, 'd> {
-    pub motion: Motion<'a, 'd>,
+pub struct Found<'d> {
+    pub motion: Motion<'d>,
     pub moments: Vec<Moment>,
     /// ε of (30), in rad, at each moment, for two normal coordinates.
     pub angles: Option<Vec<f64>>,
@@ -105,13 +104,13 @@ pub struct Found<'a, 'd> {
     pub arrival: Result<Arrival, String>,
 }
 
-impl<'a, 'd> Found<'a, 'd> {
+impl<'d> Found<'d> {
     pub fn new(
-        motion: Motion<'a, 'd>,
+        motion: Motion<'d>,
         names: Vec<String>,
         units: Vec<String>,
         seconds: f64,
-    ) -> Found<'a, 'd> {
+    ) -> Found<'d> {
         let moments = (0..=MOMENTS).map(|k| motion.after_part(f64::from(k) / f64::from(MOMENTS)));
         let moments: Vec<Moment> = moments.collect();
         let problem = motion.problem().filter(|_| names.len() == 2);
@@ -134,7 +133,7 @@ impl<'a, 'd> Found<'a, 'd> {
     fn trials(&self) -> &[Trial] {
         match &self.motion {
             Motion::Closed(_) => &[],
-            Motion::Direct(motion) => motion.trials(),
+            Motion::Direct(motion) => motion.sought().trials(),
         }
     }
 
@@ -147,7 +146,7 @@ impl<'a, 'd> Found<'a, 'd> {
                 let along = |k: &Vec<f64>| k.iter().zip(&c).map(|(k, c)| k * c).sum();
                 columns.iter().map(along).collect()
             }
-            Motion::Direct(motion) => motion.costs().to_vec(),
+            Motion::Direct(motion) => motion.sought().costs().to_vec(),
         }
     }
 
@@ -249,7 +248,11 @@ impl<'a, 'd> Found<'a, 'd> {
         let Motion::Direct(motion) = &self.motion else {
             return None;
         };
-        let least = motion.doubts().into_iter().min_by(f64::total_cmp)?;
+        let least = motion
+            .sought()
+            .doubts()
+            .into_iter()
+            .min_by(f64::total_cmp)?;
         Some(format!(
             "there may be a faster motion: straight pieces, or an extremal that is not the fastest of its neighbours, take {least:.6} s; \
              `--guess` may help to find it"
@@ -413,6 +416,7 @@ impl<'a, 'd> Found<'a, 'd> {
         }
         output::line(format_args!("  found in {:.1} µs", 1e6 * self.seconds));
         if let Motion::Direct(direct) = motion {
+            let direct = direct.sought();
             output::line(format_args!(
                 "  by the direct method, since {}",
                 self.because.join("; ")

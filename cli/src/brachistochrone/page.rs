@@ -25,7 +25,7 @@ const INSTANTS: u32 = 1024;
 /// # Errors
 /// An error of the drawing library.
 pub fn page(
-    found: &Found<'_, '_>,
+    found: &Found<'_>,
     compiled: &Compiled<'_>,
     machine: &InterpretedMachine,
 ) -> Result<String, Failure> {
@@ -68,7 +68,7 @@ pub fn page(
 
 /// The motion from rest at the same position for the same time without control forces; and why it ended early, if it did.
 fn motion_without_control(
-    found: &Found<'_, '_>,
+    found: &Found<'_>,
     machine: &InterpretedMachine,
 ) -> (Option<Recording>, Option<String>) {
     let mut start = machine.start();
@@ -123,7 +123,7 @@ fn panels(fastest: &Recording, free: Option<&Recording>) -> Vec<Value> {
 }
 
 /// Ends, constants and extremes as tables.
-fn result(found: &Found<'_, '_>) -> String {
+fn result(found: &Found<'_>) -> String {
     let last = found.moments.len() - 1;
     let ends = found.names.iter().enumerate().map(|(i, name)| {
         vec![

@@ -1,31 +1,32 @@
 //! From a compiled machine and its parameters to numbers.
 
 use lagrangian::interpreted::InterpretedMachine;
+use lagrangian_brachistochrone::direct::landscape::{Coefficients, GuideCoefficients, Landscape};
 use lagrangian_brachistochrone::{Guide, Problem, Unsolved};
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::{Brachistochronic, SlidingGuide};
+use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Expr, evaluate};
 use nalgebra::DMatrix;
 
-use super::landscape::Landscape;
 use crate::failure::Failure;
 
 /// Whether the coefficients are constant.
-pub enum Form<'a, 'd> {
+pub enum Form<'d> {
     /// The conditions (17) are met.
     Constant(Problem),
     /// They are not met, for these reasons.
-    Varying(Box<Landscape<'a, 'd>>, Vec<String>),
+    Varying(Box<Landscape<'d>>, Vec<String>),
 }
 
 /// The problem of the machine's fastest motion, with the parameters of the call.
 ///
 /// # Errors
 /// If the machine has constraints or depends on time, or its mass matrix is invalid.
-pub fn form<'a, 'd>(
-    compiled: &'a Compiled<'d>,
+pub fn form<'d>(
+    compiled: &Compiled<'d>,
     machine: &InterpretedMachine,
-) -> Result<Form<'a, 'd>, Failure> {
+) -> Result<Form<'d>, Failure> {
     let Compiled {
         model, equations, ..
     } = compiled;
@@ -40,9 +41,34 @@ pub fn form<'a, 'd>(
             list.concat()
         ))
     })?;
-    let landscape = Landscape::new(model, form, machine.parameter_values());
+    let landscape = landscape(model, form, machine.parameter_values());
     let because = varies.iter().map(ToString::to_string).collect();
     Ok(Form::Varying(Box::new(landscape), because))
+}
+
+fn landscape<'d>(
+    model: &Model<'d>,
+    form: Brachistochronic<'d>,
+    parameters: &[f64],
+) -> Landscape<'d> {
+    let symbols = model.parameters.iter().map(|parameter| parameter.symbol);
+    let guide = |guide: SlidingGuide<'d>| GuideCoefficients {
+        name: guide.name,
+        along: guide.along,
+        load: guide.load,
+        weights: guide.weights,
+        by_friction_forces: guide.by_friction_forces,
+        friction: guide.friction,
+    };
+    let coefficients = Coefficients {
+        q: model.coordinates.iter().map(|q| q.q).collect(),
+        v: model.coordinates.iter().map(|q| q.v).collect(),
+        parameters: symbols.zip(parameters.iter().copied()).collect(),
+        mass: form.mass.concat(),
+        slope: form.slope,
+        guides: form.guides.into_iter().map(guide).collect(),
+    };
+    Landscape::new(model.dag, &coefficients)
 }
 
 fn problem<'d>(

@@ -27,6 +27,7 @@ mod continuation;
 mod descent;
 mod frozen;
 mod hamiltonian;
+pub mod landscape;
 mod motion;
 mod pontryagin;
 mod rule;
@@ -40,6 +41,7 @@ use super::linear::Matrix;
 use super::solution::Contact;
 
 pub use super::trial::{Outcome, Start, Trial};
+pub use landscape::{FastestMotion, Landscape};
 pub use motion::Sought;
 pub use search::Search;
 

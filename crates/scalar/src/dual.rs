@@ -299,5 +299,5 @@ impl<S: Scalar> Scalar for Dual<S> {
 
 /// a for sign 1, b for sign −1, (a + b)/2 for 0.
 fn mean<S: Scalar>(a: S, b: S, sign: S) -> S {
-    (a * (S::ONE + sign) + b * (S::ONE - sign)) / twice(S::ONE)
+    (a * (S::ONE + sign) + b * (S::ONE - sign)) * S::from_ratio(1, 2)
 }

@@ -63,6 +63,11 @@ impl<'d> Evaluation<'d> {
         }
     }
 
+    /// The symbols that occur, in the order in which [`values`](Self::values) asks for their values.
+    pub fn symbols(&self) -> &[Symbol] {
+        &self.symbols
+    }
+
     /// The values of the expressions; `value` is called once for each symbol that occurs.
     pub fn values<S: Scalar>(&self, value: impl FnMut(Symbol) -> S) -> Vec<S> {
         // The symbols come first, since `value` may ask the graph for their names.

@@ -3,3 +3,4 @@
 mod closed_form;
 mod direct;
 mod level;
+mod terrains;

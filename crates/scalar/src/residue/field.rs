@@ -118,6 +118,9 @@ impl Field {
         if self == Field::ONE {
             return Some(self); // most denominators
         }
+        if self == Field::real(2) {
+            return Some(Field::ONE.half()); // many others
+        }
         if self.im == 0 {
             return Some(Field::real(pow(self.re, P - 2)));
         }

@@ -4,6 +4,8 @@ use lagrangian_brachistochrone::direct::{Outcome, Search, Start, Terrain};
 use lagrangian_brachistochrone::{Brachistochrone, Problem, Unsolved};
 use lagrangian_scalar::Scalar;
 
+use crate::terrains::Any;
+
 /// The closed form (Ashby's curve) from (0, 0).
 fn closed(friction: f64, to: [f64; 2]) -> Brachistochrone {
     let mass = [vec![1.0, 0.0], vec![0.0, 1.0]];
@@ -48,7 +50,7 @@ fn friction_that_is_added_in_steps_leads_to_the_closed_form() {
     let mut alone = 0;
     for (friction, to, centre) in ROUGH {
         let (polar, from, end) = polar(friction, to, centre);
-        let found = Search::new().solve(polar, &from, &end);
+        let found = Search::new().solve(Any::from(polar), &from, &end);
         let found = found.unwrap_or_else(|error| panic!("{friction}, {to:?}: {error}"));
         let followed = found.trials().iter().find_map(|trial| match trial.start {
             Start::Frictionless { time: Some(time) } => Some((time, trial)),
@@ -78,7 +80,7 @@ fn friction_that_is_added_in_steps_leads_to_the_closed_form() {
 fn too_much_friction_is_told_with_what_was_reached() {
     let to = [1.0, 1.0];
     let (polar, from, end) = polar(2.0, to, [2.0, -1.0]);
-    let error = Search::new().solve(polar, &from, &end);
+    let error = Search::new().solve(Any::from(polar), &from, &end);
     let error = error.map(|found| found.time()).expect_err("a motion");
     let Unsolved::NotFound { tried } = &error else {
         panic!("{error}");
@@ -117,27 +119,30 @@ fn too_much_friction_is_told_with_what_was_reached() {
     assert!(text.contains(said), "{text}");
 }
 
+/// A wire whose friction is not known apart.
+#[derive(Clone, Debug)]
+pub struct Whole(Polar);
+
+impl Terrain for Whole {
+    fn coordinates(&self) -> usize {
+        2
+    }
+    fn inertia<N: Scalar>(&self, q: &[N]) -> Vec<N> {
+        self.0.inertia(q)
+    }
+    fn resistance<N: Scalar>(&self, q: &[N], v: &[N]) -> Vec<N> {
+        self.0.resistance(q, v)
+    }
+}
+
 /// Without a separate friction term there is no continuation, and the search proceeds as without it.
 #[test]
 fn friction_that_is_not_known_apart_is_not_taken_away() {
-    #[derive(Clone, Debug)]
-    struct Whole(Polar);
-    impl Terrain for Whole {
-        fn coordinates(&self) -> usize {
-            2
-        }
-        fn inertia<N: Scalar>(&self, q: &[N]) -> Vec<N> {
-            self.0.inertia(q)
-        }
-        fn resistance<N: Scalar>(&self, q: &[N], v: &[N]) -> Vec<N> {
-            self.0.resistance(q, v)
-        }
-    }
     let (friction, to, centre) = ROUGH[0];
     let (polar, from, end) = polar(friction, to, centre);
     let found = Search::new()
         .budget(400_000)
-        .solve(Whole(polar), &from, &end);
+        .solve(Any::from(Whole(polar)), &from, &end);
     let tried = match &found {
         Ok(found) => found.trials(),
         Err(Unsolved::NotFound { tried }) => tried,

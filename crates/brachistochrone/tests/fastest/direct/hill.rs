@@ -1,14 +1,16 @@
 //! A particle on a smooth surface with a hill in its way; the reference is a family of rays from the start.
 
 use lagrangian_brachistochrone::Unsolved;
-use lagrangian_brachistochrone::direct::{Outcome, Search, Sought, Start, Terrain, solve};
+use lagrangian_brachistochrone::direct::{Outcome, Search, Sought, Start, Terrain};
 use lagrangian_scalar::Scalar;
+
+use crate::terrains::{Any, solve};
 
 const G: f64 = 9.81;
 
 /// A particle of 1 kg at `(x, y, z)` with `z = h exp(−(x² + k y²)/w²) − s x`. The start, at (−1, 0), is lower than the top.
 #[derive(Clone, Debug)]
-struct Hill {
+pub struct Hill {
     height: f64,
     width: f64,
     slope: f64,
@@ -208,7 +210,7 @@ fn trace(hill: &Hill, j: f64, until: f64, steps: usize) -> Vec<[f64; 2]> {
 }
 
 #[track_caller]
-fn found(to: [f64; 2]) -> Sought<Hill> {
+fn found(to: [f64; 2]) -> Sought<Any> {
     solve(HILL, &FROM, &to).unwrap_or_else(|error| panic!("{to:?}: {error}"))
 }
 
@@ -279,7 +281,7 @@ fn a_guess_is_a_start_and_its_ends_are_moved() {
     let guess = vec![vec![-1.0, 0.0], vec![0.0, -0.8], vec![1.1, -0.1]];
     let motion = Search::new()
         .guess(guess)
-        .solve(HILL, &FROM, &to)
+        .solve(Any::from(HILL), &FROM, &to)
         .expect("a motion");
     assert_eq!(motion.time(), both.time());
     assert_eq!(motion.trials()[0].start, Start::Guess);
@@ -291,7 +293,10 @@ fn a_guess_is_a_start_and_its_ends_are_moved() {
         (vec![vec![-1.0, 0.0]], "the guess"),
         (vec![vec![-1.0, 0.0], vec![1.0]], "a position of the guess"),
     ] {
-        let error = Search::new().guess(guess).solve(HILL, &FROM, &to).err();
+        let error = Search::new()
+            .guess(guess)
+            .solve(Any::from(HILL), &FROM, &to)
+            .err();
         assert!(matches!(error, Some(Unsolved::Size { list: found, .. }) if found == what));
     }
 }
@@ -322,7 +327,9 @@ fn a_search_ends_with_its_budget() {
         text.contains("the straight path: cannot be travelled from rest"),
         "{text}"
     );
-    let cut = Search::new().budget(1000).solve(HILL, &FROM, &[1.0, 0.3]);
+    let cut = Search::new()
+        .budget(1000)
+        .solve(Any::from(HILL), &FROM, &[1.0, 0.3]);
     let Err(Unsolved::NotFound { tried }) = cut.map(|motion| motion.time()) else {
         panic!("a motion within a budget of nothing");
     };

@@ -1,0 +1,81 @@
+//! The end of a run in double-double arithmetic.
+
+use std::vec::Vec;
+
+use lagrangian_scalar::{DoubleDouble, Scalar};
+
+use super::{InterpretedMachine, Named, SeriesStepper};
+use crate::methods::{Method, TAYLOR};
+use crate::{Error, ExplicitStepper, Machine, State, Work};
+
+/// Settings of a run in double-double arithmetic, of which only the end is kept: a reference for runs in `f64`.
+///
+/// An [`ExplicitStepper`] or a [`SeriesStepper`] in double-doubles takes the same steps. Those are generic, so that each crate that
+/// uses them compiles a copy of its own; this one is compiled with the runtime.
+#[derive(Clone, Copy, Debug)]
+pub struct PreciseRun {
+    /// `taylor`, or an explicit method.
+    pub method: &'static Method,
+    /// The absolute and the relative tolerance of a step.
+    pub tolerance: f64,
+    /// The largest number of steps.
+    pub max_steps: usize,
+}
+
+/// The end of a [`PreciseRun`].
+#[derive(Clone, Debug)]
+pub struct PreciseEnd {
+    /// Coordinates, in the order of the spec.
+    pub q: Vec<DoubleDouble>,
+    /// Their rates.
+    pub v: Vec<DoubleDouble>,
+    /// Steps and evaluations.
+    pub work: Work,
+}
+
+impl PreciseRun {
+    /// Runs a machine from a start to the time `until`, in s, later or earlier than the start.
+    ///
+    /// # Errors
+    /// If the machine has constraints or contacts, or no Taylor series where the method is `taylor`, or if a step cannot be taken.
+    pub fn end(
+        &self,
+        machine: &InterpretedMachine,
+        start: &State<Named>,
+        until: f64,
+    ) -> Result<PreciseEnd, Error> {
+        let until = DoubleDouble::from_f64(until);
+        let (q, v) = (&start.q.values, &start.v.values);
+        if core::ptr::eq(self.method, &TAYLOR) {
+            let from = (start.t, q.as_slice(), v.as_slice());
+            let mut stepper = SeriesStepper::from_state(machine, self.tolerance, from)?;
+            stepper.set_max_steps(self.max_steps);
+            stepper.advance_to(until)?;
+            return Ok(PreciseEnd {
+                q: stepper.q().to_vec(),
+                v: stepper.v().to_vec(),
+                work: stepper.work(),
+            });
+        }
+        let of_step = |error| Error::of_step(error, &machine.prepare());
+        let builder = ExplicitStepper::builder(machine.prepare_in::<DoubleDouble>()?)
+            .method(self.method)
+            .tolerance(self.tolerance)
+            .max_steps(self.max_steps);
+        let numbers = |values: &[f64]| -> Vec<_> {
+            values.iter().map(|x| DoubleDouble::from_f64(*x)).collect()
+        };
+        let start = State {
+            t: start.t,
+            q: numbers(q),
+            v: numbers(v),
+        };
+        let mut stepper = builder.start(start).map_err(of_step)?;
+        stepper.advance_to(until).map_err(of_step)?;
+        Ok(PreciseEnd {
+            q: stepper.q().clone(),
+            v: stepper.v().clone(),
+            work: stepper.work(),
+        })
+    }
+}
