@@ -896,6 +896,31 @@ fn an_experiment_may_have_values_and_inputs_of_its_own() {
     );
 }
 
+/// A force is held from row to row of the table that has the measured accelerations, too: `a = u/m` at every row, the last one included.
+#[test]
+fn an_input_that_jumps_at_the_last_measurement_has_its_new_value() {
+    let text = "machine Pushed in plane {
+        parameters { m: kg = 1 }
+        coordinates { x: m }
+        inputs { u: N }
+        bodies { block { mass: m, at: (x, 0) } }
+        forces { push { on: x, value: u } }
+        outputs { a: m/s^2 = der(der(x)) }
+        gravity none;
+    }";
+    let spec = Scratch::new("pushed.machine", text);
+    let rows = "t,u,a\n0,1,0.5\n0.25,-3,-1.5\n0.5,2,1\n0.75,5,2.5\n";
+    let data = Scratch::new("pushed.csv", rows);
+    // With `end=error` the force is not known after the last row, at which it has the value of the row, too.
+    for end in ["", ",end=error"] {
+        let data = format!("{0},u={0}:u,hold{end}", data.path());
+        let result = fit(&[spec.path(), "--data", &data, "--columns", "a", "--fit", "m"]);
+        let (mass, _) = estimates(&result)[0];
+        // The residuals are zero there, to the round-off of a quotient.
+        assert!((mass - 2.0).abs() < 1e-9, "{result:#}");
+    }
+}
+
 #[test]
 fn what_is_wrong_is_said() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);

@@ -3,9 +3,9 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use lagrangian::interpreted::{InterpretedMachine, Named, Signal, Signals};
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signal, Signals};
 use lagrangian::methods::Method;
-use lagrangian::{Machine, Simulation, State, System};
+use lagrangian::{InputLaw, Machine, Piece, Simulation, State, System};
 use lagrangian_linear::across::{self, NoDerivatives};
 use lagrangian_linear::starts;
 use lagrangian_linear::varied::{Direction, Varied, VariedInputs, VariedLaw, VariedSystem};
@@ -383,6 +383,7 @@ impl Fit<'_> {
         let system = machine.prepare();
         let simulation = own.signals.drive(Simulation::new(&machine), &machine);
         let simulation = self.keep(self.set(simulation, own));
+        let order = self.running.method.tableau.order;
         let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
         let recorded = &mut rows;
         let run = simulation
@@ -394,6 +395,9 @@ impl Fit<'_> {
                     let mut u = system.default_inputs();
                     if own.reads_more() {
                         u = step.inputs(t, &q, &v);
+                        if let Some(piece) = following(&own.signals, order, t, step.span()) {
+                            own.signals.set_in(piece, &system, t, &q, &v, &mut u);
+                        }
                         step.accelerations((t, &q, &v), &u, &mut a)?;
                     }
                     let value = |column: &Column| match column.quantity {
@@ -640,6 +644,7 @@ impl Fit<'_> {
         let system = varied.prepare();
         let simulation = Simulation::new(&varied).law(VariedLaw(&own.signals));
         let simulation = self.set(simulation, own);
+        let order = self.running.method.tableau.order;
         let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
         let recorded = &mut rows;
         let (system, at) = (&system, &at);
@@ -650,6 +655,9 @@ impl Fit<'_> {
                 let mut u = system.default_inputs();
                 if own.reads_more() {
                     u = step.inputs(t, &q, &v);
+                    if let Some(piece) = following(&own.signals, order, t, step.span()) {
+                        VariedLaw(&own.signals).set_in(piece, system, t, &q, &v, &mut u);
+                    }
                     step.accelerations((t, &q, &v), &u, &mut a)?;
                 }
                 recorded.push(at(system, (t, &q, &v), (&a, &u)));
@@ -814,8 +822,17 @@ impl Experiment {
     }
 }
 
-/// The next of the times if it is within a step. At the end of a step it is taken only if no step follows: a change
-/// of inputs there has then taken effect.
+/// The piece of the inputs that follows on a time at the end of a step: inputs that jump at the last measurement have the values after the jump,
+/// as at every other one. `None` within a step, and where the inputs are not known.
+fn following(signals: &Signals, order: u32, t: f64, [_, to]: [f64; 2]) -> Option<Piece> {
+    let piece = |forward| InputLaw::<InterpretedSystem>::piece(signals, t, forward, order).ok();
+    // What is not known after the last row of a table is known at this row.
+    let following = piece(true).or_else(|| piece(false).map(|_| Piece::ALL));
+    following.filter(|_| t == to)
+}
+
+/// The next of the times if it is within a step. At the end of a step it is taken only if no step follows: in the next step a change of inputs there
+/// has taken effect.
 fn next_due_time(times: &[f64], seen: usize, [_, to]: [f64; 2]) -> Option<f64> {
     let t = *times.get(seen)?;
     let is_last = times.last().is_some_and(|last| to >= *last);
