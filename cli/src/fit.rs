@@ -338,12 +338,23 @@ fn sought(
                     one.name
                 )));
             }
-            for (place, bound) in call.bounds.iter().enumerate() {
-                let short = one.name.split(" in ").next().unwrap_or_default();
-                let family = short.split('[').next().unwrap_or_default();
-                if bound.name == short || bound.name == one.name || bound.name == family {
-                    bounds[place] = true;
-                    one.bounds = ends(bound, &one.unit)?;
+            let short = one.name.split(" in ").next().unwrap_or_default().to_owned();
+            let family = match short.split_once('[') {
+                Some((before, rest)) => {
+                    let after = rest.split_once(']').map_or("", |(_, after)| after);
+                    format!("{before}{after}")
+                }
+                None => short.clone(),
+            };
+            // The bounds of a member take precedence over those of its family, in whichever order they are given.
+            let mut names = vec![family, short, one.name.clone()];
+            names.dedup();
+            for known in names {
+                for (place, bound) in call.bounds.iter().enumerate() {
+                    if bound.name == known {
+                        bounds[place] = true;
+                        one.bounds = ends(bound, &one.unit)?;
+                    }
                 }
             }
         }
@@ -365,6 +376,8 @@ fn sought(
                 match one.subject {
                     Subject::Parameter(_) => "--set",
                     Subject::Start(..) => "--start",
+                    // The start of a state is the rate of its integral.
+                    Subject::Rate(..) if one.name.starts_with("start(") => "--start",
                     Subject::Rate(..) => "--rate",
                 }
             )));

@@ -735,6 +735,48 @@ fn bounds_hold_and_are_named() {
 }
 
 #[test]
+fn bounds_of_a_family_are_those_of_members_without_their_own() {
+    let text = "machine Two in plane {
+        parameters { m: kg = 2, k: N/m = 30, c: N*s/m = 0.6 }
+        coordinates { q[1..2]: m = 0.1 }
+        bodies { block[i in 1..2] { mass: m, at: (q[i], 0) } }
+        springs { spring[i in 1..2] { stiffness: k, stretch: q[i] } }
+        dampers { damper[i in 1..2] { damping: c, stretch: q[i] } }
+        gravity none;
+    }";
+    let spec = Scratch::new("two.machine", text);
+    let data = table("t,q[1] [m],q[2] [m]", times(2.0, 40), |t| {
+        [0.1, 0.2]
+            .map(|x| swung(t, [2.0, 30.0, 0.6], [x, 0.0]))
+            .into()
+    });
+    let call = [spec.path(), "--data", data.path(), "--fit", "start(q)"];
+    let bounds = ["start(q)=0..1", "start(q[1])=0.05..0.15"];
+    for [one, other] in [bounds, [bounds[1], bounds[0]]] {
+        let result = fit(&[&call[..], &["--bounds", one, "--bounds", other]].concat());
+        let found = |k: usize| result["fitted"][k]["bounds"].clone();
+        assert_eq!(found(0), serde_json::json!([0.05, 0.15]), "{result:#}");
+        assert_eq!(found(1), serde_json::json!([0.0, 1.0]), "{result:#}");
+    }
+}
+
+#[test]
+fn the_start_of_a_state_is_set_by_start() {
+    let spec = Scratch::new("approach.machine", APPROACH);
+    let data = table("t,y", times(3.0, 3), |t| vec![t]);
+    let (status, said) = refused(&[
+        spec.path(),
+        "--data",
+        data.path(),
+        "--fit",
+        "start(y)",
+        "--bounds",
+        "start(y)=1..",
+    ]);
+    assert!(status == 2 && said.contains("by --start"), "{said}");
+}
+
+#[test]
 fn several_searches_leave_a_minimum_that_is_not_the_least() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
     // Eight periods: with the initial stiffness of 10 the phase is off by half of them, and there are local minima on the way.
