@@ -714,24 +714,25 @@ fn across_impacts(
         )),
     })?;
     let n = machine.program().dimension();
+    let split = |list: &[f64]| Varied {
+        value: with_values(&from.q.value, &list[..n]),
+        by: (list[n..].chunks(n).zip(&sizes))
+            .map(|(by, size)| {
+                let by: Vec<f64> = by.iter().map(|by| by / size).collect();
+                with_values(&from.q.value, &by)
+            })
+            .collect(),
+    };
     let end = run.end();
+    let end = State {
+        t: end.t,
+        q: split(&end.q),
+        v: split(&end.v),
+    };
     if machine.prepare().constraints().len() > 0 {
-        let split = |list: &[f64]| Varied {
-            value: with_values(&from.q.value, &list[..n]),
-            by: (list[n..].chunks(n).zip(&sizes))
-                .map(|(by, size)| {
-                    let by: Vec<f64> = by.iter().map(|by| by / size).collect();
-                    with_values(&from.q.value, &by)
-                })
-                .collect(),
-        };
-        let end = State {
-            t: end.t,
-            q: split(&end.q),
-            v: split(&end.v),
-        };
         check_drift(machine, &end, variations)?;
     }
+    check_differences(call, (machine, method), variations, from, &end)?;
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
     let count = if call.until == from.t {
         0

@@ -677,6 +677,22 @@ fn sensitivities_across_jumps_of_forces_are_refused() {
     let found = list(&early["derivatives"][0]["values"]);
     // The tolerance of a few steps, 1e-9 each.
     assert!((found.last().expect("a number") - exact).abs() < 1e-8);
+    // A wall that the block hits before it turns, and after it.
+    let text = "machine Dry in plane {
+        parameters { m: kg = 1, k: N/m = 40, f: N = 1.5, e: 1 = 0.8, w: m = -0.5 }
+        coordinates { x: m = 1 }
+        bodies { block { mass: m, at: (x, 0) } }
+        springs { spring { stiffness: k, stretch: x } }
+        forces { friction { on: x, value: -f*sign(der(x)) } }
+        contacts { wall { gap: x - w, restitution: e } }
+        gravity none;
+    }";
+    let struck = Scratch::new("struck.machine", text);
+    let (status, said) = words(&call(&struck, "1.2", "e"));
+    assert!(
+        status == 1 && said.contains("as where a force jumps"),
+        "{said}"
+    );
     let drag = call(&spec("-c*abs(der(x))*der(x)"), "0.8", "c,k");
     answer(&drag.iter().map(String::as_str).collect::<Vec<_>>());
 }
