@@ -255,6 +255,32 @@ fn runs_in_double_double_pass_zeros_of_speeds_and_distances() {
     }
 }
 
+/// A ball falls from rest in air: its series has no numbers at the start, where its speed is zero. It falls `w²/g·ln cosh(gt/w)` with the rate `w tanh(gt/w)`, where
+/// `w² = 312 m²/s²`, in mpmath with 50 digits.
+#[test]
+fn a_start_from_rest_in_air_is_run_without_a_series() {
+    let spec = "machine Ball in plane {
+        parameters { m: kg = 0.125, g: m/s^2 = 9.75, area: m^2 = 0.015625, rho: kg/m^3 = 1 }
+        coordinates { x: m, y: m }
+        bodies { ball { mass: m, at: (x, y) } }
+        gravity (0, -g);
+        drag { air { at: ball.at, coefficient: 0.5, area: area, density: rho } }
+    }";
+    let scratch = Scratch::new("ball.machine", spec);
+    let call = [scratch.path(), "--until", "1", "--precision", "dd"];
+    let found = answer(&call);
+    assert_eq!(found["method"], "dop853");
+    for (found, exact) in [
+        (&found["q"]["y"], "-4.6458617579777800601979869305497"),
+        (&found["v"]["y"], "-8.867202545269664106348341965747"),
+    ] {
+        let text = found.as_str().expect("a decimal");
+        let off = (units(text) - units(exact)).unsigned_abs() as f64 * 1e-32;
+        // The tolerance of a step is 1e-24, and there are hundreds of steps.
+        assert!(off < 1e-20, "{text} and {exact}");
+    }
+}
+
 #[test]
 fn digits_are_those_of_the_number() {
     let spec = "machine Free in plane {
