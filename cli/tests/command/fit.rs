@@ -789,10 +789,31 @@ fn bounds_of_a_family_are_those_of_members_without_their_own() {
     }
 }
 
+/// A start that is measured outside its bounds begins at the nearest of them.
+#[test]
+fn a_measured_start_is_brought_into_its_bounds() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let data = table("t,x [m]", times(2.0, 40), |t| {
+        vec![swung(t, [2.0, 25.0, 0.5], [0.1, 0.0])]
+    });
+    let result = fit(&[
+        spec.path(),
+        "--data",
+        data.path(),
+        "--fit",
+        "start(x)",
+        "--bounds",
+        "start(x)=0.11..",
+    ]);
+    assert_eq!(result["fitted"][0]["from"], 0.11, "{result:#}");
+    assert_eq!(result["fitted"][0]["value"], 0.11, "{result:#}");
+    assert_eq!(result["fitted"][0]["standing"], "bound", "{result:#}");
+}
+
 #[test]
 fn the_start_of_a_state_is_set_by_start() {
     let spec = Scratch::new("approach.machine", APPROACH);
-    let data = table("t,y", times(3.0, 3), |t| vec![t]);
+    let data = table("t,seen", times(3.0, 3), |t| vec![t]);
     let (status, said) = refused(&[
         spec.path(),
         "--data",
