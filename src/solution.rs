@@ -279,9 +279,26 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
             Some((_, held)) => held.clone(),
             None => self.system.default_inputs(),
         };
-        let piece = self.piece_at(t);
+        let piece = self.piece_from(t);
         self.law.set_in(piece, &self.system, t, q, v, &mut inputs);
         inputs
+    }
+
+    /// The piece that contains a time. At the end of the run it is the one that follows there, so that the values after a jump hold as at every
+    /// other instant; but forces of contacts are those of the state in which the run leaves them, with the inputs before the jump.
+    fn piece_from(&self, t: f64) -> Piece {
+        let piece = self.piece_at(t);
+        let forward = self.end.t >= self.start.t;
+        let end = piece.end(forward);
+        let has_contacts = !self.contacts.is_empty() || !self.unilateral.phases.is_empty();
+        if t != self.end.t || has_contacts || !end.is_finite() || !is_near(end, t) {
+            return piece;
+        }
+        let order = self.method.tableau.order;
+        let following = self.law.piece(end, forward, order).ok();
+        // What is not known after the last row of a table is known at this row.
+        let at_row = || self.law.piece(t, !forward, order).ok().map(|_| Piece::ALL);
+        following.or_else(at_row).unwrap_or(piece)
     }
 
     /// Whether inputs change during the run.

@@ -338,12 +338,23 @@ fn sought(
                     one.name
                 )));
             }
-            for (place, bound) in call.bounds.iter().enumerate() {
-                let short = one.name.split(" in ").next().unwrap_or_default();
-                let family = short.split('[').next().unwrap_or_default();
-                if bound.name == short || bound.name == one.name || bound.name == family {
-                    bounds[place] = true;
-                    one.bounds = ends(bound, &one.unit)?;
+            let short = one.name.split(" in ").next().unwrap_or_default().to_owned();
+            let family = match short.split_once('[') {
+                Some((before, rest)) => {
+                    let after = rest.split_once(']').map_or("", |(_, after)| after);
+                    format!("{before}{after}")
+                }
+                None => short.clone(),
+            };
+            // The bounds of a member take precedence over those of its family, in whichever order they are given.
+            let mut names = vec![family, short, one.name.clone()];
+            names.dedup();
+            for known in names {
+                for (place, bound) in call.bounds.iter().enumerate() {
+                    if bound.name == known {
+                        bounds[place] = true;
+                        one.bounds = ends(bound, &one.unit)?;
+                    }
                 }
             }
         }
@@ -355,8 +366,17 @@ fn sought(
             call.bounds[place].name
         )));
     }
-    for one in &sought {
+    for one in &mut sought {
         let [low, high] = one.bounds;
+        let measured = match one.subject {
+            Subject::Parameter(_) => None,
+            Subject::Start(e, k) => measured_at_start(&experiments[e], Quantity::Coordinate(k)),
+            Subject::Rate(e, k) => measured_at_start(&experiments[e], Quantity::Rate(k)),
+        };
+        if measured == Some(one.from) {
+            // A measurement may be outside of the bounds by its error.
+            one.from = one.from.max(low).min(high);
+        }
         if one.from < low || one.from > high {
             return Err(Failure::Call(format!(
                 "the search for `{}` would begin at {}, outside its bounds {low} to {high}; set another initial value by {}",
@@ -365,6 +385,8 @@ fn sought(
                 match one.subject {
                     Subject::Parameter(_) => "--set",
                     Subject::Start(..) => "--start",
+                    // The start of a state is the rate of its integral.
+                    Subject::Rate(..) if one.name.starts_with("start(") => "--start",
                     Subject::Rate(..) => "--rate",
                 }
             )));
@@ -440,6 +462,16 @@ fn of_parameters(
     Ok(meant.into_iter().map(sought).collect())
 }
 
+/// What an experiment measured of a quantity at t = 0, if it did.
+fn measured_at_start(experiment: &Experiment, quantity: Quantity) -> Option<f64> {
+    let column = experiment
+        .columns
+        .iter()
+        .find(|column| column.quantity == quantity)?;
+    let first = column.values.first().copied().flatten();
+    first.filter(|_| experiment.times.first() == Some(&0.0))
+}
+
 /// The starts of coordinates, in each experiment. If a coordinate is measured at the beginning, that is its initial guess.
 fn of_starts(
     coordinates: &Named,
@@ -480,14 +512,8 @@ fn of_starts(
             } else {
                 Quantity::Rate(place)
             };
-            let column = experiment
-                .columns
-                .iter()
-                .find(|column| column.quantity == quantity);
-            let first = column.and_then(|column| column.values.first().copied().flatten());
-            let first = first.filter(|_| experiment.times.first() == Some(&0.0));
             let from = experiment.start[level][place]
-                .or(first)
+                .or_else(|| measured_at_start(experiment, quantity))
                 .unwrap_or(otherwise);
             let label = match experiments.len() {
                 1 => format!("{word}({name})"),

@@ -5,7 +5,7 @@ use lagrangian::interpreted::{
 };
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::scalar::{DoubleDouble, Interval, Scalar};
-use lagrangian::{Machine, State, Work};
+use lagrangian::{Error, Machine, State, Work};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_symbolic::Dag;
 use lagrangian_units::state_of;
@@ -101,7 +101,7 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
         ))
     })?;
     let has_series = SeriesStepper::<DoubleDouble>::new(&machine, TOLERANCE);
-    let method = match (requested_method, has_series) {
+    let mut method = match (requested_method, has_series) {
         (None, Ok(_)) => &TAYLOR,
         (None, Err(_)) => <&Method>::default(),
         (Some(method), Err(none)) if std::ptr::eq(method, &TAYLOR) => {
@@ -111,23 +111,29 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
         }
         (Some(method), _) => method,
     };
-    let least = if std::ptr::eq(method, &TAYLOR) {
-        TOLERANCE
-    } else {
-        EXPLICIT_TOLERANCE
-    };
-    let tolerance = call.tolerance.unwrap_or(least);
     progress::now("integrating in double-double");
-    let end_at = |tolerance| {
+    let end_by = |method: &'static Method, factor: f64| {
         let run = PreciseRun {
             method,
-            tolerance,
+            tolerance: factor * tolerance_of(method, call.tolerance),
             max_steps: call.max_steps,
         };
-        run.end(&machine, &start, call.until).map_err(Failure::run)
+        run.end(&machine, &start, call.until)
     };
-    let end = end_at(tolerance)?;
-    let differences = differences(&end, &end_at(COARSER * tolerance)?);
+    let mut found = end_by(method, 1.0);
+    // A series has no numbers where a distance or a speed is zero, as the speed at a start from rest is, but accelerations may have.
+    let has_no_numbers = matches!(
+        found,
+        Err(Error::NotFinite { .. } | Error::StepTooSmall { .. })
+    );
+    if has_no_numbers && requested_method.is_none() && std::ptr::eq(method, &TAYLOR) {
+        method = <&Method>::default();
+        found = end_by(method, 1.0);
+    }
+    let end = found.map_err(Failure::run)?;
+    let tolerance = tolerance_of(method, call.tolerance);
+    let coarser = end_by(method, COARSER).map_err(Failure::run)?;
+    let differences = differences(&end, &coarser);
     let (_, greatest) = worst(&differences);
     let names: Vec<&str> = start.q.iter().map(|(name, _)| name).collect();
     if call.spec.json {
@@ -182,6 +188,16 @@ pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
         COARSER * tolerance
     ));
     Ok(())
+}
+
+/// The tolerance of a step by this method: that of the call, or its default.
+fn tolerance_of(method: &'static Method, given: Option<f64>) -> f64 {
+    let least = if std::ptr::eq(method, &TAYLOR) {
+        TOLERANCE
+    } else {
+        EXPLICIT_TOLERANCE
+    };
+    given.unwrap_or(least)
 }
 
 /// The difference of two ends, relative to 1 + |y|: coordinates, then rates.

@@ -484,12 +484,13 @@ fn run_with_derivatives(
         simulation = simulation.every(interval);
     }
     let run = simulation
-        .run_interpreted(from)
+        .run_interpreted(from.clone())
         .map_err(|error| Failure::Run(verdict::message_of(&error)))?;
     warn(&run);
     if is_held {
         check_drift(machine, run.end(), variations)?;
     }
+    check_differences(call, (machine, method), variations, &from, run.end())?;
     let states = match run.samples() {
         [] => std::slice::from_ref(run.start()),
         states => states,
@@ -507,6 +508,125 @@ fn run_with_derivatives(
         }
     }
     Ok((states.iter().map(|state| state.t).collect(), columns))
+}
+
+/// The distance of runs whose differences are compared with the derivatives, relative to the sizes of the variables.
+const DISTANCE: f64 = 1e-4;
+
+/// The tolerance of these runs, or that of the call if it is finer.
+const FINE: f64 = 1e-12;
+
+/// Checks that runs differ as the derivatives predict, along a generic direction. Variational equations do not hold where a force jumps, so this is
+/// examined for machines with a sign in their equations.
+fn check_differences(
+    call: &call::Sensitivities,
+    (machine, method): (&InterpretedMachine, &'static Method),
+    variations: &[Variation],
+    from: &State<Varied<Named>>,
+    end: &State<Varied<Named>>,
+) -> Result<(), Failure> {
+    if !machine.program().may_jump() {
+        return Ok(());
+    }
+    let shares = shares(machine, variations);
+    let tolerance = call.tolerance.min(FINE);
+    let end_at = |h: f64| -> Option<Vec<f64>> {
+        let mut changed = machine.clone();
+        let mut start = State {
+            t: from.t,
+            q: from.q.value.clone(),
+            v: from.v.value.clone(),
+        };
+        for (k, (variation, share)) in variations.iter().zip(&shares).enumerate() {
+            let change = h * share;
+            let value = match variation.by {
+                By::Parameter(index) => Some(machine.parameter_values()[index]),
+                By::Input(index) => Some(machine.prepare().default_inputs().values[index]),
+                By::Start(_) | By::StartRate(_) => None,
+            };
+            if let Some(value) = value {
+                changed.set(&variation.name, value + change).ok()?;
+            }
+            for (numbers, by) in [(&mut start.q, &from.q.by[k]), (&mut start.v, &from.v.by[k])] {
+                for (number, by) in numbers.values.iter_mut().zip(&by.values) {
+                    *number += change * by;
+                }
+            }
+        }
+        let run = Simulation::new(&changed)
+            .tolerance(tolerance)
+            .method(method)
+            .until(call.until)
+            .max_steps(call.max_steps)
+            .forget_steps()
+            .run_interpreted(start)
+            .ok()?;
+        let State { q, v, .. } = run.end();
+        Some(q.values.iter().chain(&v.values).copied().collect())
+    };
+    let difference = |h: f64| -> Option<Vec<f64>> {
+        let (after, before) = (end_at(h)?, end_at(-h)?);
+        let pairs = after.iter().zip(&before);
+        Some(
+            pairs
+                .map(|(after, before)| (after - before) / (2.0 * h))
+                .collect(),
+        )
+    };
+    // Where such a run fails there is nothing to compare with.
+    let (Some(coarse), Some(fine)) = (difference(2.0 * DISTANCE), difference(DISTANCE)) else {
+        return Ok(());
+    };
+    let values = end.q.value.values.iter().chain(&end.v.value.values);
+    for (i, value) in values.enumerate() {
+        let n = end.q.value.values.len();
+        let parts = shares.iter().enumerate().map(|(k, share)| {
+            share
+                * match i.checked_sub(n) {
+                    None => end.q.by[k].values[i],
+                    Some(i) => end.v.by[k].values[i],
+                }
+        });
+        let (sum, size) = parts.fold((0.0, 0.0), |(sum, size): (f64, f64), part| {
+            (sum + part, size + part.abs())
+        });
+        // The error of the finer difference is a third of the difference between the two, and round-off and tolerance come on top; derivatives are
+        // as accurate as the call asks.
+        let known =
+            4.0 * (coarse[i] - fine[i]).abs() + 1e3 * tolerance * (1.0 + value.abs()) / DISTANCE;
+        let significant = (1e3 * call.tolerance).max(1e-3) * size.max(fine[i].abs());
+        if (sum - fine[i]).abs() > known.max(significant) {
+            return Err(Failure::Run(format!(
+                "the variational equations do not describe how runs differ ({sum:.3e} in place of {:.3e}), as where a force jumps; make it smooth, or \
+                 use differences of runs, by `lagrangian compare` with `--set-second`, or by `lagrangian sweep`",
+                fine[i]
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The share of each variable in a generic direction, in its unit.
+fn shares(machine: &InterpretedMachine, variations: &[Variation]) -> Vec<f64> {
+    let sizes = sizes(machine, variations);
+    let sizes = sizes.iter().enumerate();
+    sizes
+        .map(|(k, size)| (((3 + 7 * k) * 29 % 97) as f64 / 97.0 - 0.4) * size)
+        .collect()
+}
+
+/// The sizes of the variables of differentiation, in their units; 1 for those that are 0, and for starts.
+fn sizes(machine: &InterpretedMachine, variations: &[Variation]) -> Vec<f64> {
+    let inputs = machine.prepare().default_inputs().values;
+    let size = |variation: &Variation| {
+        let size = match variation.by {
+            By::Parameter(index) => machine.parameter_values()[index].abs(),
+            By::Input(index) => inputs[index].abs(),
+            By::Start(_) | By::StartRate(_) => 1.0,
+        };
+        if size > 0.0 { size } else { 1.0 }
+    };
+    variations.iter().map(size).collect()
 }
 
 /// Which coordinates and which rates start at values of the call. A state of first order is the rate of its integral.
@@ -554,17 +674,8 @@ fn across_impacts(
     variations: &[Variation],
     observed: &[Observed],
 ) -> Result<(Vec<f64>, Vec<Column>), Failure> {
-    let inputs = machine.prepare().default_inputs().values;
     // Derivatives by variables scaled to size 1, so that one tolerance suits all of them.
-    let size = |variation: &Variation| {
-        let size = match variation.by {
-            By::Parameter(index) => machine.parameter_values()[index].abs(),
-            By::Input(index) => inputs[index].abs(),
-            By::Start(_) | By::StartRate(_) => 1.0,
-        };
-        if size > 0.0 { size } else { 1.0 }
-    };
-    let sizes: Vec<f64> = variations.iter().map(size).collect();
+    let sizes = sizes(machine, variations);
     let direction = |(variation, size): (&Variation, &f64)| {
         let mut direction = Direction::of_start(machine);
         match variation.by {
@@ -603,24 +714,25 @@ fn across_impacts(
         )),
     })?;
     let n = machine.program().dimension();
+    let split = |list: &[f64]| Varied {
+        value: with_values(&from.q.value, &list[..n]),
+        by: (list[n..].chunks(n).zip(&sizes))
+            .map(|(by, size)| {
+                let by: Vec<f64> = by.iter().map(|by| by / size).collect();
+                with_values(&from.q.value, &by)
+            })
+            .collect(),
+    };
     let end = run.end();
+    let end = State {
+        t: end.t,
+        q: split(&end.q),
+        v: split(&end.v),
+    };
     if machine.prepare().constraints().len() > 0 {
-        let split = |list: &[f64]| Varied {
-            value: with_values(&from.q.value, &list[..n]),
-            by: (list[n..].chunks(n).zip(&sizes))
-                .map(|(by, size)| {
-                    let by: Vec<f64> = by.iter().map(|by| by / size).collect();
-                    with_values(&from.q.value, &by)
-                })
-                .collect(),
-        };
-        let end = State {
-            t: end.t,
-            q: split(&end.q),
-            v: split(&end.v),
-        };
         check_drift(machine, &end, variations)?;
     }
+    check_differences(call, (machine, method), variations, from, &end)?;
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
     let count = if call.until == from.t {
         0

@@ -13,7 +13,8 @@ use crate::math::rough_log2;
 use crate::roots;
 use crate::step_error::StepError;
 use crate::taylor::{
-    bound, is_slow, larger_ratio, length, length_in_slow_motion, size_of_rate, state,
+    GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, bound, defect, is_slow,
+    larger_ratio, length, length_in_slow_motion, size_of_rate, state,
 };
 use crate::{Error, Machine, Real, System};
 
@@ -23,6 +24,19 @@ const ORDERS: [f64; 2] = [12.0, 40.0];
 /// Number of coefficients for each factor of e in the tolerance. With more coefficients steps are longer and cost more, since the cost of
 /// products of series grows with the square of the order.
 const FOR_EACH_FACTOR: f64 = 0.55;
+
+/// The length of the next try after a step that was rejected, relative to it.
+const SHORTER: f64 = 0.1;
+
+/// The series through the end of a step, beside the series of the step.
+enum Expansion {
+    /// The motion is that of the series of the step, and the expander holds its series from there on.
+    Continues,
+    /// The motion is another one.
+    Differs,
+    /// Nothing is known against the step, and the expander holds another series.
+    Unknown,
+}
 
 /// Advances an interpreted machine by Taylor series, in numbers of any kind: in double-doubles to some 30 digits.
 ///
@@ -68,6 +82,8 @@ pub struct SeriesStepper<N: Real> {
     v: Vec<N>,
     /// Coefficients of all coordinates, order by order.
     coefficients: Vec<Vec<N>>,
+    /// Whether the expander holds the series through the present state.
+    is_expanded: bool,
     work: Work,
     max_steps: usize,
 }
@@ -115,6 +131,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
             q: numbers(q),
             v: numbers(v),
             coefficients: vec![vec![N::ZERO; n]; order + 2],
+            is_expanded: false,
             work: Work::default(),
             max_steps: MAX_STEPS,
         })
@@ -173,12 +190,25 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         Ok(())
     }
 
-    /// Takes one step, which ends at `end` or before it.
+    /// Takes one step, which ends at `end` or before it. It is shortened if the motion is not its series at the end: a root of squares, such
+    /// as a distance or a speed, passes zero within it.
     ///
     /// # Errors
     /// As for [`advance_to`](Self::advance_to).
     pub fn step(&mut self, end: N) -> Result<(), Error> {
-        let (h, is_last) = self.choose(end).map_err(|error| self.to_error(error))?;
+        let (mut h, is_last) = self.choose(end).map_err(|error| self.to_error(error))?;
+        let mut next = if is_last { end } else { self.t + h };
+        let is_expanded = loop {
+            match self.expansion_at(next, h) {
+                Expansion::Continues => break true,
+                Expansion::Unknown => break false,
+                Expansion::Differs => {
+                    self.work.rejected += 1;
+                    h = N::from_f64(SHORTER * h.to_f64());
+                    next = self.t + h;
+                }
+            }
+        };
         let t = self.t.to_f64();
         for theta in self.isolating_fractions(h)? {
             let tau = N::from_f64(theta) * h;
@@ -196,9 +226,78 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
                 (self.q, self.v) = (q, v);
             }
         }
-        self.t = if is_last { end } else { self.t + h };
+        self.t = next;
+        self.is_expanded = is_expanded;
         self.work.steps += 1;
         Ok(())
+    }
+
+    /// Expands the motion through the end of a step of length `h`, at the time `next`, and compares its accelerations with those of the
+    /// series of the step.
+    fn expansion_at(&mut self, next: N, h: N) -> Expansion {
+        let (q, v) = state(&self.coefficients, h);
+        let mut numbers = q.iter().chain(&v);
+        if !numbers.all(|x| lagrangian_scalar::Scalar::is_finite(*x)) {
+            return Expansion::Unknown;
+        }
+        let Some(found) = self.accelerations_at(next, &q, &v) else {
+            return Expansion::Unknown;
+        };
+        let by_series: Vec<N> = (0..q.len())
+            .map(|i| {
+                let powers = (2..self.coefficients.len()).rev();
+                powers.fold(N::ZERO, |sum, j| {
+                    sum * h + N::from_f64((j * (j - 1)) as f64) * self.coefficients[j][i]
+                })
+            })
+            .collect();
+        let end = [q.as_slice(), v.as_slice()];
+        let greatest = self.defect(
+            h,
+            end,
+            [&found[..], &by_series[..]],
+            ROUNDING_UNITS * N::EPSILON,
+        );
+        let shortest = shortest_step::<N>(next.to_f64());
+        if greatest <= GREATEST_DEFECT || h.to_f64().abs() <= SHORTEST_STEPS * shortest {
+            return Expansion::Continues;
+        }
+        // Round-off may change the accelerations as much, where large forces cancel.
+        let beside = |numbers: &[N], sign: f64| -> Vec<N> {
+            let changed = |x: &N| *x + *x * N::from_f64(sign * N::EPSILON);
+            numbers.iter().map(changed).collect()
+        };
+        let changed = self.accelerations_at(next, &beside(&q, 1.0), &beside(&v, -1.0));
+        let is_rounding = changed.is_none_or(|changed| {
+            greatest <= ROUNDINGS * self.defect(h, end, [&found[..], &changed[..]], 0.0)
+        });
+        if is_rounding {
+            Expansion::Unknown
+        } else {
+            Expansion::Differs
+        }
+    }
+
+    /// How far two lists of accelerations at the end of a step of length `h` are apart, as a [`defect`], without this fraction of them.
+    fn defect(&self, h: N, end: [&[N]; 2], [one, other]: [&[N]; 2], rounding: f64) -> f64 {
+        let coordinates = (0..one.len()).map(|i| {
+            let size = |[q, v]: [&[N]; 2]| size_of_rate(q[i].to_f64(), v[i].to_f64());
+            let size = size([&self.q[..], &self.v[..]]).max(size(end));
+            // Their difference has more digits than the difference of their nearest `f64`.
+            let (one, difference) = (one[i].to_f64(), (one[i] - other[i]).to_f64());
+            [size, one, difference, self.tolerance]
+        });
+        defect(h.to_f64(), coordinates, [self.tolerance, rounding])
+    }
+
+    /// The accelerations at a state, by an expansion of the motion through it. `None` if there are none.
+    fn accelerations_at(&mut self, t: N, q: &[N], v: &[N]) -> Option<Vec<N>> {
+        self.work.evaluations += 1;
+        (self.expander)
+            .expand::<N>([t, N::ZERO], q, v, &self.inputs)
+            .ok()?;
+        let second = |i: usize| self.expander.coordinate(i)[2];
+        Some((0..q.len()).map(|i| second(i) + second(i)).collect())
     }
 
     /// The fractions of a step of length `h` at which to evaluate the assumptions of the description, in order and ending at 1: between
@@ -240,13 +339,15 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
     /// Expands the motion through the present state, and returns the length of the step and whether it is the last.
     fn choose(&mut self, end: N) -> Result<(N, bool), StepError> {
         let at = self.t.to_f64();
-        self.work.evaluations += 1;
-        let expanded =
-            (self.expander).expand::<N>([self.t, N::ZERO], &self.q, &self.v, &self.inputs);
-        expanded.map_err(|singular| StepError::Singular {
-            singular: singular_row(&self.system.program, singular),
-            t: at,
-        })?;
+        if !std::mem::take(&mut self.is_expanded) {
+            self.work.evaluations += 1;
+            let expanded =
+                (self.expander).expand::<N>([self.t, N::ZERO], &self.q, &self.v, &self.inputs);
+            expanded.map_err(|singular| StepError::Singular {
+                singular: singular_row(&self.system.program, singular),
+                t: at,
+            })?;
+        }
         for i in 0..self.q.len() {
             let of_coordinate = self.expander.coordinate(i);
             for (row, c) in self.coefficients.iter_mut().zip(of_coordinate) {

@@ -522,6 +522,37 @@ fn the_balance_of_energy_closes() {
     }
 }
 
+/// A ball is thrown up in air, and its speed, the root of a square, passes zero where its series continues with the other sign. The closed form is that of
+/// `cli/tests/command/precise.rs`, in mpmath with 50 digits.
+#[test]
+fn a_speed_passes_zero() {
+    let machine = machine(
+        "machine Ball in plane {
+            parameters { m: kg = 0.125, g: m/s^2 = 9.75, area: m^2 = 0.015625, rho: kg/m^3 = 1 }
+            coordinates { x: m, y: m, der(y): m/s = 20 }
+            bodies { ball { mass: m, at: (x, y) } }
+            gravity (0, -g);
+            drag { air { at: ball.at, coefficient: 0.5, area: area, density: rho } }
+        }",
+    );
+    let exact = [0.0, 3.713662147284138, 0.0, -11.81367562226057];
+    for tolerance in [1e-4, 1e-6, 1e-9, 1e-12, 1e-14] {
+        let run = Simulation::new(&machine)
+            .method(&TAYLOR)
+            .tolerance(tolerance)
+            .until(3.0)
+            .run(machine.start())
+            .unwrap();
+        // The step over the zero may have a defect of a thousand tolerances, for a rate of up to 20 m/s; the fall of 1.5 s follows.
+        let error = error(&run, &exact, &[1.0; 4]);
+        assert!(
+            error < 1e3 * tolerance * 21.0 + 1e-13,
+            "{tolerance:e}: {error:e}"
+        );
+        assert!(run.statistics().rejected > 0 && run.statistics().steps < 200);
+    }
+}
+
 #[test]
 fn what_has_no_series_is_told() {
     let machine = of_library("rolling_coin");

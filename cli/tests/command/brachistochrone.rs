@@ -127,6 +127,27 @@ fn outside_of_the_conditions_the_direct_method_says_which_fail() {
 
 /// A spring on the wedge, and a floor whose roughness increases: the machine itself, simulated with its own law of friction
 /// under the forces that the direct method found, arrives. Its steps are accurate to 1e-11.
+/// Drag has a speed as factor, which has no derivative at the start, where the bead is at rest. The time is that of Pontryagin's equations, integrated
+/// backward from the end with two unknowns, its speed and its direction there, by SciPy at a tolerance of 1e-13.
+#[test]
+fn a_bead_starts_from_rest_in_air() {
+    let text = "machine Bead in plane {
+        parameters { m: kg = 1.3, g: m/s^2 = 9.81, c: 1 = 0.8, area: m^2 = 1, rho: kg/m^3 = 1 }
+        coordinates { x: m, y: m }
+        bodies { bead { mass: m, at: (x, y) } }
+        gravity (0, -g);
+        drag { air { at: bead.at, coefficient: c, area: area, density: rho } }
+    }";
+    let found = solved(text, &["--to", "x=2,y=-1"]);
+    close(&found["time"], 0.9511950406890216, 1e-11);
+    assert_eq!(found["is_motion"], true, "{}", found["warnings"]);
+    // It begins to fall vertically.
+    let start = &found["path"][0];
+    assert_eq!(start["v"]["x"], 0.0);
+    assert_eq!(start["v"]["y"], 0.0);
+    close(&start["a"]["y"], -9.81, 1e-9);
+}
+
 #[test]
 fn a_machine_with_friction_outside_of_the_conditions_arrives() {
     let rough = "machine Rough in plane {

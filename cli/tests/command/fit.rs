@@ -692,6 +692,35 @@ fn friction_of_what_slides_is_fitted() {
     assert!((estimates(&result)[0].0 - 0.3).abs() < 1e-7, "{result:#}");
 }
 
+/// A block on a spring with dry friction by a sign, from rest at 1 m: in half-period n it moves about `(−1)ⁿ f/k` from `(−1)ⁿ (1 − 2 n f/k)`.
+#[test]
+fn a_force_that_jumps_is_fitted_by_differences() {
+    let text = "machine Dry in plane {
+        parameters { m: kg = 1, k: N/m = 38, f: N = 1.2 }
+        coordinates { x: m = 1 }
+        bodies { block { mass: m, at: (x, 0) } }
+        springs { spring { stiffness: k, stretch: x } }
+        forces { friction { on: x, value: -f*sign(der(x)) } }
+        gravity none;
+    }";
+    let spec = Scratch::new("dry.machine", text);
+    let data = table("t,x", times(2.0, 40), |t| {
+        let (omega, offset) = (40.0_f64.sqrt(), 1.5 / 40.0);
+        let half = std::f64::consts::PI / omega;
+        let n = (t / half).floor();
+        let side = if n % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        let amplitude = 1.0 - 2.0 * n * offset - offset;
+        vec![side * (offset + amplitude * (omega * (t - n * half)).cos())]
+    });
+    let result = fit(&[spec.path(), "--data", data.path(), "--fit", "k,f"]);
+    assert_eq!(result["derivatives"], "differences");
+    let found = estimates(&result);
+    // The residuals are zero at the minimum, to the tolerance of the runs, and so derivatives need not be accurate to find it; standard errors follow from
+    // them.
+    assert!((found[0].0 - 40.0).abs() < 1e-3, "{result:#}");
+    assert!((found[1].0 - 1.5).abs() < 1e-3, "{result:#}");
+}
+
 #[test]
 fn bounds_hold_and_are_named() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
@@ -732,6 +761,69 @@ fn bounds_hold_and_are_named() {
     for ((x, e), (y, _)) in estimates(&wide).into_iter().zip(estimates(&free)) {
         assert!((x - y).abs() < 2e-6 * e);
     }
+}
+
+#[test]
+fn bounds_of_a_family_are_those_of_members_without_their_own() {
+    let text = "machine Two in plane {
+        parameters { m: kg = 2, k: N/m = 30, c: N*s/m = 0.6 }
+        coordinates { q[1..2]: m = 0.1 }
+        bodies { block[i in 1..2] { mass: m, at: (q[i], 0) } }
+        springs { spring[i in 1..2] { stiffness: k, stretch: q[i] } }
+        dampers { damper[i in 1..2] { damping: c, stretch: q[i] } }
+        gravity none;
+    }";
+    let spec = Scratch::new("two.machine", text);
+    let data = table("t,q[1] [m],q[2] [m]", times(2.0, 40), |t| {
+        [0.1, 0.2]
+            .map(|x| swung(t, [2.0, 30.0, 0.6], [x, 0.0]))
+            .into()
+    });
+    let call = [spec.path(), "--data", data.path(), "--fit", "start(q)"];
+    let bounds = ["start(q)=0..1", "start(q[1])=0.05..0.15"];
+    for [one, other] in [bounds, [bounds[1], bounds[0]]] {
+        let result = fit(&[&call[..], &["--bounds", one, "--bounds", other]].concat());
+        let found = |k: usize| result["fitted"][k]["bounds"].clone();
+        assert_eq!(found(0), serde_json::json!([0.05, 0.15]), "{result:#}");
+        assert_eq!(found(1), serde_json::json!([0.0, 1.0]), "{result:#}");
+    }
+}
+
+/// A start that is measured outside its bounds begins at the nearest of them.
+#[test]
+fn a_measured_start_is_brought_into_its_bounds() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let data = table("t,x [m]", times(2.0, 40), |t| {
+        vec![swung(t, [2.0, 25.0, 0.5], [0.1, 0.0])]
+    });
+    let result = fit(&[
+        spec.path(),
+        "--data",
+        data.path(),
+        "--fit",
+        "start(x)",
+        "--bounds",
+        "start(x)=0.11..",
+    ]);
+    assert_eq!(result["fitted"][0]["from"], 0.11, "{result:#}");
+    assert_eq!(result["fitted"][0]["value"], 0.11, "{result:#}");
+    assert_eq!(result["fitted"][0]["standing"], "bound", "{result:#}");
+}
+
+#[test]
+fn the_start_of_a_state_is_set_by_start() {
+    let spec = Scratch::new("approach.machine", APPROACH);
+    let data = table("t,seen", times(3.0, 3), |t| vec![t]);
+    let (status, said) = refused(&[
+        spec.path(),
+        "--data",
+        data.path(),
+        "--fit",
+        "start(y)",
+        "--bounds",
+        "start(y)=1..",
+    ]);
+    assert!(status == 2 && said.contains("by --start"), "{said}");
 }
 
 #[test]
@@ -894,6 +986,31 @@ fn an_experiment_may_have_values_and_inputs_of_its_own() {
         (found[0].0 - 30.0).abs() < 1e-5 && (found[1].0 - 0.6).abs() < 1e-6,
         "{result:#}"
     );
+}
+
+/// A force is held from row to row of the table that has the measured accelerations, too: `a = u/m` at every row, the last one included.
+#[test]
+fn an_input_that_jumps_at_the_last_measurement_has_its_new_value() {
+    let text = "machine Pushed in plane {
+        parameters { m: kg = 1 }
+        coordinates { x: m }
+        inputs { u: N }
+        bodies { block { mass: m, at: (x, 0) } }
+        forces { push { on: x, value: u } }
+        outputs { a: m/s^2 = der(der(x)) }
+        gravity none;
+    }";
+    let spec = Scratch::new("pushed.machine", text);
+    let rows = "t,u,a\n0,1,0.5\n0.25,-3,-1.5\n0.5,2,1\n0.75,5,2.5\n";
+    let data = Scratch::new("pushed.csv", rows);
+    // With `end=error` the force is not known after the last row, at which it has the value of the row, too.
+    for end in ["", ",end=error"] {
+        let data = format!("{0},u={0}:u,hold{end}", data.path());
+        let result = fit(&[spec.path(), "--data", &data, "--columns", "a", "--fit", "m"]);
+        let (mass, _) = estimates(&result)[0];
+        // The residuals are zero there, to the round-off of a quotient.
+        assert!((mass - 2.0).abs() < 1e-9, "{result:#}");
+    }
 }
 
 #[test]

@@ -193,6 +193,94 @@ fn runs_in_double_double_end_where_binary128_says() {
     }
 }
 
+/// A speed and a distance that pass zero along a line are roots of squares, whose series continue with the other sign.
+///
+/// A ball is thrown up in air. With `b = ρ c A/2m` and `w = √(g/b)` it rises for `τ = w/g·atan(v₀/w)` to `h = w²/2g·ln(1 + v₀²/w²)`; a time s later
+/// it is at `h − w²/g·ln cosh(gs/w)` and falls with `w tanh(gs/w)`. A mass on a band falls through the point that holds the band: with ω² = k/m it moves
+/// as `y = e + A cos ωt + B sin ωt` about `e = l − g/ω²` above this point, and about `e = −l − g/ω²` below it. The numbers are those of mpmath with 50 digits.
+#[test]
+fn runs_in_double_double_pass_zeros_of_speeds_and_distances() {
+    let ball = "machine Ball in plane {
+        parameters { m: kg = 0.125, g: m/s^2 = 9.75, area: m^2 = 0.015625, rho: kg/m^3 = 1 }
+        coordinates { x: m, y: m, der(y): m/s = 20 }
+        bodies { ball { mass: m, at: (x, y) } }
+        gravity (0, -g);
+        drag { air { at: ball.at, coefficient: 0.5, area: area, density: rho } }
+    }";
+    let band = "machine Band in plane {
+        parameters { m: kg = 1, g: m/s^2 = 9.75, k: N/m = 8, l: m = 0.5 }
+        coordinates { x: m, y: m = 0.25 }
+        bodies { ball { mass: m, at: (x, y) } }
+        gravity (0, -g);
+        springs { band { stiffness: k, from: ground.origin, to: ball.at, length: l } }
+    }";
+    for (name, spec, until, y, rate) in [
+        (
+            "ball.machine",
+            ball,
+            "3",
+            "3.7136621472841380643502569712528",
+            "-11.813675622260569169402822379936",
+        ),
+        (
+            "band.machine",
+            band,
+            "1",
+            "-3.1396798376333899289873116475106",
+            "-3.2947654957804182194653231239663",
+        ),
+    ] {
+        let scratch = Scratch::new(name, spec);
+        let call = [scratch.path(), "--until", until];
+        let found = answer(&[&call[..], &["--precision", "dd"]].concat());
+        assert_eq!(found["method"], "taylor");
+        for (found, exact) in [(&found["q"]["y"], y), (&found["v"]["y"], rate)] {
+            let text = found.as_str().expect("a decimal");
+            let off = (units(text) - units(exact)).unsigned_abs() as f64 * 1e-32;
+            // The step over the zero may have a thousand times the bound on the last terms, a hundredth of 5e-30 (1 + 20), as a defect, and there are some
+            // hundred other steps; the motion multiplies errors by less than ten.
+            assert!(off < 1e-25, "{name}: {text} and {exact}");
+        }
+        // The estimate of an ordinary run uses such a run.
+        let found = answer(&[&call[..], &["--global-error"]].concat());
+        let rate: f64 = rate.parse().expect("a number");
+        let error = (found["v"]["y"].as_f64().expect("a number") - rate).abs();
+        let estimate = found["global_error"]["errors"]["der(y)"]
+            .as_f64()
+            .expect("a number");
+        assert!(
+            (estimate - error).abs() < 1e-14,
+            "{name}: {estimate:e} and {error:e}"
+        );
+    }
+}
+
+/// A ball falls from rest in air: its series has no numbers at the start, where its speed is zero. It falls `w²/g·ln cosh(gt/w)` with the rate `w tanh(gt/w)`, where
+/// `w² = 312 m²/s²`, in mpmath with 50 digits.
+#[test]
+fn a_start_from_rest_in_air_is_run_without_a_series() {
+    let spec = "machine Ball in plane {
+        parameters { m: kg = 0.125, g: m/s^2 = 9.75, area: m^2 = 0.015625, rho: kg/m^3 = 1 }
+        coordinates { x: m, y: m }
+        bodies { ball { mass: m, at: (x, y) } }
+        gravity (0, -g);
+        drag { air { at: ball.at, coefficient: 0.5, area: area, density: rho } }
+    }";
+    let scratch = Scratch::new("ball.machine", spec);
+    let call = [scratch.path(), "--until", "1", "--precision", "dd"];
+    let found = answer(&call);
+    assert_eq!(found["method"], "dop853");
+    for (found, exact) in [
+        (&found["q"]["y"], "-4.6458617579777800601979869305497"),
+        (&found["v"]["y"], "-8.867202545269664106348341965747"),
+    ] {
+        let text = found.as_str().expect("a decimal");
+        let off = (units(text) - units(exact)).unsigned_abs() as f64 * 1e-32;
+        // The tolerance of a step is 1e-24, and there are hundreds of steps.
+        assert!(off < 1e-20, "{text} and {exact}");
+    }
+}
+
 #[test]
 fn digits_are_those_of_the_number() {
     let spec = "machine Free in plane {

@@ -637,6 +637,66 @@ fn a_start_off_a_constraint_is_differentiated_before_it_is_projected() {
     }
 }
 
+/// Friction by a sign jumps where the block turns; a force by an absolute value has a kink there, across which derivatives are continuous. The block starts at
+/// rest at 1 m; after half a period, `π √(m/k)`, it turns at `−(1 − 2 f/k)`.
+#[test]
+fn sensitivities_across_jumps_of_forces_are_refused() {
+    let spec = |force: &str| {
+        let text = format!(
+            "machine Dry in plane {{
+                parameters {{ m: kg = 1, k: N/m = 40, f: N = 1.5, c: N*s^2/m^2 = 0.1 }}
+                coordinates {{ x: m = 1 }}
+                bodies {{ block {{ mass: m, at: (x, 0) }} }}
+                springs {{ spring {{ stiffness: k, stretch: x }} }}
+                forces {{ friction {{ on: x, value: {force} }} }}
+                gravity none;
+            }}"
+        );
+        Scratch::new("dry.machine", &text)
+    };
+    let call = |spec: &Scratch, until: &str, by: &str| -> Vec<String> {
+        let words = ["sensitivities", spec.path(), "--by", by, "--until", until];
+        words.map(String::from).into()
+    };
+    let words = |call: &[String]| -> (i32, String) {
+        refused(&call.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    let dry = spec("-f*sign(der(x))");
+    // The instant depends on both of them.
+    for by in ["k", "m"] {
+        let (status, said) = words(&call(&dry, "0.8", by));
+        assert!(
+            status == 1 && said.contains("as where a force jumps"),
+            "{by}: {said}"
+        );
+    }
+    // Before the block turns, x = f/k + (1 − f/k) cos ωt.
+    let early = call(&dry, "0.4", "f");
+    let early = answer(&early.iter().map(String::as_str).collect::<Vec<_>>());
+    let exact = (1.0 - (40.0_f64.sqrt() * 0.4).cos()) / 40.0;
+    let found = list(&early["derivatives"][0]["values"]);
+    // The tolerance of a few steps, 1e-9 each.
+    assert!((found.last().expect("a number") - exact).abs() < 1e-8);
+    // A wall that the block hits before it turns, and after it.
+    let text = "machine Dry in plane {
+        parameters { m: kg = 1, k: N/m = 40, f: N = 1.5, e: 1 = 0.8, w: m = -0.5 }
+        coordinates { x: m = 1 }
+        bodies { block { mass: m, at: (x, 0) } }
+        springs { spring { stiffness: k, stretch: x } }
+        forces { friction { on: x, value: -f*sign(der(x)) } }
+        contacts { wall { gap: x - w, restitution: e } }
+        gravity none;
+    }";
+    let struck = Scratch::new("struck.machine", text);
+    let (status, said) = words(&call(&struck, "1.2", "e"));
+    assert!(
+        status == 1 && said.contains("as where a force jumps"),
+        "{said}"
+    );
+    let drag = call(&spec("-c*abs(der(x))*der(x)"), "0.8", "c,k");
+    answer(&drag.iter().map(String::as_str).collect::<Vec<_>>());
+}
+
 #[test]
 fn what_cannot_be_is_said() {
     let twice = Scratch::new(

@@ -115,6 +115,10 @@ pub struct Line {
 /// of a greater one.
 const OWN: f64 = 0.5;
 
+/// A line this close to half of the sampling rate, in frequencies of the spectrum, is taken to be there: during the samples its amplitude and its phase
+/// cannot be told apart.
+const INDISTINCT: f64 = 0.05;
+
 /// How many times all lines are refined with the others subtracted.
 const ROUNDS: usize = 8;
 
@@ -208,6 +212,12 @@ impl Spectrum {
                 still.amplitude = Complex::new(0.5 * left[0].re, 0.0);
                 self.add(&mut left, still, -1.0);
                 for (top, own) in &mut waves {
+                    if own.place == self.half_rate() {
+                        self.add(&mut left, *own, 1.0);
+                        *own = self.wave(&left, *top);
+                        self.add(&mut left, *own, -1.0);
+                        continue;
+                    }
                     // Adds the wave alone, without its image, whose leakage also remains here.
                     self.add_one(&mut left, own.place, own.amplitude);
                     let wave = self.wave(&left, *top);
@@ -219,22 +229,42 @@ impl Spectrum {
         }
         let mut lines: Vec<Line> = waves
             .into_iter()
-            .map(|(_, wave)| Line {
-                frequency: wave.place * self.resolution,
-                amplitude: wave.amplitude.norm(),
-                phase: wave.amplitude.arg(),
+            .map(|(top, wave)| match wave.amplitude.norm() {
+                // A wave so close to its image that both cancel is what the spectrum shows.
+                0.0 => Line {
+                    frequency: self.frequencies[top],
+                    amplitude: self.amplitudes[top],
+                    phase: self.transform[top].arg(),
+                },
+                amplitude => Line {
+                    frequency: wave.place * self.resolution,
+                    amplitude,
+                    phase: wave.amplitude.arg(),
+                },
             })
             .collect();
         lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
         lines
     }
 
-    /// The wave that matches a transform at a frequency and at its greater neighbour.
+    /// The place of half of the sampling rate, where a wave coincides with its image.
+    fn half_rate(&self) -> f64 {
+        0.5 * self.count as f64
+    }
+
+    /// The wave that matches a transform at a frequency and at its greater neighbour. At half of the sampling rate the transform is that of the wave and
+    /// its image, elsewhere that of the wave alone.
     fn wave(&self, transform: &[Complex<f64>], top: usize) -> Wave {
         let size = |k: usize| transform.get(k).map_or(0.0, |x| x.norm());
         let (below, above) = (size(top - 1), size(top + 1));
         // The line is shifted towards the greater neighbour.
         let side = if above >= below { 1.0 } else { -1.0 };
+        if size(top) == 0.0 {
+            return Wave {
+                place: top as f64,
+                amplitude: Complex::new(0.0, 0.0),
+            };
+        }
         let ratio = above.max(below) / size(top);
         // The ratio of neighbour to peak grows with the shift of the line, for shifts from 0 to 1.
         let leakage = |x: f64| self.window.leakage(x, self.count).norm();
@@ -253,8 +283,15 @@ impl Spectrum {
             }
             0.5 * (low + high)
         };
-        let place = top as f64 + side * shift;
-        let amplitude = transform[top] / self.window.leakage(place - top as f64, self.count);
+        let mut place = top as f64 + side * shift;
+        let is_half_rate = (place - self.half_rate()).abs() < INDISTINCT;
+        if is_half_rate {
+            place = self.half_rate();
+        }
+        let mut amplitude = transform[top] / self.window.leakage(place - top as f64, self.count);
+        if is_half_rate {
+            amplitude = Complex::new(0.5 * amplitude.re, 0.0);
+        }
         Wave { place, amplitude }
     }
 
@@ -398,6 +435,35 @@ mod tests {
                 assert!(
                     (line.phase - 0.7).abs() < 8.0 * bound,
                     "{window:?} {f}: {line:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn samples_that_alternate_are_a_line_at_half_of_the_sampling_rate() {
+        for window in Window::ALL {
+            // Beside a mean, and beside another line.
+            for other in [0.0, 0.5] {
+                let mut values = samples(&[(3.37, other, 0.7)], 512, 1.0 / 64.0);
+                for (n, x) in values.iter_mut().enumerate() {
+                    *x += 0.25 + if n % 2 == 0 { -2.0 } else { 2.0 };
+                }
+                let lines = Spectrum::new(&values, 1.0 / 64.0, window)
+                    .unwrap()
+                    .lines(5, 1e-3);
+                assert_eq!(
+                    lines.len(),
+                    if other == 0.0 { 1 } else { 2 },
+                    "{window:?}: {lines:?}"
+                );
+                // As in the test of a sine between frequencies.
+                let (line, bound) = (lines[0], 4e-11);
+                assert_eq!(line.frequency, 32.0);
+                assert!((line.amplitude - 2.0).abs() < bound, "{window:?}: {line:?}");
+                assert!(
+                    (line.phase.abs() - PI).abs() < bound,
+                    "{window:?}: {line:?}"
                 );
             }
         }

@@ -3,9 +3,9 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use lagrangian::interpreted::{InterpretedMachine, Named, Signal, Signals};
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signal, Signals};
 use lagrangian::methods::Method;
-use lagrangian::{Machine, Simulation, State, System};
+use lagrangian::{InputLaw, Machine, Piece, Simulation, State, System};
 use lagrangian_linear::across::{self, NoDerivatives};
 use lagrangian_linear::starts;
 use lagrangian_linear::varied::{Direction, Varied, VariedInputs, VariedLaw, VariedSystem};
@@ -184,6 +184,12 @@ const ELSEWHERE: f64 = 10.0;
 
 /// The smallest relative error assumed for derivatives of either kind.
 const MOST_EXACT: f64 = 1e-11;
+
+/// The distance of runs whose differences are compared with integrated derivatives, relative to the sizes of the fitted numbers.
+const DISTANCE: f64 = 1e-4;
+
+/// Differences of runs differ from integrated derivatives if they do by this fraction of the greatest of them.
+const SIGNIFICANT: f64 = 1e-3;
 
 /// Points far along a null direction have the same residuals if these agree to this fraction of the motion, plus tolerances.
 const SAME: f64 = 1e-6;
@@ -383,6 +389,7 @@ impl Fit<'_> {
         let system = machine.prepare();
         let simulation = own.signals.drive(Simulation::new(&machine), &machine);
         let simulation = self.keep(self.set(simulation, own));
+        let order = self.running.method.tableau.order;
         let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
         let recorded = &mut rows;
         let run = simulation
@@ -394,6 +401,9 @@ impl Fit<'_> {
                     let mut u = system.default_inputs();
                     if own.reads_more() {
                         u = step.inputs(t, &q, &v);
+                        if let Some(piece) = following(&own.signals, order, t, step.span()) {
+                            own.signals.set_in(piece, &system, t, &q, &v, &mut u);
+                        }
                         step.accelerations((t, &q, &v), &u, &mut a)?;
                     }
                     let value = |column: &Column| match column.quantity {
@@ -640,6 +650,7 @@ impl Fit<'_> {
         let system = varied.prepare();
         let simulation = Simulation::new(&varied).law(VariedLaw(&own.signals));
         let simulation = self.set(simulation, own);
+        let order = self.running.method.tableau.order;
         let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
         let recorded = &mut rows;
         let (system, at) = (&system, &at);
@@ -650,6 +661,9 @@ impl Fit<'_> {
                 let mut u = system.default_inputs();
                 if own.reads_more() {
                     u = step.inputs(t, &q, &v);
+                    if let Some(piece) = following(&own.signals, order, t, step.span()) {
+                        VariedLaw(&own.signals).set_in(piece, system, t, &q, &v, &mut u);
+                    }
                     step.accelerations((t, &q, &v), &u, &mut a)?;
                 }
                 recorded.push(at(system, (t, &q, &v), (&a, &u)));
@@ -716,6 +730,47 @@ impl Fit<'_> {
                 most.max(off)
             }
         })
+    }
+
+    /// Whether residuals differ as integrated derivatives predict, along a generic direction. Variational equations do not hold where a force jumps, so
+    /// this is examined for machines with a sign in their equations.
+    fn are_differences(&mut self, x: &[f64], integrated: &DMatrix<f64>) -> Result<bool, Trouble> {
+        let may_jump = |experiment: &Experiment| experiment.machine.program().may_jump();
+        if !self.experiments.iter().any(may_jump) {
+            return Ok(true);
+        }
+        let sizes = self.sizes();
+        let share = |j: usize| ((3 + 7 * j) * 29 % 97) as f64 / 97.0 - 0.4;
+        let direction: Vec<f64> = (0..x.len()).map(|j| share(j) * sizes[j]).collect();
+        let mut differences = Vec::new();
+        for h in [2.0 * DISTANCE, DISTANCE] {
+            let mut ends = Vec::new();
+            for h in [h, -h] {
+                let moved = x.iter().zip(&direction).map(|(x, by)| x + h * by);
+                let moved: Vec<f64> = moved.collect();
+                match self.residuals(&moved) {
+                    Ok(residuals) => ends.push(residuals),
+                    // There is nothing to compare with.
+                    Err(Trouble::NoValue(_)) => return Ok(true),
+                    Err(Trouble::Stopped) => return Err(Trouble::Stopped),
+                }
+            }
+            let pairs = ends[0].iter().zip(&ends[1]);
+            let quotients = pairs.map(|(after, before)| (after - before) / (2.0 * h));
+            differences.push(quotients.collect::<Vec<f64>>());
+        }
+        let predicted = integrated * nalgebra::DVector::from_vec(direction);
+        let (coarse, fine) = (&differences[0], &differences[1]);
+        let greatest = fine
+            .iter()
+            .fold(predicted.amax(), |most, x| most.max(x.abs()));
+        let rounding = 10.0 * self.running.tolerance * self.size(&[]) / DISTANCE;
+        // The error of the finer difference is a third of the difference between the two.
+        let agrees = |i: usize| {
+            let known = (4.0 * (coarse[i] - fine[i]).abs()).max(rounding);
+            (predicted[i] - fine[i]).abs() <= known.max(SIGNIFICANT * greatest)
+        };
+        Ok((0..fine.len()).all(agrees))
     }
 
     /// The derivatives of all residuals, by central differences of runs.
@@ -814,8 +869,17 @@ impl Experiment {
     }
 }
 
-/// The next of the times if it is within a step. At the end of a step it is taken only if no step follows: a change
-/// of inputs there has then taken effect.
+/// The piece of the inputs that follows on a time at the end of a step: inputs that jump at the last measurement have the values after the jump,
+/// as at every other one. `None` within a step, and where the inputs are not known.
+fn following(signals: &Signals, order: u32, t: f64, [_, to]: [f64; 2]) -> Option<Piece> {
+    let piece = |forward| InputLaw::<InterpretedSystem>::piece(signals, t, forward, order).ok();
+    // What is not known after the last row of a table is known at this row.
+    let following = piece(true).or_else(|| piece(false).map(|_| Piece::ALL));
+    following.filter(|_| t == to)
+}
+
+/// The next of the times if it is within a step. At the end of a step it is taken only if no step follows: in the next step a change of inputs there
+/// has taken effect.
 fn next_due_time(times: &[f64], seen: usize, [_, to]: [f64; 2]) -> Option<f64> {
     let t = *times.get(seen)?;
     let is_last = times.last().is_some_and(|last| to >= *last);
@@ -854,10 +918,16 @@ impl Problem for Fit<'_> {
             }
         }
         let all: Vec<_> = self.measurements().collect();
-        Ok(DMatrix::from_fn(all.len(), x.len(), |i, j| {
+        let integrated = DMatrix::from_fn(all.len(), x.len(), |i, j| {
             let (e, c, r, _, sigma) = all[i];
             rows[e][r].by[c][j] / sigma
-        }))
+        });
+        if self.are_differences(x, &integrated)? {
+            Ok(integrated)
+        } else {
+            self.held.why = Some("a force jumps".to_owned());
+            self.differences(x)
+        }
     }
 
     fn size(&self, residuals: &[f64]) -> f64 {

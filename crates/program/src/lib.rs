@@ -514,6 +514,13 @@ impl Program {
         }
     }
 
+    /// Whether a function of the machine contains a sign, so that a force may jump. Derivatives of a motion across such a jump obey no variational
+    /// equations.
+    pub fn may_jump(&self) -> bool {
+        let mut code = self.functions.iter().flat_map(|function| &function.code);
+        code.any(|op| matches!(op, Op::Unary(symbolic::Function::Sign, _)))
+    }
+
     /// Whether the margins of all [`assumptions`](Self::assumptions) are linear in time, coordinates and velocities, and depend on
     /// no other variables.
     pub fn has_linear_assumptions(&self) -> bool {

@@ -14,6 +14,9 @@ use crate::trial::{Outcome, Trial};
 /// The number of moments at which guides and sudden turns are checked.
 const CHECK_POINTS: u32 = 64;
 
+/// The speed that stands for rest where H has no derivatives at rest: its square is a number, and nothing else of size 1 is changed by it.
+const NEXT_TO_REST: f64 = 1e-100;
+
 /// The fastest motion of a [`Terrain`] from rest at one position to another.
 #[derive(Clone, Debug)]
 pub struct Sought<T> {
@@ -136,11 +139,27 @@ impl<T: Terrain> Sought<T> {
         Stage { y, z }
     }
 
+    /// The state, or, if it is one of rest at which H has no derivatives, the one next to it into which the motion goes from there: drag is
+    /// `|v| v`, and a speed, the root of a square, has no derivative at rest.
+    fn differentiable(&self, y: &[f64], z: &[f64]) -> Vec<f64> {
+        let n = self.system.n();
+        let mut y = y.to_vec();
+        if y[n] == 0.0 {
+            let (slopes, second) = self.system.curvatures(&y, z);
+            let mut derivatives = slopes.iter().chain(second.iter().flatten());
+            if !derivatives.all(|x| x.is_finite()) {
+                y[n] = NEXT_TO_REST;
+            }
+        }
+        y
+    }
+
     /// The control that makes H stationary, from a guess with a few digits.
     fn steered(&self, y: &[f64], mut z: Vec<f64>) -> Vec<f64> {
         let first = y.len();
+        let y = self.differentiable(y, &z);
         for _ in 0..4 {
-            let (slopes, second) = self.system.curvatures(y, &z);
+            let (slopes, second) = self.system.curvatures(&y, &z);
             let block: Vec<Vec<f64>> = second[first..]
                 .iter()
                 .map(|r| r[first..].to_vec())
@@ -159,6 +178,8 @@ impl<T: Terrain> Sought<T> {
         let n = self.system.n();
         let (m, wide) = (n + 1, 2 * (n + 1));
         let Stage { y, z } = self.stage(time);
+        let is_at_rest = y[n] == 0.0;
+        let y = self.differentiable(&y, &z);
         let (slopes, second) = self.system.curvatures(&y, &z);
         // ẏ and ż give the rate of v = ∂H/∂p.
         let mut rate: Vec<f64> = slopes[m..wide].to_vec();
@@ -171,7 +192,11 @@ impl<T: Terrain> Sought<T> {
         let turning = Lu::new(block).map_or_else(|| right.clone(), |factors| factors.solve(&right));
         rate.extend(turning);
         let q = y[..n].to_vec();
-        let v = slopes[m..m + n].to_vec();
+        let v = if is_at_rest {
+            std::vec![0.0; n]
+        } else {
+            slopes[m..m + n].to_vec()
+        };
         let a: Vec<f64> = second[m..m + n].iter().map(|row| dot(row, &rate)).collect();
         let terrain = &self.system.terrain;
         let inertia = terrain.inertia(&q);
