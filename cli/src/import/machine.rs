@@ -1100,6 +1100,20 @@ impl<'a> Writer<'a> {
                 let name = names.take(&format!("{name}_about_{axis}"), "constraint");
                 lines.push(format!("{name}: dot({held}, {own}) = 0"));
             }
+            // The right angles also hold in seven other orientations, by which the axes are interchanged or reversed in pairs. The sum
+            // of the cosines between corresponding axes is 0 or −1 in these, and 3 in the orientation that is meant.
+            let cosines = (0..3).map(|axis| {
+                let mut unit = [0.0; 3];
+                unit[axis] = 1.0;
+                let held = vector(&one, axes.column(axis).into_owned().into());
+                format!("dot({held}, {})", vector(&other, unit))
+            });
+            let fact = format!("{} > 1", cosines.collect::<Vec<_>>().join(" + "));
+            let why = format!(
+                "Constraint {}: no axis is reversed or interchanged with another.",
+                quoted(name)
+            );
+            self.text.add("assume", Some(why), vec![fact]);
         }
         self.text.add("constraints", Some(comment), lines);
     }
