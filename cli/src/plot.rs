@@ -47,6 +47,22 @@ macro_rules! axes {
 }
 pub(crate) use axes;
 
+/// Draws a thinned curve with its gaps, as an expression; a point between two gaps is a dot.
+macro_rules! curve {
+    ($chart:expr, $points:expr, $colour:expr) => {
+        for part in $crate::recording::parts($points) {
+            match part {
+                [alone] => $chart.draw_series([Circle::new(*alone, UNIT, $colour.filled())])?,
+                _ => $chart.draw_series(LineSeries::new(
+                    part.iter().copied(),
+                    $colour.stroke_width(UNIT + UNIT / 4),
+                ))?,
+            };
+        }
+    };
+}
+pub(crate) use curve;
+
 /// The quantities that are drawn, from top to bottom.
 const KINDS: [Kind; 7] = [
     Kind::Coordinate,
@@ -136,11 +152,11 @@ fn draw_panel(
         .draw()?;
     let colours = COLOURS.iter().cycle();
     for (column, colour) in panel.columns.iter().zip(colours.clone()) {
-        let points = thin(&recording.times, &column.values, POINTS);
-        chart.draw_series(LineSeries::new(
-            points,
-            colour.stroke_width(UNIT + UNIT / 4),
-        ))?;
+        curve!(
+            chart,
+            &thin(&recording.times, &column.values, POINTS),
+            colour
+        );
     }
     let place = |row: usize| (row as i32 * 17 + 16) * UNIT as i32;
     for (row, (column, colour)) in panel.columns.iter().zip(colours).take(NAMES).enumerate() {
@@ -224,6 +240,24 @@ mod tests {
         // Without a bound on round-off every difference counts.
         let end = range([3e-17, 3e-17].into_iter()).end;
         assert!((end / 3.3e-17 - 1.0).abs() < 1e-15, "{end:e}");
+    }
+
+    /// A curve is not drawn where it has no values: beside the line in the legend there are its two parts.
+    #[test]
+    fn a_gap_in_a_curve_is_not_drawn() {
+        let recording = Recording {
+            times: vec![0.0, 1.0, 2.0, 3.0, 4.0],
+            columns: vec![Column {
+                name: "x".into(),
+                unit: "m".into(),
+                kind: Kind::Output,
+                values: vec![0.0, 1.0, f64::NAN, 1.0, 0.0],
+            }],
+        };
+        let text = svg("Gap", &recording).unwrap();
+        let lines = text.lines().filter(|line| line.starts_with("<polyline"));
+        let count = lines.filter(|line| line.contains("#0072B2")).count();
+        assert_eq!(count, 3, "{text}");
     }
 
     #[test]
