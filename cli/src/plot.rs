@@ -134,8 +134,6 @@ fn draw_panel(
     let values = columns.flat_map(|column| column.values.iter().copied());
     let values = range_beyond(panel.rounding(), values);
     let (area, beside) = area.split_horizontally(WIDTH - LEGEND);
-    // Ticks are multiples of a step, and round-off turns the one at zero into 7e-18.
-    let label = |x: &f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { *x });
     let (across, along) = (values.end - values.start, times.end - times.start);
     let mut chart = ChartBuilder::on(&area)
         .margin(6 * UNIT)
@@ -147,8 +145,8 @@ fn draw_panel(
         .x_desc("t [s]")
         .y_desc(panel.label())
         .y_labels(5)
-        .x_label_formatter(&|x| label(x, along))
-        .y_label_formatter(&|y| label(y, across))
+        .x_label_formatter(&|x| tick(*x, along))
+        .y_label_formatter(&|y| tick(*y, across))
         .draw()?;
     let colours = COLOURS.iter().cycle();
     for (column, colour) in panel.columns.iter().zip(colours.clone()) {
@@ -196,7 +194,26 @@ fn range_beyond(rounding: f64, values: impl Iterator<Item = f64>) -> std::ops::R
     (low - margin)..(high + margin)
 }
 
-/// The label of a tick: in plain notation if short, otherwise with an exponent.
+/// The label of a tick on an axis of this span: the short one, or with as many digits as the tick needs to be where it is.
+pub fn tick(x: f64, span: f64) -> String {
+    // Ticks are multiples of a step, and round-off turns the one at zero into 7e-18.
+    let x = if x.abs() < 1e-9 * span { 0.0 } else { x };
+    let is_there = |label: &String| {
+        let read = label.parse::<f64>();
+        read.is_ok_and(|read| (read - x).abs() <= 0.01 * span)
+    };
+    let longer = |digits: usize| {
+        if (1e-3..1e7).contains(&x.abs()) {
+            format!("{x:.digits$}")
+        } else {
+            format!("{x:.digits$e}")
+        }
+    };
+    let mut labels = std::iter::once(short(x)).chain((0..=17).map(longer));
+    labels.find(is_there).unwrap_or_else(|| short(x))
+}
+
+/// A number for reading: in plain notation if short, otherwise with an exponent.
 pub fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
@@ -223,6 +240,26 @@ mod tests {
         assert_eq!(short(12000.0), "12000");
         assert_eq!(short(1.5e-9), "1.5e-9");
         assert_eq!(short(-2e6), "-2e6");
+    }
+
+    #[test]
+    fn ticks_that_differ_have_different_labels() {
+        for (ticks, span, labels) in [
+            (
+                [199_800.0, 200_000.0, 200_200.0],
+                660.0,
+                ["199800", "2e5", "200200"],
+            ),
+            ([2.99998, 3.0, 3.00002], 6.6e-5, ["2.99998", "3", "3.00002"]),
+            (
+                [-1.234_5e9, -1.234_4e9, 7e-9],
+                3e5,
+                ["-1.2345e9", "-1.2344e9", "0"],
+            ),
+            ([0.1, 0.1 + 0.2, 0.4], 0.5, ["0.1", "0.3", "0.4"]),
+        ] {
+            assert_eq!(ticks.map(|x| tick(x, span)), labels);
+        }
     }
 
     #[test]
