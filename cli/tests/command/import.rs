@@ -1174,6 +1174,21 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
             ),
             "`qpos` of key \"home\": 1 numbers are expected, but there are 2",
         ),
+        // MuJoCo 4.0.0 puts the mass centre of such a body at the origin of its frame before it reads `qpos` and anchors.
+        (
+            model(
+                &format!("<freejoint align=\"true\"/>{WEIGHT}"),
+                "<keyframe><key name=\"home\" qpos=\"0 0 0 1 0 0 0\"/></keyframe>",
+            ),
+            "a freejoint without a name is aligned with the axes of inertia of its body",
+        ),
+        (
+            model(
+                &format!("<joint name=\"float\" type=\"free\"/>{WEIGHT}"),
+                "<compiler alignfree=\"true\"/><equality><connect body1=\"bob\" anchor=\"0 0 1\"/></equality>",
+            ),
+            "joint \"float\" is aligned with the axes of inertia of its body",
+        ),
         (
             model(&swing, "<equality><joint joint1=\"q\"/></equality>"),
             "there is no such joint",
