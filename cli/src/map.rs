@@ -14,6 +14,7 @@ use crate::call;
 use crate::failure::Failure;
 use crate::output::{self, Destination, PAGE, SVG, keep_apart};
 use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of, tick};
+use crate::recording::parts;
 use crate::report::base64;
 
 /// The most cells; more would give an image of more than 16 MB.
@@ -365,12 +366,13 @@ impl<'a> Curves<'a> {
         })
     }
 
-    /// The points of a set; those of curves are sorted.
+    /// The points of a set. Those of a curve are sorted, and where a run failed their value is NaN, a gap in the curve.
     fn points(&self, set: usize, values: &[f64]) -> Vec<(f64, f64)> {
         let mut points: Vec<(f64, f64)> = (0..self.along.len())
             .filter(|row| self.set_of[*row] == set)
             .map(|row| (self.along[row], values[row]))
-            .filter(|(x, y)| x.is_finite() && y.is_finite())
+            .map(|(x, y)| (x, if y.is_finite() { y } else { f64::NAN }))
+            .filter(|(x, y)| x.is_finite() && (y.is_finite() || !self.are_dots))
             .collect();
         if !self.are_dots {
             points.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -413,15 +415,15 @@ impl<'a> Curves<'a> {
                     let colour = COLOURS[number % COLOURS.len()];
                     let points = self.points(number, values);
                     if !self.are_dots {
-                        chart.draw_series(LineSeries::new(
-                            points.iter().copied(),
-                            colour.stroke_width(UNIT),
-                        ))?;
+                        for part in parts(&points) {
+                            let line = part.iter().copied();
+                            chart.draw_series(LineSeries::new(line, colour.stroke_width(UNIT)))?;
+                        }
                     }
                     // The density of many samples must be visible.
                     let radius = if self.are_dots { UNIT / 2 } else { UNIT };
-                    let dots = points
-                        .iter()
+                    let dots = parts(&points)
+                        .flatten()
                         .map(|point| Circle::new(*point, radius as i32, colour.filled()));
                     chart.draw_series(dots)?;
                     if legend.is_empty() {
