@@ -444,6 +444,38 @@ fn a_weld_holds_in_one_orientation_only() {
     }
 }
 
+/// A parallelogram whose cranks fall over: across its plane its pins always meet. With moments 2·0.0325 kg m² about the pivots and a coupler
+/// of 2 kg that moves on a circle of 0.3 m, (0.065 + 2·0.3²) α = g (2·0.15 + 2·0.3) sin φ.
+#[test]
+fn conditions_of_a_loop_that_always_hold_are_left_out() {
+    let crank = "<inertial pos=\"0 0 0.15\" mass=\"1\" diaginertia=\"0.01 0.01 0.001\"/>";
+    let text = format!(
+        "<mujoco><worldbody>\
+         <body name=\"a\"><joint name=\"first\" axis=\"0 1 0\"/>{crank}\
+         <body name=\"b\" pos=\"0 0 0.3\"><joint name=\"second\" axis=\"0 1 0\"/>\
+         <inertial pos=\"0.25 0 0\" mass=\"2\" diaginertia=\"0.01 0.04 0.04\"/></body></body>\
+         <body name=\"c\" pos=\"0.5 0 0\"><joint name=\"third\" axis=\"0 1 0\"/>{crank}</body></worldbody>\
+         <equality><connect body1=\"b\" body2=\"c\" anchor=\"0.5 0 0\"/></equality></mujoco>"
+    );
+    let machine = imported_model(&text, &[], &[]);
+    let check = lagrangian(&["check", machine.path(), "--deny-warnings"]);
+    let said = String::from_utf8_lossy(&check.stdout);
+    let freedom = "3 coordinates, 2 constraints, 1 degree of freedom";
+    assert!(check.status.success() && said.contains(freedom), "{said}");
+    let angle = 0.2_f64;
+    let point =
+        json!([{ "q": { "first": angle, "second": -angle, "third": angle }, "v": [0, 0, 0] }]);
+    let found = numbers(&evaluated(&machine, &point)[0]["accelerations"]);
+    let expected = 9.81 * 0.9 * angle.sin() / 0.245;
+    for (found, sign) in found.iter().zip([1.0, -1.0, 1.0]) {
+        // Some hundred roundings.
+        assert!(
+            (found - sign * expected).abs() < 1e-13 * expected,
+            "{found} {expected}"
+        );
+    }
+}
+
 /// A free body starts at the pose of `home`, whether it is rotated by some choice of angles or by a quaternion.
 #[test]
 fn a_free_body_starts_where_home_says() {
@@ -1188,6 +1220,13 @@ fn what_is_wrong_with_a_model_is_told_with_its_place() {
                 "<compiler alignfree=\"true\"/><equality><connect body1=\"bob\" anchor=\"0 0 1\"/></equality>",
             ),
             "joint \"float\" is aligned with the axes of inertia of its body",
+        ),
+        (
+            model(
+                &swing,
+                "<equality><weld body1=\"bob\" relpose=\"0 0.1 0 1 0 0 0\"/></equality>",
+            ),
+            "a weld without a name cannot be satisfied",
         ),
         (
             model(&swing, "<equality><joint joint1=\"q\"/></equality>"),
