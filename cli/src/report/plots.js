@@ -29,7 +29,8 @@ class Curve {
       this.isRate = rate !== undefined;
     } else {
       this.times = floats(description.times);
-      this.values = floats(description.values);
+      const [stored, base] = [floats(description.values), description.base];
+      this.values = base ? Float64Array.from(stored, (x) => x + base) : stored;
     }
   }
 
