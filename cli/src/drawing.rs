@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
+use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, curve, font, range, svg_of, tick};
 use crate::recording::thin;
 
 /// The width of the legend beside a pane, the number of names that fit, and the number of points to which a
@@ -53,8 +53,6 @@ fn draw(area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>, pane: &Pane)
     let upwards = range(points().map(|(_, y)| *y));
     let (area, beside) = area.split_horizontally(WIDTH - LEGEND);
     let [width, height] = [&across, &upwards].map(|range| range.end - range.start);
-    // Ticks are multiples of a step, and round-off turns the one at zero into 7e-18.
-    let label = |x: &f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { *x });
     let mut chart = ChartBuilder::on(&area)
         .margin(6 * UNIT)
         .margin_right(2 * UNIT)
@@ -65,20 +63,27 @@ fn draw(area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>, pane: &Pane)
         .x_desc(pane.along[0].as_str())
         .y_desc(pane.along[1].as_str())
         .y_labels(5)
-        .x_label_formatter(&|x| label(x, width))
-        .y_label_formatter(&|y| label(y, height))
+        .x_label_formatter(&|x| tick(*x, width))
+        .y_label_formatter(&|y| tick(*y, height))
         .draw()?;
     let colours = COLOURS.iter().cycle();
     for (curve, colour) in pane.curves.iter().zip(colours.clone()) {
-        let finite = curve.points.iter().copied();
-        let finite = finite.filter(|(x, y)| x.is_finite() && y.is_finite());
+        let is_finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
+        let points = curve.points.iter().copied();
         if pane.are_points {
+            let finite = points.filter(is_finite);
             let dots = finite.map(|point| Circle::new(point, UNIT, colour.filled()));
             chart.draw_series(dots)?;
         } else {
-            let (x, y): (Vec<f64>, Vec<f64>) = finite.unzip();
-            let style = colour.stroke_width(UNIT + UNIT / 4);
-            chart.draw_series(LineSeries::new(thin(&x, &y, POINTS), style))?;
+            let or_gap = |point: (f64, f64)| {
+                if is_finite(&point) {
+                    point
+                } else {
+                    (point.0, f64::NAN)
+                }
+            };
+            let (x, y): (Vec<f64>, Vec<f64>) = points.map(or_gap).unzip();
+            curve!(chart, &thin(&x, &y, POINTS), colour);
         }
     }
     let place = |row: usize| (row as i32 * 17 + 16) * UNIT as i32;

@@ -13,7 +13,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use crate::call;
 use crate::failure::Failure;
 use crate::output::{self, Destination, PAGE, SVG, keep_apart};
-use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
+use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of, tick};
+use crate::recording::parts;
 use crate::report::base64;
 
 /// The most cells; more would give an image of more than 16 MB.
@@ -53,14 +54,14 @@ const VIRIDIS: [[u8; 3]; 9] = [
 /// The colour of missing values: runs that failed.
 const MISSING: RGBColor = RGBColor(190, 190, 190);
 
-/// Axes with labels, as in the drawings of runs.
+/// Axes with labels, as in the drawings of runs; `$spans` are those of the axes.
 macro_rules! mesh {
-    ($chart:expr, $x:expr, $y:expr) => {
+    ($chart:expr, $x:expr, $y:expr, $spans:expr) => {
         axes!($chart)
             .x_desc($x.as_str())
             .y_desc($y)
-            .x_label_formatter(&|x| short(*x))
-            .y_label_formatter(&|y| short(*y))
+            .x_label_formatter(&|x| tick(*x, $spans[0]))
+            .y_label_formatter(&|y| tick(*y, $spans[1]))
             .draw()?
     };
 }
@@ -365,12 +366,13 @@ impl<'a> Curves<'a> {
         })
     }
 
-    /// The points of a set; those of curves are sorted.
+    /// The points of a set. Those of a curve are sorted, and where a run failed their value is NaN, a gap in the curve.
     fn points(&self, set: usize, values: &[f64]) -> Vec<(f64, f64)> {
         let mut points: Vec<(f64, f64)> = (0..self.along.len())
             .filter(|row| self.set_of[*row] == set)
             .map(|row| (self.along[row], values[row]))
-            .filter(|(x, y)| x.is_finite() && y.is_finite())
+            .map(|(x, y)| (x, if y.is_finite() { y } else { f64::NAN }))
+            .filter(|(x, y)| x.is_finite() && (y.is_finite() || !self.are_dots))
             .collect();
         if !self.are_dots {
             points.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -399,28 +401,29 @@ impl<'a> Curves<'a> {
             let areas = sheet.split_evenly((quantities.len(), 1));
             for (area, (name, values)) in areas.iter().zip(*quantities) {
                 let (left, beside) = area.split_horizontally(WIDTH - 2 * SCALE);
+                let ranges =
+                    [along.as_slice(), values.as_slice()].map(|all| range(all.iter().copied()));
+                let spans = ranges.each_ref().map(|range| range.end - range.start);
+                let [across, upwards] = ranges;
                 let mut chart = ChartBuilder::on(&left)
                     .margin(6 * UNIT)
                     .x_label_area_size(34 * UNIT)
                     .y_label_area_size(72 * UNIT)
-                    .build_cartesian_2d(
-                        range(along.iter().copied()),
-                        range(values.iter().copied()),
-                    )?;
-                mesh!(chart, x, *name);
+                    .build_cartesian_2d(across, upwards)?;
+                mesh!(chart, x, *name, spans);
                 for (number, legend) in self.legends.iter().enumerate() {
                     let colour = COLOURS[number % COLOURS.len()];
                     let points = self.points(number, values);
                     if !self.are_dots {
-                        chart.draw_series(LineSeries::new(
-                            points.iter().copied(),
-                            colour.stroke_width(UNIT),
-                        ))?;
+                        for part in parts(&points) {
+                            let line = part.iter().copied();
+                            chart.draw_series(LineSeries::new(line, colour.stroke_width(UNIT)))?;
+                        }
                     }
                     // The density of many samples must be visible.
                     let radius = if self.are_dots { UNIT / 2 } else { UNIT };
-                    let dots = points
-                        .iter()
+                    let dots = parts(&points)
+                        .flatten()
                         .map(|point| Circle::new(*point, radius as i32, colour.filled()));
                     chart.draw_series(dots)?;
                     if legend.is_empty() {
@@ -512,12 +515,13 @@ impl<'a> Heat<'a> {
             sheet.fill(&WHITE)?;
             let (left, beside) = sheet.split_horizontally(WIDTH - SCALE);
             let ends = |edges: &[f64]| edges[0]..edges[edges.len() - 1];
+            let spans = [&x_edges, &y_edges].map(|edges| edges[edges.len() - 1] - edges[0]);
             let mut chart = ChartBuilder::on(&left)
                 .margin(8 * UNIT)
                 .x_label_area_size(34 * UNIT)
                 .y_label_area_size(72 * UNIT)
                 .build_cartesian_2d(ends(&x_edges), ends(&y_edges))?;
-            mesh!(chart, x, self.names[1]);
+            mesh!(chart, x, self.names[1], spans);
             if is_image {
                 let (across, down) = chart.plotting_area().get_pixel_range();
                 *placed.borrow_mut() = [
@@ -627,12 +631,12 @@ fn legend(
         (10 * unit, 16 * unit),
         font(13),
     ))?;
-    for tick in 0..=4 {
-        let value = low + (high - low) * f64::from(tick) / 4.0;
+    for mark in 0..=4 {
+        let value = low + (high - low) * f64::from(mark) / 4.0;
         let style = font(12).pos(Pos::new(HPos::Left, VPos::Center));
         area.draw(&Text::new(
-            short(value),
-            (34 * unit, at(tick * STEPS / 4)),
+            tick(value, high - low),
+            (34 * unit, at(mark * STEPS / 4)),
             style,
         ))?;
     }

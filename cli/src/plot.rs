@@ -47,6 +47,22 @@ macro_rules! axes {
 }
 pub(crate) use axes;
 
+/// Draws a thinned curve with its gaps, as an expression; a point between two gaps is a dot.
+macro_rules! curve {
+    ($chart:expr, $points:expr, $colour:expr) => {
+        for part in $crate::recording::parts($points) {
+            match part {
+                [alone] => $chart.draw_series([Circle::new(*alone, UNIT, $colour.filled())])?,
+                _ => $chart.draw_series(LineSeries::new(
+                    part.iter().copied(),
+                    $colour.stroke_width(UNIT + UNIT / 4),
+                ))?,
+            };
+        }
+    };
+}
+pub(crate) use curve;
+
 /// The quantities that are drawn, from top to bottom.
 const KINDS: [Kind; 7] = [
     Kind::Coordinate,
@@ -118,8 +134,6 @@ fn draw_panel(
     let values = columns.flat_map(|column| column.values.iter().copied());
     let values = range_beyond(panel.rounding(), values);
     let (area, beside) = area.split_horizontally(WIDTH - LEGEND);
-    // Ticks are multiples of a step, and round-off turns the one at zero into 7e-18.
-    let label = |x: &f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { *x });
     let (across, along) = (values.end - values.start, times.end - times.start);
     let mut chart = ChartBuilder::on(&area)
         .margin(6 * UNIT)
@@ -131,16 +145,16 @@ fn draw_panel(
         .x_desc("t [s]")
         .y_desc(panel.label())
         .y_labels(5)
-        .x_label_formatter(&|x| label(x, along))
-        .y_label_formatter(&|y| label(y, across))
+        .x_label_formatter(&|x| tick(*x, along))
+        .y_label_formatter(&|y| tick(*y, across))
         .draw()?;
     let colours = COLOURS.iter().cycle();
     for (column, colour) in panel.columns.iter().zip(colours.clone()) {
-        let points = thin(&recording.times, &column.values, POINTS);
-        chart.draw_series(LineSeries::new(
-            points,
-            colour.stroke_width(UNIT + UNIT / 4),
-        ))?;
+        curve!(
+            chart,
+            &thin(&recording.times, &column.values, POINTS),
+            colour
+        );
     }
     let place = |row: usize| (row as i32 * 17 + 16) * UNIT as i32;
     for (row, (column, colour)) in panel.columns.iter().zip(colours).take(NAMES).enumerate() {
@@ -180,7 +194,26 @@ fn range_beyond(rounding: f64, values: impl Iterator<Item = f64>) -> std::ops::R
     (low - margin)..(high + margin)
 }
 
-/// The label of a tick: in plain notation if short, otherwise with an exponent.
+/// The label of a tick on an axis of this span: the short one, or with as many digits as the tick needs to be where it is.
+pub fn tick(x: f64, span: f64) -> String {
+    // Ticks are multiples of a step, and round-off turns the one at zero into 7e-18.
+    let x = if x.abs() < 1e-9 * span { 0.0 } else { x };
+    let is_there = |label: &String| {
+        let read = label.parse::<f64>();
+        read.is_ok_and(|read| (read - x).abs() <= 0.01 * span)
+    };
+    let longer = |digits: usize| {
+        if (1e-3..1e7).contains(&x.abs()) {
+            format!("{x:.digits$}")
+        } else {
+            format!("{x:.digits$e}")
+        }
+    };
+    let mut labels = std::iter::once(short(x)).chain((0..=17).map(longer));
+    labels.find(is_there).unwrap_or_else(|| short(x))
+}
+
+/// A number for reading: in plain notation if short, otherwise with an exponent.
 pub fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
@@ -210,6 +243,26 @@ mod tests {
     }
 
     #[test]
+    fn ticks_that_differ_have_different_labels() {
+        for (ticks, span, labels) in [
+            (
+                [199_800.0, 200_000.0, 200_200.0],
+                660.0,
+                ["199800", "2e5", "200200"],
+            ),
+            ([2.99998, 3.0, 3.00002], 6.6e-5, ["2.99998", "3", "3.00002"]),
+            (
+                [-1.234_5e9, -1.234_4e9, 7e-9],
+                3e5,
+                ["-1.2345e9", "-1.2344e9", "0"],
+            ),
+            ([0.1, 0.1 + 0.2, 0.4], 0.5, ["0.1", "0.3", "0.4"]),
+        ] {
+            assert_eq!(ticks.map(|x| tick(x, span)), labels);
+        }
+    }
+
+    #[test]
     fn what_is_rounding_is_drawn_flat() {
         let of = |values: [f64; 2]| {
             let range = range_beyond(1e-12, values.into_iter());
@@ -224,6 +277,24 @@ mod tests {
         // Without a bound on round-off every difference counts.
         let end = range([3e-17, 3e-17].into_iter()).end;
         assert!((end / 3.3e-17 - 1.0).abs() < 1e-15, "{end:e}");
+    }
+
+    /// A curve is not drawn where it has no values: beside the line in the legend there are its two parts.
+    #[test]
+    fn a_gap_in_a_curve_is_not_drawn() {
+        let recording = Recording {
+            times: vec![0.0, 1.0, 2.0, 3.0, 4.0],
+            columns: vec![Column {
+                name: "x".into(),
+                unit: "m".into(),
+                kind: Kind::Output,
+                values: vec![0.0, 1.0, f64::NAN, 1.0, 0.0],
+            }],
+        };
+        let text = svg("Gap", &recording).unwrap();
+        let lines = text.lines().filter(|line| line.starts_with("<polyline"));
+        let count = lines.filter(|line| line.contains("#0072B2")).count();
+        assert_eq!(count, 3, "{text}");
     }
 
     #[test]

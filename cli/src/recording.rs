@@ -96,35 +96,39 @@ pub fn steady(times: &[f64], values: &[f64]) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Thins a curve to about `most` points such that it looks the same: the lowest and the highest point of each
-/// stretch, in order.
+/// stretch, in order. A value that is not finite becomes NaN, a gap in the curve, of which each stretch keeps both ends.
 pub fn thin(times: &[f64], values: &[f64], most: usize) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64)> = times
-        .iter()
-        .copied()
-        .zip(values.iter().copied())
-        .filter(|(_, value)| value.is_finite())
-        .collect();
+    let finite_or_gap = |value: &f64| if value.is_finite() { *value } else { f64::NAN };
+    let values = values.iter().map(finite_or_gap);
+    let points: Vec<(f64, f64)> = times.iter().copied().zip(values).collect();
     if points.len() <= most {
         return points;
     }
     let stretch = points.len().div_ceil((most / 2).max(1));
     let mut kept = Vec::with_capacity(most + 2);
     for part in points.chunks(stretch) {
-        let numbered = || part.iter().enumerate();
-        let by_value = |a: &(usize, &(f64, f64)), b: &(usize, &(f64, f64))| a.1.1.total_cmp(&b.1.1);
-        if let (Some(low), Some(high)) = (numbered().min_by(by_value), numbered().max_by(by_value))
-        {
-            let (first, second) = if low.0 <= high.0 {
-                (low, high)
-            } else {
-                (high, low)
-            };
-            kept.push(*first.1);
-            kept.push(*second.1);
-        }
+        let is_gap = |place: &usize| part[*place].1.is_nan();
+        let finite = || (0..part.len()).filter(move |place| !is_gap(place));
+        let by_value = |a: &usize, b: &usize| part[*a].1.total_cmp(&part[*b].1);
+        let of_interest = [
+            finite().min_by(by_value),
+            finite().max_by(by_value),
+            (0..part.len()).find(is_gap),
+            (0..part.len()).rfind(is_gap),
+        ];
+        let mut places: Vec<usize> = of_interest.into_iter().flatten().collect();
+        places.sort_unstable();
+        places.dedup();
+        kept.extend(places.into_iter().map(|place| part[place]));
     }
     kept.extend(points.last());
     kept
+}
+
+/// The parts of a thinned curve between its gaps.
+pub fn parts(points: &[(f64, f64)]) -> impl Iterator<Item = &[(f64, f64)]> {
+    let parts = points.split(|(_, value)| value.is_nan());
+    parts.filter(|part| !part.is_empty())
 }
 
 #[cfg(test)]
@@ -140,6 +144,35 @@ mod tests {
         let kept = thin(&times, &values, 1500);
         assert!(kept.len() <= 1502);
         assert!(kept.contains(&(70_001.0, 5.0)) && kept.contains(&(123.0, -3.0)));
+    }
+
+    #[test]
+    fn where_there_is_no_number_the_curve_has_a_gap() {
+        let times: Vec<f64> = (0..9).map(f64::from).collect();
+        let [none, much] = [f64::NAN, f64::INFINITY];
+        let values = [none, 1.0, 2.0, much, none, 3.0, -much, 4.0, 5.0];
+        let points = thin(&times, &values, 1500);
+        let found: Vec<&[(f64, f64)]> = parts(&points).collect();
+        let [first, last] = [[(1.0, 1.0), (2.0, 2.0)], [(7.0, 4.0), (8.0, 5.0)]];
+        assert_eq!(found, [&first[..], &[(5.0, 3.0)], &last]);
+
+        // Thinned, it has the same parts: values that increase have their extremes at the ends.
+        let times: Vec<f64> = (0..100_000).map(f64::from).collect();
+        let value = |i: i32| {
+            if (i / 10_000) % 2 == 0 {
+                f64::from(i)
+            } else {
+                none
+            }
+        };
+        let values: Vec<f64> = (0..100_000).map(value).collect();
+        let points = thin(&times, &values, 1500);
+        let found: Vec<&[(f64, f64)]> = parts(&points).collect();
+        assert_eq!(found.len(), 5);
+        for (part, begin) in found.iter().zip([0.0, 2e4, 4e4, 6e4, 8e4]) {
+            assert_eq!(part.first(), Some(&(begin, begin)));
+            assert_eq!(part.last(), Some(&(begin + 9999.0, begin + 9999.0)));
+        }
     }
 
     #[test]

@@ -213,8 +213,13 @@ impl Report<'_, '_> {
                     _ => thin(&self.recording.times, &column.values, points),
                 };
                 let times = samples::encoded(points.iter().map(|(time, _)| *time));
-                let values = samples::encoded(points.iter().map(|(_, value)| *value));
+                let values: Vec<f64> = points.iter().map(|(_, value)| *value).collect();
+                let base = samples::base(&values);
+                let values = samples::encoded(values.iter().map(|value| value - base));
                 let mut curve = json!({ "name": column.name, "times": times, "values": values });
+                if base != 0.0 {
+                    curve["base"] = base.into();
+                }
                 if is_live {
                     // States of first order precede the outputs of the spec.
                     let slots = self.compiled.program.coordinates.iter();
@@ -268,7 +273,7 @@ pub(crate) fn motion(
     scene: &Scene<'_>,
 ) -> Value {
     let times = &recording.times;
-    json!({
+    let mut motion = json!({
         "from": times.first(),
         "interval": match times.as_slice() {
             [first, .., _] => times.get(samples.stride).map(|next| next - first),
@@ -280,5 +285,9 @@ pub(crate) fn motion(
         "states": samples.states,
         "parameters": machine.parameter_values(),
         "values": scene.values.len(),
-    })
+    });
+    if !samples.bases.is_empty() {
+        motion["bases"] = json!(samples.bases);
+    }
+    motion
 }

@@ -171,7 +171,7 @@ impl TableFile {
     /// If there is no such column, if a unit does not match, if a cell is not a number, or if times do not increase.
     pub fn column(&self, name: &str, unit: &str) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
         let times = self.find("t", "s")?;
-        self.read(times, (name, self.find(name, unit)?), false)
+        self.read(times, (name, self.find(name, unit)?), &[])
     }
 
     /// The names of the columns except that of times, each with the unit in its header.
@@ -181,13 +181,28 @@ impl TableFile {
     }
 
     /// Times in seconds, from the column `t`, and the numbers of a column as they are, in the unit of its header if it has one. An
-    /// empty cell, or `NaN`, is NaN: nothing was measured there.
+    /// empty cell, or `NaN`, is NaN: nothing was measured there; so is `inf` or `-inf`, which runs write where an output has no
+    /// finite value.
+    ///
+    /// ```
+    /// use lagrangian::interpreted::TableFile;
+    ///
+    /// let file = TableFile::from_text("run.csv", "t,level\n0,-inf\n1,2\n")?;
+    /// let (times, levels) = file.column_with_gaps("level")?;
+    /// assert_eq!((times, levels[1]), (vec![0.0, 1.0], 2.0));
+    /// assert!(levels[0].is_nan());
+    /// # Ok::<(), lagrangian::interpreted::TableFileError>(())
+    /// ```
     ///
     /// # Errors
     /// As [`column`](Self::column), except for empty cells.
     pub fn column_with_gaps(&self, name: &str) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
         let times = self.find("t", "s")?;
-        self.read(times, (name, (self.place(name)?, 1.0)), true)
+        self.read(
+            times,
+            (name, (self.place(name)?, 1.0)),
+            &["", "NaN", "nan", "inf", "-inf"],
+        )
     }
 
     /// Times in seconds and the numbers of a column, converted from the unit of its header to the given one.
@@ -206,15 +221,16 @@ impl TableFile {
     /// As [`column_with_gaps`](Self::column_with_gaps), and if the header has another unit.
     pub fn measured(&self, name: &str, unit: &str) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
         let times = self.find("t", "s")?;
-        self.read(times, (name, self.find(name, unit)?), true)
+        self.read(times, (name, self.find(name, unit)?), &["", "NaN", "nan"])
     }
 
-    /// Times and the numbers of a column at an index, each with its factor.
+    /// Times and the numbers of a column at an index, each with its factor. `gaps` are the texts that stand for no number; if there
+    /// are any, a missing cell is a gap too.
     fn read(
         &self,
         (t, seconds): (usize, f64),
         (name, (place, factor)): (&str, (usize, f64)),
-        may_have_gaps: bool,
+        gaps: &[&str],
     ) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
         let (mut times, mut values) = (Vec::new(), Vec::new());
         for row in &self.rows {
@@ -232,8 +248,8 @@ impl TableFile {
                 return Err(self.wrong(at, "this time is not later than the one before it"));
             }
             times.push(time);
-            let is_gap = |cell: &Cell| ["", "NaN", "nan"].contains(&cell.text.trim());
-            values.push(if may_have_gaps && row.get(place).is_none_or(is_gap) {
+            let is_gap = |cell: &Cell| gaps.contains(&cell.text.trim());
+            values.push(if !gaps.is_empty() && row.get(place).is_none_or(is_gap) {
                 f64::NAN
             } else {
                 factor * self.number(row, place, name)?

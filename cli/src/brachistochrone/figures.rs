@@ -4,7 +4,7 @@
 use plotters::prelude::*;
 
 use super::found::Found;
-use crate::plot::{COLOURS, PANEL, UNIT, WIDTH, axes, font, range, short};
+use crate::plot::{COLOURS, PANEL, UNIT, WIDTH, axes, font, range, tick};
 
 /// One figure.
 struct Figure {
@@ -96,8 +96,6 @@ fn draw_figure(
     let points = || figure.curves.iter().flat_map(|(_, points)| points);
     let across = range(points().map(|(x, _)| *x));
     let along = range(points().map(|(_, y)| *y));
-    // Ticks are multiples of a step, and round-off turns the one at zero into 6e-17.
-    let label = |x: f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { x });
     let (width, height) = (across.end - across.start, along.end - along.start);
     let mut chart = ChartBuilder::on(area)
         .margin(6 * UNIT)
@@ -109,8 +107,8 @@ fn draw_figure(
         .x_desc(figure.across.as_str())
         .y_desc(figure.along.as_str())
         .y_labels(5)
-        .x_label_formatter(&|x| label(*x, width))
-        .y_label_formatter(&|y| label(*y, height))
+        .x_label_formatter(&|x| tick(*x, width))
+        .y_label_formatter(&|y| tick(*y, height))
         .draw()?;
     for ((name, points), colour) in figure.curves.iter().zip(COLOURS.iter().cycle()) {
         let line = LineSeries::new(points.iter().copied(), colour.stroke_width(UNIT + UNIT / 4));

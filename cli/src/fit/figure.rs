@@ -6,7 +6,7 @@ use plotters::prelude::*;
 
 use super::{Fitted, stopped};
 use crate::failure::Failure;
-use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
+use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, svg_of, tick};
 
 /// The height of the residuals below a panel.
 const BELOW: u32 = 130 * UNIT;
@@ -128,11 +128,6 @@ fn draw(title: &str, figures: &[(String, Vec<Curve>)], backend: SVGBackend<'_>) 
     Ok(())
 }
 
-fn label(x: &f64, span: f64) -> String {
-    // Ticks are multiples of a step, and round-off turns the one at zero into 7e-18.
-    short(if x.abs() < 1e-9 * span { 0.0 } else { *x })
-}
-
 fn draw_motion(
     name: &str,
     curves: &[Curve],
@@ -154,8 +149,8 @@ fn draw_motion(
     axes!(chart)
         .y_desc(name)
         .y_labels(5)
-        .x_label_formatter(&|x| label(x, along))
-        .y_label_formatter(&|y| label(y, across))
+        .x_label_formatter(&|x| tick(*x, along))
+        .y_label_formatter(&|y| tick(*y, across))
         .draw()?;
     for (curve, colour) in curves.iter().zip(COLOURS.iter().cycle()) {
         let line = colour.stroke_width(UNIT + UNIT / 4);
@@ -209,8 +204,8 @@ fn draw_residuals(
         .x_desc("t [s]")
         .y_desc(format!("residual{unit}"))
         .y_labels(3)
-        .x_label_formatter(&|x| label(x, along))
-        .y_label_formatter(&|y| label(y, across))
+        .x_label_formatter(&|x| tick(*x, along))
+        .y_label_formatter(&|y| tick(*y, across))
         .draw()?;
     chart.draw_series(LineSeries::new(ends, BLACK.stroke_width(UNIT / 2)))?;
     for (curve, colour) in curves.iter().zip(COLOURS.iter().cycle()) {

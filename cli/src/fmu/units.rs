@@ -49,7 +49,9 @@ impl Units {
         document.open("UnitDefinitions", &[]);
         for (name, (unit, factor)) in &self.0 {
             document.open("Unit", &[("name", name)]);
-            base(document, *unit, *factor, name.starts_with("rad"));
+            // An angle in degrees has the dimension of one in radians.
+            let is_angle = unit.to_string().starts_with("rad");
+            base(document, *unit, *factor, is_angle);
             let display = match name.as_str() {
                 "rad" => Some(("deg", 180.0 / std::f64::consts::PI)),
                 "rad/s" => Some(("rpm", 30.0 / std::f64::consts::PI)),

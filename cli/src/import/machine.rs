@@ -973,8 +973,12 @@ impl<'a> Writer<'a> {
                     leader,
                     coefficients,
                 } => (follower, leader, coefficients),
-                TieKind::Closing { anchors, axes } => {
-                    self.closing(&tie.name, anchors, axes.as_ref(), &mut names);
+                TieKind::Closing {
+                    anchors,
+                    axes,
+                    varies,
+                } => {
+                    self.closing(&tie.name, anchors, axes.as_ref(), varies, &mut names);
                     continue;
                 }
             };
@@ -1035,6 +1039,7 @@ impl<'a> Writer<'a> {
         name: &str,
         anchors: &[Anchor; 2],
         axes: Option<&Matrix3<f64>>,
+        varies: &[bool; 6],
         names: &mut Names,
     ) {
         let frame = |writer: &Self, anchor: &Anchor| {
@@ -1053,30 +1058,17 @@ impl<'a> Writer<'a> {
             let message = format!("constraint {name} is left out with its body");
             return self.warnings.push(message);
         };
-        let comment = format!("Constraint {}.", quoted(name));
-        let mut entries = Vec::new();
-        let [first, second] = [(0, &one), (1, &other)].map(|(index, frame)| {
-            let called = format!("{name}_anchor_{}", index + 1);
-            let [x, y, z] = self.lengths(&mut entries, &called, &anchors[index].xyz);
-            match frame.as_str() {
-                "ground" => format!("({x}, {y}, {z})"),
-                _ if [&x, &y, &z].iter().all(|x| *x == "0") => format!("{frame}.origin"),
-                frame => format!("{frame}.point({x}, {y}, {z})"),
-            }
-        });
-        self.text.add("parameters", Some(comment.clone()), entries);
-        let is_zero = |point: &str| point == "(0, 0, 0)";
-        let apart = match (is_zero(&first), is_zero(&second)) {
-            (true, _) => second.clone(),
-            (_, true) => first.clone(),
-            _ => format!("{first} - {second}"),
-        };
-        let mut lines = Vec::new();
-        for (axis, along) in AXES.iter().zip(["(1, 0, 0)", "(0, 1, 0)", "(0, 0, 1)"]) {
-            let name = names.take(&format!("{name}_{axis}"), "constraint");
-            lines.push(format!("{name}: dot({apart}, {along}) = 0"));
+        if !varies.contains(&true) {
+            let message = format!(
+                "constraint {} is left out: it holds in all positions of the joints",
+                quoted(name)
+            );
+            return self.warnings.push(message);
         }
-        if let Some(axes) = axes {
+        let comment = format!("Constraint {}.", quoted(name));
+        let (places, turns) = varies.split_at(3);
+        let mut lines = self.meeting(name, [&one, &other], anchors, places, names);
+        if let Some(axes) = axes.filter(|_| turns.contains(&true)) {
             let vector = |frame: &str, xyz: [f64; 3]| {
                 let [x, y, z] = xyz.map(|x| {
                     if x.abs() <= 4.0 * f64::EPSILON {
@@ -1091,7 +1083,7 @@ impl<'a> Writer<'a> {
                 }
             };
             // One condition for each axis: that the two others stay orthogonal.
-            for (about, axis) in AXES.iter().enumerate() {
+            for (about, axis) in AXES.iter().enumerate().filter(|(about, _)| turns[*about]) {
                 let (next, last) = ((about + 1) % 3, (about + 2) % 3);
                 let held = vector(&one, axes.column(next).into_owned().into());
                 let mut unit = [0.0; 3];
@@ -1100,8 +1092,62 @@ impl<'a> Writer<'a> {
                 let name = names.take(&format!("{name}_about_{axis}"), "constraint");
                 lines.push(format!("{name}: dot({held}, {own}) = 0"));
             }
+            // The right angles also hold in seven other orientations, by which the axes are interchanged or reversed in pairs. The sum
+            // of the cosines between corresponding axes is 0 or −1 in these, and 3 in the orientation that is meant.
+            let cosines = (0..3).map(|axis| {
+                let mut unit = [0.0; 3];
+                unit[axis] = 1.0;
+                let held = vector(&one, axes.column(axis).into_owned().into());
+                format!("dot({held}, {})", vector(&other, unit))
+            });
+            let fact = format!("{} > 1", cosines.collect::<Vec<_>>().join(" + "));
+            let why = format!(
+                "Constraint {}: no axis is reversed or interchanged with another.",
+                quoted(name)
+            );
+            self.text.add("assume", Some(why), vec![fact]);
         }
         self.text.add("constraints", Some(comment), lines);
+    }
+
+    /// The conditions that two points coincide, along those axes of the ground along which they vary.
+    fn meeting(
+        &mut self,
+        name: &str,
+        frames: [&str; 2],
+        anchors: &[Anchor; 2],
+        varies: &[bool],
+        names: &mut Names,
+    ) -> Vec<String> {
+        if !varies.contains(&true) {
+            return Vec::new();
+        }
+        let mut entries = Vec::new();
+        let [first, second] = [0, 1].map(|index| {
+            let called = format!("{name}_anchor_{}", index + 1);
+            let [x, y, z] = self.lengths(&mut entries, &called, &anchors[index].xyz);
+            match frames[index] {
+                "ground" => format!("({x}, {y}, {z})"),
+                frame if [&x, &y, &z].iter().all(|x| *x == "0") => format!("{frame}.origin"),
+                frame => format!("{frame}.point({x}, {y}, {z})"),
+            }
+        });
+        let comment = format!("Constraint {}.", quoted(name));
+        self.text.add("parameters", Some(comment), entries);
+        let is_zero = |point: &str| point == "(0, 0, 0)";
+        let apart = match (is_zero(&first), is_zero(&second)) {
+            (true, _) => second.clone(),
+            (_, true) => first.clone(),
+            _ => format!("{first} - {second}"),
+        };
+        let along = ["(1, 0, 0)", "(0, 1, 0)", "(0, 0, 1)"];
+        let axes = AXES.iter().zip(along).zip(varies);
+        let mut lines = Vec::new();
+        for ((axis, along), _) in axes.filter(|(_, varies)| **varies) {
+            let name = names.take(&format!("{name}_{axis}"), "constraint");
+            lines.push(format!("{name}: dot({apart}, {along}) = 0"));
+        }
+        lines
     }
 
     /// Gravity as a vector, or a comment that there is none.

@@ -332,6 +332,8 @@ struct Compiler {
     groups: [f64; 2],
     total_mass: Option<f64>,
     finds_limits: bool,
+    /// Whether free bodies are aligned with their axes of inertia.
+    aligns: bool,
     /// The folder of meshes, relative to that of the model.
     meshes: String,
     strips_paths: bool,
@@ -427,6 +429,7 @@ pub fn read(
             groups: [0.0, 5.0],
             total_mass: None,
             finds_limits: true,
+            aligns: false,
             meshes: String::new(),
             strips_paths: false,
         },
@@ -443,6 +446,7 @@ pub fn read(
         given: names(&root),
         counts: Vec::new(),
         actuators: 0,
+        aligned: Vec::new(),
     };
     reader.model(&root);
     let Reader {
@@ -480,6 +484,8 @@ struct Reader<'r, 'f, 'e> {
     counts: Vec<(String, usize)>,
     /// The number of actuators, including those that are left out.
     actuators: usize,
+    /// Free joints whose body is aligned with its axes of inertia, and where they are in the file.
+    aligned: Vec<(String, usize)>,
 }
 
 /// The names of bodies and joints in a file.
@@ -551,6 +557,12 @@ impl<'e> Reader<'_, '_, 'e> {
             self.count("keyframe");
             homes.clear();
         }
+        let is_closing = |tie: &Tie| matches!(tie.kind, TieKind::Closing { .. });
+        if homes.iter().any(|key| key.own("qpos").is_some())
+            || self.robot.ties.iter().any(is_closing)
+        {
+            self.refuse_alignment();
+        }
         homes
             .into_iter()
             .for_each(|key| self.read_home_keyframe(key));
@@ -571,6 +583,18 @@ impl<'e> Reader<'_, '_, 'e> {
         }
         let message = format!("{message}; --ignore {name} leaves it out");
         self.faults.add(at, message);
+    }
+
+    /// Refuses free joints that move the axes of inertia in place of those of the body: places on the body, and its poses, refer to
+    /// the former.
+    fn refuse_alignment(&mut self) {
+        for (owner, at) in std::mem::take(&mut self.aligned) {
+            let message = format!(
+                "{owner} is aligned with the axes of inertia of its body, to which `qpos` of the keyframe `home` and the anchors of \
+                 `connect` and `weld` refer then, which is not supported"
+            );
+            self.refuse(at, "align", &message);
+        }
     }
 
     fn unknown(&mut self, element: &Element, owner: &str) {
@@ -808,6 +832,9 @@ impl<'e> Reader<'_, '_, 'e> {
         }
         if let Some(finds) = self.flag(&item, "autolimits") {
             self.compiler.finds_limits = finds;
+        }
+        if let Some(aligns) = self.flag(&item, "alignfree") {
+            self.compiler.aligns = aligns;
         }
         for (name, usual) in [
             ("boundmass", "0"),

@@ -179,6 +179,9 @@ pub enum TieKind {
     Closing {
         anchors: Box<[Anchor; 2]>,
         axes: Option<nalgebra::Matrix3<f64>>,
+        /// Which of its conditions, three for the points and three for the axes, depend on the values of joints; the others always
+        /// hold.
+        varies: [bool; 6],
     },
 }
 

@@ -9,7 +9,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::Linearization;
-use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
+use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of, tick};
 
 /// The width of the legend beside a panel, and the number of names that fit.
 const LEGEND: u32 = 170 * UNIT;
@@ -132,7 +132,7 @@ pub fn bode(title: &str, result: &Linearization) -> Result<String, String> {
             vec![points.collect()]
         })
         .collect();
-    let decades = |x: &f64| short(10.0_f64.powf(*x));
+    let decades = |x: f64, _: f64| short(10.0_f64.powf(x));
     svg_of(48 * UNIT + 2 * PANEL * 5 / 4, |backend| {
         let sheet = sheet(title, backend)?;
         let areas = sheet.split_evenly((2, 1));
@@ -196,8 +196,7 @@ pub fn nyquist(title: &str, result: &Linearization) -> Result<String, String> {
             upwards: range(points().map(|(_, y)| *y).chain([0.0])),
             names: ["Re G", "Im G"],
         };
-        let plain = |x: &f64| short(*x);
-        panel(&sheet, axes, &plain, &lines, &names)?;
+        panel(&sheet, axes, &tick, &lines, &names)?;
         sheet.present()?;
         Ok(())
     })
@@ -222,13 +221,12 @@ struct Axes {
 fn panel(
     area: &DrawingArea<SVGBackend<'_>, Shift>,
     axes: Axes,
-    label: &dyn Fn(&f64) -> String,
+    label: &dyn Fn(f64, f64) -> String,
     lines: &[Line],
     names: &[&str],
 ) -> Drawing<()> {
     let (area, beside) = area.split_horizontally(WIDTH - LEGEND);
     let [width, height] = [&axes.across, &axes.upwards].map(|range| range.end - range.start);
-    let settled = |x: &f64, span: f64| if x.abs() < 1e-9 * span { 0.0 } else { *x };
     let is_plane = axes.names[0] == "Re G";
     let mut chart = ChartBuilder::on(&area)
         .margin(6 * UNIT)
@@ -241,8 +239,8 @@ fn panel(
         .y_desc(axes.names[1])
         .x_labels(axes.marks)
         .y_labels(7)
-        .x_label_formatter(&|x| label(&settled(x, width)))
-        .y_label_formatter(&|y| short(settled(y, height)))
+        .x_label_formatter(&|x| label(*x, width))
+        .y_label_formatter(&|y| tick(*y, height))
         .draw()?;
     let colours = COLOURS.iter().cycle();
     for (line, colour) in lines.iter().zip(colours.clone()) {

@@ -242,7 +242,12 @@
           [paper.strokeStyle, paper.fillStyle] = [own, own];
           if (data.kind === 'curves') {
             paper.beginPath();
-            xs.forEach((x, k) => paper.lineTo(across(x), down(ys[k])));
+            // A curve has a gap where a run failed: neither of these does anything for what is not a number.
+            let pen = false;
+            xs.forEach((x, k) => {
+              paper[pen ? 'lineTo' : 'moveTo'](across(x), down(ys[k]));
+              pen = Number.isFinite(ys[k]);
+            });
             paper.stroke();
           }
           const size = data.kind === 'curves' ? 4 : 1.2;

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 
 use super::vary::Trace;
-use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
+use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, svg_of, tick};
 
 /// The radius of a point.
 const POINT: u32 = UNIT * 5 / 4;
@@ -93,7 +93,6 @@ fn draw(title: &str, figures: &[Figure], backend: SVGBackend<'_>) -> Drawing<()>
                 .chain(figure.marks.iter().copied()),
         );
         let along = range(figure.points.iter().map(|(_, y, _)| *y).chain([0.0]));
-        let label = |x: &f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { *x });
         let (width, height) = (across.end - across.start, along.end - along.start);
         let (low, high) = (along.start, along.end);
         let (area, _) = area.split_horizontally(WIDTH - 30 * UNIT);
@@ -107,8 +106,8 @@ fn draw(title: &str, figures: &[Figure], backend: SVGBackend<'_>) -> Drawing<()>
             .x_desc(figure.across.as_str())
             .y_desc(figure.along)
             .y_labels(5)
-            .x_label_formatter(&|x| label(x, width))
-            .y_label_formatter(&|y| label(y, height))
+            .x_label_formatter(&|x| tick(*x, width))
+            .y_label_formatter(&|y| tick(*y, height))
             .draw()?;
         for mark in &figure.marks {
             let line = [(*mark, low), (*mark, high)];

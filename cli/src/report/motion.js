@@ -16,7 +16,10 @@ class Motion {
     this.interval = data.interval;
     this.count = data.count;
     this.n = data.coordinates;
-    this.states = floats(data.states);
+    const stored = floats(data.states);
+    // What varies little far from zero is stored relative to a base.
+    const { bases } = data;
+    this.states = bases ? Float64Array.from(stored, (x, i) => x + bases[i % bases.length]) : stored;
     this.parameters = Float64Array.from(data.parameters, (value) => value ?? NaN);
     this.q = new Float64Array(this.n);
     this.v = new Float64Array(this.n);

@@ -29,7 +29,8 @@ class Curve {
       this.isRate = rate !== undefined;
     } else {
       this.times = floats(description.times);
-      this.values = floats(description.values);
+      const [stored, base] = [floats(description.values), description.base];
+      this.values = base ? Float64Array.from(stored, (x) => x + base) : stored;
     }
   }
 
@@ -49,6 +50,8 @@ class Curve {
     }
     const span = times[high] - times[low];
     const share = span === 0 ? 0 : Math.min(Math.max((t - times[low]) / span, 0), 1);
+    // A value beside a gap, where there are no numbers, is still a number.
+    if (share === 0 || share === 1) return values[share === 0 ? low : high];
     return values[low] + share * (values[high] - values[low]);
   }
 
@@ -143,6 +146,7 @@ class Plot {
     let [low, high] = [Infinity, -Infinity];
     for (const points of shown) {
       for (const [, value] of points) {
+        if (!Number.isFinite(value)) continue;
         if (value < low) low = value;
         if (value > high) high = value;
       }

@@ -212,6 +212,37 @@ fn the_text_of_julia_is_julia() {
     }
 }
 
+/// SymPy does not evaluate sines of exact numbers, such as the constant angles between the axes of this arm.
+#[test]
+fn sympy_computes_numbers_from_numbers() {
+    let python = std::env::var("LAGRANGIAN_PYTHON").unwrap_or_else(|_| "python3".into());
+    if !is_there(Command::new(&python).args(["-c", "import sympy"])) {
+        println!("skipped: {python} has no SymPy");
+        return;
+    }
+    let spec = "machine Arm in space {
+        coordinates { a: rad, b: rad = 0.2, c: rad, x: m }
+        frames {
+            f = ground.turn(x, 0.3).turn(z, a).shift(0.1, x, 0.2).turn(y, 0.4).turn(x, b).shift(0.2, 0, 0).turn(z, 0.7).turn(y, c),
+        }
+        bodies { p { mass: 1, inertia: (0.1, 0.2, 0.25, 0.01, 0.02, 0.03), frame: f } }
+        gravity (0, 0, -9.81);
+    }";
+    let spec = Scratch::new("arm.machine", spec);
+    let file = Scratch::new("machine_text.py", &text(spec.path(), "sympy"));
+    let (expected, point) = expected(spec.path());
+    let mut command = Command::new(&python);
+    let script = include_str!("exported/sympy.py");
+    let script = format!("{script}\nassert all(x.is_Float for x in a), a\n");
+    command.args(["-c", &script, file.path()]);
+    let found = run(&mut command, &point.to_string());
+    compare(
+        spec.path(),
+        &expected,
+        &serde_json::from_str(&found).expect("JSON"),
+    );
+}
+
 /// With symbols the functions return formulas: those of a pendulum by hand.
 #[test]
 fn sympy_gives_the_formulas_of_a_pendulum() {

@@ -476,6 +476,13 @@ fn a_description_says_what_was_asked_for() {
     assert!(description.contains("<Unit name=\"mm\">\n      <BaseUnit m=\"1\" factor=\"0.001\"/>"));
     assert!(description.contains("<BaseUnit m=\"1\" s=\"-2\"/>"));
     assert!(description.contains("name=\"rad/s\""));
+    // An importer may connect an input in rpm to an output in rad/s: both have the same powers of base units.
+    for unit in [
+        "<Unit name=\"rad/s\">\n      <BaseUnit s=\"-1\" rad=\"1\"/>",
+        "<Unit name=\"rpm\">\n      <BaseUnit s=\"-1\" rad=\"1\" factor=\"0.10471975511965978\"/>",
+    ] {
+        assert!(description.contains(unit), "{unit}: {description}");
+    }
     let machine = text(&files(&at.0), "sources/machine.c");
     assert!(machine.contains("START_IS_SET[] = {0, 1, 0, 0, 0};"));
 }

@@ -59,6 +59,16 @@ fn one_parameter_makes_a_curve_for_each_value_of_the_other() {
     assert_eq!(status, 0, "{error}");
     assert_eq!(svg.matches("<circle").count(), 3);
     assert!(!svg.contains("b = "));
+    // The run between the two others failed: no line joins them.
+    let (status, svg, error) = map(
+        &table,
+        &["--of", "product", "--over", "a", "--only", "b=30"],
+    );
+    assert_eq!(status, 0, "{error}");
+    assert_eq!(svg.matches("<circle").count(), 2);
+    let lines = svg.lines().filter(|line| line.starts_with("<polyline"));
+    let mut own = lines.filter(|line| line.contains("#0072B2"));
+    assert!(own.all(|line| line.matches(',').count() == 1), "{svg}");
 }
 
 #[test]

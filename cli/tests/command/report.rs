@@ -1,6 +1,6 @@
 //! The page of a run: its contents, the things that it must not contain, and which parts of a machine are drawn as joined.
 
-use crate::support::{Page, Scratch, lagrangian};
+use crate::support::{Page, Scratch, floats, lagrangian};
 use serde_json::Value;
 
 /// The page of a library machine.
@@ -178,6 +178,42 @@ fn a_run_backward_in_time_goes_backward() {
     let page = Page::of("machines/double_pendulum.machine", &["--until", "-2"]);
     assert_eq!(number(&page.data["to"]), -2.0);
     assert!(number(&page.data["interval"]) < 0.0);
+}
+
+/// x = 6378 km + 0.1 m cos 2t, as a coordinate and as an output: 32 bits alone have steps of 0.5 m there. The tolerance is 6 mm.
+#[test]
+fn a_small_motion_far_from_zero_is_on_the_page() {
+    let spec = "machine Far in plane {
+        parameters { m: kg = 1, k: N/m = 4, at: m = 6378000 }
+        coordinates { x: m = 6378000.1 }
+        bodies { b { mass: m, at: (x, 0) } }
+        gravity none;
+        springs { s { stiffness: k, stretch: x - at } }
+        outputs { far: km = x }
+    }";
+    let spec = Scratch::new("far.machine", spec);
+    let page = Page::of(spec.path(), &["--until", "5"]);
+    let base = number(&page.data["bases"][0]);
+    let stored = floats(page.data["states"].as_str().expect("text"));
+    for (index, state) in stored.chunks_exact(2).enumerate() {
+        let x = base + f64::from(state[0]) - 6_378_000.0;
+        let truth = 0.1 * (2.0 * page.time(index)).cos();
+        assert!((x - truth).abs() < 0.006, "{x}, not {truth}");
+    }
+    let panels = page.data["panels"].as_array().expect("panels");
+    let curves = panels
+        .iter()
+        .flat_map(|panel| panel["curves"].as_array().expect("curves"));
+    let far = curves.into_iter().find(|curve| curve["name"] == "far");
+    let far = far.expect("the output");
+    let stored = floats(far["values"].as_str().expect("text"));
+    let ends = stored
+        .iter()
+        .fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], x| {
+            [low.min(*x), high.max(*x)]
+        });
+    let span = f64::from(ends[1] - ends[0]);
+    assert!((span - 0.2e-3).abs() < 0.012e-3, "{span} km");
 }
 
 /// Every stored state is a row of the table of the same run, rounded to 32 bits, and the table does not depend on the page.

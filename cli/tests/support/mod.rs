@@ -92,7 +92,15 @@ impl Page {
     pub fn states(&self) -> Vec<Vec<f32>> {
         let width = 2 * self.data["coordinates"].as_u64().expect("a number") as usize;
         let numbers = floats(self.data["states"].as_str().expect("text"));
-        let states: Vec<Vec<f32>> = numbers.chunks_exact(width).map(<[f32]>::to_vec).collect();
+        let bases = &self.data["bases"];
+        let base = |k: usize| bases.get(k).and_then(Value::as_f64).unwrap_or(0.0);
+        let state = |stored: &[f32]| -> Vec<f32> {
+            let stored = stored.iter().enumerate();
+            stored
+                .map(|(k, x)| (base(k) + f64::from(*x)) as f32)
+                .collect()
+        };
+        let states: Vec<Vec<f32>> = numbers.chunks_exact(width).map(state).collect();
         assert_eq!(self.data["count"].as_u64(), Some(states.len() as u64));
         states
     }

@@ -248,7 +248,8 @@ impl<'a> Emitter<'a> {
         writer.comment(
             " *",
             "Whatever is computed from parameters alone is prepared once. A function takes the arguments that it uses; one that \
-             is not here gives zeros. SI units, angles in radians.",
+             is not here gives zeros. Numbers are in the units that are given for them, all others in SI units; angles in \
+             radians.",
         );
         writer.line(" */");
         writer.line("#include <math.h>");

@@ -216,7 +216,7 @@ mod with_parquet {
     use std::fs::File;
     use std::sync::Arc;
 
-    use parquet::basic::{LogicalType, Repetition, Type as Physical};
+    use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
     use parquet::column::reader::ColumnReader;
     use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
     use parquet::file::metadata::KeyValue;
@@ -318,12 +318,31 @@ mod with_parquet {
             .collect()
     }
 
+    /// Opens a Parquet file.
+    ///
+    /// # Errors
+    /// If the file is invalid, or compressed: what is wrong with it.
+    fn opened(path: &Path) -> io::Result<SerializedFileReader<File>> {
+        let reader = SerializedFileReader::new(File::open(path)?)?;
+        let groups = reader.metadata().row_groups().iter();
+        let mut codecs = groups.flat_map(|group| group.columns().iter().map(|it| it.compression()));
+        if let Some(codec) = codecs.find(|codec| *codec != Compression::UNCOMPRESSED) {
+            let codec = codec.to_string();
+            let codec = codec.split('(').next().unwrap_or(&codec);
+            return Err(io::Error::other(format!(
+                "it is compressed by {codec}, which is not supported: write it without compression (with pandas, \
+                 `compression=None`)"
+            )));
+        }
+        Ok(reader)
+    }
+
     /// Reads the rows of a Parquet file whose columns are like these.
     ///
     /// # Errors
     /// If the file is invalid: what is wrong with it.
     pub fn read(path: &Path, like: &Rows) -> io::Result<Rows> {
-        let reader = SerializedFileReader::new(File::open(path)?)?;
+        let reader = opened(path)?;
         let fields = reader
             .metadata()
             .file_metadata()
@@ -386,7 +405,7 @@ mod with_parquet {
     /// # Errors
     /// If the file is invalid, or a value is not a number.
     pub fn numbers(path: &Path) -> io::Result<(Vec<String>, Vec<Vec<f64>>)> {
-        let reader = SerializedFileReader::new(File::open(path)?)?;
+        let reader = opened(path)?;
         let fields = reader
             .metadata()
             .file_metadata()
@@ -423,7 +442,7 @@ mod with_parquet {
     /// # Errors
     /// If the file is invalid: what is wrong with it.
     pub fn cells(path: &Path) -> io::Result<Vec<Vec<String>>> {
-        let reader = SerializedFileReader::new(File::open(path)?)?;
+        let reader = opened(path)?;
         let fields = reader
             .metadata()
             .file_metadata()
@@ -513,5 +532,17 @@ mod tests {
         // Compared as text, because NaN is not equal to itself.
         assert_eq!(format!("{found:?}"), format!("{expected:?}"));
         assert_eq!(metadata(&path, "plan").as_deref(), Some("p"));
+    }
+
+    /// The file was written by PyArrow 26 with its default compression.
+    #[cfg(feature = "parquet")]
+    #[test]
+    fn a_compressed_file_is_rejected_with_its_compression() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/snappy.parquet");
+        let why = cells(&path).unwrap_err().to_string();
+        assert!(
+            why.contains("compressed by SNAPPY, which is not supported"),
+            "{why}"
+        );
     }
 }

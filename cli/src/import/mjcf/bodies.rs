@@ -88,6 +88,14 @@ impl<'e> Reader<'_, '_, 'e> {
             self.only(part, &item.owner, &part.name);
             joints.push(item);
         }
+        // A body that carries others is never aligned.
+        if let [joint] = joints.as_slice()
+            && (joint.element.name == "freejoint" || self.word(joint, "type") == Some("free"))
+            && self.flag(joint, "align").unwrap_or(self.compiler.aligns)
+            && !has_bodies(element)
+        {
+            self.aligned.push((joint.owner.clone(), joint.element.at));
+        }
         self.chain(&link, parent, pose, &joints, element.at);
         self.parts(element, &link, class, &Pose::default(), &mut found);
         let inertial = self.weight(&link, &found);
@@ -655,4 +663,14 @@ impl<'e> Reader<'_, '_, 'e> {
             };
         }
     }
+}
+
+/// Whether there are bodies in a body, or in a frame in it.
+fn has_bodies(element: &Element) -> bool {
+    let has_one = |part: &Element| match part.name.as_str() {
+        "body" => true,
+        "frame" => has_bodies(part),
+        _ => false,
+    };
+    element.children.iter().any(has_one)
 }

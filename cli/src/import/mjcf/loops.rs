@@ -13,9 +13,46 @@ struct Rest {
 /// Components below this fraction of the lengths in a position are round-off.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
+/// The number of positions of all joints in which conditions are compared, besides the reference configuration. A condition that is
+/// the same in all of them is constant.
+const POSITIONS: usize = 4;
+
+/// The largest variation of a constant condition, and its largest value where it holds, relative to its terms: round-off, and what
+/// the digits of a file may leave.
+const VARIATION: f64 = 1e-12;
+const DIGITS: f64 = 1e-6;
+
+/// A displacement by a joint, by up to 1 m and 1 rad: some values, but the same for the same numbers.
+fn displacement(joint: &Joint, index: usize, position: usize) -> Rest {
+    let value = |k: usize| {
+        let [index, position] = [(7 * index + k) as f64, position as f64];
+        (1.0 + 0.754_877_666_246_693 * index + 0.569_840_290_998_053 * position).sin()
+    };
+    let values = || Vector3::new(value(0), value(1), value(2));
+    let turned = |vector: Vector3<f64>| *nalgebra::Rotation3::new(vector).matrix();
+    let axis = Vector3::from(joint.axis);
+    let [none, unturned] = [Vector3::zeros(), Vector3::zeros()];
+    let (origin, turn) = match joint.kind {
+        Kind::Fixed => (none, unturned),
+        Kind::Prismatic => (axis * value(0), unturned),
+        Kind::Revolute | Kind::Continuous => (none, axis * value(0)),
+        Kind::Spherical => (none, values()),
+        Kind::Floating | Kind::Planar => (values(), Vector3::new(value(3), value(4), value(5))),
+    };
+    Rest {
+        axes: turned(turn),
+        origin,
+    }
+}
+
 impl<'e> Reader<'_, '_, 'e> {
     /// The pose of a body in the reference configuration of all joints; `None` if there is no body of this name.
     fn reference_pose(&self, body: &str) -> Option<Rest> {
+        self.pose_in(0, body)
+    }
+
+    /// The pose of a body in one of several positions of all joints; the first is the reference configuration.
+    fn pose_in(&self, position: usize, body: &str) -> Option<Rest> {
         let mut rests = HashMap::from([(
             "world",
             Rest {
@@ -24,14 +61,18 @@ impl<'e> Reader<'_, '_, 'e> {
             },
         )]);
         // Each joint comes after its parent.
-        for joint in &self.robot.joints {
+        for (index, joint) in self.robot.joints.iter().enumerate() {
             let above = *rests.get(joint.parent.as_str())?;
             let number = |number: &Number| number.value;
             let mut rest = Rest {
                 origin: above.origin + above.axes * Vector3::from(joint.xyz.each_ref().map(number)),
                 axes: above.axes * steps::axes(&joint.turns),
             };
-            if let Some(start) = &joint.start {
+            if position > 0 {
+                let moved = displacement(joint, index, position);
+                rest.origin += rest.axes * moved.origin;
+                rest.axes *= moved.axes;
+            } else if let Some(start) = &joint.start {
                 rest.origin += rest.axes * Vector3::from(start.xyz.each_ref().map(number));
                 rest.axes *= start.axes;
             }
@@ -134,6 +175,14 @@ impl<'e> Reader<'_, '_, 'e> {
             ([anchor, numbers(there)], None)
         };
         let [first, second] = anchors;
+        let bodies = [one.0.as_str(), other.0.as_str()];
+        let Some(varies) = self.variations(bodies, [&first, &second], axes.as_ref()) else {
+            let message = format!(
+                "{} cannot be satisfied: no joint moves or turns its bodies to where it holds them",
+                item.owner
+            );
+            return self.faults.add(element.at, message);
+        };
         self.robot.ties.push(Tie {
             name: match element.own("name") {
                 Some(name) => name.value.clone(),
@@ -151,8 +200,48 @@ impl<'e> Reader<'_, '_, 'e> {
                     },
                 ]),
                 axes,
+                varies,
             },
         });
+    }
+
+    /// Which of the conditions of a loop depend on the values of joints; `None` if one that does not is never satisfied.
+    fn variations(
+        &self,
+        bodies: [&str; 2],
+        anchors: [&[Number; 3]; 2],
+        axes: Option<&Matrix3<f64>>,
+    ) -> Option<[bool; 6]> {
+        let anchors = anchors.map(|anchor| Vector3::from(anchor.each_ref().map(|x| x.value)));
+        let mut size = 0.0_f64;
+        let mut found: Vec<([f64; 6], f64)> = Vec::new();
+        for position in 0..=POSITIONS {
+            let one = self.pose_in(position, bodies[0])?;
+            let other = self.pose_in(position, bodies[1])?;
+            let places = [(one, anchors[0]), (other, anchors[1])];
+            let [first, second] = places.map(|(body, anchor)| body.origin + body.axes * anchor);
+            size = size.max(first.amax()).max(second.amax());
+            let held = axes.map(|axes| one.axes * axes);
+            let cosine = |a: usize, b: usize| {
+                held.map_or(0.0, |held| held.column(a).dot(&other.axes.column(b)))
+            };
+            let [x, y, z]: [f64; 3] = (first - second).into();
+            // As they are written: the axis after each stays at a right angle to the one before it.
+            let values = [x, y, z, cosine(1, 2), cosine(2, 0), cosine(0, 1)];
+            found.push((values, cosine(0, 0) + cosine(1, 1) + cosine(2, 2)));
+        }
+        let (reference, alike) = *found.first()?;
+        let scale = |k: usize| if k < 3 { size } else { 1.0 };
+        let varies: [bool; 6] = std::array::from_fn(|k| {
+            let is_other = |(values, _): &([f64; 6], f64)| {
+                (values[k] - reference[k]).abs() > VARIATION * scale(k)
+            };
+            found.iter().any(is_other)
+        });
+        let holds = |k: usize| varies[k] || reference[k].abs() <= DIGITS * scale(k);
+        // Right angles that never change may be those of an axis that is reversed.
+        let is_turned = axes.is_some() && !varies[3..].contains(&true) && alike <= 1.0;
+        ((0..6).all(holds) && !is_turned).then_some(varies)
     }
 
     /// Reads the keyframe `home`, in which the machine starts.

@@ -1,10 +1,37 @@
 //! Python with SymPy. Constants are exact, so formulas are exact; given numbers, the functions compute numbers.
+//!
+//! SymPy does not evaluate the sine of an exact number, nor its product with a float. Each function has therefore a second form, in
+//! which all constants are floats, for arguments that are numbers.
 
 use lagrangian_symbolic::{Function, Rational};
 
 use super::{Entries, Syntax, Table, quoted};
 use crate::body::{Expression, Precedence, Rounded};
 use crate::layout::Writer;
+
+/// What the functions use of SymPy, with constants as floats, and the decorator that chooses between the two forms of a function.
+const PRELUDE: &str = r#"import functools
+import inspect
+import types
+
+import sympy as sp
+
+_FLOATS = {**vars(sp), "Integer": sp.Float, "Rational": lambda text: sp.Float(sp.Rational(text)), "pi": sp.pi.evalf()}
+
+def _evaluated(function):
+    """Evaluates constants where all arguments are numbers and one is a float: exact ones would remain, in a long formula."""
+    with_floats = types.FunctionType(function.__code__, {"sp": types.SimpleNamespace(**_FLOATS)})
+
+    @functools.wraps(function)
+    def called(*arguments, **named):
+        arguments = inspect.signature(function).bind(*arguments, **named).args
+        lists = [[sp.sympify(x) for x in one] if hasattr(one, "__iter__") else sp.sympify(one) for one in arguments]
+        flat = [x for one in lists for x in (one if isinstance(one, list) else [one])]
+        if all(x.is_number for x in flat) and any(x.has(sp.Float) for x in flat):
+            return with_floats(*([x.evalf() for x in one] if isinstance(one, list) else one.evalf() for one in lists))
+        return function(*arguments)
+
+    return called"#;
 
 pub struct Sympy;
 
@@ -25,7 +52,7 @@ impl Syntax for Sympy {
     fn begin(&self, writer: &mut Writer, _: &str, tables: &[Table], _: &[String]) {
         writer.line("#");
         writer.line("# Arguments may be numbers or symbols of SymPy. Where symbols go in, nothing says that the mass matrix is regular.");
-        writer.line("import sympy as sp");
+        PRELUDE.lines().for_each(|line| writer.line(line));
         writer.gap();
         for table in tables {
             let entries: Vec<String> = match &table.entries {
@@ -52,7 +79,7 @@ impl Syntax for Sympy {
     fn end(&self, _: &mut Writer, _: &[Table], _: &[String]) {}
 
     fn function(&self, name: &str, arguments: &[&str]) -> String {
-        format!("def {name}({}):", arguments.join(", "))
+        format!("@_evaluated\ndef {name}({}):", arguments.join(", "))
     }
 
     fn function_end(&self) -> &'static str {
