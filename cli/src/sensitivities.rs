@@ -875,5 +875,5 @@ fn as_json(times: &[f64], columns: &[Column], of_values: usize) -> Value {
             )
             .collect()
     };
-    json!({"t": times, "values": list(&columns[..own]), "derivatives": list(&columns[of_values..])})
+    json!({"t": times, "values": list(&columns[..of_values]), "derivatives": list(&columns[of_values..])})
 }

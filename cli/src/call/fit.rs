@@ -6,7 +6,7 @@ use clap::Args;
 use lagrangian_spec::token::normalized;
 
 use super::arguments::{Arguments, SetName, names_in, with_spec};
-use super::{Assignment, Keep, Spec, Start, assignment, count, names, observed, steps, tolerance};
+use super::{Assignment, Keep, Spec, Start, assignment, count, observed, steps, tolerance};
 
 /// The names in a list of outputs; the comma in `der(x,2)` is inside brackets.
 pub fn names_of(lists: &[String]) -> Result<Vec<String>, String> {
@@ -111,7 +111,7 @@ pub struct Bounds {
     pub ends: [Option<Assignment>; 2],
 }
 
-pub(super) fn bounds(text: &str) -> Result<Bounds, String> {
+fn bounds(text: &str) -> Result<Bounds, String> {
     let wanted = "expected NAME=LEAST..GREATEST, as in k=100..1e4, or k=0..";
     let (name, range) = text.split_once('=').ok_or(wanted)?;
     let (low, high) = range.split_once("..").ok_or(wanted)?;
@@ -142,7 +142,7 @@ pub enum SigmaOption {
     Given(Assignment),
 }
 
-pub(super) fn sigma(text: &str) -> Result<SigmaOption, String> {
+fn sigma(text: &str) -> Result<SigmaOption, String> {
     match text.trim() {
         "auto" => Ok(SigmaOption::Estimated),
         text => Ok(SigmaOption::Given(

@@ -6,7 +6,7 @@ use clap::Args;
 use lagrangian_spec::token::normalized;
 
 use super::arguments::{Arguments, SetName, with_spec};
-use super::{Assignment, Keep, Spec, Start, assignment, count, number};
+use super::{Assignment, Keep, Spec, Start, assignment, number};
 
 /// Where an equilibrium or a steady motion is sought.
 #[derive(Debug, Args)]
@@ -170,7 +170,7 @@ pub enum SteadyRate {
     Solved,
 }
 
-pub(super) fn steady(text: &str) -> Result<Steady, String> {
+fn steady(text: &str) -> Result<Steady, String> {
     if !text.contains('=') {
         let name = normalized(text.trim()).into_owned();
         let rate = SteadyRate::Start;

@@ -6,8 +6,7 @@ use clap::Args;
 
 use super::arguments::{Arguments, SetName, names_in, with_spec};
 use super::{
-    Assignment, Keep, Precision, Spec, Start, assignment, interval, number, steps, tolerance,
-    wide_tolerance,
+    Assignment, Keep, Precision, Spec, Start, assignment, interval, number, steps, wide_tolerance,
 };
 
 /// Arguments of `evaluate`.

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use lagrangian_spec::token::normalized;
 use lagrangian_symbolic::Rational;
 
-use super::{Assignment, assignment, constant, names};
+use super::{Assignment, assignment, constant};
 
 /// Which machine, of which size.
 #[derive(Debug, Args)]

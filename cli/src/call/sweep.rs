@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::arguments::{Arguments, SetName, names_in, with_spec};
-use super::{Assignment, Keep, Spec, Start, assignment, count, number, steps, tolerance, vary};
+use super::{Assignment, Keep, Spec, Start, assignment, count, number, steps, tolerance};
 use crate::heading;
 
 /// Arguments of `sweep`.
