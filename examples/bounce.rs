@@ -1,4 +1,4 @@
-//! How do I stop at an event, and go on behind it? A ball that bounces until it has come to rest, nearly.
+//! How do I stop at an event, and continue after it? A ball that bounces until it has come to rest, nearly.
 //!
 //! ```sh
 //! cargo run --release --example bounce

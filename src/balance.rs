@@ -404,9 +404,9 @@ pub struct EnergyBalance {
     pub work: f64,
     /// Energy lost in dampers and by friction, in J.
     pub dissipated: f64,
-    /// The energy that the run turned over, in J, the scale of [`relative`](Self::relative): the largest kinetic energy at the end
+    /// The energy exchanged during the run, in J, the scale of [`relative`](Self::relative): the largest kinetic energy at the end
     /// of any step, `∫ |work rate| dt` and the energy dissipated.
-    pub turned_over: f64,
+    pub exchanged: f64,
     /// How large the residual may be by tolerance and rounding, in J, with a margin of 20.
     ///
     /// After the error of a step the motion continues on another trajectory, whose balance closes, so the errors of steps add up in
@@ -424,14 +424,14 @@ impl EnergyBalance {
         self.end - self.start - self.work + self.dissipated
     }
 
-    /// The residual relative to the energy turned over; 0 where nothing moved.
+    /// The residual relative to the energy exchanged; 0 where nothing moved.
     pub fn relative(&self) -> f64 {
         let residual = self.residual();
-        // If nothing was turned over, only round-off of the potential energy can be missing.
-        if self.turned_over == 0.0 {
+        // If no energy was exchanged, only round-off of the potential energy can be missing.
+        if self.exchanged == 0.0 {
             residual
         } else {
-            residual / self.turned_over
+            residual / self.exchanged
         }
     }
 }

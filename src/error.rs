@@ -864,7 +864,7 @@ pub enum Warning {
         residual: f64,
         /// The part that tolerance and rounding explain, in J: see [`EnergyBalance::explained`](crate::EnergyBalance::explained).
         explained: f64,
-        /// The residual relative to the energy turned over.
+        /// The residual relative to the energy exchanged.
         relative: f64,
     },
     /// Impacts created energy, as Newton's law with friction may.
@@ -925,7 +925,7 @@ impl Display for Warning {
                 relative,
             } => write!(
                 f,
-                "the energies do not balance: the residual is {residual:.1e} J, {relative:.1e} of the energy turned over, \
+                "the energies do not balance: the residual is {residual:.1e} J, {relative:.1e} of the energy exchanged, \
                  while tolerance and rounding explain {explained:.1e} J; the motion is less accurate than requested, or \
                  its equations and its energies are inconsistent"
             ),

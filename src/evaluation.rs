@@ -9,23 +9,25 @@ use crate::{
 };
 
 /// Everything that a machine of n coordinates and m constraints computes at a state: what `lagrangian evaluate` prints.
+///
+/// Numbers are in SI units. The unit of a generalized force is J divided by that of its coordinate: N for one in m, N m for one in rad.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Evaluation<O> {
-    /// Mass matrix `M`, n rows of n.
+    /// Mass matrix `M`, n rows of n, in J s² divided by the units of both coordinates: kg, kg m or kg m².
     pub mass_matrix: Vec<f64>,
-    /// Bias `h`.
+    /// Bias `h`, n generalized forces.
     pub bias: Vec<f64>,
-    /// Applied generalized forces `Q`.
+    /// Applied generalized forces `Q`, n of them.
     pub applied: Vec<f64>,
-    /// Right-hand side `f = Q − h`.
+    /// Right-hand side `f = Q − h`, n generalized forces.
     pub forces: Vec<f64>,
-    /// Accelerations.
+    /// Accelerations, n of them, each in the unit of its coordinate per s².
     pub accelerations: Vec<f64>,
-    /// Multipliers of the constraints, for dependent constraints the ones of least norm. The forces of closed unilateral
-    /// contacts are not taken into account.
+    /// Multipliers of the m constraints, each in J divided by the unit of its constraint, in N for one in m; for dependent
+    /// constraints the ones of least norm. The forces of closed unilateral contacts are not taken into account.
     pub multipliers: Vec<f64>,
-    /// Generalized reactions of the constraints on each coordinate, `Gᵀ λ`; empty without constraints.
+    /// Generalized reactions of the constraints on each coordinate, `Gᵀ λ`, n generalized forces; empty without constraints.
     pub reactions: Vec<f64>,
     /// The guided contacts, in their order.
     pub contacts: Vec<ContactForce>,

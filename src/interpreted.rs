@@ -234,7 +234,7 @@ impl InterpretedMachine {
         &self.program
     }
 
-    /// The values of the parameters, in the order of the description.
+    /// The values of the parameters in SI units, in the order of the description.
     pub fn parameter_values(&self) -> &[f64] {
         &self.parameters
     }
@@ -326,7 +326,7 @@ impl InterpretedSystem {
         let _ = self.call(role, arguments, results);
     }
 
-    /// The output with this index among those of [`outputs`](System::outputs).
+    /// The output with this index among those of [`outputs`](System::outputs), in SI units.
     /// `a` may be empty if the output does not depend on accelerations.
     pub fn output(&self, index: usize, t: f64, q: &[f64], v: &[f64], a: &[f64], u: &[f64]) -> f64 {
         self.number(Role::Output(index), Arguments { t, q, v, u, a })

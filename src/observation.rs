@@ -22,15 +22,16 @@ pub struct Observation<M: Machine> {
     pub t: f64,
     /// Coordinates.
     pub q: Coordinates<M>,
-    /// Rates.
+    /// Rates, each in the unit of its coordinate per s.
     pub v: Coordinates<M>,
-    /// Accelerations.
+    /// Accelerations, each in the unit of its coordinate per s².
     pub a: Coordinates<M>,
     /// Inputs.
     pub inputs: Inputs<M>,
     /// Outputs.
     pub outputs: Outputs<M>,
-    /// Multipliers of the constraints, in their order; the ones of least norm if constraints are dependent.
+    /// Multipliers of the constraints, in their order, each in J divided by the unit of its constraint; the ones of least norm if
+    /// constraints are dependent.
     pub multipliers: Vec<f64>,
     /// The guided contacts, in their order.
     pub contacts: Vec<ContactForce>,

@@ -659,7 +659,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Ok(Some(Ending::Stopped));
         }
         if <M::System as System>::MAY_COLLIDE && self.is_stepped() {
-            self.go_on_after_step()?;
+            self.continue_after_time_step()?;
         }
         if pending.is_none() && pending_change.is_none() && ending.is_ok() {
             self.choose_again()?;
@@ -1763,18 +1763,18 @@ fn balance<S: System, L: InputLaw<S>, A: Quadratures<S>>(
 ) -> Option<EnergyBalance> {
     let integrals = stepper.quadratures().integrals()?;
     let (first, last) = (energies.first()?, energies.last()?);
-    let turned_over = kinetic_energy + integrals.absolute_work() + last.dissipated;
+    let exchanged = kinetic_energy + integrals.absolute_work() + last.dissipated;
     Some(EnergyBalance {
         explained: if has_fixed_steps {
             f64::INFINITY
         } else {
-            explained.total(turned_over)
+            explained.total(exchanged)
         },
         start: first.kinetic + first.potential,
         end: last.kinetic + last.potential,
         work: last.work,
         dissipated: last.dissipated,
-        turned_over,
+        exchanged,
     })
 }
 

@@ -330,7 +330,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         &self.k[self.newest]
     }
 
-    /// Time at the beginning of the last step.
+    /// Time at the beginning of the last step, in s.
     pub fn t_before(&self) -> f64 {
         self.before.t
     }
@@ -494,7 +494,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.control.step
     }
 
-    /// When the motion was first detected to be stiff: from then on the stability of the method and not its accuracy limits the steps.
+    /// The time at which the motion was first detected to be stiff, in s: from then on the stability of the method and not its accuracy limits the steps.
     pub fn stiff_since(&self) -> Option<f64> {
         self.stiffness.since
     }
@@ -566,7 +566,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// Replaces the law of the inputs by one with the same values at the present state, so the accelerations stay as they are.
     #[cfg(feature = "std")]
-    pub(crate) fn go_on_with(&mut self, law: L) {
+    pub(crate) fn replace_law_without_jump(&mut self, law: L) {
         self.model.law = law;
     }
 

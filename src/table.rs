@@ -298,12 +298,12 @@ impl Table {
         }
     }
 
-    /// The value at a time; at a jump, the value after it. NaN where it is unknown.
+    /// The value at a time in s, in the unit of the table's values; at a jump, the value after it. NaN where it is unknown.
     pub fn value(&self, t: f64) -> f64 {
         self.value_in(Piece::ALL, t)
     }
 
-    /// The value at a time of a piece, and at its ends the limits from within.
+    /// The value at a time in s within a piece, and at the ends of the piece the limits from within.
     pub fn value_in(&self, piece: Piece, t: f64) -> f64 {
         // A cubic spline is continuous, and may have knots within the piece.
         let within = match self.between {

@@ -63,12 +63,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
         running: call.running,
     };
     let machine = reading::machine(&compiled, &start)?;
-    machine.check_parameters().map_err(|missing| {
-        Failure::Run(format!(
-            "{missing}; set them with --set {}=…",
-            missing.names.join("=… --set ")
-        ))
-    })?;
+    reading::check_parameters(&machine)?;
     let form = problem::form(&compiled, &machine)?;
     let [from, to] = ends(call, &compiled, &machine, &form)?;
     let coordinates = &compiled.program.coordinates;

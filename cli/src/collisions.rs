@@ -114,10 +114,10 @@ pub fn is_of_contact(run: &Run, event: &Event<Named>) -> bool {
 /// The lines of the summary.
 pub fn lines(run: &Run) -> Vec<String> {
     // Where nothing moves as prescribed, this work is round-off.
-    let turned_over = run
+    let exchanged = run
         .energy_balance()
-        .map_or(0.0, |balance| balance.turned_over);
-    let rounding = 1e-12 * turned_over;
+        .map_or(0.0, |balance| balance.exchanged);
+    let rounding = 1e-12 * exchanged;
     let line = |account: Account| {
         let Account {
             name,

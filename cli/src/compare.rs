@@ -176,8 +176,8 @@ fn compare_quantities(
     second: &Columns,
     times: &[f64],
 ) -> Result<(Vec<Compared>, LeftOut), Failure> {
-    let only = |own: &Columns, other: &Columns| -> Vec<String> {
-        let names = own.columns.iter().map(|column| column.name.clone());
+    let only = |columns: &Columns, other: &Columns| -> Vec<String> {
+        let names = columns.columns.iter().map(|column| column.name.clone());
         names.filter(|name| other.get(name).is_none()).collect()
     };
     let left_out = if call.of.is_empty() {
@@ -243,8 +243,8 @@ fn compare_quantities(
         let between = [&curves[0], &curves[1]].map(|curve| {
             (!is_dense(curve)).then(|| (curve.interpolation().name(), curve.interpolation_error()))
         });
-        let own: Vec<f64> = times.iter().map(|t| curves[0].at(*t)).collect();
-        let values = own
+        let first_values: Vec<f64> = times.iter().map(|t| curves[0].at(*t)).collect();
+        let values = first_values
             .iter()
             .zip(&difference.values)
             .map(|(x, d)| x + d)
@@ -254,7 +254,7 @@ fn compare_quantities(
             unit: one.unit.clone().or(other.unit),
             difference,
             between,
-            values: [own, values],
+            values: [first_values, values],
         });
     }
     Ok((all, left_out))
@@ -291,6 +291,29 @@ fn text(
         shortest(ends[0]),
         shortest(ends[1])
     );
+    text.push_str(&table(compared));
+    for one in compared {
+        let count = one.difference.count;
+        if count < times.len() {
+            let name = &one.name;
+            let _ = writeln!(
+                text,
+                "{name}: both have a value at {count} of these instants"
+            );
+        }
+    }
+    text.push_str(&interpolated(compared));
+    for (names, which) in left_out.iter().zip(["first", "second"]) {
+        if !names.is_empty() {
+            let _ = writeln!(text, "only in the {which}: {}", names.join(", "));
+        }
+    }
+    text
+}
+
+/// A row for each quantity, with its difference.
+fn table(compared: &[Compared]) -> String {
+    let mut text = String::new();
     let heads = [
         "largest",
         "at t [s]",
@@ -357,16 +380,12 @@ fn text(
             width = widths[0]
         );
     }
-    for one in compared {
-        let count = one.difference.count;
-        if count < times.len() {
-            let name = &one.name;
-            let _ = writeln!(
-                text,
-                "{name}: both have a value at {count} of these instants"
-            );
-        }
-    }
+    text
+}
+
+/// How quantities are interpolated between the rows of each run, with the largest error that this may cause.
+fn interpolated(compared: &[Compared]) -> String {
+    let mut text = String::new();
     for (k, which) in ["first", "second"].into_iter().enumerate() {
         let between = compared
             .iter()
@@ -387,11 +406,6 @@ fn text(
                 number(*error),
                 header(&one.name, one.unit.as_deref())
             );
-        }
-    }
-    for (names, which) in left_out.iter().zip(["first", "second"]) {
-        if !names.is_empty() {
-            let _ = writeln!(text, "only in the {which}: {}", names.join(", "));
         }
     }
     text

@@ -114,8 +114,8 @@ impl Contacts {
                 .into_iter()
                 .find(|r| r.name.to_string() == name)?;
             let known = |symbol| {
-                let own = values().find(|(p, _)| p.symbol.as_symbol() == Some(symbol));
-                own.map_or(f64::NAN, |(_, value)| *value)
+                let parameter = values().find(|(p, _)| p.symbol.as_symbol() == Some(symbol));
+                parameter.map_or(f64::NAN, |(_, value)| *value)
             };
             Some(evaluate(model.dag, &[rolling.friction?], known)[0])
         };

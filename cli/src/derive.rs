@@ -2,7 +2,6 @@
 
 use clap::ValueEnum;
 use lagrangian_emit as emit;
-use lagrangian_emit::script::Dialect;
 use lagrangian_mechanics::Compiled;
 use lagrangian_print::document::Document;
 use lagrangian_program::{Candidate, Counts, Program};
@@ -83,10 +82,7 @@ fn endings(form: Form) -> Endings {
         Form::Rust => RUST,
         Form::C => &["c", "h"],
         Form::Program => &[],
-        Form::Sympy => &["py"],
-        Form::Matlab => &["m"],
-        Form::Julia => &["jl"],
-        Form::JavaScript => &["js"],
+        Form::Script(dialect) => std::slice::from_ref(&dialect.extension),
     }
 }
 
@@ -99,13 +95,9 @@ fn text(compiled: &Compiled, call: &call::Derive) -> String {
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let origin = vec![format!("@generated from {file} by `lagrangian derive`.")];
     let formulas = || compiled.formulas();
-    let script = |dialect| emit::script::file(program, dialect, &origin, &formulas());
     match call.form {
         Form::Program => program.to_string(),
-        Form::Sympy => script(Dialect::Sympy),
-        Form::Matlab => script(Dialect::Matlab),
-        Form::Julia => script(Dialect::Julia),
-        Form::JavaScript => script(Dialect::JavaScript),
+        Form::Script(dialect) => emit::script::file(program, dialect, &origin, &formulas()),
         Form::Rust => emit::rust::module(
             program,
             &emit::rust::Options {

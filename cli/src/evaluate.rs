@@ -276,7 +276,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
         .coordinates()
         .map(|c| state_of(c.name).is_some())
         .collect();
-    let own = is_integral.iter().filter(|is| !**is).count();
+    let declared = is_integral.iter().filter(|is| !**is).count();
     let state_rates = system.coordinates().zip(&a);
     let state_rates = state_rates
         .filter_map(|(c, rate)| Some((state_of(c.name)?, Value::from(*rate))))
@@ -284,20 +284,20 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     let result = Numbered {
         mass_matrix: matrix
             .chunks(n.max(1))
-            .take(own)
-            .map(|row| row[..own].to_vec())
+            .take(declared)
+            .map(|row| row[..declared].to_vec())
             .collect(),
-        bias: bias[..own].to_vec(),
-        applied: applied[..own].to_vec(),
-        forces: forces[..own].to_vec(),
+        bias: bias[..declared].to_vec(),
+        applied: applied[..declared].to_vec(),
+        forces: forces[..declared].to_vec(),
         state_rates,
-        accelerations: a[..own].to_vec(),
+        accelerations: a[..declared].to_vec(),
         multipliers: system
             .constraints()
             .zip(multipliers)
             .map(|(constraint, value)| (constraint.name.to_owned(), value.into()))
             .collect(),
-        reactions: reactions.into_iter().take(own).collect(),
+        reactions: reactions.into_iter().take(declared).collect(),
         contacts,
         kinetic_energy,
         potential_energy,

@@ -31,9 +31,9 @@ impl Exactness {
         let samples = run.samples();
         let stride = samples.len().div_ceil(most).max(1);
         let states: Vec<_> = samples.iter().step_by(stride).cloned().collect();
-        let here = Recording::of(run, &states);
+        let recorded = Recording::of(run, &states);
         // For each column and each state the sum of the changes.
-        let mut sums = vec![vec![0.0; states.len()]; here.columns.len()];
+        let mut sums = vec![vec![0.0; states.len()]; recorded.columns.len()];
         for place in 0..2 * n {
             let moved = |sign: f64| {
                 let mut states = states.clone();
@@ -49,10 +49,10 @@ impl Exactness {
             };
             let (above, below) = (moved(1.0), moved(-1.0));
             for (column, sums) in sums.iter_mut().enumerate() {
-                let [here, above, below] =
-                    [&here, &above, &below].map(|recording| &recording.columns[column].values);
+                let [unchanged, above, below] =
+                    [&recorded, &above, &below].map(|recording| &recording.columns[column].values);
                 for (row, sum) in sums.iter_mut().enumerate() {
-                    let changes = [above[row] - here[row], below[row] - here[row]];
+                    let changes = [above[row] - unchanged[row], below[row] - unchanged[row]];
                     let smaller = changes[0].abs().min(changes[1].abs());
                     let rounding = (changes[0] + changes[1]).abs();
                     if rounding.is_finite() {
@@ -62,7 +62,11 @@ impl Exactness {
             }
         }
         let mut of_one = |name: &str| {
-            let Some(k) = here.columns.iter().position(|column| column.name == name) else {
+            let Some(k) = recorded
+                .columns
+                .iter()
+                .position(|column| column.name == name)
+            else {
                 return 0.0;
             };
             sums[k].sort_by(f64::total_cmp);

@@ -110,8 +110,8 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let mut compiled = compiled.map_err(inputs::as_call_failure)?;
     let machine = reading::machine(&compiled, &call.start)?;
     // Formulas of inputs are not reported as outputs of the machine.
-    let own = compiled.model.outputs.len() - formulas;
-    compiled.model.outputs.truncate(own);
+    let output_count = compiled.model.outputs.len() - formulas;
+    compiled.model.outputs.truncate(output_count);
     let mut start = machine.start();
     start.q.values.fill(f64::NAN);
     start.v.values.fill(f64::NAN);
@@ -120,7 +120,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
 
     let mut experiments = Vec::new();
     for one in &given {
-        let signals = signals_of(one, &laws, own, &machine, &compiled)?;
+        let signals = signals_of(one, &laws, output_count, &machine, &compiled)?;
         experiments.push(one.experiment(&machine, &compiled, &start, signals)?);
     }
     let (classes, ignored) =
@@ -167,16 +167,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     }
     progress::now("fitting");
     let count = usize::try_from(call.starts.min(MOST_SEARCHES)).unwrap_or(1);
-    let searched = search(&mut fit, count, sigmas).map_err(|failed| match failed {
-        Failed::NoStart(why) => {
-            let why = why.replace("`max_steps`", "--max-steps");
-            Failure::Run(format!("there is no motion where the search begins: {why}"))
-        }
-        Failed::Unsettled => {
-            Failure::Run("the standard deviations do not converge: give them by --sigma".to_owned())
-        }
-        Failed::Trouble(trouble) => stopped(trouble),
-    })?;
+    let searched = search(&mut fit, count, sigmas).map_err(failure)?;
     let mut result = Fitted {
         call,
         machine: &machine,
@@ -190,7 +181,29 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
         fit: &mut fit,
     };
     result.warnings = findings::warnings(&result);
-    let error = match write_files(&mut result, &files) {
+    conclude(result, &files)
+}
+
+/// The failure of a search.
+fn failure(failed: Failed) -> Failure {
+    match failed {
+        Failed::NoStart(why) => {
+            let why = why.replace("`max_steps`", "--max-steps");
+            Failure::Run(format!("there is no motion where the search begins: {why}"))
+        }
+        Failed::Unsettled => {
+            Failure::Run("the standard deviations do not converge: give them by --sigma".to_owned())
+        }
+        Failed::Trouble(trouble) => stopped(trouble),
+    }
+}
+
+/// Writes the files and prints the results.
+///
+/// # Errors
+/// If a file cannot be written, or the search found no minimum.
+fn conclude(mut result: Fitted<'_, '_>, files: &Files) -> Result<(), Failure> {
+    let error = match write_files(&mut result, files) {
         Err(Failure::Interrupted) => return Err(Failure::Interrupted),
         Err(failure) => Some(failure.message()),
         Ok(()) if result.found.minimum.ending.is_minimum() => None,
@@ -200,7 +213,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
             result.found.minimum.evaluations
         )),
     };
-    if call.spec.json {
+    if result.call.spec.json {
         let mut document = findings::document(&result);
         if let Some(error) = &error {
             document["error"] = error.as_str().into();
@@ -226,14 +239,14 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
 fn signals_of(
     given: &Given,
     everywhere: &[(String, Law)],
-    own: usize,
+    output_count: usize,
     machine: &InterpretedMachine,
     compiled: &Compiled<'_>,
 ) -> Result<Signals, Failure> {
     let tables = inputs::laws(&given.inputs, &compiled.model)?;
     let mut numbers = Vec::new();
     let mut laws = Vec::new();
-    let mut next = own;
+    let mut next = output_count;
     for (name, law) in everywhere {
         let is_replaced = tables.iter().any(|(other, _)| other == name);
         if law.formula().is_some() {
@@ -248,7 +261,7 @@ fn signals_of(
     }
     laws.extend(tables);
     let mut numbers = numbers.into_iter();
-    let signals = signals::signals(&laws, machine, || numbers.next().unwrap_or(own));
+    let signals = signals::signals(&laws, machine, || numbers.next().unwrap_or(output_count));
     signals.map_err(Failure::Call)
 }
 
@@ -419,8 +432,9 @@ fn of_parameters(
         .parameters()
         .map(|(of, _)| of.name.to_owned())
         .collect();
-    let is_meant =
-        |own: &String| own == name || own.split_once('[').is_some_and(|(base, _)| base == name);
+    let is_meant = |known: &String| {
+        known == name || known.split_once('[').is_some_and(|(base, _)| base == name)
+    };
     let meant: Vec<usize> = (0..parameters.len())
         .filter(|i| is_meant(&parameters[*i]))
         .collect();
@@ -485,12 +499,12 @@ fn of_starts(
         let start = experiment.machine.start();
         for &place in places {
             let name = coordinates.iter().nth(place).map_or("", |(name, _)| name);
-            let own = coordinates.unit(name).unwrap_or("1");
+            let coordinate_unit = coordinates.unit(name).unwrap_or("1");
             let (subject, word, unit, level, otherwise) = if is_start {
                 (
                     Subject::Start(e, place),
                     "start",
-                    own.to_owned(),
+                    coordinate_unit.to_owned(),
                     0,
                     start.q.values[place],
                 )
@@ -498,13 +512,13 @@ fn of_starts(
                 (
                     Subject::Rate(e, place),
                     "rate",
-                    data::rate_unit(own),
+                    data::rate_unit(coordinate_unit),
                     1,
                     start.v.values[place],
                 )
             };
             let (name, word, unit) = match state_of(name) {
-                Some(state) => (state, "start", unit::rate_unit(name, own)),
+                Some(state) => (state, "start", unit::rate_unit(name, coordinate_unit)),
                 None => (name.to_owned(), word, unit),
             };
             let quantity = if is_start {

@@ -59,7 +59,7 @@ impl Version {
 
     /// The files that this version adds to the machine's own: the interface, and the headers of the standard.
     fn files(self) -> Vec<(&'static str, &'static str)> {
-        let own: [(&str, &str); 4] = match self {
+        let interface: [(&str, &str); 4] = match self {
             Version::Two => [
                 ("fmi2.c", include_str!("fmu/c/fmi2.c")),
                 (
@@ -92,7 +92,7 @@ impl Version {
             ],
         };
         let runtime = ("runtime.c", include_str!("fmu/c/runtime.c"));
-        own.into_iter().chain([runtime]).collect()
+        interface.into_iter().chain([runtime]).collect()
     }
 }
 
@@ -443,14 +443,17 @@ fn machine_text(
 
 /// All C files, by name.
 fn sources(unit: &Unit<'_>, machine: &str) -> Vec<(&'static str, String)> {
-    let own = format!(
+    let machine_file = format!(
         "{machine}\n/* Which machine this is. */\n#define TOKEN \"{}\"\n",
         unit.token
     );
     let method = ("method.c", unit.method.tableau());
     let files = unit.version.files().into_iter().chain([method]);
     let files = files.map(|(name, text)| (name, text.to_owned()));
-    [("machine.c", own)].into_iter().chain(files).collect()
+    [("machine.c", machine_file)]
+        .into_iter()
+        .chain(files)
+        .collect()
 }
 
 /// The name of a file as a C identifier.

@@ -146,12 +146,12 @@ fn differences(one: &State<Named>, other: &State<Named>) -> Vec<f64> {
 /// Names of coordinates, then of rates. States of first order have their own names instead of those of rates, and
 /// their integrals have none.
 fn names(end: &State<Named>) -> Vec<Option<String>> {
-    let own = |name: &str| (state_of(name).is_none()).then(|| name.to_owned());
+    let coordinate = |name: &str| (state_of(name).is_none()).then(|| name.to_owned());
     let rate = |name: &str| match state_of(name) {
         Some(state) => Some(state.to_owned()),
         None => Some(format!("der({name})")),
     };
-    let coordinates = end.q.iter().map(|(name, _)| own(name));
+    let coordinates = end.q.iter().map(|(name, _)| coordinate(name));
     coordinates
         .chain(end.v.iter().map(|(name, _)| rate(name)))
         .collect()

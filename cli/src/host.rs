@@ -70,25 +70,25 @@ pub fn answer(
             };
         }
     };
-    let lent = HostContext {
+    let context = HostContext {
         spec: spec.clone(),
         stop: stop.clone(),
         answer: Answer::default(),
     };
-    HOST_CONTEXT.set(Some(lent));
-    let json = call.command.json();
+    HOST_CONTEXT.set(Some(context));
+    let json = call.command.arguments().json();
     let status = crate::status(&call, json);
     let answer = HOST_CONTEXT
         .take()
-        .map(|lent| lent.answer)
+        .map(|context| context.answer)
         .unwrap_or_default();
     Answer { status, ..answer }
 }
 
 /// Captures output for the surrounding program; returns whether there is one.
 pub fn captures(text: &str, is_error: bool) -> bool {
-    HOST_CONTEXT.with_borrow_mut(|lent| {
-        let Some(HostContext { answer, .. }) = lent else {
+    HOST_CONTEXT.with_borrow_mut(|context| {
+        let Some(HostContext { answer, .. }) = context else {
             return false;
         };
         if is_error {
@@ -102,7 +102,7 @@ pub fn captures(text: &str, is_error: bool) -> bool {
 
 /// The flag with which the surrounding program interrupts the command, if there is one.
 pub fn stop() -> Option<Arc<AtomicBool>> {
-    HOST_CONTEXT.with_borrow(|lent| Some(lent.as_ref()?.stop.clone()))
+    HOST_CONTEXT.with_borrow(|context| Some(context.as_ref()?.stop.clone()))
 }
 
 /// The files from which specs are read: on disk, or held by the surrounding program.
@@ -111,16 +111,18 @@ pub struct Specs;
 
 impl Files for Specs {
     fn read(&mut self, path: &str, from: Option<&str>) -> Result<(String, String), String> {
-        HOST_CONTEXT.with_borrow(|lent| {
-            let Some(HostContext { spec, .. }) = lent else {
+        HOST_CONTEXT.with_borrow(|context| {
+            let Some(HostContext { spec, .. }) = context else {
                 return Disk.read(path, from);
             };
             // A variant in the same folder refers to the spec by its file name.
-            let own = Path::new(&spec.name);
-            let beside = |from: &str| Path::new(from).parent() == own.parent();
+            let spec_path = Path::new(&spec.name);
+            let beside = |from: &str| Path::new(from).parent() == spec_path.parent();
             let is_own = match from {
                 None => path == spec.name,
-                Some(from) => beside(from) && own.file_name().is_some_and(|name| name == path),
+                Some(from) => {
+                    beside(from) && spec_path.file_name().is_some_and(|name| name == path)
+                }
             };
             if is_own {
                 Ok((spec.name.clone(), spec.text.clone()))

@@ -67,7 +67,8 @@ pub fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let status = match Call::read(arguments) {
         Ok(call) => {
             // The result of `evaluate` is JSON in any case.
-            let json = call.command.json() || matches!(call.command, Command::Evaluate(_));
+            let json =
+                call.command.arguments().json() || matches!(call.command, Command::Evaluate(_));
             progress::begin(json);
             status(&call, json)
         }

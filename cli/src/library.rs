@@ -305,7 +305,7 @@ fn examples<'a>(known: &[&'a str]) -> Vec<&'a str> {
         .copied()
         .filter(|name| name.starts_with("x86-64"));
     let levels: Vec<&str> = std::iter::once("native")
-        .filter(|own| known.contains(own))
+        .filter(|processor| known.contains(processor))
         .chain(levels)
         .collect();
     match levels.len() {

@@ -178,7 +178,7 @@ fn request(call: &call::Linearize, machine: &InterpretedMachine) -> Result<Reque
     for name in &wanted {
         let found = resolve(name, &start.q, &observed, &constraints);
         if found.is_empty() {
-            let own = observed.iter().map(|(name, _)| name.to_owned());
+            let output_names = observed.iter().map(|(name, _)| name.to_owned());
             let coordinates = start.q.iter().flat_map(|(name, _)| match state_of(name) {
                 Some(state) => vec![format!("der({state})"), state],
                 None => vec![
@@ -188,7 +188,7 @@ fn request(call: &call::Linearize, machine: &InterpretedMachine) -> Result<Reque
                 ],
             });
             let constraints = constraints.iter().map(|name| format!("multiplier({name})"));
-            let known: Vec<String> = own.chain(coordinates).chain(constraints).collect();
+            let known: Vec<String> = output_names.chain(coordinates).chain(constraints).collect();
             return Err(unknown("--outputs", "output", name, &known));
         }
         outputs.extend(found);
@@ -225,9 +225,9 @@ fn request(call: &call::Linearize, machine: &InterpretedMachine) -> Result<Reque
 
 /// The quantities that a name of an output stands for; empty if there are none.
 fn resolve(name: &str, q: &Named, outputs: &Named, constraints: &[String]) -> Vec<Observed> {
-    let own = places(outputs, name);
-    if !own.is_empty() {
-        return own.into_iter().map(Observed::Output).collect();
+    let matching = places(outputs, name);
+    if !matching.is_empty() {
+        return matching.into_iter().map(Observed::Output).collect();
     }
     let inside = |start: &str| name.strip_prefix(start)?.strip_suffix(')').map(str::trim);
     if let Some(constraint) = inside("multiplier(") {

@@ -100,12 +100,7 @@ pub fn prepare(
         // A name that is neither a parameter nor an input is refused later.
         let _ = machine.set(&vary.name, first);
     }
-    machine.check_parameters().map_err(|missing| {
-        Failure::Run(format!(
-            "{missing}; set them with --set {}=…",
-            missing.names.join("=… --set ")
-        ))
-    })?;
+    reading::check_parameters(&machine)?;
     reading::check_kept(&machine.start(), &search.keep)?;
     Ok(machine)
 }
@@ -453,7 +448,7 @@ fn columns(names: &[&str], units: &[&str], trace: &Trace) -> Vec<(String, Vec<f6
         let Ok(motion) = &point.motion else { continue };
         for (index, mode) in motion.modes.modes.iter().enumerate() {
             let Mode { lambda, error, .. } = mode;
-            let own = [
+            let of_mode = [
                 point.value,
                 index as f64 + 1.0,
                 lambda.re,
@@ -463,7 +458,7 @@ fn columns(names: &[&str], units: &[&str], trace: &Trace) -> Vec<(String, Vec<f6
             ];
             let q = motion.found.place.q().into_iter().zip(&is_place);
             let q = q.filter(|(_, is_place)| **is_place).map(|(q, _)| q);
-            let row = own.into_iter().chain(q).chain(motion.v.iter().copied());
+            let row = of_mode.into_iter().chain(q).chain(motion.v.iter().copied());
             for ((_, column), x) in columns.iter_mut().zip(row) {
                 column.push(x);
             }
@@ -515,8 +510,8 @@ fn text_of_trace(trace: &Trace) -> String {
     let mut index = 0;
     while let Some(point) = trace.points.get(index) {
         let description = words(point);
-        let rest = &trace.points[index + 1..];
-        let more = rest.iter().take_while(|next| {
+        let later_points = &trace.points[index + 1..];
+        let more = later_points.iter().take_while(|next| {
             words(next) == description && (next.continues || next.motion.is_err())
         });
         let count = more.count();

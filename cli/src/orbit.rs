@@ -168,12 +168,7 @@ fn prepare<'d>(
     );
     let compiled = compiled.map_err(inputs::as_call_failure)?;
     let machine = reading::machine(&compiled, &call.start)?;
-    machine.check_parameters().map_err(|missing| {
-        Failure::Run(format!(
-            "{missing}; set them with --set {}=…",
-            missing.names.join("=… --set ")
-        ))
-    })?;
+    reading::check_parameters(&machine)?;
     reading::check_kept(&machine.start(), &call.keep)?;
     let period = call
         .period
@@ -262,15 +257,15 @@ fn shifts(
 ) -> Result<Vec<bool>, Failure> {
     if call.shift.is_empty() && call.advance.is_empty() {
         let system = machine.prepare();
-        let own = system
+        let is_coordinate = system
             .coordinates()
             .map(|of| state_of(of.name).is_none())
             .collect::<Vec<_>>();
         let free = orbit::shifting(machine);
         return Ok(free
             .iter()
-            .zip(own)
-            .map(|(free, own)| *free && own)
+            .zip(is_coordinate)
+            .map(|(free, is_coordinate)| *free && is_coordinate)
             .collect());
     }
     let mut shifts = vec![false; q.values.len()];
@@ -683,13 +678,13 @@ fn panes(trace: &Trace, label: &str) -> Vec<Pane> {
         points: found
             .iter()
             .filter_map(|(value, orbit)| {
-                let mut own: Vec<f64> = orbit
+                let mut moduli: Vec<f64> = orbit
                     .multipliers
                     .iter()
                     .map(|one| one.value.norm())
                     .collect();
-                own.sort_by(|a, b| b.total_cmp(a));
-                own.get(k).map(|modulus| (*value, *modulus))
+                moduli.sort_by(|a, b| b.total_cmp(a));
+                moduli.get(k).map(|modulus| (*value, *modulus))
             })
             .collect(),
     });

@@ -63,12 +63,7 @@ fn prepare(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
     let dag = Dag::new();
     let compiled = Reading::open(&call.spec)?.compile(&dag)?;
     let machine = reading::machine(&compiled, &call.start)?;
-    machine.check_parameters().map_err(|missing| {
-        Failure::Run(format!(
-            "{missing}; set them with --set {}=…",
-            missing.names.join("=… --set ")
-        ))
-    })?;
+    reading::check_parameters(&machine)?;
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
     progress::now("deriving the series");

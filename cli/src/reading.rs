@@ -373,6 +373,19 @@ pub fn check_kept_once(keep: &call::Keep) -> Result<(), Failure> {
     }
 }
 
+/// Checks that every parameter has a value.
+///
+/// # Errors
+/// If parameters have none: which, and how to set them.
+pub fn check_parameters(machine: &InterpretedMachine) -> Result<(), Failure> {
+    machine.check_parameters().map_err(|missing| {
+        Failure::Run(format!(
+            "{missing}; set them with --set {}=…",
+            missing.names.join("=… --set ")
+        ))
+    })
+}
+
 /// Tells a run which numbers of its start to keep, if the call says so.
 pub fn keep<'a, L: InputLaw<InterpretedSystem>>(
     simulation: Simulation<'a, InterpretedMachine, L>,

@@ -91,8 +91,8 @@ pub fn steady(times: &[f64], values: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (before, after) = (values.get(i.wrapping_sub(1)), values.get(i + 1));
         *i == 0 || *i == last || before != Some(&values[*i]) || after != Some(&values[*i])
     };
-    let kept = (0..values.len()).filter(is_kept);
-    kept.map(|i| (times[i], values[i])).unzip()
+    let changing = (0..values.len()).filter(is_kept);
+    changing.map(|i| (times[i], values[i])).unzip()
 }
 
 /// Thins a curve to about `most` points such that it looks the same: the lowest and the highest point of each

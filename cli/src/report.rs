@@ -28,7 +28,7 @@ use crate::recording::{Column, Kind, Recording, panels, steady, thin};
 
 pub(crate) use live::Live;
 pub(crate) use page::{DRAWING, STYLE};
-pub use samples::finer_count;
+pub use samples::recording_refinement;
 pub(crate) use samples::{Samples, base64, encoded};
 pub(crate) use scene::Scene;
 
@@ -51,7 +51,7 @@ pub struct Report<'a, 'd> {
     pub method: &'a Method,
     /// The result of the run.
     pub run: Outcome<'a>,
-    /// The run, recorded as densely as [`finer_count`] requires.
+    /// The run, recorded as densely as [`recording_refinement`] requires.
     pub recording: &'a Recording,
     /// The results on rolling contacts.
     pub contacts: &'a [Found],

@@ -12,7 +12,7 @@ use lagrangian_spec::model::stage;
 use lagrangian_spec::resolve::value_in;
 use lagrangian_spec::source::Sources;
 use lagrangian_sweep::{signals, verdict};
-use lagrangian_symbolic::Dag;
+use lagrangian_symbolic::{Dag, Stage};
 
 use crate::call::{self, Assignment};
 use crate::evaluate::set_start;
@@ -90,8 +90,8 @@ impl Columns {
         let (mut times, mut columns) = (Vec::new(), Vec::new());
         for (name, unit) in file.columns() {
             let read = file.column_with_gaps(&name);
-            let (own, values) = read.map_err(|wrong| Failure::Call(wrong.to_string()))?;
-            times = own;
+            let (column_times, values) = read.map_err(|wrong| Failure::Call(wrong.to_string()))?;
+            times = column_times;
             columns.push(Quantity {
                 name,
                 unit,
@@ -113,9 +113,9 @@ impl Columns {
 
     /// The rates of a column, in its unit per second; `None` if there is no such column, or it has another unit.
     pub fn rates(&self, name: &str) -> Option<Vec<f64>> {
-        let own = self.get(name)?;
+        let column = self.get(name)?;
         let rate = self.get(&format!("der({name})"))?;
-        let wanted = own.unit.as_ref().map(|unit| format!("({unit})/s"));
+        let wanted = column.unit.as_ref().map(|unit| format!("({unit})/s"));
         let factor = match (&rate.unit, &wanted) {
             (Some(rate), Some(wanted)) => factor(rate, wanted)?,
             _ => 1.0,
@@ -145,10 +145,11 @@ impl Columns {
         let mut chosen = Vec::new();
         for name in &wanted {
             let member = format!("{name}[");
-            let own = self.columns.iter();
-            let own = own.filter(|column| column.name == *name || column.name.starts_with(&member));
+            let matching = self.columns.iter();
+            let matching =
+                matching.filter(|column| column.name == *name || column.name.starts_with(&member));
             let before = chosen.len();
-            chosen.extend(own);
+            chosen.extend(matching);
             if chosen.len() == before {
                 return Err(unknown(name, self, run));
             }
@@ -313,7 +314,7 @@ impl<'a> Options<'a> {
 
 /// Replaces assignments by others to the same names.
 pub fn replaced(list: &mut Vec<Assignment>, others: &[Assignment]) {
-    list.retain(|own| others.iter().all(|other| other.name != own.name));
+    list.retain(|set| others.iter().all(|other| other.name != set.name));
     list.extend(others.iter().cloned());
 }
 
@@ -374,17 +375,12 @@ fn run_spec(
     let compiled = reading.compile_beside(&dag, files.iter().copied());
     let compiled = compiled.map_err(inputs::as_call_failure)?;
     let machine = reading::machine(&compiled, &options.start)?;
-    machine.check_parameters().map_err(|missing| {
-        Failure::Run(format!(
-            "{missing}; set them with --set {}=…",
-            missing.names.join("=… --set ")
-        ))
-    })?;
-    let own = compiled.model.outputs.len() - formulas;
-    let mut numbers = own..;
-    let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(own));
+    reading::check_parameters(&machine)?;
+    let output_count = compiled.model.outputs.len() - formulas;
+    let mut numbers = output_count..;
+    let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(output_count));
     let signals = signals.map_err(Failure::Call)?;
-    let quantity_count = own + driving;
+    let quantity_count = output_count + driving;
     let mut start = machine.start();
     set_start(&mut start, &options.start)?;
     reading::check_kept(&start, &runs.keep)?;
@@ -404,24 +400,17 @@ fn run_spec(
         }
         SampleInstants::At(_) => {}
         SampleInstants::Crossing(formula, direction, level) => {
-            let value = &compiled.model.outputs[quantity_count].value;
-            if value.stage() == stage::ACCELERATION {
-                return Err(Failure::Call(format!(
-                    "--crossing {formula}: it depends on accelerations, which may jump"
-                )));
-            }
-            if value.stage() <= stage::PARAMETER {
-                return Err(Failure::Call(format!(
-                    "--crossing {formula}: it depends only on numbers and parameters, so that it never crosses 0; give a formula in coordinates, \
-                     rates or the time `t`"
-                )));
-            }
+            check_crossing(
+                formula,
+                compiled.model.outputs[quantity_count].value.stage(),
+            )?;
             let crossing = match direction {
                 call::Direction::Up => Crossing::Rising,
                 call::Direction::Down => Crossing::Falling,
                 call::Direction::Both => Crossing::Any,
             };
-            let level = level.and_then(|(name, value)| level_of(&machine, own, name, value));
+            let level =
+                level.and_then(|(name, value)| level_of(&machine, output_count, name, value));
             let (place, level) = level.unwrap_or((quantity_count, 0.0));
             simulation = simulation.event_on("crossing", crossing, move |seen| {
                 seen.outputs.values.get(place).copied().unwrap_or(f64::NAN) - level
@@ -450,36 +439,56 @@ fn run_spec(
         return Err(Failure::Run(objection));
     }
     warn(&ran);
+    let recording = recording(&ran, looks, period.unwrap_or(f64::INFINITY))?;
+    Ok((ran, recording))
+}
+
+/// Checks that a formula that depends on values of this stage may cross 0 at an instant.
+fn check_crossing(formula: &str, stage: Stage) -> Result<(), Failure> {
+    if stage == stage::ACCELERATION {
+        return Err(Failure::Call(format!(
+            "--crossing {formula}: it depends on accelerations, which may jump"
+        )));
+    }
+    if stage <= stage::PARAMETER {
+        return Err(Failure::Call(format!(
+            "--crossing {formula}: it depends only on numbers and parameters, so that it never crosses 0; give a formula in coordinates, \
+             rates or the time `t`"
+        )));
+    }
+    Ok(())
+}
+
+/// The record of a run at the requested instants; `period` is the interval of those in periods, in s.
+fn recording(run: &Run, looks: &SampleInstants<'_>, period: f64) -> Result<Recording, Failure> {
     let at = |times: Vec<f64>| -> Result<Recording, Failure> {
-        let states = ran.at_each(times).map_err(Failure::run)?;
-        Ok(Recording::of(&ran, &states))
+        let states = run.at_each(times).map_err(Failure::run)?;
+        Ok(Recording::of(run, &states))
     };
-    let end = ran.end().t;
-    let recording = match (looks, period) {
-        (SampleInstants::Even, _) => simulate::record(&ran),
-        (SampleInstants::At(times), _) => {
+    let end = run.end().t;
+    match looks {
+        SampleInstants::Even => Ok(simulate::record(run)),
+        SampleInstants::At(times) => {
             let within = times.iter().copied().filter(|t| (0.0..=end).contains(t));
-            at(within.collect())?
+            at(within.collect())
         }
-        (SampleInstants::Crossing(..), _) => crossings(&ran),
-        (SampleInstants::Period(_), period) => {
-            let period = period.unwrap_or(f64::INFINITY);
+        SampleInstants::Crossing(..) => Ok(crossings(run)),
+        SampleInstants::Period(_) => {
             let count = (end / period * (1.0 + 1e-12)).floor() as usize;
             let times = (0..=count).map(|k| (k as f64 * period).min(end));
-            at(times.collect())?
+            at(times.collect())
         }
-    };
-    Ok((ran, recording))
+    }
 }
 
 /// The index of the output with this name, among the outputs of the spec, and a value of numbers and units in its unit.
 fn level_of(
     machine: &InterpretedMachine,
-    own: usize,
+    output_count: usize,
     name: &str,
     value: &str,
 ) -> Option<(usize, f64)> {
-    let mut outputs = machine.program().outputs.iter().take(own);
+    let mut outputs = machine.program().outputs.iter().take(output_count);
     let place = outputs.position(|slot| slot.name.to_string() == name)?;
     let unit = machine.program().outputs[place].label();
     let set = Assignment {

@@ -105,21 +105,16 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
             wanted.iter().any(|wanted| wanted == name || wanted == base)
         };
         let parameters = model.parameters.iter().enumerate();
-        let parameters = parameters.filter(|(_, own)| is_asked(&own.name.to_string()));
+        let parameters = parameters.filter(|(_, slot)| is_asked(&slot.name.to_string()));
         let parameters: Vec<Variable> = parameters.map(|(k, _)| Variable::Parameter(k)).collect();
         let inputs = model.inputs.iter().enumerate();
-        let inputs = inputs.filter(|(_, own)| is_asked(&own.name.to_string()));
+        let inputs = inputs.filter(|(_, slot)| is_asked(&slot.name.to_string()));
         let inputs: Vec<Variable> = inputs.map(|(k, _)| Variable::Input(k)).collect();
         differentiate(&mut model.derivatives, parameters.into_iter().chain(inputs));
         Ok(())
     })?;
     let machine = reading::machine(&compiled, &call.start)?;
-    machine.check_parameters().map_err(|missing| {
-        Failure::Run(format!(
-            "{missing}; set them with --set {}=…",
-            missing.names.join("=… --set ")
-        ))
-    })?;
+    reading::check_parameters(&machine)?;
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
     reading::check_kept(&start, &call.keep)?;
@@ -198,7 +193,7 @@ fn variations(
             Some(inner.strip_suffix(')')?.trim())
         };
         let member = format!("{name}[");
-        let is_meant = |own: &str| own == name || own.starts_with(&member);
+        let is_meant = |known: &str| known == name || known.starts_with(&member);
         let state = inner("start").map(integral_name);
         let of_state = state.map_or_else(Vec::new, |integral| places(&start.q, &integral));
         if !of_state.is_empty() {
@@ -221,11 +216,11 @@ fn variations(
                 unit: rate_unit(&coordinates[k].1),
             }));
         } else {
-            let own = |list: &[(String, String)], by: fn(usize) -> By| -> Vec<Variation> {
+            let of_list = |list: &[(String, String)], by: fn(usize) -> By| -> Vec<Variation> {
                 let list = list
                     .iter()
                     .enumerate()
-                    .filter(|(_, (own, _))| is_meant(own));
+                    .filter(|(_, (of_list, _))| is_meant(of_list));
                 list.map(|(k, (name, unit))| Variation {
                     by: by(k),
                     name: name.clone(),
@@ -233,8 +228,8 @@ fn variations(
                 })
                 .collect()
             };
-            all.extend(own(&parameters, By::Parameter));
-            all.extend(own(&inputs, By::Input));
+            all.extend(of_list(&parameters, By::Parameter));
+            all.extend(of_list(&inputs, By::Input));
         }
         if all.len() == before {
             let known: Vec<String> = parameters
@@ -318,11 +313,11 @@ fn observed(
     for name in &wanted {
         let before = all.len();
         let member = format!("{name}[");
-        let own = (0..outputs.len()).filter(|k| {
-            let own = &outputs[*k].0;
-            own == name || own.starts_with(&member)
+        let matching = (0..outputs.len()).filter(|k| {
+            let output_name = &outputs[*k].0;
+            output_name == name || output_name.starts_with(&member)
         });
-        all.extend(own.map(output));
+        all.extend(matching.map(output));
         if all.len() == before {
             match name
                 .strip_prefix("der(")
@@ -650,7 +645,7 @@ fn set_by_call(start: &State<Named>, call: &call::Sensitivities) -> [Vec<bool>; 
 
 /// Empty columns: for each value, then for its derivatives.
 fn columns(variations: &[Variation], observed: &[Observed]) -> Vec<Column> {
-    let own = observed.iter().map(|observed| Column {
+    let of_values = observed.iter().map(|observed| Column {
         name: observed.name.clone(),
         unit: observed.unit.clone(),
         values: Vec::new(),
@@ -662,7 +657,7 @@ fn columns(variations: &[Variation], observed: &[Observed]) -> Vec<Column> {
             values: Vec::new(),
         })
     });
-    own.chain(derivatives).collect()
+    of_values.chain(derivatives).collect()
 }
 
 /// The run of a machine with unilateral contacts, with derivatives continued across each impact and each change of closed contacts.
@@ -749,11 +744,18 @@ fn across_impacts(
         let State { q, v, .. } = run.at(*t).map_err(failed)?;
         let there = run.observe(*t, (&q, &v)).map_err(failed)?;
         let u = &there.inputs.own.values;
-        let own = |list: &Vec<f64>| list[..n].to_vec();
+        let without_derivatives = |list: &Vec<f64>| list[..n].to_vec();
         let value = |observed: &Observed| match observed.of {
             Of::Coordinate(i) => q[i],
             Of::Rate(i) => v[i],
-            Of::Output(i) => system.output(i, *t, &own(&q), &own(&v), &own(&there.a), u),
+            Of::Output(i) => system.output(
+                i,
+                *t,
+                &without_derivatives(&q),
+                &without_derivatives(&v),
+                &without_derivatives(&there.a),
+                u,
+            ),
         };
         let by = |observed: &Observed| -> Vec<f64> {
             let part = |list: &[f64], i: usize| list[n..].chunks(n).map(|by| by[i]).collect();
@@ -976,7 +978,7 @@ fn text(times: &[f64], columns: &[Column]) -> String {
     text
 }
 
-fn as_json(times: &[f64], columns: &[Column], own: usize) -> Value {
+fn as_json(times: &[f64], columns: &[Column], of_values: usize) -> Value {
     let list = |columns: &[Column]| -> Vec<Value> {
         let columns = columns.iter();
         columns
@@ -985,5 +987,5 @@ fn as_json(times: &[f64], columns: &[Column], own: usize) -> Value {
             )
             .collect()
     };
-    json!({"t": times, "values": list(&columns[..own]), "derivatives": list(&columns[own..])})
+    json!({"t": times, "values": list(&columns[..of_values]), "derivatives": list(&columns[of_values..])})
 }

@@ -2,12 +2,13 @@
 
 use std::iter;
 
-use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{
     Ending, Error, LEAST_RELATIVE_TOLERANCE, Machine, MethodChoice, Simulation, State, System,
     Warning,
 };
+use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_sweep::signals::{self, InputArgument};
 use lagrangian_sweep::verdict;
@@ -20,7 +21,7 @@ use crate::collisions;
 use crate::contacts::{self, Contacts, Found};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
-use crate::global_error;
+use crate::global_error::{self, Estimate};
 use crate::inputs;
 use crate::interrupt::Interrupt;
 use crate::methods::{self, AUTO};
@@ -124,6 +125,61 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     if call.validated {
         return precise::validated(call);
     }
+    let (tolerance, method) = (tolerance(call)?, method(call)?);
+    let written = inputs::parse(&call.inputs)?;
+    let files = Files::new(call, &written)?;
+    let dag = Dag::new();
+    let prepared = Prepared::new(call, &dag, (&files, &written), (method, tolerance))?;
+    let watched = Contacts::new(&prepared.compiled.model, &prepared.machine);
+    let interrupt = Interrupt::watch();
+    let (run, error) = prepared.run(call, &files, &watched, &interrupt)?;
+    let mut trouble = Trouble {
+        error: error.as_ref(),
+        is_interrupted: matches!(run.ending(), Ending::Stopped),
+        other: verdict::energy_error(&run).into_iter().collect(),
+    };
+    let contacts = watched.results(&run);
+    let mut global_error = None;
+    if call.global_error && *run.ending() == Ending::End {
+        match prepared.global_error(call, &run, &interrupt) {
+            Ok(estimate) => global_error = Some(estimate),
+            Err(why) => trouble.other.push(why),
+        }
+    }
+    if files.all().next().is_some() {
+        progress::now("writing");
+        let recording = record(&run);
+        let stride = prepared.refinement(call, &files) as usize;
+        let written = write(&files, prepared.machine.name(), &recording.each(stride));
+        trouble.other.extend(written);
+        if let Some(file) = &files.report {
+            let report = Report {
+                asked: &call_settings(call, tolerance),
+                compiled: &prepared.compiled,
+                contacts: &contacts,
+                machine: &prepared.machine,
+                method: prepared.method,
+                run: (&run).into(),
+                recording: &recording,
+                error: error.as_ref().map(ToString::to_string),
+                is_interrupted: trouble.is_interrupted,
+            };
+            let written = prepared.write_page(call, &report, run.warnings(), file);
+            trouble.other.extend(written.err());
+        }
+    }
+    print(
+        call,
+        &prepared,
+        &run,
+        &contacts,
+        global_error.as_ref(),
+        &trouble,
+    )
+}
+
+/// The tolerance of the call.
+fn tolerance(call: &call::Simulate) -> Result<f64, Failure> {
     let tolerance = call.tolerance.unwrap_or(TOLERANCE);
     if tolerance < LEAST_RELATIVE_TOLERANCE {
         return Err(Failure::Call(format!(
@@ -132,228 +188,261 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
             shortest(tolerance)
         )));
     }
-    let is_auto = call.method == AUTO;
-    let mut method = if is_auto {
-        <&Method>::default()
-    } else {
-        methods::named_or(&call.method, &[AUTO])?
-    };
-    let written = inputs::parse(&call.inputs)?;
-    let files = Files::new(call, &written)?;
-    let dag = Dag::new();
-    let mut reading = Reading::open(&call.spec)?;
-    let laws = reading.drive(&call.spec, &written)?;
-    let formulas = reading.formulas();
-    let compiled = reading.compile_beside(&dag, files.all());
-    let mut compiled = compiled.map_err(inputs::as_call_failure)?;
-    let mut machine = reading::machine(&compiled, &call.start)?;
-    // Formulas of inputs are not outputs of the machine.
-    let own = compiled.model.outputs.len() - formulas;
-    compiled.model.outputs.truncate(own);
-    let mut numbers = own..;
-    let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(own));
-    let signals = signals.map_err(Failure::Call)?;
-    if std::ptr::eq(method, &TAYLOR) {
-        progress::now("deriving the series");
-        let series = ProvedSeries::derive(&compiled.model);
-        let reason = series.as_ref().err().map(ToString::to_string);
-        let reason = reason.or_else(|| signals::without_series(&signals, &machine));
-        if let Some(reason) = reason {
-            method = <&Method>::default();
-            output::print_error(format_args!(
-                "warning: no Taylor series: {reason}; {} is used",
-                method.tableau.name
-            ));
-        }
-        machine = machine.with_series(series);
-    }
-    if call.live
-        && let Some(objection) = report::live::reason_not_live(
-            &compiled.program,
-            method,
-            !laws.is_empty(),
-            &call.keep.names,
-        )
-    {
-        return Err(Failure::Call(objection));
-    }
-    machine.check_parameters().map_err(|missing| {
-        Failure::Run(format!(
-            "{missing}; set them with --set {}=…",
-            missing.names.join("=… --set ")
-        ))
-    })?;
-    let mut start = machine.start();
-    set_start(&mut start, &call.start)?;
-    reading::check_kept(&start, &call.keep)?;
+    Ok(tolerance)
+}
 
-    let recorded = files.all().next().is_some();
-    let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
-    let finer = match files.report {
-        Some(_) => {
-            let shared = files.out.is_some() || files.plot.is_some();
-            report::finer_count(start.q.values.len(), call.until, interval, shared)
-        }
-        None => 1,
-    };
-    let contacts = Contacts::new(&compiled.model, &machine);
-    let interrupt = Interrupt::watch();
-    progress::at(start.t, 0.0, 0);
-    progress::run(call.until);
-    let mut is_said = false;
-    let mut simulation = signals
-        .drive(Simulation::new(&machine), &machine)
-        .tolerance(tolerance)
-        .method(method)
-        .until(call.until)
-        .longest_step(call.longest_step.unwrap_or(f64::INFINITY))
-        .max_steps(call.max_steps)
-        .energy_balance(true)
-        .forget_steps()
-        .stop_if(|_| interrupt.was_pressed())
-        .progress(|now| {
-            progress::at(now.t, now.fraction, now.steps);
-            // Reported at once, not after hours of running.
-            if let Some(t) = now
-                .stiff_since
-                .filter(|_| !std::mem::replace(&mut is_said, true))
-            {
+/// The method with which a run begins.
+fn method(call: &call::Simulate) -> Result<&'static Method, Failure> {
+    if call.method == AUTO {
+        return Ok(<&Method>::default());
+    }
+    methods::named_or(&call.method, &[AUTO])
+}
+
+/// A machine that is ready to run, with the settings of its run.
+struct Prepared<'d> {
+    compiled: Compiled<'d>,
+    machine: InterpretedMachine,
+    signals: Signals,
+    method: &'static Method,
+    tolerance: f64,
+    start: State<Named>,
+}
+
+impl<'d> Prepared<'d> {
+    fn new(
+        call: &call::Simulate,
+        dag: &'d Dag,
+        (files, written): (&Files, &[(String, InputArgument)]),
+        (mut method, tolerance): (&'static Method, f64),
+    ) -> Result<Prepared<'d>, Failure> {
+        let mut reading = Reading::open(&call.spec)?;
+        let laws = reading.drive(&call.spec, written)?;
+        let formulas = reading.formulas();
+        let compiled = reading.compile_beside(dag, files.all());
+        let mut compiled = compiled.map_err(inputs::as_call_failure)?;
+        let mut machine = reading::machine(&compiled, &call.start)?;
+        // Formulas of inputs are not outputs of the machine.
+        let output_count = compiled.model.outputs.len() - formulas;
+        compiled.model.outputs.truncate(output_count);
+        let mut numbers = output_count..;
+        let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(output_count));
+        let signals = signals.map_err(Failure::Call)?;
+        if std::ptr::eq(method, &TAYLOR) {
+            progress::now("deriving the series");
+            let series = ProvedSeries::derive(&compiled.model);
+            let reason = series.as_ref().err().map(ToString::to_string);
+            let reason = reason.or_else(|| signals::without_series(&signals, &machine));
+            if let Some(reason) = reason {
+                method = <&Method>::default();
                 output::print_error(format_args!(
-                    "warning: {}: --method radau5",
-                    Warning::Stiff { t }
+                    "warning: no Taylor series: {reason}; {} is used",
+                    method.tableau.name
                 ));
             }
-        });
-    if recorded && call.until != 0.0 {
-        check_samples("--every", interval, call.until)?;
-        simulation = simulation.every(interval / f64::from(finer));
+            machine = machine.with_series(series);
+        }
+        if call.live
+            && let Some(objection) = report::live::reason_not_live(
+                &compiled.program,
+                method,
+                !laws.is_empty(),
+                &call.keep.names,
+            )
+        {
+            return Err(Failure::Call(objection));
+        }
+        reading::check_parameters(&machine)?;
+        let mut start = machine.start();
+        set_start(&mut start, &call.start)?;
+        reading::check_kept(&start, &call.keep)?;
+        Ok(Prepared {
+            compiled,
+            machine,
+            signals,
+            method,
+            tolerance,
+            start,
+        })
     }
-    if !recorded {
-        // Only the end is reported, and events if they are asked for.
-        simulation = simulation.forget_energies().forget_contact_phases();
-        if !call.spec.json {
-            simulation = simulation.forget_contact_events();
+
+    /// By which factor the run is recorded more densely than requested, as the page of the run needs it.
+    fn refinement(&self, call: &call::Simulate, files: &Files) -> u32 {
+        if files.report.is_none() {
+            return 1;
+        }
+        let shared = files.out.is_some() || files.plot.is_some();
+        let coordinates = self.start.q.values.len();
+        report::recording_refinement(coordinates, call.until, interval(call), shared)
+    }
+
+    /// A simulation with the settings of the call.
+    fn simulation<'r>(
+        &'r self,
+        call: &'r call::Simulate,
+        tolerance: f64,
+        interrupt: &'r Interrupt,
+    ) -> Simulation<'r, InterpretedMachine, Signals> {
+        let simulation = self
+            .signals
+            .drive(Simulation::new(&self.machine), &self.machine)
+            .tolerance(tolerance)
+            .method(self.method)
+            .until(call.until)
+            .longest_step(call.longest_step.unwrap_or(f64::INFINITY))
+            .max_steps(call.max_steps)
+            .forget_steps()
+            .stop_if(move |_| interrupt.was_pressed());
+        let simulation = reading::keep(simulation, &call.keep);
+        if call.method == AUTO {
+            simulation.automatic()
+        } else {
+            simulation
         }
     }
-    simulation = reading::keep(simulation, &call.keep);
-    if is_auto {
-        simulation = simulation.automatic();
+
+    /// Runs the machine as far as possible.
+    fn run(
+        &self,
+        call: &call::Simulate,
+        files: &Files,
+        contacts: &Contacts,
+        interrupt: &Interrupt,
+    ) -> Result<(Run, Option<Error>), Failure> {
+        progress::at(self.start.t, 0.0, 0);
+        progress::run(call.until);
+        let mut has_warned = false;
+        let mut simulation = self
+            .simulation(call, self.tolerance, interrupt)
+            .energy_balance(true)
+            .progress(|now| {
+                progress::at(now.t, now.fraction, now.steps);
+                // Reported at once, not after hours of running.
+                if let Some(t) = now
+                    .stiff_since
+                    .filter(|_| !std::mem::replace(&mut has_warned, true))
+                {
+                    output::print_error(format_args!(
+                        "warning: {}: --method radau5",
+                        Warning::Stiff { t }
+                    ));
+                }
+            });
+        if files.all().next().is_none() {
+            // Only the end is reported, and events if they are asked for.
+            simulation = simulation.forget_energies().forget_contact_phases();
+            if !call.spec.json {
+                simulation = simulation.forget_contact_events();
+            }
+        } else if call.until != 0.0 {
+            let interval = interval(call);
+            check_samples("--every", interval, call.until)?;
+            simulation = simulation.every(interval / f64::from(self.refinement(call, files)));
+        }
+        contacts
+            .watch(simulation, !self.signals.is_empty())
+            .run_interpreted_as_far_as_possible(self.start.clone())
+            .map_err(cause)
     }
-    let simulation = contacts.watch(simulation, !signals.is_empty());
-    let stated = start.clone();
-    let (run, error) = simulation
-        .run_interpreted_as_far_as_possible(start)
-        .map_err(cause)?;
-    let mut trouble = Trouble {
-        error: error.as_ref(),
-        is_interrupted: matches!(run.ending(), Ending::Stopped),
-        other: verdict::energy_error(&run).into_iter().collect(),
-    };
-    let contacts = contacts.results(&run);
-    let global = if call.global_error && *run.ending() == Ending::End {
+
+    /// Estimates the error at the end of a run.
+    ///
+    /// # Errors
+    /// Why there is no estimate.
+    fn global_error(
+        &self,
+        call: &call::Simulate,
+        run: &Run,
+        interrupt: &Interrupt,
+    ) -> Result<Estimate, String> {
         progress::now("estimating the error");
         let again = |tolerance: f64, start: State<Named>| {
-            let simulation = signals.drive(Simulation::new(&machine), &machine);
-            let simulation = simulation
-                .tolerance(tolerance)
-                .method(method)
-                .until(call.until)
-                .longest_step(call.longest_step.unwrap_or(f64::INFINITY))
-                .max_steps(call.max_steps)
-                .forget_steps()
-                .stop_if(|_| interrupt.was_pressed());
-            let simulation = reading::keep(simulation, &call.keep);
-            let simulation = if is_auto {
-                simulation.automatic()
-            } else {
-                simulation
-            };
+            let simulation = self.simulation(call, tolerance, interrupt);
             let again = simulation.run_interpreted(start).ok()?;
             (*again.ending() == Ending::End).then(|| again.end().clone())
         };
-        let is_driven = !signals.is_empty();
-        let wide = (!is_driven).then(|| ProvedSeries::derive(&compiled.model));
+        let is_driven = !self.signals.is_empty();
         let estimated_run = global_error::EstimatedRun {
-            machine: &machine,
-            series: wide,
-            tolerance,
-            has_fixed_steps: method.has_fixed_steps(),
+            machine: &self.machine,
+            series: (!is_driven).then(|| ProvedSeries::derive(&self.compiled.model)),
+            tolerance: self.tolerance,
+            has_fixed_steps: self.method.has_fixed_steps(),
             max_steps: call.max_steps,
         };
-        match global_error::estimate(estimated_run, (run.start(), run.end()), again) {
-            Ok(estimate) => Some(estimate),
-            Err(why) => {
-                trouble.other.push(why);
-                None
-            }
-        }
-    } else {
-        None
-    };
-
-    if recorded {
-        progress::now("writing");
-        let recording = record(&run);
-        let written = write(&files, machine.name(), &recording.each(finer as usize));
-        trouble.other.extend(written);
-        if let Some(file) = &files.report {
-            let report = Report {
-                asked: &call_settings(call, tolerance),
-                compiled: &compiled,
-                contacts: &contacts,
-                machine: &machine,
-                method,
-                run: (&run).into(),
-                recording: &recording,
-                error: error.as_ref().map(ToString::to_string),
-                is_interrupted: trouble.is_interrupted,
-            };
-            let mut warnings = run.warnings().iter();
-            let redundant = warnings.find(|it| matches!(it, Warning::RedundantConstraint { .. }));
-            let page = if call.live {
-                report.page_that_runs(&Live {
-                    tolerance,
-                    most_steps: call.max_steps,
-                    stated: &stated,
-                })
-            } else {
-                report.page()
-            };
-            match redundant.filter(|_| call.live) {
-                Some(warning) => {
-                    let spec = call.spec.path.file_name().unwrap_or_default();
-                    trouble.other.push(report::live::without_constraint(
-                        warning,
-                        machine.name(),
-                        &spec.to_string_lossy(),
-                    ));
-                }
-                None => {
-                    let written = file.write_text(&page);
-                    trouble.other.extend(written.err().map(Failure::message));
-                }
-            }
-        }
+        global_error::estimate(estimated_run, (run.start(), run.end()), again)
     }
-    let interruption = trouble.interruption(&run, call.until);
+
+    /// Writes the page of a run.
+    ///
+    /// # Errors
+    /// If the file cannot be written, or the page cannot run the machine since a constraint is redundant.
+    fn write_page(
+        &self,
+        call: &call::Simulate,
+        report: &Report<'_, '_>,
+        warnings: &[Warning],
+        file: &Destination,
+    ) -> Result<(), String> {
+        let mut warnings = warnings.iter();
+        let redundant = warnings.find(|it| matches!(it, Warning::RedundantConstraint { .. }));
+        if let Some(warning) = redundant.filter(|_| call.live) {
+            let spec = call.spec.path.file_name().unwrap_or_default();
+            return Err(report::live::without_constraint(
+                warning,
+                self.machine.name(),
+                &spec.to_string_lossy(),
+            ));
+        }
+        let page = if call.live {
+            report.page_that_runs(&Live {
+                tolerance: self.tolerance,
+                most_steps: call.max_steps,
+                stated: &self.start,
+            })
+        } else {
+            report.page()
+        };
+        file.write_text(&page).map_err(Failure::message)
+    }
+}
+
+/// The interval at which a run is recorded, in s.
+fn interval(call: &call::Simulate) -> f64 {
+    call.every.unwrap_or(call.until.abs() / SAMPLES)
+}
+
+/// Prints the results and the errors of a run.
+///
+/// # Errors
+/// If there are errors, or the run was interrupted.
+fn print(
+    call: &call::Simulate,
+    prepared: &Prepared<'_>,
+    run: &Run,
+    contacts: &[Found],
+    global_error: Option<&Estimate>,
+    trouble: &Trouble<'_>,
+) -> Result<(), Failure> {
+    let interruption = trouble.interruption(run, call.until);
+    let errors = trouble.errors();
     if call.spec.json {
-        let mut document = document(call, &run, &contacts, &interruption, &trouble.errors());
-        if let (Some(global), Value::Object(fields)) = (&global, &mut document) {
-            fields.insert("global_error".into(), global.json(run.end()));
+        let mut document = document(call, run, contacts, &interruption, &errors);
+        if let (Some(estimate), Value::Object(fields)) = (global_error, &mut document) {
+            fields.insert("global_error".into(), estimate.json(run.end()));
         }
         output::line(format_args!("{document:#}"));
     } else {
-        print_summary(call, &machine, method, &run, &contacts);
-        if let Some(global) = &global {
-            for line in global.lines(run.end()) {
-                output::line(format_args!("  {line}"));
-            }
+        print_summary(call, &prepared.machine, prepared.method, run, contacts);
+        for line in global_error
+            .into_iter()
+            .flat_map(|estimate| estimate.lines(run.end()))
+        {
+            output::line(format_args!("  {line}"));
         }
         if let Some(interruption) = &interruption {
             output::line(format_args!("  {interruption}"));
         }
     }
-    let errors = trouble.errors();
     for error in &errors {
         output::print_error(format_args!("error: {error}"));
     }
@@ -572,7 +661,7 @@ fn print_summary(
             balance.work, balance.dissipated
         ));
         output::line(format_args!(
-            "    residual {:.3e}, {:.1e} of the energy turned over",
+            "    residual {:.3e}, {:.1e} of the energy exchanged",
             balance.residual(),
             balance.relative()
         ));

@@ -13,7 +13,7 @@ use lagrangian_program::Contracted;
 use super::Level;
 use super::encodings::{Encodings, encodings};
 use super::external;
-use super::lower::{Arithmetic, Base, Id, Instruction, Lowered, Node, Place, Predicate};
+use super::lower::{Arithmetic, Base, Id, Instruction, Location, Lowered, Node, Predicate};
 use super::work::Work;
 
 /// The size of the header of the workspace in bytes; it holds the addresses of arguments.
@@ -125,7 +125,7 @@ struct Emitter<'a> {
     held: Vec<Option<Id>>,
     register_of: Vec<Option<u8>>,
     /// The memory location of each value.
-    home: Vec<Option<Place>>,
+    home: Vec<Option<Location>>,
     /// Whether that location is a workspace slot that can be reused afterwards.
     is_borrowed: Vec<bool>,
     free_slots: Vec<u32>,
@@ -290,15 +290,15 @@ impl<'a> Emitter<'a> {
     }
 
     /// A location as a memory operand.
-    fn operand(&mut self, place: Place) -> Result<MemoryOperand, IcedError> {
+    fn operand(&mut self, place: Location) -> Result<MemoryOperand, IcedError> {
         let is_wide = self.layout.lanes > 1;
         let (base, displacement, is_broadcast) = match place {
-            Place::Constant(index) => {
+            Location::Constant(index) => {
                 let address = index as usize * self.constant_stride;
                 let is_broadcast = is_wide && self.layout.level == Level::Avx512;
                 (Register::RIP, address as i64, is_broadcast)
             }
-            Place::Argument(base, index) => {
+            Location::Argument(base, index) => {
                 let stride = match base {
                     Base::Known => self.layout.known_stride,
                     _ => self.layout.stride,
@@ -307,7 +307,7 @@ impl<'a> Emitter<'a> {
                 let displacement = 8 * stride * index as usize;
                 (register, displacement as i64, is_wide && stride == 1)
             }
-            Place::Workspace(index) => (WORKSPACE, self.in_workspace(index), false),
+            Location::Workspace(index) => (WORKSPACE, self.in_workspace(index), false),
         };
         let mut operand = MemoryOperand::with_base_displ(base, displacement);
         operand.is_broadcast = is_broadcast;
@@ -366,7 +366,7 @@ impl<'a> Emitter<'a> {
         if self.home[id as usize].is_none() {
             let slot = self.free_slots.pop().unwrap_or(self.slots);
             self.slots = self.slots.max(slot + 1);
-            self.home[id as usize] = Some(Place::Workspace(slot));
+            self.home[id as usize] = Some(Location::Workspace(slot));
             self.is_borrowed[id as usize] = true;
             self.store(index, Goal::Workspace(slot))?;
         }
@@ -402,7 +402,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// Loads a location into a register.
-    fn read(&mut self, index: u8, place: Place) -> Result<(), IcedError> {
+    fn read(&mut self, index: u8, place: Location) -> Result<(), IcedError> {
         let mut from = self.operand(place)?;
         let to = self.register(index);
         let code = match (from.is_broadcast, self.table.broadcast) {
@@ -417,7 +417,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// Copies a location to a goal.
-    fn copy(&mut self, from: Place, to: Goal) -> Result<(), IcedError> {
+    fn copy(&mut self, from: Location, to: Goal) -> Result<(), IcedError> {
         let index = self.take(&[])?;
         self.read(index, from)?;
         self.store(index, to)
@@ -572,7 +572,7 @@ impl<'a> Emitter<'a> {
                 Last::Memory(operand)
             }
             // Constants are stored twice; after other numbers the memory may end.
-            (Level::Avx2, Place::Argument(..) | Place::Workspace(_)) if is_long => {
+            (Level::Avx2, Location::Argument(..) | Location::Workspace(_)) if is_long => {
                 Last::Register(self.in_register(id, but)?)
             }
             (Level::Avx2, _) => Last::Memory(self.operand(place)?),
@@ -608,7 +608,7 @@ impl<'a> Emitter<'a> {
         for operand in self.lowered.nodes[id as usize].operands() {
             if self.next(operand) == NEVER
                 && std::mem::replace(&mut self.is_borrowed[operand as usize], false)
-                && let Some(Place::Workspace(slot)) = self.home[operand as usize].take()
+                && let Some(Location::Workspace(slot)) = self.home[operand as usize].take()
             {
                 self.free_slots.push(slot);
             }
@@ -626,7 +626,7 @@ impl<'a> Emitter<'a> {
             self.store(index, goal)?;
             if let Goal::Workspace(slot) = goal {
                 // The slot belongs to this value, so it need not be stored elsewhere.
-                self.home[id as usize] = Some(Place::Workspace(slot));
+                self.home[id as usize] = Some(Location::Workspace(slot));
             }
         }
         self.give_back(id);

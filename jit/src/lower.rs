@@ -18,7 +18,7 @@ pub type Id = u32;
 #[derive(Clone, Copy, Debug)]
 pub enum Node {
     /// A value that is in memory before it is needed.
-    Leaf(Place),
+    Leaf(Location),
     /// An instruction with two operands.
     Binary(Instruction, Id, Id),
     /// A sum with the product contracted into it: the factors and the term.
@@ -83,7 +83,7 @@ pub enum Predicate {
 
 /// The memory location of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Place {
+pub enum Location {
     /// Among the constants beside the code.
     Constant(u32),
     /// Among the arguments of the call.
@@ -190,7 +190,7 @@ struct Builder {
     nodes: Vec<Node>,
     /// The values in the order of the program, without leaves.
     order: Vec<Id>,
-    leaves: HashMap<Place, Id>,
+    leaves: HashMap<Location, Id>,
     constants: Vec<u64>,
     constant_of: HashMap<u64, u32>,
     wanted: Vec<Wanted>,
@@ -216,7 +216,7 @@ impl Builder {
         self.add(Node::Binary(instruction, a, b))
     }
 
-    fn leaf(&mut self, place: Place) -> Id {
+    fn leaf(&mut self, place: Location) -> Id {
         match self.leaves.get(&place) {
             Some(id) => *id,
             None => {
@@ -233,7 +233,7 @@ impl Builder {
         if index == next {
             self.constants.push(bits);
         }
-        self.leaf(Place::Constant(index))
+        self.leaf(Location::Constant(index))
     }
 
     fn number(&mut self, number: f64) -> Id {
@@ -243,7 +243,7 @@ impl Builder {
     /// The results of a call whose slots are not yet assigned.
     fn call(&mut self, kind: CallKind, arguments: Vec<Id>, results: usize) -> Vec<Id> {
         let call = self.wanted.len();
-        let place = Node::Leaf(Place::Workspace(0));
+        let place = Node::Leaf(Location::Workspace(0));
         let results: Vec<Id> = (0..results).map(|_| self.add(place)).collect();
         self.call_of.extend(results.iter().map(|id| (*id, call)));
         self.wanted.push(Wanted {
@@ -275,7 +275,7 @@ impl Builder {
             Source::AtTime(index) => (Base::AtTime, index),
             Source::AtPosition(index) => (Base::AtPosition, index),
         };
-        self.leaf(Place::Argument(base, index))
+        self.leaf(Location::Argument(base, index))
     }
 
     fn product_error(&mut self, arithmetic: Arithmetic, a: Id, b: Id) -> Id {
@@ -513,7 +513,7 @@ impl Builder {
             // All first results, then all second ones.
             for second in 0..2 {
                 for id in calls.iter().filter_map(|call| call.results.get(second)) {
-                    nodes[*id as usize] = Node::Leaf(Place::Workspace(workspace));
+                    nodes[*id as usize] = Node::Leaf(Location::Workspace(workspace));
                     workspace += 1;
                 }
             }
@@ -541,7 +541,7 @@ impl Builder {
 
         let mut reads = [0; Base::COUNT];
         for node in &self.nodes {
-            if let Node::Leaf(Place::Argument(base, index)) = node {
+            if let Node::Leaf(Location::Argument(base, index)) = node {
                 let reads = &mut reads[*base as usize];
                 *reads = (*reads).max(index + 1);
             }

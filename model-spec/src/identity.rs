@@ -251,9 +251,9 @@ pub fn irrelevant<'d>(
                 _ => random_value(seed, symbol),
             })
         };
-        let here = at(None);
-        if here.iter().all(|value| value.is_finite()) {
-            cyclic.retain(|&symbol| at(Some(symbol)) == here);
+        let unchanged = at(None);
+        if unchanged.iter().all(|value| value.is_finite()) {
+            cyclic.retain(|&symbol| at(Some(symbol)) == unchanged);
             agreeing += 1;
         }
     }

@@ -3,7 +3,7 @@
 use lagrangian::interpreted::{InterpretedMachine, Named, Recording};
 use lagrangian::methods::Method;
 use lagrangian::{Ending, Solution, State, System};
-use lagrangian_cli::report::{CallSettings, Report, finer_count};
+use lagrangian_cli::report::{CallSettings, Report, recording_refinement};
 use lagrangian_mechanics::Compiled;
 use lagrangian_sweep::verdict;
 use numpy::PyArray1;
@@ -109,7 +109,12 @@ impl Run {
         let parts = if duration == 0.0 {
             0
         } else {
-            1000 * u64::from(finer_count(dimension, duration, duration / 1000.0, false))
+            1000 * u64::from(recording_refinement(
+                dimension,
+                duration,
+                duration / 1000.0,
+                false,
+            ))
         };
         let time = |k: u64| {
             if k == parts {
@@ -218,7 +223,7 @@ impl Run {
             ("end", balance.end),
             ("work", balance.work),
             ("dissipated", balance.dissipated),
-            ("turned_over", balance.turned_over),
+            ("exchanged", balance.exchanged),
             ("residual", balance.residual()),
             ("relative", balance.relative()),
         ] {

@@ -201,7 +201,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.stepper.test_stiffness_every(STEPS_BETWEEN_TESTS);
         self.choosing.marks = [self.tried(); 2];
         match self.rate_beyond_series() {
-            Some(rate) => self.go_on_by(Method::DOP853, MethodReason::Stiff { rate }),
+            Some(rate) => self.change_method(Method::DOP853, MethodReason::Stiff { rate }),
             None => Ok(()),
         }
     }
@@ -219,7 +219,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             let is_due = steps.is_multiple_of(STEPS_BETWEEN_LOOKS);
             let rate = is_due.then(|| self.rate_beyond_series()).flatten();
             return match rate {
-                Some(rate) => self.go_on_implicitly(rate),
+                Some(rate) => self.change_to_implicit(rate),
                 None => Ok(()),
             };
         }
@@ -227,7 +227,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         match self.stepper.stiff_since() {
             Some(_) => {
                 let rate = self.stepper.fastest_rate().unwrap_or(0.0);
-                self.go_on_implicitly(rate)
+                self.change_to_implicit(rate)
             }
             None => Ok(()),
         }
@@ -245,7 +245,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             && is_of_series
             && self.stepper.coefficients().is_some()
             && self
-                .go_on_by(Method::DOP853, MethodReason::NoSeries)
+                .change_method(Method::DOP853, MethodReason::NoSeries)
                 .is_ok()
     }
 
@@ -283,13 +283,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         (is_measured && evaluations.is_finite()).then_some(Explicit { evaluations, rate })
     }
 
-    fn go_on_implicitly(&mut self, rate: f64) -> Result<(), Error> {
+    fn change_to_implicit(&mut self, rate: f64) -> Result<(), Error> {
         let method = implicit(finest_tolerance(self.stepper.tolerance()));
         self.choosing.before = self.cost_of_explicit(rate);
         self.choosing.has_paid = false;
         self.choosing.paying = 0;
         self.begin_window();
-        self.go_on_by(method, MethodReason::Stiff { rate })
+        self.change_method(method, MethodReason::Stiff { rate })
     }
 
     fn begin_window(&mut self) {
@@ -348,16 +348,20 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         self.stepper
             .test_stiffness_every(self.choosing.between_tests);
-        self.go_on_by(Method::DOP853, MethodReason::NotStiff { rate })
+        self.change_method(Method::DOP853, MethodReason::NotStiff { rate })
     }
 
-    fn go_on_by(&mut self, method: &'static Method, reason: MethodReason) -> Result<(), Error> {
-        if let Err(error) = self.stepper.go_on_with_method(method) {
+    fn change_method(
+        &mut self,
+        method: &'static Method,
+        reason: MethodReason,
+    ) -> Result<(), Error> {
+        if let Err(error) = self.stepper.change_method(method) {
             let (q, v) = (self.stepper.q(), self.stepper.v());
             return Err(self.model.explain(error, q, v));
         }
         if let Some(steps) = &mut self.record.steps {
-            steps.go_on_by(method);
+            steps.begin_method(method);
         }
         self.choosing.marks = [self.tried(); 2];
         let t = self.stepper.t();

@@ -497,7 +497,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// can be seen.
     pub(super) fn record_energy_gains(&mut self, impacts: &[Impact], t: f64) {
         let loss: f64 = impacts.iter().map(|impact| impact.loss).sum();
-        let turned_over: f64 = (impacts.iter())
+        let exchanged: f64 = (impacts.iter())
             .map(|i| (i.impulse[0] * i.gap_rate[0]).abs() + (i.impulse[1] * i.slip[0]).abs())
             .sum();
         if loss >= 0.0 {
@@ -510,7 +510,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let potential =
             known(self.model.system.potential_energy(t_now, q, &inputs) + self.stored_now());
         let of_energies = ROUNDINGS_OF_ENERGIES * f64::EPSILON * (kinetic + potential);
-        if -loss <= 1e-12 * (turned_over + kinetic) + of_energies {
+        if -loss <= 1e-12 * (exchanged + kinetic) + of_energies {
             return;
         }
         let kept = &mut self.record.unilateral;

@@ -128,9 +128,9 @@ impl ExplainedResidual {
         }
     }
 
-    /// The total, in J. `turned_over` is the energy that was turned over.
-    pub fn total(&self, turned_over: f64) -> f64 {
-        let each = f64::EPSILON * (self.greatest_energy + turned_over) + self.by_rounding;
+    /// The total, in J. `exchanged` is the energy exchanged.
+    pub fn total(&self, exchanged: f64) -> f64 {
+        let each = f64::EPSILON * (self.greatest_energy + exchanged) + self.by_rounding;
         MARGIN * self.by_tolerance + ROUNDINGS * sqrt(self.steps as f64) * each
     }
 }

@@ -249,7 +249,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 
     /// Continues after a step of time stepping: with longer steps if everything has come to rest, or by locating every event again if
     /// contacts have been quiet for long enough.
-    pub(super) fn go_on_after_step(&mut self) -> Result<(), Error> {
+    pub(super) fn continue_after_time_step(&mut self) -> Result<(), Error> {
         if self.settings.method.is_time_stepping() || self.stepper.is_done() {
             return Ok(());
         }

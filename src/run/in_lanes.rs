@@ -102,7 +102,7 @@ pub(crate) fn run_all<'a, 'l, M: Machine>(
         for (number, lane) in lanes.iter_mut().enumerate() {
             let ending = lane
                 .as_mut()
-                .and_then(|lane_begun| lane_begun.go_on(number, tries));
+                .and_then(|lane_begun| lane_begun.finish_try(number, tries));
             if let Some(ending) = ending
                 && let Some(Lane { index, run, .. }) = lane.take()
             {
@@ -140,7 +140,7 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
     }
 
     /// Continues after a try of its step.
-    fn go_on(&mut self, lane: usize, tries: &Tries) -> Option<End> {
+    fn finish_try(&mut self, lane: usize, tries: &Tries) -> Option<End> {
         let stepped = match self.next.take() {
             None => Ok(()),
             Some(of) => match self.run.stepper.end_in_lanes(lane, of, tries) {

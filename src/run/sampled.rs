@@ -83,7 +83,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             (None, Some(piece)) if !piece.jumps => {
                 self.model.observed_system.law.piece = piece;
                 self.stepper
-                    .go_on_with(self.model.observed_system.law.clone());
+                    .replace_law_without_jump(self.model.observed_system.law.clone());
                 Ok(None)
             }
             (acting, entered) => self.jump_inputs(acting, entered),

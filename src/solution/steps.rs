@@ -47,7 +47,7 @@ impl<V: Vector> Steps<V> {
     }
 
     /// Records that the next step belongs to another method.
-    pub fn go_on_by(&mut self, method: &'static Method) {
+    pub fn begin_method(&mut self, method: &'static Method) {
         self.methods.push((self.times.len(), method));
     }
 

@@ -13,7 +13,7 @@ use std::boxed::Box;
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Continues with `method`, a Runge–Kutta method or one by series. The next step keeps its length for the first try.
-    pub(crate) fn go_on_with_method(&mut self, method: &'static Method) -> Result<(), StepError> {
+    pub(crate) fn change_method(&mut self, method: &'static Method) -> Result<(), StepError> {
         let spectrum = method.tableau.spectrum;
         let system = self.model.system.get();
         self.implicit = spectrum.map(|spectrum| Box::new(Implicit::new(system, spectrum)));
@@ -23,7 +23,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             self.taylor = Some(Box::new(Taylor::new(&self.tolerance)));
             self.expand()?;
         }
-        self.go_on_by(method, self.longest)
+        self.switch_method(method, self.longest)
     }
 
     /// Sets the number of steps between two stiffness tests.

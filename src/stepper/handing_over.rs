@@ -80,7 +80,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         let impulses = InImpulses::new(&self.now.q, &self.now.v);
         self.impulses = Some(Box::new(impulses));
-        self.go_on_by(Method::MOREAU, h)
+        self.switch_method(Method::MOREAU, h)
     }
 
     /// Continues to `end` by `method`, which locates every event, in steps of at most `longest`, with the contacts that were closed in the
@@ -111,7 +111,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if let Some(touching) = &mut self.model.touching {
             touching.end_stepping();
         }
-        let met = self.go_on_by(method, longest);
+        let met = self.switch_method(method, longest);
         match met.and_then(|()| self.resolve_contacts(Cause::Unspecified, false, end, step)) {
             Ok(mut changes_at_instant) => {
                 if changes_at_instant.impacts.is_empty() {
@@ -129,7 +129,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 self.now = now;
                 self.quadratures = quadratures;
                 self.impulses = impulses;
-                self.go_on_by(Method::MOREAU, settings.0)?;
+                self.switch_method(Method::MOREAU, settings.0)?;
                 (_, self.end, self.control.step) = settings;
                 Err(error)
             }
@@ -137,7 +137,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     }
 
     /// Continues with another method.
-    pub(super) fn go_on_by(
+    pub(super) fn switch_method(
         &mut self,
         method: &'static Method,
         longest: f64,

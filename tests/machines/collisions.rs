@@ -50,8 +50,8 @@ fn is_booked(run: &Solution<InterpretedMachine>) -> f64 {
         "{residual:e} of {:e}",
         balance.explained
     );
-    // The tolerance in each step, times the energy turned over.
-    let of_steps = TOLERANCE * run.statistics().steps as f64 * balance.turned_over;
+    // The tolerance in each step, times the energy exchanged.
+    let of_steps = TOLERANCE * run.statistics().steps as f64 * balance.exchanged;
     assert!(residual.abs() <= of_steps, "{residual:e} of {of_steps:e}");
     assert_eq!(run.warnings(), []);
     residual

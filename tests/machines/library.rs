@@ -556,7 +556,7 @@ fn the_work_of_a_drive_is_known_while_the_machine_rests() {
             let shakes = omega * until / TAU;
             let to_and_fro = 2.0 * m * (a * omega).powi(2) * shakes;
             assert!(
-                (balance.turned_over / to_and_fro - 1.0).abs() < 0.1,
+                (balance.exchanged / to_and_fro - 1.0).abs() < 0.1,
                 "{name} {balance:?}"
             );
         }

@@ -1546,7 +1546,7 @@ fn the_finest_tolerance_ends_no_run() {
         );
         // Each step errs by its tolerance and by the correction that the residual permits.
         let balance = run.energy_balance().expect("it was asked for");
-        let limit = done.steps as f64 * 1.1e-13 * balance.turned_over;
+        let limit = done.steps as f64 * 1.1e-13 * balance.exchanged;
         assert!(balance.residual().abs() <= limit, "{balance:?}");
     }
     runs(&SliderCrank::default(), 20.0);

@@ -66,7 +66,7 @@ fn agree(text: &str, in_spec: &str, force: Force) {
     let limit = 1e4 * TOLERANCE;
     let off = (mine.work - mine.dissipated) - (theirs.work - theirs.dissipated);
     assert!(off.abs() < 100.0 * limit, "{off:e} J");
-    assert!(theirs.turned_over > 1.0);
+    assert!(theirs.exchanged > 1.0);
     for t in [0.3, 1.1, 2.0] {
         let [mine, theirs] = [
             run.observe(t).unwrap().a.values,

@@ -493,7 +493,7 @@ fn parts(tokens: &[TokenTree]) -> Vec<Vec<TokenTree>> {
 }
 
 fn without_attributes(tokens: Vec<TokenTree>) -> Vec<TokenTree> {
-    let mut kept = Vec::new();
+    let mut remaining = Vec::new();
     let mut rest = tokens.into_iter();
     while let Some(token) = rest.next() {
         match &token {
@@ -504,12 +504,12 @@ fn without_attributes(tokens: Vec<TokenTree>) -> Vec<TokenTree> {
                 let fields = without_attributes(group.stream().into_iter().collect());
                 let fields =
                     proc_macro2::Group::new(Delimiter::Brace, fields.into_iter().collect());
-                kept.push(TokenTree::Group(fields));
+                remaining.push(TokenTree::Group(fields));
             }
-            _ => kept.push(token),
+            _ => remaining.push(token),
         }
     }
-    kept
+    remaining
 }
 
 /// The tokens as one line, with spaces as in formatted code.

@@ -100,8 +100,8 @@ fn panels(fastest: &Recording, free: Option<&Recording>) -> Vec<Value> {
     };
     let drawn = recording::panels(fastest, &[Kind::Coordinate, Kind::Output]);
     let panel = |panel: &crate::recording::Panel<'_>| {
-        let own = panel.columns.iter();
-        let mut curves: Vec<Value> = own
+        let columns = panel.columns.iter();
+        let mut curves: Vec<Value> = columns
             .map(|column| curve(column, column.name.clone(), &fastest.times))
             .collect();
         if let (Kind::Coordinate, Some(free)) = (panel.kind, free) {

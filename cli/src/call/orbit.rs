@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::arguments::{Arguments, SetName, names_in, with_spec};
 use super::{
-    Assignment, Keep, Spec, Start, Vary, assignment, interval, number, positive, steps, tolerance,
-    vary,
+    Assignment, Keep, Spec, Start, Vary, assignment, interval, names_of, number, positive, steps,
+    tolerance, vary,
 };
 
 /// Arguments of `orbit`.
@@ -57,6 +58,20 @@ pub struct Orbit {
     pub plot: Option<PathBuf>,
 }
 
+impl Arguments for Orbit {
+    with_spec!();
+
+    fn own_names(&self) -> Vec<SetName<'_>> {
+        let mut names = self.start.names();
+        names.extend(names_in([("--advance", &self.advance)]));
+        names
+    }
+
+    fn varied(&self) -> Result<Vec<String>, String> {
+        Ok(self.along.iter().map(|along| along.name.clone()).collect())
+    }
+}
+
 /// Arguments of `sensitivities`.
 #[derive(Debug, Args)]
 pub struct Sensitivities {
@@ -93,4 +108,16 @@ pub struct Sensitivities {
     /// Draw the derivatives as SVG.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
+}
+
+impl Arguments for Sensitivities {
+    with_spec!();
+
+    fn own_names(&self) -> Vec<SetName<'_>> {
+        self.start.names()
+    }
+
+    fn varied(&self) -> Result<Vec<String>, String> {
+        names_of(&self.by)
+    }
 }

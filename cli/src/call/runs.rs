@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use lagrangian_symbolic::Rational;
 
+use super::arguments::{Arguments, SetName, names_in};
 use super::{
     Assignment, Keep, Start, assignment, constant, interval, number, positive, steps, tolerance,
 };
@@ -88,6 +89,20 @@ pub struct Compare {
     pub plot: Option<PathBuf>,
 }
 
+impl Arguments for Compare {
+    fn runs(&self) -> Option<&Runs> {
+        Some(&self.runs)
+    }
+
+    fn own_names(&self) -> Vec<SetName<'_>> {
+        names_in([
+            ("--set-second", &self.second_parameters),
+            ("--start-second", &self.second_coordinates),
+            ("--rate-second", &self.second_rates),
+        ])
+    }
+}
+
 /// How values between rows are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Interpolation {
@@ -135,6 +150,12 @@ pub struct Spectrum {
     pub plot: Option<PathBuf>,
 }
 
+impl Arguments for Spectrum {
+    fn runs(&self) -> Option<&Runs> {
+        Some(&self.part.runs)
+    }
+}
+
 /// Windows of spectra.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Windows {
@@ -158,6 +179,12 @@ pub struct Peaks {
     /// Write all maxima and minima to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+}
+
+impl Arguments for Peaks {
+    fn runs(&self) -> Option<&Runs> {
+        Some(&self.part.runs)
+    }
 }
 
 /// Arguments of `section`.
@@ -185,6 +212,12 @@ pub struct Section {
     /// Draw the points as SVG: the second quantity of `--of` over the first; by default the rate of the first coordinate over it.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
+}
+
+impl Arguments for Section {
+    fn runs(&self) -> Option<&Runs> {
+        Some(&self.part.runs)
+    }
 }
 
 /// In which direction something passes.

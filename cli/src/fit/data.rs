@@ -441,8 +441,8 @@ pub fn root_mean_square(experiments: &[Experiment], class: usize) -> f64 {
     let columns = experiments
         .iter()
         .flat_map(|experiment| &experiment.columns);
-    let own = columns.filter(|column| column.sigma == class);
-    let values: Vec<f64> = own
+    let of_class = columns.filter(|column| column.sigma == class);
+    let values: Vec<f64> = of_class
         .flat_map(|column| column.values.iter().flatten().copied())
         .collect();
     let mean = values.iter().sum::<f64>() / values.len() as f64;

@@ -75,17 +75,17 @@ fn figures(result: &mut Fitted<'_, '_>, x: &[f64]) -> Result<Vec<(String, Vec<Cu
 
 /// The motion of an experiment at closely spaced times, and at those of its measurements.
 fn densely(fit: &Fit<'_>, e: usize, x: &[f64]) -> Result<Vec<(f64, Vec<f64>)>, Failure> {
-    let own = &fit.experiments[e];
-    let last = own.times.last().copied().unwrap_or(0.0);
+    let experiment = &fit.experiments[e];
+    let last = experiment.times.last().copied().unwrap_or(0.0);
     let mut times: Vec<f64> = (0..=POINTS)
         .map(|k| last * k as f64 / POINTS as f64)
         .collect();
-    times.extend(&own.times);
+    times.extend(&experiment.times);
     times.sort_by(f64::total_cmp);
     times.dedup();
     let experiment = Experiment {
         times: times.clone(),
-        ..own.clone()
+        ..experiment.clone()
     };
     let sought = fit.sought.iter().zip(x).map(|(one, x)| {
         let mut one = one.clone();

@@ -31,8 +31,8 @@ pub fn warnings(result: &Fitted<'_, '_>) -> Vec<String> {
         .map(|one| one.name.as_str())
         .collect();
     let list = |standing: Standing| -> Vec<String> {
-        let own = (0..names.len()).filter(|j| statistics.standing[*j] == standing);
-        own.map(|j| format!("`{}`", names[j])).collect()
+        let of_standing = (0..names.len()).filter(|j| statistics.standing[*j] == standing);
+        of_standing.map(|j| format!("`{}`", names[j])).collect()
     };
     let mut warnings = Vec::new();
     let ineffective = list(Standing::Ineffective);
@@ -424,7 +424,7 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
     let names: Vec<String> = sought.iter().map(|one| one.name.clone()).collect();
     let units: Vec<String> = sought.iter().map(|one| one.unit.clone()).collect();
     let standing = |standing: Standing| match standing {
-        Standing::Estimated => "told",
+        Standing::Estimated => "estimated",
         Standing::Bound => "bound",
         Standing::Ineffective => "ineffective",
         Standing::Entangled => "entangled",

@@ -124,8 +124,10 @@ impl<'a> Writer<'a> {
     fn joints(&self) -> impl Iterator<Item = (usize, &'a Joint)> + use<'a> {
         let (order, joints) = (&self.tree.order, &self.robot.joints);
         let is_kept = |joint: &&usize| !self.is_dropped[**joint];
-        let kept: Vec<usize> = order.iter().filter(is_kept).copied().collect();
-        kept.into_iter().map(move |joint| (joint, &joints[joint]))
+        let remaining: Vec<usize> = order.iter().filter(is_kept).copied().collect();
+        remaining
+            .into_iter()
+            .map(move |joint| (joint, &joints[joint]))
     }
 
     /// Coordinates that move no mass have no acceleration: they are refused, or left out with everything attached to them.
@@ -460,9 +462,9 @@ impl<'a> Writer<'a> {
             };
             let name = self.value_of[index].clone();
             let mut entries = Vec::new();
-            let [own, of_leader] = [joint, &self.robot.joints[leader]].map(unit_of);
+            let [own_unit, leader_unit] = [joint, &self.robot.joints[leader]].map(unit_of);
             let mut value = self.value_of[leader].clone();
-            let is_alike = own == of_leader;
+            let is_alike = own_unit == leader_unit;
             let (coordinate, mut factor) = self.coordinate_of[leader].clone();
             if is_alike && mimic.multiplier.value == -1.0 {
                 value = format!("-{value}");
@@ -471,7 +473,7 @@ impl<'a> Writer<'a> {
                 let unit = if is_alike {
                     "1".to_owned()
                 } else {
-                    format!("{own}/{of_leader}")
+                    format!("{own_unit}/{leader_unit}")
                 };
                 let text = mimic.multiplier.to_string();
                 let multiplier =
@@ -482,7 +484,8 @@ impl<'a> Writer<'a> {
             self.coordinate_of[index] = (coordinate, factor);
             if !mimic.offset.is_zero() {
                 let offset = measured(joint, &mimic.offset);
-                let offset = self.parameter(&mut entries, &format!("{name}_offset"), own, &offset);
+                let offset_name = format!("{name}_offset");
+                let offset = self.parameter(&mut entries, &offset_name, own_unit, &offset);
                 value = format!("{value} + {offset}");
             }
             let comment = format!(
@@ -508,14 +511,14 @@ impl<'a> Writer<'a> {
         let links = &self.robot.links;
         let mut names = Names::default();
         // Links on which other frames and bodies are based; others are marked by an underscore.
-        let mut own = vec![false; links.len()];
+        let mut has_frame = vec![false; links.len()];
         let mut stands_on: Vec<usize> = (0..links.len()).collect();
         let mut is_used = vec![false; links.len()];
         let is_body = |writer: &Writer<'_>, link: usize| {
             writer.is_moving[link] && links[link].inertial.is_some()
         };
         let root = self.tree.root;
-        own[root] = !self.root_motion.is_empty();
+        has_frame[root] = !self.root_motion.is_empty();
         is_used[root] = is_body(self, root);
         // Whether any steps lead to an intermediate link between two joints.
         let mut is_moved = vec![false; links.len()];
@@ -528,8 +531,8 @@ impl<'a> Writer<'a> {
                 is_moved[child] = is_apart;
                 continue;
             }
-            own[child] = is_apart;
-            if !own[child] {
+            has_frame[child] = is_apart;
+            if !has_frame[child] {
                 stands_on[child] = stands_on[parent];
             } else {
                 is_used[stands_on[parent]] = true;
@@ -538,17 +541,17 @@ impl<'a> Writer<'a> {
         }
         let part = self.robot.part;
         let name = |names: &mut Names, link: usize| {
-            let is_marked = own[link] && !is_used[link];
+            let is_marked = has_frame[link] && !is_used[link];
             let mark = if is_marked { "_" } else { "" };
             names.take(&format!("{mark}{}", links[link].name), part)
         };
         self.link_names[root] = name(&mut names, root);
-        self.frame_of[root] = if own[root] {
+        self.frame_of[root] = if has_frame[root] {
             self.link_names[root].clone()
         } else {
             "ground".to_owned()
         };
-        if own[root] {
+        if has_frame[root] {
             let frame = text::frame(&self.link_names[root], "ground", &self.root_motion);
             self.text.add("frames", None, vec![frame]);
         }
@@ -575,7 +578,7 @@ impl<'a> Writer<'a> {
                 continue;
             }
             self.link_names[child] = name(&mut names, child);
-            if !own[child] {
+            if !has_frame[child] {
                 self.frame_of[child] = base;
                 continue;
             }
@@ -987,7 +990,7 @@ impl<'a> Writer<'a> {
                 "" => writer.value_of[joint].clone(),
                 reference => format!("({} - {reference})", writer.value_of[joint]),
             };
-            let own = unit_of(&self.robot.joints[*follower]);
+            let follower_unit = unit_of(&self.robot.joints[*follower]);
             let mut entries = Vec::new();
             let mut terms = Vec::new();
             for (power, coefficient) in coefficients.iter().enumerate() {
@@ -999,18 +1002,19 @@ impl<'a> Writer<'a> {
                     (relative(self, leader), unit)
                 });
                 let (times, unit) = match (power, led) {
-                    (0, _) | (_, None) => (String::new(), own.to_owned()),
-                    (1, Some((led, of))) if of == own => {
+                    (0, _) | (_, None) => (String::new(), follower_unit.to_owned()),
+                    (1, Some((led, of))) if of == follower_unit => {
                         if coefficient.value == 1.0 {
                             terms.push(led);
                             continue;
                         }
                         (format!("*{led}"), "1".to_owned())
                     }
-                    (1, Some((led, of))) => (format!("*{led}"), format!("{own}/{of}")),
-                    (_, Some((led, of))) => {
-                        (format!("*{led}^{power}"), format!("{own}/{of}^{power}"))
-                    }
+                    (1, Some((led, of))) => (format!("*{led}"), format!("{follower_unit}/{of}")),
+                    (_, Some((led, of))) => (
+                        format!("*{led}^{power}"),
+                        format!("{follower_unit}/{of}^{power}"),
+                    ),
                 };
                 let name = format!("{name}_c{power}");
                 let text = coefficient.to_string();
@@ -1049,10 +1053,10 @@ impl<'a> Writer<'a> {
                 .position(|it| *it == anchor.link);
             place.map(|place| writer.frame_of[place].clone())
         };
-        let [one, other] = anchors.each_ref().map(|anchor| frame(self, anchor));
-        let (Some(one), Some(other)) = (
-            one.filter(|frame| !frame.is_empty()),
-            other.filter(|frame| !frame.is_empty()),
+        let [first_frame, second_frame] = anchors.each_ref().map(|anchor| frame(self, anchor));
+        let (Some(first_frame), Some(second_frame)) = (
+            first_frame.filter(|frame| !frame.is_empty()),
+            second_frame.filter(|frame| !frame.is_empty()),
         ) else {
             let name = quoted(name);
             let message = format!("constraint {name} is left out with its body");
@@ -1067,7 +1071,7 @@ impl<'a> Writer<'a> {
         }
         let comment = format!("Constraint {}.", quoted(name));
         let (places, turns) = varies.split_at(3);
-        let mut lines = self.meeting(name, [&one, &other], anchors, places, names);
+        let mut lines = self.meeting(name, [&first_frame, &second_frame], anchors, places, names);
         if let Some(axes) = axes.filter(|_| turns.contains(&true)) {
             let vector = |frame: &str, xyz: [f64; 3]| {
                 let [x, y, z] = xyz.map(|x| {
@@ -1085,20 +1089,20 @@ impl<'a> Writer<'a> {
             // One condition for each axis: that the two others stay orthogonal.
             for (about, axis) in AXES.iter().enumerate().filter(|(about, _)| turns[*about]) {
                 let (next, last) = ((about + 1) % 3, (about + 2) % 3);
-                let held = vector(&one, axes.column(next).into_owned().into());
+                let held = vector(&first_frame, axes.column(next).into_owned().into());
                 let mut unit = [0.0; 3];
                 unit[last] = 1.0;
-                let own = vector(&other, unit);
+                let second_axis = vector(&second_frame, unit);
                 let name = names.take(&format!("{name}_about_{axis}"), "constraint");
-                lines.push(format!("{name}: dot({held}, {own}) = 0"));
+                lines.push(format!("{name}: dot({held}, {second_axis}) = 0"));
             }
             // The right angles also hold in seven other orientations, by which the axes are interchanged or reversed in pairs. The sum
             // of the cosines between corresponding axes is 0 or −1 in these, and 3 in the orientation that is meant.
             let cosines = (0..3).map(|axis| {
                 let mut unit = [0.0; 3];
                 unit[axis] = 1.0;
-                let held = vector(&one, axes.column(axis).into_owned().into());
-                format!("dot({held}, {})", vector(&other, unit))
+                let held = vector(&first_frame, axes.column(axis).into_owned().into());
+                format!("dot({held}, {})", vector(&second_frame, unit))
             });
             let fact = format!("{} > 1", cosines.collect::<Vec<_>>().join(" + "));
             let why = format!(

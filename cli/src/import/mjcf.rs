@@ -901,11 +901,11 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 
     fn turns(&mut self, item: &Item<'e>) -> Turns {
-        let own: Vec<&str> = ORIENTATIONS
+        let given: Vec<&str> = ORIENTATIONS
             .into_iter()
             .filter(|name| item.element.own(name).is_some())
             .collect();
-        let name = match own[..] {
+        let name = match given[..] {
             // The nearest class that gives any orientation, whichever attribute the classes above use.
             [] => {
                 let tags = vec![item.tag];

@@ -93,20 +93,20 @@ impl Number {
             ));
         }
         let integer = integer.trim_start_matches('0');
-        let kept = if fraction.is_empty() {
+        let digits = if fraction.is_empty() {
             integer.to_owned()
         } else if integer.is_empty() {
             format!("0.{fraction}")
         } else {
             format!("{integer}.{fraction}")
         };
-        let kept = match exponent {
-            0 => kept,
-            _ => format!("{kept}e{exponent}"),
+        let digits = match exponent {
+            0 => digits,
+            _ => format!("{digits}e{exponent}"),
         };
         let sign = if is_negative { "-" } else { "" };
-        let text = if kept.len() <= LONGEST {
-            format!("{sign}{kept}")
+        let text = if digits.len() <= LONGEST {
+            format!("{sign}{digits}")
         } else {
             format!("{value:?}")
         };

@@ -42,12 +42,12 @@ pub fn slide(axis: &[f64; 3], value: &str) -> String {
 
 /// A rotation about any axis: one about an axis of the frame, between rotations there and back.
 pub fn turn(axis: &[f64; 3], value: &str) -> Vec<String> {
-    let (there, own, sign) = straightened(axis);
+    let (there, index, sign) = straightened(axis);
     let value = match sign {
         "" => bare(value).to_owned(),
         sign => format!("{sign}{value}"),
     };
-    conjugated(&there, vec![format!(".turn({}, {value})", AXES[own])])
+    conjugated(&there, vec![format!(".turn({}, {value})", AXES[index])])
 }
 
 /// Steps between constant rotations and their inverses.
@@ -63,7 +63,7 @@ pub fn conjugated(there: &[(usize, Angle)], steps: Vec<String>) -> Vec<String> {
 
 /// The rotation by a constant angle about any axis.
 pub fn conjugating(axis: &[f64; 3], angle: Angle) -> Turns {
-    let (there, own, sign) = straightened(axis);
+    let (there, index, sign) = straightened(axis);
     let angle = if sign.is_empty() {
         angle
     } else {
@@ -73,7 +73,7 @@ pub fn conjugating(axis: &[f64; 3], angle: Angle) -> Turns {
         .iter()
         .rev()
         .map(|(axis, angle)| (*axis, angle.negated()));
-    let lead = there.iter().cloned().chain([(own, angle)]);
+    let lead = there.iter().cloned().chain([(index, angle)]);
     lead.chain(back).collect()
 }
 
@@ -82,12 +82,12 @@ pub fn conjugating(axis: &[f64; 3], angle: Angle) -> Turns {
 pub fn straightened(axis: &[f64; 3]) -> (Turns, usize, &'static str) {
     let [x, y, z] = *axis;
     let of = Angle::computed;
-    for (own, along) in axis.iter().enumerate() {
+    for (last, along) in axis.iter().enumerate() {
         if along.abs() == 1.0 && axis.iter().filter(|x| **x != 0.0).count() == 1 {
-            return (Vec::new(), own, if *along < 0.0 { "-" } else { "" });
+            return (Vec::new(), last, if *along < 0.0 { "-" } else { "" });
         }
     }
-    let (there, own) = match (x == 0.0, y == 0.0, z == 0.0) {
+    let (there, last) = match (x == 0.0, y == 0.0, z == 0.0) {
         // The rotation about x takes z to (0, -sin, cos).
         (true, ..) => (vec![(0, of((-y).atan2(z)))], 2),
         (_, true, _) => (vec![(1, of(x.atan2(z)))], 2),
@@ -95,7 +95,7 @@ pub fn straightened(axis: &[f64; 3]) -> (Turns, usize, &'static str) {
         // Rotations about z, then y, take z to (sin β cos α, sin β sin α, cos β).
         _ => (vec![(2, of(y.atan2(x))), (1, of(x.hypot(y).atan2(z)))], 2),
     };
-    (there, own, "")
+    (there, last, "")
 }
 
 /// The angles of three successive rotations about axes of the frame itself that lead to a frame with these axes as columns. Where

@@ -317,9 +317,9 @@ fn identity_of(path: &Path) -> Option<Identity> {
 #[cfg(unix)]
 fn is_standard_output(found: &fs::Metadata) -> bool {
     use std::os::fd::AsFd;
-    let own = io::stdout().as_fd().try_clone_to_owned();
-    let own = own.and_then(|own| File::from(own).metadata());
-    own.is_ok_and(|own| inode(&own) == inode(found))
+    let handle = io::stdout().as_fd().try_clone_to_owned();
+    let metadata = handle.and_then(|handle| File::from(handle).metadata());
+    metadata.is_ok_and(|metadata| inode(&metadata) == inode(found))
 }
 
 #[cfg(not(unix))]
@@ -400,8 +400,8 @@ fn replace(
 #[cfg(unix)]
 fn keep_owner(file: &File, older: &fs::Metadata) {
     use std::os::unix::fs::{MetadataExt, fchown};
-    let own = file.metadata().map(|own| (own.uid(), own.gid()));
-    if own.is_ok_and(|own| own == (older.uid(), older.gid())) {
+    let owner = file.metadata().map(|owner| (owner.uid(), owner.gid()));
+    if owner.is_ok_and(|owner| owner == (older.uid(), older.gid())) {
         return;
     }
     if fchown(file, Some(older.uid()), Some(older.gid())).is_err() {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use lagrangian::interpreted::Named;
 use lagrangian::methods::Method;
 use lagrangian::{Machine, State, System, Warning};
-use lagrangian_emit::script::{self, Dialect};
+use lagrangian_emit::script::{self, JAVASCRIPT};
 use lagrangian_program::Program;
 use lagrangian_units::{rate_name, state_of};
 use serde_json::{Value, json};
@@ -95,7 +95,7 @@ pub struct Live<'a> {
 /// The machine as a script. It contains names of the spec, which must not end the element.
 pub fn machine(report: &Report<'_, '_>) -> String {
     let program = &report.compiled.program;
-    let text = script::file(program, Dialect::JavaScript, &[], &BTreeMap::new());
+    let text = script::file(program, &JAVASCRIPT, &[], &BTreeMap::new());
     text.replace("</", "<\\/").replace("<!--", "<\\!--")
 }
 
@@ -105,10 +105,10 @@ impl Live<'_> {
         let program = &report.compiled.program;
         let tableau = &report.method.tableau;
         let start = report.run.start;
-        let own = report.machine.start();
+        let default_start = report.machine.start();
         // Values given in the call are fixed; the others follow from the parameters.
         let stated = self.stated.q.values.iter().chain(&self.stated.v.values);
-        let usual = own.q.values.iter().chain(&own.v.values);
+        let usual = default_start.q.values.iter().chain(&default_start.v.values);
         let changed: Vec<Option<f64>> = stated
             .zip(usual)
             .map(|(value, usual)| (value.to_bits() != usual.to_bits()).then_some(*value))

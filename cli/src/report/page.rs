@@ -317,10 +317,10 @@ fn parameters(report: &Report<'_, '_>) -> String {
         .zip(system.input_values(&inputs))
         .map(|(slot, (_, value))| {
             let default = slot.default.as_ref().map_or(0.0, |default| default.value);
-            let own = slot.name.to_string();
-            let family = own.split_once('[').map(|(family, _)| family);
+            let input = slot.name.to_string();
+            let family = input.split_once('[').map(|(family, _)| family);
             let mut given = asked.inputs.iter();
-            let driven = given.find(|(name, _)| *name == own || Some(name.as_str()) == family);
+            let driven = given.find(|(name, _)| *name == input || Some(name.as_str()) == family);
             vec![
                 name(&slot.name),
                 match driven {
@@ -410,7 +410,7 @@ fn energy(report: &Report<'_, '_>) -> String {
             joules(balance.residual()),
         ),
         row(
-            "residual, as a fraction of the energy turned over",
+            "residual, as a fraction of the energy exchanged",
             Cell::Figure(share),
         ),
     ];

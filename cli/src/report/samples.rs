@@ -31,7 +31,7 @@ pub fn most(coordinates: usize) -> usize {
 
 /// By which factor a run of this length must be recorded more densely than every `interval` for a page. It is a power of
 /// two if the recording is shared, so that the coarser instants are exactly among the finer ones.
-pub fn finer_count(coordinates: usize, length: f64, interval: f64, shared: bool) -> u32 {
+pub fn recording_refinement(coordinates: usize, length: f64, interval: f64, shared: bool) -> u32 {
     let fits = (most(coordinates) as f64 * (interval / length).abs()).min(1e6) as u32;
     // At least the recording itself, however dense.
     let fits = fits.max(1);
@@ -70,14 +70,14 @@ impl Samples {
         while count(2 * stride) >= FEWEST && motion.finds_again(2 * stride) {
             stride *= 2;
         }
-        let kept = recording.each(stride);
+        let thinned = recording.each(stride);
         let columns = || {
-            let of = |kind| kept.of_kind(kind);
+            let of = |kind| thinned.of_kind(kind);
             of(Kind::Coordinate).chain(of(Kind::Rate))
         };
         let mut bases: Vec<f64> = columns().map(|column| base(&column.values)).collect();
-        let mut bytes = Vec::with_capacity(kept.times.len() * columns().count() * 4);
-        for row in 0..kept.times.len() {
+        let mut bytes = Vec::with_capacity(thinned.times.len() * columns().count() * 4);
+        for row in 0..thinned.times.len() {
             for (column, base) in columns().zip(&bases) {
                 let value = column.values.get(row).copied().unwrap_or(f64::NAN);
                 bytes.extend(((value - base) as f32).to_le_bytes());
@@ -88,7 +88,7 @@ impl Samples {
         }
         Samples {
             stride,
-            count: kept.times.len(),
+            count: thinned.times.len(),
             error: motion.error(stride),
             states: base64(&bytes),
             bases,
@@ -372,12 +372,12 @@ mod tests {
 
     #[test]
     fn a_page_is_recorded_as_often_as_it_has_room_for() {
-        assert_eq!(finer_count(2, 5.0, 0.005, true), 64);
-        assert_eq!(finer_count(9, 60.0, 0.06, true), 8);
-        assert_eq!(finer_count(9, 60.0, 0.06, false), 14);
-        assert_eq!(finer_count(2, 5.0, 1e-6, true), 1);
+        assert_eq!(recording_refinement(2, 5.0, 0.005, true), 64);
+        assert_eq!(recording_refinement(9, 60.0, 0.06, true), 8);
+        assert_eq!(recording_refinement(9, 60.0, 0.06, false), 14);
+        assert_eq!(recording_refinement(2, 5.0, 1e-6, true), 1);
         for interval in [1e300, f64::INFINITY, f64::NAN] {
-            assert!((1..=1_000_000).contains(&finer_count(2, 1.0, interval, true)));
+            assert!((1..=1_000_000).contains(&recording_refinement(2, 1.0, interval, true)));
         }
     }
 }

@@ -380,7 +380,7 @@ fn holder(model: &Model<'_>, place: Place) -> Option<usize> {
         Place::Body(body) => Some(body),
         Place::Frame(PoseId::GROUND) => None,
         Place::Frame(pose) => {
-            let on = |body: &Body| matches!(body.rotation, Rotation::Frame(own) if own == pose);
+            let on = |body: &Body| matches!(body.rotation, Rotation::Frame(frame) if frame == pose);
             model.bodies.iter().position(on)
         }
     }

@@ -67,17 +67,17 @@ impl<'a> Curve<'a> {
         self.between
     }
 
-    /// The times of the rows.
+    /// The times of the rows, in s.
     pub fn times(&self) -> &'a [f64] {
         self.times
     }
 
-    /// The values of the rows.
+    /// The values of the rows, in the unit of the curve.
     pub fn values(&self) -> &'a [f64] {
         self.values
     }
 
-    /// The value at a time; NaN outside the table, and next to a row without a value.
+    /// The value at a time in s, in the unit of the curve; NaN outside the table, and next to a row without a value.
     pub fn at(&self, t: f64) -> f64 {
         let after = self.times.partition_point(|row| *row < t);
         match self.times.get(after) {
@@ -143,7 +143,7 @@ impl<'a> Curve<'a> {
         lagrange(self.times, self.values, &rows, self.times[row])
     }
 
-    /// The instants at which the curve crosses a level, each with whether it rises there. Touching the level is no crossing; a
+    /// The instants, in s, at which the curve crosses a level, each with whether it rises there. Touching the level is no crossing; a
     /// curve that stays on the level crosses it where it leaves on the other side.
     pub fn crossings(&self, level: f64) -> Vec<(f64, bool)> {
         let mut crossings = Vec::new();
@@ -224,11 +224,14 @@ pub fn common_times(one: &[f64], other: &[f64]) -> Vec<f64> {
         (to - from) / count as f64
     };
     let same = 1e-9 * spacing(&all).min(spacing(&others));
-    let own = all.clone();
+    let first_times = all.clone();
     let is_new = |t: &f64| {
-        let place = own.partition_point(|row| row < t);
+        let place = first_times.partition_point(|row| row < t);
         let near = [place.checked_sub(1), Some(place)];
-        let mut near = near.into_iter().flatten().filter_map(|k| own.get(k));
+        let mut near = near
+            .into_iter()
+            .flatten()
+            .filter_map(|k| first_times.get(k));
         near.all(|row| (row - t).abs() > same)
     };
     all.extend(others.into_iter().filter(is_new));

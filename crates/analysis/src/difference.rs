@@ -2,7 +2,7 @@
 
 use crate::curve::Curve;
 
-/// The difference of the second of two curves from the first.
+/// The difference of the second of two curves from the first, in their common unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// The largest absolute difference.

@@ -7,7 +7,7 @@ use crate::curve::{Curve, Interpolation, hermite};
 pub struct Extreme {
     /// The time, in s.
     pub t: f64,
-    /// The value there.
+    /// The value there, in the unit of the curve.
     pub value: f64,
     /// Whether it is a maximum.
     pub is_maximum: bool,

@@ -88,7 +88,7 @@ pub struct Spectrum {
     /// Amplitudes in the unit of the curve: a sine of amplitude A at one of the frequencies has A there. The mean is subtracted
     /// before the transform and stored in `mean`.
     pub amplitudes: Vec<f64>,
-    /// The mean of the samples.
+    /// The mean of the samples, in the unit of the curve.
     pub mean: f64,
     /// The distance between frequencies, in Hz: the reciprocal of the duration of all samples.
     pub resolution: f64,
@@ -211,19 +211,19 @@ impl Spectrum {
                 // The wave coincides with its image there.
                 still.amplitude = Complex::new(0.5 * left[0].re, 0.0);
                 self.add(&mut left, still, -1.0);
-                for (top, own) in &mut waves {
-                    if own.place == self.half_rate() {
-                        self.add(&mut left, *own, 1.0);
-                        *own = self.wave(&left, *top);
-                        self.add(&mut left, *own, -1.0);
+                for (top, previous) in &mut waves {
+                    if previous.place == self.half_rate() {
+                        self.add(&mut left, *previous, 1.0);
+                        *previous = self.wave(&left, *top);
+                        self.add(&mut left, *previous, -1.0);
                         continue;
                     }
                     // Adds the wave alone, without its image, whose leakage also remains here.
-                    self.add_one(&mut left, own.place, own.amplitude);
+                    self.add_one(&mut left, previous.place, previous.amplitude);
                     let wave = self.wave(&left, *top);
-                    self.add_one(&mut left, -own.place, own.amplitude.conj());
+                    self.add_one(&mut left, -previous.place, previous.amplitude.conj());
                     self.add(&mut left, wave, -1.0);
-                    *own = wave;
+                    *previous = wave;
                 }
             }
         }

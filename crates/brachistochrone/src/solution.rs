@@ -24,18 +24,18 @@ pub struct Brachistochrone {
     first: f64,
 }
 
-/// The motion at one moment.
+/// The motion at one moment. Numbers are in SI units, vectors have a component for each coordinate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
     /// Time since the start, in s.
     pub time: f64,
     /// The angle by which the direction has turned, in rad, in the metric of the motion.
     pub turned: f64,
-    /// `q`.
+    /// The coordinates `q`.
     pub q: Vec<f64>,
-    /// `v = q̇`.
+    /// Their rates `v = q̇`.
     pub v: Vec<f64>,
-    /// `v̇`.
+    /// Their accelerations `v̇`.
     pub a: Vec<f64>,
     /// The direction of motion, as a velocity for which twice the kinetic energy `a_αβ v^α v^β` is 1; defined at rest too.
     pub direction: Vec<f64>,

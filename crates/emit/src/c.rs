@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::body::{self, Expression, Language, Precedence, Rounded};
-use super::cut::{self, Cut, Piece, Place};
+use super::cut::{self, Cut, CutResult, Piece};
 use super::layout::{Writer, width};
 use super::names::{Field, Scope, ascii, fields, flat, snake_case};
 use lagrangian_mechanics::Proved;
@@ -588,14 +588,14 @@ impl<'a> Emitter<'a> {
                 writer.close("}");
             }
         }
-        let result = |place: &Place| match place {
-            Place::Slot(slot) => format!("w[{slot}]"),
-            Place::Leaf(Op::Constant(value)) => self.constant(value).text,
-            Place::Leaf(Op::Read(source)) => match self.argument(*source) {
+        let result = |place: &CutResult| match place {
+            CutResult::Slot(slot) => format!("w[{slot}]"),
+            CutResult::Leaf(Op::Constant(value)) => self.constant(value).text,
+            CutResult::Leaf(Op::Read(source)) => match self.argument(*source) {
                 Some(argument) => argument.text,
                 None => self.variable(*source).1,
             },
-            Place::Leaf(_) => self.pi().text,
+            CutResult::Leaf(_) => self.pi().text,
         };
         cut.results.iter().map(result).collect()
     }

@@ -23,7 +23,7 @@ pub struct Cut {
     /// The length of `w`.
     pub slots: usize,
     /// The results of the function.
-    pub results: Vec<Place>,
+    pub results: Vec<CutResult>,
 }
 
 /// A piece: a function whose results go to slots of `w`. It reads slot k as prepared value `first + k`, where `first` is the
@@ -36,7 +36,7 @@ pub struct Piece {
 }
 
 /// Where a result is found after all pieces have run.
-pub enum Place {
+pub enum CutResult {
     /// In `w`.
     Slot(usize),
     /// An argument or a constant.
@@ -100,8 +100,8 @@ impl<'a> Cutter<'a> {
             start = end;
         }
         let place = |value: &Value| match self.slots.get(value) {
-            Some(&slot) => Place::Slot(slot),
-            None => Place::Leaf(self.function.op(*value).clone()),
+            Some(&slot) => CutResult::Slot(slot),
+            None => CutResult::Leaf(self.function.op(*value).clone()),
         };
         Cut {
             results: self.function.results.iter().map(place).collect(),
@@ -366,8 +366,8 @@ mod tests {
             .results
             .iter()
             .map(|place| match place {
-                Place::Slot(slot) => w[*slot],
-                Place::Leaf(_) => 0.3,
+                CutResult::Slot(slot) => w[*slot],
+                CutResult::Leaf(_) => 0.3,
             })
             .collect();
         assert_eq!(results, run(&whole, 0.3, &[]));

@@ -1,7 +1,7 @@
 //! Languages for computation and symbolic formulas: one file for one machine, with functions of lists of numbers and the
 //! same operations in the same order as elsewhere.
 //!
-//! This module contains what the languages share; each has a file of its own with its [`Syntax`], and a row of [`DIALECTS`].
+//! This module contains what the languages share; each has a file of its own with its [`Dialect`], and a row of [`DIALECTS`].
 
 mod javascript;
 mod julia;
@@ -9,6 +9,7 @@ mod matlab;
 mod sympy;
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use lagrangian_mechanics::Proved;
 use lagrangian_program::quantity::{Argument, Extent};
@@ -19,31 +20,38 @@ use super::body::{self, Expression, Language, Precedence, Rounded};
 use super::layout::Writer;
 use super::names::{Scope, ascii, flat, snake_case};
 
+pub use javascript::JAVASCRIPT;
+
 /// A language.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dialect {
-    /// Python with SymPy: takes numbers or symbols; constants are exact.
-    Sympy,
-    /// MATLAB and Octave.
-    Matlab,
-    /// Julia.
-    Julia,
-    /// JavaScript.
-    JavaScript,
+pub struct Dialect {
+    /// Its name, in lower case.
+    pub name: &'static str,
+    /// What is written, in a phrase.
+    pub summary: &'static str,
+    /// The extension of its files.
+    pub extension: &'static str,
+    syntax: &'static dyn Syntax,
 }
 
-/// All languages with their syntax.
-const DIALECTS: [(Dialect, &dyn Syntax); 4] = [
-    (Dialect::Sympy, &sympy::Sympy),
-    (Dialect::Matlab, &matlab::Matlab),
-    (Dialect::Julia, &julia::Julia),
-    (Dialect::JavaScript, &javascript::JavaScript),
+/// All languages.
+pub static DIALECTS: [Dialect; 4] = [
+    sympy::SYMPY,
+    matlab::MATLAB,
+    julia::JULIA,
+    javascript::JAVASCRIPT,
 ];
 
-impl Dialect {
-    fn syntax(self) -> &'static dyn Syntax {
-        let row = DIALECTS.iter().find(|(dialect, _)| *dialect == self);
-        row.map_or(&sympy::Sympy as &dyn Syntax, |(_, syntax)| *syntax)
+impl PartialEq for Dialect {
+    fn eq(&self, other: &Dialect) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Dialect {}
+
+impl fmt::Debug for Dialect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
     }
 }
 
@@ -101,11 +109,11 @@ enum Entries {
 /// The text of the file. `origin` holds lines for its head, `formulas` those that comments show.
 pub fn file(
     program: &Proved,
-    dialect: Dialect,
+    dialect: &Dialect,
     origin: &[String],
     formulas: &BTreeMap<Role, Vec<String>>,
 ) -> String {
-    let syntax = dialect.syntax();
+    let syntax = dialect.syntax;
     let speaker = ScriptEmitter { program, syntax };
     let mut writer = Writer::default();
     let comment = syntax.comment();

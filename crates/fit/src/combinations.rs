@@ -183,7 +183,7 @@ fn weight_of(rest: &DMatrix<f64>, open: &[usize], column: usize) -> f64 {
 /// A basis of the null space of rows as [`across`] makes them.
 fn along(rows: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
     // Each row has a 1 at a place where all others have a 0.
-    let own: Vec<usize> = rows
+    let pivots: Vec<usize> = rows
         .iter()
         .enumerate()
         .filter_map(|(r, row)| {
@@ -196,12 +196,12 @@ fn along(rows: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
             })
         })
         .collect();
-    let others = (0..count).filter(|a| !own.contains(a));
+    let others = (0..count).filter(|a| !pivots.contains(a));
     others
         .map(|a| {
             let mut direction = vec![0.0; count];
             direction[a] = 1.0;
-            for (row, place) in rows.iter().zip(&own) {
+            for (row, place) in rows.iter().zip(&pivots) {
                 direction[*place] = -row[a];
             }
             direction
@@ -296,8 +296,8 @@ fn power(name: &str, exponent: f64) -> String {
 
 fn product(terms: &[(usize, f64)], names: &[String]) -> String {
     let side = |sign: f64| -> Vec<String> {
-        let own = terms.iter().filter(|(_, e)| e * sign > 0.0);
-        own.map(|(j, e)| power(&names[*j], e.abs())).collect()
+        let of_sign = terms.iter().filter(|(_, e)| e * sign > 0.0);
+        of_sign.map(|(j, e)| power(&names[*j], e.abs())).collect()
     };
     let (above, below) = (side(1.0), side(-1.0));
     let above = if above.is_empty() {

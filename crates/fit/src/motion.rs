@@ -296,8 +296,8 @@ impl Fit<'_> {
             .collect();
         // Whether the residuals depend on a number is asked of changes of the size with which the search began, even if its value is
         // nearly 0.
-        let own = self.sizes().into_iter().zip(&minimum.x);
-        let changes: Vec<f64> = own.map(|(size, x)| size.max(x.abs())).collect();
+        let scales = self.sizes().into_iter().zip(&minimum.x);
+        let changes: Vec<f64> = scales.map(|(size, x)| size.max(x.abs())).collect();
         let statistics = Statistics::of(&minimum, &self.bounds(), &changes, exact, is_scaled);
         let mut is_stopped = false;
         let entangled = statistics.standing.contains(&Standing::Entangled);
@@ -385,24 +385,24 @@ impl Fit<'_> {
     fn run(&self, experiment: usize, x: &[f64]) -> Result<Vec<Row>, Trouble> {
         let machine = self.machine(experiment, x)?;
         let start = self.start(experiment, x)?;
-        let own = &self.experiments[experiment];
+        let measured = &self.experiments[experiment];
         let system = machine.prepare();
-        let simulation = own.signals.drive(Simulation::new(&machine), &machine);
-        let simulation = self.keep(self.set(simulation, own));
+        let simulation = measured.signals.drive(Simulation::new(&machine), &machine);
+        let simulation = self.keep(self.set(simulation, measured));
         let order = self.running.method.tableau.order;
-        let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
+        let mut rows: Vec<Row> = Vec::with_capacity(measured.times.len());
         let recorded = &mut rows;
         let run = simulation
             .each_step(move |step| {
-                while let Some(t) = next_due_time(&own.times, recorded.len(), step.span()) {
+                while let Some(t) = next_due_time(&measured.times, recorded.len(), step.span()) {
                     let State { q, v, .. } = step.state(t)?;
                     let (q, v) = (q.values, v.values);
                     let mut a = vec![0.0; q.len()];
                     let mut u = system.default_inputs();
-                    if own.reads_more() {
+                    if measured.reads_more() {
                         u = step.inputs(t, &q, &v);
-                        if let Some(piece) = following(&own.signals, order, t, step.span()) {
-                            own.signals.set_in(piece, &system, t, &q, &v, &mut u);
+                        if let Some(piece) = following(&measured.signals, order, t, step.span()) {
+                            measured.signals.set_in(piece, &system, t, &q, &v, &mut u);
                         }
                         step.accelerations((t, &q, &v), &u, &mut a)?;
                     }
@@ -412,15 +412,15 @@ impl Fit<'_> {
                         Quantity::Output(i) => system.output(i, t, &q, &v, &a, &u.values),
                     };
                     recorded.push(Row {
-                        values: own.columns.iter().map(value).collect(),
+                        values: measured.columns.iter().map(value).collect(),
                         by: Vec::new(),
                     });
                 }
                 Ok(())
             })
             .run_interpreted(start);
-        run.map_err(|error| self.failure(own, error))?;
-        self.whole(own, rows)
+        run.map_err(|error| self.failure(measured, error))?;
+        self.whole(measured, rows)
     }
 
     /// Applies the settings of a run.
@@ -529,17 +529,17 @@ impl Fit<'_> {
         x: &[f64],
     ) -> Result<(Vec<Row>, f64), RunFailure> {
         let machine = self.machine(experiment, x)?;
-        let own = &self.experiments[experiment];
+        let measured = &self.experiments[experiment];
         let sizes = self.sizes();
         // Starts of other experiments do not affect this one.
-        let here: Vec<usize> = (0..self.sought.len())
+        let affecting: Vec<usize> = (0..self.sought.len())
             .filter(|j| match self.sought[*j].subject {
                 Subject::Parameter(_) => true,
                 Subject::Start(of, _) | Subject::Rate(of, _) => of == experiment,
             })
             .collect();
         // Derivatives by numbers scaled to size 1, so that one tolerance suits all of them.
-        let directions = here.iter().map(|j| {
+        let directions = affecting.iter().map(|j| {
             let mut direction = Direction::of_start(&machine);
             if let Subject::Parameter(index) = self.sought[*j].subject {
                 direction.parameters[index] = sizes[*j];
@@ -549,18 +549,118 @@ impl Fit<'_> {
         let varied = Varied {
             machine: &machine,
             directions: directions.collect(),
-            signals: &own.signals,
+            signals: &measured.signals,
             phase: None,
         };
         let mut start = varied.start();
         let n = machine.program().dimension();
+        self.set_varied_start(experiment, x, &machine, &affecting, &mut start)?;
+        let is_held = self.is_held(experiment);
+        let at = |system: &VariedSystem,
+                  (t, q, v): (f64, &Vec<f64>, &Vec<f64>),
+                  (a, u): (&Vec<f64>, &VariedInputs)| {
+            let by = |column: &Column| -> Vec<f64> {
+                let scaled: Vec<f64> = match column.quantity {
+                    Quantity::Coordinate(i) => {
+                        (1..=affecting.len()).map(|k| q[k * n + i]).collect()
+                    }
+                    Quantity::Rate(i) => (1..=affecting.len()).map(|k| v[k * n + i]).collect(),
+                    Quantity::Output(i) => system.output(i, t, [q, v, a], u),
+                };
+                let mut all = vec![0.0; sizes.len()];
+                for (j, by) in affecting.iter().zip(scaled) {
+                    all[*j] = by / sizes[*j];
+                }
+                all
+            };
+            Row {
+                values: Vec::new(),
+                by: measured.columns.iter().map(by).collect(),
+            }
+        };
+        if !machine.program().unilateral.is_empty() {
+            let wanted = across::Wanted {
+                machine: &machine,
+                signals: &measured.signals,
+                directions: varied.directions.clone(),
+                method: self.running.method,
+                tolerance: self.running.tolerance,
+                until: measured.times.last().copied().unwrap_or(0.0),
+                most_steps: self.running.most_steps,
+            };
+            let run = across::run(&wanted, &start).map_err(|why| match why {
+                NoDerivatives::Run(error) => RunFailure::Trouble(self.failure(measured, error)),
+                broken => RunFailure::WithoutDerivatives(broken.to_string()),
+            })?;
+            let row = |t: &f64| -> Result<Row, lagrangian::Error> {
+                let State { q, v, .. } = run.at(*t)?;
+                let observed = run.observe(*t, (&q, &v))?;
+                Ok(at(
+                    observed.system,
+                    (*t, &q, &v),
+                    (&observed.a, &observed.inputs),
+                ))
+            };
+            let rows: Result<Vec<Row>, _> = measured.times.iter().map(row).collect();
+            let rows = rows.map_err(|error| self.failure(measured, error))?;
+            let off = if is_held {
+                self.off_constraints(experiment, x, run.end(), &affecting)
+            } else {
+                0.0
+            };
+            return self.checked(experiment, rows, off);
+        }
+        let system = varied.prepare();
+        let simulation = Simulation::new(&varied).law(VariedLaw(&measured.signals));
+        let simulation = self.set(simulation, measured);
+        let order = self.running.method.tableau.order;
+        let mut rows: Vec<Row> = Vec::with_capacity(measured.times.len());
+        let recorded = &mut rows;
+        let (system, at) = (&system, &at);
+        let simulation = simulation.each_step(move |step| {
+            while let Some(t) = next_due_time(&measured.times, recorded.len(), step.span()) {
+                let State { q, v, .. } = step.state(t)?;
+                let mut a = vec![0.0; q.len()];
+                let mut u = system.default_inputs();
+                if measured.reads_more() {
+                    u = step.inputs(t, &q, &v);
+                    if let Some(piece) = following(&measured.signals, order, t, step.span()) {
+                        VariedLaw(&measured.signals).set_in(piece, system, t, &q, &v, &mut u);
+                    }
+                    step.accelerations((t, &q, &v), &u, &mut a)?;
+                }
+                recorded.push(at(system, (t, &q, &v), (&a, &u)));
+            }
+            Ok(())
+        });
+        let run = VariedLaw::run(simulation, start);
+        let run = run.map_err(|error| self.failure(measured, error))?;
+        let off = if is_held {
+            self.off_constraints(experiment, x, run.end(), &affecting)
+        } else {
+            0.0
+        };
+        self.checked(experiment, rows, off)
+    }
+
+    /// Sets a start and its derivatives by the scaled numbers that affect it; `start` holds those that follow from the spec.
+    fn set_varied_start(
+        &self,
+        experiment: usize,
+        x: &[f64],
+        machine: &InterpretedMachine,
+        affecting: &[usize],
+        start: &mut State<Vec<f64>>,
+    ) -> Result<(), RunFailure> {
+        let measured = &self.experiments[experiment];
+        let (n, sizes) = (machine.program().dimension(), self.sizes());
         self.set_start(experiment, x, &mut start.q[..n], &mut start.v[..n]);
-        for (k, j) in here.iter().enumerate() {
+        for (k, j) in affecting.iter().enumerate() {
             let (sought, size) = (&self.sought[*j], sizes[*j]);
             let part = (k + 1) * n..(k + 2) * n;
             for (numbers, given, level) in [
-                (&mut start.q[part.clone()], &own.start[0], 0),
-                (&mut start.v[part.clone()], &own.start[1], 1),
+                (&mut start.q[part.clone()], &measured.start[0], 0),
+                (&mut start.v[part.clone()], &measured.start[1], 1),
             ] {
                 for (i, number) in numbers.iter_mut().enumerate() {
                     let is_sought = self.sought.iter().any(|other| match other.subject {
@@ -579,15 +679,14 @@ impl Fit<'_> {
                 }
             }
         }
-        let is_held = self.is_held(experiment);
-        if is_held {
+        if self.is_held(experiment) {
             let on = self.start_on_constraints(experiment, x)?;
-            if let Some(constraint) = starts::dependent_constraint(&machine, &on) {
+            if let Some(constraint) = starts::dependent_constraint(machine, &on) {
                 return Err(RunFailure::WithoutDerivatives(format!(
                     "the constraint `{constraint}` follows from others"
                 )));
             }
-            for (k, j) in here.iter().enumerate() {
+            for (k, j) in affecting.iter().enumerate() {
                 let [q, v] = self.change_on_constraints(experiment, x, *j)?;
                 start.q[(k + 1) * n..(k + 2) * n].copy_from_slice(&q);
                 start.v[(k + 1) * n..(k + 2) * n].copy_from_slice(&v);
@@ -595,89 +694,7 @@ impl Fit<'_> {
             start.q[..n].copy_from_slice(&on.q.values);
             start.v[..n].copy_from_slice(&on.v.values);
         }
-        let at = |system: &VariedSystem,
-                  (t, q, v): (f64, &Vec<f64>, &Vec<f64>),
-                  (a, u): (&Vec<f64>, &VariedInputs)| {
-            let by = |column: &Column| -> Vec<f64> {
-                let scaled: Vec<f64> = match column.quantity {
-                    Quantity::Coordinate(i) => (1..=here.len()).map(|k| q[k * n + i]).collect(),
-                    Quantity::Rate(i) => (1..=here.len()).map(|k| v[k * n + i]).collect(),
-                    Quantity::Output(i) => system.output(i, t, [q, v, a], u),
-                };
-                let mut all = vec![0.0; sizes.len()];
-                for (j, by) in here.iter().zip(scaled) {
-                    all[*j] = by / sizes[*j];
-                }
-                all
-            };
-            Row {
-                values: Vec::new(),
-                by: own.columns.iter().map(by).collect(),
-            }
-        };
-        if !machine.program().unilateral.is_empty() {
-            let wanted = across::Wanted {
-                machine: &machine,
-                signals: &own.signals,
-                directions: varied.directions.clone(),
-                method: self.running.method,
-                tolerance: self.running.tolerance,
-                until: own.times.last().copied().unwrap_or(0.0),
-                most_steps: self.running.most_steps,
-            };
-            let run = across::run(&wanted, &start).map_err(|why| match why {
-                NoDerivatives::Run(error) => RunFailure::Trouble(self.failure(own, error)),
-                broken => RunFailure::WithoutDerivatives(broken.to_string()),
-            })?;
-            let row = |t: &f64| -> Result<Row, lagrangian::Error> {
-                let State { q, v, .. } = run.at(*t)?;
-                let observed = run.observe(*t, (&q, &v))?;
-                Ok(at(
-                    observed.system,
-                    (*t, &q, &v),
-                    (&observed.a, &observed.inputs),
-                ))
-            };
-            let rows: Result<Vec<Row>, _> = own.times.iter().map(row).collect();
-            let rows = rows.map_err(|error| self.failure(own, error))?;
-            let off = if is_held {
-                self.off_constraints(experiment, x, run.end(), &here)
-            } else {
-                0.0
-            };
-            return self.checked(experiment, rows, off);
-        }
-        let system = varied.prepare();
-        let simulation = Simulation::new(&varied).law(VariedLaw(&own.signals));
-        let simulation = self.set(simulation, own);
-        let order = self.running.method.tableau.order;
-        let mut rows: Vec<Row> = Vec::with_capacity(own.times.len());
-        let recorded = &mut rows;
-        let (system, at) = (&system, &at);
-        let simulation = simulation.each_step(move |step| {
-            while let Some(t) = next_due_time(&own.times, recorded.len(), step.span()) {
-                let State { q, v, .. } = step.state(t)?;
-                let mut a = vec![0.0; q.len()];
-                let mut u = system.default_inputs();
-                if own.reads_more() {
-                    u = step.inputs(t, &q, &v);
-                    if let Some(piece) = following(&own.signals, order, t, step.span()) {
-                        VariedLaw(&own.signals).set_in(piece, system, t, &q, &v, &mut u);
-                    }
-                    step.accelerations((t, &q, &v), &u, &mut a)?;
-                }
-                recorded.push(at(system, (t, &q, &v), (&a, &u)));
-            }
-            Ok(())
-        });
-        let run = VariedLaw::run(simulation, start);
-        let run = run.map_err(|error| self.failure(own, error))?;
-        let off = if is_held {
-            self.off_constraints(experiment, x, run.end(), &here)
-        } else {
-            0.0
-        };
-        self.checked(experiment, rows, off)
+        Ok(())
     }
 
     /// Accepts rows with derivatives that are off the constraints by this much, if that is near enough.
@@ -778,23 +795,23 @@ impl Fit<'_> {
         let sizes = self.sizes();
         let share = self.running.tolerance.cbrt();
         let mut columns = Vec::new();
-        for (j, own) in x.iter().copied().enumerate() {
-            let step = share * own.abs().max(1e-3 * sizes[j]);
+        for (j, value) in x.iter().copied().enumerate() {
+            let step = share * value.abs().max(1e-3 * sizes[j]);
             let [low, high] = self.sought[j].bounds;
-            let ends = [(own - step).max(low), (own + step).min(high)];
+            let ends = [(value - step).max(low), (value + step).min(high)];
             let mut tried = Vec::new();
             for end in ends {
                 let mut to = x.to_vec();
                 to[j] = end;
                 tried.push(self.residuals(&to));
             }
-            let here = |this: &mut Self| this.residuals(x).map(|residuals| (own, residuals));
+            let unchanged = |this: &mut Self| this.residuals(x).map(|residuals| (value, residuals));
             let mut sides = Vec::new();
             for (end, tried) in ends.into_iter().zip(tried) {
                 // If there is no machine on one side, a one-sided difference is used.
                 match tried {
                     Ok(residuals) => sides.push((end, residuals)),
-                    Err(Trouble::NoValue(_)) => sides.push(here(self)?),
+                    Err(Trouble::NoValue(_)) => sides.push(unchanged(self)?),
                     Err(Trouble::Stopped) => return Err(Trouble::Stopped),
                 }
             }
@@ -837,10 +854,11 @@ impl Fit<'_> {
         let class = |e: usize, c: usize| self.experiments[e].columns[c].sigma;
         let svd = minimum.jacobian.clone().svd(true, false);
         let leverage = |i: usize| {
-            let kept = svd.singular_values.iter().enumerate();
-            let kept = kept.filter(|(_, value)| **value > 1e-8 * svd.singular_values.max());
+            let significant = svd.singular_values.iter().enumerate();
+            let significant =
+                significant.filter(|(_, value)| **value > 1e-8 * svd.singular_values.max());
             svd.u.as_ref().map_or(0.0, |u| {
-                kept.map(|(k, _)| u[(i, k)] * u[(i, k)]).sum::<f64>()
+                significant.map(|(k, _)| u[(i, k)] * u[(i, k)]).sum::<f64>()
             })
         };
         for (i, (e, c, _, _, sigma)) in self.measurements().enumerate() {
@@ -906,9 +924,9 @@ impl Problem for Fit<'_> {
         for experiment in 0..self.experiments.len() {
             self.runs[1] += 1;
             match self.run_with_derivatives(experiment, x) {
-                Ok((own, off)) => {
+                Ok((derived, off)) => {
                     self.held.off = self.held.off.max(off);
-                    rows.push(own);
+                    rows.push(derived);
                 }
                 Err(RunFailure::Trouble(trouble)) => return Err(trouble),
                 Err(RunFailure::WithoutDerivatives(why)) => {
@@ -936,7 +954,7 @@ impl Problem for Fit<'_> {
         let measured: f64 = measured
             .map(|(.., value, sigma)| (value / sigma).powi(2))
             .sum();
-        let own: f64 = residuals.iter().map(|r| r * r).sum();
-        measured.sqrt().max(own.sqrt())
+        let computed: f64 = residuals.iter().map(|r| r * r).sum();
+        measured.sqrt().max(computed.sqrt())
     }
 }

@@ -75,15 +75,15 @@ impl Statistics {
         });
         let (values, right) = singular(scaled);
         let largest = values.iter().copied().fold(0.0, f64::max);
-        let (kept, lost): (Vec<usize>, Vec<usize>) =
+        let (significant, lost): (Vec<usize>, Vec<usize>) =
             (0..open.len()).partition(|i| values[*i] > exact * largest);
         let part = |which: &[usize], weigh: &dyn Fn(f64) -> f64| {
             DMatrix::from_fn(open.len(), which.len(), |j, i| {
                 right[(which[i], j)] * weigh(values[which[i]]) / norms[open[j]]
             })
         };
-        let root = part(&kept, &|value| 1.0 / value);
-        let freedom = at.residuals.len().saturating_sub(kept.len());
+        let root = part(&significant, &|value| 1.0 / value);
+        let freedom = at.residuals.len().saturating_sub(significant.len());
         let chi_squared: f64 = at.residuals.iter().map(|r| r * r).sum();
         let variance = match freedom {
             0 => f64::NAN,
@@ -112,7 +112,7 @@ impl Statistics {
         }
         Statistics {
             measurements: at.residuals.len(),
-            determined: kept.len(),
+            determined: significant.len(),
             freedom,
             chi_squared,
             variance,

@@ -5,7 +5,7 @@ use lagrangian::{Energies, Error, InputLaw, Machine, Solution, Warning};
 
 use crate::shortest;
 
-/// The largest part of the turned-over energy that may be missing in a good run.
+/// The largest part of the energy exchanged that may be missing in a good run.
 const MOST_MISSING: f64 = 1e-3;
 
 /// The reason why a run ended, in the words of the command.

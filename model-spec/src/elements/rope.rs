@@ -167,13 +167,13 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         resolver.push(diagnostic.help("one end must be a point of a body, such as `load.at`"));
         return None;
     }
-    let (own, span) = (resolver.name(member), resolver.span(member));
+    let (name, span) = (resolver.name(member), resolver.span(member));
     let constraints = constraints.into_iter().map(|(pulley, expression, unit)| {
         Contribution::Constraint(Constraint {
             name: match pulley {
-                None => own.clone(),
+                None => name.clone(),
                 Some(k) => Name {
-                    base: format!("{own}.pulley{k}"),
+                    base: format!("{name}.pulley{k}"),
                     index: None,
                 },
             },

@@ -54,7 +54,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         return None;
     }
     let zero = resolver.dag.zero();
-    let own = resolver.span(member);
+    let span = resolver.span(member);
     resolver.add_rotor(Body {
         name: resolver.name(member),
         docs: resolver.docs(member),
@@ -64,8 +64,8 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         local: None,
         rotation: Rotation::Angle(angle.expr),
         outline: Vec::new(),
-        span: own,
-        position_span: own,
+        span,
+        position_span: span,
     });
     Some(Resolved::of([]))
 }

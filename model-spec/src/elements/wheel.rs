@@ -87,12 +87,12 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         base: format!("{name}.{part}"),
         index: None,
     };
-    let own = resolver.span(member);
+    let span = resolver.span(member);
     if let Some(gap) = gap {
         if gap.stage() < stage::POSITION {
             let message =
                 "this wheel does not touch what it rolls on, and no coordinate changes that";
-            let diagnostic = Diagnostic::new(Code::NoCoordinates, own, message);
+            let diagnostic = Diagnostic::new(Code::NoCoordinates, span, message);
             let help = "the origin of its frame must be one radius above the plane of the first two axes of `on`";
             resolver.push(diagnostic.help(help));
             return None;
@@ -101,10 +101,10 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
             name: part("gap"),
             expression: gap,
             unit: Unit::METRE,
-            span: own,
+            span,
         });
     }
-    let slip = slip(resolver, [wheel, on], &lever, own)?;
+    let slip = slip(resolver, [wheel, on], &lever, span)?;
     for (axis, letter) in ["x", "y"].into_iter().enumerate() {
         let along = dot(&resolver.pose(on).axes[axis], &slip);
         if along.is_zero() {
@@ -114,7 +114,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
             name: part(letter),
             expression: along,
             unit: Unit::METRE.rate(),
-            span: own,
+            span,
         });
     }
     Some(Resolved::of(

@@ -120,14 +120,14 @@ pub fn rolling_rate<'d>(
     touching: &Touching,
     rate: &mut Tangent<'d>,
 ) -> Expr<'d> {
-    let own = angular_velocity(model, &model.circles[touching.circle], rate);
+    let first = angular_velocity(model, &model.circles[touching.circle], rate);
     let other = match touching.surface {
         Surface::Inside(other) | Surface::Outside(other) => {
             angular_velocity(model, &model.circles[other], rate)
         }
         Surface::Along(pose) => rate.of(model.poses[pose.index()].angle),
     };
-    difference(own, other)
+    difference(first, other)
 }
 
 /// The contact of a circle, which need not be one of the machine's, with a surface.

@@ -163,7 +163,7 @@ pub(crate) fn inertia<'d>(model: &Model<'d>, e: &[Expr<'d>; 4]) -> Expr<'d> {
     for pose in &model.poses {
         let parent = carried.get(pose.parent.index()).copied().flatten();
         carried.push(match &pose.step {
-            Step::Quaternion(own) if own == e => Some(dag.zero()),
+            Step::Quaternion(quaternion) if quaternion == e => Some(dag.zero()),
             Step::Shift(by) => parent.map(|far| far + length(by)),
             _ => parent,
         });

@@ -125,7 +125,7 @@ fn relative_to_sphere<'d>(
     let relative: Vec<Expr<'d>> = spin
         .iter()
         .zip(&of_other)
-        .map(|(&own, &other)| r * own * sign - big * other)
+        .map(|(&first, &other)| r * first * sign - big * other)
         .collect();
     let turned = cross(&relative, &direction);
     let slip: Vec<Expr<'d>> = velocity.iter().zip(&turned).map(|(&v, &t)| v + t).collect();

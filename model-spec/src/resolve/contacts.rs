@@ -67,7 +67,6 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// The contacts of an item: one, or those of all circles of a family, or of all corners of a body.
     pub fn contacts(&mut self, member: MemberId) -> Option<Vec<Contact<'d>>> {
         let record = self.record(member)?;
-        let name = self.name(member);
         let (one, family, [other, other_family]) = match self.space {
             Space::Plane => ("circle", "circles", ["sphere", "spheres"]),
             Space::Space => ("sphere", "spheres", ["circle", "circles"]),
@@ -82,8 +81,47 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 return None;
             }
         }
-        let geometries: Option<Vec<(Name, ContactGeometry<'d>)>> = if record.field(family).is_some()
-        {
+        let geometries = self.geometries(member, record, [one, family]);
+        let response = match record.get("compliance") {
+            Some(written) => {
+                for field in IMPACT_FIELDS {
+                    self.conflict(record, field, "compliance");
+                }
+                self.compliance(member, written)
+            }
+            None => self.rigid(member, record),
+        };
+        let (friction, sticking) = self.friction_coefficients(member, record);
+        let rolling = self.rolling_resistance(member, record);
+        // A field that is present but wrong has been reported.
+        let good = |written: Option<Option<Expr<'d>>>| match written {
+            Some(value) => value.map(Some),
+            None => Some(None),
+        };
+        let (response, friction, static_friction) = (response?, good(friction)?, good(sticking)?);
+        let rolling_resistance = good(rolling)?;
+        let span = self.span(member);
+        let contact = |(name, geometry)| Contact {
+            name,
+            geometry,
+            response,
+            friction,
+            static_friction,
+            rolling_resistance,
+            span,
+        };
+        Some(geometries?.into_iter().map(contact).collect())
+    }
+
+    /// The geometry of each contact of an item, with its name; `one` and `family` are the fields of round bodies in this space.
+    fn geometries(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+        [one, family]: [&str; 2],
+    ) -> Option<Vec<(Name, ContactGeometry<'d>)>> {
+        let name = self.name(member);
+        if record.field(family).is_some() {
             for field in ["gap", "slip", "corners", "against", "of"]
                 .iter()
                 .chain(&GEOMETRY_FIELDS)
@@ -129,16 +167,15 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             self.conflict(record, "of", one);
             let touching = self.touching(member, record);
             touching.map(|touching| vec![(name, ContactGeometry::Circles(touching))])
-        };
-        let response = match record.get("compliance") {
-            Some(written) => {
-                for field in IMPACT_FIELDS {
-                    self.conflict(record, field, "compliance");
-                }
-                self.compliance(member, written)
-            }
-            None => self.rigid(member, record),
-        };
+        }
+    }
+
+    /// The coefficients of friction and of static friction, if they are given; `Some(None)` where one is wrong.
+    fn friction_coefficients(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+    ) -> (Option<Option<Expr<'d>>>, Option<Option<Expr<'d>>>) {
         let friction = record
             .get("friction")
             .map(|written| self.friction(member, written));
@@ -157,7 +194,16 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             sticking
         });
-        let rolling = record.get("rolling_resistance").map(|written| {
+        (friction, sticking)
+    }
+
+    /// The coefficient of rolling resistance, if it is given; `Some(None)` where it is wrong.
+    fn rolling_resistance(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+    ) -> Option<Option<Expr<'d>>> {
+        record.get("rolling_resistance").map(|written| {
             for other in [
                 "gap", "slip", "point", "corners", "against", "sphere", "spheres",
             ] {
@@ -170,25 +216,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let scalar = self.scalar_in(written, Unit::METRE, reason, scope)?;
             self.bound(BoundKind::RollingResistance, scalar.expr, written.span);
             Some(scalar.expr)
-        });
-        // A field that is present but wrong has been reported.
-        let good = |written: Option<Option<Expr<'d>>>| match written {
-            Some(value) => value.map(Some),
-            None => Some(None),
-        };
-        let (response, friction, static_friction) = (response?, good(friction)?, good(sticking)?);
-        let rolling_resistance = good(rolling)?;
-        let span = self.span(member);
-        let contact = |(name, geometry)| Contact {
-            name,
-            geometry,
-            response,
-            friction,
-            static_friction,
-            rolling_resistance,
-            span,
-        };
-        Some(geometries?.into_iter().map(contact).collect())
+        })
     }
 
     /// The contacts of `circles` or `spheres`, each of which may touch each other from outside.
@@ -312,15 +340,15 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return None;
         }
         let base = self.name(member).to_string();
-        let corners_of = |own: &Rc<Polygon<'d>>, other: &Rc<Polygon<'d>>| {
+        let corners_of = |polygon: &Rc<Polygon<'d>>, other: &Rc<Polygon<'d>>| {
             let corner = |corner| {
                 ContactGeometry::Corner(Corner {
                     corner,
-                    polygon: own.clone(),
+                    polygon: polygon.clone(),
                     other_polygon: other.clone(),
                 })
             };
-            (0..own.corners.len()).map(corner).collect::<Vec<_>>()
+            (0..polygon.corners.len()).map(corner).collect::<Vec<_>>()
         };
         let mut all = corners_of(&first, &second);
         all.extend(corners_of(&second, &first));

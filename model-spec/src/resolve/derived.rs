@@ -82,8 +82,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let name = self.name(member);
         let full = name.to_string();
         let mut values = self.overrides.iter();
-        let own = self.overrides.iter().find(|(given, _)| *given == full);
-        let found = own.or_else(|| values.find(|(given, _)| *given == name.base));
+        let of_member = self.overrides.iter().find(|(given, _)| *given == full);
+        let found = of_member.or_else(|| values.find(|(given, _)| *given == name.base));
         found.map(|(_, value)| self.dag.constant(value.clone()))
     }
 

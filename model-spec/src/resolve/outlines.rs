@@ -29,7 +29,7 @@ impl<'d> Outline<'d> {
     /// Whether it is the outline of the body at this place.
     fn is_of(&self, place: Place) -> bool {
         match (place, &self.rotation) {
-            (Place::Frame(pose), Rotation::Frame(own)) => pose == *own,
+            (Place::Frame(pose), Rotation::Frame(frame)) => pose == *frame,
             (Place::Body(body), _) => body == self.body,
             _ => false,
         }
@@ -86,8 +86,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// The corners of the outline of the body at a place.
     pub fn outline_at(&mut self, on: Place, field: &str, span: Span) -> Option<Vec<Vec<Expr<'d>>>> {
         let outlines = self.outlines.iter();
-        let mut own = outlines.filter(|outline| outline.is_of(on));
-        let (corners, message, help) = match [own.next(), own.next()] {
+        let mut matching = outlines.filter(|outline| outline.is_of(on));
+        let (corners, message, help) = match [matching.next(), matching.next()] {
             [Some(outline), None] => (Some(outline.corners.clone()), String::new(), ""),
             [None, _] => (
                 None,

@@ -104,11 +104,11 @@ impl<'d> Resolver<'_, 'd, '_> {
 
     /// The displacements of a pose from its parent by guides, in ground axes.
     pub fn relaxed_by(&self, id: PoseId) -> impl Iterator<Item = Vec<Expr<'d>>> {
-        let own = self
+        let guides = self
             .guides
             .iter()
             .filter(move |guide| guide.frame == Some(id));
-        own.map(|guide| guide.displacement.iter().map(|&[by, ..]| by).collect())
+        guides.map(|guide| guide.displacement.iter().map(|&[by, ..]| by).collect())
     }
 
     /// The mass centre of a body, displaced by the guides of the body unless its frame carries it.

@@ -139,11 +139,11 @@ impl<'e> Reader<'_, '_, 'e> {
             } else if kind != Kind::Prismatic {
                 let place = self.numbers::<3>(item, "pos").unwrap_or_default();
                 let is_there = last == Vector3::zeros();
-                let here = Vector3::from(place.each_ref().map(|number| number.value));
+                let position = Vector3::from(place.each_ref().map(|number| number.value));
                 let step = if is_there {
                     place
                 } else {
-                    (here - last).map(Number::computed).into()
+                    (position - last).map(Number::computed).into()
                 };
                 // This step follows the rotation of the body's frame.
                 let step = Pose {
@@ -155,7 +155,7 @@ impl<'e> Reader<'_, '_, 'e> {
                     turns: Turns::new(),
                 });
                 shift = step.xyz;
-                last = here;
+                last = position;
             }
             joint.parent = above;
             joint.xyz = std::mem::take(&mut shift);
@@ -390,7 +390,7 @@ impl<'e> Reader<'_, '_, 'e> {
             }
             return;
         };
-        let own = match self.between(&item) {
+        let frame = match self.between(&item) {
             Some([from, to]) => {
                 let z = (from - to).try_normalize(0.0).unwrap_or_else(Vector3::z);
                 let centre = pose.centre() + steps::axes(&pose.turns) * ((from + to) / 2.0);
@@ -402,7 +402,7 @@ impl<'e> Reader<'_, '_, 'e> {
             }
         };
         let mass = mass.unwrap_or(density * shape.volume());
-        found.solids.push(Solid::of(shape, mass, own.0, &own.1));
+        found.solids.push(Solid::of(shape, mass, frame.0, &frame.1));
     }
 
     /// Registers a mesh, to which geometry may refer.

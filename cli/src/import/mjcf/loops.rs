@@ -137,17 +137,18 @@ impl<'e> Reader<'_, '_, 'e> {
                 return self.faults.add(element.at, message);
             }
         }
-        let (Some(one), Some(other)) = (self.body_of(&item, "body1"), self.body_of(&item, "body2"))
+        let (Some((first_link, first)), Some((second_link, second))) =
+            (self.body_of(&item, "body1"), self.body_of(&item, "body2"))
         else {
             return;
         };
         let anchor = self.numbers::<3>(&item, "anchor").unwrap_or_default();
         let place = Vector3::from(anchor.each_ref().map(|number| number.value));
         let between = Rest {
-            axes: one.1.axes.transpose() * other.1.axes,
-            origin: one.1.axes.transpose() * (other.1.origin - one.1.origin),
+            axes: first.axes.transpose() * second.axes,
+            origin: first.axes.transpose() * (second.origin - first.origin),
         };
-        let size = place.amax() + one.1.origin.amax() + other.1.origin.amax();
+        let size = place.amax() + first.origin.amax() + second.origin.amax();
         let numbers = |place: Vector3<f64>| -> [Number; 3] {
             let clean = |x: f64| {
                 if x.abs() <= ROUNDING * size {
@@ -186,16 +187,16 @@ impl<'e> Reader<'_, '_, 'e> {
         self.robot.ties.push(Tie {
             name: match element.own("name") {
                 Some(name) => name.value.clone(),
-                None => format!("{kind}_{}_{}", one.0, other.0),
+                None => format!("{kind}_{first_link}_{second_link}"),
             },
             kind: TieKind::Closing {
                 anchors: Box::new([
                     Anchor {
-                        link: one.0,
+                        link: first_link,
                         xyz: first,
                     },
                     Anchor {
-                        link: other.0,
+                        link: second_link,
                         xyz: second,
                     },
                 ]),
@@ -291,9 +292,9 @@ impl<'e> Reader<'_, '_, 'e> {
         }
         let mut rest = q;
         for joint in &mut self.robot.joints {
-            let (own, after) = rest.split_at(length(joint.kind));
+            let (values, after) = rest.split_at(length(joint.kind));
             rest = after;
-            let (place, turn) = match own {
+            let (place, turn) = match values {
                 [] => continue,
                 [value] => {
                     joint.home = Some(value.clone());
@@ -330,9 +331,9 @@ impl<'e> Reader<'_, '_, 'e> {
         let mut rest = v;
         let mut is_turning = false;
         for joint in &mut self.robot.joints {
-            let (own, after) = rest.split_at(length(joint.kind));
+            let (values, after) = rest.split_at(length(joint.kind));
             rest = after;
-            match own {
+            match values {
                 [value] => joint.home_rate = Some(value.clone()),
                 several => is_turning |= several.iter().any(|number| !number.is_zero()),
             }

@@ -385,7 +385,7 @@ impl Path {
         (most, small): (usize, f64),
     ) -> Option<Path> {
         let scales = self.scales(system);
-        let mut rest = self.residuals(system, from, to, &scales);
+        let mut residual = self.residuals(system, from, to, &scales);
         for _ in 0..most {
             if budget.is_spent() {
                 return None;
@@ -400,8 +400,8 @@ impl Path {
                 let next = self.moved(&step, part);
                 let left = next.residuals(system, from, to, &scales);
                 // A step at the level of round-off cannot reduce the residual, and is accepted.
-                if left < rest || size < small {
-                    (self, rest) = (next, left);
+                if left < residual || size < small {
+                    (self, residual) = (next, left);
                     break;
                 }
                 if halving == HALVINGS {

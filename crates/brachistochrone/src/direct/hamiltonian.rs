@@ -155,9 +155,9 @@ impl<T: Terrain> Driven<T> {
         let mut right: Vec<f64> = known.iter().map(|x| -lambda * x).collect();
         right[free] += 1.0;
         let mut solution = Lu::new(rows.collect())?.solve(&right);
-        let own = solution.split_off(n);
+        let remaining = solution.split_off(n);
         let mut z = control[..free].to_vec();
-        z.extend(own);
+        z.extend(remaining);
         Some((solution, z))
     }
 

@@ -362,22 +362,47 @@ impl<L: Loops> Body<'_, L> {
     }
 
     fn repeat(&mut self, plan: &Plan, repeat: &Repeat, used_outside: &[bool]) {
-        let steps = &plan.steps.steps;
         let Repeat {
             start,
             period,
             count,
             ref operands,
         } = *repeat;
+        let body = &plan.steps.steps[start..start + period];
         let language = self.language;
         let counter = language.identifier(&mut self.scope.clone(), "i");
-        let mut counts = false;
+        let names = self.names_of_operands(repeat, &counter);
+        let stored = self.storage(plan, repeat, used_outside, &names.carried);
+        let is_counted = names.is_counted
+            || (stored.iter()).any(|(_, stored)| matches!(stored, StoredValue::All(..)))
+            || body.iter().any(|step| matches!(step.kind, Kind::Guard(_)));
+        // A value that is set at the end of the body becomes a variable as soon as it is known.
+        let set: BTreeSet<Value> = (names.carried.iter())
+            .map(|(value, _)| *value)
+            .chain(stored.iter().map(|(value, _)| *value))
+            .collect();
+        for value in &set {
+            self.uses[value.index()] += 2;
+        }
+        language.open_loop(self.writer, is_counted.then_some(counter.as_str()), count);
+        for (offset, operands) in operands.iter().enumerate().take(period) {
+            let of: Vec<Value> = operands.iter().map(|x| names.aliases[x]).collect();
+            self.step_in_loop(plan, repeat, offset, &of, &counter);
+        }
+        self.end_iteration(&stored, &names.carried, &counter);
+        self.writer.close("}");
+        for value in set {
+            self.uses[value.index()] -= 2;
+        }
+        self.record_stored(stored);
+    }
 
-        // The names of the operands inside the loop.
-        let mut aliases: FxHashMap<&Operand, Value> = FxHashMap::default();
-        let mut carried: Vec<(Value, String)> = Vec::new();
-        for operand in operands.iter().flatten() {
-            if aliases.contains_key(operand) {
+    /// Names the operands of a loop, and writes the variables and arrays that they need before it.
+    fn names_of_operands<'p>(&mut self, repeat: &'p Repeat, counter: &str) -> OperandNames<'p> {
+        let language = self.language;
+        let mut names = OperandNames::default();
+        for operand in repeat.operands.iter().flatten() {
+            if names.aliases.contains_key(operand) {
                 continue;
             }
             let alias = match operand {
@@ -391,17 +416,17 @@ impl<L: Loops> Body<'_, L> {
                     let name = language.identifier(&mut self.scope, &format!("c{}", self.names));
                     self.names += 1;
                     language.variable_to_set(self.writer, &name, &first);
-                    carried.push((*value, name.clone()));
+                    names.carried.push((*value, name.clone()));
                     self.alias(name)
                 }
                 Operand::Column(column) => {
-                    counts = true;
+                    names.is_counted = true;
                     let places: Vec<Vec<ArrayElement>> = column
                         .iter()
                         .map(|value| self.places[value.index()].clone())
                         .collect();
-                    let run = longest(&places).filter(|run| run.count == count);
-                    let text = match run.and_then(|run| run.text(&counter)) {
+                    let run = longest(&places).filter(|run| run.count == repeat.count);
+                    let text = match run.and_then(|run| run.text(counter)) {
                         Some(text) => text,
                         None => {
                             let name =
@@ -414,11 +439,28 @@ impl<L: Loops> Body<'_, L> {
                     self.alias(text)
                 }
             };
-            aliases.insert(operand, alias);
+            names.aliases.insert(operand, alias);
         }
+        names
+    }
 
-        // Which iterations of each value are kept: all, or the last.
-        let mut kept: Vec<(Value, StoredValue)> = Vec::new();
+    /// Declares the variables and arrays for the values of a loop that are used after it: of all iterations, or of the last.
+    fn storage(
+        &mut self,
+        plan: &Plan,
+        repeat: &Repeat,
+        used_outside: &[bool],
+        carried: &[(Value, String)],
+    ) -> Vec<(Value, StoredValue)> {
+        let Repeat {
+            start,
+            period,
+            count,
+            ..
+        } = *repeat;
+        let steps = &plan.steps.steps;
+        let language = self.language;
+        let mut stored: Vec<(Value, StoredValue)> = Vec::new();
         for (offset, step) in steps[start..start + period].iter().enumerate() {
             for (which, value) in step.defines.iter().enumerate() {
                 let Some(value) = *value else { continue };
@@ -433,81 +475,88 @@ impl<L: Loops> Body<'_, L> {
                     [] => continue,
                     [only] if *only + 1 == count => {
                         if let Some((_, name)) = carried.iter().find(|(of, _)| *of == value) {
-                            kept.push((value, StoredValue::Carried(name.clone(), all[count - 1])));
+                            stored
+                                .push((value, StoredValue::Carried(name.clone(), all[count - 1])));
                             continue;
                         }
                         let name =
                             language.identifier(&mut self.scope, &format!("c{}", self.names));
                         let zero = language.constant(&Rational::ZERO).text;
                         language.variable_to_set(self.writer, &name, &zero);
-                        kept.push((value, StoredValue::Last(name, all[count - 1])));
+                        stored.push((value, StoredValue::Last(name, all[count - 1])));
                         self.names += 1;
                         continue;
                     }
                     _ => language.identifier(&mut self.scope, &format!("a{}", self.names)),
                 };
                 self.names += 1;
-                counts = true;
                 let zero = language.constant(&Rational::ZERO).text;
                 language.array_to_set(self.writer, &name, &zero, count);
-                kept.push((value, StoredValue::All(name, all)));
+                stored.push((value, StoredValue::All(name, all)));
             }
         }
-        let guards = steps[start..start + period].iter();
-        counts |= guards
-            .clone()
-            .any(|step| matches!(step.kind, Kind::Guard(_)));
-        // A value that is set at the end of the body becomes a variable as soon as it is known.
-        let set: BTreeSet<Value> = carried
-            .iter()
-            .map(|(value, _)| *value)
-            .chain(kept.iter().map(|(value, _)| *value))
-            .collect();
-        for value in &set {
-            self.uses[value.index()] += 2;
-        }
+        stored
+    }
 
-        language.open_loop(self.writer, counts.then_some(counter.as_str()), count);
-        for (offset, step) in steps[start..start + period].iter().enumerate() {
-            let of: Vec<Value> = operands[offset].iter().map(|x| aliases[x]).collect();
-            match &step.kind {
-                Kind::Guard(_) => {
-                    let at = |iteration: usize| {
-                        &self.function.guards[steps[start + iteration * period + offset].guard]
-                    };
-                    let (first, second) = (at(0).coordinate, at(1).coordinate);
-                    let coordinate = counted(first, second as i64 - first as i64, &counter);
-                    let names = [of[0], of[1]].map(|value| self.bound(value));
-                    let [pivot, scale] = names.each_ref().map(String::as_str);
-                    let guard = at(0);
-                    language.guard_of(self.writer, guard, [pivot, scale], &coordinate);
-                }
-                Kind::Contraction(kind) => {
-                    let sum = Contraction {
-                        kind: *kind,
-                        factors: [of[0], of[1]],
-                        term: of[2],
-                    };
-                    let expression = self.contraction(sum);
-                    self.define_in_loop(step.defines[0], expression);
-                }
-                Kind::Operation(op) => {
-                    let mut operands = of.iter();
-                    let op = op.with_operands(|_| {
-                        *operands
-                            .next()
-                            .expect("as many operands as the operation has")
-                    });
-                    let expression = self.expression(op);
-                    self.define_in_loop(step.defines[0], expression);
-                }
-                Kind::Circular => self.circular_in_loop(of[0], step.defines),
-                Kind::AllCircular => unreachable!("what happens once is in no loop"),
+    /// Writes a step of a loop, with these operands.
+    fn step_in_loop(
+        &mut self,
+        plan: &Plan,
+        repeat: &Repeat,
+        offset: usize,
+        of: &[Value],
+        counter: &str,
+    ) {
+        let (steps, first) = (&plan.steps.steps, repeat.start + offset);
+        let step = &steps[first];
+        match &step.kind {
+            Kind::Guard(_) => {
+                let at = |iteration: usize| {
+                    &self.function.guards[steps[first + iteration * repeat.period].guard]
+                };
+                let coordinates = [at(0), at(1)].map(|guard| guard.coordinate);
+                let stride = coordinates[1] as i64 - coordinates[0] as i64;
+                let coordinate = counted(coordinates[0], stride, counter);
+                let guard = at(0);
+                let names = [of[0], of[1]].map(|value| self.bound(value));
+                let [pivot, scale] = names.each_ref().map(String::as_str);
+                (self.language).guard_of(self.writer, guard, [pivot, scale], &coordinate);
             }
+            Kind::Contraction(kind) => {
+                let sum = Contraction {
+                    kind: *kind,
+                    factors: [of[0], of[1]],
+                    term: of[2],
+                };
+                let expression = self.contraction(sum);
+                self.define_in_loop(step.defines[0], expression);
+            }
+            Kind::Operation(op) => {
+                let mut operands = of.iter();
+                let op = op.with_operands(|_| {
+                    *operands
+                        .next()
+                        .expect("as many operands as the operation has")
+                });
+                let expression = self.expression(op);
+                self.define_in_loop(step.defines[0], expression);
+            }
+            Kind::Circular => self.circular_in_loop(of[0], step.defines),
+            Kind::AllCircular => unreachable!("what happens once is in no loop"),
         }
-        for (value, kept) in &kept {
+    }
+
+    /// Stores the values of an iteration that are used after it.
+    fn end_iteration(
+        &mut self,
+        stored: &[(Value, StoredValue)],
+        carried: &[(Value, String)],
+        counter: &str,
+    ) {
+        let language = self.language;
+        for (value, stored) in stored {
             let name = self.bound(*value);
-            match kept {
+            match stored {
                 StoredValue::All(array, _) => {
                     language.set(self.writer, &format!("{array}[{counter}]"), &name)
                 }
@@ -522,13 +571,12 @@ impl<L: Loops> Body<'_, L> {
         for ((_, name), value) in carried.iter().zip(new) {
             language.set(self.writer, name, &value);
         }
-        self.writer.close("}");
-        for value in set {
-            self.uses[value.index()] -= 2;
-        }
+    }
 
-        for (_, kept) in kept {
-            match kept {
+    /// Records where the values of a loop are found after it.
+    fn record_stored(&mut self, stored: Vec<(Value, StoredValue)>) {
+        for (_, stored) in stored {
+            match stored {
                 StoredValue::All(array, values) => {
                     for (iteration, value) in values.into_iter().enumerate() {
                         self.record_element(
@@ -564,6 +612,16 @@ impl<L: Loops> Body<'_, L> {
         let [sin, cos] = names.each_ref().map(Option::as_deref);
         self.language.sin_cos(self.writer, sin, cos, &angle);
     }
+}
+
+/// The names of the operands in the body of a loop.
+#[derive(Default)]
+struct OperandNames<'p> {
+    aliases: FxHashMap<&'p Operand, Value>,
+    /// The variables that carry a value from one iteration to the next.
+    carried: Vec<(Value, String)>,
+    /// Whether an operand depends on the counter.
+    is_counted: bool,
 }
 
 /// How a value that a loop computes is kept.

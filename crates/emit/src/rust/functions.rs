@@ -7,7 +7,7 @@ use super::docs::slot_docs;
 use super::language::Rust;
 use super::types::Types;
 use crate::body::{self, Expression as Text, Language, Unchecked};
-use crate::cut::{self, Cut, Piece, Place};
+use crate::cut::{self, Cut, CutResult, Piece};
 use crate::layout::{Layout, Writer};
 use crate::names::{Scope, flat};
 use lagrangian_program::quantity::{Entry, Extent, Kind};
@@ -172,21 +172,20 @@ impl<'a> Emitter<'a> {
 
     /// The texts of a function's results after its pieces have run.
     pub(super) fn results_of_pieces(&mut self, cut: &Cut, in_registers: bool) -> Vec<String> {
-        let is_zero =
-            |place: &Place| matches!(place, Place::Leaf(Op::Constant(value)) if value.is_zero());
+        let is_zero = |place: &CutResult| matches!(place, CutResult::Leaf(Op::Constant(value)) if value.is_zero());
         let rust = Rust {
             emitter: self,
             in_registers,
         };
-        let result = |place: &Place| match place {
+        let result = |place: &CutResult| match place {
             place if is_zero(place) => "zero".to_owned(),
-            Place::Slot(slot) => format!("w[{slot}]"),
-            Place::Leaf(Op::Constant(value)) => rust.constant(value).text,
-            Place::Leaf(Op::Read(source)) => match rust.argument(*source) {
+            CutResult::Slot(slot) => format!("w[{slot}]"),
+            CutResult::Leaf(Op::Constant(value)) => rust.constant(value).text,
+            CutResult::Leaf(Op::Read(source)) => match rust.argument(*source) {
                 Some(argument) => argument.text,
                 None => rust.variable(*source).1,
             },
-            Place::Leaf(_) => rust.pi().text,
+            CutResult::Leaf(_) => rust.pi().text,
         };
         let results = cut.results.iter().map(result).collect();
         if cut.results.iter().any(is_zero) {

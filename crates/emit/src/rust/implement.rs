@@ -27,16 +27,16 @@ impl Variables {
         let names = group.slots.iter();
         let names: Vec<String> = names.map(|slot| scope.take(&flat(&slot.name))).collect();
         let fields = group.fields.iter().flat_map(|field| {
-            let own = field.slots.iter().map(|&slot| names[slot].clone());
-            let mut own: Vec<String> = own.collect();
-            if field.is_family || own[..] != [field.ident.clone()] {
+            let texts = field.slots.iter().map(|&slot| names[slot].clone());
+            let mut texts: Vec<String> = texts.collect();
+            if field.is_family || texts[..] != [field.ident.clone()] {
                 let bracket = if field.is_family { "[" } else { "" };
-                own[0] = format!("{}: {bracket}{}", field.ident, own[0]);
+                texts[0] = format!("{}: {bracket}{}", field.ident, texts[0]);
             }
-            if let (true, Some(last)) = (field.is_family, own.last_mut()) {
+            if let (true, Some(last)) = (field.is_family, texts.last_mut()) {
                 last.push(']');
             }
-            own
+            texts
         });
         Variables {
             fields: fields.collect(),

@@ -188,14 +188,22 @@ impl Emitter<'_> {
         match function.shape {
             Shape::Vector(_) => {
                 let runs = body::runs(&places);
-                let kept = |text: &str| format!("{text}.store()");
-                body::fill(&mut writer, &rust, &name, &runs, &texts, &kept, &mut scope);
+                let stored = |text: &str| format!("{text}.store()");
+                body::fill(
+                    &mut writer,
+                    &rust,
+                    &name,
+                    &runs,
+                    &texts,
+                    &stored,
+                    &mut scope,
+                );
                 writer.line(format!("Ok({name})"));
             }
             _ => {
-                let kept: Vec<String> =
+                let stored: Vec<String> =
                     texts.iter().map(|text| format!("{text}.store()")).collect();
-                let value = self.arranged(function, &kept);
+                let value = self.arranged(function, &stored);
                 writer.expression(&format!("let {name} = "), &value, ";");
                 writer.line(format!("Ok({name})"));
             }
@@ -255,11 +263,11 @@ impl Emitter<'_> {
     /// Converts the results to their stored form; returns the name of the variable.
     fn stored_results(&mut self, function: &Function, results: &[String]) -> String {
         let name = self.function_name(function.role);
-        let kept: Vec<String> = results
+        let stored: Vec<String> = results
             .iter()
             .map(|text| format!("{text}.store()"))
             .collect();
-        let value = self.arranged(function, &kept);
+        let value = self.arranged(function, &stored);
         self.writer
             .expression(&format!("let {name} = "), &value, ";");
         name

@@ -3,11 +3,19 @@
 
 use lagrangian_symbolic::Function;
 
-use super::{Entries, Syntax, Table, helper, quoted};
+use super::{Dialect, Entries, Syntax, Table, helper, quoted};
 use crate::body::{Expression, Rounded};
 use crate::layout::Writer;
 
-pub struct JavaScript;
+/// JavaScript.
+pub const JAVASCRIPT: Dialect = Dialect {
+    name: "javascript",
+    summary: "The operations as JavaScript",
+    extension: "js",
+    syntax: &JavaScript,
+};
+
+struct JavaScript;
 
 impl Syntax for JavaScript {
     fn comment(&self) -> &'static str {

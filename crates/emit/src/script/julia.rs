@@ -2,11 +2,18 @@
 
 use lagrangian_symbolic::Function;
 
-use super::{Entries, Syntax, Table, helper, quoted};
+use super::{Dialect, Entries, Syntax, Table, helper, quoted};
 use crate::body::{Expression, Rounded};
 use crate::layout::Writer;
 
-pub struct Julia;
+pub(super) const JULIA: Dialect = Dialect {
+    name: "julia",
+    summary: "The operations as Julia",
+    extension: "jl",
+    syntax: &Julia,
+};
+
+struct Julia;
 
 impl Syntax for Julia {
     fn comment(&self) -> &'static str {

@@ -2,11 +2,18 @@
 
 use lagrangian_symbolic::Function;
 
-use super::{Entries, Syntax, Table, helper};
+use super::{Dialect, Entries, Syntax, Table, helper};
 use crate::body::{Expression, Rounded};
 use crate::layout::Writer;
 
-pub struct Matlab;
+pub(super) const MATLAB: Dialect = Dialect {
+    name: "matlab",
+    summary: "The operations as MATLAB, for Octave too",
+    extension: "m",
+    syntax: &Matlab,
+};
+
+struct Matlab;
 
 impl Syntax for Matlab {
     fn comment(&self) -> &'static str {

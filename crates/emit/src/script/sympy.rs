@@ -5,7 +5,7 @@
 
 use lagrangian_symbolic::{Function, Rational};
 
-use super::{Entries, Syntax, Table, quoted};
+use super::{Dialect, Entries, Syntax, Table, quoted};
 use crate::body::{Expression, Precedence, Rounded};
 use crate::layout::Writer;
 
@@ -33,7 +33,14 @@ def _evaluated(function):
 
     return called"#;
 
-pub struct Sympy;
+pub(super) const SYMPY: Dialect = Dialect {
+    name: "sympy",
+    summary: "The operations as Python for SymPy, for numbers and symbols",
+    extension: "py",
+    syntax: &Sympy,
+};
+
+struct Sympy;
 
 impl Syntax for Sympy {
     fn comment(&self) -> &'static str {

@@ -75,10 +75,10 @@ impl<'d> Chapter<'_, 'd> {
     fn frame(&self, frame: &Frame) -> Words {
         let model = self.model;
         let mut steps: Vec<Words> = Vec::new();
-        let mut here = frame.pose;
+        let mut pose_id = frame.pose;
         // Searches for the nearest ancestor frame that has a name and precedes this one.
         let parent = loop {
-            let pose = &model.poses[here.index()];
+            let pose = &model.poses[pose_id.index()];
             match &pose.step {
                 Step::Ground => break words!["the ground"],
                 Step::Shift(by) => {
@@ -95,9 +95,9 @@ impl<'d> Chapter<'_, 'd> {
                     steps.push(words!["turned by the quaternion ", self.tuple(e)]);
                 }
             }
-            here = pose.parent;
-            let named = model.frames.iter().find(|other| other.pose == here);
-            if let Some(named) = named.filter(|_| here != PoseId::GROUND) {
+            pose_id = pose.parent;
+            let named = model.frames.iter().find(|other| other.pose == pose_id);
+            if let Some(named) = named.filter(|_| pose_id != PoseId::GROUND) {
                 break words![code(&named.name)];
             }
         };

@@ -22,37 +22,7 @@ impl<'d> Chapter<'_, 'd> {
     pub(super) fn machine(&self) -> Vec<Block> {
         let model = self.model;
         let mut blocks = prose(&model.docs);
-        let place = match model.space {
-            Space::Plane => "in the plane",
-            Space::Space => "in space",
-        };
-        let states = model
-            .coordinates
-            .iter()
-            .filter(|c| c.rate.is_some())
-            .count();
-        let n = model.coordinates.len() - states;
-        let mut freedom = freedom(model, &self.compiled.equations);
-        freedom.coordinates -= states;
-        let text = match (freedom.constraints, freedom.lengths) {
-            (0, 1..) => format!(
-                "The machine moves {place}. It has {} of freedom and {}.",
-                counted(n - freedom.lengths, "degree"),
-                counted(n, "generalized coordinate"),
-            ),
-            (0, 0) => format!(
-                "The machine moves {place}. It has {} of freedom, as many as generalized coordinates.",
-                counted(n, "degree"),
-            ),
-            _ => format!("The machine moves {place}. {}", constrained(freedom)),
-        };
-        blocks.push(paragraph([words![text]]));
-        if freedom.lengths > 0 {
-            let text = "Only the ratios of the four numbers of a quaternion that turns a frame have a meaning. Its length is not a degree of \
-                        freedom: an equation of its own, (E74) and (E75), returns it to 1; the inertia and the load of that equation are in \
-                        the mass matrix, the bias and the forces, and in no energy.";
-            blocks.push(paragraph([words![text]]));
-        }
+        blocks.extend(self.degrees_of_freedom());
         blocks.push(self.table(
             &["", "coordinate", "unit", "start", ""],
             self.places().map(|c| Entry {
@@ -86,6 +56,55 @@ impl<'d> Chapter<'_, 'd> {
                 }),
             ));
         }
+        blocks.extend(self.given_values());
+        blocks.extend(self.assumptions());
+        blocks.extend(self.approximations());
+        blocks.extend(self.outputs());
+        blocks
+    }
+
+    /// The number of degrees of freedom.
+    fn degrees_of_freedom(&self) -> Vec<Block> {
+        let model = self.model;
+        let mut blocks = Vec::new();
+        let place = match model.space {
+            Space::Plane => "in the plane",
+            Space::Space => "in space",
+        };
+        let states = model
+            .coordinates
+            .iter()
+            .filter(|c| c.rate.is_some())
+            .count();
+        let n = model.coordinates.len() - states;
+        let mut freedom = freedom(model, &self.compiled.equations);
+        freedom.coordinates -= states;
+        let text = match (freedom.constraints, freedom.lengths) {
+            (0, 1..) => format!(
+                "The machine moves {place}. It has {} of freedom and {}.",
+                counted(n - freedom.lengths, "degree"),
+                counted(n, "generalized coordinate"),
+            ),
+            (0, 0) => format!(
+                "The machine moves {place}. It has {} of freedom, as many as generalized coordinates.",
+                counted(n, "degree"),
+            ),
+            _ => format!("The machine moves {place}. {}", constrained(freedom)),
+        };
+        blocks.push(paragraph([words![text]]));
+        if freedom.lengths > 0 {
+            let text = "Only the ratios of the four numbers of a quaternion that turns a frame have a meaning. Its length is not a degree of \
+                        freedom: an equation of its own, (E74) and (E75), returns it to 1; the inertia and the load of that equation are in \
+                        the mass matrix, the bias and the forces, and in no energy.";
+            blocks.push(paragraph([words![text]]));
+        }
+        blocks
+    }
+
+    /// The tables of parameters, constants and inputs.
+    fn given_values(&self) -> Vec<Block> {
+        let model = self.model;
+        let mut blocks = Vec::new();
         if !model.parameters.is_empty() {
             blocks.push(self.table(
                 &["", "parameter", "unit", "default", ""],
@@ -134,22 +153,26 @@ impl<'d> Chapter<'_, 'd> {
                 }),
             ));
         }
-        if !model.assumptions.is_empty() {
-            let facts = model
-                .assumptions
-                .iter()
-                .take(12)
-                .map(|fact| words![code(&fact.text)]);
-            let more = match model.assumptions.len() {
-                0..=12 => words!["."],
-                all => words![format!(", and {} more.", all - 12)],
-            };
-            let begin = words!["It is assumed, and checked during a run, that "];
-            blocks.push(paragraph([begin, listed(facts), more]));
-        }
-        blocks.extend(self.approximations());
-        blocks.extend(self.outputs());
         blocks
+    }
+
+    /// The facts that the machine assumes.
+    fn assumptions(&self) -> Option<Block> {
+        let model = self.model;
+        if model.assumptions.is_empty() {
+            return None;
+        }
+        let facts = model
+            .assumptions
+            .iter()
+            .take(12)
+            .map(|fact| words![code(&fact.text)]);
+        let more = match model.assumptions.len() {
+            0..=12 => words!["."],
+            all => words![format!(", and {} more.", all - 12)],
+        };
+        let begin = words!["It is assumed, and checked during a run, that "];
+        Some(paragraph([begin, listed(facts), more]))
     }
 
     /// The coordinates other than integrals of states.
@@ -213,14 +236,17 @@ impl<'d> Chapter<'_, 'd> {
         let keep: Vec<bool> = (0..titles.len())
             .map(|k| !titles[k].is_empty() || rows.iter().any(|row| !is_blank(&row[k])))
             .collect();
-        let kept = |cells: Vec<Words>| -> Vec<Words> {
+        let without_empty = |cells: Vec<Words>| -> Vec<Words> {
             let cells = cells.into_iter().zip(&keep);
             cells
                 .filter(|(_, keep)| **keep)
                 .map(|(cell, _)| cell)
                 .collect()
         };
-        Block::Table(kept(head(titles)), rows.into_iter().map(kept).collect())
+        Block::Table(
+            without_empty(head(titles)),
+            rows.into_iter().map(without_empty).collect(),
+        )
     }
 
     /// A default value, as a decimal if it was probably written so.

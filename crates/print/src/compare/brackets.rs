@@ -37,7 +37,7 @@ pub(super) fn difference<'d>(
             continue;
         }
         let is_printed = candidates[0].0 == PRINTED;
-        let more: BTreeSet<Place> = kept.iter().copied().chain(candidates).collect();
+        let more: BTreeSet<BracketId> = kept.iter().copied().chain(candidates).collect();
         if let Some(found) = sides.difference(&more, budget)
             && (terms_in(&found) < terms_in(&best)
                 || terms_in(&found) == terms_in(&best)
@@ -59,7 +59,7 @@ fn symbols_in(difference: &Difference<'_>) -> u64 {
 }
 
 /// A bracket: its side, and its index among the brackets of that side.
-type Place = (usize, usize);
+type BracketId = (usize, usize);
 
 const PRINTED: usize = 0;
 const RIGHT: usize = 1;
@@ -88,7 +88,7 @@ impl<'d> Sides<'d> {
     }
 
     /// Candidates for keeping: pairs that differ by a misprint, then each bracket alone.
-    fn candidates(&self) -> Vec<Vec<Place>> {
+    fn candidates(&self) -> Vec<Vec<BracketId>> {
         let [printed, right] = &self.brackets;
         if printed.len() + right.len() > BRACKETS {
             return Vec::new();
@@ -100,7 +100,7 @@ impl<'d> Sides<'d> {
     }
 
     /// The difference with these brackets kept, and all others expanded.
-    fn difference(&self, kept: &BTreeSet<Place>, budget: usize) -> Option<Difference<'d>> {
+    fn difference(&self, kept: &BTreeSet<BracketId>, budget: usize) -> Option<Difference<'d>> {
         let part = |side: usize, is_kept: bool| {
             let numbered = self.brackets[side].iter().copied().enumerate();
             numbered
