@@ -176,7 +176,7 @@ impl<'e> Reader<'_, '_, 'e> {
             ([anchor, numbers(there)], None)
         };
         let [first, second] = anchors;
-        let bodies = [one.0.as_str(), other.0.as_str()];
+        let bodies = [first_link.as_str(), second_link.as_str()];
         let Some(varies) = self.variations(bodies, [&first, &second], axes.as_ref()) else {
             let message = format!(
                 "{} cannot be satisfied: no joint moves or turns its bodies to where it holds them",
