@@ -138,7 +138,7 @@ fn holds<R: Number>(
         u: constants(&at.u),
         parameters: constants(&at.parameters),
     };
-    let literal = machine.at(&moving, &constants(w));
+    let literal = machine.dynamics(&moving, &constants(w))?;
     let mut pairs: Vec<(R, R, f64)> = Vec::new();
     let mut held = literal.applied;
     for (k, constraint) in literal.constraints.iter().enumerate() {

@@ -15,9 +15,9 @@ use super::{Contracted, Contractions, Function, Op, Program, Role, Singular, Sou
 #[derive(Clone, Debug)]
 pub struct Interpreter<S> {
     layout: Layout,
-    prepare: Tape<S>,
-    start: Tape<S>,
-    functions: Vec<Tape<S>>,
+    prepare: Tape,
+    start: Tape,
+    functions: Vec<Tape>,
     /// Constants, arguments, then the values of operations.
     registers: Vec<S>,
     /// Why there are no accelerations at any state, if so.
@@ -45,21 +45,20 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
     /// # Panics
     /// If `parameters` is not as long as [`Program::parameters`].
     pub fn new(program: &Program, parameters: &[S]) -> Interpreter<S> {
-        let mut layout = Layout::new(program);
-        let mut constants = Constants::default();
-        let mut tape = |function: &Function| Tape::new(function, &layout, &mut constants);
-        let prepare = tape(&program.prepare);
-        let start = tape(&program.start);
-        let functions: Vec<Tape<S>> = program.functions.iter().map(tape).collect();
-        // Constants come last, since their number is known only now.
-        let temporaries = [&prepare, &start]
-            .into_iter()
-            .chain(&functions)
-            .map(|tape| tape.temporaries)
-            .max();
-        layout.constants = layout.temporaries + temporaries.unwrap_or(0);
+        let Tapes {
+            layout,
+            prepare,
+            start,
+            functions,
+            constants,
+        } = Tapes::new(program);
         let mut registers = vec![S::ZERO; layout.constants];
-        registers.extend(constants.values);
+        for constant in &constants {
+            registers.push(match constant {
+                Op::Constant(value) => value.evaluate(),
+                _ => S::pi(),
+            });
+        }
         let mut interpreter = Interpreter {
             layout,
             prepare,
@@ -68,12 +67,6 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
             registers,
             singular: None,
         };
-        for tape in [&mut interpreter.prepare, &mut interpreter.start]
-            .into_iter()
-            .chain(&mut interpreter.functions)
-        {
-            tape.place_constants(interpreter.layout.constants);
-        }
         interpreter.prepare(parameters);
         interpreter
     }
@@ -271,19 +264,50 @@ impl Layout {
     }
 }
 
-/// The constants of all functions, each once.
-struct Constants<S> {
-    values: Vec<S>,
-    index_of: FxHashMap<Op, u32>,
+/// The functions of a program in terms of registers; the same for every type of number, so that they are made by code that is
+/// compiled once.
+struct Tapes {
+    layout: Layout,
+    prepare: Tape,
+    start: Tape,
+    functions: Vec<Tape>,
+    /// The operations of constants, in the order of their registers.
+    constants: Vec<Op>,
 }
 
-impl<S> Default for Constants<S> {
-    fn default() -> Self {
-        Constants {
-            values: Vec::new(),
-            index_of: FxHashMap::default(),
+impl Tapes {
+    fn new(program: &Program) -> Tapes {
+        let mut layout = Layout::new(program);
+        let mut constants = Constants::default();
+        let mut tape = |function: &Function| Tape::new(function, &layout, &mut constants);
+        let mut prepare = tape(&program.prepare);
+        let mut start = tape(&program.start);
+        let mut functions: Vec<Tape> = program.functions.iter().map(tape).collect();
+        // Constants come last, since their number is known only now.
+        let temporaries = [&prepare, &start]
+            .into_iter()
+            .chain(&functions)
+            .map(|tape| tape.temporaries)
+            .max();
+        layout.constants = layout.temporaries + temporaries.unwrap_or(0);
+        for tape in [&mut prepare, &mut start].into_iter().chain(&mut functions) {
+            tape.place_constants(layout.constants);
+        }
+        Tapes {
+            layout,
+            prepare,
+            start,
+            functions,
+            constants: constants.operations,
         }
     }
+}
+
+/// The constants of all functions, each once.
+#[derive(Default)]
+struct Constants {
+    operations: Vec<Op>,
+    index_of: FxHashMap<Op, u32>,
 }
 
 /// A register.
@@ -364,26 +388,26 @@ enum Step {
 }
 
 #[derive(Clone, Debug)]
-struct Check<S> {
+struct Check {
     pivot: Register,
     scale: Register,
-    tolerance: S,
+    tolerance: f64,
     coordinate: usize,
 }
 
 /// A function in terms of registers.
 #[derive(Clone, Debug)]
-struct Tape<S> {
+struct Tape {
     role: Role,
     reads: super::Reads,
     steps: Vec<Step>,
     results: Vec<Register>,
-    checks: Vec<Check<S>>,
+    checks: Vec<Check>,
     temporaries: usize,
 }
 
-impl<S: Scalar> Tape<S> {
-    fn new(function: &Function, layout: &Layout, constants: &mut Constants<S>) -> Tape<S> {
+impl Tape {
+    fn new(function: &Function, layout: &Layout, constants: &mut Constants) -> Tape {
         let first = layout.temporaries;
         let mut temporaries = 0;
         let mut register: Vec<Register> = Vec::with_capacity(function.code.len());
@@ -411,13 +435,10 @@ impl<S: Scalar> Tape<S> {
                     }
                 }
                 Op::Constant(_) | Op::Pi => {
-                    let next = constants.values.len() as u32;
+                    let next = constants.operations.len() as u32;
                     let index = *constants.index_of.entry(op.clone()).or_insert(next);
                     if index == next {
-                        constants.values.push(match op {
-                            Op::Constant(value) => value.evaluate(),
-                            _ => S::pi(),
-                        });
+                        constants.operations.push(op.clone());
                     }
                     register.push(index | IS_CONSTANT);
                     continue;
@@ -490,7 +511,7 @@ impl<S: Scalar> Tape<S> {
         let checks = function.guards.iter().map(|guard| Check {
             pivot: at(&guard.pivot),
             scale: at(&guard.scale),
-            tolerance: S::from_f64(guard.tolerance),
+            tolerance: guard.tolerance,
             coordinate: guard.coordinate,
         });
         Tape {
@@ -540,12 +561,9 @@ impl<S: Scalar> Tape<S> {
         }
     }
 
-    /// Runs the steps in the arithmetic of numbers `N`, which are stored as `S`.
+    /// Runs the steps in the arithmetic of numbers `N`.
     #[inline(always)]
-    fn run<N: Scalar<Stored = S>>(&self, registers: &mut [S])
-    where
-        S: Copy,
-    {
+    fn run<N: Scalar>(&self, registers: &mut [N::Stored]) {
         for step in &self.steps {
             let at = |register: Register| N::load(registers[register as usize]);
             let (to, value) = match *step {
@@ -578,7 +596,7 @@ impl<S: Scalar> Tape<S> {
         }
     }
 
-    fn copy_results(&self, registers: &[S], results: &mut [S]) {
+    fn copy_results<S: Copy>(&self, registers: &[S], results: &mut [S]) {
         assert_eq!(
             results.len(),
             self.results.len(),
@@ -590,13 +608,13 @@ impl<S: Scalar> Tape<S> {
         }
     }
 
-    fn check(&self, registers: &[S]) -> Result<(), Singular> {
+    fn check<S: Scalar>(&self, registers: &[S]) -> Result<(), Singular> {
         for check in &self.checks {
             let (pivot, scale) = (
                 registers[check.pivot as usize],
                 registers[check.scale as usize],
             );
-            if !pivot.exceeds(check.tolerance * scale) {
+            if !pivot.exceeds(S::from_f64(check.tolerance) * scale) {
                 let (pivot, scale) = (pivot.to_f64(), scale.to_f64());
                 // If the scale is 0, so is the pivot: the ratio 0/0 is reported as 0.
                 let ratio = if pivot == 0.0 { 0.0 } else { pivot / scale };

@@ -4,6 +4,11 @@
 //! Taylor coefficients along a curve. Series programs are compared with them, so functions are composed here by Taylor's
 //! formula at `x₀`, or by integrating their derivatives, and not by the recurrences of those programs.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "iterators over coefficients would be compiled once more for each type of number"
+)]
+
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Scalar;
@@ -39,8 +44,11 @@ impl<S: Scalar, const N: usize> Jet<S, N> {
     fn compose(self, coefficients: [S; N]) -> Self {
         let mut delta = self;
         delta.0[0] = S::ZERO;
-        let constants = coefficients.into_iter().rev();
-        constants.fold(Self::ZERO, |sum, c| sum * delta + Self::constant(c))
+        let mut sum = Self::ZERO;
+        for n in (0..N).rev() {
+            sum = sum * delta + Self::constant(coefficients[n]);
+        }
+        sum
     }
 
     /// The function with the value `value` at `x₀` whose derivatives there alternate: `f, f′, f″ …` are
@@ -49,11 +57,11 @@ impl<S: Scalar, const N: usize> Jet<S, N> {
         let mut next = [value, slope];
         let mut over_factorial = S::ONE;
         let mut coefficients = [S::ZERO; N];
-        for (n, coefficient) in coefficients.iter_mut().enumerate() {
+        for n in 0..N {
             if n > 0 {
                 over_factorial = over_factorial * S::from_ratio(1, n as i64);
             }
-            *coefficient = next[n % 2] * over_factorial;
+            coefficients[n] = next[n % 2] * over_factorial;
             next[n % 2] = S::from_ratio(sign, 1) * next[n % 2];
         }
         self.compose(coefficients)
@@ -90,22 +98,31 @@ impl<S: Scalar, const N: usize> Jet<S, N> {
 
 impl<S: Scalar, const N: usize> Add for Jet<S, N> {
     type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Jet(core::array::from_fn(|n| self.0[n] + other.0[n]))
+    fn add(mut self, other: Self) -> Self {
+        for n in 0..N {
+            self.0[n] = self.0[n] + other.0[n];
+        }
+        self
     }
 }
 
 impl<S: Scalar, const N: usize> Sub for Jet<S, N> {
     type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Jet(core::array::from_fn(|n| self.0[n] - other.0[n]))
+    fn sub(mut self, other: Self) -> Self {
+        for n in 0..N {
+            self.0[n] = self.0[n] - other.0[n];
+        }
+        self
     }
 }
 
 impl<S: Scalar, const N: usize> Neg for Jet<S, N> {
     type Output = Self;
-    fn neg(self) -> Self {
-        Jet(self.0.map(|x| -x))
+    fn neg(mut self) -> Self {
+        for n in 0..N {
+            self.0[n] = -self.0[n];
+        }
+        self
     }
 }
 
@@ -113,11 +130,14 @@ impl<S: Scalar, const N: usize> Mul for Jet<S, N> {
     type Output = Self;
     /// The Cauchy product.
     fn mul(self, other: Self) -> Self {
-        Jet(core::array::from_fn(|n| {
-            (1..=n).fold(self.0[0] * other.0[n], |sum, j| {
-                sum + self.0[j] * other.0[n - j]
-            })
-        }))
+        let mut product = [S::ZERO; N];
+        for n in 0..N {
+            product[n] = self.0[0] * other.0[n];
+            for j in 1..n + 1 {
+                product[n] = product[n] + self.0[j] * other.0[n - j];
+            }
+        }
+        Jet(product)
     }
 }
 
@@ -127,12 +147,11 @@ impl<S: Scalar, const N: usize> Div for Jet<S, N> {
     fn div(self, other: Self) -> Self {
         let mut left = self;
         let mut quotient = [S::ZERO; N];
-        for (n, entry) in quotient.iter_mut().enumerate() {
-            let part = left.0[n] / other.0[0];
+        for n in 0..N {
+            quotient[n] = left.0[n] / other.0[0];
             for j in 1..N - n {
-                left.0[n + j] = left.0[n + j] - part * other.0[j];
+                left.0[n + j] = left.0[n + j] - quotient[n] * other.0[j];
             }
-            *entry = part;
         }
         Jet(quotient)
     }
@@ -241,9 +260,12 @@ impl<S: Scalar, const N: usize> Scalar for Jet<S, N> {
     /// `sign(x₀)·x`; 0 at the kink, except for the value.
     fn abs(self) -> Self {
         let sign = self.0[0].sign();
-        let mut jet = self.0.map(|x| sign * x);
-        jet[0] = self.0[0].abs();
-        Jet(jet)
+        let mut jet = self;
+        for n in 1..N {
+            jet.0[n] = sign * self.0[n];
+        }
+        jet.0[0] = self.0[0].abs();
+        jet
     }
 
     fn sign(self) -> Self {
@@ -281,7 +303,9 @@ impl<S: Scalar, const N: usize> Scalar for Jet<S, N> {
 /// a for sign 1, b for sign −1, (a + b)/2 for 0.
 fn mean<S: Scalar, const N: usize>(a: Jet<S, N>, b: Jet<S, N>, sign: S) -> Jet<S, N> {
     let half = S::from_ratio(1, 2);
-    Jet(core::array::from_fn(|n| {
-        (a.0[n] * (S::ONE + sign) + b.0[n] * (S::ONE - sign)) * half
-    }))
+    let mut mean = a;
+    for n in 0..N {
+        mean.0[n] = (a.0[n] * (S::ONE + sign) + b.0[n] * (S::ONE - sign)) * half;
+    }
+    mean
 }

@@ -72,18 +72,24 @@ impl<'d> Evaluation<'d> {
     pub fn values<S: Scalar>(&self, value: impl FnMut(Symbol) -> S) -> Vec<S> {
         // The symbols come first, since `value` may ask the graph for their names.
         let symbols: Vec<S> = self.symbols.iter().copied().map(value).collect();
-        let mut symbols = symbols.into_iter();
+        self.values_given(&symbols)
+    }
 
+    /// The values of the expressions, given those of the symbols. Generic over the number alone, it is compiled once for each type of
+    /// number and not for each meaning of the symbols.
+    fn values_given<S: Scalar>(&self, symbols: &[S]) -> Vec<S> {
         let arena = self.dag.arena.borrow();
+        let mut next_symbol = 0;
         let mut values: Vec<S> = Vec::with_capacity(self.needed.len());
         for &id in &self.needed {
             let at = |child: Id| values[self.place[child.index()] as usize];
             let value = match arena.node(id) {
                 Node::Constant(value) => value.evaluate(),
                 Node::Pi => S::pi(),
-                Node::Symbol(_) => symbols
-                    .next()
-                    .expect("every needed symbol has been asked for"),
+                Node::Symbol(_) => {
+                    next_symbol += 1;
+                    symbols[next_symbol - 1]
+                }
                 Node::Sum(terms) => {
                     let mut sum: Option<S> = None;
                     for (x, c) in terms.iter() {
@@ -100,11 +106,20 @@ impl<'d> Evaluation<'d> {
                     sum.unwrap_or(S::ZERO)
                 }
                 Node::Product(factors) => {
-                    let power = |&(x, n): &(Id, i32)| power(at(x), n.unsigned_abs());
-                    let above = factors.iter().filter(|(_, n)| *n > 0).map(power);
-                    let below = factors.iter().filter(|(_, n)| *n < 0).map(power);
-                    let numerator = above.reduce(|a, b| a * b);
-                    match (numerator, below.reduce(|a, b| a * b)) {
+                    let (mut numerator, mut denominator) = (None, None);
+                    for &(x, n) in factors.iter() {
+                        let power = power(at(x), n.unsigned_abs());
+                        let product = match n {
+                            0 => continue,
+                            1.. => &mut numerator,
+                            _ => &mut denominator,
+                        };
+                        *product = Some(match *product {
+                            Some(product) => product * power,
+                            None => power,
+                        });
+                    }
+                    match (numerator, denominator) {
                         (Some(numerator), Some(denominator)) => numerator / denominator,
                         (Some(numerator), None) => numerator,
                         (None, Some(denominator)) => S::ONE / denominator,
@@ -113,15 +128,21 @@ impl<'d> Evaluation<'d> {
                 }
                 Node::Function(function, arguments) => {
                     let x = at(arguments[0]);
-                    apply(*function, x, arguments.get(1).map_or(x, |&y| at(y)))
+                    let y = if arguments.len() > 1 {
+                        at(arguments[1])
+                    } else {
+                        x
+                    };
+                    apply(*function, x, y)
                 }
             };
             values.push(value);
         }
-        self.roots
-            .iter()
-            .map(|root| values[*root as usize])
-            .collect()
+        let mut results = Vec::with_capacity(self.roots.len());
+        for &root in &self.roots {
+            results.push(values[root as usize]);
+        }
+        results
     }
 }
 

@@ -30,6 +30,8 @@
 //! coordinate moves. If the guide carries only some of them, and the force could not act on these alone,
 //! its distribution among the bodies is undetermined.
 
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
 use lagrangian_scalar::{Dual, Residue, Scalar};
 use lagrangian_symbolic::{Expr, Node, Symbol, evaluate};
 
@@ -88,8 +90,9 @@ impl Carrying {
     /// The analysis of a machine; nothing if it has no guides, or if its expressions have no values
     /// at any point tried.
     pub fn of(model: &Model<'_>) -> Option<Carrying> {
-        let motion = Motion::<Residue>::of(model).map(|motion| motion.carrying(model));
-        motion.or_else(|| Some(Motion::<f64>::of(model)?.carrying(model)))
+        let motion =
+            Motion::of(model, Numbers::OfField).or_else(|| Motion::of(model, Numbers::Real));
+        motion.map(|motion| motion.carrying(model))
     }
 
     /// The coordinates on which a force would push what a guide carries through a tie whose pull
@@ -102,11 +105,11 @@ impl Carrying {
 /// Reports for every guide what leaves its reaction undetermined. Returns true if anything does.
 pub(super) fn refuse_undetermined_reactions(model: &Model<'_>, report: &mut Report) -> bool {
     let mut tested = Vec::new();
-    let mut errors = Motion::<Residue>::of(model)
+    let mut errors = Motion::of(model, Numbers::OfField)
         .map_or_else(Vec::new, |motion| motion.errors(model, &mut tested));
     // Ordinary numbers are used if the prime field has no values for the motion, or for some of the forces.
     if errors.is_empty() && (tested.is_empty() || tested.contains(&false)) {
-        errors = Motion::<f64>::of(model)
+        errors = Motion::of(model, Numbers::Real)
             .map_or_else(Vec::new, |motion| motion.errors(model, &mut tested));
     }
     let refused = !errors.is_empty();
@@ -114,41 +117,116 @@ pub(super) fn refuse_undetermined_reactions(model: &Model<'_>, report: &mut Repo
     refused
 }
 
-/// Numbers in which (E38) is tested.
-trait Number: Scalar {
+/// The kind of numbers in which (E38) is tested.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Numbers {
+    OfField,
+    Real,
+}
+
+impl Numbers {
     /// The number of points that are tried for forces.
-    const FORCE_TRIALS: u64;
+    fn force_trials(self) -> u64 {
+        match self {
+            Numbers::OfField => FORCE_TRIALS[0],
+            Numbers::Real => FORCE_TRIALS[1],
+        }
+    }
+
+    /// A number of this kind.
+    fn number(self, x: f64) -> Value {
+        match self {
+            Numbers::OfField => Residue::from_f64(x).into(),
+            Numbers::Real => x.into(),
+        }
+    }
+}
+
+/// A number in which (E38) is tested. Both kinds are one type, so that the test is compiled once.
+///
+/// 0 and 1 are constants of the field, and stand for those of the other kind too; no other numbers of both kinds meet.
+#[derive(Clone, Copy, Debug)]
+enum Value {
+    OfField(Residue),
+    Real(f64),
+}
+
+impl Value {
+    const ZERO: Value = Value::OfField(Residue::ZERO);
+    const ONE: Value = Value::OfField(Residue::ONE);
+
+    /// Its magnitude, or 0 if it counts as zero beside numbers of this size.
+    fn size_relative_to(self, size: f64) -> f64 {
+        match self {
+            Value::OfField(x) => f64::from(x != Residue::ZERO),
+            Value::Real(x) if x.abs() > ZERO_TOLERANCE * size => x.abs(),
+            Value::Real(_) => 0.0,
+        }
+    }
+
+    fn is_finite(self) -> bool {
+        match self {
+            Value::OfField(x) => x.is_finite(),
+            Value::Real(x) => x.is_finite(),
+        }
+    }
+}
+
+impl From<Residue> for Value {
+    fn from(x: Residue) -> Value {
+        Value::OfField(x)
+    }
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Value {
+        Value::Real(x)
+    }
+}
+
+macro_rules! operators {
+    ($($trait:ident $method:ident,)*) => {$(
+        impl $trait for Value {
+            type Output = Value;
+            fn $method(self, other: Value) -> Value {
+                match (self, other) {
+                    (Value::OfField(x), Value::OfField(y)) => Value::OfField(x.$method(y)),
+                    (Value::Real(x), Value::Real(y)) => Value::Real(x.$method(y)),
+                    (Value::Real(x), Value::OfField(y)) => Value::Real(x.$method(y.to_f64())),
+                    (Value::OfField(x), Value::Real(y)) => Value::Real(x.to_f64().$method(y)),
+                }
+            }
+        }
+    )*};
+}
+
+operators!(Add add, Sub sub, Mul mul, Div div,);
+
+impl Neg for Value {
+    type Output = Value;
+    fn neg(self) -> Value {
+        match self {
+            Value::OfField(x) => Value::OfField(-x),
+            Value::Real(x) => Value::Real(-x),
+        }
+    }
+}
+
+/// Numbers over which expressions are evaluated.
+trait Number: Scalar + Into<Value> {
     /// A value for a symbol.
     fn random(point: u64, symbol: Symbol) -> Self;
-    /// Its magnitude, or 0 if it counts as zero beside numbers of this size.
-    fn size_relative_to(self, size: f64) -> f64;
 }
 
 impl Number for Residue {
-    const FORCE_TRIALS: u64 = FORCE_TRIALS[0];
-
     fn random(point: u64, symbol: Symbol) -> Residue {
         identity::random_value(point, symbol)
-    }
-
-    fn size_relative_to(self, _: f64) -> f64 {
-        f64::from(self != Residue::ZERO)
     }
 }
 
 impl Number for f64 {
-    const FORCE_TRIALS: u64 = FORCE_TRIALS[1];
-
     fn random(point: u64, symbol: Symbol) -> f64 {
         identity::sample_value(point as u32 + 1, symbol)
-    }
-
-    fn size_relative_to(self, size: f64) -> f64 {
-        if self.abs() > ZERO_TOLERANCE * size {
-            self.abs()
-        } else {
-            0.0
-        }
     }
 }
 
@@ -167,13 +245,14 @@ enum PartKind {
 
 /// The velocities of all parts at a point: rows are components of velocities; columns are
 /// coordinates, followed by the displacements of each guide, two in the plane and three in space.
-struct Motion<T> {
+struct Motion {
+    numbers: Numbers,
     parts: Vec<Part>,
-    columns: Vec<Vec<T>>,
+    columns: Vec<Vec<Value>>,
     /// The directions of the guides, unnormalized, as in the spec.
-    directions: Vec<Vec<T>>,
+    directions: Vec<Vec<Value>>,
     /// The normals of surfaces, unnormalized, as in the spec.
-    normals: Vec<Option<Vec<T>>>,
+    normals: Vec<Option<Vec<Value>>>,
     /// The guide of each contact: a surface has two contacts, one for each tangent.
     guide_of_contact: Vec<usize>,
     coordinates: usize,
@@ -185,14 +264,14 @@ struct Motion<T> {
 }
 
 /// A displacement along a guide as a motion of the machine: the coefficient of each column, minus the displacement itself.
-struct DisplacementAlongGuide<T>(Vec<T>);
+struct DisplacementAlongGuide(Vec<Value>);
 
-impl<T: Scalar> DisplacementAlongGuide<T> {
+impl DisplacementAlongGuide {
     /// The difference between the change of an expression by the displacement along the guide and
     /// its change by the motion of the machine, given its derivatives.
-    fn mismatch(&self, derivatives: impl Iterator<Item = T>) -> T {
+    fn mismatch(&self, derivatives: impl Iterator<Item = Value>) -> Value {
         let pairs = self.0.iter().zip(derivatives);
-        pairs.fold(T::ZERO, |sum, (&c, x)| sum + c * x)
+        pairs.fold(Value::ZERO, |sum, (&c, x)| sum + c * x)
     }
 }
 
@@ -209,15 +288,17 @@ enum GuideDisplacements {
 
 /// The machine with relaxed guides, and the values of its symbols at a point.
 struct Relaxed<'m, 'd> {
+    numbers: Numbers,
     model: &'m Model<'d>,
     x: Variables<'d>,
     coordinates: usize,
 }
 
 impl<'m, 'd> Relaxed<'m, 'd> {
-    fn of(model: &'m Model<'d>) -> Option<Relaxed<'m, 'd>> {
+    fn of(model: &'m Model<'d>, numbers: Numbers) -> Option<Relaxed<'m, 'd>> {
         let relaxed = model.relaxed.as_deref()?;
         Some(Relaxed {
+            numbers,
             model: relaxed,
             x: Variables::of(relaxed),
             coordinates: model.coordinates.len(),
@@ -234,44 +315,73 @@ impl<'m, 'd> Relaxed<'m, 'd> {
         }
     }
 
+    /// The values of some expressions.
+    fn values(&self, at: (u64, GuideDisplacements), expressions: &[Expr<'d>]) -> Vec<Value> {
+        match self.numbers {
+            Numbers::OfField => self.values_in::<Residue>(at, expressions),
+            Numbers::Real => self.values_in::<f64>(at, expressions),
+        }
+    }
+
+    fn values_in<T: Number>(
+        &self,
+        at: (u64, GuideDisplacements),
+        expressions: &[Expr<'d>],
+    ) -> Vec<Value> {
+        let values = evaluate(self.model.dag, expressions, |symbol| {
+            self.value::<T>(at, symbol)
+        });
+        values.into_iter().map(T::into).collect()
+    }
+
     /// The derivatives of some expressions with respect to the coordinates, or to their rates: one
     /// list for each column.
-    fn derivatives<T: Number>(
+    fn derivatives(
         &self,
-        point: (u64, GuideDisplacements),
+        at: (u64, GuideDisplacements),
         expressions: &[Expr<'d>],
         by: &[Symbol],
-    ) -> Vec<Vec<T>> {
-        let column = |&variable: &Symbol| {
-            let values = evaluate(self.model.dag, expressions, |symbol| {
-                let value = self.value(point, symbol);
-                if symbol == variable {
-                    Dual::variable(value)
-                } else {
-                    Dual::constant(value)
-                }
-            });
-            values.into_iter().map(|x: Dual<T>| x.derivative).collect()
+    ) -> Vec<Vec<Value>> {
+        let column = |&variable: &Symbol| match self.numbers {
+            Numbers::OfField => self.derivatives_in::<Residue>(at, expressions, variable),
+            Numbers::Real => self.derivatives_in::<f64>(at, expressions, variable),
         };
         by.iter().map(column).collect()
+    }
+
+    fn derivatives_in<T: Number>(
+        &self,
+        at: (u64, GuideDisplacements),
+        expressions: &[Expr<'d>],
+        variable: Symbol,
+    ) -> Vec<Value> {
+        let values = evaluate(self.model.dag, expressions, |symbol| {
+            let value = self.value::<T>(at, symbol);
+            if symbol == variable {
+                Dual::variable(value)
+            } else {
+                Dual::constant(value)
+            }
+        });
+        values.into_iter().map(|x| x.derivative.into()).collect()
     }
 }
 
 impl Relaxed<'_, '_> {
     /// The guides along which (E38) also holds if the guides are displaced: bodies that are not built from frames
     /// and points alone may move off by more than the displacement.
-    fn guides_that_may_be_displaced<T: Number>(
+    fn guides_that_may_be_displaced(
         &self,
-        motion: &Motion<T>,
-        displacements: &[(usize, DisplacementAlongGuide<T>)],
+        motion: &Motion,
+        displacements: &[(usize, DisplacementAlongGuide)],
     ) -> Vec<usize> {
         let (_, places) = parts(self.model);
-        let columns = self.derivatives::<T>(
+        let columns = self.derivatives(
             (motion.point, GuideDisplacements::Arbitrary),
             &places,
             &self.x.q,
         );
-        let is_met = |along: &DisplacementAlongGuide<T>, row: usize| {
+        let is_met = |along: &DisplacementAlongGuide, row: usize| {
             let mismatch = along.mismatch(columns.iter().map(|column| column[row]));
             mismatch.is_finite() && mismatch.size_relative_to(motion.size) == 0.0
         };
@@ -282,20 +392,21 @@ impl Relaxed<'_, '_> {
     }
 }
 
-impl<T: Number> Motion<T> {
-    fn of(model: &Model<'_>) -> Option<Motion<T>> {
-        Motion::at_first_valid_point(model, 0..TRIALS)
+impl Motion {
+    fn of(model: &Model<'_>, numbers: Numbers) -> Option<Motion> {
+        Motion::at_first_valid_point(model, numbers, 0..TRIALS)
     }
 
     /// The motion at the first of some points where everything has a value.
     fn at_first_valid_point(
         model: &Model<'_>,
+        numbers: Numbers,
         mut points: std::ops::Range<u64>,
-    ) -> Option<Motion<T>> {
+    ) -> Option<Motion> {
         if model.sliding().is_empty() {
             return None;
         }
-        let relaxed = Relaxed::of(model)?;
+        let relaxed = Relaxed::of(model, numbers)?;
         let (parts, expressions) = parts(relaxed.model);
         let directions: Vec<Expr<'_>> = model
             .sliding()
@@ -308,20 +419,17 @@ impl<T: Number> Motion<T> {
             .collect();
         let all = expressions.iter().chain(&directions).chain(&normals);
         let all: Vec<Expr<'_>> = all.copied().collect();
-        let values = |point| {
-            evaluate(model.dag, &all, |s| {
-                relaxed.value::<T>((point, GuideDisplacements::Zero), s)
-            })
-        };
+        let values = |point| relaxed.values((point, GuideDisplacements::Zero), &all);
         let (point, values) = points
             .by_ref()
             .map(|point| (point, values(point)))
             .find(|(_, values)| values.iter().all(|x| x.is_finite()))?;
         let at_zero = (point, GuideDisplacements::Zero);
-        let columns = relaxed.derivatives::<T>(at_zero, &expressions, &relaxed.x.q);
+        let columns = relaxed.derivatives(at_zero, &expressions, &relaxed.x.q);
         let entries = columns.iter().flatten();
         let size = entries.map(|x| x.size_relative_to(0.0)).fold(0.0, f64::max);
         Some(Motion {
+            numbers,
             parts,
             columns,
             guide_of_contact: guide::guides_of(model),
@@ -330,11 +438,13 @@ impl<T: Number> Motion<T> {
                 let mut of_surfaces = of_surfaces.chunks_exact(model.space.dimension());
                 let normal = |s: &Sliding<'_>| s.tangent.and_then(|_| of_surfaces.next());
                 let normals = model.sliding().into_iter().map(normal);
-                normals.map(|normal| normal.map(<[T]>::to_vec)).collect()
+                normals
+                    .map(|normal| normal.map(<[Value]>::to_vec))
+                    .collect()
             },
             directions: values[expressions.len()..][..directions.len()]
                 .chunks_exact(model.space.dimension())
-                .map(<[T]>::to_vec)
+                .map(<[Value]>::to_vec)
                 .collect(),
             coordinates: relaxed.coordinates,
             dimension: model.space.dimension(),
@@ -350,16 +460,16 @@ impl<T: Number> Motion<T> {
     }
 
     /// A combination of the displacements of a guide.
-    fn displaced(&self, guide: usize, by: &[T], row: usize) -> T {
+    fn displaced(&self, guide: usize, by: &[Value], row: usize) -> Value {
         let own = self.columns_of(guide).into_iter().zip(by);
         own.map(|(column, &by)| by * self.columns[column][row])
-            .fold(T::ZERO, |sum, term| sum + term)
+            .fold(Value::ZERO, |sum, term| sum + term)
     }
 
     /// Vectors that span the directions across a guide: one in the plane and for a surface; for a curve in space three, one of which
     /// depends on the others.
-    fn across(&self, guide: usize) -> Vec<Vec<T>> {
-        let zero = T::ZERO;
+    fn across(&self, guide: usize) -> Vec<Vec<Value>> {
+        let zero = Value::ZERO;
         if let Some(normal) = &self.normals[guide] {
             return vec![normal.clone()];
         }
@@ -371,7 +481,7 @@ impl<T: Number> Motion<T> {
     }
 
     /// Whether a pull has a component across a guide.
-    fn is_across(&self, guide: usize, pull: &[T]) -> bool {
+    fn is_across(&self, guide: usize, pull: &[Value]) -> bool {
         let across = self.across(guide);
         across
             .iter()
@@ -380,13 +490,13 @@ impl<T: Number> Motion<T> {
 
     /// The displacement along a guide as a motion of the machine with guides that may open,
     /// compared in some rows; none if it is not such a motion.
-    fn along(&self, guide: usize, rows: &[usize]) -> Option<DisplacementAlongGuide<T>> {
+    fn along(&self, guide: usize, rows: &[usize]) -> Option<DisplacementAlongGuide> {
         let e = &self.directions[guide];
-        let target: Vec<T> = rows
+        let target: Vec<Value> = rows
             .iter()
             .map(|&row| self.displaced(guide, e, row))
             .collect();
-        let mut columns: Vec<Vec<T>> = self.columns[..self.coordinates]
+        let mut columns: Vec<Vec<Value>> = self.columns[..self.coordinates]
             .iter()
             .map(|column| rows.iter().map(|&row| column[row]).collect())
             .collect();
@@ -395,7 +505,7 @@ impl<T: Number> Motion<T> {
             let across = self.across(other).into_iter();
             across.map(move |normal| (other, normal))
         });
-        let normals: Vec<(usize, Vec<T>)> = normals.collect();
+        let normals: Vec<(usize, Vec<Value>)> = normals.collect();
         for (other, normal) in &normals {
             let opened = |&row: &usize| self.displaced(*other, normal, row);
             columns.push(rows.iter().map(opened).collect());
@@ -406,7 +516,7 @@ impl<T: Number> Motion<T> {
         };
         // Converts coefficients of normals to displacements along the axes.
         let mut all = solved[..self.coordinates].to_vec();
-        all.resize(self.columns.len(), T::ZERO);
+        all.resize(self.columns.len(), Value::ZERO);
         for ((other, normal), &alpha) in normals.iter().zip(&solved[self.coordinates..]) {
             for (column, &n) in self.columns_of(*other).into_iter().zip(normal) {
                 all[column] = all[column] + alpha * n;
@@ -419,10 +529,10 @@ impl<T: Number> Motion<T> {
     }
 
     /// The common case: the displacement is that of a single coordinate.
-    fn by_single_coordinate(&self, columns: &[Vec<T>], target: &[T]) -> Option<Vec<T>> {
-        let is_zero = |x: T| x.size_relative_to(self.size) == 0.0;
+    fn by_single_coordinate(&self, columns: &[Vec<Value>], target: &[Value]) -> Option<Vec<Value>> {
+        let is_zero = |x: Value| x.size_relative_to(self.size) == 0.0;
         let row = target.iter().position(|&x| !is_zero(x))?;
-        let fits = |column: &Vec<T>| {
+        let fits = |column: &Vec<Value>| {
             if is_zero(column[row]) {
                 return false;
             }
@@ -431,7 +541,7 @@ impl<T: Number> Motion<T> {
             pairs.all(|(&x, &y)| is_zero(x - factor * y))
         };
         let fitting = columns[..self.coordinates].iter().position(fits)?;
-        let mut solved = vec![T::ZERO; columns.len()];
+        let mut solved = vec![Value::ZERO; columns.len()];
         solved[fitting] = target[row] / columns[fitting][row];
         Some(solved)
     }
@@ -468,7 +578,7 @@ impl<T: Number> Motion<T> {
     fn carrying(&self, model: &Model<'_>) -> Carrying {
         let guides = 0..model.sliding().len();
         let rows = self.rows(|_| true);
-        let is_in = |x: T| x.size_relative_to(self.size) != 0.0;
+        let is_in = |x: Value| x.size_relative_to(self.size) != 0.0;
         Carrying {
             carried: guides
                 .clone()
@@ -488,8 +598,8 @@ impl<T: Number> Motion<T> {
                 .map(|k| {
                     let along = self.along(k, &rows);
                     let undetermined = |i: &usize| {
-                        let mut forces = vec![T::ZERO; self.coordinates];
-                        forces[*i] = T::ONE;
+                        let mut forces = vec![Value::ZERO; self.coordinates];
+                        forces[*i] = Value::ONE;
                         let undetermined = |along| self.is_undetermined(k, along, &forces);
                         along.as_ref().is_some_and(undetermined)
                     };
@@ -506,16 +616,18 @@ impl<T: Number> Motion<T> {
     fn is_undetermined(
         &self,
         guide: usize,
-        along: &DisplacementAlongGuide<T>,
-        forces: &[T],
+        along: &DisplacementAlongGuide,
+        forces: &[Value],
     ) -> bool {
         let carried = self.bodies_moved_by(&self.columns_of(guide));
         let is_carried = |body: &usize| carried.contains(body);
-        let is_in = |x: T| x.size_relative_to(self.size) != 0.0;
+        let is_in = |x: Value| x.size_relative_to(self.size) != 0.0;
         // Scaled to the size of the entries of the matrix.
         let sizes = forces.iter().map(|x| x.size_relative_to(0.0));
-        let scale = T::from_f64(self.size / sizes.fold(f64::MIN_POSITIVE, f64::max));
-        let forces: Vec<T> = forces.iter().map(|&x| scale * x).collect();
+        let scale = self
+            .numbers
+            .number(self.size / sizes.fold(f64::MIN_POSITIVE, f64::max));
+        let forces: Vec<Value> = forces.iter().map(|&x| scale * x).collect();
         let mut moves_others = false;
         for i in (0..self.coordinates).filter(|&i| is_in(forces[i]) && is_in(along.0[i])) {
             let moved = self.bodies_moved_by(&[i]);
@@ -543,7 +655,7 @@ impl<T: Number> Motion<T> {
     /// were tested; those without a value at any point were not.
     fn errors(&self, model: &Model<'_>, tested: &mut Vec<bool>) -> Vec<Diagnostic> {
         let mut found = Vec::new();
-        let Some(relaxed) = Relaxed::of(model) else {
+        let Some(relaxed) = Relaxed::of(model, self.numbers) else {
             return found;
         };
         let rows = self.rows(|_| true);
@@ -573,7 +685,7 @@ impl<T: Number> Motion<T> {
             return found;
         }
         let written = |motion: &Self,
-                       displacements: &[(usize, DisplacementAlongGuide<T>)],
+                       displacements: &[(usize, DisplacementAlongGuide)],
                        tested: &mut Vec<bool>| {
             let written = CoordinateTests {
                 motion,
@@ -587,15 +699,16 @@ impl<T: Number> Motion<T> {
         found = written(self, &displacements, tested);
         // A distance has a value at every second point.
         let mut next = self.point + 1;
-        for _ in 0..T::FORCE_TRIALS {
+        for _ in 0..self.numbers.force_trials() {
             if !found.is_empty() || !tested.contains(&false) {
                 break;
             }
-            let Some(motion) = Motion::<T>::at_first_valid_point(model, next..next + TRIALS) else {
+            let points = next..next + TRIALS;
+            let Some(motion) = Motion::at_first_valid_point(model, self.numbers, points) else {
                 break;
             };
             next = motion.point + 1;
-            let displacements: Option<Vec<(usize, DisplacementAlongGuide<T>)>> = displacements
+            let displacements: Option<Vec<(usize, DisplacementAlongGuide)>> = displacements
                 .iter()
                 .map(|(guide, _)| Some((*guide, motion.along(*guide, &rows)?)))
                 .collect();
@@ -659,14 +772,14 @@ impl<T: Number> Motion<T> {
     /// Then, by virtual work, the forces that tie them to each other and to everything else have no resultant
     /// across the guide.
     fn is_free_across(&self, guide: usize, parts: &[usize]) -> bool {
-        let is_free = |by: Vec<T>| {
+        let is_free = |by: Vec<Value>| {
             let mut target = Vec::new();
             for (index, part) in self.parts.iter().enumerate() {
                 // The components of a position, and the orientation if it matters.
                 let is_moved = parts.contains(&index);
                 target.extend((0..part.rows.len()).map(|row| match by.get(row) {
                     Some(&by) if is_moved => by,
-                    _ => T::ZERO,
+                    _ => Value::ZERO,
                 }));
             }
             let columns = self.columns[..self.coordinates].to_vec();
@@ -762,16 +875,16 @@ fn addends(value: Expr<'_>) -> Vec<Expr<'_>> {
 }
 
 /// Tests what is written in coordinates against the motion along the guides.
-struct CoordinateTests<'s, 'm, 'd, T> {
-    motion: &'s Motion<T>,
+struct CoordinateTests<'s, 'm, 'd> {
+    motion: &'s Motion,
     relaxed: &'s Relaxed<'m, 'd>,
     model: &'m Model<'d>,
-    displacements: &'s [(usize, DisplacementAlongGuide<T>)],
+    displacements: &'s [(usize, DisplacementAlongGuide)],
     /// The guides along which (E38) also holds if the guides are displaced.
     displaceable: Vec<usize>,
 }
 
-impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
+impl<'d> CoordinateTests<'_, '_, 'd> {
     /// The errors in everything that has values at this point and was not tested before.
     fn errors(&self, tested: &mut Vec<bool>) -> Vec<Diagnostic> {
         let mut found = Vec::new();
@@ -857,13 +970,13 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
         }
     }
 
-    fn is_zero(&self, x: T) -> bool {
+    fn is_zero(&self, x: Value) -> bool {
         x.size_relative_to(1.0) == 0.0
     }
 
     /// The derivatives of an expression with respect to all columns, with the guides at zero; nothing if
     /// it has none.
-    fn derivatives(&self, expression: Expr<'d>, by: &[Symbol]) -> Option<Vec<T>> {
+    fn derivatives(&self, expression: Expr<'d>, by: &[Symbol]) -> Option<Vec<Value>> {
         self.derivatives_at(GuideDisplacements::Zero, expression, by)
     }
 
@@ -872,16 +985,16 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
         guides: GuideDisplacements,
         expression: Expr<'d>,
         by: &[Symbol],
-    ) -> Option<Vec<T>> {
-        let of = |list: Vec<T>| list[0];
+    ) -> Option<Vec<Value>> {
+        let of = |list: Vec<Value>| list[0];
         let point = (self.motion.point, guides);
-        let columns = self.relaxed.derivatives::<T>(point, &[expression], by);
-        let slopes: Vec<T> = columns.into_iter().map(of).collect();
+        let columns = self.relaxed.derivatives(point, &[expression], by);
+        let slopes: Vec<Value> = columns.into_iter().map(of).collect();
         slopes.iter().all(|x| x.is_finite()).then_some(slopes)
     }
 
     /// The guides along which an expression does not change as the bodies do, with the difference.
-    fn mismatches<'w>(&'w self, slopes: &'w [T]) -> impl Iterator<Item = (usize, T)> + 'w {
+    fn mismatches<'w>(&'w self, slopes: &'w [Value]) -> impl Iterator<Item = (usize, Value)> + 'w {
         self.displacements.iter().filter_map(|(guide, along)| {
             let mismatch = along.mismatch(slopes.iter().copied());
             (!self.is_zero(mismatch)).then_some((*guide, mismatch))
@@ -894,7 +1007,7 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
         &self,
         expression: Expr<'d>,
         by: &[Symbol],
-        undetermined: impl Fn(&[T], usize, T) -> bool,
+        undetermined: impl Fn(&[Value], usize, Value) -> bool,
     ) -> Option<Option<usize>> {
         let slopes = self.derivatives(expression, by)?;
         let on_bodies = &slopes[self.motion.coordinates..];
@@ -997,15 +1110,13 @@ impl<'d, T: Number> CoordinateTests<'_, '_, 'd, T> {
         (at, value): (&[Expr<'d>], &[Expr<'d>]),
         span: Span,
     ) -> TestResult {
-        let slopes: Vec<Vec<T>> = at
+        let slopes: Vec<Vec<Value>> = at
             .iter()
             .map(|&x| self.derivatives(x, &self.relaxed.x.q))
             .collect::<Option<_>>()?;
-        let value = evaluate(self.model.dag, value, |symbol| {
-            self.relaxed
-                .value::<T>((self.motion.point, GuideDisplacements::Zero), symbol)
-        });
-        if !value.iter().all(|x: &T| x.is_finite()) {
+        let at = (self.motion.point, GuideDisplacements::Zero);
+        let value = self.relaxed.values(at, value);
+        if !value.iter().all(|x| x.is_finite()) {
             return None;
         }
         let across = self.displacements.iter().find(|(guide, along)| {
@@ -1099,20 +1210,20 @@ fn orientation_components<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Vec<
     }
 }
 
-fn dot<T: Scalar>(u: &[T], v: &[T]) -> T {
+fn dot(u: &[Value], v: &[Value]) -> Value {
     let terms = u.iter().zip(v).map(|(&u, &v)| u * v);
-    terms.fold(T::ZERO, |sum, term| sum + term)
+    terms.fold(Value::ZERO, |sum, term| sum + term)
 }
 
 /// A column as a linear combination of others, by Gaussian elimination; none if it is not one.
 /// Undetermined coefficients are 0.
-fn combination<T: Number>(columns: Vec<Vec<T>>, target: Vec<T>, size: f64) -> Option<Vec<T>> {
+fn combination(columns: Vec<Vec<Value>>, target: Vec<Value>, size: f64) -> Option<Vec<Value>> {
     let width = columns.len();
     let height = target.len();
     if height.saturating_mul(width).saturating_mul(width) > WORK_LIMIT {
         return None;
     }
-    let mut rows: Vec<Vec<T>> = (0..height)
+    let mut rows: Vec<Vec<Value>> = (0..height)
         .map(|row| {
             let entries = columns.iter().map(|column| column[row]);
             entries.chain([target[row]]).collect()
@@ -1142,11 +1253,11 @@ fn combination<T: Number>(columns: Vec<Vec<T>>, target: Vec<T>, size: f64) -> Op
         }
         pivots.push(column);
     }
-    let is_met = |row: &Vec<T>| row[width].size_relative_to(size) == 0.0;
+    let is_met = |row: &Vec<Value>| row[width].size_relative_to(size) == 0.0;
     if !rows[pivots.len()..].iter().all(is_met) {
         return None;
     }
-    let mut solved = vec![T::ZERO; width];
+    let mut solved = vec![Value::ZERO; width];
     for (row, column) in rows.iter().zip(pivots) {
         solved[column] = row[width] / row[column];
     }

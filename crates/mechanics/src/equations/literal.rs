@@ -36,6 +36,8 @@
 
 mod frozen;
 mod in_space;
+mod values;
+mod vector;
 
 use lagrangian_scalar::{Dual, Scalar};
 use lagrangian_symbolic::{Expr, Id, Symbol, evaluate};
@@ -48,6 +50,8 @@ use lagrangian_spec::model::{
     ApproximationKind, Body, Circle, Contact, ContactGeometry, Inertia, Model, Place, PoseId,
     Rotation, Space, Surface, Touching, quaternion,
 };
+use values::Values;
+use vector::{difference, dot, ground, point, quotient, scaled};
 
 /// A state of a machine with its accelerations and inputs.
 #[derive(Clone, Debug)]
@@ -84,6 +88,19 @@ pub(crate) struct Literal<R> {
     pub constraints: Vec<LiteralConstraint<R>>,
     pub sliding: Vec<LiteralSliding<R>>,
     pub unilateral: Vec<LiteralUnilateral<R>>,
+}
+
+/// The equations of motion at a state, for a direction `w`.
+#[derive(Clone, Debug)]
+pub(crate) struct Dynamics<R> {
+    /// As [`Literal::inertia`].
+    pub inertia: R,
+    /// As [`Literal::applied`].
+    pub applied: R,
+    /// As [`Literal::length_power`].
+    pub length_power: R,
+    /// The constraints that are given as expressions.
+    pub constraints: Vec<LiteralConstraint<R>>,
 }
 
 /// A unilateral contact at a state.
@@ -163,12 +180,15 @@ enum Meaning {
 pub(crate) struct Lagrange<'m, 'd> {
     pub model: &'m Model<'d>,
     meanings: FxHashMap<Symbol, Meaning>,
-    /// All expressions that are evaluated along the motion.
+    /// All expressions that are evaluated along the motion: first those of the potential energy and the dissipation, then those of
+    /// the kinetic energy, then all others.
     pub roots: Vec<Expr<'d>>,
-    /// Those that the kinetic energy needs.
-    kinetic: Vec<Expr<'d>>,
-    /// Those that the other energies need.
-    energies: Vec<Expr<'d>>,
+    /// The number of expressions for the potential energy and the dissipation.
+    energies: usize,
+    /// The number of expressions for all energies.
+    all_energies: usize,
+    /// The index of each expression among the roots.
+    places: FxHashMap<Id, usize>,
     /// For each constraint of the model whether it constrains positions.
     holonomic: Vec<bool>,
     /// Whether each coordinate counts as small.
@@ -176,36 +196,6 @@ pub(crate) struct Lagrange<'m, 'd> {
     /// Whether each coordinate is frozen.
     frozen: Vec<bool>,
 }
-
-/// A number along a motion: a value and its rate.
-trait Path: Scalar {
-    type Base: Scalar;
-    fn value(self) -> Self::Base;
-    fn rate(self) -> Self::Base;
-}
-
-impl<S: Scalar> Path for Dual<S> {
-    type Base = S;
-    fn value(self) -> S {
-        self.value
-    }
-    fn rate(self) -> S {
-        self.derivative
-    }
-}
-
-impl<S: Scalar> Path for Frozen<S> {
-    type Base = S;
-    fn value(self) -> S {
-        self.moving.value
-    }
-    fn rate(self) -> S {
-        self.moving.derivative
-    }
-}
-
-/// Values by the nodes of their expressions.
-type Values<P> = FxHashMap<Id, P>;
 
 impl<'m, 'd> Lagrange<'m, 'd> {
     /// The equations of a model. `holonomic` says which constraints constrain positions; a
@@ -218,16 +208,22 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             all.for_each(|a| is[a.coordinate] = true);
             is
         };
-        let (kinetic, energies) = (kinetic(model), energies(model));
-        let mut roots = kinetic.clone();
-        roots.extend(&energies);
+        let mut roots = energies(model);
+        let energies = roots.len();
+        roots.extend(kinetic(model));
+        let all_energies = roots.len();
         roots.extend(geometry(model));
+        let mut places = FxHashMap::default();
+        for (place, root) in roots.iter().enumerate() {
+            places.entry(root.id()).or_insert(place);
+        }
         Lagrange {
             model,
             meanings: meanings(model),
             roots,
-            kinetic,
             energies,
+            all_energies,
+            places,
             holonomic: (0..model.constraints().len()).map(holonomic).collect(),
             small: kinds(ApproximationKind::Small),
             frozen: kinds(ApproximationKind::Frozen),
@@ -263,18 +259,24 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         })
     }
 
+    /// The values of the first `count` expressions along a motion.
+    fn along<S: Scalar>(
+        &self,
+        count: usize,
+        value: impl FnMut(Symbol) -> Dual<S>,
+    ) -> Values<'_, S> {
+        Values {
+            places: &self.places,
+            values: evaluate(self.model.dag, &self.roots[..count], value),
+        }
+    }
+
     /// The values of the equations at a state, for the direction `w`.
     pub fn at<R: Scalar>(&self, at: &State<R>, w: &[R]) -> Literal<R> {
         let model = self.model;
-        let of_state = |symbol| self.moving(symbol, at, w);
-        let values = all(model, &self.roots, of_state);
-        let x = |e: Expr<'d>| values[&e.id()];
-        let [t, v, d] = match [&self.frozen, &self.small].map(|list| list.contains(&true)) {
-            [false, false] => [
-                kinetic_energy(model, &x),
-                potential_energy(model, &x),
-                dissipation(model, &x),
-            ],
+        let x = self.along(self.roots.len(), |symbol| self.moving(symbol, at, w));
+        let energies = match [&self.frozen, &self.small].map(|list| list.contains(&true)) {
+            [false, false] => energies_of(model, &x),
             [true, false] => [
                 self.frozen_energy(|symbol| self.moving(symbol, at, w)),
                 potential_energy(model, &x),
@@ -282,34 +284,87 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             ],
             [is_frozen, true] => self.approximated(at, w, is_frozen),
         };
-        let force = self.virtual_work(&x);
-        let [of_length, on_length, of_lengths] = lengths(model, &x);
-        let states = model.coordinates.iter().enumerate();
-        let states = states.filter_map(|(i, c)| Some((i, c.rate?)));
+        let dynamics = self.dynamics_of(at, w, &x, energies);
+        let [t, v, d] = energies;
         let stored = self.stored(at);
-        let changing = states.clone().map(|(i, _)| w[i] * at.a[i]);
-        let rates = states.map(|(i, rate)| w[i] * x(rate).value.value.value);
+        let mut power_loss = R::ZERO;
+        for power in model.losses() {
+            power_loss = power_loss + x.value(power).value.value;
+        }
+        let mut sliding = Vec::new();
+        for s in model.sliding() {
+            sliding.push(self.sliding(s, &x));
+        }
+        let mut unilateral = Vec::new();
+        for contact in &model.contacts {
+            unilateral.extend(self.unilateral(contact, &x));
+        }
+        let mut constraints = dynamics.constraints;
+        for rolling in model.rolling() {
+            let circle = &model.circles[rolling.circles.circle];
+            let [gap, slip] = on_surface(model, circle, rolling.circles.surface, &x);
+            constraints.extend([of_position(gap), of_rate(slip.value)]);
+        }
         Literal {
             kinetic_energy: t.value.value,
             potential_energy: v.value.value,
             dissipation: d.value.value,
             state_energy: stored.value,
             energy_rate: t.derivative.value + v.derivative.value + stored.derivative,
-            power_loss: sum(model.losses().map(|power| x(power).value.value.value)),
-            inertia: sum(changing) + t.derivative.derivative + of_length,
-            applied: v.derivative.derivative - d.value.derivative + force + sum(rates) + on_length,
-            length_power: of_lengths,
-            constraints: self.constraints(&x),
-            sliding: model
-                .sliding()
-                .into_iter()
-                .map(|s| self.sliding(s, &x))
-                .collect(),
-            unilateral: model
-                .contacts
-                .iter()
-                .flat_map(|contact| self.unilateral(contact, &x))
-                .collect(),
+            power_loss,
+            inertia: dynamics.inertia,
+            applied: dynamics.applied,
+            length_power: dynamics.length_power,
+            constraints,
+            sliding,
+            unilateral,
+        }
+    }
+
+    /// The equations of motion alone, for a machine without approximations, rolling and sliding; none for others. Numbers that only
+    /// such machines need (power series) are thus not instantiated for contacts.
+    pub fn dynamics<R: Scalar>(&self, at: &State<R>, w: &[R]) -> Option<Dynamics<R>> {
+        let model = self.model;
+        let is_exact = model.approximations.is_empty();
+        if !is_exact || !model.rolling().is_empty() || !model.sliding().is_empty() {
+            return None;
+        }
+        let x = self.along(self.roots.len(), |symbol| self.moving(symbol, at, w));
+        Some(self.dynamics_of(at, w, &x, energies_of(model, &x)))
+    }
+
+    /// The equations of motion, given `T`, `V` and `D`.
+    fn dynamics_of<R: Scalar>(
+        &self,
+        at: &State<R>,
+        w: &[R],
+        x: &Values<'_, Varied<R>>,
+        [t, v, d]: [Varied<R>; 3],
+    ) -> Dynamics<R> {
+        let model = self.model;
+        let [of_length, on_length, length_power] = lengths(model, x);
+        let (mut changing, mut rates) = (R::ZERO, R::ZERO);
+        for (i, coordinate) in model.coordinates.iter().enumerate() {
+            if let Some(rate) = coordinate.rate {
+                changing = changing + w[i] * at.a[i];
+                rates = rates + w[i] * x.value(rate).value.value;
+            }
+        }
+        let force = self.virtual_work(x);
+        let mut constraints = Vec::new();
+        for (constraint, holonomic) in model.constraints().into_iter().zip(&self.holonomic) {
+            let value = x.at(constraint.expression);
+            constraints.push(if *holonomic {
+                of_position(value)
+            } else {
+                of_rate(value.value)
+            });
+        }
+        Dynamics {
+            inertia: changing + t.derivative.derivative + of_length,
+            applied: v.derivative.derivative - d.value.derivative + force + rates + on_length,
+            length_power,
+            constraints,
         }
     }
 
@@ -320,14 +375,18 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         if energies.is_empty() {
             return Dual::constant(R::ZERO);
         }
-        let rates_of_states: Vec<Expr<'d>> =
-            model.coordinates.iter().filter_map(|c| c.rate).collect();
-        let mut rates_of_states = self.values(&rates_of_states, at).into_iter();
-        let rates = model.coordinates.iter().zip(&at.a);
-        let rates: Vec<R> = rates
-            .map(|(c, &a)| c.rate.and_then(|_| rates_of_states.next()).unwrap_or(a))
-            .collect();
-        let values = all(model, &energies, |symbol| {
+        let rates: Vec<Expr<'d>> = model.coordinates.iter().filter_map(|c| c.rate).collect();
+        let rates = self.values(&rates, at);
+        // The accelerations, but for states their rates.
+        let mut a = at.a.clone();
+        let mut states = 0;
+        for (i, coordinate) in model.coordinates.iter().enumerate() {
+            if coordinate.rate.is_some() {
+                a[i] = rates[states];
+                states += 1;
+            }
+        }
+        let values = evaluate(model.dag, &energies, |symbol| {
             match self.meanings.get(&symbol) {
                 Some(Meaning::Time) => Dual {
                     value: at.t,
@@ -339,7 +398,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 },
                 Some(&Meaning::Rate(i)) => Dual {
                     value: at.v[i],
-                    derivative: rates[i],
+                    derivative: a[i],
                 },
                 Some(&Meaning::Parameter(i)) => Dual::constant(at.parameters[i]),
                 Some(&Meaning::Input(i)) => Dual::constant(at.u[i]),
@@ -347,22 +406,22 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 None => undefined(),
             }
         });
-        energies
-            .iter()
-            .fold(Dual::constant(R::ZERO), |sum, energy| {
-                sum + values[&energy.id()]
-            })
+        let mut sum = Dual::constant(R::ZERO);
+        for energy in values {
+            sum = sum + energy;
+        }
+        sum
     }
 
     /// `w·∂D/∂v` alone.
     pub fn damping<R: Scalar>(&self, at: &State<R>, w: &[R]) -> R {
         let model = self.model;
         let dissipation = if self.small.contains(&true) {
-            let values = all(model, &self.energies, |symbol| self.small(symbol, at, w));
-            expanded(dissipation(model, &|e: Expr<'d>| values[&e.id()]))
+            let x = self.along(self.energies, |symbol| self.small(symbol, at, w));
+            expanded(dissipation(model, &x))
         } else {
-            let values = all(model, &self.energies, |symbol| self.moving(symbol, at, w));
-            dissipation(model, &|e: Expr<'d>| values[&e.id()])
+            let x = self.along(self.energies, |symbol| self.moving(symbol, at, w));
+            dissipation(model, &x)
         };
         dissipation.value.derivative
     }
@@ -392,7 +451,8 @@ impl<'m, 'd> Lagrange<'m, 'd> {
 
     /// The kinetic energy with velocities frozen by (E16).
     fn frozen_energy<S: Scalar>(&self, moving: impl Fn(Symbol) -> Dual<S>) -> S {
-        let values = all(self.model, &self.kinetic, |symbol| {
+        let roots = &self.roots[..self.all_energies];
+        let frozen = evaluate(self.model.dag, roots, |symbol| {
             let moving = moving(symbol);
             let still = match self.meanings.get(&symbol) {
                 Some(&Meaning::Coordinate(i)) if self.frozen[i] => S::ZERO,
@@ -403,7 +463,12 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 at_zero: still,
             }
         });
-        kinetic_energy(self.model, &|e: Expr<'d>| values[&e.id()])
+        let mut values = Vec::with_capacity(frozen.len());
+        for value in &frozen {
+            values.push(value.moving);
+        }
+        let places = &self.places;
+        kinetic_energy(self.model, &Values { places, values })
     }
 
     /// The energies and the dissipation to second order in small coordinates, (E17), with
@@ -411,12 +476,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
     fn approximated<R: Scalar>(&self, at: &State<R>, w: &[R], is_frozen: bool) -> [Varied<R>; 3] {
         let model = self.model;
         let of_state = |symbol| self.small(symbol, at, w);
-        let mut roots = self.energies.clone();
-        if !is_frozen {
-            roots.extend(&self.kinetic);
-        }
-        let values = all(model, &roots, of_state);
-        let x = |e: Expr<'d>| values[&e.id()];
+        let x = self.along(self.all_energies, of_state);
         let kinetic_energy = if is_frozen {
             self.frozen_energy(of_state)
         } else {
@@ -460,77 +520,50 @@ impl<'m, 'd> Lagrange<'m, 'd> {
     }
 
     /// The virtual work of forces and torques along `w`.
-    fn virtual_work<R: Scalar>(&self, x: &impl Fn(Expr<'d>) -> Moving<R>) -> R {
+    fn virtual_work<R: Scalar>(&self, x: &Values<'_, Varied<R>>) -> R {
         let model = self.model;
-        let here = |e: Expr<'d>| x(e).value.value.value;
+        let here = |e: Expr<'d>| x.value(e).value.value;
         // The displacement along w: q contains w with the coefficient −τε.
-        let moved = |e: Expr<'d>| -x(e).value.derivative.derivative;
-        let of_torque = |on: Place, torque: &[Expr<'d>]| {
-            let mut work = R::ZERO;
-            match (model.space, model.rotation(on)) {
-                (Space::Plane, rotation) => {
-                    if let Some(angle) = rotation_angle(model, rotation) {
-                        work = here(torque[0]) * moved(angle);
+        let moved = |e: Expr<'d>| -x.value(e).derivative.derivative;
+        let mut work = R::ZERO;
+        for load in model.loads() {
+            match load {
+                Load::Point { at, force } => {
+                    for (&at, &force) in at.iter().zip(force) {
+                        work = work + here(force) * moved(at);
                     }
                 }
-                (Space::Space, Rotation::Frame(pose)) => {
-                    // The rotation is ½ Σ e × δe, in ground axes.
-                    for e in &model.poses[pose.index()].axes {
-                        for (k, &torque) in torque.iter().enumerate() {
-                            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-                            let turn =
-                                here(e[next]) * moved(e[last]) - here(e[last]) * moved(e[next]);
-                            work = work + here(torque) * turn * R::from_ratio(1, 2);
+                &Load::Coordinate { coordinate, value } => {
+                    work = work + here(value) * moved(model.coordinates[coordinate].q);
+                }
+                &Load::Along { measure, force, .. } => work = work + here(force) * moved(measure),
+                Load::Torque { on, torque } => match (model.space, model.rotation(*on)) {
+                    (Space::Plane, rotation) => {
+                        if let Some(angle) = rotation_angle(model, rotation) {
+                            work = work + here(torque[0]) * moved(angle);
                         }
                     }
-                }
-                (Space::Space, _) => {}
+                    (Space::Space, Rotation::Frame(pose)) => {
+                        // The rotation is ½ Σ e × δe, in ground axes.
+                        for e in &model.poses[pose.index()].axes {
+                            for (k, &torque) in torque.iter().enumerate() {
+                                let (next, last) = (e[(k + 1) % 3], e[(k + 2) % 3]);
+                                let turn = here(next) * moved(last) - here(last) * moved(next);
+                                work = work + here(torque) * turn * R::from_ratio(1, 2);
+                            }
+                        }
+                    }
+                    (Space::Space, _) => {}
+                },
             }
-            work
-        };
-        let of_load = |load: &Load<'d>| match load {
-            Load::Point { at, force } => {
-                let pairs = at.iter().zip(force);
-                sum(pairs.map(|(&at, &force)| here(force) * moved(at)))
-            }
-            &Load::Coordinate { coordinate, value } => {
-                here(value) * moved(model.coordinates[coordinate].q)
-            }
-            &Load::Along { measure, force, .. } => here(force) * moved(measure),
-            Load::Torque { on, torque } => of_torque(*on, torque),
-        };
-        sum(model.loads().map(of_load))
-    }
-
-    fn constraints<R: Scalar>(
-        &self,
-        x: &impl Fn(Expr<'d>) -> Moving<R>,
-    ) -> Vec<LiteralConstraint<R>> {
-        let model = self.model;
-        let mut all: Vec<LiteralConstraint<R>> = model
-            .constraints()
-            .into_iter()
-            .zip(&self.holonomic)
-            .map(|(constraint, holonomic)| {
-                if *holonomic {
-                    of_position(x(constraint.expression))
-                } else {
-                    of_rate(x(constraint.expression).value)
-                }
-            })
-            .collect();
-        for rolling in model.rolling() {
-            let circle = &model.circles[rolling.circles.circle];
-            let [gap, slip] = on_surface(model, circle, rolling.circles.surface, x);
-            all.extend([of_position(gap), of_rate(slip.value)]);
         }
-        all
+        work
     }
 
     fn unilateral<R: Scalar>(
         &self,
         contact: &Contact<'d>,
-        x: &impl Fn(Expr<'d>) -> Moving<R>,
+        x: &Values<'_, Varied<R>>,
     ) -> Vec<LiteralUnilateral<R>> {
         let model = self.model;
         let touch = |round: &Circle<'d>, surface: Surface| match model.space {
@@ -555,12 +588,12 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             }
             ContactGeometry::Point { point, surface } => touch(point, *surface),
             ContactGeometry::Expressions { gap, slip, across } => (
-                x(*gap),
-                x(*slip).value,
-                across.map(|across| x(across).value),
+                x.at(*gap),
+                x.value(*slip),
+                across.map(|across| x.value(across)),
             ),
         };
-        let here = |e: Expr<'d>| x(e).value.value.value;
+        let here = |e: Expr<'d>| x.value(e).value.value;
         let known = |e: Option<Expr<'d>>| e.map_or(R::ZERO, here);
         let friction = contact.friction;
         let nothing = Varied::<R>::ZERO;
@@ -594,7 +627,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 Surface::Inside(other) | Surface::Outside(other) => {
                     centre_and_angular_velocity(model, &model.circles[other], x).1
                 }
-                Surface::Along(pose) => x(model.poses[pose.index()].angle).derivative,
+                Surface::Along(pose) => x.rate(model.poses[pose.index()].angle),
             };
             all.push(LiteralUnilateral {
                 opening: of_position(gap),
@@ -610,99 +643,71 @@ impl<'m, 'd> Lagrange<'m, 'd> {
     fn sliding<R: Scalar>(
         &self,
         sliding: &Sliding<'d>,
-        x: &impl Fn(Expr<'d>) -> Moving<R>,
+        x: &Values<'_, Varied<R>>,
+    ) -> LiteralSliding<R> {
+        match self.model.space {
+            Space::Plane => self.sliding_along::<R, 2>(sliding, x),
+            Space::Space => self.sliding_along::<R, 3>(sliding, x),
+        }
+    }
+
+    /// A guided contact in a space of this dimension.
+    fn sliding_along<R: Scalar, const N: usize>(
+        &self,
+        sliding: &Sliding<'d>,
+        x: &Values<'_, Varied<R>>,
     ) -> LiteralSliding<R> {
         let model = self.model;
-        let here = |e: Expr<'d>| x(e).value;
         let body = &model.bodies[sliding.body];
-        let at = match body.rotation {
+        let at = x.vector::<N>(match body.rotation {
             Rotation::Frame(pose) => &model.poses[pose.index()].origin,
             Rotation::Angle(_) | Rotation::Unspecified => &body.at,
-        };
-        let origin = match sliding.on {
+        });
+        let origin = x.vector::<N>(match sliding.on {
             Place::Frame(pose) => &model.poses[pose.index()].origin,
             Place::Body(on) => &model.bodies[on].at,
-        };
-        let dimension = at.len();
-        let arm: Vec<Varied<R>> = (0..dimension)
-            .map(|k| here(at[k]) - here(origin[k]))
-            .collect();
-        let rotation = model.rotation(sliding.on);
-        let carried: Vec<Varied<R>> = match (model.space, rotation) {
-            (Space::Plane, rotation) => {
-                let turned = rotation_angle(model, rotation);
-                let turning = turned.map_or(Varied::<R>::ZERO, |angle| x(angle).derivative);
-                vec![-(turning * arm[1]), turning * arm[0]]
-            }
-            // `ω × r = Σ ėₖ (eₖ·r)` over the axes of the base.
-            (Space::Space, Rotation::Frame(pose)) => {
-                let axes = &model.poses[pose.index()].axes;
-                let along =
-                    |axis: &Vec<Expr<'d>>| sum(axis.iter().zip(&arm).map(|(&e, &r)| here(e) * r));
-                let along: Vec<Varied<R>> = axes.iter().map(along).collect();
-                let component = |i: usize| {
-                    sum(axes
-                        .iter()
-                        .zip(&along)
-                        .map(|(e, &r)| x(e[i]).derivative * r))
-                };
-                (0..dimension).map(component).collect()
-            }
-            (Space::Space, _) => vec![Varied::<R>::ZERO; dimension],
-        };
-        let velocity: Vec<Varied<R>> = (0..dimension)
-            .map(|k| x(at[k]).derivative - x(origin[k]).derivative - carried[k])
-            .collect();
-        let direction: Vec<Varied<R>> = sliding.direction.iter().map(|&e| here(e)).collect();
-        let length = sum(direction.iter().map(|&e| e * e)).sqrt();
-        let along: Vec<Varied<R>> = direction.into_iter().map(|e| e / length).collect();
-        let dot = |u: &[Varied<R>], v: &[Varied<R>]| sum(u.iter().zip(v).map(|(&a, &b)| a * b));
-        let slip = dot(&along, &velocity);
-        let axes: Vec<Vec<Varied<R>>> = match model.space {
-            Space::Plane => vec![vec![-along[1], along[0]]],
-            Space::Space => (0..dimension)
-                .map(|k| {
-                    (0..dimension)
-                        .map(|i| Varied::<R>::from_ratio(i64::from(i == k), 1))
-                        .collect()
-                })
-                .collect(),
+        });
+        let arm = difference(at, origin);
+        let carried = carried(model, model.rotation(sliding.on), vector::value(arm), x);
+        let velocity = difference(vector::rate(arm), carried);
+        let direction = vector::value(x.vector::<N>(&sliding.direction));
+        let along = quotient(direction, dot(direction, direction).sqrt());
+        let slip = dot(along, velocity);
+        let axes: Vec<[Varied<R>; N]> = match model.space {
+            Space::Plane => vec![turned_left(along)],
+            Space::Space => ground::<Varied<R>, N>().to_vec(),
         };
         let side = match &sliding.normal {
             Some(normal) if model.space == Space::Plane => {
-                let normal: Vec<Varied<R>> = normal.iter().map(|&e| here(e)).collect();
-                dot(&normal, &axes[0]).value.value
+                let normal = vector::value(x.vector::<N>(normal));
+                dot(normal, axes[0]).value.value
             }
             _ => R::ONE,
         };
-        let telling: Vec<R> = match (sliding.tangent, &sliding.normal) {
+        let reference_direction = match (sliding.tangent, &sliding.normal) {
             (Some(_), Some(normal)) => {
-                let normal: Vec<R> = normal.iter().map(|&e| here(e).value.value).collect();
-                let square = normal.iter().fold(R::ZERO, |sum, &x| sum + x * x);
-                let length = square.sqrt();
-                normal.into_iter().map(|x| x / length).collect()
+                let normal = here(vector::value(x.vector::<N>(normal)));
+                quotient(normal, dot(normal, normal).sqrt())
             }
-            _ => along.iter().map(|e| e.value.value).collect(),
+            _ => here(along),
         };
+        let mut off_along = Vec::with_capacity(axes.len());
+        let mut axes_here = Vec::with_capacity(axes.len());
+        for &axis in &axes {
+            off_along.push(dot(axis, velocity).value.derivative);
+            axes_here.push(here(axis).to_vec());
+        }
+        let friction = sliding.friction;
+        let static_friction = sliding.static_friction.unwrap_or(friction);
         LiteralSliding {
-            reference_direction: telling,
+            reference_direction: reference_direction.to_vec(),
             slip: slip.value.value,
             slip_rate: slip.derivative.value,
             slip_along: slip.value.derivative,
-            off_along: axes
-                .iter()
-                .map(|axis| dot(axis, &velocity).value.derivative)
-                .collect(),
-            axes: axes
-                .iter()
-                .map(|axis| axis.iter().map(|x| x.value.value).collect())
-                .collect(),
+            off_along,
+            axes: axes_here,
             side,
-            coefficients: [
-                sliding.friction,
-                sliding.static_friction.unwrap_or(sliding.friction),
-            ]
-            .map(|e| here(e).value.value),
+            coefficients: here(vector::value(x.vector(&[friction, static_friction]))),
         }
     }
 }
@@ -791,16 +796,6 @@ fn meanings(model: &Model<'_>) -> FxHashMap<Symbol, Meaning> {
     meanings
 }
 
-/// The values of expressions by their nodes.
-fn all<'d, P: Scalar>(
-    model: &Model<'d>,
-    roots: &[Expr<'d>],
-    value: impl FnMut(Symbol) -> P,
-) -> Values<P> {
-    let values = evaluate(model.dag, roots, value);
-    roots.iter().map(|root| root.id()).zip(values).collect()
-}
-
 /// The expressions that the kinetic energy needs.
 fn kinetic<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
     let mut roots = Vec::new();
@@ -826,22 +821,22 @@ fn kinetic<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
 
 /// The contributions of the lengths of quaternions to the inertia and to the applied forces, along `w`: eqs. (E74) and (E75). They
 /// are not energies of the machine. The third value is the first minus the second, along the velocity itself.
-fn lengths<'d, R: Scalar>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> Moving<R>) -> [R; 3] {
+fn lengths<R: Scalar>(model: &Model<'_>, x: &Values<'_, Varied<R>>) -> [R; 3] {
     let half = Varied::<R>::from_ratio(1, 2);
     let two = R::from_ratio(2, 1);
     let mut all = [R::ZERO; 3];
     for four in &model.quaternions {
-        let e = four.e.map(|e| x(e).value);
-        let e_rate = four.e.map(|e| x(e).derivative);
-        let square = sum(e.map(|e| e * e));
-        let growing = sum((0..4).map(|k| e[k] * e_rate[k])) / square;
-        let inertia = x(four.inertia).value;
+        let of_time = x.vector::<4>(&four.e);
+        let (e, e_rate) = (vector::value(of_time), vector::rate(of_time));
+        let square = dot(e, e);
+        let growing = dot(e, e_rate) / square;
+        let inertia = x.value(four.inertia);
         let energy = half * inertia * growing * growing;
         // The change of half the logarithm of the square along w: q contains w with the coefficient −τε.
         let s = square.value.value;
         let moved = -(square.derivative.derivative / (two * s));
         let rate = R::from_ratio(quaternion::RATE, 1);
-        let fast = sum(e_rate.map(|rate| rate * rate)).value.value / s;
+        let fast = dot(e_rate, e_rate).value.value / s;
         let back = (rate * rate + fast) * (s - R::ONE) / (s + R::ONE);
         let load = -(inertia.value.value * (two * rate * growing.value.value + back));
         let left = inertia.value.value * growing.derivative.value - load;
@@ -992,106 +987,164 @@ fn rotation_angle<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<
     }
 }
 
-fn sum<S: Scalar>(terms: impl IntoIterator<Item = S>) -> S {
-    terms.into_iter().fold(S::ZERO, |sum, term| sum + term)
+/// The numbers without infinitesimals.
+fn here<R: Scalar, const N: usize>(u: [Varied<R>; N]) -> [R; N] {
+    let mut here = [R::ZERO; N];
+    for k in 0..N {
+        here[k] = u[k].value.value;
+    }
+    here
+}
+
+/// A vector of the plane turned left by a right angle.
+fn turned_left<S: Scalar, const N: usize>(u: [S; N]) -> [S; N] {
+    let mut turned = u;
+    [turned[0], turned[1]] = [-u[1], u[0]];
+    turned
+}
+
+/// The velocity at `arm` from a point that is at rest on something with this rotation.
+fn carried<R: Scalar, const N: usize>(
+    model: &Model<'_>,
+    rotation: Rotation<'_>,
+    arm: [Varied<R>; N],
+    x: &Values<'_, Varied<R>>,
+) -> [Varied<R>; N] {
+    let rest = [Varied::<R>::ZERO; N];
+    match (model.space, rotation) {
+        (Space::Plane, rotation) => match rotation_angle(model, rotation) {
+            Some(angle) => scaled(x.rate(angle), turned_left(arm)),
+            None => rest,
+        },
+        // `ω × r = Σ ėₖ (eₖ·r)` over the axes of the base.
+        (Space::Space, Rotation::Frame(pose)) => {
+            let (mut rates, mut along) = ([rest; N], rest);
+            for (k, axis) in model.poses[pose.index()].axes.iter().enumerate() {
+                let axis = x.vector::<N>(axis);
+                rates[k] = vector::rate(axis);
+                along[k] = dot(vector::value(axis), arm);
+            }
+            point(rest, rates, along)
+        }
+        (Space::Space, _) => rest,
+    }
+}
+
+/// `T`, `V` and `D`.
+fn energies_of<S: Scalar>(model: &Model<'_>, x: &Values<'_, S>) -> [S; 3] {
+    [
+        kinetic_energy(model, x),
+        potential_energy(model, x),
+        dissipation(model, x),
+    ]
 }
 
 /// `½ Σ m ẋ·ẋ + ½ Σ ωᵀI ω`, with the angular velocity of (E9).
-fn kinetic_energy<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P::Base {
-    let of_body = |body: &Body<'d>| {
-        let speed = sum(body.at.iter().map(|&at| {
-            let rate = x(at).rate();
-            rate * rate
-        }));
-        let turning = match (&body.inertia, &body.rotation) {
-            (Inertia::Particle, _) => P::Base::ZERO,
-            (&Inertia::Planar(inertia), _) => match angle(model, body) {
-                Some(angle) => {
-                    let rate = x(angle).rate();
-                    x(inertia).value() * rate * rate
+fn kinetic_energy<S: Scalar>(model: &Model<'_>, x: &Values<'_, S>) -> S {
+    let mut twice_the_energy = S::ZERO;
+    for body in &model.bodies {
+        let mut square = S::ZERO;
+        for &at in &body.at {
+            let rate = x.rate(at);
+            square = square + rate * rate;
+        }
+        twice_the_energy = twice_the_energy + x.value(body.mass) * square;
+        match (&body.inertia, &body.rotation) {
+            (&Inertia::Planar(inertia), _) => {
+                if let Some(angle) = angle(model, body) {
+                    let rate = x.rate(angle);
+                    twice_the_energy = twice_the_energy + x.value(inertia) * rate * rate;
                 }
-                None => P::Base::ZERO,
-            },
+            }
             (Inertia::Tensor(tensor), &Rotation::Frame(pose)) => {
                 let e = &model.poses[pose.index()].axes;
                 let dot = |k: usize, l: usize| {
-                    let pairs = e[k].iter().zip(&e[l]);
-                    sum(pairs.map(|(&a, &b)| x(a).value() * x(b).rate()))
+                    let mut sum = S::ZERO;
+                    for (&a, &b) in e[k].iter().zip(&e[l]) {
+                        sum = sum + x.value(a) * x.rate(b);
+                    }
+                    sum
                 };
                 let w = [dot(2, 1), dot(0, 2), dot(1, 0)];
-                let [xx, yy, zz, xy, xz, yz] = tensor.map(|entry| x(entry).value());
+                let [xx, yy, zz, xy, xz, yz] = vector::value(x.vector(tensor));
                 let twice = |e| e + e;
-                xx * w[0] * w[0]
+                twice_the_energy = twice_the_energy
+                    + xx * w[0] * w[0]
                     + yy * w[1] * w[1]
                     + zz * w[2] * w[2]
                     + twice(xy * w[0] * w[1])
                     + twice(xz * w[0] * w[2])
-                    + twice(yz * w[1] * w[2])
+                    + twice(yz * w[1] * w[2]);
             }
-            (Inertia::Tensor(_), _) => P::Base::ZERO,
-        };
-        x(body.mass).value() * speed + turning
-    };
-    sum(model.bodies.iter().map(of_body)) * P::Base::from_ratio(1, 2)
+            (Inertia::Particle | Inertia::Tensor(_), _) => {}
+        }
+    }
+    twice_the_energy * S::from_ratio(1, 2)
 }
 
 /// `Σ ½ c s² + Σ U − Σ m g·x`.
-fn potential_energy<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P::Base {
-    let here = |e: Expr<'d>| x(e).value();
-    let half = P::Base::from_ratio(1, 2);
-    let stored = model.stored().map(|energy| match energy {
-        Energy::Quadratic(of) => {
-            let deformation = here(of.measure);
-            half * here(of.coefficient) * deformation * deformation
+fn potential_energy<S: Scalar>(model: &Model<'_>, x: &Values<'_, S>) -> S {
+    let half = S::from_ratio(1, 2);
+    let mut energy = S::ZERO;
+    for stored in model.stored() {
+        energy = energy
+            + match stored {
+                Energy::Quadratic(of) => {
+                    let deformation = x.value(of.measure);
+                    half * x.value(of.coefficient) * deformation * deformation
+                }
+                Energy::Given(value) => x.value(*value),
+            };
+    }
+    if let Some(gravity) = model.gravity() {
+        for body in &model.bodies {
+            let mut along = S::ZERO;
+            for (&g, &at) in gravity.iter().zip(&body.at) {
+                along = along + x.value(g) * x.value(at);
+            }
+            energy = energy - x.value(body.mass) * along;
         }
-        Energy::Given(value) => here(*value),
-    });
-    let weights = model.gravity().into_iter().flat_map(|gravity| {
-        model.bodies.iter().map(|body| {
-            let along = gravity.iter().zip(&body.at);
-            -(here(body.mass) * sum(along.map(|(&g, &at)| here(g) * here(at))))
-        })
-    });
-    sum(stored.chain(weights))
+    }
+    energy
 }
 
 /// `Σ ½ b ṡ² + Σ R`.
-fn dissipation<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P::Base {
-    let half = P::Base::from_ratio(1, 2);
-    sum(model.dissipated().map(|energy| match energy {
-        Energy::Quadratic(of) => {
-            let rate = x(of.measure).rate();
-            half * x(of.coefficient).value() * rate * rate
-        }
-        Energy::Given(value) => x(*value).value(),
-    }))
+fn dissipation<S: Scalar>(model: &Model<'_>, x: &Values<'_, S>) -> S {
+    let half = S::from_ratio(1, 2);
+    let mut dissipation = S::ZERO;
+    for dissipated in model.dissipated() {
+        dissipation = dissipation
+            + match dissipated {
+                Energy::Quadratic(of) => {
+                    let rate = x.rate(of.measure);
+                    half * x.value(of.coefficient) * rate * rate
+                }
+                Energy::Given(value) => x.value(*value),
+            };
+    }
+    dissipation
 }
 
 /// The centre of a circle, and the angular velocity of what it is fixed to.
-fn centre_and_angular_velocity<'d, R: Scalar>(
-    model: &Model<'d>,
-    circle: &Circle<'d>,
-    x: &impl Fn(Expr<'d>) -> Moving<R>,
+fn centre_and_angular_velocity<R: Scalar>(
+    model: &Model<'_>,
+    circle: &Circle<'_>,
+    x: &Values<'_, Varied<R>>,
 ) -> ([Moving<R>; 2], Varied<R>) {
-    let [c, d] = [0, 1].map(|k| circle.center[k]);
-    point_and_angular_velocity(model, circle.on, [c, d], x)
+    point_and_angular_velocity(model, circle.on, &circle.center, x)
 }
 
 /// The position of a point fixed to a frame or a body, and the angular velocity of that.
-fn point_and_angular_velocity<'d, R: Scalar>(
-    model: &Model<'d>,
+fn point_and_angular_velocity<R: Scalar>(
+    model: &Model<'_>,
     on: Place,
-    point: [Expr<'d>; 2],
-    x: &impl Fn(Expr<'d>) -> Moving<R>,
+    coordinates: &[Expr<'_>],
+    x: &Values<'_, Varied<R>>,
 ) -> ([Moving<R>; 2], Varied<R>) {
     let of_pose = |pose: PoseId| {
-        let pose = &model.poses[pose.index()];
-        [0, 1].map(|k| [0, 1].map(|l| x(pose.axes[k][l])))
+        let axes = &model.poses[pose.index()].axes;
+        [x.vector::<2>(&axes[0]), x.vector::<2>(&axes[1])]
     };
-    let ground = [
-        [Moving::<R>::ONE, Moving::<R>::ZERO],
-        [Moving::<R>::ZERO, Moving::<R>::ONE],
-    ];
     let (origin, axes, turned) = match on {
         Place::Frame(pose) => {
             let frame = &model.poses[pose.index()];
@@ -1100,9 +1153,9 @@ fn point_and_angular_velocity<'d, R: Scalar>(
         Place::Body(body) => {
             let body = &model.bodies[body];
             let axes = match body.rotation {
-                Rotation::Unspecified => ground,
+                Rotation::Unspecified => ground(),
                 Rotation::Angle(angle) => {
-                    let (sin, cos) = x(angle).sin_cos();
+                    let (sin, cos) = x.at(angle).sin_cos();
                     [[cos, sin], [-sin, cos]]
                 }
                 Rotation::Frame(pose) => of_pose(pose),
@@ -1110,9 +1163,8 @@ fn point_and_angular_velocity<'d, R: Scalar>(
             (&body.at, axes, angle(model, body))
         }
     };
-    let [c, d] = point.map(x);
-    let centre = [0, 1].map(|l| x(origin[l]) + c * axes[0][l] + d * axes[1][l]);
-    let turning = turned.map_or(Varied::<R>::ZERO, |angle| x(angle).derivative);
+    let centre = point(x.vector(origin), axes, x.vector(coordinates));
+    let turning = turned.map_or(Varied::<R>::ZERO, |angle| x.rate(angle));
     (centre, turning)
 }
 
@@ -1130,61 +1182,53 @@ struct CornerOnPolygon<R> {
 
 /// The position of a corner of a polygon relative to another polygon: distances from lines through two corners of the latter,
 /// all in ground axes.
-fn on_polygon<'d, R: Scalar>(
-    model: &Model<'d>,
-    corner: &Corner<'d>,
-    x: &impl Fn(Expr<'d>) -> Moving<R>,
+#[expect(
+    clippy::needless_range_loop,
+    reason = "several lists are read at the same index"
+)]
+fn on_polygon<R: Scalar>(
+    model: &Model<'_>,
+    corner: &Corner<'_>,
+    x: &Values<'_, Varied<R>>,
 ) -> CornerOnPolygon<R> {
     let Corner {
         corner,
         polygon: own,
         other_polygon: other,
     } = corner;
-    let corners = |polygon: &Polygon<'d>| -> Vec<[Moving<R>; 2]> {
-        let place =
-            |at: &Vec<Expr<'d>>| point_and_angular_velocity(model, polygon.on, [at[0], at[1]], x).0;
-        polygon.corners.iter().map(place).collect()
+    let corners = |polygon: &Polygon<'_>| {
+        let mut corners = Vec::with_capacity(polygon.corners.len());
+        for at in &polygon.corners {
+            corners.push(point_and_angular_velocity(model, polygon.on, at, x).0);
+        }
+        corners
     };
     let (points, ends) = (corners(own), corners(other));
-    let (_, turning) = point_and_angular_velocity(
-        model,
-        other.on,
-        [other.corners[0][0], other.corners[0][1]],
-        x,
-    );
+    let (_, turning) = point_and_angular_velocity(model, other.on, &other.corners[0], x);
     let faces = ends.len();
     // Unit vectors along the faces.
-    let edges: Vec<[Moving<R>; 2]> = (0..faces)
-        .map(|k| {
-            let [a, b] = [0, 1].map(|i| ends[(k + 1) % faces][i] - ends[k][i]);
-            let scale = Moving::<R>::ONE / (a * a + b * b).sqrt();
-            [a * scale, b * scale]
-        })
-        .collect();
+    let mut edges = Vec::with_capacity(faces);
+    for k in 0..faces {
+        let edge = difference(ends[(k + 1) % faces], ends[k]);
+        edges.push(scaled(Moving::<R>::ONE / dot(edge, edge).sqrt(), edge));
+    }
     let distance = |k: usize, point: [Moving<R>; 2]| {
-        let arm = [0, 1].map(|i| point[i] - ends[k][i]);
+        let arm = difference(point, ends[k]);
         arm[0] * edges[k][1] - arm[1] * edges[k][0]
     };
-    let fold = |mut all: Vec<Moving<R>>, pick: fn(Moving<R>, Moving<R>) -> Moving<R>| {
-        let first = all.pop().unwrap_or(Moving::<R>::ZERO);
-        all.into_iter().rev().fold(first, pick)
-    };
-    let separations: Vec<Moving<R>> = (0..faces)
-        .map(|k| {
-            fold(
-                points.iter().map(|at| distance(k, *at)).collect(),
-                Moving::min,
-            )
-        })
-        .collect();
+    let mut separations = Vec::with_capacity(faces);
+    for k in 0..faces {
+        let mut distances = Vec::with_capacity(points.len());
+        for &point in &points {
+            distances.push(distance(k, point));
+        }
+        separations.push(extreme(&distances, Moving::min));
+    }
     let half = Moving::<R>::from_ratio(1, 2);
     // From the last face to the first: `left` is 1 as long as no later face separates better than all before it, else 0.
-    let mut so_far: Vec<Moving<R>> = Vec::with_capacity(faces);
-    for &separation in &separations {
-        let best = so_far
-            .last()
-            .map_or(separation, |&best| best.max(separation));
-        so_far.push(best);
+    let mut so_far = separations.clone();
+    for k in 1..faces {
+        so_far[k] = so_far[k - 1].max(separations[k]);
     }
     let mut left = Moving::<R>::ONE;
     let mut weights = vec![Moving::<R>::ZERO; faces];
@@ -1195,38 +1239,51 @@ fn on_polygon<'d, R: Scalar>(
     }
     weights[0] = left;
     let place = points[*corner];
+    let mut distances = Vec::with_capacity(faces);
+    for k in 0..faces {
+        distances.push(distance(k, place));
+    }
     let mut corner_on_polygon = CornerOnPolygon {
-        opening: fold(
-            (0..faces).map(|k| distance(k, place)).collect(),
-            Moving::max,
-        ),
+        opening: extreme(&distances, Moving::max),
         height: Moving::<R>::ZERO,
         beyond: Moving::<R>::ZERO,
         slip: Varied::<R>::ZERO,
     };
-    for (k, &weight) in weights.iter().enumerate() {
-        let others = (0..faces).filter(|j| *j != k);
-        corner_on_polygon.height = corner_on_polygon.height + weight * distance(k, place);
-        corner_on_polygon.beyond = corner_on_polygon.beyond
-            + weight * fold(others.map(|j| distance(j, place)).collect(), Moving::max);
+    for k in 0..faces {
+        let weight = weights[k];
+        let mut others = distances.clone();
+        others.remove(k);
+        corner_on_polygon.height = corner_on_polygon.height + weight * distances[k];
+        corner_on_polygon.beyond =
+            corner_on_polygon.beyond + weight * extreme(&others, Moving::max);
         // The polygon's own point under the corner moves with the end of the face, and turns about it.
-        let arm = [0, 1].map(|i| (place[i] - ends[k][i]).value);
-        let carried = [-(turning * arm[1]), turning * arm[0]];
-        let along = [0, 1].map(|i| {
-            let velocity = place[i].derivative - ends[k][i].derivative - carried[i];
-            -edges[k][i].value * velocity
-        });
-        corner_on_polygon.slip = corner_on_polygon.slip + weight.value * (along[0] + along[1]);
+        let arm = difference(place, ends[k]);
+        let carried = scaled(turning, turned_left(vector::value(arm)));
+        let velocity = difference(vector::rate(arm), carried);
+        let slip = dot(vector::value(edges[k]), velocity);
+        corner_on_polygon.slip = corner_on_polygon.slip - weight.value * slip;
     }
     corner_on_polygon
 }
 
+/// The smallest or the largest of some numbers, compared from the last to the first; 0 of none.
+fn extreme<S: Scalar>(all: &[S], pick: fn(S, S) -> S) -> S {
+    let Some(&last) = all.last() else {
+        return S::ZERO;
+    };
+    let mut extreme = last;
+    for k in (0..all.len() - 1).rev() {
+        extreme = pick(extreme, all[k]);
+    }
+    extreme
+}
+
 /// The distance of a circle from touching a surface, and the slip velocity of the touching points.
-fn on_surface<'d, R: Scalar>(
-    model: &Model<'d>,
-    circle: &Circle<'d>,
+fn on_surface<R: Scalar>(
+    model: &Model<'_>,
+    circle: &Circle<'_>,
     surface: Surface,
-    x: &impl Fn(Expr<'d>) -> Moving<R>,
+    x: &Values<'_, Varied<R>>,
 ) -> [Moving<R>; 2] {
     match surface {
         Surface::Inside(other) => on_circle(model, circle, &model.circles[other], true, x),
@@ -1237,45 +1294,44 @@ fn on_surface<'d, R: Scalar>(
 
 /// The distance of a circle from touching another, inside or outside of it, and the slip velocity
 /// of the touching points, along the direction from the other's centre turned left.
-fn on_circle<'d, R: Scalar>(
-    model: &Model<'d>,
-    first: &Circle<'d>,
-    other: &Circle<'d>,
+fn on_circle<R: Scalar>(
+    model: &Model<'_>,
+    first: &Circle<'_>,
+    other: &Circle<'_>,
     is_inside: bool,
-    x: &impl Fn(Expr<'d>) -> Moving<R>,
+    x: &Values<'_, Varied<R>>,
 ) -> [Moving<R>; 2] {
     let (centre, omega) = centre_and_angular_velocity(model, first, x);
     let (other_centre, other_omega) = centre_and_angular_velocity(model, other, x);
-    let line = [0, 1].map(|k| centre[k] - other_centre[k]);
-    let distance = (line[0] * line[0] + line[1] * line[1]).sqrt();
-    let (small, large) = (x(first.radius), x(other.radius));
+    let line = difference(centre, other_centre);
+    let distance = dot(line, line).sqrt();
+    let (small, large) = (x.at(first.radius), x.at(other.radius));
     let gap = if is_inside {
         large - small - distance
     } else {
         distance - small - large
     };
     // The touching point: the first circle's at c ± r e, the other's at R e.
-    let e = line.map(|c| c.value / distance.value);
-    let tangent = [-e[1], e[0]];
+    let e = quotient(vector::value(line), distance.value);
     let arm = if is_inside { small.value } else { -small.value };
-    let rate = tangent[0] * line[0].derivative + tangent[1] * line[1].derivative;
+    let rate = dot(turned_left(e), vector::rate(line));
     let slip = rate + arm * omega - large.value * other_omega;
     [gap, Dual::constant(slip)]
 }
 
 /// Gap and slip of a circle on the first axis of a frame, on the side of the second axis.
-fn on_line<'d, R: Scalar>(
-    model: &Model<'d>,
-    circle: &Circle<'d>,
+fn on_line<R: Scalar>(
+    model: &Model<'_>,
+    circle: &Circle<'_>,
     pose: PoseId,
-    x: &impl Fn(Expr<'d>) -> Moving<R>,
+    x: &Values<'_, Varied<R>>,
 ) -> [Moving<R>; 2] {
     let frame = &model.poses[pose.index()];
     let (centre, omega) = centre_and_angular_velocity(model, circle, x);
-    let line = [0, 1].map(|k| centre[k] - x(frame.origin[k]));
-    let [along, across] = [0, 1].map(|k| [0, 1].map(|l| x(frame.axes[k][l])));
-    let radius = x(circle.radius);
-    let gap = across[0] * line[0] + across[1] * line[1] - radius;
-    let rate = along[0].value * line[0].derivative + along[1].value * line[1].derivative;
+    let line = difference(centre, x.vector(&frame.origin));
+    let (along, across) = (x.vector(&frame.axes[0]), x.vector(&frame.axes[1]));
+    let radius = x.at(circle.radius);
+    let gap = dot(across, line) - radius;
+    let rate = dot(vector::value(along), vector::rate(line));
     [gap, Dual::constant(rate + radius.value * omega)]
 }

@@ -78,15 +78,25 @@ struct Block<T> {
     matrix: Vec<T>,
 }
 
-impl<T: Scalar<Stored = T>> Expander<T> {
-    /// A series with parameters, to be expanded to `order` coefficients of the accelerations.
-    ///
-    /// # Panics
-    /// If the number of parameters differs from that of the series.
-    pub fn new(series: Arc<Series>, parameters: &[T], order: usize) -> Expander<T> {
-        assert_eq!(parameters.len(), series.parameters, "one number for each");
-        let (rows, n, width) = (series.rows.len(), series.dimension(), order + 2);
-        let unknowns = series.unknowns();
+/// What an expander reads of a series: the same for every type of number, so that it is made by code that is compiled once.
+struct Plan {
+    by_level: [Vec<u32>; 3],
+    changed_by_newest: [Vec<u32>; 2],
+    scaled: Vec<bool>,
+    sums: Vec<Vec<Sum>>,
+    weighted_places: Vec<Option<usize>>,
+    /// The number of weighted coefficients.
+    weighted: usize,
+    places: Vec<usize>,
+    /// The number of partial derivatives.
+    gradients: usize,
+    /// For each block its unknowns, and for each unknown its index among them.
+    blocks: Vec<[Vec<u32>; 2]>,
+}
+
+impl Plan {
+    fn of(series: &Series, width: usize) -> Plan {
+        let rows = series.rows.len();
         let all = || (0..rows as u32).map(RowId);
         let at_level = |level: Level| -> Vec<u32> {
             let rows = all().filter(|row| series.level(*row) == level);
@@ -103,19 +113,18 @@ impl<T: Scalar<Stored = T>> Expander<T> {
                 scaled[of.index()] = true;
             }
         }
-        let mut length = 0;
+        let mut weighted = 0;
         let mut take = |count: usize| {
-            length += count;
-            length - count
+            weighted += count;
+            weighted - count
         };
         let weighted_places = streams.iter().map(|[_, is]| is.then(|| take(width)));
         let weighted_places: Vec<Option<usize>> = weighted_places.collect();
-        let of_weighted = length;
-        let mut length = 0;
+        let mut gradients = 0;
         let mut places = Vec::with_capacity(rows);
         for depends in &series.depends {
-            places.push(length);
-            length += depends.len();
+            places.push(gradients);
+            gradients += depends.len();
         }
         let sums = all().map(|row| {
             let sums = series.convolutions(row).into_iter();
@@ -132,43 +141,71 @@ impl<T: Scalar<Stored = T>> Expander<T> {
             sums.map(sum).collect()
         });
         let block = |members: Vec<u32>| {
-            let mut place = vec![0; unknowns];
+            let mut place = vec![0; series.unknowns()];
             for (at, member) in (0..).zip(&members) {
                 place[*member as usize] = at;
             }
-            Block {
-                matrix: vec![T::ZERO; members.len() * members.len()],
-                place,
-                members,
-            }
+            [members, place]
         };
-        let number = |j: usize| {
-            let j = j as i64;
-            [T::from_ratio(j, 1), T::from_ratio(1, j.max(1))]
-        };
-        let mut expander = Expander {
+        Plan {
             by_level: [Level::Position, Level::Rate, Level::Acceleration].map(at_level),
             changed_by_newest: repaired,
             scaled,
             sums: sums.collect(),
+            weighted,
+            places,
+            gradients,
+            blocks: series.blocks().into_iter().map(block).collect(),
+            weighted_places,
+        }
+    }
+}
+
+impl<T: Scalar<Stored = T>> Expander<T> {
+    /// A series with parameters, to be expanded to `order` coefficients of the accelerations.
+    ///
+    /// # Panics
+    /// If the number of parameters differs from that of the series.
+    pub fn new(series: Arc<Series>, parameters: &[T], order: usize) -> Expander<T> {
+        assert_eq!(parameters.len(), series.parameters, "one number for each");
+        let (rows, n, width) = (series.rows.len(), series.dimension(), order + 2);
+        let unknowns = series.unknowns();
+        let plan = Plan::of(&series, width);
+        let mut blocks = Vec::with_capacity(plan.blocks.len());
+        for [members, place] in plan.blocks {
+            blocks.push(Block {
+                matrix: vec![T::ZERO; members.len() * members.len()],
+                place,
+                members,
+            });
+        }
+        let mut numbers = Vec::with_capacity(width + 1);
+        for j in 0..=width as i64 {
+            numbers.push([T::from_ratio(j, 1), T::from_ratio(1, j.max(1))]);
+        }
+        let mut expander = Expander {
+            by_level: plan.by_level,
+            changed_by_newest: plan.changed_by_newest,
+            scaled: plan.scaled,
+            sums: plan.sums,
             parameters: parameters.to_vec(),
             order,
             width,
             coefficients: vec![T::ZERO; rows * width],
-            weighted: vec![T::ZERO; of_weighted],
-            weighted_places,
+            weighted: vec![T::ZERO; plan.weighted],
+            weighted_places: plan.weighted_places,
             newest: vec![T::ZERO; rows],
             low: vec![T::ZERO; rows],
-            places,
-            gradients: vec![T::ZERO; length],
+            places: plan.places,
+            gradients: vec![T::ZERO; plan.gradients],
             motion: vec![T::ZERO; n * width],
             rates: vec![T::ZERO; n * width],
             inputs: vec![T::ZERO; series.inputs],
             multipliers: vec![T::ZERO; (unknowns - n) * order],
-            blocks: series.blocks().into_iter().map(block).collect(),
+            blocks,
             unknowns: vec![T::ZERO; unknowns],
-            scratch: [(); 2].map(|()| vec![T::ZERO; unknowns]),
-            numbers: (0..=width).map(number).collect(),
+            scratch: [vec![T::ZERO; unknowns], vec![T::ZERO; unknowns]],
+            numbers,
             series,
         };
         expander.prepare();
