@@ -23,6 +23,10 @@ const ROUNDING_OF_FORCES: f64 = 1e-11;
 /// Friction within this of the greatest that there is, relative to that, is used up.
 pub(super) const SATURATED: f64 = 1e-10;
 
+/// A slip that began from rest has the direction of the force that began it until it is this many times what it began with: from then on its own
+/// differs from that by no more than a thousandth.
+const BEGUN: f64 = 1e3;
+
 /// What a closed contact does, or that it is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode {
@@ -81,6 +85,8 @@ pub(crate) struct UnilateralState {
     pub(super) slip: f64,
     /// How fast each contact opened after its last impact.
     pub openings: Vec<f64>,
+    /// The slip with which each contact last began to slip from rest, which is what rounding made of none.
+    beginning_slips: Vec<f64>,
     /// Whether a direction is followed through rest, within a step: see [`Mode::SlidesAlong`].
     continues_through_rest: bool,
     /// In time stepping the mean forces of the last step along normal and tangent, in N.
@@ -228,6 +234,7 @@ impl UnilateralState {
             speed: 0.0,
             slip: 0.0,
             openings: vec![0.0; has_friction.len()],
+            beginning_slips: vec![0.0; has_friction.len()],
             carrier,
             across,
             has_friction,
@@ -344,6 +351,15 @@ impl UnilateralState {
         ]
     }
 
+    /// The direction of a slip along both tangents; none where rounding could have made it.
+    fn known_direction(&self, here: &ContactKinematics, contact: usize) -> Option<[f64; 2]> {
+        let [slip, rounding] = self.slip(here, contact);
+        let speed = slip[0].hypot(slip[1]);
+        let beginning = self.beginning_slips[self.first(contact)];
+        let rounding = rounding[0].hypot(rounding[1]);
+        (speed > rounding.max(BEGUN * beginning)).then(|| slip.map(|slip| slip / speed))
+    }
+
     /// The component along this tangent of the direction in which a contact slides. Where it has come through rest since the step
     /// began it is taken to slip backwards, so that its friction changes smoothly through there: that it has is found, and the
     /// step ends there.
@@ -352,17 +368,33 @@ impl UnilateralState {
             return 0.0;
         };
         let part = usize::from(self.across[contact]);
-        let [slip, rounding] = self.slip(here, contact);
-        let speed = slip[0].hypot(slip[1]);
-        if speed <= rounding[0].hypot(rounding[1]) {
+        let Some(direction) = self.known_direction(here, contact) else {
             return heading[part];
-        }
-        let ahead = heading[0] * slip[0] + heading[1] * slip[1];
-        let direction = slip[part] / speed;
+        };
+        let ahead = heading[0] * direction[0] + heading[1] * direction[1];
         if self.continues_through_rest && ahead < 0.0 {
-            -direction
+            -direction[part]
         } else {
-            direction
+            direction[part]
+        }
+    }
+
+    /// Takes note of the slips of contacts that begin to slip from rest.
+    pub fn record_beginning_slips<S: System>(
+        &mut self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        resting: &[bool],
+    ) {
+        let begins = |k: &usize| resting[*k] && matches!(self.modes[*k], Mode::SlidesAlong(_));
+        let beginning: Vec<usize> = (0..self.modes.len()).filter(begins).collect();
+        if beginning.is_empty() {
+            return;
+        }
+        let here = ContactKinematics::of(system, t, q, v);
+        for k in beginning {
+            let [slip, _] = self.slip(&here, k);
+            self.beginning_slips[k] = slip[0].hypot(slip[1]);
         }
     }
 
@@ -385,12 +417,10 @@ impl UnilateralState {
         }
         let here = ContactKinematics::of(system, t, q, v);
         for k in 0..self.modes.len() {
-            if let Mode::SlidesAlong(_) = self.modes[k] {
-                let [slip, rounding] = self.slip(&here, k);
-                let speed = slip[0].hypot(slip[1]);
-                if speed > rounding[0].hypot(rounding[1]) {
-                    self.modes[k] = Mode::SlidesAlong(slip.map(|slip| slip / speed));
-                }
+            if let Mode::SlidesAlong(_) = self.modes[k]
+                && let Some(direction) = self.known_direction(&here, k)
+            {
+                self.modes[k] = Mode::SlidesAlong(direction);
             }
         }
     }
@@ -1403,7 +1433,14 @@ impl UnilateralState {
                             _ => [0.0; 2],
                         };
                         let is_unknown = known_direction == [0.0; 2];
-                        if is_held && !breaks[place] || (size == 0.0 && is_still && is_unknown) {
+                        // What would let go with others may have friction left once these slip, as where a body begins to turn about it.
+                        let has_friction_left = kinetic < at_rest && size < most * (1.0 - SATURATED) && is_still;
+                        let sticks = if breaks[place] {
+                            has_friction_left && most > 0.0
+                        } else {
+                            is_held
+                        };
+                        if sticks || (size == 0.0 && is_still && is_unknown) {
                             Mode::Sticks
                         } else {
                             if kinetic != at_rest && !breaks[place] {
