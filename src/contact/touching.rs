@@ -1434,7 +1434,8 @@ impl UnilateralState {
                         };
                         let is_unknown = known_direction == [0.0; 2];
                         // What would let go with others may have friction left once these slip, as where a body begins to turn about it.
-                        let has_friction_left = kinetic < at_rest && size < most * (1.0 - SATURATED) && is_still;
+                        let has_friction_left =
+                            kinetic < at_rest && size < most * (1.0 - SATURATED) && is_still;
                         let sticks = if breaks[place] {
                             has_friction_left && most > 0.0
                         } else {

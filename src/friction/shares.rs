@@ -557,7 +557,9 @@ mod tests {
         for case in 0..300 {
             let free = 1 + case % 4;
             let count = free + 1 + case % 3;
-            let mut by: Vec<f64> = (0..PARTS * free * count).map(|_| drawn(&mut seed)).collect();
+            let mut by: Vec<f64> = (0..PARTS * free * count)
+                .map(|_| drawn(&mut seed))
+                .collect();
             let mut sharers = Vec::new();
             for own in by.chunks_exact_mut(PARTS * free) {
                 own[..free].iter_mut().for_each(|x| *x *= 0.1);
@@ -568,7 +570,10 @@ mod tests {
             let (sin, cos) = (3.0 * drawn(&mut seed)).sin_cos();
             let mut turned = sharers.clone();
             let mut turned_by = by.clone();
-            for (sharer, own) in turned.iter_mut().zip(turned_by.chunks_exact_mut(PARTS * free)) {
+            for (sharer, own) in turned
+                .iter_mut()
+                .zip(turned_by.chunks_exact_mut(PARTS * free))
+            {
                 let along = sharer.tangential[0];
                 sharer.tangential = [cos * along, sin * along];
                 let (along, across) = own[free..].split_at_mut(free);
@@ -613,7 +618,8 @@ mod tests {
         let mut basic = Vec::new();
         for j in 0..n {
             let done = basic.len();
-            let Some(pivot) = (done..6).max_by(|a, b| rows[*a][j].abs().total_cmp(&rows[*b][j].abs()))
+            let Some(pivot) =
+                (done..6).max_by(|a, b| rows[*a][j].abs().total_cmp(&rows[*b][j].abs()))
             else {
                 break;
             };
@@ -631,12 +637,18 @@ mod tests {
             basic.push(j);
         }
         let mut forces = vec![0.0; n];
-        basic.iter().zip(&rows).for_each(|(j, row)| forces[*j] = row[n]);
+        basic
+            .iter()
+            .zip(&rows)
+            .for_each(|(j, row)| forces[*j] = row[n]);
         let free = (0..n).filter(|j| !basic.contains(j));
         let of_unit = free.map(|free| {
             let mut of_unit = vec![0.0; n];
             of_unit[free] = 1.0;
-            basic.iter().zip(&rows).for_each(|(j, row)| of_unit[*j] = -row[free]);
+            basic
+                .iter()
+                .zip(&rows)
+                .for_each(|(j, row)| of_unit[*j] = -row[free]);
             of_unit
         });
         (forces, of_unit.collect())

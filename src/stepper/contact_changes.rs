@@ -347,9 +347,13 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         let as_found = now.clone();
         let projected = project_onto_closed_contacts(system, touching, now);
         let energy = |now: &Point<S::Vector>| system.kinetic_energy(now.t, &now.q, &now.v);
-        let is_held =
-            projected.is_ok() && energy(now) >= (1.0 - SHARE_OF_REST) * energy(&as_found);
-        if is_held || !stopped.iter().zip(closed).any(|(stops, closed)| *stops && *closed) {
+        let is_held = projected.is_ok() && energy(now) >= (1.0 - SHARE_OF_REST) * energy(&as_found);
+        if is_held
+            || !stopped
+                .iter()
+                .zip(closed)
+                .any(|(stops, closed)| *stops && *closed)
+        {
             return projected.map(|_| ());
         }
         // Near a dead centre a slip stops whatever friction does, and to hold it there would stop the machine. So forces decide first.

@@ -39,7 +39,8 @@ fn lets_go(
 ) {
     for tolerance in [1e-6, 1e-10] {
         let until = away + 0.7321;
-        let run = run(body, set, &[], (tolerance, until)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let run = run(body, set, &[], (tolerance, until))
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
         let known = events(&run);
         assert!(!known.is_empty(), "{name}: it lets go");
         for (what, t) in &known {
@@ -79,15 +80,13 @@ fn tables_let_go_as_points_do() {
 #[test]
 fn a_body_in_a_groove_is_held_by_wedging() {
     let side = |name: &str, y: f64, frame: &str| {
-        format!("{name} {{ corners: ((0.2, {y}, 0), (-0.2, {y}, 0)), on: held, along: {frame}, LAW }}")
+        format!(
+            "{name} {{ corners: ((0.2, {y}, 0), (-0.2, {y}, 0)), on: held, along: {frame}, LAW }}"
+        )
     };
     for beta in [0.3_f64, 0.7] {
         // The points are where their sides are.
-        let sides = [
-            side("one", 0.1, "high"),
-            side("other", -0.1, "low"),
-        ]
-        .join(", ");
+        let sides = [side("one", 0.1, "high"), side("other", -0.1, "low")].join(", ");
         let bed = format!(
             "bed = ground.shift(0, 0, 0), high = bed.shift(0, 0.1, 0).turn(x, {beta}), low = bed.shift(0, -0.1, 0).turn(x, -{beta})"
         );
@@ -109,8 +108,16 @@ fn guides_on_surfaces_hold_together() {
         } else {
             "rail { body: b2, on: ground, direction: (1, 0, 0), friction: 0.1, static_friction: 0.2 }"
         };
-        let coordinates = if is_on_surface { "x2: m = 1, y2: m" } else { "x2: m = 1" };
-        let at = if is_on_surface { "(x2, y2, 0)" } else { "(x2, 0, 0)" };
+        let coordinates = if is_on_surface {
+            "x2: m = 1, y2: m"
+        } else {
+            "x2: m = 1"
+        };
+        let at = if is_on_surface {
+            "(x2, y2, 0)"
+        } else {
+            "(x2, 0, 0)"
+        };
         let blocks = machine(&format!(
             "machine Blocks in space {{
                 parameters {{ F: N = 0, c: N/s = 4 }}
