@@ -641,30 +641,40 @@ impl Contacts {
         let mut together = [false; MOST_CONTACTS];
         let mut slip_direction = self.mode_of(&now).slip_direction;
         let at = |singular| StepError::Singular { singular, t };
-        if change.cause == Cause::BrokeAway && self.seconds >> (k + 1) & 1 != 0 {
-            // On a surface the law of friction determines the direction.
-            (motion[k], motion[k + 1]) = (Some(Motion::SlidesAlong), Some(Motion::SlidesAlong));
-            (slip_direction[k], slip_direction[k + 1]) = (0.0, 0.0);
-        } else if change.cause == Cause::BrokeAway {
+        if change.cause == Cause::BrokeAway {
             let held = with_parts(system, t, q, v, u, |parts, _| {
                 parts.shared_forces(&self.mode).map_err(Paradox::singular)
             });
             let (held, shared) = held.map_err(at)?;
-            // It slides against the force that held it. At this instant its slip may not even grow, since the friction of sticking and
-            // of sliding may be equal. What depends on others breaks away with those that limit what all of them can hold.
+            // What depends on others breaks away with those that limit what all of them can hold.
             let breaks = |j: usize| match shared.limit[j] {
-                Some(Limit::Friction(direction)) if shared.group[j] == shared.group[k] => {
-                    Some(Motion::Slides(-direction))
+                Some(Limit::Friction([direction, _])) if shared.group[j] == shared.group[k] => {
+                    Some(-direction)
                 }
                 _ => None,
             };
-            if shared.margin[k].is_some() && (0..self.count).any(|j| breaks(j).is_some()) {
-                for (j, motion) in motion[..self.count].iter_mut().enumerate() {
-                    together[j] = motion.is_none() && breaks(j).is_some();
-                    *motion = motion.or(breaks(j));
+            let is_shared =
+                shared.margin[k].is_some() && (0..self.count).any(|j| breaks(j).is_some());
+            for j in 0..self.count {
+                let direction = if is_shared {
+                    breaks(j).filter(|_| motion[j].is_none())
+                } else {
+                    // It slides against the force that held it. At this instant its slip may not even grow, since the friction of sticking
+                    // and of sliding may be equal.
+                    (j == k).then(|| -held[j].signum())
+                };
+                let Some(direction) = direction else {
+                    continue;
+                };
+                if self.seconds >> (j + 1) & 1 == 0 {
+                    (motion[j], together[j]) = (Some(Motion::Slides(direction)), is_shared);
+                    continue;
                 }
-            } else {
-                motion[k] = Some(Motion::Slides(-held[k].signum()));
+                // On a surface the law of friction determines the direction.
+                for tangent in [j, j + 1] {
+                    (motion[tangent], together[tangent]) = (Some(Motion::SlidesAlong), is_shared);
+                    slip_direction[tangent] = 0.0;
+                }
             }
         }
         // A contact that has come to rest may continue in any direction.

@@ -23,6 +23,10 @@ const ROUNDING_OF_FORCES: f64 = 1e-11;
 /// Friction within this of the greatest that there is, relative to that, is used up.
 pub(super) const SATURATED: f64 = 1e-10;
 
+/// A slip that began from rest has the direction of the force that began it until it is this many times what it began with: from then on its own
+/// differs from that by no more than a thousandth.
+const BEGUN: f64 = 1e3;
+
 /// What a closed contact does, or that it is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode {
@@ -57,7 +61,7 @@ impl Mode {
 }
 
 pub(crate) use crate::friction::Margin;
-use crate::friction::shares::{self, Limit, Sharer, Tableau};
+use crate::friction::shares::{self, Limit, PARTS, Sharer};
 
 /// What a run knows of its unilateral contacts.
 #[derive(Clone, Debug)]
@@ -81,6 +85,8 @@ pub(crate) struct UnilateralState {
     pub(super) slip: f64,
     /// How fast each contact opened after its last impact.
     pub openings: Vec<f64>,
+    /// The slip with which each contact last began to slip from rest, which is what rounding made of none.
+    beginning_slips: Vec<f64>,
     /// Whether a direction is followed through rest, within a step: see [`Mode::SlidesAlong`].
     continues_through_rest: bool,
     /// In time stepping the mean forces of the last step along normal and tangent, in N.
@@ -131,17 +137,19 @@ impl OpenEquations {
 
 /// The distribution of forces among contacts at which the least margin is greatest.
 struct SharedLoad {
-    /// The margin of each contact that shares forces, and nothing for the others.
-    margins: Vec<Option<SharedMargin>>,
+    /// The margin of each contact that shares forces, and nothing for the others. Both tangents of a contact have that of the first.
+    margins: Vec<Option<ShareOfLoad>>,
     /// Along normal and tangent, of every contact.
     forces: Vec<[f64; 2]>,
 }
 
 /// The margin of a contact that shares forces with others.
-struct SharedMargin {
+struct ShareOfLoad {
     margin: Margin,
     /// Whether its normal force is undetermined.
     shares_normal: bool,
+    /// Whether the margin is that of its friction as well.
+    shares_friction: bool,
     /// Whether and how this contact limits the margin.
     limit: Option<Limit>,
 }
@@ -226,6 +234,7 @@ impl UnilateralState {
             speed: 0.0,
             slip: 0.0,
             openings: vec![0.0; has_friction.len()],
+            beginning_slips: vec![0.0; has_friction.len()],
             carrier,
             across,
             has_friction,
@@ -342,6 +351,15 @@ impl UnilateralState {
         ]
     }
 
+    /// The direction of a slip along both tangents; none where rounding could have made it.
+    fn known_direction(&self, here: &ContactKinematics, contact: usize) -> Option<[f64; 2]> {
+        let [slip, rounding] = self.slip(here, contact);
+        let speed = slip[0].hypot(slip[1]);
+        let beginning = self.beginning_slips[self.first(contact)];
+        let rounding = rounding[0].hypot(rounding[1]);
+        (speed > rounding.max(BEGUN * beginning)).then(|| slip.map(|slip| slip / speed))
+    }
+
     /// The component along this tangent of the direction in which a contact slides. Where it has come through rest since the step
     /// began it is taken to slip backwards, so that its friction changes smoothly through there: that it has is found, and the
     /// step ends there.
@@ -350,17 +368,33 @@ impl UnilateralState {
             return 0.0;
         };
         let part = usize::from(self.across[contact]);
-        let [slip, rounding] = self.slip(here, contact);
-        let speed = slip[0].hypot(slip[1]);
-        if speed <= rounding[0].hypot(rounding[1]) {
+        let Some(direction) = self.known_direction(here, contact) else {
             return heading[part];
-        }
-        let ahead = heading[0] * slip[0] + heading[1] * slip[1];
-        let direction = slip[part] / speed;
+        };
+        let ahead = heading[0] * direction[0] + heading[1] * direction[1];
         if self.continues_through_rest && ahead < 0.0 {
-            -direction
+            -direction[part]
         } else {
-            direction
+            direction[part]
+        }
+    }
+
+    /// Takes note of the slips of contacts that begin to slip from rest.
+    pub fn record_beginning_slips<S: System>(
+        &mut self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        resting: &[bool],
+    ) {
+        let begins = |k: &usize| resting[*k] && matches!(self.modes[*k], Mode::SlidesAlong(_));
+        let beginning: Vec<usize> = (0..self.modes.len()).filter(begins).collect();
+        if beginning.is_empty() {
+            return;
+        }
+        let here = ContactKinematics::of(system, t, q, v);
+        for k in beginning {
+            let [slip, _] = self.slip(&here, k);
+            self.beginning_slips[k] = slip[0].hypot(slip[1]);
         }
     }
 
@@ -383,12 +417,10 @@ impl UnilateralState {
         }
         let here = ContactKinematics::of(system, t, q, v);
         for k in 0..self.modes.len() {
-            if let Mode::SlidesAlong(_) = self.modes[k] {
-                let [slip, rounding] = self.slip(&here, k);
-                let speed = slip[0].hypot(slip[1]);
-                if speed > rounding[0].hypot(rounding[1]) {
-                    self.modes[k] = Mode::SlidesAlong(slip.map(|slip| slip / speed));
-                }
+            if let Mode::SlidesAlong(_) = self.modes[k]
+                && let Some(direction) = self.known_direction(&here, k)
+            {
+                self.modes[k] = Mode::SlidesAlong(direction);
             }
         }
     }
@@ -670,57 +702,46 @@ impl UnilateralState {
         shares
     }
 
-    /// The distribution of undetermined forces at which the least margin of the contacts is greatest, (E78). Nothing where friction acts along
-    /// two tangents, since that problem is not linear.
-    fn shared_load(&self, here: &ContactKinematics, reaction: &Reaction) -> Option<SharedLoad> {
-        let equations = reaction.open_equations.as_ref()?;
-        let OpenEquations {
-            closed, unknowns, ..
-        } = equations;
-        if closed.iter().any(|k| self.has_two_tangents(*k)) {
-            return None;
-        }
+    /// The distribution of undetermined forces at which the least margin of the contacts is greatest, (E78); nothing if none is undetermined.
+    fn shared_load(
+        &self,
+        here: &ContactKinematics,
+        reaction: &Reaction,
+        t: f64,
+    ) -> Result<Option<SharedLoad>, StepError> {
+        let Some(equations) = &reaction.open_equations else {
+            return Ok(None);
+        };
+        let closed = &equations.closed;
         let of_unit = equations.null_space();
         let free = of_unit.len();
-        let mut by = vec![0.0; 2 * free * closed.len()];
-        let mut sharers = vec![Sharer::default(); closed.len()];
-        for (place, (&k, own)) in closed.iter().zip(by.chunks_exact_mut(2 * free)).enumerate() {
-            // A contact with a carrier has the normal force of its carrier, which precedes it.
-            let pressing = place - usize::from(self.carrier[k].is_some());
-            let unknown = |wanted: (usize, usize)| unknowns.iter().position(|u| *u == wanted);
-            for (part, pressed) in [(0, pressing), (1, place)] {
-                let Some(unknown) = unknown((pressed, part)) else {
-                    continue;
-                };
-                for (x, of_unit) in own[part * free..].iter_mut().zip(&of_unit) {
-                    *x = of_unit[unknown];
-                }
-            }
-            let sticks = self.modes[k] == Mode::Sticks && self.has_friction[k];
-            sharers[place] = Sharer {
-                static_friction: sticks.then(|| here.friction(k)[1]),
-                presses: self.carrier[k].is_none() && !self.is_compliant(k),
-                normal: reaction.forces[closed[pressing]][0],
-                tangential: reaction.forces[k][1],
-            };
-        }
+        let (sharers, by) = self.sharers(here, reaction, equations, &of_unit);
         let mut groups = vec![0; free];
         shares::group(&by, &mut groups);
         let mut load = SharedLoad {
             margins: self.modes.iter().map(|_| None).collect(),
             forces: reaction.forces.clone(),
         };
-        let mut numbers = vec![0.0; shares::tableau_length(closed.len(), free)];
-        let (mut basic, mut outside) = (vec![0; 2 * closed.len()], vec![0; free + 1]);
+        let mut numbers = vec![0.0; shares::numbers_length(closed.len(), free)];
+        let mut places = vec![0; shares::places_length(closed.len(), free)];
+        let (mut undetermined, mut limits) = (vec![0.0; free], vec![None; closed.len()]);
         for group in (0..free).filter(|group| groups[*group] == *group) {
-            let work = (&mut numbers[..], &mut basic[..], &mut outside[..]);
-            let mut tableau = Tableau::new(&sharers, (&by, &groups, group), work);
-            let Some(value) = tableau.solve() else {
-                continue;
-            };
-            let of_group = |place: &usize| {
-                let own = &by[2 * free * place..][..2 * free];
-                shares::is_in(own, &groups, group)
+            let by_place = |place: usize| &by[PARTS * free * place..][..PARTS * free];
+            let of_group = |place: &usize| shares::is_in(by_place(*place), &groups, group);
+            let members = || (0..closed.len()).filter(of_group);
+            undetermined.fill(0.0);
+            let shared = shares::share(
+                &sharers,
+                (&by, &groups, group),
+                (&mut numbers, &mut places),
+                (&mut undetermined, &mut limits),
+            );
+            let Some(shared) = shared else {
+                return Err(StepError::Contact {
+                    contact: self.first(members().next().map_or(closed[0], |place| closed[place])),
+                    trouble: ContactTrouble::Unsolved,
+                    t,
+                });
             };
             let size = |place: usize| {
                 let own = reaction.sizes[closed[place]];
@@ -729,40 +750,87 @@ impl UnilateralState {
                     _ => own,
                 }
             };
-            let members = (0..closed.len()).filter(of_group);
-            let size = members.clone().map(size).fold(0.0, f64::max);
-            let rounding = ROUNDING_OF_FORCES * size;
-            let undetermined: Vec<f64> = (0..free)
-                .map(|i| {
-                    if groups[i] == group {
-                        tableau.force(i)
-                    } else {
-                        0.0
-                    }
-                })
-                .collect();
-            for place in members {
-                let (normals, tangentials) = by[2 * free * place..][..2 * free].split_at(free);
-                let added = |by: &[f64]| {
-                    by.iter()
-                        .zip(&undetermined)
-                        .map(|(x, y)| x * y)
-                        .sum::<f64>()
+            let size = members().map(size).fold(0.0, f64::max);
+            let margin = Margin {
+                value: shared.value,
+                rounding: (ROUNDING_OF_FORCES * size).max(shared.residual),
+            };
+            for place in members() {
+                let k = closed[place];
+                let added = |part: usize| {
+                    let own = &by_place(place)[part * free..][..free];
+                    let terms = own.iter().zip(&undetermined);
+                    terms.map(|(x, y)| x * y).sum::<f64>()
                 };
-                let normal = added(normals);
-                let [of_normal, of_tangent] = &mut load.forces[closed[place]];
-                if self.carrier[closed[place]].is_none() {
-                    *of_normal += normal;
+                let normal = added(0);
+                if self.carrier[k].is_none() {
+                    load.forces[k][0] += normal;
                 }
-                *of_tangent += added(tangentials) + self.share(here, closed[place]) * normal;
-                load.margins[closed[place]] = Some(SharedMargin {
-                    margin: Margin { value, rounding },
-                    shares_normal: normals.iter().any(|x| *x != 0.0),
-                    limit: tableau.limit(place, &sharers[place]),
+                load.forces[k][1] += added(1) + self.share(here, k) * normal;
+                if let Some(second) = self.second(k) {
+                    load.forces[second][1] += added(2) + self.share(here, second) * normal;
+                }
+                let depends = |part: usize| {
+                    by_place(place)[part * free..][..free]
+                        .iter()
+                        .any(|x| *x != 0.0)
+                };
+                load.margins[k] = Some(ShareOfLoad {
+                    margin,
+                    shares_normal: depends(0),
+                    // A friction force of a contact without friction that depends on nothing shared has a margin of its own.
+                    shares_friction: here.friction(k)[1] > 0.0 || depends(1) || depends(2),
+                    limit: limits[place],
                 });
             }
         }
-        Some(load)
+        Ok(Some(load))
+    }
+
+    /// The closed contacts as those that may share forces, and what each undetermined force adds to theirs. The second tangent of a contact
+    /// belongs to the first.
+    fn sharers(
+        &self,
+        here: &ContactKinematics,
+        reaction: &Reaction,
+        OpenEquations {
+            closed, unknowns, ..
+        }: &OpenEquations,
+        of_unit: &[Vec<f64>],
+    ) -> (Vec<Sharer>, Vec<f64>) {
+        let free = of_unit.len();
+        let mut by = vec![0.0; PARTS * free * closed.len()];
+        let mut sharers = vec![Sharer::default(); closed.len()];
+        for (place, (&k, own)) in (closed.iter().zip(by.chunks_exact_mut(PARTS * free))).enumerate()
+        {
+            if self.across[k] {
+                continue;
+            }
+            // A contact with a carrier has the normal force of its carrier, which precedes it.
+            let pressing = place - usize::from(self.carrier[k].is_some());
+            let second = self.second(k);
+            let across = second.map(|_| (place + 1, 1));
+            let parts = [Some((pressing, 0)), Some((place, 1)), across];
+            for (row, part) in own.chunks_exact_mut(free).zip(parts) {
+                let unknown = part.and_then(|part| unknowns.iter().position(|u| *u == part));
+                if let Some(unknown) = unknown {
+                    for (x, of_unit) in row.iter_mut().zip(of_unit) {
+                        *x = of_unit[unknown];
+                    }
+                }
+            }
+            let sticks = self.modes[k] == Mode::Sticks && self.has_friction[k];
+            sharers[place] = Sharer {
+                static_friction: sticks.then(|| here.friction(k)[1]),
+                presses: self.carrier[k].is_none() && !self.is_compliant(k),
+                normal: reaction.forces[closed[pressing]][0],
+                tangential: [
+                    reaction.forces[k][1],
+                    second.map_or(0.0, |second| reaction.forces[second][1]),
+                ],
+            };
+        }
+        (sharers, by)
     }
 
     /// The states and forces with which all contacts at rest stay at rest, if some distribution of the forces that they share permits it. The
@@ -788,7 +856,7 @@ impl UnilateralState {
         let mut touching = self.clone();
         touching.set_modes(held);
         let reaction = touching.reaction_here(system, at, Some(here)).ok()?;
-        let load = touching.shared_load(here, &reaction)?;
+        let load = touching.shared_load(here, &reaction, at.0).ok()??;
         let free = Self::free(system, at).ok()?;
         let is_still = |direction: &usize| {
             // Its round-off is that of the terms that the forces cancel.
@@ -797,13 +865,14 @@ impl UnilateralState {
             rate.abs() <= ROUNDING_OF_FORCES * (terms + of_free)
         };
         let holds = |k: usize| match &load.margins[k] {
-            Some(SharedMargin { margin, .. }) => margin.value > margin.rounding,
-            None if touching.modes[k] == Mode::Open => true,
+            Some(ShareOfLoad { margin, .. }) => margin.value > margin.rounding,
+            None if touching.modes[k] == Mode::Open || self.across[k] => true,
             None => {
                 let normal = load.forces[self.carrier[k].unwrap_or(k)][0];
                 let rounding = ROUNDING_OF_FORCES * reaction.sizes[k];
-                let used = match touching.modes[k] {
-                    Mode::Sticks => load.forces[k][1].abs(),
+                let used = match (touching.modes[k], self.second(k)) {
+                    (Mode::Sticks, None) => load.forces[k][1].abs(),
+                    (Mode::Sticks, Some(second)) => load.forces[k][1].hypot(load.forces[second][1]),
                     _ => 0.0,
                 };
                 normal >= -rounding && used <= here.friction(k)[1] * normal + rounding
@@ -822,12 +891,15 @@ impl UnilateralState {
         let (t, q, v, _) = at;
         let here = ContactKinematics::of(system, t, q, v);
         let reaction = self.reaction_here(system, at, Some(&here))?;
-        let shared = self.shared_load(&here, &reaction);
+        let shared = self.shared_load(&here, &reaction, t)?;
         let shared = shared.map_or_else(Vec::new, |load| load.margins);
-        let limits = |(k, shared): (usize, Option<SharedMargin>)| {
-            let SharedMargin { margin, limit, .. } = shared?;
+        let limits = |(k, shared): (usize, Option<ShareOfLoad>)| {
+            let ShareOfLoad { margin, limit, .. } = shared?;
             let mode = match limit? {
-                Limit::Friction(direction) => Mode::Slides(-direction),
+                Limit::Friction([along, across]) if self.second(k).is_some() => {
+                    Mode::SlidesAlong([-along, -across])
+                }
+                Limit::Friction([along, _]) => Mode::Slides(-along),
                 Limit::Pressing => Mode::Open,
             };
             (margin.value < 0.0).then_some((k, mode))
@@ -1073,7 +1145,6 @@ impl UnilateralState {
                 }
             };
         }
-        let in_plane = !self.across.contains(&true);
         let shares = self.sharing(&reaction);
         let is_doubtful = |(k, margin): (usize, &[Margin; 4])| {
             let shared = match (shares[k], self.is_compliant(k)) {
@@ -1081,14 +1152,8 @@ impl UnilateralState {
                 (true, true) => 1..2,
                 (true, false) => 0..2,
             };
-            margin[shared].iter().any(|m| {
-                if in_plane {
-                    // A margin of 0 counts as well: the search for an instant would end where it is 0 with these forces.
-                    m.value <= m.rounding
-                } else {
-                    m.value < -m.rounding
-                }
-            })
+            // A margin of 0 counts as well: the search for an instant would end where it is 0 with these forces.
+            margin[shared].iter().any(|m| m.value <= m.rounding)
         };
         let shared_kinds = |k: usize| {
             let kinds = [!self.is_compliant(k), self.modes[k] == Mode::Sticks];
@@ -1106,7 +1171,7 @@ impl UnilateralState {
                     }
                 }
             }
-        } else if let Some(load) = self.shared_load(&here, &reaction) {
+        } else if let Some(load) = self.shared_load(&here, &reaction, t)? {
             // Contacts hold as long as all of them can hold with some distribution of the forces.
             for (k, (margin, shared)) in margins.iter_mut().zip(load.margins).enumerate() {
                 let Some(shared) = shared else {
@@ -1115,26 +1180,8 @@ impl UnilateralState {
                 if shared.shares_normal && self.carrier[k].is_none() && !self.is_compliant(k) {
                     margin[0] = shared.margin;
                 }
-                if self.modes[k] == Mode::Sticks && self.has_friction[k] {
+                if self.modes[k] == Mode::Sticks && self.has_friction[k] && shared.shares_friction {
                     margin[1] = shared.margin;
-                }
-            }
-        } else {
-            // In space the complementarity problem of all contacts together decides.
-            let resting: Vec<bool> = self.modes.iter().map(|m| *m == Mode::Sticks).collect();
-            let closed: Vec<bool> = self.modes.iter().map(|m| *m != Mode::Open).collect();
-            let settled = self.settled(system, at, &closed, &resting, &[])?;
-            let mut pairs = settled.iter().zip(&self.modes);
-            let all_hold = pairs.all(|(settled, mode)| settled.is_like(*mode));
-            for (k, margin) in margins.iter_mut().enumerate() {
-                let kinds = margin.iter_mut().zip(shared_kinds(k));
-                for (margin, _) in kinds.filter(|(_, shared)| *shared) {
-                    if all_hold {
-                        *margin = Margin::ENDLESS;
-                    } else if margin.value < -margin.rounding {
-                        // The size of a negative margin depends on the distribution of forces; only its sign locates the instant.
-                        margin.value = f64::NEG_INFINITY;
-                    }
                 }
             }
         }
@@ -1386,7 +1433,15 @@ impl UnilateralState {
                             _ => [0.0; 2],
                         };
                         let is_unknown = known_direction == [0.0; 2];
-                        if is_held && !breaks[place] || (size == 0.0 && is_still && is_unknown) {
+                        // What would let go with others may have friction left once these slip, as where a body begins to turn about it.
+                        let has_friction_left =
+                            kinetic < at_rest && size < most * (1.0 - SATURATED) && is_still;
+                        let sticks = if breaks[place] {
+                            has_friction_left && most > 0.0
+                        } else {
+                            is_held
+                        };
+                        if sticks || (size == 0.0 && is_still && is_unknown) {
                             Mode::Sticks
                         } else {
                             if kinetic != at_rest && !breaks[place] {
@@ -1445,7 +1500,8 @@ impl UnilateralState {
                 let lets_go = |k: usize| match modes[k] {
                     Mode::Open => closed[k],
                     Mode::Slides(sign) => self.has_friction[k] && sign != 0.0,
-                    Mode::SlidesAlong(_) | Mode::Sticks => false,
+                    Mode::SlidesAlong(_) => true,
+                    Mode::Sticks => false,
                 };
                 let is_asked = known_modes.is_empty();
                 let some_let_go = is_asked && (0..modes.len()).any(|k| resting[k] && lets_go(k));

@@ -1,7 +1,7 @@
 //! Coulomb's law for contacts in given states, and the search for the states that are possible.
 
 use super::MOST_CONTACTS;
-use super::shares::{self, Limit, Sharer, Tableau};
+use super::shares::{self, Limit, PARTS, Sharer};
 use crate::scalar::Scalar;
 use crate::{Pivot, Singular};
 
@@ -20,6 +20,9 @@ const SINGULAR: f64 = 1e-12;
 /// The largest number of iterations for the friction forces of several contacts that slide in space. Newton's method takes a few;
 /// a contraction by a factor of 0.9 takes this many for sixteen digits.
 const MOST_STEPS: usize = 400;
+
+/// How often the directions of reactions at curves in space are turned to where the shared forces have them.
+const MOST_TURNS: usize = 50;
 
 /// Number of directions at which the search begins for the direction in which a contact on a surface starts to slide.
 const DIRECTIONS: usize = 48;
@@ -162,22 +165,50 @@ impl Parts<'_> {
         if self.layout.axes == 1 {
             return self.sum(components.start, friction_forces);
         }
-        let (mut vector, mut terms) = ([0.0; 3], 0.0);
-        for (x, i) in vector.iter_mut().zip(components) {
-            let [sum, size] = self.sum(i, friction_forces);
-            *x = sum;
-            terms += size * size;
-        }
-        let across = self.across(contact, vector);
+        let terms = components.map(|i| self.sum(i, friction_forces)[1]);
+        let terms = terms.fold(0.0, |sum, size| sum + size * size);
+        let across = self.pressing(contact, friction_forces);
         [dot(&across, &across), terms].map(crate::math::sqrt)
+    }
+
+    /// The pressing part of its normal reaction in space.
+    fn pressing(&self, contact: usize, friction_forces: &Each) -> [f64; 3] {
+        let mut vector = [0.0; 3];
+        for (x, i) in vector.iter_mut().zip(self.components(contact)) {
+            [*x, _] = self.sum(i, friction_forces);
+        }
+        self.across(contact, vector)
+    }
+
+    /// What friction forces that are undetermined add to its normal reaction: in the plane a number, in space a vector.
+    fn presses_by(&self, contact: usize, of_unit: &Each) -> [f64; 3] {
+        let (mut vector, mut size) = ([0.0; 3], 0.0_f64);
+        for (x, i) in vector.iter_mut().zip(self.components(contact)) {
+            let mut terms = 0.0;
+            for (j, force) in of_unit[..self.layout.k].iter().enumerate() {
+                let term = self.at(1 + j, i) * force;
+                *x += term;
+                terms += term.abs();
+            }
+            size = size.max(terms);
+        }
+        if self.layout.axes != 1 {
+            vector = self.across(contact, vector);
+        }
+        vector.map(|x| beyond(x, SAME * size))
+    }
+
+    /// The direction of a guide in space: along a curve, and across a surface.
+    fn direction(&self, contact: usize) -> [f64; 3] {
+        let first = self.layout.directions() + 3 * contact;
+        [0, 1, 2].map(|i| self.values[first + i])
     }
 
     /// The pressing part of a reaction in space: everything except the component along a curve, or the component along the normal
     /// of a surface. The rest only balances forces along the guide that the spec writes in coordinates, which are not forces on
     /// the position of the body.
     fn across(&self, contact: usize, vector: [f64; 3]) -> [f64; 3] {
-        let first = self.layout.directions() + 3 * contact;
-        let direction = [0, 1, 2].map(|i| self.values[first + i]);
+        let direction = self.direction(contact);
         let along = dot(&direction, &vector);
         let on_surface = self.layout.is_second(contact) || self.layout.has_second(contact);
         [0, 1, 2].map(|i| {
@@ -219,14 +250,29 @@ impl Parts<'_> {
     /// # Errors
     /// If no such motion exists, or several may.
     pub fn friction_forces(&self, mode: &Mode) -> Result<Each, Paradox> {
+        self.only_solution(mode).map(|(forces, _)| forces)
+    }
+
+    /// The friction forces of contacts in given states, and of guides that depend on each other how they share theirs so that all of them
+    /// hold best.
+    ///
+    /// # Errors
+    /// As [`friction_forces`](Self::friction_forces).
+    #[cfg(feature = "std")]
+    pub fn shared_forces(&self, mode: &Mode) -> Result<(Each, Shared), Paradox> {
+        let (forces, undetermined) = self.only_solution(mode)?;
+        Ok(self.share(mode, forces, &undetermined))
+    }
+
+    /// The friction forces of contacts in given states, with those of them 0 that the equations leave undetermined.
+    fn only_solution(&self, mode: &Mode) -> Result<(Each, Undetermined), Paradox> {
         if self.layout.axes == 1 {
-            let (forces, _) = self.along_normals(mode).ok_or(NO_MOTION)?;
-            return Ok(forces);
+            return self.along_normals(mode).ok_or(NO_MOTION);
         }
         let (mut found, mut several) = (None, false);
-        let known = self.each_solution(mode, &mut |friction_forces| {
+        let known = self.by_sizes(mode, &mut |friction_forces, undetermined| {
             several |= found.is_some();
-            found = Some(friction_forces);
+            found = Some((friction_forces, *undetermined));
         });
         let sliding = |k: &usize| mode.motion[*k] != Motion::Sticks;
         let contact = (0..self.layout.k).find(sliding).unwrap_or(0);
@@ -239,20 +285,6 @@ impl Parts<'_> {
         }
     }
 
-    /// The friction forces of contacts in given states, and of guides that depend on each other how they share theirs so that all of them
-    /// hold best.
-    ///
-    /// # Errors
-    /// As [`friction_forces`](Self::friction_forces).
-    #[cfg(feature = "std")]
-    pub fn shared_forces(&self, mode: &Mode) -> Result<(Each, Shared), Paradox> {
-        if self.layout.axes != 1 {
-            return Ok((self.friction_forces(mode)?, Shared::NONE));
-        }
-        let (forces, undetermined) = self.along_normals(mode).ok_or(NO_MOTION)?;
-        Ok(self.share(mode, forces, &undetermined))
-    }
-
     /// Calls `look` with all friction forces that contacts in given states may have; returns false if there may be others.
     fn each_solution(&self, mode: &Mode, look: &mut dyn FnMut(Each)) -> bool {
         match self.layout.axes {
@@ -262,7 +294,9 @@ impl Parts<'_> {
                 }
                 true
             }
-            _ => self.by_sizes(mode, look),
+            _ => self.by_sizes(mode, &mut |forces, undetermined| {
+                look(self.share(mode, forces, undetermined).0);
+            }),
         }
     }
 
@@ -296,48 +330,25 @@ impl Parts<'_> {
     fn share(&self, mode: &Mode, mut forces: Each, undetermined: &Undetermined) -> (Each, Shared) {
         let (free, count) = (undetermined.number, self.layout.k);
         // Where friction of what slides is undetermined, so is the motion, and nothing is shared.
-        let slides = |of_unit: &Each| {
-            (0..count).any(|k| mode.motion[k] != Motion::Sticks && of_unit[k] != 0.0)
+        let slides = |k: &usize| mode.motion[*k] != Motion::Sticks;
+        let moves = |of_unit: &Each| {
+            (0..count).filter(slides).any(|k| {
+                let in_space = self.layout.axes != 1 && self.presses_by(k, of_unit) != [0.0; 3];
+                of_unit[k] != 0.0 || in_space
+            })
         };
-        if free == 0 || undetermined.of_unit[..free].iter().any(slides) {
+        if free == 0 || undetermined.of_unit[..free].iter().any(moves) {
             return (forces, Shared::NONE);
         }
         let mut shared = Shared::NONE;
-        // What each undetermined force adds to normal and friction force of each contact.
-        let mut by = [0.0; 2 * MOST_CONTACTS * MOST_CONTACTS];
-        let by = &mut by[..2 * free * count];
-        let mut sharers = [Sharer::default(); MOST_CONTACTS];
-        for (k, (sharer, by)) in sharers
-            .iter_mut()
-            .zip(by.chunks_exact_mut(2 * free))
-            .enumerate()
-        {
-            let [normal, _] = self.reaction(k, &forces);
-            if mode.motion[k] != Motion::Sticks {
-                continue;
-            }
-            *sharer = Sharer {
-                static_friction: Some(self.static_friction(k)),
-                presses: false,
-                normal,
-                tangential: forces[k],
-            };
-            let entry = self.components(k).start;
-            let (normals, tangentials) = by.split_at_mut(free);
-            for (i, of_unit) in undetermined.of_unit[..free].iter().enumerate() {
-                let terms = (0..count).map(|j| self.at(1 + j, entry) * of_unit[j]);
-                let size = terms.clone().fold(0.0, |sum, term| sum + f64::abs(term));
-                normals[i] = beyond(terms.sum(), SAME * size);
-                tangentials[i] = of_unit[k];
-            }
-        }
-        let mut groups = [0; MOST_CONTACTS];
-        let groups = &mut groups[..free];
-        shares::group(by, groups);
-        let (by, groups) = (&*by, &*groups);
-        for group in 0..free {
-            if groups[group] == group {
-                share_group((&sharers[..count], by, groups, group), &mut shared);
+        let mut sides = self.sides(mode, &forces, undetermined);
+        for _ in 0..MOST_TURNS {
+            let before = shared.least_margin();
+            self.share_once(mode, (&forces, &sides), undetermined, &mut shared);
+            if !self.turn_sides(mode, (&forces, &mut sides), undetermined, &shared)
+                || shared.least_margin() <= before + ROUNDING * before.abs()
+            {
+                break;
             }
         }
         for (of_unit, y) in undetermined.of_unit[..free].iter().zip(shared.undetermined) {
@@ -348,6 +359,119 @@ impl Parts<'_> {
         (forces, shared)
     }
 
+    /// Shares undetermined forces among guides whose normal reactions are measured along given directions.
+    fn share_once(
+        &self,
+        mode: &Mode,
+        (forces, sides): (&Each, &Sides),
+        undetermined: &Undetermined,
+        shared: &mut Shared,
+    ) {
+        let (free, count) = (undetermined.number, self.layout.k);
+        let of_unit = &undetermined.of_unit[..free];
+        // What each undetermined force adds to the forces of each contact.
+        let mut by = [0.0; PARTS * MOST_CONTACTS * MOST_CONTACTS];
+        let by = &mut by[..PARTS * free * count];
+        let mut sharers = [Sharer::default(); MOST_CONTACTS];
+        for (k, (sharer, by)) in sharers
+            .iter_mut()
+            .zip(by.chunks_exact_mut(PARTS * free))
+            .enumerate()
+        {
+            // Both tangents of a surface belong to the first.
+            if mode.motion[k] != Motion::Sticks || self.layout.is_second(k) {
+                continue;
+            }
+            let has_second = self.layout.has_second(k);
+            *sharer = Sharer {
+                static_friction: Some(self.static_friction(k)),
+                presses: false,
+                normal: match self.layout.axes {
+                    1 => self.reaction(k, forces)[0],
+                    _ => dot(&self.pressing(k, forces), &sides[k]),
+                },
+                tangential: [forces[k], if has_second { forces[k + 1] } else { 0.0 }],
+            };
+            let (normals, tangentials) = by.split_at_mut(free);
+            for (i, of_unit) in of_unit.iter().enumerate() {
+                normals[i] = dot(&self.presses_by(k, of_unit), &sides[k]);
+                tangentials[i] = of_unit[k];
+                if has_second {
+                    tangentials[free + i] = of_unit[k + 1];
+                }
+            }
+        }
+        let mut groups = [0; MOST_CONTACTS];
+        let groups = &mut groups[..free];
+        shares::group(by, groups);
+        let (by, groups) = (&*by, &*groups);
+        for group in 0..free {
+            if groups[group] == group {
+                share_group((&sharers[..count], by, groups, group), shared);
+            }
+        }
+    }
+
+    /// The directions along which normal reactions are measured: in the plane they are numbers, on a surface along its normal, and at a curve
+    /// across it, where its reaction is without undetermined forces.
+    fn sides(&self, mode: &Mode, forces: &Each, undetermined: &Undetermined) -> Sides {
+        let mut sides = [[1.0, 0.0, 0.0]; MOST_CONTACTS];
+        if self.layout.axes == 1 {
+            return sides;
+        }
+        for (k, side) in sides[..self.layout.k].iter_mut().enumerate() {
+            if mode.motion[k] != Motion::Sticks {
+                continue;
+            }
+            let on_surface = self.layout.is_second(k) || self.layout.has_second(k);
+            *side = if on_surface {
+                self.direction(k)
+            } else {
+                let of_units = undetermined.of_unit[..undetermined.number].iter();
+                let by = of_units.map(|of_unit| self.presses_by(k, of_unit));
+                let mut all = core::iter::once(self.pressing(k, forces)).chain(by);
+                all.find_map(unit).unwrap_or(*side)
+            };
+        }
+        sides
+    }
+
+    /// Turns the directions of curves to where their reactions are with the shared forces. `|N| ≥ n·N` for every direction n, so that what holds
+    /// with one of them holds, and none of the margins becomes less. The answer is whether any has turned.
+    fn turn_sides(
+        &self,
+        mode: &Mode,
+        (forces, sides): (&Each, &mut Sides),
+        undetermined: &Undetermined,
+        shared: &Shared,
+    ) -> bool {
+        let mut turned = false;
+        let on_curve = |k: &usize| !self.layout.is_second(*k) && !self.layout.has_second(*k);
+        let sticks = |k: &usize| mode.motion[*k] == Motion::Sticks;
+        let all = 0..if self.layout.axes == 1 {
+            0
+        } else {
+            self.layout.k
+        };
+        for k in all.filter(on_curve).filter(sticks) {
+            let mut vector = self.pressing(k, forces);
+            let of_units = undetermined.of_unit[..undetermined.number].iter();
+            let mut depends = false;
+            for (of_unit, y) in of_units.zip(shared.undetermined) {
+                let by = self.presses_by(k, of_unit);
+                depends |= by != [0.0; 3];
+                for (x, by) in vector.iter_mut().zip(by) {
+                    *x += y * by;
+                }
+            }
+            if let Some(side) = unit(vector).filter(|_| depends) {
+                turned |= side != sides[k];
+                sides[k] = side;
+            }
+        }
+        turned
+    }
+
     /// The round-off of the margin of a contact that shares forces with others.
     #[cfg(feature = "std")]
     pub fn rounding_of_shared(&self, contact: usize, forces: &Each, shared: &Shared) -> f64 {
@@ -356,20 +480,23 @@ impl Parts<'_> {
         let terms = |k: usize| {
             let friction = self.static_friction(k);
             let by_friction = if friction > 0.0 {
-                forces[k].abs() / friction
+                self.used(k, forces) / friction
             } else {
                 0.0
             };
             self.reaction(k, forces)[1] + by_friction
         };
         let all = (0..self.layout.k).filter(shares).map(terms);
-        ROUNDING * all.fold(0.0, f64::max)
+        let rounding = ROUNDING * all.fold(0.0, f64::max);
+        rounding.max(shared.residual[contact])
     }
 
     /// In space a friction force `f = μ |N|` depends on the length of a vector. The forces of sticking contacts depend linearly on
     /// those of sliding ones, so `N = A + B f`, and there remains one equation `f = μ |A + B f|` for each sliding contact, on a
     /// surface for both tangents together.
-    fn by_sizes(&self, mode: &Mode, look: &mut dyn FnMut(Each)) -> bool {
+    ///
+    /// Calls `look` with the forces, of which undetermined ones are 0.
+    fn by_sizes(&self, mode: &Mode, look: &mut dyn FnMut(Each, &Undetermined)) -> bool {
         let count = self.layout.k;
         let mut sliding = [0; MOST_CONTACTS];
         let mut number = 0;
@@ -382,6 +509,7 @@ impl Parts<'_> {
         let sliding = &sliding[..number];
         // The forces without friction in the sliding contacts, and per unit of the friction of each of them.
         let mut forces = [[0.0; MOST_CONTACTS]; MOST_CONTACTS + 1];
+        let mut undetermined = Undetermined::NONE;
         for (part, forces) in forces[..=number].iter_mut().enumerate() {
             let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
             for (k, row) in rows[..count].iter_mut().enumerate() {
@@ -398,9 +526,12 @@ impl Parts<'_> {
                     row[count] = if own { -mode.share(k) } else { 0.0 };
                 }
             }
-            let Some(solved) = solve(&mut rows, count) else {
+            let Some((solved, column_of)) = eliminate(&mut rows, count) else {
                 return true;
             };
+            if part == 0 {
+                undetermined = Undetermined::of(&rows, count, column_of);
+            }
             *forces = solved;
         }
         // `N` of each sliding contact, in the same parts.
@@ -431,7 +562,7 @@ impl Parts<'_> {
                     *force += size * by;
                 }
             }
-            look(all);
+            look(all, &undetermined);
         })
     }
 
@@ -627,7 +758,7 @@ fn share_group(
     shared: &mut Shared,
 ) {
     let (count, free) = (sharers.len(), groups.len());
-    let of_contact = |k: usize| &by[2 * free * k..][..2 * free];
+    let of_contact = |k: usize| &by[PARTS * free * k..][..PARTS * free];
     let (mut turning, mut number) = ([0; MOST_CONTACTS], 0);
     for k in (0..count).filter(|k| shares::is_in(of_contact(*k), groups, group)) {
         if of_contact(k)[..free].iter().any(|x| *x != 0.0) {
@@ -639,7 +770,7 @@ fn share_group(
     for combination in 0..1_usize << number {
         let mut sided = [Sharer::default(); MOST_CONTACTS];
         sided[..count].copy_from_slice(sharers);
-        let mut sided_by = [0.0; 2 * MOST_CONTACTS * MOST_CONTACTS];
+        let mut sided_by = [0.0; PARTS * MOST_CONTACTS * MOST_CONTACTS];
         sided_by[..by.len()].copy_from_slice(by);
         for (k, sharer) in sided[..count].iter_mut().enumerate() {
             let side = match turning[..number].iter().position(|turning| *turning == k) {
@@ -648,38 +779,44 @@ fn share_group(
                 None => sharer.normal.signum(),
             };
             sharer.normal *= side;
-            let normals = &mut sided_by[2 * free * k..][..free];
+            let normals = &mut sided_by[PARTS * free * k..][..free];
             normals.iter_mut().for_each(|x| *x *= side);
         }
-        let mut numbers = [0.0; shares::tableau_length(MOST_CONTACTS, MOST_CONTACTS)];
-        let (mut basic, mut outside) = ([0; 2 * MOST_CONTACTS], [0; MOST_CONTACTS + 1]);
-        let mut tableau = Tableau::new(
+        let mut numbers = [0.0; shares::numbers_length(MOST_CONTACTS, MOST_CONTACTS)];
+        let mut places = [0; shares::places_length(MOST_CONTACTS, MOST_CONTACTS)];
+        let (mut undetermined, mut limits) = ([0.0; MOST_CONTACTS], [None; MOST_CONTACTS]);
+        let margin = shares::share(
             &sided[..count],
             (&sided_by[..by.len()], groups, group),
             (
-                &mut numbers[..shares::tableau_length(count, free)],
-                &mut basic[..2 * count],
-                &mut outside[..free + 1],
+                &mut numbers[..shares::numbers_length(count, free)],
+                &mut places[..shares::places_length(count, free)],
             ),
+            (&mut undetermined, &mut limits),
         );
-        let Some(margin) = tableau.solve() else {
+        let Some(margin) = margin.filter(|margin| margin.value > best) else {
             continue;
         };
-        if margin <= best {
-            continue;
-        }
-        best = margin;
+        best = margin.value;
         for i in (0..free).filter(|i| groups[*i] == group) {
-            shared.undetermined[i] = tableau.force(i);
+            shared.undetermined[i] = undetermined[i];
         }
-        for (k, sharer) in sided[..count].iter().enumerate() {
-            if shares::is_in(of_contact(k), groups, group) {
-                shared.margin[k] = Some(margin);
-                shared.limit[k] = tableau.limit(k, sharer);
-                shared.group[k] = group;
-            }
+        for k in (0..count).filter(|k| shares::is_in(of_contact(*k), groups, group)) {
+            shared.margin[k] = Some(margin.value);
+            shared.residual[k] = margin.residual;
+            shared.limit[k] = limits[k];
+            shared.group[k] = group;
         }
     }
+}
+
+/// The directions along which the normal reactions of the contacts are measured.
+type Sides = [[f64; 3]; MOST_CONTACTS];
+
+/// A vector of length 1 along another, unless that is 0.
+fn unit(vector: [f64; 3]) -> Option<[f64; 3]> {
+    let length = crate::math::sqrt(dot(&vector, &vector));
+    (length > 0.0).then(|| vector.map(|x| x / length))
 }
 
 /// That no forces satisfy the equations.
@@ -689,6 +826,7 @@ const NO_MOTION: Paradox = Paradox {
 };
 
 /// Friction forces that the equations of contacts in given states leave open.
+#[derive(Clone, Copy)]
 struct Undetermined {
     /// How many of the forces are undetermined.
     number: usize,
@@ -697,16 +835,18 @@ struct Undetermined {
 }
 
 impl Undetermined {
+    const NONE: Undetermined = Undetermined {
+        number: 0,
+        of_unit: [[0.0; MOST_CONTACTS]; MOST_CONTACTS],
+    };
+
     /// From equations that [`eliminate`] has solved.
     fn of(
         rows: &[[f64; MOST_CONTACTS + 1]; MOST_CONTACTS],
         count: usize,
         column_of: [Option<usize>; MOST_CONTACTS],
     ) -> Undetermined {
-        let mut undetermined = Undetermined {
-            number: 0,
-            of_unit: [[0.0; MOST_CONTACTS]; MOST_CONTACTS],
-        };
+        let mut undetermined = Undetermined::NONE;
         for free in (0..count).filter(|j| !column_of.contains(&Some(*j))) {
             let of_unit = &mut undetermined.of_unit[undetermined.number];
             of_unit[free] = 1.0;
@@ -733,6 +873,8 @@ pub(super) struct Shared {
     undetermined: Each,
     /// The margin of each contact that shares forces with others: by how much the normal reactions of all of them could be smaller.
     pub margin: [Option<f64>; MOST_CONTACTS],
+    /// By how much a greater margin may be possible.
+    residual: Each,
     /// How each contact limits the margin.
     pub limit: [Option<Limit>; MOST_CONTACTS],
     /// With which others it shares: contacts with the same number.
@@ -743,9 +885,17 @@ impl Shared {
     const NONE: Shared = Shared {
         undetermined: [0.0; MOST_CONTACTS],
         margin: [None; MOST_CONTACTS],
+        residual: [0.0; MOST_CONTACTS],
         limit: [None; MOST_CONTACTS],
         group: [0; MOST_CONTACTS],
     };
+}
+
+impl Shared {
+    fn least_margin(&self) -> f64 {
+        let known = self.margin.iter().flatten();
+        known.copied().reduce(f64::min).unwrap_or(f64::NEG_INFINITY)
+    }
 }
 
 /// The state that a contact enters when its normal reaction is zero: its index, its motion, and the side to which it presses.

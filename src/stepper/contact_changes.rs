@@ -1,6 +1,5 @@
 //! Lets unilateral contacts close, open, stick and slip at the end of a step.
 
-use std::vec;
 use std::vec::Vec;
 
 use super::{Model, Stepper, move_by_rounding};
@@ -115,40 +114,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             .collect();
         let stops = |k: usize| cause == Cause::Stops(pairs[k]);
 
-        let mut touches = Vec::new();
-        for round in 0.. {
-            let place = (t, &now.q, &now.v);
-            let (near, closes) = touching.near(
-                model.system.get(),
-                place,
-                changes_at_instant.impacts.is_empty(),
-                &touches,
-            );
-            touches = near;
-            let Some(contact) = closes.iter().position(|closes| *closes) else {
-                break;
-            };
-            if round == MOST_IMPACTS_AT_ONCE * closes.len() {
-                let trouble = ContactTrouble::Unsettled;
-                return Err(StepError::Contact {
-                    contact,
-                    trouble,
-                    t,
-                });
-            }
-            let takes_part = touching.next(model.system.get(), (t, &now.q, &now.v), &touches);
-            let as_held = changes_at_instant.impacts.is_empty();
-            let impacts = touching.impact(
-                model.system.get(),
-                t,
-                &now.q,
-                &mut now.v,
-                &takes_part,
-                as_held,
-            )?;
-            now.v_low.as_mut_slice().fill(0.0);
-            changes_at_instant.impacts.extend(impacts);
-        }
+        let (impacts, touches) = meet(model.system.get(), &mut touching, now)?;
+        changes_at_instant.impacts = impacts;
         model.set_inputs(t, &now.q, &now.v);
         let as_held = changes_at_instant.impacts.is_empty();
         let mut closed =
@@ -188,102 +155,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 None => {}
             }
         }
-        let impact_losses: f64 = changes_at_instant
-            .impacts
-            .iter()
-            .map(|impact| impact.loss)
-            .sum();
         let energy_after = energy(model, now);
-        let mut free = now.v.zeros_like();
-        if !changes_at_instant.impacts.is_empty() {
-            // The motion with all contacts that were hit open determines the length of the next flight.
-            let mut flying = touching.clone();
-            let modes = (closed.iter().zip(touching.modes()))
-                .map(|(closed, mode)| if *closed { *mode } else { Mode::Open })
-                .collect();
-            flying.set_modes(modes);
-            flying.accelerations(
-                model.system.get(),
-                (t, &now.q, &now.v, &model.inputs),
-                &mut free,
-            )?;
-        }
-        let mut hit: Vec<usize> = changes_at_instant
-            .impacts
-            .iter()
-            .map(|i| i.contact)
-            .collect();
-        hit.sort_unstable();
-        hit.dedup();
-        hit.retain(|k| !closed[*k] && touching.carrier(*k).is_none());
-        for contact in hit {
-            let place = (t, &now.q, &now.v);
-            let gap_acceleration = UnilateralState::gap_acceleration(
-                model.system.get(),
-                place,
-                contact,
-                free.as_slice(),
-            );
-            if let Some(left) =
-                touching.remaining_bounce_time(model.system.get(), place, contact, gap_acceleration)
-            {
-                closed[contact] = true;
-                changes_at_instant.ended.push((contact, left));
-            } else if gap_acceleration < 0.0 {
-                let rate = touching.openings[contact];
-                let flight = 2.0 * rate / -gap_acceleration;
-                changes_at_instant.flight = Some(
-                    changes_at_instant
-                        .flight
-                        .map_or(flight, |known| known.min(flight)),
-                );
-            }
-        }
-
+        model.end_bounces(&mut touching, now, &mut closed, &mut changes_at_instant)?;
         touching.copy_from_carriers(&mut closed);
-        // A slip that has stopped is at rest, and so is one at a contact that has just closed.
-        let mut held = vec![Mode::Open; closed.len()];
-        let rests = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
-        for (k, _) in closed.iter().enumerate().filter(|(_, closed)| **closed) {
-            // An impact elsewhere may have made it slip, beyond what the impulse of its friction could prevent.
-            let is_torn = !rests[k] && !changes_at_instant.impacts.is_empty();
-            held[k] = match touching.modes()[k] {
-                _ if stops(k) => Mode::Sticks,
-                Mode::Open => Mode::Slides(0.0),
-                _ if is_torn => Mode::Slides(0.0),
-                mode => mode,
-            };
-        }
-        touching.set_modes(held.clone());
-        let as_found = now.clone();
-        let held_now = project_onto_closed_contacts(model.system.get(), &touching, now);
-        let is_held = held_now.is_ok()
-            && energy(model, now) >= (1.0 - SHARE_OF_REST) * energy(model, &as_found);
-        if !is_held && (0..held.len()).any(stops) {
-            // Near a dead centre a slip stops whatever friction does, and to hold it there would stop the machine. So forces decide first.
-            *now = as_found.clone();
-            let with_slip = |k: usize| if stops(k) { Mode::Slides(0.0) } else { held[k] };
-            touching.set_modes((0..held.len()).map(with_slip).collect());
-            project_onto_closed_contacts(model.system.get(), &touching, now)?;
-            let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
-            for (k, resting) in resting.iter_mut().enumerate() {
-                *resting |= stops(k) || touching.modes()[k] == Mode::Sticks;
-            }
-            let at = (t, &now.q, &now.v, &model.inputs);
-            let goes_on = touching.settled(model.system.get(), at, &closed, &resting, &[])?;
-            if (0..held.len()).any(|k| stops(k) && goes_on[k] == Mode::Sticks) {
-                held_now?;
-                *now = as_found;
-                touching.set_modes(held);
-                project_onto_closed_contacts(model.system.get(), &touching, now)?;
-            }
-        } else {
-            held_now?;
-        }
-        let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
-        for (k, resting) in resting.iter_mut().enumerate() {
-            *resting |= stops(k) || touching.modes()[k] == Mode::Sticks;
-        }
+        let stopped: Vec<bool> = (0..closed.len()).map(stops).collect();
+        let is_hit = !changes_at_instant.impacts.is_empty();
+        model.hold_closed(&mut touching, now, (&closed, &stopped, is_hit))?;
+        let resting = resting_or_stopped(model.system.get(), &touching, now, (&closed, &stopped));
         let at = (t, &now.q, &now.v, &model.inputs);
         let known: Vec<(usize, Mode)> = known.into_iter().collect();
         let system = model.system.get();
@@ -307,6 +185,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         touching.set_modes(modes);
         touching.record_slips(model.system.get(), t, &now.q, &now.v);
+        touching.record_beginning_slips(model.system.get(), (t, &now.q, &now.v), &resting);
         if !matches!(cause, Cause::Turns(_)) || !changes_at_instant.impacts.is_empty() {
             touching.load_layers(model.system.get(), t, &now.q, &now.v);
         }
@@ -328,14 +207,22 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if !changes_at_instant.ended.is_empty() {
             changes_at_instant.lost_at_end = energy_after - energy(model, now);
         }
-        if !changes_at_instant.impacts.is_empty() {
+        let gained = energy_after - energy_before;
+        self.book_changes(gained, &changes_at_instant, [&stored_before, &stored_after]);
+        self.begin_again(end, step, changes_at_instant.flight)?;
+        Ok(changes_at_instant)
+    }
+
+    /// Books the energy that an instant of changes took: what impacts added to the kinetic energy, and what each contact stored before and after.
+    fn book_changes(&mut self, gained: f64, changes: &ContactChanges, stored: [&[f64]; 2]) {
+        if !changes.impacts.is_empty() {
             // The energy that impulses add beyond the losses is work of prescribed motion. Whatever else changes energy at this instant is
             // neither work nor a loss, and shows in the energy balance.
-            let work = energy_after - energy_before + impact_losses;
-            let lost = impact_losses + changes_at_instant.lost_at_end;
+            let impact_losses: f64 = changes.impacts.iter().map(|impact| impact.loss).sum();
+            let (work, lost) = (gained + impact_losses, impact_losses + changes.lost_at_end);
             self.quadratures.add_instantaneous(work, lost);
         }
-        for impact in &changes_at_instant.impacts {
+        for impact in &changes.impacts {
             let part = ContactShare {
                 work: impact.work,
                 ..ContactShare::default()
@@ -343,9 +230,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             self.quadratures
                 .add_instantaneous_share(impact.contact, part);
         }
-        for contact in 0..stored_before.len().max(stored_after.len()) {
+        let [before, after] = stored;
+        for contact in 0..before.len().max(after.len()) {
             let of = |stored: &[f64]| stored.get(contact).copied().unwrap_or(0.0);
-            let released = of(&stored_before) - of(&stored_after);
+            let released = of(before) - of(after);
             if released != 0.0 {
                 // If a force vanishes before its contact has recovered, the energy still stored is lost.
                 self.quadratures.add_instantaneous(0.0, released);
@@ -356,8 +244,6 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 self.quadratures.add_instantaneous_share(contact, part);
             }
         }
-        self.begin_again(end, step, changes_at_instant.flight)?;
-        Ok(changes_at_instant)
     }
 
     /// Continues with the accelerations of the present state.
@@ -397,6 +283,111 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         }
     }
 
+    /// Closes contacts that were hit and whose bounces end, and notes how long the flights of the others are.
+    fn end_bounces(
+        &self,
+        touching: &mut UnilateralState,
+        now: &Point<S::Vector>,
+        closed: &mut [bool],
+        changes: &mut ContactChanges,
+    ) -> Result<(), StepError> {
+        let system = self.system.get();
+        let mut free = now.v.zeros_like();
+        if !changes.impacts.is_empty() {
+            // The motion with all contacts that were hit open determines the length of the next flight.
+            let mut flying = touching.clone();
+            let modes = (closed.iter().zip(touching.modes()))
+                .map(|(closed, mode)| if *closed { *mode } else { Mode::Open })
+                .collect();
+            flying.set_modes(modes);
+            let at = (now.t, &now.q, &now.v, &self.inputs);
+            flying.accelerations(system, at, &mut free)?;
+        }
+        let mut hit: Vec<usize> = changes.impacts.iter().map(|i| i.contact).collect();
+        hit.sort_unstable();
+        hit.dedup();
+        hit.retain(|k| !closed[*k] && touching.carrier(*k).is_none());
+        for contact in hit {
+            let place = (now.t, &now.q, &now.v);
+            let gap_acceleration =
+                UnilateralState::gap_acceleration(system, place, contact, free.as_slice());
+            let left = touching.remaining_bounce_time(system, place, contact, gap_acceleration);
+            if let Some(left) = left {
+                closed[contact] = true;
+                changes.ended.push((contact, left));
+            } else if gap_acceleration < 0.0 {
+                let flight = 2.0 * touching.openings[contact] / -gap_acceleration;
+                let least = changes.flight.map_or(flight, |known| known.min(flight));
+                changes.flight = Some(least);
+            }
+        }
+        Ok(())
+    }
+
+    /// Brings a state onto the contacts that are closed, without the slips that have stopped, which sets what contacts do.
+    fn hold_closed(
+        &self,
+        touching: &mut UnilateralState,
+        now: &mut Point<S::Vector>,
+        (closed, stopped, is_hit): (&[bool], &[bool], bool),
+    ) -> Result<(), StepError> {
+        let system = self.system.get();
+        // A slip that has stopped is at rest, and so is one at a contact that has just closed.
+        let rests = touching.resting(system, (now.t, &now.q, &now.v), closed);
+        let mode = |k: usize| match touching.modes()[k] {
+            _ if !closed[k] => Mode::Open,
+            _ if stopped[k] => Mode::Sticks,
+            Mode::Open => Mode::Slides(0.0),
+            // An impact elsewhere may have made it slip, beyond what the impulse of its friction could prevent.
+            _ if !rests[k] && is_hit => Mode::Slides(0.0),
+            mode => mode,
+        };
+        let held: Vec<Mode> = (0..closed.len()).map(mode).collect();
+        touching.set_modes(held.clone());
+        let as_found = now.clone();
+        let projected = project_onto_closed_contacts(system, touching, now);
+        let energy = |now: &Point<S::Vector>| system.kinetic_energy(now.t, &now.q, &now.v);
+        let is_held = projected.is_ok() && energy(now) >= (1.0 - SHARE_OF_REST) * energy(&as_found);
+        if is_held
+            || !stopped
+                .iter()
+                .zip(closed)
+                .any(|(stops, closed)| *stops && *closed)
+        {
+            return projected.map(|_| ());
+        }
+        // Near a dead centre a slip stops whatever friction does, and to hold it there would stop the machine. So forces decide first.
+        *now = as_found.clone();
+        if self.goes_on(touching, now, (closed, stopped))? {
+            return Ok(());
+        }
+        projected?;
+        *now = as_found;
+        touching.set_modes(held);
+        project_onto_closed_contacts(system, touching, now)?;
+        Ok(())
+    }
+
+    /// Whether slips that have stopped go on at once. The state is then on the closed contacts with these slips.
+    fn goes_on(
+        &self,
+        touching: &mut UnilateralState,
+        now: &mut Point<S::Vector>,
+        (closed, stopped): (&[bool], &[bool]),
+    ) -> Result<bool, StepError> {
+        let system = self.system.get();
+        let with_slip = (touching.modes().iter().zip(stopped))
+            .map(|(mode, stops)| if *stops { Mode::Slides(0.0) } else { *mode })
+            .collect();
+        touching.set_modes(with_slip);
+        project_onto_closed_contacts(system, touching, now)?;
+        let resting = resting_or_stopped(system, touching, now, (closed, stopped));
+        let at = (now.t, &now.q, &now.v, &self.inputs);
+        let goes_on = touching.settled(system, at, closed, &resting, &[])?;
+        let mut pairs = goes_on.iter().zip(stopped);
+        Ok(!pairs.any(|(mode, stops)| *stops && *mode == Mode::Sticks))
+    }
+
     /// Records the end of a step.
     pub(super) fn accept_contacts(&mut self, now: &Point<S::Vector>) {
         let Some(touching) = &self.touching else {
@@ -411,6 +402,52 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
         }
     }
+}
+
+/// Impacts of what touches, until none closes. The answer is what they were, and what touches.
+fn meet<S: System>(
+    system: &S,
+    touching: &mut UnilateralState,
+    now: &mut Point<S::Vector>,
+) -> Result<(Vec<Impact>, Vec<bool>), StepError> {
+    let t = now.t;
+    let (mut impacts, mut touches) = (Vec::new(), Vec::new());
+    for round in 0.. {
+        let place = (t, &now.q, &now.v);
+        let (near, closes) = touching.near(system, place, impacts.is_empty(), &touches);
+        touches = near;
+        let Some(contact) = closes.iter().position(|closes| *closes) else {
+            break;
+        };
+        if round == MOST_IMPACTS_AT_ONCE * closes.len() {
+            let trouble = ContactTrouble::Unsettled;
+            return Err(StepError::Contact {
+                contact,
+                trouble,
+                t,
+            });
+        }
+        let takes_part = touching.next(system, place, &touches);
+        let as_held = impacts.is_empty();
+        let found = touching.impact(system, t, &now.q, &mut now.v, &takes_part, as_held)?;
+        now.v_low.as_mut_slice().fill(0.0);
+        impacts.extend(found);
+    }
+    Ok((impacts, touches))
+}
+
+/// Which contacts rest: by their rates, because they have just stopped, or because they stick.
+fn resting_or_stopped<S: System>(
+    system: &S,
+    touching: &UnilateralState,
+    now: &Point<S::Vector>,
+    (closed, stopped): (&[bool], &[bool]),
+) -> Vec<bool> {
+    let mut resting = touching.resting(system, (now.t, &now.q, &now.v), closed);
+    for (k, resting) in resting.iter_mut().enumerate() {
+        *resting |= stopped[k] || touching.modes()[k] == Mode::Sticks;
+    }
+    resting
 }
 
 /// The energy stored in each compliant contact, in J.

@@ -2,6 +2,7 @@
 //! the law does not determine the motion the run reports that.
 
 mod shared;
+mod shared_in_space;
 mod space;
 mod spelling;
 mod surface;
