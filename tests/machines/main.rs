@@ -4,9 +4,11 @@
 mod collisions;
 mod crushers;
 mod emitted_series;
+mod formulations;
 mod friction;
 mod known_runs;
 mod library;
+mod long_runs;
 mod mechanisms;
 mod motions;
 mod peers;
