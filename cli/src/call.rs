@@ -263,17 +263,6 @@ mod tests {
     }
 
     #[test]
-    fn a_comma_between_brackets_is_part_of_a_name() {
-        let list = |text: &str| names(text).map(|Names(names)| names);
-        let three = ["q", "der(q,2)", "'assume(max(a, b) > 0)'"].map(str::to_owned);
-        assert_eq!(
-            list("q, der(q,2),'assume(max(a, b) > 0)'"),
-            Ok(three.to_vec())
-        );
-        assert!(list("q,,v").is_err());
-    }
-
-    #[test]
     fn an_assignment_has_a_name() {
         assert_eq!(
             assignment("q[3]=0.5"),

@@ -168,3 +168,19 @@ pub enum UnitMethod {
     /// Dormand and Prince's method of order 5.
     Dopri5,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_comma_between_brackets_is_part_of_a_name() {
+        let list = |text: &str| names(text).map(|Names(names)| names);
+        let three = ["q", "der(q,2)", "'assume(max(a, b) > 0)'"].map(str::to_owned);
+        assert_eq!(
+            list("q, der(q,2),'assume(max(a, b) > 0)'"),
+            Ok(three.to_vec())
+        );
+        assert!(list("q,,v").is_err());
+    }
+}
