@@ -39,6 +39,8 @@ mod in_space;
 mod values;
 mod vector;
 
+use std::rc::Rc;
+
 use lagrangian_scalar::{Dual, Scalar};
 use lagrangian_symbolic::{Expr, Id, Symbol, evaluate};
 use rustc_hash::FxHashMap;
@@ -296,8 +298,9 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             sliding.push(self.sliding(s, &x));
         }
         let mut unilateral = Vec::new();
+        let mut pair = None;
         for contact in &model.contacts {
-            unilateral.extend(self.unilateral(contact, &x));
+            unilateral.extend(self.unilateral(contact, &x, &mut pair));
         }
         let mut constraints = dynamics.constraints;
         for rolling in model.rolling() {
@@ -560,10 +563,12 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         work
     }
 
+    /// The contacts of a point or a circle; `pair` is that of the corner before, since the corners of a polygon follow one another.
     fn unilateral<R: Scalar>(
         &self,
         contact: &Contact<'d>,
         x: &Values<'_, Varied<R>>,
+        pair: &mut Option<PolygonPair<'d, R>>,
     ) -> Vec<LiteralUnilateral<R>> {
         let model = self.model;
         let touch = |round: &Circle<'d>, surface: Surface| match model.space {
@@ -579,7 +584,10 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let mut of_face = None;
         let (gap, slip, across) = match &contact.geometry {
             ContactGeometry::Corner(corner) => {
-                let corner_motion = on_polygon(model, corner, x);
+                let known = pair.take().filter(|pair| pair.is_of(corner));
+                let of_corner = known.unwrap_or_else(|| PolygonPair::new(model, corner, x));
+                let corner_motion = of_corner.corner(corner.corner);
+                *pair = Some(of_corner);
                 of_face = Some((corner_motion.opening, corner_motion.beyond));
                 (corner_motion.height, corner_motion.slip, None)
             }
@@ -1180,90 +1188,117 @@ struct CornerOnPolygon<R> {
     slip: Varied<R>,
 }
 
-/// The position of a corner of a polygon relative to another polygon: distances from lines through two corners of the latter,
-/// all in ground axes.
+/// A polygon relative to another one, in ground axes.
+struct PolygonPair<'d, R> {
+    polygons: [Rc<Polygon<'d>>; 2],
+    /// The corners of the first.
+    points: Vec<[Moving<R>; 2]>,
+    /// The corners of the other, at which its faces begin.
+    ends: Vec<[Moving<R>; 2]>,
+    /// Unit vectors along these faces.
+    edges: Vec<[Moving<R>; 2]>,
+    /// 1 for the face that separates best, else 0.
+    weights: Vec<Moving<R>>,
+    /// The angular velocity of the other.
+    turning: Varied<R>,
+}
+
 #[expect(
     clippy::needless_range_loop,
     reason = "several lists are read at the same index"
 )]
-fn on_polygon<R: Scalar>(
-    model: &Model<'_>,
-    corner: &Corner<'_>,
-    x: &Values<'_, Varied<R>>,
-) -> CornerOnPolygon<R> {
-    let Corner {
-        corner,
-        polygon: own,
-        other_polygon: other,
-    } = corner;
-    let corners = |polygon: &Polygon<'_>| {
-        let mut corners = Vec::with_capacity(polygon.corners.len());
-        for at in &polygon.corners {
-            corners.push(point_and_angular_velocity(model, polygon.on, at, x).0);
+impl<'d, R: Scalar> PolygonPair<'d, R> {
+    fn new(model: &Model<'d>, corner: &Corner<'d>, x: &Values<'_, Varied<R>>) -> Self {
+        let [first, other] = [&corner.polygon, &corner.other_polygon];
+        let corners = |polygon: &Polygon<'_>| {
+            let mut corners = Vec::with_capacity(polygon.corners.len());
+            for at in &polygon.corners {
+                corners.push(point_and_angular_velocity(model, polygon.on, at, x).0);
+            }
+            corners
+        };
+        let (points, ends) = (corners(first), corners(other));
+        let (_, turning) = point_and_angular_velocity(model, other.on, &other.corners[0], x);
+        let faces = ends.len();
+        let mut edges = Vec::with_capacity(faces);
+        for k in 0..faces {
+            let edge = difference(ends[(k + 1) % faces], ends[k]);
+            edges.push(scaled(Moving::<R>::ONE / dot(edge, edge).sqrt(), edge));
         }
-        corners
-    };
-    let (points, ends) = (corners(own), corners(other));
-    let (_, turning) = point_and_angular_velocity(model, other.on, &other.corners[0], x);
-    let faces = ends.len();
-    // Unit vectors along the faces.
-    let mut edges = Vec::with_capacity(faces);
-    for k in 0..faces {
-        let edge = difference(ends[(k + 1) % faces], ends[k]);
-        edges.push(scaled(Moving::<R>::ONE / dot(edge, edge).sqrt(), edge));
-    }
-    let distance = |k: usize, point: [Moving<R>; 2]| {
-        let arm = difference(point, ends[k]);
-        arm[0] * edges[k][1] - arm[1] * edges[k][0]
-    };
-    let mut separations = Vec::with_capacity(faces);
-    for k in 0..faces {
-        let mut distances = Vec::with_capacity(points.len());
-        for &point in &points {
-            distances.push(distance(k, point));
+        let mut pair = PolygonPair {
+            polygons: [first.clone(), other.clone()],
+            points,
+            ends,
+            edges,
+            weights: vec![Moving::<R>::ZERO; faces],
+            turning,
+        };
+        let mut separations = Vec::with_capacity(faces);
+        for k in 0..faces {
+            let mut distances = Vec::with_capacity(pair.points.len());
+            for &point in &pair.points {
+                distances.push(pair.distance(k, point));
+            }
+            separations.push(extreme(&distances, Moving::min));
         }
-        separations.push(extreme(&distances, Moving::min));
+        let half = Moving::<R>::from_ratio(1, 2);
+        // From the last face to the first: `left` is 1 as long as no later face separates better than all before it, else 0.
+        let mut so_far = separations.clone();
+        for k in 1..faces {
+            so_far[k] = so_far[k - 1].max(separations[k]);
+        }
+        let mut left = Moving::<R>::ONE;
+        for k in (1..faces).rev() {
+            let is_better = half * (Moving::<R>::ONE + (separations[k] - so_far[k - 1]).sign());
+            pair.weights[k] = left * is_better;
+            left = left * (Moving::<R>::ONE - is_better);
+        }
+        pair.weights[0] = left;
+        pair
     }
-    let half = Moving::<R>::from_ratio(1, 2);
-    // From the last face to the first: `left` is 1 as long as no later face separates better than all before it, else 0.
-    let mut so_far = separations.clone();
-    for k in 1..faces {
-        so_far[k] = so_far[k - 1].max(separations[k]);
+
+    /// Whether these are the polygons of a corner.
+    fn is_of(&self, corner: &Corner<'d>) -> bool {
+        let [first, other] = &self.polygons;
+        Rc::ptr_eq(first, &corner.polygon) && Rc::ptr_eq(other, &corner.other_polygon)
     }
-    let mut left = Moving::<R>::ONE;
-    let mut weights = vec![Moving::<R>::ZERO; faces];
-    for k in (1..faces).rev() {
-        let is_better = half * (Moving::<R>::ONE + (separations[k] - so_far[k - 1]).sign());
-        weights[k] = left * is_better;
-        left = left * (Moving::<R>::ONE - is_better);
+
+    /// The distance of a point outside the line along a face.
+    fn distance(&self, face: usize, point: [Moving<R>; 2]) -> Moving<R> {
+        let (arm, edge) = (difference(point, self.ends[face]), self.edges[face]);
+        arm[0] * edge[1] - arm[1] * edge[0]
     }
-    weights[0] = left;
-    let place = points[*corner];
-    let mut distances = Vec::with_capacity(faces);
-    for k in 0..faces {
-        distances.push(distance(k, place));
+
+    /// The position and motion of a corner of the first polygon.
+    fn corner(&self, corner: usize) -> CornerOnPolygon<R> {
+        let place = self.points[corner];
+        let faces = self.ends.len();
+        let mut distances = Vec::with_capacity(faces);
+        for k in 0..faces {
+            distances.push(self.distance(k, place));
+        }
+        let mut corner_on_polygon = CornerOnPolygon {
+            opening: extreme(&distances, Moving::max),
+            height: Moving::<R>::ZERO,
+            beyond: Moving::<R>::ZERO,
+            slip: Varied::<R>::ZERO,
+        };
+        for k in 0..faces {
+            let weight = self.weights[k];
+            let mut others = distances.clone();
+            others.remove(k);
+            corner_on_polygon.height = corner_on_polygon.height + weight * distances[k];
+            corner_on_polygon.beyond =
+                corner_on_polygon.beyond + weight * extreme(&others, Moving::max);
+            // The polygon's own point under the corner moves with the end of the face, and turns about it.
+            let arm = difference(place, self.ends[k]);
+            let carried = scaled(self.turning, turned_left(vector::value(arm)));
+            let velocity = difference(vector::rate(arm), carried);
+            let slip = dot(vector::value(self.edges[k]), velocity);
+            corner_on_polygon.slip = corner_on_polygon.slip - weight.value * slip;
+        }
+        corner_on_polygon
     }
-    let mut corner_on_polygon = CornerOnPolygon {
-        opening: extreme(&distances, Moving::max),
-        height: Moving::<R>::ZERO,
-        beyond: Moving::<R>::ZERO,
-        slip: Varied::<R>::ZERO,
-    };
-    for k in 0..faces {
-        let weight = weights[k];
-        let mut others = distances.clone();
-        others.remove(k);
-        corner_on_polygon.height = corner_on_polygon.height + weight * distances[k];
-        corner_on_polygon.beyond =
-            corner_on_polygon.beyond + weight * extreme(&others, Moving::max);
-        // The polygon's own point under the corner moves with the end of the face, and turns about it.
-        let arm = difference(place, ends[k]);
-        let carried = scaled(turning, turned_left(vector::value(arm)));
-        let velocity = difference(vector::rate(arm), carried);
-        let slip = dot(vector::value(edges[k]), velocity);
-        corner_on_polygon.slip = corner_on_polygon.slip - weight.value * slip;
-    }
-    corner_on_polygon
 }
 
 /// The smallest or the largest of some numbers, compared from the last to the first; 0 of none.
