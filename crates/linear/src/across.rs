@@ -1102,6 +1102,3 @@ fn zero() -> Number {
 fn off(x: Number, size: f64) -> bool {
     x.derivative.abs() > ROUNDING * size
 }
-
-#[cfg(test)]
-mod tests;

@@ -23,7 +23,4 @@ pub mod steady;
 pub mod varied;
 pub mod zeros;
 
-#[cfg(test)]
-mod tests;
-
 pub use nalgebra::{Complex, DMatrix, DVector};

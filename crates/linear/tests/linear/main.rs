@@ -1,21 +1,22 @@
 //! Models against a second algorithm: the derivatives of the accelerations that the program itself computes in `f64`, by a
 //! different elimination from that of the models.
 
+mod across;
+
 use std::path::Path;
 use std::time::SystemTime;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Linearize, Machine, System};
+use lagrangian_linear::model::{Model, Observed, Request, about, along};
+use lagrangian_linear::response::response;
+use lagrangian_linear::search::{MOST_STEPS, Wanted};
+use lagrangian_linear::steady;
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::Dag;
 use nalgebra::{Complex, DMatrix};
-
-use crate::model::{Model, Observed, Request, about, along};
-use crate::response::response;
-use crate::search::{MOST_STEPS, Wanted};
-use crate::steady;
 
 /// A machine of the library.
 fn machine(name: &str) -> InterpretedMachine {
@@ -26,7 +27,7 @@ fn machine(name: &str) -> InterpretedMachine {
 }
 
 /// A machine of the library with other values of parameters.
-pub(crate) fn machine_with(name: &str, set: &[(&str, f64)]) -> InterpretedMachine {
+fn machine_with(name: &str, set: &[(&str, f64)]) -> InterpretedMachine {
     let mut machine = machine(name);
     for (name, value) in set {
         machine.set(name, *value).expect("a parameter");
@@ -34,7 +35,7 @@ pub(crate) fn machine_with(name: &str, set: &[(&str, f64)]) -> InterpretedMachin
     machine
 }
 
-pub(crate) fn of(name: &str, text: &str) -> InterpretedMachine {
+fn of(name: &str, text: &str) -> InterpretedMachine {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let model = lagrangian_spec::model(&dag, name, text, &[], &mut Disk, &mut sources, &mut report);
     let compiled = model.and_then(|model| Compiled::new(model, &mut report));

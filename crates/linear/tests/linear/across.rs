@@ -4,11 +4,11 @@
 use lagrangian::Method;
 use lagrangian::interpreted::{InterpretedMachine, Signals};
 use lagrangian::{Machine, Simulation, State};
+use lagrangian_linear::across::{Across, NoDerivatives, Wanted, run};
+use lagrangian_linear::varied::{Direction, Varied};
 use lagrangian_scalar::{Dual, Scalar};
 
-use super::{Across, NoDerivatives, Wanted, run};
-use crate::tests::{machine_with, of};
-use crate::varied::{Direction, Varied};
+use crate::{machine_with, of};
 
 /// The number by which a motion is differentiated.
 #[derive(Clone, Copy, Debug)]
