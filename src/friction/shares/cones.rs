@@ -50,8 +50,12 @@ const VAIN_STEPS: usize = 4;
 /// The distance from the dual margin at which the programme is solved, relative to the greatest force: the rounding of a few dozen operations.
 const SOLVED: f64 = 1e-14;
 
-/// The greatest distance from the dual margin of a solution, relative to the greatest force.
-const TOLERABLE: f64 = 1e-10;
+/// The greatest distance from the dual margin of a solution, relative to the greatest force. Where contacts that limit the margin press with
+/// nothing, rounding of the multipliers leaves more of it than of the margin.
+const TOLERABLE: f64 = 1e-8;
+
+/// A friction force above this, relative to the greatest force, is more than rounding.
+const MORE_THAN_ROUNDING: f64 = 1e-10;
 
 /// How often what rounding leaves of the conditions of the multipliers is solved for again.
 const REFINEMENTS: usize = 2;
@@ -108,7 +112,7 @@ pub(super) fn solve(
             put_force(k, part, units, row);
             let depends = row[..n].iter().any(|x| *x != 0.0);
             let left = programme.take_equation();
-            if depends && left.abs() > TOLERABLE {
+            if depends && left.abs() > MORE_THAN_ROUNDING {
                 // Its friction would have to hold, and there is none.
                 let mut direction = [0.0; 2];
                 direction[part - 1] = left.signum();
