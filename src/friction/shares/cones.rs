@@ -44,14 +44,18 @@ const SHARE_OF_WAY: f64 = 0.99;
 /// The most steps.
 const STEPS: usize = 60;
 
-/// How many steps may fail to come nearer to the dual margin before rounding is taken to prevent it.
+/// How many steps may fail to halve the gap before rounding is taken to prevent it.
 const VAIN_STEPS: usize = 4;
 
 /// The distance from the dual margin at which the programme is solved, relative to the greatest force: the rounding of a few dozen operations.
 const SOLVED: f64 = 1e-14;
 
-/// The greatest distance from the dual margin of a solution, relative to the greatest force.
-const TOLERABLE: f64 = 1e-10;
+/// The greatest distance from the dual margin of a solution, relative to the greatest force. Where contacts that limit the margin press with
+/// nothing, rounding of the multipliers leaves more of it than of the margin.
+const TOLERABLE: f64 = 1e-8;
+
+/// A friction force above this, relative to the greatest force, is more than rounding.
+const MORE_THAN_ROUNDING: f64 = 1e-10;
 
 /// How often what rounding leaves of the conditions of the multipliers is solved for again.
 const REFINEMENTS: usize = 2;
@@ -108,7 +112,7 @@ pub(super) fn solve(
             put_force(k, part, units, row);
             let depends = row[..n].iter().any(|x| *x != 0.0);
             let left = programme.take_equation();
-            if depends && left.abs() > TOLERABLE {
+            if depends && left.abs() > MORE_THAN_ROUNDING {
                 // Its friction would have to hold, and there is none.
                 let mut direction = [0.0; 2];
                 direction[part - 1] = left.signum();
@@ -171,7 +175,7 @@ struct Programme<'w> {
     rows: &'w mut [f64],
     slack: &'w mut [f64],
     multiplier: &'w mut [f64],
-    /// The multipliers that go with the best forces.
+    /// The multipliers that are nearest to a solution.
     best_multiplier: &'w mut [f64],
     /// The axis of the scaling of each cone, and its factor.
     axis: &'w mut [f64],
@@ -346,20 +350,20 @@ impl<'w> Programme<'w> {
 
     /// Steps until the margin is that of the dual solution. The answer is how far it may be from it.
     fn run(&mut self) -> Option<f64> {
-        let (mut best, mut vain) = (f64::INFINITY, 0);
+        let (mut best, mut least_gap, mut vain) = (f64::INFINITY, f64::INFINITY, 0);
         for _ in 0..STEPS {
-            let distance = self.distance();
-            if distance < 0.5 * best {
-                vain = 0;
-            } else {
-                vain += 1;
+            let (distance, gap) = (self.distance(), self.gap());
+            if distance < best {
+                best = distance;
+                self.best_multiplier.copy_from_slice(self.multiplier);
             }
-            best = best.min(distance);
-            if best <= SOLVED || vain > VAIN_STEPS || !self.scale() {
+            // Rounding of the multipliers may keep the distance from what the gap falls to, and the margin comes nearer all the same.
+            vain = if gap < 0.5 * least_gap { 0 } else { vain + 1 };
+            least_gap = least_gap.min(gap);
+            if best.max(gap) <= SOLVED || vain > VAIN_STEPS || !self.scale() {
                 break;
             }
             self.factorize();
-            let gap = self.gap();
             // As far as a step goes with which all products would vanish.
             for (right, scaled) in self.right.iter_mut().zip(&*self.scaled) {
                 *right = -scaled;
@@ -391,7 +395,7 @@ impl<'w> Programme<'w> {
         terms.fold(start, |sum, (row, z)| sum + row[column] * z)
     }
 
-    /// How far the margin of the present forces may be below the greatest one; keeps forces, margin and multipliers of the best.
+    /// How far the margin of the present forces may be below the greatest one; keeps the best forces and their margin.
     fn distance(&mut self) -> f64 {
         let n = self.n;
         let s = self.x[n - 1];
@@ -410,7 +414,6 @@ impl<'w> Programme<'w> {
         if margin > self.margin {
             self.margin = margin;
             self.forces.copy_from_slice(self.x);
-            self.best_multiplier.copy_from_slice(self.multiplier);
         }
         (distance - (self.margin - margin)).max(0.0)
     }
