@@ -83,8 +83,8 @@ fn revolve(turns: f64, tolerance: f64) {
 }
 
 #[test]
-fn a_crusher_is_right_after_a_thousand_revolutions() {
-    revolve(1e3, 1e-10);
+fn a_crusher_is_right_after_ten_thousand_revolutions() {
+    revolve(1e4, 1e-10);
 }
 
 #[test]
@@ -133,8 +133,8 @@ fn errors_of_energy(method: &'static Method, setting: f64, times: &[f64]) -> Vec
 fn the_energy_of_series_keeps_below_a_random_walk_of_rounding() {
     let times = [1e3, 16e3];
     let errors = errors_of_energy(&TAYLOR, 1e-15, &times);
-    println!("energy error of taylor at 1e-15: {errors:?} at {times:?} s");
     for (error, t) in errors.iter().zip(times) {
+        println!("energy error of taylor at 1e-15: {error:.1e} at {t} s");
         // Steps of 70 ms.
         let walk = f64::EPSILON * f64::sqrt(t / 0.07);
         assert!(*error <= walk, "{error:e}, {walk:e} at {t} s");
@@ -146,7 +146,7 @@ fn the_energy_of_series_keeps_below_a_random_walk_of_rounding() {
 fn the_energy_of_symplectic_methods_stays_bounded() {
     for (name, h) in [("gauss8", 0.2), ("rattle", 0.05)] {
         let method = Method::named(name).expect("a method");
-        let times: Vec<f64> = (1..=20).map(|i| 40.0 * f64::from(i)).collect();
+        let times: Vec<f64> = (1..=20).map(|i| 200.0 * f64::from(i)).collect();
         let errors = errors_of_energy(method, h, &times);
         let greatest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
         let (early, late) = (greatest(&errors[..10]), greatest(&errors[10..]));
