@@ -477,7 +477,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
     let a = to.accelerations(&matrices);
     let applied = to.matrix_of_forces();
     let half = to.constructed("from_f64(0.5)");
-    let start = to.final_coefficients(&a, [Operand::One, half], false);
+    let start = to.final_coefficients(&a, [Operand::One, half], None, false);
     let lanes = to.lanes.clone();
     let factors = |kind: usize, side: usize| -> Vec<Stream> {
         let lanes = lanes[kind].iter();
@@ -514,7 +514,9 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
     let a = to.accelerations(&matrices);
     let over_v = to.constructed("from_ratio(1, order as i64 - 1)");
     let over_q = to.constructed("from_ratio(1, order as i64)");
-    let later = to.final_coefficients(&a, [over_v, over_q], applied.is_some());
+    let product = to.constructed("from_ratio(order as i64 * (order as i64 - 1), 1)");
+    let over = [over_v, over_q];
+    let later = to.final_coefficients(&a, over, Some(product), applied.is_some());
     for (kind, sides) in kept.iter_mut().enumerate() {
         to.is_of_positions = kind == 0;
         for (side, list) in sides.iter_mut().enumerate() {

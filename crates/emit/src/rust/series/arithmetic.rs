@@ -387,12 +387,13 @@ impl<'s> Recorder<'s> {
         Some(columns.collect())
     }
 
-    /// The final coefficients of an order, once the accelerations are known; `over` holds the reciprocals of the orders
-    /// of rates and coordinates.
+    /// The final coefficients of an order, once the accelerations are known: `[over_v, over_q]` are the reciprocals of the orders
+    /// of rates and coordinates, and `product` is the product of both orders, if it is not the reciprocal of `over_q`.
     pub fn final_coefficients(
         &mut self,
         a: &[Operand],
         [over_v, over_q]: [Operand; 2],
+        product: Option<Operand>,
         is_applied: bool,
     ) -> FinalCoefficients {
         let series = self.series;
@@ -404,8 +405,11 @@ impl<'s> Recorder<'s> {
         for &a in &a[..series.dimension()] {
             let rate = self.multiply(a, over_v);
             finals.rates.push(rate);
-            let q = self.multiply(rate, over_q);
-            finals.motion.push(q);
+            // A quotient: products with rounded reciprocals have errors of a fixed sign, which add up over the steps of a long run.
+            finals.motion.push(match product {
+                Some(product) => self.divide(a, product),
+                None => self.multiply(rate, over_q),
+            });
         }
         let share = self.multiply(over_v, over_q);
         let applied = if is_applied {
