@@ -6,8 +6,8 @@ use super::Emitter;
 use super::language::Rust;
 use super::types::literal;
 use crate::body::{self, Plan};
-use crate::layout::Layout;
 use crate::formula_names;
+use crate::layout::Layout;
 use crate::names::{Field, Scope};
 use lagrangian_program::{Function, Op, Program, Role, Source};
 
