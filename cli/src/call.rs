@@ -183,6 +183,7 @@ impl Call {
 
 #[cfg(test)]
 mod tests {
+    use super::export::names;
     use super::*;
 
     #[test]

@@ -106,7 +106,7 @@ impl Arguments for Fmu {
 pub struct Names(pub Vec<String>);
 
 /// Parses names separated by commas; `der(q,2)` and quoted text are one name.
-fn names(text: &str) -> Result<Names, String> {
+pub(super) fn names(text: &str) -> Result<Names, String> {
     let (mut names, mut depth, mut quoted) = (vec![String::new()], 0, false);
     for c in text.chars() {
         match c {
