@@ -14,7 +14,19 @@ pub struct Pivots {
     pub tolerance: f64,
 }
 
+/// A pivot must exceed this multiple of n·2⁻⁵² times its diagonal element, in an elimination of n rows: the compiler derives it
+/// (`PIVOT_MARGIN` of `lagrangian-program`).
+const MARGIN: f64 = 4.0;
+
 impl Pivots {
+    /// The pivots of eliminations with this number of rows, for a machine with this number of coordinates.
+    pub const fn new(coordinates: usize, rows: usize) -> Pivots {
+        Pivots {
+            coordinates,
+            tolerance: MARGIN * rows as f64 * f64::EPSILON,
+        }
+    }
+
     /// Whether a pivot holds in all lanes; NaN does not.
     #[inline(always)]
     pub fn hold<N: Scalar>(self, pivot: N, diagonal: N) -> bool {
@@ -56,6 +68,19 @@ impl Pivots {
         match row.checked_sub(self.coordinates) {
             Some(constraint) => Singular::constraint(constraint, pivot, diagonal),
             None => Singular::new(row, pivot, diagonal),
+        }
+    }
+}
+
+#[cfg(all(test, feature = "interpreter"))]
+mod tests {
+    use super::Pivots;
+
+    #[test]
+    fn tolerances_are_those_of_the_compiler() {
+        for rows in [1, 2, 7, 13, 40] {
+            let tolerance = lagrangian_program::solve::pivot_tolerance(rows);
+            assert_eq!(Pivots::new(3, rows).tolerance, tolerance);
         }
     }
 }

@@ -9,6 +9,7 @@ use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::body::{self, Expression, Language, Precedence, Rounded};
 use super::cut::{self, Cut, CutResult, Piece};
+use super::formula_names;
 use super::layout::{Writer, width};
 use super::names::{Field, Scope, ascii, fields, flat, snake_case};
 use lagrangian_mechanics::Proved;
@@ -183,19 +184,8 @@ struct Emitter<'a> {
 impl<'a> Emitter<'a> {
     fn new(program: &'a Program) -> Emitter<'a> {
         let mut scope = Scope::with(&[RESERVED, &["singular"]].concat());
-        let mut anonymous = 0;
-        let prepared = program.prepare.results.iter().map(|&value| {
-            let name = match program.prepare.op(value) {
-                Op::Read(Source::Parameter(i)) => {
-                    ascii(&flat(&program.parameters[*i as usize].name))
-                }
-                _ => {
-                    anonymous += 1;
-                    format!("k{}", anonymous - 1)
-                }
-            };
-            scope.take_plain(&name)
-        });
+        let prepared = formula_names::of_prepared(program, ascii).into_iter();
+        let prepared = prepared.map(|name| scope.take_plain(&name));
         Emitter {
             prepared: prepared.collect(),
             prefix: ascii(&snake_case(&program.name)),

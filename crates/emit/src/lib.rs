@@ -8,6 +8,7 @@ pub mod script;
 
 mod body;
 mod cut;
+mod formula_names;
 mod names;
 
 pub use names::{identifier, snake_case};

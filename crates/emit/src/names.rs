@@ -101,6 +101,11 @@ impl Scope {
         identifier(&self.take_plain(name))
     }
 
+    /// Whether nothing has this name.
+    pub fn is_free(&self, name: &str) -> bool {
+        !self.taken.contains(name)
+    }
+
     /// Takes `name`, or a similar name that is free.
     pub fn take_plain(&mut self, name: &str) -> String {
         let mut name = name.to_owned();

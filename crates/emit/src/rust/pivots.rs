@@ -3,6 +3,7 @@
 use super::Emitter;
 use super::language::number;
 use crate::layout::Layout;
+use lagrangian_program::solve::pivot_tolerance;
 use lagrangian_program::{Function, Guard};
 
 impl Emitter<'_> {
@@ -40,12 +41,23 @@ impl Emitter<'_> {
             self.docs(
                 "A pivot of an elimination that is not above this share of its diagonal element may be rounding errors alone.",
             );
-            let fields = [
-                ("coordinates", self.program.dimension().to_string()),
-                ("tolerance", number(tolerance)),
-            ];
-            let fields = fields.map(|(name, value)| (name.to_owned(), Layout::Atom(value)));
-            let value = Layout::Struct(path.clone(), fields.to_vec());
+            let coordinates = self.program.dimension().to_string();
+            let rows = (tolerance / pivot_tolerance(1)).round() as usize;
+            let value = if pivot_tolerance(rows) == tolerance {
+                let items = [coordinates, rows.to_string()];
+                Layout::List(
+                    format!("{path}::new("),
+                    items.map(Layout::Atom).to_vec(),
+                    ")",
+                )
+            } else {
+                let fields = [
+                    ("coordinates", coordinates),
+                    ("tolerance", number(tolerance)),
+                ];
+                let fields = fields.map(|(name, value)| (name.to_owned(), Layout::Atom(value)));
+                Layout::Struct(path.clone(), fields.to_vec())
+            };
             self.writer
                 .expression(&format!("const {name}: {path} = "), &value, ";");
         }

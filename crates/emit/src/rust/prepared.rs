@@ -7,7 +7,8 @@ use super::language::Rust;
 use super::types::literal;
 use crate::body::{self, Plan};
 use crate::layout::Layout;
-use crate::names::{Field, Scope, flat};
+use crate::formula_names;
+use crate::names::{Field, Scope};
 use lagrangian_program::{Function, Op, Program, Role, Source};
 
 /// The arrays of prepared values that the loops of a program count through.
@@ -95,24 +96,15 @@ fn joined(family: &[usize], list: &[usize]) -> Option<Vec<usize>> {
 
 /// The path to each prepared value.
 pub(super) fn paths(program: &Program, families: &[Field], scope: &mut Scope) -> Vec<String> {
-    let mut anonymous = 0;
-    let values = program.prepare.results.iter().enumerate();
-    let path = |(slot, value): (usize, &_)| {
+    let names = formula_names::of_prepared(program, str::to_owned);
+    let path = |(slot, name): (usize, String)| {
         let at = families.iter().find_map(|family| {
             let at = family.slots.iter().position(|other| *other == slot)?;
             Some(format!("{}[{at}]", family.ident))
         });
-        at.unwrap_or_else(|| match program.prepare.op(*value) {
-            Op::Read(Source::Parameter(i)) => {
-                scope.take(&flat(&program.parameters[*i as usize].name))
-            }
-            _ => {
-                anonymous += 1;
-                scope.take(&format!("k{}", anonymous - 1))
-            }
-        })
+        at.unwrap_or_else(|| scope.take(&name))
     };
-    values.map(path).collect()
+    names.into_iter().enumerate().map(path).collect()
 }
 
 impl Emitter<'_> {
