@@ -140,69 +140,74 @@ pub struct AndrewsSqueezer<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.e - self.ea;
-        let k1 = self.zf - self.fa;
-        let k2 = self.ra * (self.ra * self.m1);
-        let k20 = self.m2 * self.da;
-        let k4 = self.da * k20;
-        let k5 = self.I2 + k4;
-        let k23 = self.m4 * k0;
-        let k6 = k0 * k23;
-        let k7 = self.I4 + k6;
-        let k27 = self.m6 * k1;
-        let k8 = k1 * k27;
-        let k9 = self.I6 + k8;
-        let k10 = self.m3 * self.sa;
-        let k11 = self.m3 * self.sb;
-        let t0 = self.I1 + k2;
+        let e_minus_ea = self.e - self.ea;
+        let zf_minus_fa = self.zf - self.fa;
+        let m1_ra2 = self.ra * (self.ra * self.m1);
+        let m2_da = self.m2 * self.da;
+        let m2_da2 = self.da * m2_da;
+        let I2_plus_m2_da2 = self.I2 + m2_da2;
+        let k10 = self.m4 * e_minus_ea;
+        let k0 = e_minus_ea * k10;
+        let k1 = self.I4 + k0;
+        let k12 = self.m6 * zf_minus_fa;
+        let k2 = zf_minus_fa * k12;
+        let k3 = self.I6 + k2;
+        let m3_sa = self.m3 * self.sa;
+        let m3_sb = self.m3 * self.sb;
+        let t0 = self.I1 + m1_ra2;
         let t1 = self.ta * self.ta;
         let t2 = self.tb * self.tb;
         let t3 = self.ub * self.ub;
         let t4 = self.ua * self.ua;
-        let k21 = self.m2 * self.rr;
-        let k22 = self.zt * k23;
-        let k24 = self.m4 * self.zt;
-        let k25 = self.m5 * t2 + self.m5 * t1;
-        let k26 = self.u * k27;
-        let k28 = self.m6 * self.u;
-        let k29 = self.m7 * t4 + self.m7 * t3;
-        let k30 = self.rr * k20;
-        let k31 = self.I3 + (self.sa * k10 + self.sb * k11);
-        let k47 = S::ONE / k9;
-        let k49 = k26 * k47;
-        let k48 = S::ONE / k7;
-        let k50 = k22 * k48;
-        let k52 = S::ONE / k5;
-        let k51 = k30 * k52;
-        let k53 = S::ONE / k31;
-        let k43 = self.c0 * k53;
-        let k3 = S::from_f64(0.5) * self.c0;
-        let k12 = self.sc * self.c0;
-        let k13 = self.sd * self.c0;
-        let k14 = self.da * self.da;
-        let k15 = k0 * k0;
-        let k16 = k1 * k1;
-        let k17 = S::from_f64(0.5) * t0;
-        let k18 = S::from_f64(0.5) * (self.I5 + self.m5 * (t1 + t2));
-        let k19 = S::from_f64(0.5) * (self.I7 + self.m7 * (t3 + t4));
-        let k32 = -self.d;
-        let k33 = -self.zf;
-        let k34 = k26 * k49;
-        let k35 = k29 + (self.I7 + self.u * k28);
-        let k36 = k27 * k47;
-        let k37 = k22 * k50;
-        let k38 = k25 + (self.I5 + self.zt * k24);
-        let k39 = k23 * k48;
-        let k40 = k20 * k51;
-        let k41 = k30 * k51;
-        let k42 = t0 + self.rr * k21;
-        let k44 = k20 * k52;
-        let k45 = self.zt * k22;
-        let k46 = self.u * k26;
-        let k54 = self.ss * k43;
-        let k55 = self.e * k23;
-        let k56 = self.zf * k27;
-        let pivots = [(5, k9, k9), (3, k7, k7), (1, k5, k5), (2, k31, k31)];
+        let m2_rr = self.m2 * self.rr;
+        let k9 = self.zt * k10;
+        let m4_zt = self.m4 * self.zt;
+        let m5_ta2_plus_m5_tb2 = self.m5 * t2 + self.m5 * t1;
+        let k11 = self.u * k12;
+        let m6_u = self.m6 * self.u;
+        let m7_ub2_plus_m7_ua2 = self.m7 * t4 + self.m7 * t3;
+        let m2_da_rr = self.rr * m2_da;
+        let k13 = self.I3 + (self.sa * m3_sa + self.sb * m3_sb);
+        let k27 = S::ONE / k3;
+        let k29 = k11 * k27;
+        let k28 = S::ONE / k1;
+        let k30 = k9 * k28;
+        let k32 = S::ONE / I2_plus_m2_da2;
+        let k31 = m2_da_rr * k32;
+        let k33 = S::ONE / k13;
+        let k23 = self.c0 * k33;
+        let half_c0 = S::from_f64(0.5) * self.c0;
+        let sc_c0 = self.sc * self.c0;
+        let sd_c0 = self.sd * self.c0;
+        let da2 = self.da * self.da;
+        let k4 = e_minus_ea * e_minus_ea;
+        let k5 = zf_minus_fa * zf_minus_fa;
+        let k6 = S::from_f64(0.5) * t0;
+        let k7 = S::from_f64(0.5) * (self.I5 + self.m5 * (t1 + t2));
+        let k8 = S::from_f64(0.5) * (self.I7 + self.m7 * (t3 + t4));
+        let minus_d = -self.d;
+        let minus_zf = -self.zf;
+        let k14 = k11 * k29;
+        let k15 = m7_ub2_plus_m7_ua2 + (self.I7 + self.u * m6_u);
+        let k16 = k12 * k27;
+        let k17 = k9 * k30;
+        let k18 = m5_ta2_plus_m5_tb2 + (self.I5 + self.zt * m4_zt);
+        let k19 = k10 * k28;
+        let k20 = m2_da * k31;
+        let k21 = m2_da_rr * k31;
+        let k22 = t0 + self.rr * m2_rr;
+        let k24 = m2_da * k32;
+        let k25 = self.zt * k9;
+        let k26 = self.u * k11;
+        let k34 = self.ss * k23;
+        let k35 = self.e * k10;
+        let k36 = self.zf * k12;
+        let pivots = [
+            (5, k3, k3),
+            (3, k1, k1),
+            (1, I2_plus_m2_da2, I2_plus_m2_da2),
+            (2, k13, k13),
+        ];
         Prepared {
             m2: self.m2,
             m3: self.m3,
@@ -235,20 +240,40 @@ impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
             u: self.u,
             l0: self.l0,
             mom: self.mom,
+            e_minus_ea,
+            zf_minus_fa,
+            m1_ra2,
+            half_c0,
+            m2_da2,
+            I2_plus_m2_da2,
             k0,
             k1,
             k2,
             k3,
+            m3_sa,
+            m3_sb,
+            sc_c0,
+            sd_c0,
+            da2,
             k4,
             k5,
             k6,
             k7,
             k8,
+            m2_da,
+            m2_rr,
             k9,
             k10,
+            m4_zt,
+            m5_ta2_plus_m5_tb2,
             k11,
             k12,
+            m6_u,
+            m7_ub2_plus_m7_ua2,
+            m2_da_rr,
             k13,
+            minus_d,
+            minus_zf,
             k14,
             k15,
             k16,
@@ -272,26 +297,6 @@ impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
             k34,
             k35,
             k36,
-            k37,
-            k38,
-            k39,
-            k40,
-            k41,
-            k42,
-            k43,
-            k44,
-            k45,
-            k46,
-            k47,
-            k48,
-            k49,
-            k50,
-            k51,
-            k52,
-            k53,
-            k54,
-            k55,
-            k56,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -408,129 +413,126 @@ pub struct Prepared<S = f64> {
     /// `mom`
     mom: S,
     /// `e - ea`
-    k0: S,
+    e_minus_ea: S,
     /// `zf - fa`
-    k1: S,
+    zf_minus_fa: S,
     /// `m1*ra^2`
-    k2: S,
+    m1_ra2: S,
     /// `0.5*c0`
-    k3: S,
+    half_c0: S,
     /// `m2*da^2`
-    k4: S,
+    m2_da2: S,
     /// `I2 + m2*da^2`
-    k5: S,
+    I2_plus_m2_da2: S,
     /// `m4*(e - ea)^2`
-    k6: S,
+    k0: S,
     /// `I4 + m4*(e - ea)^2`
-    k7: S,
+    k1: S,
     /// `m6*(zf - fa)^2`
-    k8: S,
+    k2: S,
     /// `I6 + m6*(zf - fa)^2`
-    k9: S,
+    k3: S,
     /// `m3*sa`
-    k10: S,
+    m3_sa: S,
     /// `m3*sb`
-    k11: S,
+    m3_sb: S,
     /// `sc*c0`
-    k12: S,
+    sc_c0: S,
     /// `sd*c0`
-    k13: S,
+    sd_c0: S,
     /// `da^2`
-    k14: S,
+    da2: S,
     /// `(e - ea)^2`
-    k15: S,
+    k4: S,
     /// `(zf - fa)^2`
-    k16: S,
+    k5: S,
     /// `0.5*(I1 + m1*ra^2)`
-    k17: S,
+    k6: S,
     /// `0.5*(I5 + m5*(tb^2 + ta^2))`
-    k18: S,
+    k7: S,
     /// `0.5*(I7 + m7*(ua^2 + ub^2))`
-    k19: S,
+    k8: S,
     /// `m2*da`
-    k20: S,
+    m2_da: S,
     /// `m2*rr`
-    k21: S,
+    m2_rr: S,
     /// `m4*zt*(e - ea)`
-    k22: S,
+    k9: S,
     /// `m4*(e - ea)`
-    k23: S,
+    k10: S,
     /// `m4*zt`
-    k24: S,
+    m4_zt: S,
     /// `m5*ta^2 + m5*tb^2`
-    k25: S,
+    m5_ta2_plus_m5_tb2: S,
     /// `m6*u*(zf - fa)`
-    k26: S,
+    k11: S,
     /// `m6*(zf - fa)`
-    k27: S,
+    k12: S,
     /// `m6*u`
-    k28: S,
+    m6_u: S,
     /// `m7*ub^2 + m7*ua^2`
-    k29: S,
+    m7_ub2_plus_m7_ua2: S,
     /// `m2*da*rr`
-    k30: S,
+    m2_da_rr: S,
     /// `I3 + m3*sb^2 + m3*sa^2`
-    k31: S,
+    k13: S,
     /// `-d`
-    k32: S,
+    minus_d: S,
     /// `-zf`
-    k33: S,
+    minus_zf: S,
     /// `m6^2*u^2*(zf - fa)^2/(I6 + m6*(zf - fa)^2)`
-    k34: S,
+    k14: S,
     /// `I7 + m7*ub^2 + m7*ua^2 + m6*u^2`
-    k35: S,
+    k15: S,
     /// `m6*(zf - fa)/(I6 + m6*(zf - fa)^2)`
-    k36: S,
+    k16: S,
     /// `m4^2*zt^2*(e - ea)^2/(I4 + m4*(e - ea)^2)`
-    k37: S,
+    k17: S,
     /// `I5 + m5*ta^2 + m5*tb^2 + m4*zt^2`
-    k38: S,
+    k18: S,
     /// `m4*(e - ea)/(I4 + m4*(e - ea)^2)`
-    k39: S,
+    k19: S,
     /// `m2^2*da^2*rr/(I2 + m2*da^2)`
-    k40: S,
+    k20: S,
     /// `m2^2*da^2*rr^2/(I2 + m2*da^2)`
-    k41: S,
+    k21: S,
     /// `I1 + m1*ra^2 + m2*rr^2`
-    k42: S,
+    k22: S,
     /// `c0/(I3 + m3*sb^2 + m3*sa^2)`
-    k43: S,
+    k23: S,
     /// `m2*da/(I2 + m2*da^2)`
-    k44: S,
+    k24: S,
     /// `m4*zt^2*(e - ea)`
-    k45: S,
+    k25: S,
     /// `m6*u^2*(zf - fa)`
-    k46: S,
+    k26: S,
     /// `1/(I6 + m6*(zf - fa)^2)`
-    k47: S,
+    k27: S,
     /// `1/(I4 + m4*(e - ea)^2)`
-    k48: S,
+    k28: S,
     /// `m6*u*(zf - fa)/(I6 + m6*(zf - fa)^2)`
-    k49: S,
+    k29: S,
     /// `m4*zt*(e - ea)/(I4 + m4*(e - ea)^2)`
-    k50: S,
+    k30: S,
     /// `m2*da*rr/(I2 + m2*da^2)`
-    k51: S,
+    k31: S,
     /// `1/(I2 + m2*da^2)`
-    k52: S,
+    k32: S,
     /// `1/(I3 + m3*sb^2 + m3*sa^2)`
-    k53: S,
+    k33: S,
     /// `ss*c0/(I3 + m3*sb^2 + m3*sa^2)`
-    k54: S,
+    k34: S,
     /// `m4*e*(e - ea)`
-    k55: S,
+    k35: S,
     /// `m6*zf*(zf - fa)`
-    k56: S,
+    k36: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 7,
-    tolerance: 1.1546319456101628e-14,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(7, 13);
 
 /// Mass matrix `M`.
 ///
@@ -556,24 +558,24 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 7]
     let (sin_Phi, cos_Phi) = Phi.sin_cos();
     let (sin_Omega, cos_Omega) = Omega.sin_cos();
     let t0 = p.rr - cos_Theta * p.da;
-    let t1 = sin_Phi * p.k0 + p.zt;
-    let t2 = p.u - sin_Omega * p.k1;
-    let m21 = sin_Theta * (sin_Theta * p.k4) + p.I2 - t0 * (cos_Theta * p.k20);
-    let t3 = t1 * (sin_Phi * p.k23) + (cos_Phi * (cos_Phi * p.k6) + p.I4) + p.I5;
-    let t4 = cos_Omega * (cos_Omega * p.k8) + p.I6 - t2 * (sin_Omega * p.k27) + p.I7;
-    let m11 = t0 * p.k21 + p.k2 + (m21 + p.I1);
+    let t1 = sin_Phi * p.e_minus_ea + p.zt;
+    let t2 = p.u - sin_Omega * p.zf_minus_fa;
+    let m21 = sin_Theta * (sin_Theta * p.m2_da2) + p.I2 - t0 * (cos_Theta * p.m2_da);
+    let t3 = t1 * (sin_Phi * p.k10) + (cos_Phi * (cos_Phi * p.k0) + p.I4) + p.I5;
+    let t4 = cos_Omega * (cos_Omega * p.k2) + p.I6 - t2 * (sin_Omega * p.k12) + p.I7;
+    let m11 = t0 * p.m2_rr + p.m1_ra2 + (m21 + p.I1);
     let zero = S::ZERO;
-    let m54 = p.k7 + sin_Phi * p.k22;
-    let m55 = t1 * p.k24 + p.k25 + t3;
-    let m76 = p.k9 - sin_Omega * p.k26;
-    let m77 = t2 * p.k28 + p.k29 + t4;
+    let m54 = p.k1 + sin_Phi * p.k9;
+    let m55 = t1 * p.m4_zt + p.m5_ta2_plus_m5_tb2 + t3;
+    let m76 = p.k3 - sin_Omega * p.k11;
+    let m77 = t2 * p.m6_u + p.m7_ub2_plus_m7_ua2 + t4;
     [
         [m11, m21, zero, zero, zero, zero, zero],
-        [m21, p.k5, zero, zero, zero, zero, zero],
-        [zero, zero, p.k31, zero, zero, zero, zero],
-        [zero, zero, zero, p.k7, m54, zero, zero],
+        [m21, p.I2_plus_m2_da2, zero, zero, zero, zero, zero],
+        [zero, zero, p.k13, zero, zero, zero, zero],
+        [zero, zero, zero, p.k1, m54, zero, zero],
         [zero, zero, zero, m54, m55, zero, zero],
-        [zero, zero, zero, zero, zero, p.k9, m76],
+        [zero, zero, zero, zero, zero, p.k3, m76],
         [zero, zero, zero, zero, zero, m76, m77],
     ]
 }
@@ -610,20 +612,20 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[
     let t5 = t2 * t2;
     let t6 = t5 * cos_Theta;
     let t7 = t3 * cos_Phi;
-    let t8 = t7 * (sin_Phi * p.k6);
-    let t9 = sin_Phi * (t3 * p.k0) + delta_dot * (delta_dot * p.zt);
-    let t10 = t9 * (cos_Phi * p.k23);
+    let t8 = t7 * (sin_Phi * p.k0);
+    let t9 = sin_Phi * (t3 * p.e_minus_ea) + delta_dot * (delta_dot * p.zt);
+    let t10 = t9 * (cos_Phi * p.k10);
     let t11 = t4 * cos_Omega;
-    let t12 = epsilon_dot * (epsilon_dot * p.u) - sin_Omega * (t4 * p.k1);
-    let t13 = (beta_dot * (beta_dot * p.rr) - t6 * p.da) * (sin_Theta * p.k20);
-    let t14 = t13 + t6 * (sin_Theta * p.k4);
-    let h_Omega = t11 * (sin_Omega * p.k8) + t12 * (cos_Omega * p.k27);
-    let h_beta = sin_Theta * (t5 * p.k30) - t14;
+    let t12 = epsilon_dot * (epsilon_dot * p.u) - sin_Omega * (t4 * p.zf_minus_fa);
+    let t13 = (beta_dot * (beta_dot * p.rr) - t6 * p.da) * (sin_Theta * p.m2_da);
+    let t14 = t13 + t6 * (sin_Theta * p.m2_da2);
+    let h_Omega = t11 * (sin_Omega * p.k2) + t12 * (cos_Omega * p.k12);
+    let h_beta = sin_Theta * (t5 * p.m2_da_rr) - t14;
     let h_Theta = -t14;
     let zero = S::ZERO;
     let h_Phi = t8 - t10;
-    let h_delta = t7 * p.k22 - (t10 - t8);
-    let h_epsilon = h_Omega - t11 * p.k26;
+    let h_delta = t7 * p.k9 - (t10 - t8);
+    let h_epsilon = h_Omega - t11 * p.k11;
     [h_beta, h_Theta, zero, h_Phi, h_delta, h_Omega, h_epsilon]
 }
 
@@ -640,9 +642,9 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 7]) ->
     let t1 = p.yc - (sin_gamma * p.sd + p.yb - cos_gamma * p.sc);
     let t2 = (t1 * t1 + t0 * t0).sqrt();
     let t3 = S::ONE / t2 * (p.l0 - t2);
-    let t4 = t3 * (cos_gamma * (t0 * p.k12 + t1 * p.k13));
+    let t4 = t3 * (cos_gamma * (t0 * p.sc_c0 + t1 * p.sd_c0));
     let zero = S::ZERO;
-    let q_gamma = -(t3 * (sin_gamma * (t1 * p.k12 - t0 * p.k13)) + t4);
+    let q_gamma = -(t3 * (sin_gamma * (t1 * p.sc_c0 - t0 * p.sd_c0)) + t4);
     [p.mom, zero, q_gamma, zero, zero, zero, zero]
 }
 
@@ -677,21 +679,21 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 7], v: 
     let t11 = p.yc - (sin_gamma * p.sd + p.yb - cos_gamma * p.sc);
     let t12 = t0 * (sin_gamma * p.sa + cos_gamma * p.sb);
     let t13 = t0 * (cos_gamma * p.sa - sin_gamma * p.sb);
-    let t14 = p.k20 * (beta_dot * (beta_dot * p.rr) - t7 * p.da) + t7 * p.k4;
-    let f_Theta = sin_Theta * t14;
-    let t15 = p.k23 * (t8 * p.k0 + delta_dot * (delta_dot * p.zt)) - t8 * p.k6;
-    let f_Phi = cos_Phi * t15;
-    let t16 = t9 * p.k8 + p.k27 * (epsilon_dot * (epsilon_dot * p.u) - t9 * p.k1);
-    let t17 = cos_Omega * t16;
+    let t14 = p.k12 * (epsilon_dot * (epsilon_dot * p.u) - t9 * p.zf_minus_fa);
+    let t15 = p.m2_da * (beta_dot * (beta_dot * p.rr) - t7 * p.da) + t7 * p.m2_da2;
+    let f_Theta = sin_Theta * t15;
+    let t16 = p.k10 * (t8 * p.e_minus_ea + delta_dot * (delta_dot * p.zt)) - t8 * p.k0;
+    let f_Phi = cos_Phi * t16;
+    let t17 = cos_Omega * (t9 * p.k2 + t14);
     let t18 = (t11 * t11 + t10 * t10).sqrt();
     let t19 = S::ONE / t18 * (p.l0 - t18);
-    let t20 = t19 * (t10 * p.k12 + t11 * p.k13) + (t13 * p.k11 - p.k10 * t12);
-    let t21 = t19 * (t11 * p.k12 - t10 * p.k13) + (p.k10 * t13 + p.k11 * t12);
-    let f_beta = f_Theta + (p.mom - sin_Theta * (t4 * p.k30));
+    let t20 = t19 * (t10 * p.sc_c0 + t11 * p.sd_c0) + (t13 * p.m3_sb - p.m3_sa * t12);
+    let t21 = t19 * (t11 * p.sc_c0 - t10 * p.sd_c0) + (p.m3_sa * t13 + p.m3_sb * t12);
+    let f_beta = f_Theta + (p.mom - sin_Theta * (t4 * p.m2_da_rr));
     let f_gamma = -(sin_gamma * t21 + cos_gamma * t20);
-    let f_delta = f_Phi - cos_Phi * (t5 * p.k22);
+    let f_delta = f_Phi - cos_Phi * (t5 * p.k9);
     let f_Omega = -t17;
-    let f_epsilon = cos_Omega * (t6 * p.k26) - t17;
+    let f_epsilon = cos_Omega * (t6 * p.k11) - t17;
     [f_beta, f_Theta, f_gamma, f_Phi, f_delta, f_Omega, f_epsilon]
 }
 
@@ -851,14 +853,14 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let g4_4 = p.e * sin_t1;
     let g6_6 = cos_t2 * p.zf;
     let g1_1 = p.rr * sin_beta - sin_t0 * p.d;
-    let g1_2 = sin_t0 * p.k32;
+    let g1_2 = sin_t0 * p.minus_d;
     let g2_1 = g2_2 - p.rr * cos_beta;
     let g1_3 = p.ss * cos_gamma;
     let zero = S::ZERO;
     let g2_3 = p.ss * sin_gamma;
     let g3_5 = g3_4 - p.zt * sin_delta;
     let g4_5 = g4_4 + p.zt * cos_delta;
-    let g5_6 = sin_t2 * p.k33;
+    let g5_6 = sin_t2 * p.minus_zf;
     let g5_7 = p.u * cos_epsilon - sin_t2 * p.zf;
     let g6_7 = g6_6 + p.u * sin_epsilon;
     [
@@ -1006,8 +1008,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t11 = gamma_dot * gamma_dot;
         let t12 = t6 * t6;
         let t13 = t8 * n(p.da);
-        let t14 = t10 * n(p.k0);
-        let t15 = t12 * n(p.k1);
+        let t14 = t10 * n(p.e_minus_ea);
+        let t15 = t12 * n(p.zf_minus_fa);
         let t16 = cos_beta * n(p.rr);
         let t17 = sin_beta * n(p.rr);
         let t18 = cos_gamma * n(p.ss);
@@ -1016,20 +1018,20 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t21 = cos_delta * n(p.zt);
         let t22 = sin_t0 * n(p.d);
         let t23 = cos_t0 * n(p.d);
-        let t24 = t18 * n(p.k53);
+        let t24 = t18 * n(p.k33);
         let t25 = cos_t1 * n(p.e);
-        let t26 = n(p.k53) * t20;
+        let t26 = n(p.k33) * t20;
         let t27 = sin_t1 * n(p.e);
         let t28 = sin_t0.mul_add(sin_beta, cos_t0 * cos_beta);
         let t29 = t17 - t22;
         let t30 = t16 - t23;
         let t31 = sin_t1.mul_sub(cos_delta, cos_t1 * sin_delta);
         let t32 = t19 - t25;
-        let t33 = t28 * n(p.k51);
-        let t34 = n(p.k50) * t31;
-        let t35 = t28.neg_mul_add(t28 * n(p.k41), n(p.k42));
+        let t33 = t28 * n(p.k31);
+        let t34 = n(p.k30) * t31;
+        let t35 = t28.neg_mul_add(t28 * n(p.k21), n(p.k22));
         let t36 = cos_gamma.mul_add(n(p.sd), n(p.xb));
-        let t37 = t31.neg_mul_add(t31 * n(p.k37), n(p.k38));
+        let t37 = t31.neg_mul_add(t31 * n(p.k17), n(p.k18));
         let t38 = t27 + t21;
         let t39 = N::ONE / t35;
         let t40 = sin_gamma.mul_add(n(p.sd), n(p.yb));
@@ -1042,12 +1044,12 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t47 = sin_t2 * n(p.zf);
         let t48 = t4 * t17;
         let t49 = cos_t0.neg_mul_add(t13, t42);
-        let t50 = n(p.k49) * t44;
+        let t50 = n(p.k29) * t44;
         let t51 = sin_epsilon * n(p.u);
         let t52 = t46 - t47;
         let t53 = sin_t0.neg_mul_add(t13, t48);
         let t54 = t21 * t7;
-        let t55 = t44.neg_mul_add(t44 * n(p.k34), n(p.k35));
+        let t55 = t44.neg_mul_add(t44 * n(p.k14), n(p.k15));
         let t56 = t46 * t9;
         let t57 = t39 * t33.neg_mul_add(t22, t22 + t29);
         let t58 = t39 * t23.neg_mul_add(t33, t23 + t30);
@@ -1055,15 +1057,15 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t60 = t43 * t25.mul_add(t34, t25 + t32);
         let t61 = t43 * t34.neg_mul_add(t27, t38 - t27);
         let t62 = N::ONE / t55;
-        let t63 = t57 + t33.neg_mul_add(t57, t22 * n(p.k52));
-        let t64 = t58 + t33.neg_mul_add(t58, t23 * n(p.k52));
-        let t65 = t60 + t34.mul_add(t60, t25 * n(p.k48));
+        let t63 = t57 + t33.neg_mul_add(t57, t22 * n(p.k32));
+        let t64 = t58 + t33.neg_mul_add(t58, t23 * n(p.k32));
+        let t65 = t60 + t34.mul_add(t60, t25 * n(p.k28));
         let t66 = cos_beta.mul_sub(t53, sin_beta * t49);
         let t67 = t22.mul_add(t63, t29 * t57);
         let t68 = t23.mul_add(t63, t30 * t57);
         let t69 = t23.mul_add(t64, t30 * t58);
         let t70 = t22.mul_add(t64, t58 * t29);
-        let t71 = t61 - t34.neg_mul_add(t61, n(p.k48) * t27);
+        let t71 = t61 - t34.neg_mul_add(t61, n(p.k28) * t27);
         let t72 = cos_t0.mul_sub(t53, sin_t0 * t49);
         let t73 = t18.mul_add(t24, t67);
         let t74 = t24.neg_mul_add(t20, t68);
@@ -1075,9 +1077,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t80 = t69 + t27.neg_mul_add(t71, t38 * t61);
         let t81 = t62 * t47.neg_mul_add(t50, t47 + t52);
         let t82 = cos_t2 * n(p.zf);
-        let t83 = t66.mul_add(n(p.k21), n(p.mom));
+        let t83 = t66.mul_add(n(p.m2_rr), n(p.mom));
         let t84 = t82 + t51;
-        let t85 = t39 * t72.neg_mul_add(t28 * n(p.k40), t83);
+        let t85 = t39 * t72.neg_mul_add(t28 * n(p.k20), t83);
         let t86 = t77 * t74;
         let t87 = t67 * t77;
         let t88 = t77 * t68;
@@ -1089,16 +1091,16 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t94 = t74.neg_mul_add(t87, t70);
         let t95 = t74.neg_mul_add(t88, t69);
         let t96 = N::ONE / t93;
-        let t97 = t81 + t50.neg_mul_add(t81, t47 * n(p.k47));
+        let t97 = t81 + t50.neg_mul_add(t81, t47 * n(p.k27));
         let t98 = cos_gamma * n(p.sc).mul_add(t41, n(p.sd) * t45);
         let t99 = n(p.sc).mul_sub(t45, n(p.sd) * t41);
         let t100 = t10 * sin_t1.mul_add(sin_delta, cos_t1 * cos_delta);
         let t101 = t12 * cos_t2.mul_add(cos_epsilon, sin_t2 * sin_epsilon);
-        let t102 = n(p.k44).mul_add(t85.neg_mul_add(t28 * n(p.rr), t72), t85);
+        let t102 = n(p.k24).mul_add(t85.neg_mul_add(t28 * n(p.rr), t72), t85);
         let t103 = t8.neg_mul_add(t23, t42);
         let t104 = t8.neg_mul_add(t22, t48);
-        let t105 = t43 * t90.mul_add(t31 * n(p.k39), t100);
-        let t106 = t62 * t92.neg_mul_add(t44 * n(p.k36), t101);
+        let t105 = t43 * t90.mul_add(t31 * n(p.k19), t100);
+        let t106 = t62 * t92.neg_mul_add(t44 * n(p.k16), t101);
         let t107 = t67 + t47.mul_add(t97, t52 * t81);
         let t108 = t22.mul_add(t102, t85 * t29);
         let t109 = sin_gamma.mul_add(t99, t98) * (n(p.l0) - t59);
@@ -1114,19 +1116,19 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t119 = t67 - t114;
         let t120 = t62 * t50.mul_add(t82, t84 - t82);
         let t121 = N::ONE / t117;
-        let t122 = t110 * n(p.k54);
-        let t123 = t105.mul_add(t31 * n(p.k45), t90);
-        let t124 = n(p.k48).mul_add(t123, n(p.zt) * t105);
-        let t125 = t105 * n(p.k22);
-        let t126 = t106.neg_mul_add(t44 * n(p.k46), t92);
-        let t127 = n(p.k47).mul_add(t126, n(p.u) * t106);
-        let t128 = t106 * n(p.k26);
+        let t122 = t110 * n(p.k34);
+        let t123 = t105.mul_add(t31 * n(p.k25), t90);
+        let t124 = n(p.k28).mul_add(t123, n(p.zt) * t105);
+        let t125 = t105 * n(p.k9);
+        let t126 = t106.neg_mul_add(t44 * n(p.k26), t92);
+        let t127 = n(p.k27).mul_add(t126, n(p.u) * t106);
+        let t128 = t106 * n(p.k11);
         let t129 = t68 - t115;
         let t130 = t108 + t20.neg_mul_add(t11, t103);
         let t131 = cos_gamma.neg_mul_add(t122, t130);
-        let t132 = n(p.k55) * t124;
-        let t133 = n(p.k56) * t127;
-        let t134 = t120 - t50.mul_add(t120, n(p.k47) * t82);
+        let t132 = n(p.k35) * t124;
+        let t133 = n(p.k36) * t127;
+        let t134 = t120 - t50.mul_add(t120, n(p.k27) * t82);
         let t135 = t121 * t118;
         let t136 = t121 * t119;
         let t137 = t121 * t129;
@@ -1175,10 +1177,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t180 = t175 + t178;
         let beta_ddot = t57.neg_mul_add(t180, t58.mul_add(t179, t85));
         let Theta_ddot = t63.mul_sub(t180, t64.mul_add(t179, t102));
-        let gamma_ddot = -t24.mul_add(t178, t26.mul_add(t176, t110 * n(p.k43)));
-        let Phi_ddot = t65.neg_mul_add(t174, t71.mul_add(t171, t124 * n(p.k23)));
+        let gamma_ddot = -t24.mul_add(t178, t26.mul_add(t176, t110 * n(p.k23)));
+        let Phi_ddot = t65.neg_mul_add(t174, t71.mul_add(t171, t124 * n(p.k10)));
         let delta_ddot = t60.mul_sub(t174, t61.mul_add(t171, t125));
-        let Omega_ddot = t97.mul_add(t170, t134.mul_sub(t169, t127 * n(p.k27)));
+        let Omega_ddot = t97.mul_add(t170, t134.mul_sub(t169, t127 * n(p.k12)));
         let epsilon_ddot = -t81.mul_add(t170, t120.mul_sub(t169, t128));
         let sound = PIVOTS.hold(t55, t55)
             & PIVOTS.hold(t37, t37)
@@ -1294,7 +1296,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t20 = sin_gamma * n(p.sd);
         let t21 = sin_t0 * n(p.d);
         let t22 = cos_t0 * n(p.d);
-        let t23 = t16 * n(p.k53);
+        let t23 = t16 * n(p.k33);
         let t24 = cos_t1 * n(p.e);
         let t25 = sin_gamma * n(p.sc);
         let t26 = sin_t0.mul_add(sin_beta, cos_t0 * cos_beta);
@@ -1302,11 +1304,11 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t28 = t14 - t22;
         let t29 = sin_t1.mul_sub(cos_delta, cos_t1 * sin_delta);
         let t30 = t17 - t24;
-        let t31 = n(p.k51) * t26;
-        let t32 = n(p.k50) * t29;
-        let t33 = t26.neg_mul_add(t26 * n(p.k41), n(p.k42));
+        let t31 = n(p.k31) * t26;
+        let t32 = n(p.k30) * t29;
+        let t33 = t26.neg_mul_add(t26 * n(p.k21), n(p.k22));
         let t34 = cos_gamma * n(p.sc);
-        let t35 = t29.neg_mul_add(t29 * n(p.k37), n(p.k38));
+        let t35 = t29.neg_mul_add(t29 * n(p.k17), n(p.k18));
         let t36 = N::ONE / t33;
         let t37 = sin_t1 * n(p.e);
         let t38 = cos_delta * n(p.zt);
@@ -1323,18 +1325,18 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t49 = sin_epsilon * n(p.u);
         let t50 = sin_t0.neg_mul_add(t13, t45);
         let t51 = cos_t0.neg_mul_add(t13, t47);
-        let t52 = n(p.k49) * t46;
+        let t52 = n(p.k29) * t46;
         let t53 = t36 * t21.neg_mul_add(t31, t21 + t27);
         let t54 = t36 * t31.neg_mul_add(t22, t22 + t28);
         let t55 = t42.mul_add(t42, t40 * t40).sqrt();
         let t56 = t39 * t24.mul_add(t32, t24 + t30);
-        let t57 = t46.neg_mul_add(t46 * n(p.k34), n(p.k35));
-        let t58 = t53 + t31.neg_mul_add(t53, t21 * n(p.k52));
+        let t57 = t46.neg_mul_add(t46 * n(p.k14), n(p.k15));
+        let t58 = t53 + t31.neg_mul_add(t53, t21 * n(p.k32));
         let t59 = t39 * t32.neg_mul_add(t37, t44 - t37);
-        let t60 = t54 + t31.neg_mul_add(t54, n(p.k52) * t22);
+        let t60 = t54 + t31.neg_mul_add(t54, n(p.k32) * t22);
         let t61 = N::ONE / t57;
         let t62 = t38 * t7;
-        let t63 = t56 + t32.mul_add(t56, t24 * n(p.k48));
+        let t63 = t56 + t32.mul_add(t56, t24 * n(p.k28));
         let t64 = sin_t1 * t10;
         let t65 = t21.mul_add(t58, t27 * t53);
         let t66 = t58.mul_add(t22, t53 * t28);
@@ -1342,14 +1344,14 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t68 = t21.mul_add(t60, t27 * t54);
         let t69 = t16.mul_add(t23, t65);
         let t70 = t23.neg_mul_add(t19, t66);
-        let t71 = t19.mul_add(n(p.k53) * t19, t67);
+        let t71 = t19.mul_add(n(p.k33) * t19, t67);
         let t72 = t41 * t9;
         let t73 = sin_t2 * t12;
         let t74 = t65 + t24.mul_add(t63, t30 * t56);
         let t75 = N::ONE / t55;
         let t76 = N::ONE / t69;
-        let t77 = t50.mul_add(cos_beta * n(p.k21), n(p.mom));
-        let t78 = t59 - t32.neg_mul_add(t59, n(p.k48) * t37);
+        let t77 = t50.mul_add(cos_beta * n(p.m2_rr), n(p.mom));
+        let t78 = t59 - t32.neg_mul_add(t59, n(p.k28) * t37);
         let t79 = cos_t0.mul_sub(t50, sin_t0 * t51);
         let t80 = t17 * t7;
         let t81 = cos_t1 * t10;
@@ -1358,30 +1360,30 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t84 = t67 + t37.neg_mul_add(t78, t44 * t59);
         let t85 = t61 * t43.neg_mul_add(t52, t43 + t48);
         let t86 = cos_t2 * n(p.zf);
-        let t87 = t51.neg_mul_add(sin_beta * n(p.k21), t77);
+        let t87 = t51.neg_mul_add(sin_beta * n(p.m2_rr), t77);
         let t88 = t86 + t49;
         let t89 = t76 * t70;
         let t90 = t65 * t76;
         let t91 = t76 * t66;
-        let t92 = t36 * t79.neg_mul_add(t26 * n(p.k40), t87);
+        let t92 = t36 * t79.neg_mul_add(t26 * n(p.k20), t87);
         let t93 = t42 * t75;
         let t94 = t40 * t75;
-        let t95 = cos_t1 * n(p.k0).mul_add(t64, t62);
-        let t96 = sin_t1.mul_add(t81.neg_mul_add(n(p.k0), t80), t95);
+        let t95 = cos_t1 * n(p.e_minus_ea).mul_add(t64, t62);
+        let t96 = sin_t1.mul_add(t81.neg_mul_add(n(p.e_minus_ea), t80), t95);
         let t97 = t70.neg_mul_add(t89, t71);
         let t98 = t70.neg_mul_add(t90, t68);
         let t99 = t70.neg_mul_add(t91, t67);
         let t100 = N::ONE / t97;
-        let t101 = cos_t2 * n(p.k1).neg_mul_add(t73, t72);
-        let t102 = sin_t2.mul_add(t83.mul_add(n(p.k1), t82), t101);
-        let t103 = t85 + t52.neg_mul_add(t85, t43 * n(p.k47));
+        let t101 = cos_t2 * n(p.zf_minus_fa).neg_mul_add(t73, t72);
+        let t102 = sin_t2.mul_add(t83.mul_add(n(p.zf_minus_fa), t82), t101);
+        let t103 = t85 + t52.neg_mul_add(t85, t43 * n(p.k27));
         let t104 = sin_delta.mul_add(t64, cos_delta * t81);
         let t105 = cos_epsilon.mul_add(t83, sin_epsilon * t73);
-        let t106 = n(p.k44).mul_add(t92.neg_mul_add(t26 * n(p.rr), t79), t92);
+        let t106 = n(p.k24).mul_add(t92.neg_mul_add(t26 * n(p.rr), t79), t92);
         let t107 = t22.neg_mul_add(t8, t47);
         let t108 = t21.neg_mul_add(t8, t45);
-        let t109 = t39 * t96.mul_add(t29 * n(p.k39), t104);
-        let t110 = t61 * t102.neg_mul_add(t46 * n(p.k36), t105);
+        let t109 = t39 * t96.mul_add(t29 * n(p.k19), t104);
+        let t110 = t61 * t102.neg_mul_add(t46 * n(p.k16), t105);
         let t111 = t100 * t98;
         let t112 = t100 * t99;
         let t113 = t65 + t43.mul_add(t103, t48 * t85);
@@ -1396,18 +1398,18 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t122 = N::ONE / t119;
         let t123 = t61 * t52.mul_add(t86, t88 - t86);
         let t124 = t18.mul_add(t93, t25 * t93) + t34.mul_sub(t94, t20 * t94);
-        let t125 = t124 * ((n(p.l0) - t55) * n(p.k54));
-        let t126 = t109.mul_add(t29 * n(p.k45), t96);
-        let t127 = t109 * n(p.k22);
-        let t128 = t110.neg_mul_add(t46 * n(p.k46), t102);
-        let t129 = t110 * n(p.k26);
+        let t125 = t124 * ((n(p.l0) - t55) * n(p.k34));
+        let t126 = t109.mul_add(t29 * n(p.k25), t96);
+        let t127 = t109 * n(p.k9);
+        let t128 = t110.neg_mul_add(t46 * n(p.k26), t102);
+        let t129 = t110 * n(p.k11);
         let t130 = t66 - t116;
         let t131 = t114 + t19.neg_mul_add(t11, t107);
         let t132 = cos_gamma.neg_mul_add(t125, t131);
-        let t133 = n(p.k55) * n(p.k48).mul_add(t126, n(p.zt) * t109);
+        let t133 = n(p.k35) * n(p.k28).mul_add(t126, n(p.zt) * t109);
         let t134 = t122 * t120;
         let t135 = t122 * t121;
-        let t136 = n(p.k56) * n(p.k47).mul_add(t128, n(p.u) * t110);
+        let t136 = n(p.k36) * n(p.k27).mul_add(t128, n(p.u) * t110);
         let t137 = t122 * t130;
         let t138 = t120.neg_mul_add(t134, t84 - t117);
         let t139 = t99.neg_mul_add(t111, t66.neg_mul_add(t90, t68));
@@ -1419,7 +1421,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t145 = t44.neg_mul_add(t127, t108 - t24.neg_mul_add(t10, t80));
         let t146 = t48.mul_add(t129, t107 - t86.mul_add(t12, t82));
         let t147 = t88.mul_add(t129, t108 + t43.neg_mul_add(t12, t72));
-        let t148 = t123 - t52.mul_add(t123, n(p.k47) * t86);
+        let t148 = t123 - t52.mul_add(t123, n(p.k27) * t86);
         let t149 = t120.neg_mul_add(t137, t67 - t117);
         let t150 = t111.neg_mul_add(t142, t90 * t132);
         let t151 = t112.neg_mul_add(t142, t91 * t132);
@@ -1525,17 +1527,17 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t5 = t0 * t0;
     let t6 = t2 * t2;
     let t7 = t4 * t4;
-    let t8 = delta_dot * (delta_dot * p.k18) + beta_dot * (beta_dot * p.k17);
+    let t8 = delta_dot * (delta_dot * p.k7) + beta_dot * (beta_dot * p.k6);
     let t9 = beta_dot * p.rr - cos_Theta * (t0 * p.da);
-    let t10 = sin_Phi * (t2 * p.k0) + delta_dot * p.zt;
-    let t11 = epsilon_dot * p.u - sin_Omega * (t4 * p.k1);
+    let t10 = sin_Phi * (t2 * p.e_minus_ea) + delta_dot * p.zt;
+    let t11 = epsilon_dot * p.u - sin_Omega * (t4 * p.zf_minus_fa);
     let t12 = t3 * sin_gamma - cos_gamma * t1;
     let t13 = t3 * cos_gamma + sin_gamma * t1;
-    let t14 = (sin_Theta * (sin_Theta * (t5 * p.k14)) + t9 * t9) * p.m2 + t5 * p.I2;
+    let t14 = (sin_Theta * (sin_Theta * (t5 * p.da2)) + t9 * t9) * p.m2 + t5 * p.I2;
     let t15 = (t13 * t13 + t12 * t12) * p.m3 + gamma_dot * (gamma_dot * p.I3);
-    let t16 = (cos_Phi * (cos_Phi * (t6 * p.k15)) + t10 * t10) * p.m4 + t6 * p.I4;
-    let t17 = (cos_Omega * (cos_Omega * (t7 * p.k16)) + t11 * t11) * p.m6 + t7 * p.I6;
-    let t18 = S::from_f64(0.5) * t15 + (epsilon_dot * (epsilon_dot * p.k19) + t8);
+    let t16 = (cos_Phi * (cos_Phi * (t6 * p.k4)) + t10 * t10) * p.m4 + t6 * p.I4;
+    let t17 = (cos_Omega * (cos_Omega * (t7 * p.k5)) + t11 * t11) * p.m6 + t7 * p.I6;
+    let t18 = S::from_f64(0.5) * t15 + (epsilon_dot * (epsilon_dot * p.k8) + t8);
     let t19 = S::from_f64(0.5) * t16 + S::from_f64(0.5) * t14;
     t19 + (S::from_f64(0.5) * t17 + t18)
 }
@@ -1552,7 +1554,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t0 = p.xc - (sin_gamma * p.sc + (cos_gamma * p.sd + p.xb));
     let t1 = p.yc - (sin_gamma * p.sd + p.yb - cos_gamma * p.sc);
     let t2 = p.l0 - (t1 * t1 + t0 * t0).sqrt();
-    t2 * (t2 * p.k3)
+    t2 * (t2 * p.half_c0)
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -1627,10 +1629,11 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 7]) 
     outputs Outputs {} []
     prepared Prepared {
         m2, m3, m4, m6, I1, I2, I3, I4, I5, I6, I7, xa, ya, xb, yb, xc, yc, d, da, e, zf, rr, ss,
-        sa, sb, sc, sd, zt, u, l0, mom, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13,
-        k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30, k31,
-        k32, k33, k34, k35, k36, k37, k38, k39, k40, k41, k42, k43, k44, k45, k46, k47, k48, k49,
-        k50, k51, k52, k53, k54, k55, k56,
+        sa, sb, sc, sd, zt, u, l0, mom, e_minus_ea, zf_minus_fa, m1_ra2, half_c0, m2_da2,
+        I2_plus_m2_da2, k0, k1, k2, k3, m3_sa, m3_sb, sc_c0, sd_c0, da2, k4, k5, k6, k7, k8, m2_da,
+        m2_rr, k9, k10, m4_zt, m5_ta2_plus_m5_tb2, k11, k12, m6_u, m7_ub2_plus_m7_ua2, m2_da_rr,
+        k13, minus_d, minus_zf, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26,
+        k27, k28, k29, k30, k31, k32, k33, k34, k35, k36,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

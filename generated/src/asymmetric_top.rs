@@ -76,31 +76,31 @@ pub struct AsymmetricTop<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> AsymmetricTop<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.B - self.C;
-        let k2 = self.A - self.B;
-        let k1 = self.A - self.C;
-        let k3 = self.A + k0;
-        let k4 = k0 * S::from_f64(2.0);
-        let k5 = k2 * S::from_f64(2.0);
-        let k6 = self.A - k0;
-        let k7 = -self.A;
-        let k8 = S::ONE / self.A;
-        let k9 = k0 * k0;
+        let B_minus_C = self.B - self.C;
+        let A_minus_B = self.A - self.B;
+        let A_minus_C = self.A - self.C;
+        let A_plus_B_minus_C = self.A + B_minus_C;
+        let k0 = B_minus_C * S::from_f64(2.0);
+        let k1 = A_minus_B * S::from_f64(2.0);
+        let A_minus_B_plus_C = self.A - B_minus_C;
+        let minus_A = -self.A;
+        let inverse_A = S::ONE / self.A;
+        let k2 = B_minus_C * B_minus_C;
         let pivots = [(2, self.A, self.A)];
         Prepared {
             A: self.A,
             B: self.B,
             C: self.C,
+            B_minus_C,
+            A_minus_C,
+            A_minus_B,
+            A_plus_B_minus_C,
             k0,
             k1,
+            A_minus_B_plus_C,
+            minus_A,
+            inverse_A,
             k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -159,35 +159,32 @@ pub struct Prepared<S = f64> {
     /// `C`
     C: S,
     /// `B - C`
-    k0: S,
+    B_minus_C: S,
     /// `A - C`
-    k1: S,
+    A_minus_C: S,
     /// `A - B`
-    k2: S,
+    A_minus_B: S,
     /// `A + B - C`
-    k3: S,
+    A_plus_B_minus_C: S,
     /// `2*(B - C)`
-    k4: S,
+    k0: S,
     /// `2*(A - B)`
-    k5: S,
+    k1: S,
     /// `A - B + C`
-    k6: S,
+    A_minus_B_plus_C: S,
     /// `-A`
-    k7: S,
+    minus_A: S,
     /// `1/A`
-    k8: S,
+    inverse_A: S,
     /// `(B - C)^2`
-    k9: S,
+    k2: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 3,
-    tolerance: 2.6645352591003757e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(3, 3);
 
 /// Mass matrix `M`.
 ///
@@ -204,11 +201,11 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
     let (sin_roll, cos_roll) = roll.sin_cos();
     let t0 = cos_pitch * cos_roll;
-    let t1 = t0 * p.k0;
-    let m11 = p.A - cos_pitch * (cos_pitch * p.k2) - t0 * t1;
+    let t1 = t0 * p.B_minus_C;
+    let m11 = p.A - cos_pitch * (cos_pitch * p.A_minus_B) - t0 * t1;
     let m21 = sin_roll * t1;
-    let m22 = cos_roll * (cos_roll * p.k0) + p.C;
-    let m31 = sin_pitch * p.k7;
+    let m22 = cos_roll * (cos_roll * p.B_minus_C) + p.C;
+    let m31 = sin_pitch * p.minus_A;
     let zero = S::ZERO;
     [[m11, m21, m31], [m21, m22, zero], [m31, zero, p.A]]
 }
@@ -238,18 +235,19 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[
     let roll_dot = v[2];
     let (sin_roll, cos_roll) = roll.sin_cos();
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
-    let t0 = p.k4 * cos_roll;
-    let t1 = cos_roll * p.k0;
+    let t0 = p.k0 * cos_roll;
+    let t1 = cos_roll * p.B_minus_C;
     let t2 = sin_pitch * yaw_dot;
     let t3 = cos_pitch * yaw_dot;
     let t4 = cos_roll * t0;
     let t5 = sin_roll * t1;
     let t6 = t0 * (roll_dot * sin_roll);
     let t7 = pitch_dot * t5;
-    let t8 = t4 + p.k6;
-    let t9 = cos_pitch * (roll_dot * (t4 - p.k3) + t2 * (t4 + p.k5)) - sin_pitch * t7;
-    let h_yaw = pitch_dot * t9 + t6 * (cos_pitch * t3);
-    let h_pitch = -(t3 * (t2 * (p.k2 + cos_roll * t1) - roll_dot * t8) + pitch_dot * t6);
+    let t8 = t4 + p.A_minus_B_plus_C;
+    let t9 = t3 * (t2 * (p.A_minus_B + cos_roll * t1) - roll_dot * t8);
+    let t10 = cos_pitch * (roll_dot * (t4 - p.A_plus_B_minus_C) + t2 * (t4 + p.k1));
+    let h_yaw = pitch_dot * (t10 - sin_pitch * t7) + t6 * (cos_pitch * t3);
+    let h_pitch = -(t9 + pitch_dot * t6);
     let h_roll = pitch_dot * t7 - t3 * (pitch_dot * t8 + t5 * t3);
     [h_yaw, h_pitch, h_roll]
 }
@@ -270,9 +268,9 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let t4 = cos_pitch * cos_roll;
     let t5 = yaw_dot * t1 + cos_roll * pitch_dot;
     let t6 = sin_roll * pitch_dot - t4 * yaw_dot;
-    let f_roll = cos_pitch * (t0 * p.A) - t6 * (t5 * p.k0);
-    let t7 = t5 * (t2 * p.k2) + (t5 * roll_dot + cos_roll * t3) * p.C;
-    let t8 = t6 * (t2 * p.k1) + (t6 * roll_dot + sin_roll * t3) * p.B;
+    let f_roll = cos_pitch * (t0 * p.A) - t6 * (t5 * p.B_minus_C);
+    let t7 = t5 * (t2 * p.A_minus_B) + (t5 * roll_dot + cos_roll * t3) * p.C;
+    let t8 = t6 * (t2 * p.A_minus_C) + (t6 * roll_dot + sin_roll * t3) * p.B;
     let f_yaw = t1 * t8 + (t4 * t7 - sin_pitch * f_roll);
     let f_pitch = cos_roll * t8 - sin_roll * t7;
     [f_yaw, f_pitch, f_roll]
@@ -331,26 +329,27 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t10 = t2.mul_add(n(p.B), t1 * n(p.C));
         let t11 = cos_pitch * cos_pitch;
         let t12 = N::ONE / t10;
-        let t13 = sin_roll * n(p.k0);
+        let t13 = sin_roll * n(p.B_minus_C);
         let t14 = t7.mul_add(roll_dot, sin_roll * t4);
-        let t15 = n(p.B).mul_add(t14, t7 * (t3 * n(p.k1)));
+        let t15 = n(p.B).mul_add(t14, t7 * (t3 * n(p.A_minus_C)));
         let t16 = roll_dot.mul_add(t9, cos_roll * t4);
-        let t17 = n(p.C).mul_add(t16, t9 * (t3 * n(p.k2)));
-        let t18 = t7.neg_mul_add(t9 * n(p.k0), cos_pitch * (t0 * n(p.A)));
+        let t17 = n(p.C).mul_add(t16, t9 * (t3 * n(p.A_minus_B)));
+        let t18 = cos_pitch * (t0 * n(p.A));
         let t19 = t5 * t12;
         let t20 = t12 * sin_roll.mul_sub(t17, cos_roll * t15);
         let t21 = t5.mul_add(t5 * n(p.C), sin_pitch * (sin_pitch * n(p.A)));
         let t22 = t11 * t2.mul_add(n(p.C), t6);
-        let t23 = t19.neg_mul_add(t1 * (t5 * n(p.k9)), t22);
+        let t23 = t19.neg_mul_add(t1 * (t5 * n(p.k2)), t22);
         let t24 = sin_roll.mul_add(t15, cos_roll * t17);
         let t25 = cos_pitch * t20.mul_add(cos_roll * t13, t24);
         let yaw_ddot = N::ONE / t23 * t25;
+        let t26 = n(p.inverse_A) * t7.neg_mul_add(t9 * n(p.B_minus_C), t18);
         let pitch_ddot = -yaw_ddot.mul_add(t19 * t13, t20);
-        let roll_ddot = sin_pitch.mul_add(yaw_ddot, n(p.k8) * t18);
-        let t26 = t11.mul_add(t6, t21);
-        let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t23, t26) & pitch_ddot.is_finite();
+        let roll_ddot = sin_pitch.mul_add(yaw_ddot, t26);
+        let t27 = t11.mul_add(t6, t21);
+        let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t23, t27) & pitch_ddot.is_finite();
         if !sound {
-            let pivots = [(1, t10, t10), (0, t23, t26)];
+            let pivots = [(1, t10, t10), (0, t23, t27)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [yaw_ddot.store(), pitch_ddot.store(), roll_ddot.store()];
@@ -528,7 +527,10 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         momentum_z: "momentum_z" "J*s";
         upright: "upright" "1";
     ]
-    prepared Prepared { A, B, C, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9 }
+    prepared Prepared {
+        A, B, C, B_minus_C, A_minus_C, A_minus_B, A_plus_B_minus_C, k0, k1, A_minus_B_plus_C,
+        minus_A, inverse_A, k2,
+    }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

@@ -60,22 +60,22 @@ impl<S: ::lagrangian::emitted::Scalar> BallInBowl<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.r - self.R;
-        let k6 = self.m * self.g;
+        let m_g = self.m * self.g;
         let k0 = S::ONE / t0;
         let k1 = self.r * k0;
         let k3 = k0 * k0;
         let k5 = k0 * k1;
-        let k7 = k0 * k5;
+        let k6 = k0 * k5;
         let k2 = k0 * (self.R * self.Omega);
         let k4 = t0 * S::from_f64(0.5);
-        let k8 = -self.J;
-        let k9 = -k6;
-        let k10 = -k0;
-        let k11 = -k5;
-        let k12 = -k3;
-        let k13 = -k7;
-        let k14 = S::ONE / self.J;
-        let k15 = S::ONE / self.m;
+        let minus_J = -self.J;
+        let minus_m_g = -m_g;
+        let k7 = -k0;
+        let k8 = -k5;
+        let k9 = -k3;
+        let k10 = -k6;
+        let inverse_J = S::ONE / self.J;
+        let inverse_m = S::ONE / self.m;
         let pivots = [
             (2, self.m, self.m),
             (4, self.J, self.J),
@@ -93,16 +93,16 @@ impl<S: ::lagrangian::emitted::Scalar> BallInBowl<S> {
             k3,
             k4,
             k5,
+            m_g,
             k6,
+            minus_J,
+            minus_m_g,
             k7,
             k8,
             k9,
             k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
+            inverse_J,
+            inverse_m,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -170,35 +170,32 @@ pub struct Prepared<S = f64> {
     /// `r/(r - R)^2`
     k5: S,
     /// `m*g`
-    k6: S,
+    m_g: S,
     /// `r/(r - R)^3`
-    k7: S,
+    k6: S,
     /// `-J`
-    k8: S,
+    minus_J: S,
     /// `-m*g`
-    k9: S,
+    minus_m_g: S,
     /// `-1/(r - R)`
-    k10: S,
+    k7: S,
     /// `-r/(r - R)^2`
-    k11: S,
+    k8: S,
     /// `-1/(r - R)^2`
-    k12: S,
+    k9: S,
     /// `-r/(r - R)^3`
-    k13: S,
+    k10: S,
     /// `1/J`
-    k14: S,
+    inverse_J: S,
     /// `1/m`
-    k15: S,
+    inverse_m: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 6,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(6, 9);
 
 /// Mass matrix `M`.
 ///
@@ -242,7 +239,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[
     let t0 = cos_b * p.J * b_dot;
     let zero = S::ZERO;
     let h_a = t0 * c_dot;
-    let h_b = cos_b * (c_dot * (a_dot * p.k8));
+    let h_b = cos_b * (c_dot * (a_dot * p.minus_J));
     let h_c = t0 * a_dot;
     [zero, zero, zero, h_a, h_b, h_c]
 }
@@ -254,7 +251,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[
 /// ```
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 6] {
     let zero = S::ZERO;
-    [zero, zero, p.k9, zero, zero, zero]
+    [zero, zero, p.minus_m_g, zero, zero, zero]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
@@ -264,12 +261,12 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: 
     let b_dot = v[4];
     let c_dot = v[5];
     let cos_b = b.cos();
-    let t0 = p.k8 * cos_b * b_dot;
+    let t0 = p.minus_J * cos_b * b_dot;
     let zero = S::ZERO;
     let f_a = t0 * c_dot;
     let f_b = cos_b * (c_dot * (a_dot * p.J));
     let f_c = t0 * a_dot;
-    [zero, zero, p.k9, f_a, f_b, f_c]
+    [zero, zero, p.minus_m_g, f_a, f_b, f_c]
 }
 
 /// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
@@ -328,8 +325,8 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let t4 = y_dot + x * p.k2 - p.k1 * (x * t2 - z * t1);
     let t5 = x_dot - y * p.k2 - p.k1 * (z * t3 - y * t2);
     let t6 = (y * y + x * x) * (z_dot - p.k1 * (y * t1 - x * t3));
-    let phi1 = p.k10 * (z * z_dot + (y * y_dot + x * x_dot));
-    let phi2 = p.k10 * (x * t4 - y * t5);
+    let phi1 = p.k7 * (z * z_dot + (y * y_dot + x * x_dot));
+    let phi2 = p.k7 * (x * t4 - y * t5);
     let phi3 = (z * (y * t4 + x * t5) - t6) * p.k3;
     [phi1, phi2, phi3]
 }
@@ -364,25 +361,25 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let (sin_b, cos_b) = b.sin_cos();
     let t0 = y * z;
     let t1 = x * z;
-    let g1_1 = p.k10 * x;
+    let g1_1 = p.k7 * x;
     let t2 = y * y + x * x;
     let t3 = t2 + z * z;
     let t4 = y * t3;
     let t5 = x * t3;
     let t6 = sin_a_ * cos_b;
-    let g1_2 = p.k10 * y;
-    let g1_3 = p.k10 * z;
+    let g1_2 = p.k7 * y;
+    let g1_3 = p.k7 * z;
     let zero = S::ZERO;
     let g2_1 = y * p.k0;
-    let g2_4 = t1 * p.k11;
+    let g2_4 = t1 * p.k8;
     let g2_5 = p.k5 * (sin_a_ * t2 - t0 * cos_a_);
     let g2_6 = p.k5 * (z * (y * t6 - x * sin_b) + cos_b * (cos_a_ * t2));
     let g3_1 = t1 * p.k3;
     let g3_2 = t0 * p.k3;
-    let g3_3 = t2 * p.k12;
-    let g3_4 = t4 * p.k7;
-    let g3_5 = cos_a_ * (t5 * p.k13);
-    let g3_6 = p.k7 * (sin_b * t4 + t6 * t5);
+    let g3_3 = t2 * p.k9;
+    let g3_4 = t4 * p.k6;
+    let g3_5 = cos_a_ * (t5 * p.k10);
+    let g3_6 = p.k6 * (sin_b * t4 + t6 * t5);
     [
         g1_1, g1_2, g1_3, zero, zero, zero, g2_1, g1_1, zero, g2_4, g2_5, g2_6, g3_1, g3_2, g3_3,
         g3_4, g3_5, g3_6,
@@ -435,7 +432,7 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     let t18 = t16 - (z_dot - p.k1 * (y * t7 - t5 * x)) * t15;
     let gamma1 = p.k0 * (z_dot * z_dot + (y_dot * y_dot + x_dot * x_dot));
     let gamma2 = p.k0 * (x * t14 + x_dot * t12 - (y_dot * t11 - y * t13));
-    let gamma3 = p.k12 * (t18 + (t17 + z_dot * (y * t12 + t11 * x)));
+    let gamma3 = p.k9 * (t18 + (t17 + z_dot * (y * t12 + t11 * x)));
     [gamma1, gamma2, gamma3]
 }
 
@@ -492,29 +489,29 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t3 = z * n(p.k0);
         let t4 = z * y;
         let t5 = b_dot * a_dot;
-        let t6 = n(p.k15) * t0;
+        let t6 = n(p.inverse_m) * t0;
         let t7 = y.mul_add(y, x * x);
-        let t8 = n(p.k15) * t1;
+        let t8 = n(p.inverse_m) * t1;
         let t9 = t2 * n(p.k5);
-        let t10 = n(p.k15) * t3;
+        let t10 = n(p.inverse_m) * t3;
         let t11 = n(p.k3) * t2;
         let t12 = t4 * n(p.k3);
         let t13 = n(p.k3) * t7;
-        let t14 = n(p.k14) * t9;
-        let t15 = n(p.k15) * t11;
-        let t16 = n(p.k15) * t12;
+        let t14 = n(p.inverse_J) * t9;
+        let t15 = n(p.inverse_m) * t11;
+        let t16 = n(p.inverse_m) * t12;
         let t17 = y.mul_add(t7, z * t4);
         let t18 = t1.mul_add(t8, t0 * t6);
-        let t19 = n(p.k15) * t13;
+        let t19 = n(p.inverse_m) * t13;
         let t20 = x.mul_add(t7, z * t2);
-        let t21 = n(p.k7) * t17;
+        let t21 = n(p.k6) * t17;
         let t22 = t3.mul_add(t10, t18);
         let t23 = t8.mul_sub(t0, t1 * t6);
-        let t24 = n(p.k14) * t21;
+        let t24 = n(p.inverse_J) * t21;
         let t25 = N::ONE / t22;
         let t26 = t19.mul_sub(t3, t16.mul_add(t1, t15 * t0));
         let t27 = z_dot.mul_add(z_dot, y_dot.mul_add(y_dot, x_dot * x_dot));
-        let t28 = n(p.k0).mul_sub(t27, t10 * n(p.k6));
+        let t28 = n(p.k0).mul_sub(t27, t10 * n(p.m_g));
         let t29 = t25 * t23;
         let t30 = t25 * t26;
         let t31 = t24.mul_add(t9, t16.mul_sub(t0, t15 * t1));
@@ -522,7 +519,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t33 = cos_b * c_dot;
         let t34 = sin_b * c_dot;
         let t35 = sin_a_ * cos_b;
-        let t36 = n(p.k14) * t32;
+        let t36 = n(p.inverse_J) * t32;
         let t37 = t33 * a_dot;
         let t38 = b_dot * t34;
         let t39 = sin_a_.neg_mul_add(t33, cos_a_ * b_dot);
@@ -536,10 +533,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t47 = t33 * b_dot;
         let t48 = cos_a_.mul_sub(t5, cos_a_.mul_add(t38, sin_a_ * t37));
         let t49 = sin_a_.mul_add(t5, cos_a_.mul_sub(t37, sin_a_ * t38));
-        let t50 = n(p.k14) * t43;
+        let t50 = n(p.inverse_J) * t43;
         let t51 = y.neg_mul_add(n(p.k2), x_dot);
         let t52 = n(p.k1).neg_mul_add(z.mul_sub(t39, y * t41), t51);
-        let t53 = cos_a_ * (t20 * n(p.k7));
+        let t53 = cos_a_ * (t20 * n(p.k6));
         let t54 = t44 * t46;
         let t55 = z.neg_mul_add(t49, z_dot * t39);
         let t56 = x.mul_add(n(p.k2), y_dot);
@@ -548,8 +545,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t59 = n(p.k1).mul_add(t58, y_dot * n(p.k2));
         let t60 = x.mul_add(t48, x_dot * t41) - z.mul_add(t47, z_dot * t42);
         let t61 = n(p.k1).neg_mul_add(t60, x_dot * n(p.k2));
-        let t62 = t53 * n(p.k14);
-        let t63 = n(p.k7).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
+        let t62 = t53 * n(p.inverse_J);
+        let t63 = n(p.k6).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
         let t64 = n(p.J) * t47;
         let t65 = t46.mul_add(t54, t18) + t43.mul_add(t50, t9 * t14);
         let t66 = n(p.J) * t37;
@@ -563,7 +560,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t74 = t70 * (y.mul_add(y_dot, x * x_dot) * N::from_f64(2.0));
         let t75 = y.mul_add(t47, y_dot * t42) - t69;
         let t76 = y.mul_add(t61, y_dot * t57) + t72;
-        let t77 = t62.neg_mul_add(t66, t30.mul_add(t28, t19 * n(p.k6)));
+        let t77 = t62.neg_mul_add(t66, t30.mul_add(t28, t19 * n(p.m_g)));
         let t78 = t62.mul_add(t43, t23.neg_mul_add(t30, t31));
         let t79 = t68.neg_mul_add(t46, t78);
         let t80 = y.neg_mul_add(t59, y_dot * t52);
@@ -582,12 +579,12 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t93 = t68.mul_add(t91, t44 * t73);
         let t94 = t29.mul_add(t92, t30.mul_add(t91, t25 * t28));
         let t95 = t54 * t92;
-        let t96 = t14.mul_add(t92, t24.mul_add(t91, n(p.k14) * t64));
+        let t96 = t14.mul_add(t92, t24.mul_add(t91, n(p.inverse_J) * t64));
         let x_ddot = -t6.mul_add(t94, t8.neg_mul_add(t92, t15 * t91));
         let y_ddot = -t8.mul_add(t94, t6.mul_add(t92, t16 * t91));
         let z_ddot = -t10.mul_add(t94, t19.neg_mul_add(t91, n(p.g)));
         let a_ddot = t36.mul_sub(t93 - t95, t96);
-        let b_ddot = t50.mul_add(t92, t62.mul_add(t91, n(p.k14) * t66));
+        let b_ddot = t50.mul_add(t92, t62.mul_add(t91, n(p.inverse_J) * t66));
         let c_ddot = t95 - t93;
         let sound = PIVOTS.hold(t22, t22)
             & PIVOTS.hold(t40, n(p.J))
@@ -667,29 +664,29 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t3 = z * n(p.k0);
         let t4 = z * y;
         let t5 = b_dot * a_dot;
-        let t6 = n(p.k15) * t0;
+        let t6 = n(p.inverse_m) * t0;
         let t7 = y.mul_add(y, x * x);
-        let t8 = n(p.k15) * t1;
+        let t8 = n(p.inverse_m) * t1;
         let t9 = t2 * n(p.k5);
-        let t10 = n(p.k15) * t3;
+        let t10 = n(p.inverse_m) * t3;
         let t11 = n(p.k3) * t2;
         let t12 = t4 * n(p.k3);
         let t13 = n(p.k3) * t7;
-        let t14 = n(p.k14) * t9;
-        let t15 = n(p.k15) * t11;
-        let t16 = n(p.k15) * t12;
+        let t14 = n(p.inverse_J) * t9;
+        let t15 = n(p.inverse_m) * t11;
+        let t16 = n(p.inverse_m) * t12;
         let t17 = y.mul_add(t7, z * t4);
         let t18 = t1.mul_add(t8, t0 * t6);
-        let t19 = n(p.k15) * t13;
+        let t19 = n(p.inverse_m) * t13;
         let t20 = x.mul_add(t7, z * t2);
-        let t21 = n(p.k7) * t17;
+        let t21 = n(p.k6) * t17;
         let t22 = t3.mul_add(t10, t18);
         let t23 = t8.mul_sub(t0, t1 * t6);
-        let t24 = n(p.k14) * t21;
+        let t24 = n(p.inverse_J) * t21;
         let t25 = N::ONE / t22;
         let t26 = t19.mul_sub(t3, t16.mul_add(t1, t15 * t0));
         let t27 = z_dot.mul_add(z_dot, y_dot.mul_add(y_dot, x_dot * x_dot));
-        let t28 = n(p.k0).mul_sub(t27, t10 * n(p.k6));
+        let t28 = n(p.k0).mul_sub(t27, t10 * n(p.m_g));
         let t29 = t25 * t23;
         let t30 = t25 * t26;
         let t31 = t24.mul_add(t9, t16.mul_sub(t0, t15 * t1));
@@ -697,7 +694,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t33 = cos_b * c_dot;
         let t34 = sin_b * c_dot;
         let t35 = sin_a_ * cos_b;
-        let t36 = n(p.k14) * t32;
+        let t36 = n(p.inverse_J) * t32;
         let t37 = t33 * a_dot;
         let t38 = b_dot * t34;
         let t39 = sin_a_.neg_mul_add(t33, cos_a_ * b_dot);
@@ -711,10 +708,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t47 = t33 * b_dot;
         let t48 = cos_a_.mul_sub(t5, cos_a_.mul_add(t38, sin_a_ * t37));
         let t49 = sin_a_.mul_add(t5, cos_a_.mul_sub(t37, sin_a_ * t38));
-        let t50 = n(p.k14) * t43;
+        let t50 = n(p.inverse_J) * t43;
         let t51 = y.neg_mul_add(n(p.k2), x_dot);
         let t52 = n(p.k1).neg_mul_add(z.mul_sub(t39, y * t41), t51);
-        let t53 = cos_a_ * (t20 * n(p.k7));
+        let t53 = cos_a_ * (t20 * n(p.k6));
         let t54 = t44 * t46;
         let t55 = z.neg_mul_add(t49, z_dot * t39);
         let t56 = x.mul_add(n(p.k2), y_dot);
@@ -723,8 +720,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t59 = n(p.k1).mul_add(t58, y_dot * n(p.k2));
         let t60 = x.mul_add(t48, x_dot * t41) - z.mul_add(t47, z_dot * t42);
         let t61 = n(p.k1).neg_mul_add(t60, x_dot * n(p.k2));
-        let t62 = t53 * n(p.k14);
-        let t63 = n(p.k7).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
+        let t62 = t53 * n(p.inverse_J);
+        let t63 = n(p.k6).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
         let t64 = n(p.J) * t47;
         let t65 = t46.mul_add(t54, t18) + t43.mul_add(t50, t9 * t14);
         let t66 = n(p.J) * t37;
@@ -738,7 +735,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t74 = t70 * (y.mul_add(y_dot, x * x_dot) * N::from_f64(2.0));
         let t75 = y.mul_add(t47, y_dot * t42) - t69;
         let t76 = y.mul_add(t61, y_dot * t57) + t72;
-        let t77 = t62.neg_mul_add(t66, t30.mul_add(t28, t19 * n(p.k6)));
+        let t77 = t62.neg_mul_add(t66, t30.mul_add(t28, t19 * n(p.m_g)));
         let t78 = t62.mul_add(t43, t23.neg_mul_add(t30, t31));
         let t79 = t68.neg_mul_add(t46, t78);
         let t80 = y.neg_mul_add(t59, y_dot * t52);
@@ -809,7 +806,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 /// ```
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> S {
     let z = q[2];
-    p.k6 * z
+    p.m_g * z
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -843,7 +840,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let t1 = cos_b * (sin_b * t0 - b_dot * (sin_b * a_dot - c_dot));
     let t2 = c_dot * (sin_b * a_ddot + (cos_b * t0 + c_ddot));
     let t3 = t2 + b_dot * (b_ddot - cos_b * (c_dot * a_dot));
-    let t4 = p.m * (y_ddot * y_dot + x_ddot * x_dot) + (p.m * z_ddot + p.k6) * z_dot;
+    let t4 = p.m * (y_ddot * y_dot + x_ddot * x_dot) + (p.m * z_ddot + p.m_g) * z_dot;
     (a_dot * (t1 + (a_ddot + sin_b * c_ddot)) + t3) * p.J + t4
 }
 
@@ -868,7 +865,8 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, J, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15,
+        m, J, g, k0, k1, k2, k3, k4, k5, m_g, k6, minus_J, minus_m_g, k7, k8, k9, k10, inverse_J,
+        inverse_m,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

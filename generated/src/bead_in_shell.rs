@@ -56,44 +56,44 @@ impl<S: ::lagrangian::emitted::Scalar> BeadInShell<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.R * self.R;
-        let k4 = self.m * self.R;
+        let m_R = self.m * self.R;
         let k0 = t0.sqrt();
-        let k3 = self.R * k4;
-        let k2 = self.g * k4;
-        let k6 = k3 * S::from_f64(2.0);
+        let m_R_squared = self.R * m_R;
+        let m_R_g = self.g * m_R;
+        let two_m_R_squared = m_R_squared * S::from_f64(2.0);
         let t1 = S::ONE / k0;
         let k1 = self.R * t1;
-        let k5 = k3 * S::from_f64(0.5);
-        let k7 = t0 * t1;
-        let k8 = self.R * S::from_f64(2.0);
-        let k9 = k0 * S::from_f64(2.0);
-        let k10 = -k3;
-        let k11 = -k2;
-        let k12 = -k6;
-        let k13 = S::ONE / k3;
-        let k14 = -k1;
-        let pivots = [(0, k3, k3)];
+        let half_m_R_squared = m_R_squared * S::from_f64(0.5);
+        let k2 = t0 * t1;
+        let two_R = self.R * S::from_f64(2.0);
+        let k3 = k0 * S::from_f64(2.0);
+        let minus_m_R_squared = -m_R_squared;
+        let minus_m_R_g = -m_R_g;
+        let minus_two_m_R_squared = -two_m_R_squared;
+        let k4 = S::ONE / m_R_squared;
+        let k5 = -k1;
+        let pivots = [(0, m_R_squared, m_R_squared)];
         Prepared {
             m: self.m,
             R: self.R,
             g: self.g,
             k0,
             k1,
+            m_R_g,
+            m_R_squared,
+            m_R,
+            half_m_R_squared,
+            two_m_R_squared,
             k2,
+            two_R,
             k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
+            minus_m_R_squared,
+            minus_m_R_g,
+            minus_two_m_R_squared,
             mu: self.mu,
             mu0: self.mu0,
-            k13,
-            k14,
+            k4,
+            k5,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -143,45 +143,42 @@ pub struct Prepared<S = f64> {
     /// `R/sqrt(R^2)`
     k1: S,
     /// `m*R*g`
-    k2: S,
+    m_R_g: S,
     /// `m*R^2`
-    k3: S,
+    m_R_squared: S,
     /// `m*R`
-    k4: S,
+    m_R: S,
     /// `0.5*m*R^2`
-    k5: S,
+    half_m_R_squared: S,
     /// `2*m*R^2`
-    k6: S,
+    two_m_R_squared: S,
     /// `R^2/sqrt(R^2)`
-    k7: S,
+    k2: S,
     /// `2*R`
-    k8: S,
+    two_R: S,
     /// `2*sqrt(R^2)`
-    k9: S,
+    k3: S,
     /// `-m*R^2`
-    k10: S,
+    minus_m_R_squared: S,
     /// `-m*R*g`
-    k11: S,
+    minus_m_R_g: S,
     /// `-2*m*R^2`
-    k12: S,
+    minus_two_m_R_squared: S,
     /// `mu`
     mu: S,
     /// `mu0`
     mu0: S,
     /// `1/m/R^2`
-    k13: S,
+    k4: S,
     /// `-R/sqrt(R^2)`
-    k14: S,
+    k5: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -193,8 +190,8 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]
     let theta = q[0];
     let sin_theta = theta.sin();
     let zero = S::ZERO;
-    let m22 = sin_theta * (p.k3 * sin_theta);
-    [[p.k3, zero], [zero, m22]]
+    let m22 = sin_theta * (p.m_R_squared * sin_theta);
+    [[p.m_R_squared, zero], [zero, m22]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -209,8 +206,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[
     let phi_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = cos_theta * (sin_theta * phi_dot);
-    let h_theta = t0 * (phi_dot * p.k10);
-    let h_phi = t0 * (p.k6 * theta_dot);
+    let h_theta = t0 * (phi_dot * p.minus_m_R_squared);
+    let h_phi = t0 * (p.two_m_R_squared * theta_dot);
     [h_theta, h_phi]
 }
 
@@ -222,7 +219,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
     let theta = q[0];
     let sin_theta = theta.sin();
-    let q_theta = p.k11 * sin_theta;
+    let q_theta = p.minus_m_R_g * sin_theta;
     let zero = S::ZERO;
     [q_theta, zero]
 }
@@ -234,8 +231,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
     let phi_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = cos_theta * (sin_theta * phi_dot);
-    let f_theta = t0 * (phi_dot * p.k3) - sin_theta * p.k2;
-    let f_phi = t0 * (p.k12 * theta_dot);
+    let f_theta = t0 * (phi_dot * p.m_R_squared) - sin_theta * p.m_R_g;
+    let f_phi = t0 * (p.minus_two_m_R_squared * theta_dot);
     [f_theta, f_phi]
 }
 
@@ -361,11 +358,11 @@ pub fn slip_bias<S: ::lagrangian::emitted::Scalar>(
     let t21 = t15 * t19;
     let t22 = p.k1 * t18 * (sin_theta * sin_theta) + cos_theta * S::from_f64(2.0);
     let t23 = phi_dot * p.R * (cos_phi * cos_phi - sin_phi * sin_phi);
-    let t24 = sin_theta * (t23 + t2 * (t19 * p.k7)) + t2 * (t1 * p.k8);
+    let t24 = sin_theta * (t23 + t2 * (t19 * p.k2)) + t2 * (t1 * p.two_R);
     let t25 = (t2 * t22 + t7 * S::from_f64(2.0)) * (t12 * t20);
     let t26 = (t22 * (theta_dot * cos_phi) - t8 * S::from_f64(2.0)) * (t21 * t14);
-    let t27 = t18 * (t12 * t24 - t13 * t16) - theta_dot * (t5 * p.k9 - t8 * p.k0);
-    let t28 = t18 * (t24 * t14 - t13 * t17) - theta_dot * (p.k0 * t7 + p.k9 * t6);
+    let t27 = t18 * (t12 * t24 - t13 * t16) - theta_dot * (t5 * p.k3 - t8 * p.k0);
+    let t28 = t18 * (t24 * t14 - t13 * t17) - theta_dot * (p.k0 * t7 + p.k3 * t6);
     let bias1 = t27 * (sin_theta * t15) + p.R * (t26 - t17 * (S::ONE + t3 * t21));
     let bias2 = sin_theta * t28 + p.R * (t25 - t16 * (t15 + t4 * t20));
     [bias1, bias2]
@@ -419,7 +416,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
         let t3 = sin_theta * cos_phi;
         let t4 = sin_theta * sin_phi;
         let t5 = sin_theta * theta_dot;
-        let t6 = cos_theta * n(p.k3);
+        let t6 = cos_theta * n(p.m_R_squared);
         let t7 = cos_theta * sin_phi;
         let t8 = sin_theta * n(p.k0);
         let t9 = t2 * sin_phi;
@@ -434,9 +431,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
         let t18 = n(p.R) * t11;
         let t19 = t12 - t11;
         let t20 = phi_dot * t12;
-        let t21 = cos_theta.neg_mul_add(t6, n(p.k3));
+        let t21 = cos_theta.neg_mul_add(t6, n(p.m_R_squared));
         let t22 = sin_theta * phi_dot;
-        let t23 = t9 * n(p.k8);
+        let t23 = t9 * n(p.two_R);
         let t24 = N::ONE - t15 - t15.abs();
         let t25 = phi_dot.mul_add(t10, t16) + t3.mul_add(t0, t16);
         let t26 = n(p.R) * t10;
@@ -447,74 +444,75 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
         let t31 = t4.mul_sub(t0, t20) - phi_dot.neg_mul_add(t11, t20);
         let t32 = N::ONE / (t1 - t24);
         let t33 = theta_dot * t2;
-        let t34 = t22.neg_mul_add(phi_dot * t6, sin_theta * n(p.k2));
-        let t35 = n(p.k13) * t34;
-        let t36 = t33 * n(p.k9);
-        let t37 = t7 * n(p.k4);
-        let t38 = t28 * n(p.k4);
-        let t39 = t4 * n(p.k4);
-        let t40 = t30 * (t22 * (t2 * n(p.k6)));
-        let t41 = t3 * t32;
-        let t42 = t4 * t32;
-        let t43 = t3 * n(p.k4);
-        let t44 = t20.neg_mul_add(n(p.k8), phi_dot.mul_add(t18, t13 * t0));
-        let t45 = sin_theta * n(p.k4);
-        let t46 = t24 * t41;
-        let t47 = t42 * t18;
-        let t48 = t5 * t42;
-        let t49 = t41 * t19;
-        let t50 = t4 * t41;
-        let t51 = t3 * t46;
-        let t52 = t46 * t17;
-        let t53 = t46 * t13;
-        let t54 = t46 * N::from_f64(2.0);
-        let t55 = t48 * n(p.k7);
-        let t56 = t4.mul_add(t42, t24);
-        let t57 = N::ONE + t51;
-        let t58 = t53.neg_mul_add(t7, t8 * t29);
-        let t59 = t57.neg_mul_add(n(p.R) * t28, t58);
-        let t60 = t42 * (t9 * N::from_f64(2.0));
-        let t61 = t41.neg_mul_add(t7 * t14, t4 * t8);
-        let t62 = t56.neg_mul_add(n(p.R) * t7, t61);
-        let t63 = t12.mul_add(t54, t46 * (t41 * (n(p.k1) * t5)));
-        let t64 = t53.neg_mul_add(t31, t52.mul_sub(t23, t47 * (t24 * t17)));
-        let t65 = t4.neg_mul_add(t57, t4 * t51) * n(p.R);
-        let t66 = t41.mul_add(t11 * N::from_f64(2.0), t60);
-        let t67 = t55.mul_add(t49, t23.mul_sub(t49, t41 * (t13 * t25)));
-        let t68 = n(p.R) * t3.mul_sub(t56, t4 * t50);
-        let t69 = n(p.k13) * t59;
-        let t70 = n(p.k13) * t62;
-        let t71 = t29.mul_sub(t36, t24 * (t11 * t27));
-        let t72 = t26.mul_sub(t49, t19 * t47) + t67;
-        let r11 = t30 * t65;
-        let r21 = t30 * t68;
-        let t73 = t19.mul_sub(t11.neg_mul_add(t54, t63), t57 * t25);
-        let t74 = t55.mul_add(t52, t52 * t26) + t64 - t71;
-        let t75 = t17.mul_sub(t48.mul_add(n(p.k1) * t42, t66), t31 * t56);
-        let t76 = phi_dot.mul_add(t26, phi_dot.mul_add(t23, t0 * t14));
+        let t34 = t22.neg_mul_add(phi_dot * t6, sin_theta * n(p.m_R_g));
+        let t35 = n(p.k4) * t34;
+        let t36 = t33 * n(p.k3);
+        let t37 = t7 * n(p.m_R);
+        let t38 = t28 * n(p.m_R);
+        let t39 = t4 * n(p.m_R);
+        let t40 = phi_dot.mul_add(t18, t13 * t0);
+        let t41 = t30 * (t22 * (t2 * n(p.two_m_R_squared)));
+        let t42 = t3 * t32;
+        let t43 = t4 * t32;
+        let t44 = t3 * n(p.m_R);
+        let t45 = t20.neg_mul_add(n(p.two_R), t40);
+        let t46 = sin_theta * n(p.m_R);
+        let t47 = t24 * t42;
+        let t48 = t43 * t18;
+        let t49 = t5 * t43;
+        let t50 = t42 * t19;
+        let t51 = t4 * t42;
+        let t52 = t3 * t47;
+        let t53 = t47 * t17;
+        let t54 = t47 * t13;
+        let t55 = t47 * N::from_f64(2.0);
+        let t56 = t49 * n(p.k2);
+        let t57 = t4.mul_add(t43, t24);
+        let t58 = N::ONE + t52;
+        let t59 = t54.neg_mul_add(t7, t8 * t29);
+        let t60 = t58.neg_mul_add(n(p.R) * t28, t59);
+        let t61 = t43 * (t9 * N::from_f64(2.0));
+        let t62 = t42.neg_mul_add(t7 * t14, t4 * t8);
+        let t63 = t57.neg_mul_add(n(p.R) * t7, t62);
+        let t64 = t12.mul_add(t55, t47 * (t42 * (n(p.k1) * t5)));
+        let t65 = t54.neg_mul_add(t31, t53.mul_sub(t23, t48 * (t24 * t17)));
+        let t66 = t4.neg_mul_add(t58, t4 * t52) * n(p.R);
+        let t67 = t42.mul_add(t11 * N::from_f64(2.0), t61);
+        let t68 = t56.mul_add(t50, t23.mul_sub(t50, t42 * (t13 * t25)));
+        let t69 = n(p.R) * t3.mul_sub(t57, t4 * t51);
+        let t70 = n(p.k4) * t60;
+        let t71 = n(p.k4) * t63;
+        let t72 = t29.mul_sub(t36, t24 * (t11 * t27));
+        let t73 = t26.mul_sub(t50, t19 * t48) + t68;
+        let r11 = t30 * t66;
+        let r21 = t30 * t69;
+        let t74 = t19.mul_sub(t11.neg_mul_add(t55, t64), t58 * t25);
+        let t75 = t56.mul_add(t53, t53 * t26) + t65 - t72;
+        let t76 = t17.mul_sub(t49.mul_add(n(p.k1) * t43, t67), t31 * t57);
+        let t77 = phi_dot.mul_add(t26, phi_dot.mul_add(t23, t0 * t14));
         let r35 = t4 * n(p.k1);
-        let t77 = n(p.R).mul_add(t75, t72 - t4.mul_add(t36, t10 * t27));
-        let r4 = t40.mul_sub(t39, n(p.m).mul_add(t76, t35 * t38));
-        let r5 = -t40.mul_add(t43, n(p.m).mul_add(t44, t35 * t37));
-        let r6 = t35.neg_mul_add(t45, n(p.m) * n(p.R).mul_add(t33, n(p.g)));
-        let r14 = -t39.mul_add(r11, t38.mul_add(t69, t57));
-        let r15 = t43.mul_sub(r11, t37.mul_add(t69, t4 * t46));
-        let r16 = t45.neg_mul_add(t69, n(p.k1) * t29);
-        let r24 = -t39.mul_add(r21, t38.mul_add(t70, t50));
-        let r25 = t43.mul_sub(r21, t37.mul_add(t70, t56));
-        let r26 = t45.neg_mul_add(t70, r35);
+        let t78 = n(p.R).mul_add(t76, t73 - t4.mul_add(t36, t10 * t27));
+        let r4 = t41.mul_sub(t39, n(p.m).mul_add(t77, t35 * t38));
+        let r5 = -t41.mul_add(t44, n(p.m).mul_add(t45, t35 * t37));
+        let r6 = t35.neg_mul_add(t46, n(p.m) * n(p.R).mul_add(t33, n(p.g)));
+        let r14 = -t39.mul_add(r11, t38.mul_add(t70, t58));
+        let r15 = t44.mul_sub(r11, t37.mul_add(t70, t4 * t47));
+        let r16 = t46.neg_mul_add(t70, n(p.k1) * t29);
+        let r24 = -t39.mul_add(r21, t38.mul_add(t71, t51));
+        let r25 = t44.mul_sub(r21, t37.mul_add(t71, t57));
+        let r26 = t46.neg_mul_add(t71, r35);
         let r34 = t3 * n(p.k1);
-        let r36 = cos_theta * n(p.k14);
+        let r36 = cos_theta * n(p.k5);
         let r0 = -t35;
-        let r1 = -t40;
-        let r2 = n(p.R).mul_add(t73, t74) + t40.neg_mul_add(t65, t35 * t59);
-        let r3 = t77 + t40.neg_mul_add(t68, t35 * t62);
-        let r10 = -t69;
-        let r12 = t65.mul_add(r11, t59 * t69);
-        let r13 = t68.mul_add(r11, t62 * t69);
-        let r20 = -t70;
-        let r22 = t65.mul_add(r21, t59 * t70);
-        let r23 = t68.mul_add(r21, t62 * t70);
+        let r1 = -t41;
+        let r2 = n(p.R).mul_add(t74, t75) + t41.neg_mul_add(t66, t35 * t60);
+        let r3 = t78 + t41.neg_mul_add(t69, t35 * t63);
+        let r10 = -t70;
+        let r12 = t66.mul_add(r11, t60 * t70);
+        let r13 = t69.mul_add(r11, t63 * t70);
+        let r20 = -t71;
+        let r22 = t66.mul_add(r21, t60 * t71);
+        let r23 = t69.mul_add(r21, t63 * t71);
         let sound = PIVOTS.hold(t21, t21) & r14.is_finite();
         if !sound {
             let pivots = [(1, t21, t21)];
@@ -581,7 +579,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let phi_dot = v[1];
     let sin_theta = theta.sin();
     let t0 = sin_theta * phi_dot;
-    p.k5 * (theta_dot * theta_dot + t0 * t0)
+    p.half_m_R_squared * (theta_dot * theta_dot + t0 * t0)
 }
 
 /// Potential energy `V`, in J.
@@ -592,7 +590,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let theta = q[0];
     let cos_theta = theta.cos();
-    p.k11 * cos_theta
+    p.minus_m_R_g * cos_theta
 }
 
 ::lagrangian::emitted::implement! {
@@ -611,7 +609,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, R, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, mu, mu0, k13, k14,
+        m, R, g, k0, k1, m_R_g, m_R_squared, m_R, half_m_R_squared, two_m_R_squared, k2, two_R, k3,
+        minus_m_R_squared, minus_m_R_g, minus_two_m_R_squared, mu, mu0, k4, k5,
     }
     singular singular
     accelerations friction

@@ -54,37 +54,40 @@ impl<S: ::lagrangian::emitted::Scalar> BeadOnHelix<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m * self.h;
-        let k6 = self.m * self.r;
+        let m_r = self.m * self.r;
         let t1 = self.r * self.r + self.h * self.h;
-        let k1 = t0 * self.g;
-        let k3 = t1.sqrt();
-        let k2 = self.r * k6 + self.h * t0;
-        let t2 = S::ONE / k2;
-        let k7 = k1 * t2;
-        let t3 = S::ONE / k3;
-        let k11 = k3 * t2;
-        let k5 = self.r * t3;
+        let m_h_g = t0 * self.g;
+        let k2 = t1.sqrt();
+        let k1 = self.r * m_r + self.h * t0;
+        let t2 = S::ONE / k1;
+        let k4 = m_h_g * t2;
+        let t3 = S::ONE / k2;
+        let k8 = k2 * t2;
+        let k3 = self.r * t3;
         let t4 = self.h * t3;
         let k0 = t1 * (self.m * S::from_f64(0.5));
-        let k4 = -k1;
-        let k8 = k1 * k11;
-        let k9 = k6 * k7;
-        let k10 = self.m * self.g - t0 * k7;
-        let k12 = k3 * k11;
-        let k13 = k5 - k6 * k11;
-        let k14 = t4 - t0 * k11;
-        let k15 = -k5;
-        let k16 = -t4;
-        let pivots = [(0, k2, k2)];
+        let minus_m_h_g = -m_h_g;
+        let k5 = m_h_g * k8;
+        let k6 = m_r * k4;
+        let k7 = self.m * self.g - t0 * k4;
+        let k9 = k2 * k8;
+        let k10 = k3 - m_r * k8;
+        let k11 = t4 - t0 * k8;
+        let k12 = -k3;
+        let k13 = -t4;
+        let pivots = [(0, k1, k1)];
         Prepared {
             k0,
+            m_h_g,
             k1,
             k2,
+            minus_m_h_g,
             k3,
-            k4,
-            k5,
             mu: self.mu,
             mu0: self.mu0,
+            m_r,
+            k4,
+            k5,
             k6,
             k7,
             k8,
@@ -93,9 +96,6 @@ impl<S: ::lagrangian::emitted::Scalar> BeadOnHelix<S> {
             k11,
             k12,
             k13,
-            k14,
-            k15,
-            k16,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -134,51 +134,48 @@ pub struct Prepared<S = f64> {
     /// `0.5*m*(h^2 + r^2)`
     k0: S,
     /// `m*h*g`
-    k1: S,
+    m_h_g: S,
     /// `m*h^2 + m*r^2`
-    k2: S,
+    k1: S,
     /// `sqrt(h^2 + r^2)`
-    k3: S,
+    k2: S,
     /// `-m*h*g`
-    k4: S,
+    minus_m_h_g: S,
     /// `r/sqrt(h^2 + r^2)`
-    k5: S,
+    k3: S,
     /// `mu`
     mu: S,
     /// `mu0`
     mu0: S,
     /// `m*r`
-    k6: S,
+    m_r: S,
     /// `m*h*g/(m*h^2 + m*r^2)`
-    k7: S,
+    k4: S,
     /// `m*h*g*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
-    k8: S,
+    k5: S,
     /// `m^2*r*h*g/(m*h^2 + m*r^2)`
-    k9: S,
+    k6: S,
     /// `m*g - m^2*h^2*g/(m*h^2 + m*r^2)`
-    k10: S,
+    k7: S,
     /// `sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
-    k11: S,
+    k8: S,
     /// `sqrt(h^2 + r^2)^2/(m*h^2 + m*r^2)`
-    k12: S,
+    k9: S,
     /// `r/sqrt(h^2 + r^2) - m*r*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
-    k13: S,
+    k10: S,
     /// `h/sqrt(h^2 + r^2) - m*h*sqrt(h^2 + r^2)/(m*h^2 + m*r^2)`
-    k14: S,
+    k11: S,
     /// `-r/sqrt(h^2 + r^2)`
-    k15: S,
+    k12: S,
     /// `-h/sqrt(h^2 + r^2)`
-    k16: S,
+    k13: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 1,
-    tolerance: 8.881784197001252e-16,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(1, 1);
 
 /// Mass matrix `M`.
 ///
@@ -186,7 +183,7 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 /// M[theta, theta] = m*r^2 + m*h^2
 /// ```
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
-    [[p.k2]]
+    [[p.k1]]
 }
 
 /// Applied generalized forces `Q`.
@@ -195,12 +192,12 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]
 /// Q[theta] = m*h*g
 /// ```
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] {
-    [p.k1]
+    [p.m_h_g]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
 pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] {
-    [p.k1]
+    [p.m_h_g]
 }
 
 /// Slips `w` of the guided contacts, in m/s.
@@ -210,7 +207,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] {
 /// ```
 pub fn slips<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> [S; 1] {
     let theta_dot = v[0];
-    let w1 = p.k3 * theta_dot;
+    let w1 = p.k2 * theta_dot;
     [w1]
 }
 
@@ -220,7 +217,7 @@ pub fn slips<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> [
 /// tau[wire, theta] = sqrt(r^2 + h^2)
 /// ```
 pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] {
-    [p.k3]
+    [p.k2]
 }
 
 /// What there is without friction, and what a unit of each friction force adds to it:
@@ -260,29 +257,29 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
         let theta = n(q[0]);
         let theta_dot = n(v[0]);
         let (sin_theta, cos_theta) = theta.sin_cos();
-        let t0 = theta_dot * (theta_dot * n(p.k6));
-        let r2 = -t0.mul_add(cos_theta, sin_theta * n(p.k9));
-        let r3 = cos_theta.mul_sub(n(p.k9), t0 * sin_theta);
-        let r7 = sin_theta * n(p.k13);
-        let r8 = -(cos_theta * n(p.k13));
-        let r12 = sin_theta * n(p.k15);
-        let r13 = cos_theta * n(p.k5);
+        let t0 = theta_dot * (theta_dot * n(p.m_r));
+        let r2 = -t0.mul_add(cos_theta, sin_theta * n(p.k6));
+        let r3 = cos_theta.mul_sub(n(p.k6), t0 * sin_theta);
+        let r7 = sin_theta * n(p.k10);
+        let r8 = -(cos_theta * n(p.k10));
+        let r12 = sin_theta * n(p.k12);
+        let r13 = cos_theta * n(p.k3);
         let friction = [
-            n(p.k7).store(),
-            n(p.k8).store(),
+            n(p.k4).store(),
+            n(p.k5).store(),
             r2.store(),
             r3.store(),
-            n(p.k10).store(),
-            n(p.k11).store(),
-            n(p.k12).store(),
+            n(p.k7).store(),
+            n(p.k8).store(),
+            n(p.k9).store(),
             r7.store(),
             r8.store(),
-            n(p.k14).store(),
+            n(p.k11).store(),
             n(p.mu).store(),
             n(p.mu0).store(),
             r12.store(),
             r13.store(),
-            n(p.k16).store(),
+            n(p.k13).store(),
         ];
         Ok(friction)
     }
@@ -305,7 +302,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 /// ```
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> S {
     let theta = q[0];
-    p.k4 * theta
+    p.minus_m_h_g * theta
 }
 
 ::lagrangian::emitted::implement! {
@@ -324,7 +321,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        k0, k1, k2, k3, k4, k5, mu, mu0, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16,
+        k0, m_h_g, k1, k2, minus_m_h_g, k3, mu, mu0, m_r, k4, k5, k6, k7, k8, k9, k10, k11, k12,
+        k13,
     }
     singular singular
     accelerations friction

@@ -54,44 +54,44 @@ impl<S: ::lagrangian::emitted::Scalar> BeadOnHoop<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = S::ONE / self.r;
-        let k14 = S::ONE / self.m;
+        let inverse_m = S::ONE / self.m;
         let t1 = self.r * self.omega;
-        let k6 = self.m * self.r;
-        let k1 = t1 * t1;
-        let k4 = self.g * k6;
-        let k0 = self.r * k6;
-        let k7 = self.m * k1;
-        let k13 = t0 * k14;
-        let k2 = self.r * self.r;
-        let k3 = self.m * S::from_f64(0.5);
-        let k5 = self.omega * t1;
-        let k8 = k7 * S::from_f64(2.0);
-        let k9 = -k7;
-        let k10 = -k4;
-        let k11 = t1 * S::from_f64(2.0);
-        let k12 = t0 * k13;
-        let pivots = [(0, k0, k0)];
+        let m_r = self.m * self.r;
+        let r_squared_omega2 = t1 * t1;
+        let m_r_g = self.g * m_r;
+        let m_r_squared = self.r * m_r;
+        let m_r_squared_omega2 = self.m * r_squared_omega2;
+        let k1 = t0 * inverse_m;
+        let r_squared = self.r * self.r;
+        let half_m = self.m * S::from_f64(0.5);
+        let r_omega2 = self.omega * t1;
+        let two_m_r_squared_omega2 = m_r_squared_omega2 * S::from_f64(2.0);
+        let minus_m_r_squared_omega2 = -m_r_squared_omega2;
+        let minus_m_r_g = -m_r_g;
+        let two_r_omega = t1 * S::from_f64(2.0);
+        let k0 = t0 * k1;
+        let pivots = [(0, m_r_squared, m_r_squared)];
         Prepared {
             m: self.m,
             r: self.r,
             omega: self.omega,
             g: self.g,
+            m_r_squared,
+            r_squared_omega2,
+            r_squared,
+            half_m,
+            m_r_g,
+            r_omega2,
+            m_r,
+            m_r_squared_omega2,
+            two_m_r_squared_omega2,
+            minus_m_r_squared_omega2,
+            minus_m_r_g,
+            mu: self.mu,
+            two_r_omega,
             k0,
             k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
-            k10,
-            mu: self.mu,
-            k11,
-            k12,
-            k13,
-            k14,
+            inverse_m,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -136,47 +136,44 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `m*r^2`
-    k0: S,
+    m_r_squared: S,
     /// `r^2*omega^2`
-    k1: S,
+    r_squared_omega2: S,
     /// `r^2`
-    k2: S,
+    r_squared: S,
     /// `0.5*m`
-    k3: S,
+    half_m: S,
     /// `m*r*g`
-    k4: S,
+    m_r_g: S,
     /// `r*omega^2`
-    k5: S,
+    r_omega2: S,
     /// `m*r`
-    k6: S,
+    m_r: S,
     /// `m*r^2*omega^2`
-    k7: S,
+    m_r_squared_omega2: S,
     /// `2*m*r^2*omega^2`
-    k8: S,
+    two_m_r_squared_omega2: S,
     /// `-m*r^2*omega^2`
-    k9: S,
+    minus_m_r_squared_omega2: S,
     /// `-m*r*g`
-    k10: S,
+    minus_m_r_g: S,
     /// `mu`
     mu: S,
     /// `2*r*omega`
-    k11: S,
+    two_r_omega: S,
     /// `1/m/r^2`
-    k12: S,
+    k0: S,
     /// `1/m/r`
-    k13: S,
+    k1: S,
     /// `1/m`
-    k14: S,
+    inverse_m: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 1,
-    tolerance: 8.881784197001252e-16,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(1, 1);
 
 /// Mass matrix `M`.
 ///
@@ -184,7 +181,7 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 /// M[theta, theta] = m*r^2
 /// ```
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
-    [[p.k0]]
+    [[p.m_r_squared]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -195,7 +192,7 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]
 pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let h_theta = cos_theta * (p.k9 * sin_theta);
+    let h_theta = cos_theta * (p.minus_m_r_squared_omega2 * sin_theta);
     [h_theta]
 }
 
@@ -207,7 +204,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let sin_theta = theta.sin();
-    let q_theta = p.k10 * sin_theta;
+    let q_theta = p.minus_m_r_g * sin_theta;
     [q_theta]
 }
 
@@ -215,7 +212,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) ->
 pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let f_theta = cos_theta * (sin_theta * p.k7) - sin_theta * p.k4;
+    let f_theta = cos_theta * (sin_theta * p.m_r_squared_omega2) - sin_theta * p.m_r_g;
     [f_theta]
 }
 
@@ -284,18 +281,18 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
         let (sin_theta, cos_theta) = circular[0];
         let (sin_t0, cos_t0) = circular[1];
         let t1 = n(t).product_error(n(p.omega));
-        let t2 = theta_dot * n(p.k11);
+        let t2 = theta_dot * n(p.two_r_omega);
         let t3 = theta_dot * (theta_dot * n(p.r));
         let t4 = t3 * sin_theta;
-        let t5 = sin_theta * n(p.k5);
+        let t5 = sin_theta * n(p.r_omega2);
         let t6 = t3.mul_add(cos_theta, n(p.g));
         let t7 = t1.neg_mul_add(sin_t0, cos_t0);
         let t8 = t1.mul_add(cos_t0, sin_t0);
         let r12 = cos_theta * t7;
         let r13 = cos_theta * t8;
-        let t9 = n(p.k6) * cos_theta.mul_sub(t4 + t5, sin_theta * t6);
-        let r0 = n(p.k12) * t9;
-        let t10 = n(p.k6) * r0;
+        let t9 = n(p.m_r) * cos_theta.mul_sub(t4 + t5, sin_theta * t6);
+        let r0 = n(p.k0) * t9;
+        let t10 = n(p.m_r) * r0;
         let t11 = n(p.m) * t2.mul_add(r13, t4.mul_add(t7, t5 * t7));
         let t12 = n(p.m) * r12.neg_mul_add(t2, t4.mul_add(t8, t5 * t8));
         let r1 = n(p.r) * r0;
@@ -309,8 +306,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
             r2.store(),
             r3.store(),
             r4.store(),
-            n(p.k13).store(),
-            n(p.k14).store(),
+            n(p.k1).store(),
+            n(p.inverse_m).store(),
             zero.store(),
             zero.store(),
             zero.store(),
@@ -337,7 +334,8 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let theta = q[0];
     let theta_dot = v[0];
     let sin_theta = theta.sin();
-    p.k3 * (theta_dot * (theta_dot * p.k2) + sin_theta * (sin_theta * p.k1))
+    let t0 = sin_theta * (sin_theta * p.r_squared_omega2);
+    p.half_m * (theta_dot * (theta_dot * p.r_squared) + t0)
 }
 
 /// Potential energy `V`, in J.
@@ -348,7 +346,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> S {
     let theta = q[0];
     let cos_theta = theta.cos();
-    p.k10 * cos_theta
+    p.minus_m_r_g * cos_theta
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -360,7 +358,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1], 
     let theta = q[0];
     let theta_dot = v[0];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    cos_theta * (sin_theta * (p.k8 * theta_dot))
+    cos_theta * (sin_theta * (p.two_m_r_squared_omega2 * theta_dot))
 }
 
 ::lagrangian::emitted::implement! {
@@ -378,7 +376,9 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1], 
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, r, omega, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, mu, k11, k12, k13, k14,
+        m, r, omega, g, m_r_squared, r_squared_omega2, r_squared, half_m, m_r_g, r_omega2, m_r,
+        m_r_squared_omega2, two_m_r_squared_omega2, minus_m_r_squared_omega2, minus_m_r_g, mu,
+        two_r_omega, k0, k1, inverse_m,
     }
     singular singular
     accelerations friction

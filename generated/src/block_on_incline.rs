@@ -52,34 +52,34 @@ pub struct BlockOnIncline<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> BlockOnIncline<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k5 = self.m * self.rate;
-        let k1 = self.m * self.g;
-        let k6 = self.rate * k5;
-        let k0 = self.m * S::from_f64(0.5);
-        let k2 = self.rate * self.rate;
-        let k3 = self.rate * S::from_f64(2.0);
-        let k4 = self.g * k5;
-        let k7 = -k6;
-        let k8 = -k1;
-        let k9 = S::ONE / self.m;
+        let m_rate = self.m * self.rate;
+        let m_g = self.m * self.g;
+        let m_rate2 = self.rate * m_rate;
+        let half_m = self.m * S::from_f64(0.5);
+        let rate2 = self.rate * self.rate;
+        let two_rate = self.rate * S::from_f64(2.0);
+        let m_rate_g = self.g * m_rate;
+        let minus_m_rate2 = -m_rate2;
+        let minus_m_g = -m_g;
+        let inverse_m = S::ONE / self.m;
         let pivots = [(0, self.m, self.m)];
         Prepared {
             m: self.m,
             alpha: self.alpha,
             rate: self.rate,
             g: self.g,
-            k0,
-            k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
+            half_m,
+            m_g,
+            rate2,
+            two_rate,
+            m_rate_g,
+            m_rate,
+            m_rate2,
+            minus_m_rate2,
+            minus_m_g,
             mu: self.mu,
             mu0: self.mu0,
-            k9,
+            inverse_m,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -124,39 +124,36 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `0.5*m`
-    k0: S,
+    half_m: S,
     /// `m*g`
-    k1: S,
+    m_g: S,
     /// `rate^2`
-    k2: S,
+    rate2: S,
     /// `2*rate`
-    k3: S,
+    two_rate: S,
     /// `m*rate*g`
-    k4: S,
+    m_rate_g: S,
     /// `m*rate`
-    k5: S,
+    m_rate: S,
     /// `m*rate^2`
-    k6: S,
+    m_rate2: S,
     /// `-m*rate^2`
-    k7: S,
+    minus_m_rate2: S,
     /// `-m*g`
-    k8: S,
+    minus_m_g: S,
     /// `mu`
     mu: S,
     /// `mu0`
     mu0: S,
     /// `1/m`
-    k9: S,
+    inverse_m: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 1,
-    tolerance: 8.881784197001252e-16,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(1, 1);
 
 /// Mass matrix `M`.
 ///
@@ -174,7 +171,7 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]
 /// ```
 pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let s = q[0];
-    let h_s = p.k7 * s;
+    let h_s = p.minus_m_rate2 * s;
     [h_s]
 }
 
@@ -188,7 +185,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S) -> [S; 1
     let t1 = t0 + p.alpha;
     let (sin_t1, cos_t1) = t1.sin_cos();
     let t2 = sin_t1 + (t0.sum_error(p.alpha) + p.rate.product_error(t)) * cos_t1;
-    let q_s = p.k1 * t2;
+    let q_s = p.m_g * t2;
     [q_s]
 }
 
@@ -199,7 +196,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1
     let t1 = t0 + p.alpha;
     let (sin_t1, cos_t1) = t1.sin_cos();
     let t2 = sin_t1 + (t0.sum_error(p.alpha) + p.rate.product_error(t)) * cos_t1;
-    let f_s = p.k1 * t2 + p.k6 * s;
+    let f_s = p.m_g * t2 + p.m_rate2 * s;
     [f_s]
 }
 
@@ -263,14 +260,14 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
         let s = n(q[0]);
         let s_dot = n(v[0]);
         let t0 = n(p.rate) * n(t);
-        let t1 = s * n(p.k2);
-        let t2 = n(p.k3) * s_dot;
+        let t1 = s * n(p.rate2);
+        let t2 = n(p.two_rate) * s_dot;
         let t3 = t0 + n(p.alpha);
         let (sin_t3, cos_t3) = t3.sin_cos();
         let t4 = t0.sum_error(n(p.alpha)) + n(p.rate).product_error(n(t));
         let t5 = t4.mul_add(cos_t3, sin_t3);
         let t6 = t4.neg_mul_add(sin_t3, cos_t3);
-        let r0 = n(p.k9) * t5.mul_add(n(p.k1), s * n(p.k6));
+        let r0 = n(p.inverse_m) * t5.mul_add(n(p.m_g), s * n(p.m_rate2));
         let t7 = n(p.g) - t6.mul_sub(t2, t5 * t1);
         let t8 = t6.neg_mul_add(t7, t5 * t6.mul_add(t1, t5 * t2)) * n(p.m);
         let r2 = -t8;
@@ -279,8 +276,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
             r0.store(),
             r0.store(),
             r2.store(),
-            n(p.k9).store(),
-            n(p.k9).store(),
+            n(p.inverse_m).store(),
+            n(p.inverse_m).store(),
             zero.store(),
             n(p.mu).store(),
             n(p.mu0).store(),
@@ -311,7 +308,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t5 = cos_t2 - t3 * sin_t2;
     let t6 = t5 * s_dot - t1 * t4;
     let t7 = t1 * t5 + t4 * s_dot;
-    p.k0 * (t7 * t7 + t6 * t6)
+    p.half_m * (t7 * t7 + t6 * t6)
 }
 
 /// Potential energy `V`, in J.
@@ -325,7 +322,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S,
     let t1 = t0 + p.alpha;
     let (sin_t1, cos_t1) = t1.sin_cos();
     let t2 = sin_t1 + (t0.sum_error(p.alpha) + p.rate.product_error(t)) * cos_t1;
-    t2 * (p.k8 * s)
+    t2 * (p.minus_m_g * s)
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -344,16 +341,16 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let s_dot = v[0];
     let s_ddot = a[0];
     let t0 = p.rate * t;
-    let t1 = s * p.k2;
-    let t2 = p.k3 * s_dot;
+    let t1 = s * p.rate2;
+    let t2 = p.two_rate * s_dot;
     let t3 = t0 + p.alpha;
     let (sin_t3, cos_t3) = t3.sin_cos();
     let t4 = t0.sum_error(p.alpha) + p.rate.product_error(t);
     let t5 = sin_t3 + t4 * cos_t3;
     let t6 = cos_t3 - t4 * sin_t3;
     let t7 = t5 * (t6 * (t1 - s_ddot) + t5 * t2);
-    let t8 = (t6 * (t5 * (s_ddot - t1) + t6 * t2) + t7) * (s * p.k5);
-    t8 - t6 * (s * p.k4)
+    let t8 = (t6 * (t5 * (s_ddot - t1) + t6 * t2) + t7) * (s * p.m_rate);
+    t8 - t6 * (s * p.m_rate_g)
 }
 
 ::lagrangian::emitted::implement! {
@@ -371,7 +368,10 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     ]
     inputs Inputs {} []
     outputs Outputs {} []
-    prepared Prepared { m, alpha, rate, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, mu, mu0, k9 }
+    prepared Prepared {
+        m, alpha, rate, g, half_m, m_g, rate2, two_rate, m_rate_g, m_rate, m_rate2, minus_m_rate2,
+        minus_m_g, mu, mu0, inverse_m,
+    }
     singular singular
     accelerations friction
     system {

@@ -50,19 +50,19 @@ pub struct BowlingBall<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> BowlingBall<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k1 = self.m * self.g;
+        let m_g = self.m * self.g;
         let k0 = self.m * self.r * (self.r * S::from_ratio(2, 5));
-        let k2 = -k1;
-        let k3 = -self.g;
+        let minus_m_g = -m_g;
+        let minus_g = -self.g;
         let pivots = [(0, self.m, self.m), (1, self.m, self.m), (2, k0, k0)];
         Prepared {
             m: self.m,
             r: self.r,
             mu: self.mu,
             k0,
-            k1,
-            k2,
-            k3,
+            m_g,
+            minus_m_g,
+            minus_g,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -111,21 +111,18 @@ pub struct Prepared<S = f64> {
     /// `0.4*m*r^2`
     k0: S,
     /// `m*g`
-    k1: S,
+    m_g: S,
     /// `-m*g`
-    k2: S,
+    minus_m_g: S,
     /// `-g`
-    k3: S,
+    minus_g: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 3,
-    tolerance: 2.6645352591003757e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(3, 3);
 
 /// Mass matrix `M`.
 ///
@@ -146,13 +143,13 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 3]
 /// ```
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 3] {
     let zero = S::ZERO;
-    [zero, p.k2, zero]
+    [zero, p.minus_m_g, zero]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
 pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 3] {
     let zero = S::ZERO;
-    [zero, p.k2, zero]
+    [zero, p.minus_m_g, zero]
 }
 
 /// Accelerations `a`, the solution of `M a = f`.
@@ -181,7 +178,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
             return Err(singular);
         }
         let zero = N::ZERO;
-        let accelerations = [zero.store(), n(p.k3).store(), zero.store()];
+        let accelerations = [zero.store(), n(p.minus_g).store(), zero.store()];
         Ok(accelerations)
     }
 }
@@ -256,7 +253,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 /// ```
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
     let y = q[1];
-    p.k1 * y
+    p.m_g * y
 }
 
 ::lagrangian::emitted::implement! {
@@ -276,7 +273,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     ]
     inputs Inputs {} []
     outputs Outputs {} []
-    prepared Prepared { m, r, mu, k0, k1, k2, k3 }
+    prepared Prepared { m, r, mu, k0, m_g, minus_m_g, minus_g }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p } }
     system {

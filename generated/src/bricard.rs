@@ -62,57 +62,59 @@ pub struct Bricard<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> Bricard<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.l * self.l;
+        let l_squared = self.l * self.l;
         let t0 = self.w * self.w;
         let t1 = self.l * self.m;
-        let t2 = k0 + t0;
+        let t2 = l_squared + t0;
         let t3 = self.m * t0;
         let t4 = self.l * t1;
         let t5 = self.g * t1;
-        let k2 = t2 * (self.m * S::from_ratio(1, 12));
-        let k4 = t3 * S::from_ratio(1, 6);
+        let k0 = t2 * (self.m * S::from_ratio(1, 12));
+        let k2 = t3 * S::from_ratio(1, 6);
         let t6 = t3 * S::from_ratio(1, 3);
         let t7 = t4 * S::from_f64(2.0);
         let t8 = S::from_f64(0.5) * t3;
         let t9 = t4 * S::from_f64(3.0);
         let t10 = t3 * S::from_ratio(2, 3);
-        let k3 = k2 + t4 * S::from_f64(0.25);
-        let k5 = k3 - k4;
-        let k6 = k3 + (t4 + k4);
-        let k8 = k3 + (t6 + t7);
-        let k10 = k3 + (t8 + t9);
-        let k7 = t4 + k3 - t6;
-        let k9 = k3 + t7 - t8;
-        let k11 = k3 + t9 - t10;
-        let k1 = self.l * S::from_f64(0.5);
-        let k12 = k3 + (t10 + t4 * S::from_f64(4.0));
-        let k13 = k0 * S::from_f64(0.25);
-        let k14 = self.m * self.g;
-        let k15 = S::from_f64(0.5) * t5;
-        let k16 = self.l * S::from_f64(2.0);
-        let k17 = k10 + k11;
-        let k18 = k10 - k11;
-        let k19 = t1 * S::from_f64(3.5);
-        let k20 = k8 - k9;
-        let k21 = t1 * S::from_f64(2.5);
-        let k22 = k6 - k7;
-        let k23 = t1 * S::from_f64(1.5);
-        let k24 = k3 - k5;
-        let k25 = S::from_f64(0.5) * t1;
-        let k26 = (t2 + k0 * S::from_f64(3.0)) * (self.m * S::from_ratio(1, 24));
-        let k27 = t4 * S::from_f64(3.5);
-        let k28 = S::from_f64(0.5) * t4;
-        let k29 = t4 * S::from_f64(2.5);
-        let k30 = t4 * S::from_f64(1.5);
-        let k31 = t1 * S::from_f64(7.0);
-        let k32 = t5 * S::from_f64(1.5);
-        let k33 = t5 * S::from_f64(2.5);
-        let k34 = t5 * S::from_f64(3.5);
-        let k35 = -self.l;
+        let k1 = k0 + t4 * S::from_f64(0.25);
+        let k3 = k1 - k2;
+        let k4 = k1 + (t4 + k2);
+        let k6 = k1 + (t6 + t7);
+        let k8 = k1 + (t8 + t9);
+        let k5 = t4 + k1 - t6;
+        let k7 = k1 + t7 - t8;
+        let k9 = k1 + t9 - t10;
+        let half_l = self.l * S::from_f64(0.5);
+        let k10 = k1 + (t10 + t4 * S::from_f64(4.0));
+        let quarter_l_squared = l_squared * S::from_f64(0.25);
+        let m_g = self.m * self.g;
+        let half_l_m_g = S::from_f64(0.5) * t5;
+        let two_l = self.l * S::from_f64(2.0);
+        let k11 = k8 + k9;
+        let k12 = k8 - k9;
+        let k13 = t1 * S::from_f64(3.5);
+        let k14 = k6 - k7;
+        let k15 = t1 * S::from_f64(2.5);
+        let k16 = k4 - k5;
+        let k17 = t1 * S::from_f64(1.5);
+        let k18 = k1 - k3;
+        let half_l_m = S::from_f64(0.5) * t1;
+        let k19 = (t2 + l_squared * S::from_f64(3.0)) * (self.m * S::from_ratio(1, 24));
+        let k20 = t4 * S::from_f64(3.5);
+        let half_l_squared_m = S::from_f64(0.5) * t4;
+        let k21 = t4 * S::from_f64(2.5);
+        let k22 = t4 * S::from_f64(1.5);
+        let k23 = t1 * S::from_f64(7.0);
+        let k24 = t5 * S::from_f64(1.5);
+        let k25 = t5 * S::from_f64(2.5);
+        let k26 = t5 * S::from_f64(3.5);
+        let minus_l = -self.l;
         Prepared {
             l: self.l,
             m: self.m,
             g: self.g,
+            l_squared,
+            half_l,
             k0,
             k1,
             k2,
@@ -124,6 +126,10 @@ impl<S: ::lagrangian::emitted::Scalar> Bricard<S> {
             k8,
             k9,
             k10,
+            quarter_l_squared,
+            m_g,
+            half_l_m_g,
+            two_l,
             k11,
             k12,
             k13,
@@ -132,23 +138,17 @@ impl<S: ::lagrangian::emitted::Scalar> Bricard<S> {
             k16,
             k17,
             k18,
+            half_l_m,
             k19,
             k20,
+            half_l_squared_m,
             k21,
             k22,
             k23,
             k24,
             k25,
             k26,
-            k27,
-            k28,
-            k29,
-            k30,
-            k31,
-            k32,
-            k33,
-            k34,
-            k35,
+            minus_l,
         }
     }
 
@@ -197,89 +197,86 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `l^2`
-    k0: S,
+    l_squared: S,
     /// `0.5*l`
-    k1: S,
+    half_l: S,
     /// `(1/12)*m*(w^2 + l^2)`
-    k2: S,
+    k0: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m`
-    k3: S,
+    k1: S,
     /// `(1/6)*w^2*m`
-    k4: S,
+    k2: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m - (1/6)*w^2*m`
-    k5: S,
+    k3: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + l^2*m + (1/6)*w^2*m`
-    k6: S,
+    k4: S,
     /// `l^2*m + (1/12)*m*(w^2 + l^2) + 0.25*l^2*m - (1/3)*w^2*m`
-    k7: S,
+    k5: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + (1/3)*w^2*m + 2*l^2*m`
-    k8: S,
+    k6: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + 2*l^2*m - 0.5*w^2*m`
-    k9: S,
+    k7: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + 0.5*w^2*m + 3*l^2*m`
-    k10: S,
+    k8: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + 3*l^2*m - (2/3)*w^2*m`
-    k11: S,
+    k9: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + (2/3)*w^2*m + 4*l^2*m`
-    k12: S,
+    k10: S,
     /// `0.25*l^2`
-    k13: S,
+    quarter_l_squared: S,
     /// `m*g`
-    k14: S,
+    m_g: S,
     /// `0.5*l*m*g`
-    k15: S,
+    half_l_m_g: S,
     /// `2*l`
-    k16: S,
+    two_l: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + 0.5*w^2*m + 3*l^2*m + (1/12)*m*(w^2 + l^2) + 0.25*l^2*m
     /// + 3*l^2*…`
-    k17: S,
+    k11: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + 0.5*w^2*m + 3*l^2*m - ((1/12)*m*(w^2 + l^2) +
     /// 0.25*l^2*m + 3*l^2…`
-    k18: S,
+    k12: S,
     /// `3.5*l*m`
-    k19: S,
+    k13: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + (1/3)*w^2*m + 2*l^2*m - ((1/12)*m*(w^2 + l^2) +
     /// 0.25*l^2*m + 2*l…`
-    k20: S,
+    k14: S,
     /// `2.5*l*m`
-    k21: S,
+    k15: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + l^2*m + (1/6)*w^2*m - (l^2*m + (1/12)*m*(w^2 + l^2) +
     /// 0.25*l^2*m…`
-    k22: S,
+    k16: S,
     /// `1.5*l*m`
-    k23: S,
+    k17: S,
     /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m - ((1/12)*m*(w^2 + l^2) + 0.25*l^2*m - (1/6)*w^2*m)`
-    k24: S,
+    k18: S,
     /// `0.5*l*m`
-    k25: S,
+    half_l_m: S,
     /// `(1/24)*m*(w^2 + l^2 + 3*l^2)`
-    k26: S,
+    k19: S,
     /// `3.5*l^2*m`
-    k27: S,
+    k20: S,
     /// `0.5*l^2*m`
-    k28: S,
+    half_l_squared_m: S,
     /// `2.5*l^2*m`
-    k29: S,
+    k21: S,
     /// `1.5*l^2*m`
-    k30: S,
+    k22: S,
     /// `7*l*m`
-    k31: S,
+    k23: S,
     /// `1.5*l*m*g`
-    k32: S,
+    k24: S,
     /// `2.5*l*m*g`
-    k33: S,
+    k25: S,
     /// `3.5*l*m*g`
-    k34: S,
+    k26: S,
     /// `-l`
-    k35: S,
+    minus_l: S,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 5,
-    tolerance: 8.881784197001252e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(5, 10);
 
 /// Mass matrix `M`.
 ///
@@ -331,56 +328,58 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]
     let t1 = cos_q_2 * p.l;
     let t2 = cos_q_2 * sin_q_3;
     let t3 = cos_q_2 * cos_q_3;
-    let t4 = p.k25 * sin_q_5;
+    let t4 = p.half_l_m * sin_q_5;
     let t5 = p.l + t0;
     let t6 = cos_q_4 * t2 - sin_q_2 * sin_q_4;
-    let t7 = p.k23 + t4;
+    let t7 = p.k17 + t4;
     let t8 = t0 + sin_q_3 * t5;
     let t9 = p.l * sin_q_3;
     let t10 = sin_q_5 * t3 + cos_q_5 * (sin_q_4 * t2 + sin_q_2 * cos_q_4);
     let t11 = cos_q_4 * cos_q_5;
     let t12 = cos_q_3 * (cos_q_4 * t5 - sin_q_4 * t1);
-    let t13 = sin_q_3 * p.k21;
+    let t13 = sin_q_3 * p.k15;
     let t14 = t6 * t7;
     let t15 = (cos_q_4 * t1 + sin_q_4 * t5) * (cos_q_3 * cos_q_5);
-    let t16 = sin_q_5 * p.k28;
-    let t17 = p.k25 * t6;
+    let t16 = sin_q_5 * p.half_l_squared_m;
+    let t17 = p.half_l_m * t6;
     let t18 = sin_q_4 * cos_q_5;
     let t19 = p.l + t9;
-    let t20 = t10 * p.k5 - p.k25 * (t12 - p.l * t3);
-    let t21 = p.k25 * (t15 - sin_q_5 * (t8 - p.l * t6)) + t6 * p.k3;
-    let t22 = t3 * p.k23 + p.k25 * t10;
+    let t20 = t10 * p.k3 - p.half_l_m * (t12 - p.l * t3);
+    let t21 = p.half_l_m * (t15 - sin_q_5 * (t8 - p.l * t6)) + t6 * p.k1;
+    let t22 = t3 * p.k17 + p.half_l_m * t10;
     let t23 = sin_q_4 * t19;
     let t24 = cos_q_3 * t18 - sin_q_3 * sin_q_5;
     let t25 = cos_q_3 * cos_q_4;
-    let t26 = t21 + (t6 * t16 + (t6 * p.k7 - p.k23 * t8));
-    let m41 = sin_q_5 * t20 + (t10 * p.k28 + (t3 * p.k6 - p.k23 * t12));
-    let t27 = (cos_q_5 * t19 - sin_q_5 * (p.l * cos_q_3)) * (p.k25 * cos_q_4);
-    let t28 = p.k3 * t25;
+    let t26 = t21 + (t6 * t16 + (t6 * p.k5 - p.k17 * t8));
+    let m41 = sin_q_5 * t20 + (t10 * p.half_l_squared_m + (t3 * p.k4 - p.k17 * t12));
+    let t27 = (cos_q_5 * t19 - sin_q_5 * (p.l * cos_q_3)) * (p.half_l_m * cos_q_4);
+    let t28 = p.k1 * t25;
     let t29 = cos_q_3 * (cos_q_4 * t22 - t17 * t18);
-    let t30 = t29 + sin_q_3 * (t14 - sin_q_2 * p.k21);
+    let t30 = t29 + sin_q_3 * (t14 - sin_q_2 * p.k15);
     let t31 = t17 * t11 + sin_q_4 * t22;
     let t32 = cos_q_4 * t26 + t18 * t20;
-    let t33 = p.k25 * (t9 + t23) - p.k5 * t24;
-    let t34 = sin_q_4 * (sin_q_3 * p.k23 - p.k25 * t24) - t25 * (p.k25 * t11);
-    let t35 = p.l * sin_q_4;
-    let m31 = t11 * t20 + (t5 * t13 + sin_q_2 * p.k8 - p.l * t14) - sin_q_4 * t26;
-    let t36 = p.l * t31 + (t3 * p.k9 + m41);
-    let m42 = sin_q_5 * t33 + (p.k23 * t23 + sin_q_3 * p.k6 - p.k28 * t24);
-    let t37 = t27 - t28 - t25 * (t16 + p.k7);
-    let m53 = t4 * (p.l + t35) + sin_q_4 * p.k3;
-    let t38 = p.k28 + sin_q_5 * p.k5;
-    let t39 = cos_q_2 * (cos_q_3 * t36 + sin_q_3 * t32);
-    let t40 = sin_q_2 * (m31 + (sin_q_2 * p.k11 + p.k27) - p.l * t30);
-    let t41 = p.l * (t13 + t34) + p.k10 - cos_q_3 * (cos_q_4 * t37 + t18 * t33);
-    let t42 = sin_q_4 * (m53 + (sin_q_4 * t16 + (sin_q_4 * p.k7 + p.k30)));
-    let m11 = t40 + (t39 + (p.k12 - p.l * (t30 - sin_q_2 * p.k19)));
-    let m21 = sin_q_3 * t36 - (cos_q_3 * t32 - p.l * (t31 + t3 * p.k21));
-    let m22 = sin_q_3 * (p.l * t34 + (m42 + (sin_q_3 * p.k9 + p.k29))) + t41;
-    let m32 = t7 * (p.l * t25) + t11 * t33 - sin_q_4 * t37;
-    let m33 = t42 + (t7 * t35 + (p.k8 + t11 * (t11 * p.k5)));
-    let m43 = t11 * t38;
-    let m44 = p.k6 + sin_q_5 * (p.k28 + t38);
+    let t33 = p.half_l_m * (t9 + t23) - p.k3 * t24;
+    let t34 = sin_q_4 * (sin_q_3 * p.k17 - p.half_l_m * t24);
+    let t35 = t34 - t25 * (p.half_l_m * t11);
+    let t36 = p.l * sin_q_4;
+    let m31 = t11 * t20 + (t5 * t13 + sin_q_2 * p.k6 - p.l * t14) - sin_q_4 * t26;
+    let t37 = p.l * t31 + (t3 * p.k7 + m41);
+    let t38 = p.k17 * t23 + sin_q_3 * p.k4 - p.half_l_squared_m * t24;
+    let m42 = sin_q_5 * t33 + t38;
+    let t39 = t27 - t28 - t25 * (t16 + p.k5);
+    let m53 = t4 * (p.l + t36) + sin_q_4 * p.k1;
+    let t40 = p.half_l_squared_m + sin_q_5 * p.k3;
+    let t41 = cos_q_2 * (cos_q_3 * t37 + sin_q_3 * t32);
+    let t42 = sin_q_2 * (m31 + (sin_q_2 * p.k9 + p.k20) - p.l * t30);
+    let t43 = p.l * (t13 + t35) + p.k8 - cos_q_3 * (cos_q_4 * t39 + t18 * t33);
+    let t44 = sin_q_4 * (m53 + (sin_q_4 * t16 + (sin_q_4 * p.k5 + p.k22)));
+    let m11 = t42 + (t41 + (p.k10 - p.l * (t30 - sin_q_2 * p.k13)));
+    let m21 = sin_q_3 * t37 - (cos_q_3 * t32 - p.l * (t31 + t3 * p.k15));
+    let m22 = sin_q_3 * (p.l * t35 + (m42 + (sin_q_3 * p.k7 + p.k21))) + t43;
+    let m32 = t7 * (p.l * t25) + t11 * t33 - sin_q_4 * t39;
+    let m33 = t44 + (t7 * t36 + (p.k6 + t11 * (t11 * p.k3)));
+    let m43 = t11 * t40;
+    let m44 = p.k4 + sin_q_5 * (p.half_l_squared_m + t40);
     let m51 = -t21;
     let m52 = t28 - t27;
     let zero = S::ZERO;
@@ -389,7 +388,7 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]
         [m21, m22, m32, m42, m52],
         [m31, m32, m33, m43, m53],
         [m41, m42, m43, m44, zero],
-        [m51, m52, m53, zero, p.k3],
+        [m51, m52, m53, zero, p.k1],
     ]
 }
 
@@ -426,7 +425,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[
     let t7 = t3 + q_3_dot;
     let t8 = t2 * t3;
     let t9 = t4 + q_4_dot;
-    let t10 = t5 * p.k16;
+    let t10 = t5 * p.two_l;
     let t11 = t3 * t1 - q_3_dot * t6;
     let t12 = t7 * t6;
     let t13 = q_1_dot * t2;
@@ -460,31 +459,35 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[
     let t41 = cos_q_5 * (t5 * cos_q_4 - sin_q_4 * t15 - q_4_dot * t20) - sin_q_5 * t11;
     let t42 = t25 * q_5_dot + t41;
     let t43 = sin_q_5 * t38 + cos_q_5 * t33;
-    let t44 = t21 * (t26 * p.k24);
+    let t44 = t21 * (t26 * p.k18);
     let t45 = t35 + t42;
-    let t46 = t33 * (sin_q_5 * p.k25) + p.k23 * t24 - t38 * (cos_q_5 * p.k25);
-    let t47 = t35 * p.k3 + t42 * p.k5 - p.k25 * (t39 + p.l * t40);
-    let t48 = t43 * p.k25 + p.k23 * t36;
-    let t49 = p.k23 * t40 - p.k25 * t45;
-    let t50 = cos_q_5 * (sin_q_4 * t22 - cos_q_4 * t27 + p.l * t24);
-    let t51 = cos_q_5 * t44 + (p.k23 * t39 + (t34 * p.k7 + t11 * p.k6)) - t45 * p.k28;
-    let t52 = sin_q_5 * t47;
-    let t53 = t17 * (p.k21 * cos_q_3) + t46 * (cos_q_3 * sin_q_4);
-    let h_q_5 = t28 * p.k3 - t32 * p.k5 - p.k25 * (t50 - sin_q_5 * (t37 + p.l * t36));
-    let t54 = cos_q_5 * t47 + (sin_q_5 * t44 - t20 * (t9 * p.k22));
-    let t55 = cos_q_4 * t46 - sin_q_4 * t49;
-    let t56 = sin_q_3 * (p.k21 * t30 + t48) + (t49 * (cos_q_3 * cos_q_4) + t53);
-    let t57 = h_q_5 + (t43 * p.k28 + (p.k23 * t37 + (t29 * p.k6 + t28 * p.k7)));
-    let t58 = cos_q_4 * t54 + (p.l * t48 + (p.k21 * t31 + (t5 * p.k8 - t23 * p.k9)));
-    let h_q_3 = sin_q_4 * t57 + t58;
-    let t59 = t51 - t52 + (t19 * p.k29 + (t11 * p.k9 - t12 * p.k8)) - p.l * t55;
-    let t60 = t4 * (t7 * p.k20) + sin_q_4 * t54 - cos_q_4 * t57;
-    let t61 = p.l * (t5 * p.k31 + t56) - t59 * (cos_q_2 * cos_q_3);
-    let t62 = t56 * (p.l * sin_q_2) - t5 * (sin_q_2 * p.k18);
-    let t63 = sin_q_3 * t59 + (t13 * p.k27 + t8 * p.k11 - p.l * (t55 - p.k21 * t18));
-    let h_q_1 = t60 * (cos_q_2 * sin_q_3) + t62 + (sin_q_2 * (t5 * p.k17 + h_q_3) + t61);
-    let h_q_2 = -(cos_q_3 * t60 + t63);
-    let h_q_4 = t52 - t51;
+    let t46 = t33 * (sin_q_5 * p.half_l_m) + p.k17 * t24;
+    let t47 = t46 - t38 * (cos_q_5 * p.half_l_m);
+    let t48 = t35 * p.k1 + t42 * p.k3 - p.half_l_m * (t39 + p.l * t40);
+    let t49 = t43 * p.half_l_m + p.k17 * t36;
+    let t50 = p.k17 * t40 - p.half_l_m * t45;
+    let t51 = cos_q_5 * (sin_q_4 * t22 - cos_q_4 * t27 + p.l * t24);
+    let t52 = cos_q_5 * t44 + (p.k17 * t39 + (t34 * p.k5 + t11 * p.k4));
+    let t53 = t52 - t45 * p.half_l_squared_m;
+    let t54 = sin_q_5 * t48;
+    let t55 = t17 * (p.k15 * cos_q_3) + t47 * (cos_q_3 * sin_q_4);
+    let t56 = p.half_l_m * (t51 - sin_q_5 * (t37 + p.l * t36));
+    let h_q_5 = t28 * p.k1 - t32 * p.k3 - t56;
+    let t57 = cos_q_5 * t48 + (sin_q_5 * t44 - t20 * (t9 * p.k16));
+    let t58 = cos_q_4 * t47 - sin_q_4 * t50;
+    let t59 = sin_q_3 * (p.k15 * t30 + t49) + (t50 * (cos_q_3 * cos_q_4) + t55);
+    let t60 = t43 * p.half_l_squared_m + (p.k17 * t37 + (t29 * p.k4 + t28 * p.k5));
+    let t61 = h_q_5 + t60;
+    let t62 = cos_q_4 * t57 + (p.l * t49 + (p.k15 * t31 + (t5 * p.k6 - t23 * p.k7)));
+    let h_q_3 = sin_q_4 * t61 + t62;
+    let t63 = t53 - t54 + (t19 * p.k21 + (t11 * p.k7 - t12 * p.k6)) - p.l * t58;
+    let t64 = t4 * (t7 * p.k14) + sin_q_4 * t57 - cos_q_4 * t61;
+    let t65 = p.l * (t5 * p.k23 + t59) - t63 * (cos_q_2 * cos_q_3);
+    let t66 = t59 * (p.l * sin_q_2) - t5 * (sin_q_2 * p.k12);
+    let t67 = sin_q_3 * t63 + (t13 * p.k20 + t8 * p.k9 - p.l * (t58 - p.k15 * t18));
+    let h_q_1 = t64 * (cos_q_2 * sin_q_3) + t66 + (sin_q_2 * (t5 * p.k11 + h_q_3) + t65);
+    let h_q_2 = -(cos_q_3 * t64 + t67);
+    let h_q_4 = t54 - t53;
     [h_q_1, h_q_2, h_q_3, h_q_4, h_q_5]
 }
 
@@ -516,15 +519,16 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
     let t0 = cos_q_2 * sin_q_3;
     let t1 = cos_q_2 * cos_q_3;
     let t2 = cos_q_4 * t0 - sin_q_2 * sin_q_4;
-    let t3 = p.k15 * t2;
-    let q_q_5 = p.k15 * (sin_q_5 * t1 + cos_q_5 * (sin_q_4 * t0 + sin_q_2 * cos_q_4));
-    let t4 = t3 * cos_q_5;
-    let q_q_4 = t3 * sin_q_5 + t2 * p.k32;
-    let t5 = p.k32 * t1 + q_q_5;
-    let t6 = sin_q_3 * (q_q_4 - sin_q_2 * p.k33) - sin_q_2 * p.k34;
+    let t3 = p.half_l_m_g * t2;
+    let t4 = sin_q_5 * t1 + cos_q_5 * (sin_q_4 * t0 + sin_q_2 * cos_q_4);
+    let q_q_5 = p.half_l_m_g * t4;
+    let t5 = t3 * cos_q_5;
+    let q_q_4 = t3 * sin_q_5 + t2 * p.k24;
+    let t6 = p.k24 * t1 + q_q_5;
+    let t7 = sin_q_3 * (q_q_4 - sin_q_2 * p.k25) - sin_q_2 * p.k26;
     let zero = S::ZERO;
-    let q_q_2 = cos_q_3 * (cos_q_4 * t5 - sin_q_4 * t4) + t6;
-    let q_q_3 = sin_q_4 * t5 + (cos_q_4 * t4 + p.k33 * t1);
+    let q_q_2 = cos_q_3 * (cos_q_4 * t6 - sin_q_4 * t5) + t7;
+    let q_q_3 = sin_q_4 * t6 + (cos_q_4 * t5 + p.k25 * t1);
     [zero, q_q_2, q_q_3, q_q_4, q_q_5]
 }
 
@@ -554,7 +558,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: 
     let t8 = t1 + q_3_dot;
     let t9 = p.l * (q_2_dot * q_2_dot + t1 * t1) + (t1 * t0 + cos_q_2 * p.g);
     let t10 = sin_q_2 * p.g - t2 * t0;
-    let t11 = t5 * p.k16;
+    let t11 = t5 * p.two_l;
     let t12 = t1 * t4 - q_3_dot * t7;
     let t13 = t2 * t1;
     let t14 = t3 * t1 - t6 * q_3_dot;
@@ -586,35 +590,37 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: 
     let t40 = t14 + t34;
     let t41 = cos_q_5 * (cos_q_4 * t5 - sin_q_4 * t12 - q_4_dot * t27) - sin_q_5 * t14;
     let t42 = t31 * q_5_dot + t41;
-    let t43 = t32 * (t33 * p.k24);
+    let t43 = t32 * (t33 * p.k18);
     let t44 = cos_q_5 * (p.l * t35 + (sin_q_4 * t30 + cos_q_4 * t26));
     let t45 = t23 - t38;
     let t46 = t37 + t42;
-    let t47 = p.k25 * (sin_q_5 * (t28 - t29 * p.l) + t44);
-    let t48 = t23 * p.k3 - t38 * p.k5;
+    let t47 = p.half_l_m * (sin_q_5 * (t28 - t29 * p.l) + t44);
+    let t48 = t23 * p.k1 - t38 * p.k3;
     let t49 = sin_q_5 * t45 + cos_q_5 * t39;
-    let t50 = p.k3 * t37 + p.k5 * t42 - p.k25 * (p.l * t40 + t36);
-    let t51 = t39 * (sin_q_5 * p.k25) + t35 * p.k23 - t45 * (cos_q_5 * p.k25);
-    let t52 = p.k23 * t40 - p.k25 * t46;
-    let t53 = t49 * p.k25 + t29 * p.k23;
-    let t54 = cos_q_5 * t43 + (p.k23 * t36 + (p.k7 * t34 + t14 * p.k6)) - p.k28 * t46;
-    let f_q_4 = t54 - sin_q_5 * t50;
-    let t55 = t48 - t47 + (t49 * p.k28 + (t24 * p.k6 + t23 * p.k7 - t28 * p.k23));
-    let t56 = t27 * (t17 * p.k22) - sin_q_5 * t43 - cos_q_5 * t50;
-    let t57 = cos_q_4 * t51 - sin_q_4 * t52;
-    let t58 = t25 * (cos_q_3 * p.k21) + t51 * (cos_q_3 * sin_q_4);
-    let t59 = sin_q_4 * t55 + (p.l * t53 + (t5 * p.k8 - t16 * p.k9 - t21 * p.k21));
-    let t60 = cos_q_4 * t56;
-    let t61 = f_q_4 + (t14 * p.k9 - t15 * p.k8 - t19 * p.k21) - p.l * t57;
-    let t62 = sin_q_3 * (t53 + t22 * p.k21) + (t52 * (cos_q_3 * cos_q_4) + t58);
-    let t63 = t7 * (t8 * p.k20) - sin_q_4 * t56 - cos_q_4 * t55;
-    let t64 = t62 * (sin_q_2 * p.l) - t5 * (sin_q_2 * p.k18);
-    let t65 = p.l * (t5 * p.k31 + t62) - t61 * (cos_q_2 * cos_q_3);
-    let t66 = sin_q_2 * (t59 - t60 + t5 * p.k17) + t65;
-    let t67 = p.l * (t57 - t20 * p.k21) + (t10 * p.k19 - t13 * p.k11) - sin_q_3 * t61;
-    let f_q_1 = -(t63 * (cos_q_2 * sin_q_3) + t64 + t66);
-    let f_q_2 = cos_q_3 * t63 - t67;
-    let f_q_3 = t60 - t59;
+    let t50 = p.k1 * t37 + p.k3 * t42 - p.half_l_m * (p.l * t40 + t36);
+    let t51 = cos_q_5 * t43 + (p.k17 * t36 + (p.k5 * t34 + t14 * p.k4));
+    let t52 = t39 * (sin_q_5 * p.half_l_m) + t35 * p.k17;
+    let t53 = t52 - t45 * (cos_q_5 * p.half_l_m);
+    let t54 = p.k17 * t40 - p.half_l_m * t46;
+    let t55 = t49 * p.half_l_m + t29 * p.k17;
+    let f_q_4 = t51 - p.half_l_squared_m * t46 - sin_q_5 * t50;
+    let t56 = t49 * p.half_l_squared_m + (t24 * p.k4 + t23 * p.k5 - t28 * p.k17);
+    let t57 = t48 - t47 + t56;
+    let t58 = t27 * (t17 * p.k16) - sin_q_5 * t43 - cos_q_5 * t50;
+    let t59 = cos_q_4 * t53 - sin_q_4 * t54;
+    let t60 = t25 * (cos_q_3 * p.k15) + t53 * (cos_q_3 * sin_q_4);
+    let t61 = sin_q_4 * t57 + (p.l * t55 + (t5 * p.k6 - t16 * p.k7 - t21 * p.k15));
+    let t62 = cos_q_4 * t58;
+    let t63 = f_q_4 + (t14 * p.k7 - t15 * p.k6 - t19 * p.k15) - p.l * t59;
+    let t64 = sin_q_3 * (t55 + t22 * p.k15) + (t54 * (cos_q_3 * cos_q_4) + t60);
+    let t65 = t7 * (t8 * p.k14) - sin_q_4 * t58 - cos_q_4 * t57;
+    let t66 = t64 * (sin_q_2 * p.l) - t5 * (sin_q_2 * p.k12);
+    let t67 = p.l * (t5 * p.k23 + t64) - t63 * (cos_q_2 * cos_q_3);
+    let t68 = sin_q_2 * (t61 - t62 + t5 * p.k11) + t67;
+    let t69 = p.l * (t59 - t20 * p.k15) + (t10 * p.k13 - t13 * p.k9) - sin_q_3 * t63;
+    let f_q_1 = -(t65 * (cos_q_2 * sin_q_3) + t66 + t68);
+    let f_q_2 = cos_q_3 * t65 - t69;
+    let f_q_3 = t62 - t61;
     let f_q_5 = t47 - t48;
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5]
 }
@@ -669,7 +675,7 @@ pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
     let t10 = sin_q_4 * t3 + cos_q_4 * sin_q_2;
     let t11 = sin_q_5 * t9 + cos_q_5 * (t1 * cos_q_3 - sin_q_1 * sin_q_3);
     let g1 = p.l * (t6 + (cos_q_1 + t1) - t9 - t11);
-    let g2 = p.k35 * (t10 + (cos_q_2 + t3) - (cos_q_5 * t7 - sin_q_5 * t10));
+    let g2 = p.minus_l * (t10 + (cos_q_2 + t3) - (cos_q_5 * t7 - sin_q_5 * t10));
     let g3 = -(p.l + p.l * (sin_q_1 + t0 - t4 - t8 - (sin_q_5 * t8 + cos_q_5 * t5)));
     let g4 = sin_q_5 * t7 + cos_q_5 * t10;
     let g5 = sin_q_5 * t5 - cos_q_5 * t8;
@@ -756,9 +762,9 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let t35 = t15 - cos_q_2 * t7 + sin_q_2 * q_2_dot - t28;
     let t36 = t20 * t24 + sin_q_5 * t29 + (cos_q_5 * t30 - t21 * t25);
     let t37 = cos_q_2 * (sin_q_5 * t1 - t20 * cos_q_3) + sin_q_5 * t23;
-    let phi1 = p.k35 * (t4 + (sin_q_2 * t4 - cos_q_1 * t0) - t17 - t26 - t34);
+    let phi1 = p.minus_l * (t4 + (sin_q_2 * t4 - cos_q_1 * t0) - t17 - t26 - t34);
     let phi2 = (t35 - (t20 * t22 + sin_q_5 * t28 + t33)) * p.l;
-    let phi3 = p.k35 * (t19 + (t5 + (sin_q_1 * t0 + sin_q_2 * t5)) - t29 - t36);
+    let phi3 = p.minus_l * (t19 + (t5 + (sin_q_1 * t0 + sin_q_2 * t5)) - t29 - t36);
     let phi4 = cos_q_5 * t28 - t21 * t22 - t37;
     let phi5 = t20 * t25 + sin_q_5 * t30 - (cos_q_5 * t29 - t21 * t24);
     [phi1, phi2, phi3, phi4, phi5]
@@ -871,12 +877,12 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let g1_2 = t13 * t8 + t11 * (cos_q_2 * cos_q_1);
     let g1_3 = cos_q_3 * (t1 * sin_q_1 + t6 * t8) - sin_q_3 * (t6 * sin_q_1 - t1 * t8);
     let g1_4 = t0 * (cos_q_1 * t4 + cos_q_4 * t15);
-    let g1_5 = p.k35 * (cos_q_5 * (t3 * cos_q_1 - sin_q_4 * t15) - t27);
+    let g1_5 = p.minus_l * (cos_q_5 * (t3 * cos_q_1 - sin_q_4 * t15) - t27);
     let zero = S::ZERO;
     let g2_2 = t14 - t9;
     let g2_3 = -(cos_q_2 * t7 + t6 * t5);
     let g2_4 = -(t0 * t20);
-    let g2_5 = p.k35 * (cos_q_2 * t16 + cos_q_5 * t21);
+    let g2_5 = p.minus_l * (cos_q_2 * t16 + cos_q_5 * t21);
     let g3_1 = -(sin_q_1 * t12 + t19 * cos_q_1);
     let g3_2 = -(t13 * t10 + t11 * t22);
     let g3_3 = -(sin_q_3 * (t1 * t10 + t6 * cos_q_1) + t28);
@@ -1048,20 +1054,21 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     let t120 = cos_q_1 * sin_q_3 + cos_q_3 * t94;
     let t121 = t109 - t48 * t110 + (t109 - sin_q_5 * t107);
     let t122 = t21 + (sin_q_2 * t21 - t87 - (t87 - t93)) - t98 - t107;
-    let t123 = t44 * t80;
-    let t124 = t44 * t75;
-    let t125 = sin_q_5 * t77;
-    let t126 = t48 * t83 + (t123 + t124) + (sin_q_5 * t79 + (t124 - t125));
-    let t127 = t47 * t72;
-    let t128 = t127 + t58 * t74 + (t127 + cos_q_5 * t71);
-    let t129 = t47 * t108;
-    let t130 = t44 * t118;
-    let t131 = t129 + t58 * t110 + (t129 + cos_q_5 * t107);
+    let t123 = t122 - (t119 + t58 * t120 + (t119 + cos_q_5 * t117) - t121);
+    let t124 = t44 * t80;
+    let t125 = t44 * t75;
+    let t126 = sin_q_5 * t77;
+    let t127 = t48 * t83 + (t124 + t125) + (sin_q_5 * t79 + (t125 - t126));
+    let t128 = t47 * t72;
+    let t129 = t128 + t58 * t74 + (t128 + cos_q_5 * t71);
+    let t130 = t47 * t108;
+    let t131 = t44 * t118;
+    let t132 = t130 + t58 * t110 + (t130 + cos_q_5 * t107);
     let gamma1 = (t61 + (t23 + (t12 + (t2 + t9 + (t2 + sin_q_2 * t12))) - t43)) * p.l;
-    let gamma2 = p.k35 * (t86 - (t85 + (t84 - (t81 + t76 - t58 * t83))));
-    let gamma3 = p.k35 * (t122 - (t119 + t58 * t120 + (t119 + cos_q_5 * t117) - t121));
-    let gamma4 = t126 - (t125 - t123 - sin_q_5 * t82) + t128;
-    let gamma5 = -(t130 - t48 * t120 + (t130 - sin_q_5 * t117) + t131);
+    let gamma2 = p.minus_l * (t86 - (t85 + (t84 - (t81 + t76 - t58 * t83))));
+    let gamma3 = p.minus_l * t123;
+    let gamma4 = t127 - (t126 - t124 - sin_q_5 * t82) + t129;
+    let gamma5 = -(t131 - t48 * t120 + (t131 - sin_q_5 * t117) + t132);
     [gamma1, gamma2, gamma3, gamma4, gamma5]
 }
 
@@ -1119,564 +1126,567 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t5 = n(p.l) + t4;
         let t6 = cos_q_3 * cos_q_4.mul_sub(t5, n(p.l) * t0);
         let t7 = n(p.l).neg_mul_add(t2, t6);
-        let t8 = n(p.k25).neg_mul_add(t7, t3 * n(p.k5));
+        let t8 = n(p.half_l_m).neg_mul_add(t7, t3 * n(p.k3));
         let t9 = cos_q_4 * cos_q_5;
-        let t10 = sin_q_3 * n(p.k21);
+        let t10 = sin_q_3 * n(p.k15);
         let t11 = cos_q_2 * cos_q_4;
         let t12 = sin_q_3.mul_sub(t11, sin_q_2 * sin_q_4);
-        let t13 = n(p.k25) * sin_q_5;
-        let t14 = n(p.k23) + t13;
+        let t13 = n(p.half_l_m) * sin_q_5;
+        let t14 = n(p.k17) + t13;
         let t15 = t12 * t14;
-        let t16 = t5.mul_add(t10, sin_q_2 * n(p.k8));
+        let t16 = t5.mul_add(t10, sin_q_2 * n(p.k6));
         let t17 = sin_q_3.mul_add(t5, t4);
         let t18 = cos_q_3 * cos_q_5;
         let t19 = sin_q_4.mul_add(t5, n(p.l) * t11) * t18;
         let t20 = sin_q_5.neg_mul_add(n(p.l).neg_mul_add(t12, t17), t19);
-        let t21 = n(p.k25).mul_add(t20, t12 * n(p.k3));
-        let t22 = sin_q_5 * n(p.k28);
-        let t23 = t12.mul_add(t22, n(p.k23).neg_mul_add(t17, t12 * n(p.k7)));
+        let t21 = n(p.half_l_m).mul_add(t20, t12 * n(p.k1));
+        let t22 = sin_q_5 * n(p.half_l_squared_m);
+        let t23 = t12.mul_add(t22, n(p.k17).neg_mul_add(t17, t12 * n(p.k5)));
         let t24 = t21 + t23;
         let t25 = t9.mul_add(t8, n(p.l).neg_mul_add(t15, t16));
         let t26 = sin_q_4.neg_mul_add(t24, t25);
-        let t27 = n(p.k25).mul_add(t3, t2 * n(p.k23));
-        let t28 = n(p.k25) * t12;
+        let t27 = n(p.half_l_m).mul_add(t3, t2 * n(p.k17));
+        let t28 = n(p.half_l_m) * t12;
         let t29 = sin_q_4 * cos_q_5;
-        let t30 = sin_q_3 * sin_q_2.neg_mul_add(n(p.k21), t15);
+        let t30 = sin_q_3 * sin_q_2.neg_mul_add(n(p.k15), t15);
         let t31 = cos_q_3.mul_add(cos_q_4.mul_sub(t27, t28 * t29), t30);
-        let t32 = t26 + sin_q_2.mul_add(n(p.k11), n(p.k27));
-        let t33 = n(p.k23).neg_mul_add(t6, t2 * n(p.k6));
-        let t34 = sin_q_5.mul_add(t8, t3.mul_add(n(p.k28), t33));
-        let t35 = sin_q_4.mul_add(t27, t28 * t9);
-        let t36 = n(p.l).mul_add(t35, t2.mul_add(n(p.k9), t34));
-        let t37 = cos_q_4.mul_add(t24, t29 * t8);
-        let t38 = sin_q_2.neg_mul_add(n(p.k19), t31);
-        let t39 = cos_q_3.mul_add(t36, sin_q_3 * t37);
-        let t40 = cos_q_2.mul_add(t39, n(p.l).neg_mul_add(t38, n(p.k12)));
-        let t41 = sin_q_2.mul_add(n(p.l).neg_mul_add(t31, t32), t40);
-        let t42 = N::ONE / t41;
-        let t43 = cos_q_3.mul_sub(t37, n(p.l) * t2.mul_add(n(p.k21), t35));
-        let t44 = sin_q_3.neg_mul_add(t36, t43);
-        let t45 = t42 * t44;
-        let t46 = n(p.l) * sin_q_3;
-        let t47 = n(p.l) + t46;
-        let t48 = sin_q_4 * t47;
-        let t49 = sin_q_4.mul_sub(t18, sin_q_3 * sin_q_5);
-        let t50 = n(p.k25).mul_sub(t46 + t48, n(p.k5) * t49);
-        let t51 = n(p.k23).mul_add(t48, sin_q_3 * n(p.k6));
-        let t52 = sin_q_5.mul_add(t50, n(p.k28).neg_mul_add(t49, t51));
-        let t53 = n(p.k25) * cos_q_4;
-        let t54 = n(p.k25).neg_mul_add(t49, sin_q_3 * n(p.k23));
-        let t55 = sin_q_4.mul_sub(t54, t53 * (cos_q_4 * t18));
-        let t56 = t52 + sin_q_3.mul_add(n(p.k9), n(p.k29));
-        let t57 = cos_q_3 * sin_q_5;
-        let t58 = cos_q_3 * cos_q_4;
-        let t59 = cos_q_5.mul_sub(t47, n(p.l) * t57);
-        let t60 = t53.mul_sub(t59, n(p.k3) * t58);
-        let t61 = t58.neg_mul_add(t22 + n(p.k7), t60);
-        let t62 = n(p.l).mul_add(t10 + t55, n(p.k10));
-        let t63 = cos_q_3.neg_mul_add(cos_q_4.mul_add(t61, t29 * t50), t62);
-        let t64 = sin_q_3.mul_add(n(p.l).mul_add(t55, t56), t63);
-        let t65 = t44.neg_mul_add(t45, t64);
-        let t66 = N::ONE / t65;
-        let t67 = t26 * t42;
-        let t68 = t9.mul_add(t50, t14 * (n(p.l) * t58));
-        let t69 = t44.mul_add(t67, sin_q_4.neg_mul_add(t61, t68));
-        let t70 = t66 * t69;
-        let t71 = n(p.l) * sin_q_4;
-        let t72 = t13.mul_add(n(p.l) + t71, sin_q_4 * n(p.k3));
-        let t73 = sin_q_4.mul_add(t22, sin_q_4.mul_add(n(p.k7), n(p.k30)));
-        let t74 = t14.mul_add(t71, t9.mul_add(t9 * n(p.k5), n(p.k8)));
-        let t75 = sin_q_4.mul_add(t72 + t73, t74);
-        let t76 = t69.neg_mul_add(t70, t26.neg_mul_add(t67, t75));
-        let t77 = N::ONE / t76;
-        let t78 = t34 * t42;
-        let t79 = t44.mul_add(t78, t52);
-        let t80 = t66 * t79;
-        let t81 = sin_q_5.mul_add(n(p.k5), n(p.k28));
-        let t82 = t69.neg_mul_add(t80, t26.neg_mul_add(t78, t9 * t81));
-        let t83 = t77 * t82;
-        let t84 = sin_q_5.mul_add(n(p.k28) + t81, n(p.k6));
-        let t85 = t79.neg_mul_add(t80, t34.neg_mul_add(t78, t84));
-        let t86 = t82.neg_mul_add(t83, t85);
-        let t87 = N::ONE / t86;
-        let t88 = t21 * t42;
-        let t89 = t44.mul_add(t88, t60);
-        let t90 = t66 * t89;
-        let t91 = t69.mul_add(t90, t26.mul_add(t88, t72));
-        let t92 = t77 * t91;
-        let t93 = t82.neg_mul_add(t92, t79.mul_add(t90, t34 * t88));
-        let t94 = t87 * t93;
-        let t95 = t89.neg_mul_add(t90, t21.neg_mul_add(t88, n(p.k3)));
-        let t96 = t93.neg_mul_add(t94, t91.neg_mul_add(t92, t95));
-        let t97 = N::ONE / t96;
-        let t98 = n(p.l).mul_add(sin_q_5, n(p.l));
-        let t99 = sin_q_4.mul_add(t98, n(p.l));
-        let t100 = sin_q_3 * t99;
-        let t101 = n(p.l) * t18;
-        let t102 = t11 * t98;
-        let t103 = sin_q_2.mul_add(t100 - t101, t5 - t102);
-        let t104 = n(p.l) * cos_q_5;
-        let t105 = sin_q_3 * t104;
-        let t106 = cos_q_3.mul_add(t99, t105);
-        let t107 = sin_q_1.neg_mul_add(t103, cos_q_1 * t106);
-        let t108 = t42 * t107;
-        let t109 = cos_q_4 * t98;
-        let t110 = sin_q_2 * cos_q_1;
-        let t111 = t100 + (n(p.l) - t101);
-        let t112 = t111.mul_add(cos_q_2 * cos_q_1, t109 * t110);
-        let t113 = t44.mul_add(t108, t112);
-        let t114 = t66 * t113;
-        let t115 = sin_q_3 * sin_q_1.mul_sub(t99, t104 * t110);
-        let t116 = cos_q_3.mul_sub(t99.mul_add(t110, sin_q_1 * t104), t115);
-        let t117 = t69.neg_mul_add(t114, t26.neg_mul_add(t108, t116));
-        let t118 = t77 * t117;
-        let t119 = sin_q_3.mul_add(t110, cos_q_3 * sin_q_1);
-        let t120 = t98 * cos_q_4.mul_add(t119, t0 * cos_q_1);
-        let t121 = t79.neg_mul_add(t114, t34.neg_mul_add(t108, t120));
-        let t122 = t82.neg_mul_add(t118, t121);
-        let t123 = t87 * t122;
-        let t124 = sin_q_4.neg_mul_add(t119, t11 * cos_q_1);
-        let t125 = cos_q_3.mul_sub(t110, sin_q_3 * sin_q_1);
-        let t126 = n(p.l) * cos_q_5.mul_sub(t124, sin_q_5 * t125);
-        let t127 = t89.neg_mul_add(t114, t21.neg_mul_add(t108, t126));
-        let t128 = t93.mul_add(t123, t91.mul_add(t118, t127));
-        let t129 = t97 * t128;
-        let t130 = t117.mul_add(t118, t113.mul_add(t114, t107 * t108));
-        let t131 = t128.mul_add(t129, t122.mul_add(t123, t130));
-        let t132 = N::ONE / t131;
-        let t133 = sin_q_3 * sin_q_4;
-        let t134 = sin_q_2.neg_mul_add(t98.mul_add(t133, t47 - t101), t102);
-        let t135 = t66 * t134;
-        let t136 = t69.neg_mul_add(t135, cos_q_2.mul_add(t105, t2 * t99));
-        let t137 = t77 * t136;
-        let t138 = t82.neg_mul_add(t137, t79.neg_mul_add(t135, t12 * t98));
-        let t139 = t87 * t138;
-        let t140 = t91.neg_mul_add(t137, t89.mul_add(t135, n(p.l) * t3));
-        let t141 = t93.neg_mul_add(t139, t140);
-        let t142 = t97 * t141;
-        let t143 = t139.mul_add(t122, t137.mul_add(t117, t135 * t113));
-        let t144 = t142.neg_mul_add(t128, t143);
-        let t145 = t132 * t144;
-        let t146 = t136.mul_add(t137, t134 * t135);
-        let t147 = t141.mul_add(t142, t138 * t139) + t146;
-        let t148 = t144.neg_mul_add(t145, t147);
-        let t149 = N::ONE / t148;
-        let t150 = cos_q_1.mul_add(t103, sin_q_1 * t106);
-        let t151 = t42 * t150;
-        let t152 = sin_q_2 * sin_q_1;
-        let t153 = cos_q_2 * sin_q_1;
-        let t154 = t44.mul_add(t151, t153.mul_add(t111, t152 * t109));
-        let t155 = t66 * t154;
-        let t156 = cos_q_3 * t152.mul_sub(t99, cos_q_1 * t104);
-        let t157 = sin_q_3.mul_add(cos_q_1.mul_add(t99, t152 * t104), t156);
-        let t158 = t69.neg_mul_add(t155, t26.neg_mul_add(t151, t157));
-        let t159 = t77 * t158;
-        let t160 = sin_q_3.neg_mul_add(t152, cos_q_3 * cos_q_1);
-        let t161 = cos_q_4.mul_sub(t160, t0 * sin_q_1);
-        let t162 = t79.mul_add(t155, t34.mul_add(t151, t161 * t98));
-        let t163 = t82.mul_add(t159, t162);
-        let t164 = t87 * t163;
-        let t165 = sin_q_4.mul_add(t160, t11 * sin_q_1);
-        let t166 = cos_q_3.mul_add(t152, sin_q_3 * cos_q_1);
-        let t167 = n(p.l) * cos_q_5.mul_sub(t165, sin_q_5 * t166);
-        let t168 = t89.neg_mul_add(t155, t21.neg_mul_add(t151, t167));
-        let t169 = t93.neg_mul_add(t164, t91.mul_add(t159, t168));
-        let t170 = t97 * t169;
-        let t171 = t159.mul_add(t117, t155.mul_add(t113, t151 * t107));
-        let t172 = t170.mul_add(t128, t164.neg_mul_add(t122, t171));
-        let t173 = t132 * t172;
-        let t174 = t164.neg_mul_add(t138, t159.mul_add(t136, t155 * t134));
-        let t175 = t144.neg_mul_add(t173, t170.neg_mul_add(t141, t174));
-        let t176 = t149 * t175;
-        let t177 = t169.mul_add(t170, t154.mul_add(t155, t150 * t151));
-        let t178 = t177 + t163.mul_add(t164, t158 * t159);
-        let t179 = t175.neg_mul_add(t176, t172.neg_mul_add(t173, t178));
-        let t180 = N::ONE / t179;
-        let t181 = sin_q_3.mul_add(t29, t57);
-        let t182 = sin_q_2.neg_mul_add(t181, t11 * cos_q_5);
-        let t183 = t66 * t182;
-        let t184 = t69.neg_mul_add(t183, cos_q_2 * t49);
-        let t185 = t77 * t184;
-        let t186 = t79.neg_mul_add(t183, t12 * cos_q_5);
-        let t187 = t82.neg_mul_add(t185, t186);
-        let t188 = t87 * t187;
-        let t189 = cos_q_2 * t18;
-        let t190 = t89.mul_add(t183, sin_q_5.neg_mul_add(t1, t189));
-        let t191 = t93.neg_mul_add(t188, t91.neg_mul_add(t185, t190));
-        let t192 = t97 * t191;
-        let t193 = t188.mul_add(t122, t185.mul_add(t117, t183 * t113));
-        let t194 = t192.neg_mul_add(t128, t193);
-        let t195 = t132 * t194;
-        let t196 = t188.mul_add(t138, t185.mul_add(t136, t183 * t134));
-        let t197 = t144.neg_mul_add(t195, t192.mul_add(t141, t196));
-        let t198 = t149 * t197;
-        let t199 = t188.neg_mul_add(t163, t185.mul_add(t158, t183 * t154));
-        let t200 = t172.neg_mul_add(t195, t192.neg_mul_add(t169, t199));
-        let t201 = t175.neg_mul_add(t198, t200);
-        let t202 = t180 * t201;
-        let t203 = t184.mul_add(t185, t182 * t183);
-        let t204 = t191.mul_add(t192, t187 * t188) + t203;
-        let t205 = t197.neg_mul_add(t198, t194.neg_mul_add(t195, t204));
-        let t206 = t201.neg_mul_add(t202, t205);
-        let t207 = N::ONE / t206;
-        let t208 = cos_q_1.mul_sub(t182, t49 * sin_q_1);
-        let t209 = t42 * t208;
-        let t210 = t44.neg_mul_add(t209, t181.mul_add(t153, t9 * t152));
-        let t211 = t66 * t210;
-        let t212 = cos_q_3 * t29.mul_add(t152, sin_q_5 * cos_q_1);
-        let t213 = t29.mul_sub(cos_q_1, sin_q_5 * t152);
-        let t214 = t26.mul_add(t209, sin_q_3.mul_add(t213, t212));
-        let t215 = t211.neg_mul_add(t69, t214);
-        let t216 = t77 * t215;
-        let t217 = t211.mul_add(t79, t34.neg_mul_add(t209, cos_q_5 * t161));
-        let t218 = t82.mul_add(t216, t217);
-        let t219 = t87 * t218;
-        let t220 = sin_q_5.mul_add(t165, cos_q_5 * t166);
-        let t221 = t211.mul_add(t89, t21.neg_mul_add(t209, t220));
-        let t222 = t93.mul_add(t219, t91.neg_mul_add(t216, t221));
-        let t223 = t97 * t222;
-        let t224 = t211.neg_mul_add(t113, t209 * t107);
-        let t225 = t219.mul_add(t122, t216.neg_mul_add(t117, t224));
-        let t226 = t223.mul_add(t128, t225);
-        let t227 = t132 * t226;
-        let t228 = t219.neg_mul_add(t138, t216.mul_add(t136, t211 * t134));
-        let t229 = t144.mul_add(t227, t223.mul_add(t141, t228));
-        let t230 = t149 * t229;
-        let t231 = t211.neg_mul_add(t154, t209 * t150);
-        let t232 = t219.neg_mul_add(t163, t216.neg_mul_add(t158, t231));
-        let t233 = t172.neg_mul_add(t227, t223.mul_add(t169, t232));
-        let t234 = t175.mul_add(t230, t233);
-        let t235 = t180 * t234;
-        let t236 = t219.neg_mul_add(t187, t216.mul_add(t184, t182 * t211));
-        let t237 = t194.mul_add(t227, t223.mul_add(t191, t236));
-        let t238 = t201.mul_add(t235, t197.neg_mul_add(t230, t237));
-        let t239 = t207 * t238;
-        let t240 = sin_q_2 * q_1_dot;
-        let t241 = n(p.l) * q_1_dot;
-        let t242 = t240.mul_add(t240, q_2_dot * q_2_dot);
-        let t243 = n(p.l).mul_add(t242, t240.mul_add(t241, cos_q_2 * n(p.g)));
-        let t244 = cos_q_2 * q_2_dot;
-        let t245 = q_1_dot * t244;
-        let t246 = t245 * n(p.k16);
-        let t247 = cos_q_3.mul_sub(t243, sin_q_3 * t246);
-        let t248 = cos_q_2 * q_1_dot;
-        let t249 = sin_q_3.neg_mul_add(t248, cos_q_3 * q_2_dot);
-        let t250 = t2.mul_add(q_1_dot, sin_q_3 * q_2_dot);
-        let t251 = t249 * t250;
-        let t252 = t245 - t251;
-        let t253 = n(p.l).neg_mul_add(t252, t247);
-        let t254 = t240 + q_3_dot;
-        let t255 = cos_q_4.mul_sub(t254, sin_q_4 * t249);
-        let t256 = q_2_dot * t240;
-        let t257 = sin_q_3.mul_sub(t256, q_3_dot * t250);
-        let t258 = cos_q_4.mul_add(t257, sin_q_4 * t245);
-        let t259 = t255.mul_add(q_4_dot, t258);
-        let t260 = q_4_dot + t250;
-        let t261 = t255 * t260;
-        let t262 = t259 + t261;
-        let t263 = t250.mul_add(t250, t254 * t254);
-        let t264 = cos_q_3.mul_add(t246, sin_q_3 * t243);
-        let t265 = n(p.l).mul_add(t263, t264);
-        let t266 = t248.neg_mul_add(t241, sin_q_2 * n(p.g));
-        let t267 = t248 * t240;
-        let t268 = n(p.l).neg_mul_add(t267, t266);
-        let t269 = cos_q_3.mul_sub(t256, t249 * q_3_dot);
-        let t270 = t249 * t254;
-        let t271 = t269 - t270;
-        let t272 = n(p.l).neg_mul_add(t271, t268);
-        let t273 = sin_q_4.mul_add(t254, cos_q_4 * t249);
-        let t274 = t273.mul_add(t273, t260 * t260);
-        let t275 = sin_q_4.mul_add(t265, cos_q_4 * t272);
-        let t276 = sin_q_5 * n(p.l).neg_mul_add(t262, t253);
-        let t277 = sin_q_5.neg_mul_add(t255, cos_q_5 * t260);
-        let t278 = cos_q_5.mul_add(t255, sin_q_5 * t260);
-        let t279 = t277 * t278;
-        let t280 = cos_q_5.mul_add(n(p.l).mul_add(t274, t275), t276);
-        let t281 = n(p.k3).mul_sub(t259, n(p.k5) * t279);
-        let t282 = n(p.k25).neg_mul_add(t280, t281);
-        let t283 = t259 - t279;
-        let t284 = t273 + q_5_dot;
-        let t285 = t284.mul_add(t284, t278 * t278);
-        let t286 = sin_q_5.mul_add(t283, cos_q_5 * t285);
-        let t287 = n(p.k7).mul_add(t259, n(p.k6) * t261);
-        let t288 = n(p.k28).mul_add(t286, n(p.k23).neg_mul_add(t253, t287));
-        let t289 = t282 + t288;
-        let t290 = n(p.k25).mul_add(t286, n(p.k23) * t262);
-        let t291 = n(p.k9).neg_mul_add(t251, n(p.k8) * t245);
-        let t292 = n(p.l).mul_add(t290, n(p.k21).neg_mul_add(t247, t291));
-        let t293 = cos_q_4.mul_sub(t265, sin_q_4 * t272);
-        let t294 = t255 * t273;
-        let t295 = t269 + t294;
-        let t296 = sin_q_4.neg_mul_add(t257, cos_q_4 * t245);
-        let t297 = q_4_dot.neg_mul_add(t273, t296);
-        let t298 = cos_q_5.mul_sub(t297, sin_q_5 * t269);
-        let t299 = t277.mul_add(q_5_dot, t298);
-        let t300 = t277 * t284;
-        let t301 = n(p.k5).mul_add(t299, n(p.k3) * t300);
-        let t302 = n(p.k25).neg_mul_add(n(p.l).mul_add(t295, t293), t301);
-        let t303 = t278 * (t284 * n(p.k24));
-        let t304 = sin_q_5.neg_mul_add(t303, t273 * (t260 * n(p.k22)));
-        let t305 = cos_q_5.neg_mul_add(t302, t304);
-        let t306 = cos_q_4.neg_mul_add(t305, sin_q_4.mul_add(t289, t292));
-        let t307 = sin_q_5.mul_sub(t285, cos_q_5 * t283);
-        let t308 = n(p.k25).mul_add(t307, n(p.k23) * t274);
-        let t309 = t300 + t299;
-        let t310 = n(p.k25).neg_mul_add(t309, n(p.k23) * t295);
-        let t311 = sin_q_4.mul_add(t308, n(p.k21) * t263);
-        let t312 = sin_q_3 * n(p.k21).mul_add(t252, t290);
-        let t313 = cos_q_3.mul_add(cos_q_4.mul_add(t310, t311), t312);
-        let t314 = sin_q_4.neg_mul_add(t305, t250 * (t254 * n(p.k20)));
-        let t315 = cos_q_4.neg_mul_add(t289, t314);
-        let t316 = n(p.k7).mul_add(t294, n(p.k6) * t269);
-        let t317 = cos_q_5.mul_add(t303, n(p.k23).mul_add(t293, t316));
-        let t318 = n(p.k28).neg_mul_add(t309, t317);
-        let t319 = sin_q_5.neg_mul_add(t302, t318);
-        let t320 = n(p.k9).mul_sub(t269, n(p.k8) * t270);
-        let t321 = cos_q_4.mul_sub(t308, sin_q_4 * t310);
-        let t322 = t319 + n(p.k21).neg_mul_add(t268, t320);
-        let t323 = n(p.l).neg_mul_add(t321, t322);
-        let t324 = cos_q_3.mul_add(t323, t256 * n(p.k18));
-        let t325 = n(p.l) * t245.mul_add(n(p.k31), t313);
-        let t326 = cos_q_2.mul_add(sin_q_3.mul_sub(t315, t324), t325);
-        let t327 = n(p.l).mul_add(t313, t245.mul_add(n(p.k17), t306));
-        let t328 = sin_q_2.mul_add(t327, t326);
-        let t329 = n(p.k19).mul_sub(t266, n(p.k11) * t267);
-        let t330 = n(p.l).mul_add(n(p.k21).neg_mul_add(t271, t321), t329);
-        let t331 = cos_q_3.neg_mul_add(t315, sin_q_3.neg_mul_add(t323, t330));
-        let t332 = t45.mul_add(t328, t331);
-        let t333 = t70.neg_mul_add(t332, t67.neg_mul_add(t328, t306));
-        let t334 = t80.mul_add(t332, t78.mul_add(t328, t319));
-        let t335 = t83.mul_add(t333, t334);
-        let t336 = sin_q_1 * q_1_dot;
-        let t337 = t240 * t336;
-        let t338 = sin_q_3 * t244;
-        let t339 = cos_q_1 * q_1_dot;
-        let t340 = t338 * t339;
-        let t341 = cos_q_3 * q_3_dot;
-        let t342 = cos_q_1 * t240;
+        let t32 = t26 + sin_q_2.mul_add(n(p.k9), n(p.k20));
+        let t33 = n(p.k17).neg_mul_add(t6, t2 * n(p.k4));
+        let t34 = t3.mul_add(n(p.half_l_squared_m), t33);
+        let t35 = sin_q_5.mul_add(t8, t34);
+        let t36 = sin_q_4.mul_add(t27, t28 * t9);
+        let t37 = n(p.l).mul_add(t36, t2.mul_add(n(p.k7), t35));
+        let t38 = cos_q_4.mul_add(t24, t29 * t8);
+        let t39 = sin_q_2.neg_mul_add(n(p.k13), t31);
+        let t40 = cos_q_3.mul_add(t37, sin_q_3 * t38);
+        let t41 = cos_q_2.mul_add(t40, n(p.l).neg_mul_add(t39, n(p.k10)));
+        let t42 = sin_q_2.mul_add(n(p.l).neg_mul_add(t31, t32), t41);
+        let t43 = N::ONE / t42;
+        let t44 = cos_q_3.mul_sub(t38, n(p.l) * t2.mul_add(n(p.k15), t36));
+        let t45 = sin_q_3.neg_mul_add(t37, t44);
+        let t46 = t43 * t45;
+        let t47 = n(p.l) * sin_q_3;
+        let t48 = n(p.l) + t47;
+        let t49 = sin_q_4 * t48;
+        let t50 = sin_q_4.mul_sub(t18, sin_q_3 * sin_q_5);
+        let t51 = n(p.half_l_m).mul_sub(t47 + t49, n(p.k3) * t50);
+        let t52 = n(p.k17).mul_add(t49, sin_q_3 * n(p.k4));
+        let t53 = n(p.half_l_squared_m).neg_mul_add(t50, t52);
+        let t54 = sin_q_5.mul_add(t51, t53);
+        let t55 = n(p.half_l_m) * cos_q_4;
+        let t56 = n(p.half_l_m).neg_mul_add(t50, sin_q_3 * n(p.k17));
+        let t57 = sin_q_4.mul_sub(t56, t55 * (cos_q_4 * t18));
+        let t58 = t54 + sin_q_3.mul_add(n(p.k7), n(p.k21));
+        let t59 = cos_q_3 * sin_q_5;
+        let t60 = cos_q_3 * cos_q_4;
+        let t61 = cos_q_5.mul_sub(t48, n(p.l) * t59);
+        let t62 = t55.mul_sub(t61, n(p.k1) * t60);
+        let t63 = t60.neg_mul_add(t22 + n(p.k5), t62);
+        let t64 = n(p.l).mul_add(t10 + t57, n(p.k8));
+        let t65 = cos_q_3.neg_mul_add(cos_q_4.mul_add(t63, t29 * t51), t64);
+        let t66 = sin_q_3.mul_add(n(p.l).mul_add(t57, t58), t65);
+        let t67 = t45.neg_mul_add(t46, t66);
+        let t68 = N::ONE / t67;
+        let t69 = t26 * t43;
+        let t70 = t9.mul_add(t51, t14 * (n(p.l) * t60));
+        let t71 = t45.mul_add(t69, sin_q_4.neg_mul_add(t63, t70));
+        let t72 = t68 * t71;
+        let t73 = n(p.l) * sin_q_4;
+        let t74 = t13.mul_add(n(p.l) + t73, sin_q_4 * n(p.k1));
+        let t75 = sin_q_4.mul_add(t22, sin_q_4.mul_add(n(p.k5), n(p.k22)));
+        let t76 = t14.mul_add(t73, t9.mul_add(t9 * n(p.k3), n(p.k6)));
+        let t77 = sin_q_4.mul_add(t74 + t75, t76);
+        let t78 = t71.neg_mul_add(t72, t26.neg_mul_add(t69, t77));
+        let t79 = N::ONE / t78;
+        let t80 = t35 * t43;
+        let t81 = t45.mul_add(t80, t54);
+        let t82 = t68 * t81;
+        let t83 = sin_q_5.mul_add(n(p.k3), n(p.half_l_squared_m));
+        let t84 = t71.neg_mul_add(t82, t26.neg_mul_add(t80, t9 * t83));
+        let t85 = t79 * t84;
+        let t86 = sin_q_5.mul_add(n(p.half_l_squared_m) + t83, n(p.k4));
+        let t87 = t81.neg_mul_add(t82, t35.neg_mul_add(t80, t86));
+        let t88 = t84.neg_mul_add(t85, t87);
+        let t89 = N::ONE / t88;
+        let t90 = t21 * t43;
+        let t91 = t45.mul_add(t90, t62);
+        let t92 = t68 * t91;
+        let t93 = t71.mul_add(t92, t26.mul_add(t90, t74));
+        let t94 = t79 * t93;
+        let t95 = t84.neg_mul_add(t94, t81.mul_add(t92, t35 * t90));
+        let t96 = t89 * t95;
+        let t97 = t91.neg_mul_add(t92, t21.neg_mul_add(t90, n(p.k1)));
+        let t98 = t95.neg_mul_add(t96, t93.neg_mul_add(t94, t97));
+        let t99 = N::ONE / t98;
+        let t100 = n(p.l).mul_add(sin_q_5, n(p.l));
+        let t101 = sin_q_4.mul_add(t100, n(p.l));
+        let t102 = sin_q_3 * t101;
+        let t103 = n(p.l) * t18;
+        let t104 = t11 * t100;
+        let t105 = sin_q_2.mul_add(t102 - t103, t5 - t104);
+        let t106 = n(p.l) * cos_q_5;
+        let t107 = sin_q_3 * t106;
+        let t108 = cos_q_3.mul_add(t101, t107);
+        let t109 = sin_q_1.neg_mul_add(t105, cos_q_1 * t108);
+        let t110 = t43 * t109;
+        let t111 = cos_q_4 * t100;
+        let t112 = sin_q_2 * cos_q_1;
+        let t113 = t102 + (n(p.l) - t103);
+        let t114 = t113.mul_add(cos_q_2 * cos_q_1, t111 * t112);
+        let t115 = t45.mul_add(t110, t114);
+        let t116 = t68 * t115;
+        let t117 = sin_q_3 * sin_q_1.mul_sub(t101, t106 * t112);
+        let t118 = cos_q_3.mul_sub(t101.mul_add(t112, sin_q_1 * t106), t117);
+        let t119 = t71.neg_mul_add(t116, t26.neg_mul_add(t110, t118));
+        let t120 = t79 * t119;
+        let t121 = sin_q_3.mul_add(t112, cos_q_3 * sin_q_1);
+        let t122 = t100 * cos_q_4.mul_add(t121, t0 * cos_q_1);
+        let t123 = t81.neg_mul_add(t116, t35.neg_mul_add(t110, t122));
+        let t124 = t84.neg_mul_add(t120, t123);
+        let t125 = t89 * t124;
+        let t126 = sin_q_4.neg_mul_add(t121, t11 * cos_q_1);
+        let t127 = cos_q_3.mul_sub(t112, sin_q_3 * sin_q_1);
+        let t128 = n(p.l) * cos_q_5.mul_sub(t126, sin_q_5 * t127);
+        let t129 = t91.neg_mul_add(t116, t21.neg_mul_add(t110, t128));
+        let t130 = t95.mul_add(t125, t93.mul_add(t120, t129));
+        let t131 = t99 * t130;
+        let t132 = t119.mul_add(t120, t115.mul_add(t116, t109 * t110));
+        let t133 = t130.mul_add(t131, t124.mul_add(t125, t132));
+        let t134 = N::ONE / t133;
+        let t135 = sin_q_3 * sin_q_4;
+        let t136 = sin_q_2.neg_mul_add(t100.mul_add(t135, t48 - t103), t104);
+        let t137 = t68 * t136;
+        let t138 = t71.neg_mul_add(t137, cos_q_2.mul_add(t107, t2 * t101));
+        let t139 = t79 * t138;
+        let t140 = t84.neg_mul_add(t139, t81.neg_mul_add(t137, t12 * t100));
+        let t141 = t89 * t140;
+        let t142 = t93.neg_mul_add(t139, t91.mul_add(t137, n(p.l) * t3));
+        let t143 = t95.neg_mul_add(t141, t142);
+        let t144 = t99 * t143;
+        let t145 = t141.mul_add(t124, t139.mul_add(t119, t137 * t115));
+        let t146 = t144.neg_mul_add(t130, t145);
+        let t147 = t134 * t146;
+        let t148 = t138.mul_add(t139, t136 * t137);
+        let t149 = t143.mul_add(t144, t140 * t141) + t148;
+        let t150 = t146.neg_mul_add(t147, t149);
+        let t151 = N::ONE / t150;
+        let t152 = cos_q_1.mul_add(t105, sin_q_1 * t108);
+        let t153 = t43 * t152;
+        let t154 = sin_q_2 * sin_q_1;
+        let t155 = cos_q_2 * sin_q_1;
+        let t156 = t45.mul_add(t153, t155.mul_add(t113, t154 * t111));
+        let t157 = t68 * t156;
+        let t158 = cos_q_3 * t154.mul_sub(t101, cos_q_1 * t106);
+        let t159 = sin_q_3.mul_add(cos_q_1.mul_add(t101, t154 * t106), t158);
+        let t160 = t71.neg_mul_add(t157, t26.neg_mul_add(t153, t159));
+        let t161 = t79 * t160;
+        let t162 = sin_q_3.neg_mul_add(t154, cos_q_3 * cos_q_1);
+        let t163 = cos_q_4.mul_sub(t162, t0 * sin_q_1);
+        let t164 = t81.mul_add(t157, t35.mul_add(t153, t163 * t100));
+        let t165 = t84.mul_add(t161, t164);
+        let t166 = t89 * t165;
+        let t167 = sin_q_4.mul_add(t162, t11 * sin_q_1);
+        let t168 = cos_q_3.mul_add(t154, sin_q_3 * cos_q_1);
+        let t169 = n(p.l) * cos_q_5.mul_sub(t167, sin_q_5 * t168);
+        let t170 = t91.neg_mul_add(t157, t21.neg_mul_add(t153, t169));
+        let t171 = t95.neg_mul_add(t166, t93.mul_add(t161, t170));
+        let t172 = t99 * t171;
+        let t173 = t161.mul_add(t119, t157.mul_add(t115, t153 * t109));
+        let t174 = t172.mul_add(t130, t166.neg_mul_add(t124, t173));
+        let t175 = t134 * t174;
+        let t176 = t166.neg_mul_add(t140, t161.mul_add(t138, t157 * t136));
+        let t177 = t146.neg_mul_add(t175, t172.neg_mul_add(t143, t176));
+        let t178 = t151 * t177;
+        let t179 = t171.mul_add(t172, t156.mul_add(t157, t152 * t153));
+        let t180 = t179 + t165.mul_add(t166, t160 * t161);
+        let t181 = t177.neg_mul_add(t178, t174.neg_mul_add(t175, t180));
+        let t182 = N::ONE / t181;
+        let t183 = sin_q_3.mul_add(t29, t59);
+        let t184 = sin_q_2.neg_mul_add(t183, t11 * cos_q_5);
+        let t185 = t68 * t184;
+        let t186 = t71.neg_mul_add(t185, cos_q_2 * t50);
+        let t187 = t79 * t186;
+        let t188 = t81.neg_mul_add(t185, t12 * cos_q_5);
+        let t189 = t84.neg_mul_add(t187, t188);
+        let t190 = t89 * t189;
+        let t191 = cos_q_2 * t18;
+        let t192 = t91.mul_add(t185, sin_q_5.neg_mul_add(t1, t191));
+        let t193 = t95.neg_mul_add(t190, t93.neg_mul_add(t187, t192));
+        let t194 = t99 * t193;
+        let t195 = t190.mul_add(t124, t187.mul_add(t119, t185 * t115));
+        let t196 = t194.neg_mul_add(t130, t195);
+        let t197 = t134 * t196;
+        let t198 = t190.mul_add(t140, t187.mul_add(t138, t185 * t136));
+        let t199 = t146.neg_mul_add(t197, t194.mul_add(t143, t198));
+        let t200 = t151 * t199;
+        let t201 = t190.neg_mul_add(t165, t187.mul_add(t160, t185 * t156));
+        let t202 = t174.neg_mul_add(t197, t194.neg_mul_add(t171, t201));
+        let t203 = t177.neg_mul_add(t200, t202);
+        let t204 = t182 * t203;
+        let t205 = t186.mul_add(t187, t184 * t185);
+        let t206 = t193.mul_add(t194, t189 * t190) + t205;
+        let t207 = t199.neg_mul_add(t200, t196.neg_mul_add(t197, t206));
+        let t208 = t203.neg_mul_add(t204, t207);
+        let t209 = N::ONE / t208;
+        let t210 = cos_q_1.mul_sub(t184, t50 * sin_q_1);
+        let t211 = t43 * t210;
+        let t212 = t45.neg_mul_add(t211, t183.mul_add(t155, t9 * t154));
+        let t213 = t68 * t212;
+        let t214 = cos_q_3 * t29.mul_add(t154, sin_q_5 * cos_q_1);
+        let t215 = t29.mul_sub(cos_q_1, sin_q_5 * t154);
+        let t216 = t26.mul_add(t211, sin_q_3.mul_add(t215, t214));
+        let t217 = t213.neg_mul_add(t71, t216);
+        let t218 = t79 * t217;
+        let t219 = t213.mul_add(t81, t35.neg_mul_add(t211, cos_q_5 * t163));
+        let t220 = t84.mul_add(t218, t219);
+        let t221 = t89 * t220;
+        let t222 = sin_q_5.mul_add(t167, cos_q_5 * t168);
+        let t223 = t213.mul_add(t91, t21.neg_mul_add(t211, t222));
+        let t224 = t95.mul_add(t221, t93.neg_mul_add(t218, t223));
+        let t225 = t99 * t224;
+        let t226 = t213.neg_mul_add(t115, t211 * t109);
+        let t227 = t221.mul_add(t124, t218.neg_mul_add(t119, t226));
+        let t228 = t225.mul_add(t130, t227);
+        let t229 = t134 * t228;
+        let t230 = t221.neg_mul_add(t140, t218.mul_add(t138, t213 * t136));
+        let t231 = t146.mul_add(t229, t225.mul_add(t143, t230));
+        let t232 = t151 * t231;
+        let t233 = t213.neg_mul_add(t156, t211 * t152);
+        let t234 = t221.neg_mul_add(t165, t218.neg_mul_add(t160, t233));
+        let t235 = t174.neg_mul_add(t229, t225.mul_add(t171, t234));
+        let t236 = t177.mul_add(t232, t235);
+        let t237 = t182 * t236;
+        let t238 = t221.neg_mul_add(t189, t218.mul_add(t186, t184 * t213));
+        let t239 = t196.mul_add(t229, t225.mul_add(t193, t238));
+        let t240 = t203.mul_add(t237, t199.neg_mul_add(t232, t239));
+        let t241 = t209 * t240;
+        let t242 = sin_q_2 * q_1_dot;
+        let t243 = n(p.l) * q_1_dot;
+        let t244 = t242.mul_add(t242, q_2_dot * q_2_dot);
+        let t245 = n(p.l).mul_add(t244, t242.mul_add(t243, cos_q_2 * n(p.g)));
+        let t246 = cos_q_2 * q_2_dot;
+        let t247 = q_1_dot * t246;
+        let t248 = t247 * n(p.two_l);
+        let t249 = cos_q_3.mul_sub(t245, sin_q_3 * t248);
+        let t250 = cos_q_2 * q_1_dot;
+        let t251 = sin_q_3.neg_mul_add(t250, cos_q_3 * q_2_dot);
+        let t252 = t2.mul_add(q_1_dot, sin_q_3 * q_2_dot);
+        let t253 = t251 * t252;
+        let t254 = t247 - t253;
+        let t255 = n(p.l).neg_mul_add(t254, t249);
+        let t256 = t242 + q_3_dot;
+        let t257 = cos_q_4.mul_sub(t256, sin_q_4 * t251);
+        let t258 = q_2_dot * t242;
+        let t259 = sin_q_3.mul_sub(t258, q_3_dot * t252);
+        let t260 = cos_q_4.mul_add(t259, sin_q_4 * t247);
+        let t261 = t257.mul_add(q_4_dot, t260);
+        let t262 = q_4_dot + t252;
+        let t263 = t257 * t262;
+        let t264 = t261 + t263;
+        let t265 = t252.mul_add(t252, t256 * t256);
+        let t266 = cos_q_3.mul_add(t248, sin_q_3 * t245);
+        let t267 = n(p.l).mul_add(t265, t266);
+        let t268 = t250.neg_mul_add(t243, sin_q_2 * n(p.g));
+        let t269 = t250 * t242;
+        let t270 = n(p.l).neg_mul_add(t269, t268);
+        let t271 = cos_q_3.mul_sub(t258, t251 * q_3_dot);
+        let t272 = t251 * t256;
+        let t273 = t271 - t272;
+        let t274 = n(p.l).neg_mul_add(t273, t270);
+        let t275 = sin_q_4.mul_add(t256, cos_q_4 * t251);
+        let t276 = t275.mul_add(t275, t262 * t262);
+        let t277 = sin_q_4.mul_add(t267, cos_q_4 * t274);
+        let t278 = sin_q_5 * n(p.l).neg_mul_add(t264, t255);
+        let t279 = sin_q_5.neg_mul_add(t257, cos_q_5 * t262);
+        let t280 = cos_q_5.mul_add(t257, sin_q_5 * t262);
+        let t281 = t279 * t280;
+        let t282 = cos_q_5.mul_add(n(p.l).mul_add(t276, t277), t278);
+        let t283 = n(p.k1).mul_sub(t261, n(p.k3) * t281);
+        let t284 = n(p.half_l_m).neg_mul_add(t282, t283);
+        let t285 = t261 - t281;
+        let t286 = t275 + q_5_dot;
+        let t287 = t286.mul_add(t286, t280 * t280);
+        let t288 = sin_q_5.mul_add(t285, cos_q_5 * t287);
+        let t289 = n(p.k5).mul_add(t261, n(p.k4) * t263);
+        let t290 = n(p.k17).neg_mul_add(t255, t289);
+        let t291 = t284 + n(p.half_l_squared_m).mul_add(t288, t290);
+        let t292 = n(p.half_l_m).mul_add(t288, n(p.k17) * t264);
+        let t293 = n(p.k7).neg_mul_add(t253, n(p.k6) * t247);
+        let t294 = n(p.l).mul_add(t292, n(p.k15).neg_mul_add(t249, t293));
+        let t295 = cos_q_4.mul_sub(t267, sin_q_4 * t274);
+        let t296 = t257 * t275;
+        let t297 = t271 + t296;
+        let t298 = sin_q_4.neg_mul_add(t259, cos_q_4 * t247);
+        let t299 = q_4_dot.neg_mul_add(t275, t298);
+        let t300 = cos_q_5.mul_sub(t299, sin_q_5 * t271);
+        let t301 = t279.mul_add(q_5_dot, t300);
+        let t302 = t279 * t286;
+        let t303 = n(p.k3).mul_add(t301, n(p.k1) * t302);
+        let t304 = n(p.l).mul_add(t297, t295);
+        let t305 = n(p.half_l_m).neg_mul_add(t304, t303);
+        let t306 = t280 * (t286 * n(p.k18));
+        let t307 = sin_q_5.neg_mul_add(t306, t275 * (t262 * n(p.k16)));
+        let t308 = cos_q_5.neg_mul_add(t305, t307);
+        let t309 = cos_q_4.neg_mul_add(t308, sin_q_4.mul_add(t291, t294));
+        let t310 = sin_q_5.mul_sub(t287, cos_q_5 * t285);
+        let t311 = n(p.half_l_m).mul_add(t310, n(p.k17) * t276);
+        let t312 = t302 + t301;
+        let t313 = n(p.half_l_m).neg_mul_add(t312, n(p.k17) * t297);
+        let t314 = sin_q_4.mul_add(t311, n(p.k15) * t265);
+        let t315 = sin_q_3 * n(p.k15).mul_add(t254, t292);
+        let t316 = cos_q_3.mul_add(cos_q_4.mul_add(t313, t314), t315);
+        let t317 = sin_q_4.neg_mul_add(t308, t252 * (t256 * n(p.k14)));
+        let t318 = cos_q_4.neg_mul_add(t291, t317);
+        let t319 = n(p.k5).mul_add(t296, n(p.k4) * t271);
+        let t320 = cos_q_5.mul_add(t306, n(p.k17).mul_add(t295, t319));
+        let t321 = n(p.half_l_squared_m).neg_mul_add(t312, t320);
+        let t322 = sin_q_5.neg_mul_add(t305, t321);
+        let t323 = n(p.k7).mul_sub(t271, n(p.k6) * t272);
+        let t324 = cos_q_4.mul_sub(t311, sin_q_4 * t313);
+        let t325 = t322 + n(p.k15).neg_mul_add(t270, t323);
+        let t326 = n(p.l).neg_mul_add(t324, t325);
+        let t327 = cos_q_3.mul_add(t326, t258 * n(p.k12));
+        let t328 = n(p.l) * t247.mul_add(n(p.k23), t316);
+        let t329 = cos_q_2.mul_add(sin_q_3.mul_sub(t318, t327), t328);
+        let t330 = n(p.l).mul_add(t316, t247.mul_add(n(p.k11), t309));
+        let t331 = sin_q_2.mul_add(t330, t329);
+        let t332 = n(p.k13).mul_sub(t268, n(p.k9) * t269);
+        let t333 = n(p.l).mul_add(n(p.k15).neg_mul_add(t273, t324), t332);
+        let t334 = cos_q_3.neg_mul_add(t318, sin_q_3.neg_mul_add(t326, t333));
+        let t335 = t46.mul_add(t331, t334);
+        let t336 = t72.neg_mul_add(t335, t69.neg_mul_add(t331, t309));
+        let t337 = t82.mul_add(t335, t80.mul_add(t331, t322));
+        let t338 = t85.mul_add(t336, t337);
+        let t339 = sin_q_1 * q_1_dot;
+        let t340 = t242 * t339;
+        let t341 = sin_q_3 * t246;
+        let t342 = cos_q_1 * q_1_dot;
         let t343 = t341 * t342;
-        let t344 = sin_q_1 * t244;
-        let t345 = t341 * t344;
-        let t346 = sin_q_2 * q_2_dot;
-        let t347 = q_2_dot * t346;
-        let t348 = sin_q_1 * t347;
-        let t349 = sin_q_3.neg_mul_add(t348, t345 + t340);
-        let t350 = sin_q_3 * q_3_dot;
-        let t351 = q_3_dot * t350;
-        let t352 = sin_q_3.mul_sub(t337, t340) - t343 - t349;
-        let t353 = t350 * t336;
-        let t354 = q_1_dot * t339;
-        let t355 = q_3_dot * t341;
-        let t356 = cos_q_1.neg_mul_add(t355, t353);
-        let t357 = t352 - t152.neg_mul_add(t351, t345 + t343);
-        let t358 = cos_q_3.mul_sub(t354, t353) - t356 - t357;
-        let t359 = sin_q_2.mul_add(t341, t338);
-        let t360 = cos_q_1.mul_add(t350, cos_q_3 * t336);
-        let t361 = sin_q_1.mul_add(t359, sin_q_3 * t342) + t360;
-        let t362 = cos_q_4 * q_4_dot;
-        let t363 = t362 * t361;
-        let t364 = sin_q_4 * q_4_dot;
-        let t365 = q_4_dot * t364;
-        let t366 = cos_q_4 * cos_q_1;
-        let t367 = t256 * t366;
-        let t368 = cos_q_4 * sin_q_1;
-        let t369 = q_2_dot * t244;
-        let t370 = t346 * t364;
-        let t371 = sin_q_1 * t370;
-        let t372 = q_1_dot * t336;
-        let t373 = t0 * q_4_dot;
-        let t374 = t339 * t373;
-        let t375 = t368.mul_add(t369, t367) - t371;
-        let t376 = t11 * q_4_dot;
-        let t377 = q_4_dot * t376;
-        let t378 = t375 + (t374 + t11.mul_add(t372, t367));
-        let t379 = t160.mul_add(t365, t363) + sin_q_4.mul_add(t358, t363);
-        let t380 = t379 + (sin_q_1.mul_add(t377, t374 - t371) + t378);
-        let t381 = t244 * t339;
-        let t382 = cos_q_4.mul_add(t346, t373);
-        let t383 = sin_q_1.neg_mul_add(t382, t11 * t339);
-        let t384 = t383 - sin_q_4.mul_sub(t361, t160 * t362);
-        let t385 = cos_q_5 * q_5_dot;
-        let t386 = t385 * t384;
-        let t387 = sin_q_5 * q_5_dot;
-        let t388 = q_5_dot * t387;
-        let t389 = sin_q_5.neg_mul_add(t380, t386);
-        let t390 = t350 * t344;
-        let t391 = t350 * t342;
-        let t392 = cos_q_3 * t244;
-        let t393 = t339 * t392;
-        let t394 = cos_q_3.mul_add(t337, t391) - t393;
-        let t395 = cos_q_3.neg_mul_add(t348, t393 - t390);
-        let t396 = t341 * t336;
-        let t397 = cos_q_1.mul_add(t351, t396) + sin_q_3.mul_add(t354, t396);
-        let t398 = t397 + (t152.mul_add(t355, t390 + t391) + t394 - t395);
-        let t399 = sin_q_2 * t350;
-        let t400 = sin_q_1.mul_add(t392 - t399, cos_q_3 * t342);
-        let t401 = t400 - sin_q_3.mul_sub(t336, cos_q_1 * t341);
-        let t402 = t387 * t401;
-        let t403 = q_5_dot * t385;
-        let t404 = t166.mul_add(t403, t402) + cos_q_5.mul_add(t398, t402);
-        let t405 = t372 + (t337 - t381 - (t381 - t348)) - t358 - t380;
-        let t406 = t405 - (t404 - (t165.neg_mul_add(t388, t386) + t389));
-        let t407 = t155.mul_add(t332, t151.mul_add(t328, n(p.l) * t406));
-        let t408 = t90.mul_add(t332, t88.mul_add(t328, t282));
-        let t409 = t94.mul_add(t335, t92.neg_mul_add(t333, t408));
-        let t410 = t164.mul_add(t335, t159.mul_add(t333, t407));
-        let t411 = t338 * t336;
-        let t412 = cos_q_1 * t244;
-        let t413 = t341 * t412;
-        let t414 = cos_q_1 * t347;
-        let t415 = t240 * t339;
-        let t416 = sin_q_1 * t240;
-        let t417 = t341 * t416;
-        let t418 = t417 + sin_q_3.mul_add(t415, t411);
-        let t419 = sin_q_3.mul_add(t414, t411 - t413) + t418;
-        let t420 = t350 * t339;
-        let t421 = sin_q_1.mul_add(t355, t420) + cos_q_3.mul_add(t372, t420);
-        let t422 = t110.mul_add(t351, t417) - t413 + t419 + t421;
-        let t423 = cos_q_1.neg_mul_add(t359, sin_q_3 * t416);
-        let t424 = cos_q_3.mul_sub(t339, sin_q_1 * t350) - t423;
-        let t425 = t362 * t424;
-        let t426 = sin_q_4.neg_mul_add(t422, t425);
-        let t427 = t256 * t368;
-        let t428 = t373 * t336;
-        let t429 = cos_q_1 * t370;
-        let t430 = t366.neg_mul_add(t369, t429 + t427);
-        let t431 = cos_q_1.neg_mul_add(t377, t429 + t428);
-        let t432 = t11.mul_sub(t354, t427) - t428 - t430 - t431;
-        let t433 = t119.neg_mul_add(t365, t425) + t426 + t432;
-        let t434 = sin_q_4.mul_add(t424, t119 * t362);
-        let t435 = t385 * (t434 + cos_q_1.mul_add(t382, t11 * t336));
-        let t436 = t350 * t412;
-        let t437 = t336 * t392;
-        let t438 = t416 * t350;
-        let t439 = cos_q_3.mul_add(t415, t437) - t438;
-        let t440 = cos_q_3.mul_add(t414, t436 + t437) + t439;
-        let t441 = t341 * t339;
-        let t442 = sin_q_1.neg_mul_add(t351, t441);
-        let t443 = t440 - t110.neg_mul_add(t355, t438 - t436);
-        let t444 = cos_q_1.mul_add(t399 - t392, cos_q_3 * t416);
-        let t445 = t387 * (sin_q_1.mul_add(t341, sin_q_3 * t339) + t444);
-        let t446 = t443 - (sin_q_3.mul_sub(t372, t441) - t442);
-        let t447 = cos_q_5.neg_mul_add(t446, t445);
-        let t448 = t124.mul_add(t388, t435) + sin_q_5.mul_add(t433, t435);
-        let t449 = t244 * t336;
-        let t450 = t422 + (t354 + (t414 + t449 + (t415 + t449))) - t433;
-        let t451 = t125.neg_mul_add(t403, t445) + t447 - t448 + t450;
-        let t452 = t114.mul_add(t332, t108.mul_add(t328, n(p.l) * t451));
-        let t453 = t123.neg_mul_add(t335, t118.mul_add(t333, t452));
-        let t454 = t129.neg_mul_add(t409, t453);
-        let t455 = sin_q_4 * t341;
-        let t456 = t346 * t455;
-        let t457 = t341 * t376;
-        let t458 = sin_q_3 * t362;
-        let t459 = t346 * t458;
-        let t460 = t459 + t133.mul_add(t369, t456);
-        let t461 = t373.mul_add(sin_q_3 * q_4_dot, t459) - t457;
-        let t462 = t244 * t364;
-        let t463 = t362.mul_add(sin_q_2 * q_4_dot, t462);
-        let t464 = t461 + (t0.mul_add(t351, t456) - t457 + t460);
-        let t465 = t464 + (t463 + cos_q_4.mul_add(t347, t462));
-        let t466 = cos_q_2.neg_mul_add(t458 + t455, t133 * t346);
-        let t467 = cos_q_4.mul_sub(t244, sin_q_2 * t364) - t466;
-        let t468 = t385 * t467;
-        let t469 = sin_q_5.neg_mul_add(t465, t468);
-        let t470 = t350 * t346;
-        let t471 = cos_q_5 * t470;
-        let t472 = t387 * (cos_q_3 * t346);
-        let t473 = cos_q_2 * t350;
-        let t474 = t387 * t473;
-        let t475 = cos_q_2 * t355;
-        let t476 = cos_q_5.neg_mul_add(t475, t474 + t471);
-        let t477 = t189.neg_mul_add(q_5_dot * q_5_dot, t474 + t472);
-        let t478 = t18.mul_sub(t369, t471) - t472 - t476 - t477;
-        let t479 = t341 * t346;
-        let t480 = cos_q_2.mul_add(t351, t479) + sin_q_3.mul_add(t369, t479);
-        let t481 = t1.neg_mul_add(t388, t468) + t469 + t478;
-        let t482 = t135.mul_add(t332, n(p.l) * (t465 + (t369 + t480) - t481));
-        let t483 = t139.neg_mul_add(t335, t137.mul_add(t333, t482));
-        let t484 = t145.neg_mul_add(t454, t142.mul_add(t409, t483));
-        let t485 = t173.neg_mul_add(t454, t170.neg_mul_add(t409, t410));
-        let t486 = t176.neg_mul_add(t484, t485);
-        let t487 = t385 * t473;
-        let t488 = t346 * (t18 * q_5_dot);
-        let t489 = sin_q_5 * t470;
-        let t490 = t57.mul_add(t369, t488) - t489;
-        let t491 = sin_q_5.neg_mul_add(t475, t489 - t487);
-        let t492 = t387 * t467;
-        let t493 = t1.mul_add(t403, t492) + cos_q_5.mul_add(t465, t492);
-        let t494 = t2.mul_add(t388, t487 + t488) + t490 - t491 + t493;
-        let t495 = t185.mul_add(t333, t183.mul_add(t332, t494));
-        let t496 = t192.mul_add(t409, t188.neg_mul_add(t335, t495));
-        let t497 = t198.neg_mul_add(t484, t195.neg_mul_add(t454, t496));
-        let t498 = t202.neg_mul_add(t486, t497);
-        let t499 = t387 * t384;
-        let t500 = t385 * t401;
-        let t501 = sin_q_5.neg_mul_add(t398, t500);
-        let t502 = t165.mul_add(t403, t499) + cos_q_5.mul_add(t380, t499);
-        let t503 = t166.neg_mul_add(t388, t500) + t501 + t502;
-        let t504 = t211.neg_mul_add(t332, t209.mul_add(t328, t503));
-        let t505 = t219.neg_mul_add(t335, t216.neg_mul_add(t333, t504));
-        let t506 = t227.neg_mul_add(t454, t223.neg_mul_add(t409, t505));
-        let t507 = t235.neg_mul_add(t486, t230.mul_add(t484, t506));
-        let t508 = t222.mul_add(t223, t210.mul_add(t211, t208 * t209));
-        let t509 = t508 + t218.mul_add(t219, t215 * t216);
-        let t510 = t229.neg_mul_add(t230, t226.neg_mul_add(t227, t509));
-        let t511 = t238.neg_mul_add(t239, t234.neg_mul_add(t235, t510));
-        let t512 = t239.mul_add(t498, t507) / t511;
-        let t513 = t239.mul_add(t512, t207 * t498);
-        let t514 = t227.neg_mul_add(t512, t132 * t454);
-        let t515 = t235.neg_mul_add(t512, t180 * t486);
-        let t516 = t202.neg_mul_add(t513, t515);
-        let t517 = t198.neg_mul_add(t513, t230.mul_add(t512, t149 * t484));
-        let t518 = t176.neg_mul_add(t516, t517);
-        let t519 = t173.neg_mul_add(t516, t195.neg_mul_add(t513, t514));
-        let t520 = t145.neg_mul_add(t518, t519);
-        let t521 = t192.neg_mul_add(t513, t223.mul_add(t512, t97 * t409));
-        let t522 = t142.neg_mul_add(t518, t170.mul_add(t516, t521));
-        let t523 = t129.mul_add(t520, t522);
-        let t524 = t188.mul_add(t513, t219.mul_add(t512, t87 * t335));
-        let t525 = t139.mul_add(t518, t164.neg_mul_add(t516, t524));
-        let q_4_ddot = t94.mul_add(t523, t123.mul_add(t520, t525));
-        let t526 = t183.neg_mul_add(t513, t211.mul_add(t512, t66 * t332));
-        let t527 = t135.neg_mul_add(t518, t155.neg_mul_add(t516, t526));
-        let t528 = t90.mul_add(t523, t114.neg_mul_add(t520, t527));
-        let t529 = t80.mul_add(q_4_ddot, t528);
-        let t530 = t185.neg_mul_add(t513, t216.mul_add(t512, t77 * t333));
-        let t531 = t137.neg_mul_add(t518, t159.neg_mul_add(t516, t530));
-        let t532 = t92.neg_mul_add(t523, t118.neg_mul_add(t520, t531));
-        let t533 = t83.mul_add(q_4_ddot, t532);
-        let t534 = t70 * t533;
-        let t535 = t151.neg_mul_add(t516, t209.neg_mul_add(t512, t42 * t328));
-        let t536 = t88.mul_add(t523, t108.neg_mul_add(t520, t535));
-        let t537 = t67.neg_mul_add(t533, t78.mul_add(q_4_ddot, t536));
-        let q_1_ddot = -t45.mul_add(t529 - t534, t537);
-        let q_2_ddot = t534 - t529;
-        let q_3_ddot = -t533;
-        let q_5_ddot = -t523;
-        let sound = PIVOTS.hold(t41, t41)
-            & PIVOTS.hold(t65, t64)
-            & PIVOTS.hold(t76, t75)
-            & PIVOTS.hold(t86, t84)
-            & PIVOTS.hold(t96, n(p.k3))
-            & PIVOTS.hold(t131, t131)
-            & PIVOTS.hold(t148, t147)
-            & PIVOTS.hold(t179, t178)
-            & PIVOTS.hold(t206, t204)
-            & PIVOTS.hold(t511, t509)
+        let t344 = cos_q_3 * q_3_dot;
+        let t345 = cos_q_1 * t242;
+        let t346 = t344 * t345;
+        let t347 = sin_q_1 * t246;
+        let t348 = t344 * t347;
+        let t349 = sin_q_2 * q_2_dot;
+        let t350 = q_2_dot * t349;
+        let t351 = sin_q_1 * t350;
+        let t352 = sin_q_3.neg_mul_add(t351, t348 + t343);
+        let t353 = sin_q_3 * q_3_dot;
+        let t354 = q_3_dot * t353;
+        let t355 = sin_q_3.mul_sub(t340, t343) - t346 - t352;
+        let t356 = t353 * t339;
+        let t357 = q_1_dot * t342;
+        let t358 = q_3_dot * t344;
+        let t359 = cos_q_1.neg_mul_add(t358, t356);
+        let t360 = t355 - t154.neg_mul_add(t354, t348 + t346);
+        let t361 = cos_q_3.mul_sub(t357, t356) - t359 - t360;
+        let t362 = sin_q_2.mul_add(t344, t341);
+        let t363 = cos_q_1.mul_add(t353, cos_q_3 * t339);
+        let t364 = sin_q_1.mul_add(t362, sin_q_3 * t345) + t363;
+        let t365 = cos_q_4 * q_4_dot;
+        let t366 = t365 * t364;
+        let t367 = sin_q_4 * q_4_dot;
+        let t368 = q_4_dot * t367;
+        let t369 = cos_q_4 * cos_q_1;
+        let t370 = t258 * t369;
+        let t371 = cos_q_4 * sin_q_1;
+        let t372 = q_2_dot * t246;
+        let t373 = t349 * t367;
+        let t374 = sin_q_1 * t373;
+        let t375 = q_1_dot * t339;
+        let t376 = t0 * q_4_dot;
+        let t377 = t342 * t376;
+        let t378 = t371.mul_add(t372, t370) - t374;
+        let t379 = t11 * q_4_dot;
+        let t380 = q_4_dot * t379;
+        let t381 = t378 + (t377 + t11.mul_add(t375, t370));
+        let t382 = t162.mul_add(t368, t366) + sin_q_4.mul_add(t361, t366);
+        let t383 = t382 + (sin_q_1.mul_add(t380, t377 - t374) + t381);
+        let t384 = t246 * t342;
+        let t385 = cos_q_4.mul_add(t349, t376);
+        let t386 = sin_q_1.neg_mul_add(t385, t11 * t342);
+        let t387 = t386 - sin_q_4.mul_sub(t364, t162 * t365);
+        let t388 = cos_q_5 * q_5_dot;
+        let t389 = t388 * t387;
+        let t390 = sin_q_5 * q_5_dot;
+        let t391 = q_5_dot * t390;
+        let t392 = sin_q_5.neg_mul_add(t383, t389);
+        let t393 = t353 * t347;
+        let t394 = t353 * t345;
+        let t395 = cos_q_3 * t246;
+        let t396 = t342 * t395;
+        let t397 = cos_q_3.mul_add(t340, t394) - t396;
+        let t398 = cos_q_3.neg_mul_add(t351, t396 - t393);
+        let t399 = t344 * t339;
+        let t400 = cos_q_1.mul_add(t354, t399) + sin_q_3.mul_add(t357, t399);
+        let t401 = t400 + (t154.mul_add(t358, t393 + t394) + t397 - t398);
+        let t402 = sin_q_2 * t353;
+        let t403 = sin_q_1.mul_add(t395 - t402, cos_q_3 * t345);
+        let t404 = t403 - sin_q_3.mul_sub(t339, cos_q_1 * t344);
+        let t405 = t390 * t404;
+        let t406 = q_5_dot * t388;
+        let t407 = t168.mul_add(t406, t405) + cos_q_5.mul_add(t401, t405);
+        let t408 = t375 + (t340 - t384 - (t384 - t351)) - t361 - t383;
+        let t409 = t408 - (t407 - (t167.neg_mul_add(t391, t389) + t392));
+        let t410 = t157.mul_add(t335, t153.mul_add(t331, n(p.l) * t409));
+        let t411 = t92.mul_add(t335, t90.mul_add(t331, t284));
+        let t412 = t96.mul_add(t338, t94.neg_mul_add(t336, t411));
+        let t413 = t166.mul_add(t338, t161.mul_add(t336, t410));
+        let t414 = t341 * t339;
+        let t415 = cos_q_1 * t246;
+        let t416 = t344 * t415;
+        let t417 = cos_q_1 * t350;
+        let t418 = t242 * t342;
+        let t419 = sin_q_1 * t242;
+        let t420 = t344 * t419;
+        let t421 = t420 + sin_q_3.mul_add(t418, t414);
+        let t422 = sin_q_3.mul_add(t417, t414 - t416) + t421;
+        let t423 = t353 * t342;
+        let t424 = sin_q_1.mul_add(t358, t423) + cos_q_3.mul_add(t375, t423);
+        let t425 = t112.mul_add(t354, t420) - t416 + t422 + t424;
+        let t426 = cos_q_1.neg_mul_add(t362, sin_q_3 * t419);
+        let t427 = cos_q_3.mul_sub(t342, sin_q_1 * t353) - t426;
+        let t428 = t365 * t427;
+        let t429 = sin_q_4.neg_mul_add(t425, t428);
+        let t430 = t258 * t371;
+        let t431 = t376 * t339;
+        let t432 = cos_q_1 * t373;
+        let t433 = t369.neg_mul_add(t372, t432 + t430);
+        let t434 = cos_q_1.neg_mul_add(t380, t432 + t431);
+        let t435 = t11.mul_sub(t357, t430) - t431 - t433 - t434;
+        let t436 = t121.neg_mul_add(t368, t428) + t429 + t435;
+        let t437 = sin_q_4.mul_add(t427, t121 * t365);
+        let t438 = t388 * (t437 + cos_q_1.mul_add(t385, t11 * t339));
+        let t439 = t353 * t415;
+        let t440 = t339 * t395;
+        let t441 = t419 * t353;
+        let t442 = cos_q_3.mul_add(t418, t440) - t441;
+        let t443 = cos_q_3.mul_add(t417, t439 + t440) + t442;
+        let t444 = t344 * t342;
+        let t445 = sin_q_1.neg_mul_add(t354, t444);
+        let t446 = t443 - t112.neg_mul_add(t358, t441 - t439);
+        let t447 = cos_q_1.mul_add(t402 - t395, cos_q_3 * t419);
+        let t448 = t390 * (sin_q_1.mul_add(t344, sin_q_3 * t342) + t447);
+        let t449 = t446 - (sin_q_3.mul_sub(t375, t444) - t445);
+        let t450 = cos_q_5.neg_mul_add(t449, t448);
+        let t451 = t126.mul_add(t391, t438) + sin_q_5.mul_add(t436, t438);
+        let t452 = t246 * t339;
+        let t453 = t425 + (t357 + (t417 + t452 + (t418 + t452))) - t436;
+        let t454 = t127.neg_mul_add(t406, t448) + t450 - t451 + t453;
+        let t455 = t116.mul_add(t335, t110.mul_add(t331, n(p.l) * t454));
+        let t456 = t125.neg_mul_add(t338, t120.mul_add(t336, t455));
+        let t457 = t131.neg_mul_add(t412, t456);
+        let t458 = sin_q_4 * t344;
+        let t459 = t349 * t458;
+        let t460 = t344 * t379;
+        let t461 = sin_q_3 * t365;
+        let t462 = t349 * t461;
+        let t463 = t462 + t135.mul_add(t372, t459);
+        let t464 = t376.mul_add(sin_q_3 * q_4_dot, t462) - t460;
+        let t465 = t246 * t367;
+        let t466 = t365.mul_add(sin_q_2 * q_4_dot, t465);
+        let t467 = t464 + (t0.mul_add(t354, t459) - t460 + t463);
+        let t468 = t467 + (t466 + cos_q_4.mul_add(t350, t465));
+        let t469 = cos_q_2.neg_mul_add(t461 + t458, t135 * t349);
+        let t470 = cos_q_4.mul_sub(t246, sin_q_2 * t367) - t469;
+        let t471 = t388 * t470;
+        let t472 = sin_q_5.neg_mul_add(t468, t471);
+        let t473 = t353 * t349;
+        let t474 = cos_q_5 * t473;
+        let t475 = t390 * (cos_q_3 * t349);
+        let t476 = cos_q_2 * t353;
+        let t477 = t390 * t476;
+        let t478 = cos_q_2 * t358;
+        let t479 = cos_q_5.neg_mul_add(t478, t477 + t474);
+        let t480 = t191.neg_mul_add(q_5_dot * q_5_dot, t477 + t475);
+        let t481 = t18.mul_sub(t372, t474) - t475 - t479 - t480;
+        let t482 = t344 * t349;
+        let t483 = cos_q_2.mul_add(t354, t482) + sin_q_3.mul_add(t372, t482);
+        let t484 = t1.neg_mul_add(t391, t471) + t472 + t481;
+        let t485 = t137.mul_add(t335, n(p.l) * (t468 + (t372 + t483) - t484));
+        let t486 = t141.neg_mul_add(t338, t139.mul_add(t336, t485));
+        let t487 = t147.neg_mul_add(t457, t144.mul_add(t412, t486));
+        let t488 = t175.neg_mul_add(t457, t172.neg_mul_add(t412, t413));
+        let t489 = t178.neg_mul_add(t487, t488);
+        let t490 = t388 * t476;
+        let t491 = t349 * (t18 * q_5_dot);
+        let t492 = sin_q_5 * t473;
+        let t493 = t59.mul_add(t372, t491) - t492;
+        let t494 = sin_q_5.neg_mul_add(t478, t492 - t490);
+        let t495 = t390 * t470;
+        let t496 = t1.mul_add(t406, t495) + cos_q_5.mul_add(t468, t495);
+        let t497 = t2.mul_add(t391, t490 + t491) + t493 - t494 + t496;
+        let t498 = t187.mul_add(t336, t185.mul_add(t335, t497));
+        let t499 = t194.mul_add(t412, t190.neg_mul_add(t338, t498));
+        let t500 = t200.neg_mul_add(t487, t197.neg_mul_add(t457, t499));
+        let t501 = t204.neg_mul_add(t489, t500);
+        let t502 = t390 * t387;
+        let t503 = t388 * t404;
+        let t504 = sin_q_5.neg_mul_add(t401, t503);
+        let t505 = t167.mul_add(t406, t502) + cos_q_5.mul_add(t383, t502);
+        let t506 = t168.neg_mul_add(t391, t503) + t504 + t505;
+        let t507 = t213.neg_mul_add(t335, t211.mul_add(t331, t506));
+        let t508 = t221.neg_mul_add(t338, t218.neg_mul_add(t336, t507));
+        let t509 = t229.neg_mul_add(t457, t225.neg_mul_add(t412, t508));
+        let t510 = t237.neg_mul_add(t489, t232.mul_add(t487, t509));
+        let t511 = t224.mul_add(t225, t212.mul_add(t213, t210 * t211));
+        let t512 = t511 + t220.mul_add(t221, t217 * t218);
+        let t513 = t231.neg_mul_add(t232, t228.neg_mul_add(t229, t512));
+        let t514 = t240.neg_mul_add(t241, t236.neg_mul_add(t237, t513));
+        let t515 = t241.mul_add(t501, t510) / t514;
+        let t516 = t241.mul_add(t515, t209 * t501);
+        let t517 = t229.neg_mul_add(t515, t134 * t457);
+        let t518 = t237.neg_mul_add(t515, t182 * t489);
+        let t519 = t204.neg_mul_add(t516, t518);
+        let t520 = t200.neg_mul_add(t516, t232.mul_add(t515, t151 * t487));
+        let t521 = t178.neg_mul_add(t519, t520);
+        let t522 = t175.neg_mul_add(t519, t197.neg_mul_add(t516, t517));
+        let t523 = t147.neg_mul_add(t521, t522);
+        let t524 = t194.neg_mul_add(t516, t225.mul_add(t515, t99 * t412));
+        let t525 = t144.neg_mul_add(t521, t172.mul_add(t519, t524));
+        let t526 = t131.mul_add(t523, t525);
+        let t527 = t190.mul_add(t516, t221.mul_add(t515, t89 * t338));
+        let t528 = t141.mul_add(t521, t166.neg_mul_add(t519, t527));
+        let q_4_ddot = t96.mul_add(t526, t125.mul_add(t523, t528));
+        let t529 = t185.neg_mul_add(t516, t213.mul_add(t515, t68 * t335));
+        let t530 = t137.neg_mul_add(t521, t157.neg_mul_add(t519, t529));
+        let t531 = t92.mul_add(t526, t116.neg_mul_add(t523, t530));
+        let t532 = t82.mul_add(q_4_ddot, t531);
+        let t533 = t187.neg_mul_add(t516, t218.mul_add(t515, t79 * t336));
+        let t534 = t139.neg_mul_add(t521, t161.neg_mul_add(t519, t533));
+        let t535 = t94.neg_mul_add(t526, t120.neg_mul_add(t523, t534));
+        let t536 = t85.mul_add(q_4_ddot, t535);
+        let t537 = t72 * t536;
+        let t538 = t153.neg_mul_add(t519, t211.neg_mul_add(t515, t43 * t331));
+        let t539 = t90.mul_add(t526, t110.neg_mul_add(t523, t538));
+        let t540 = t69.neg_mul_add(t536, t80.mul_add(q_4_ddot, t539));
+        let q_1_ddot = -t46.mul_add(t532 - t537, t540);
+        let q_2_ddot = t537 - t532;
+        let q_3_ddot = -t536;
+        let q_5_ddot = -t526;
+        let sound = PIVOTS.hold(t42, t42)
+            & PIVOTS.hold(t67, t66)
+            & PIVOTS.hold(t78, t77)
+            & PIVOTS.hold(t88, t86)
+            & PIVOTS.hold(t98, n(p.k1))
+            & PIVOTS.hold(t133, t133)
+            & PIVOTS.hold(t150, t149)
+            & PIVOTS.hold(t181, t180)
+            & PIVOTS.hold(t208, t206)
+            & PIVOTS.hold(t514, t512)
             & q_1_ddot.is_finite();
         if !sound {
             let pivots = [
-                (0, t41, t41),
-                (1, t65, t64),
-                (2, t76, t75),
-                (3, t86, t84),
-                (4, t96, n(p.k3)),
-                (5, t131, t131),
-                (6, t148, t147),
-                (7, t179, t178),
-                (8, t206, t204),
-                (9, t511, t509),
+                (0, t42, t42),
+                (1, t67, t66),
+                (2, t78, t77),
+                (3, t88, t86),
+                (4, t98, n(p.k1)),
+                (5, t133, t133),
+                (6, t150, t149),
+                (7, t181, t180),
+                (8, t208, t206),
+                (9, t514, t512),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -1744,546 +1754,549 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t5 = n(p.l) + t4;
         let t6 = cos_q_3 * cos_q_4.mul_sub(t5, n(p.l) * t0);
         let t7 = n(p.l).neg_mul_add(t2, t6);
-        let t8 = n(p.k25).neg_mul_add(t7, t3 * n(p.k5));
+        let t8 = n(p.half_l_m).neg_mul_add(t7, t3 * n(p.k3));
         let t9 = cos_q_4 * cos_q_5;
-        let t10 = sin_q_3 * n(p.k21);
+        let t10 = sin_q_3 * n(p.k15);
         let t11 = cos_q_2 * cos_q_4;
         let t12 = sin_q_3.mul_sub(t11, sin_q_2 * sin_q_4);
-        let t13 = n(p.k25) * sin_q_5;
-        let t14 = n(p.k23) + t13;
+        let t13 = n(p.half_l_m) * sin_q_5;
+        let t14 = n(p.k17) + t13;
         let t15 = t12 * t14;
-        let t16 = t5.mul_add(t10, sin_q_2 * n(p.k8));
+        let t16 = t5.mul_add(t10, sin_q_2 * n(p.k6));
         let t17 = sin_q_3.mul_add(t5, t4);
         let t18 = cos_q_3 * cos_q_5;
         let t19 = sin_q_4.mul_add(t5, n(p.l) * t11) * t18;
         let t20 = sin_q_5.neg_mul_add(n(p.l).neg_mul_add(t12, t17), t19);
-        let t21 = n(p.k25).mul_add(t20, t12 * n(p.k3));
-        let t22 = sin_q_5 * n(p.k28);
-        let t23 = t12.mul_add(t22, n(p.k23).neg_mul_add(t17, t12 * n(p.k7)));
+        let t21 = n(p.half_l_m).mul_add(t20, t12 * n(p.k1));
+        let t22 = sin_q_5 * n(p.half_l_squared_m);
+        let t23 = t12.mul_add(t22, n(p.k17).neg_mul_add(t17, t12 * n(p.k5)));
         let t24 = t21 + t23;
         let t25 = t9.mul_add(t8, n(p.l).neg_mul_add(t15, t16));
         let t26 = sin_q_4.neg_mul_add(t24, t25);
-        let t27 = n(p.k25).mul_add(t3, t2 * n(p.k23));
-        let t28 = n(p.k25) * t12;
+        let t27 = n(p.half_l_m).mul_add(t3, t2 * n(p.k17));
+        let t28 = n(p.half_l_m) * t12;
         let t29 = sin_q_4 * cos_q_5;
-        let t30 = sin_q_3 * sin_q_2.neg_mul_add(n(p.k21), t15);
+        let t30 = sin_q_3 * sin_q_2.neg_mul_add(n(p.k15), t15);
         let t31 = cos_q_3.mul_add(cos_q_4.mul_sub(t27, t28 * t29), t30);
-        let t32 = t26 + sin_q_2.mul_add(n(p.k11), n(p.k27));
-        let t33 = n(p.k23).neg_mul_add(t6, t2 * n(p.k6));
-        let t34 = sin_q_5.mul_add(t8, t3.mul_add(n(p.k28), t33));
-        let t35 = sin_q_4.mul_add(t27, t28 * t9);
-        let t36 = n(p.l).mul_add(t35, t2.mul_add(n(p.k9), t34));
-        let t37 = cos_q_4.mul_add(t24, t29 * t8);
-        let t38 = sin_q_2.neg_mul_add(n(p.k19), t31);
-        let t39 = cos_q_3.mul_add(t36, sin_q_3 * t37);
-        let t40 = cos_q_2.mul_add(t39, n(p.l).neg_mul_add(t38, n(p.k12)));
-        let t41 = sin_q_2.mul_add(n(p.l).neg_mul_add(t31, t32), t40);
-        let t42 = N::ONE / t41;
-        let t43 = cos_q_3.mul_sub(t37, n(p.l) * t2.mul_add(n(p.k21), t35));
-        let t44 = sin_q_3.neg_mul_add(t36, t43);
-        let t45 = t42 * t44;
-        let t46 = n(p.l) * sin_q_3;
-        let t47 = n(p.l) + t46;
-        let t48 = sin_q_4 * t47;
-        let t49 = sin_q_4.mul_sub(t18, sin_q_3 * sin_q_5);
-        let t50 = n(p.k25).mul_sub(t46 + t48, n(p.k5) * t49);
-        let t51 = n(p.k23).mul_add(t48, sin_q_3 * n(p.k6));
-        let t52 = sin_q_5.mul_add(t50, n(p.k28).neg_mul_add(t49, t51));
-        let t53 = n(p.k25) * cos_q_4;
-        let t54 = n(p.k25).neg_mul_add(t49, sin_q_3 * n(p.k23));
-        let t55 = sin_q_4.mul_sub(t54, t53 * (cos_q_4 * t18));
-        let t56 = t52 + sin_q_3.mul_add(n(p.k9), n(p.k29));
-        let t57 = cos_q_3 * sin_q_5;
-        let t58 = cos_q_3 * cos_q_4;
-        let t59 = cos_q_5.mul_sub(t47, n(p.l) * t57);
-        let t60 = t53.mul_sub(t59, n(p.k3) * t58);
-        let t61 = t58.neg_mul_add(t22 + n(p.k7), t60);
-        let t62 = n(p.l).mul_add(t10 + t55, n(p.k10));
-        let t63 = cos_q_3.neg_mul_add(cos_q_4.mul_add(t61, t29 * t50), t62);
-        let t64 = sin_q_3.mul_add(n(p.l).mul_add(t55, t56), t63);
-        let t65 = t44.neg_mul_add(t45, t64);
-        let t66 = N::ONE / t65;
-        let t67 = t26 * t42;
-        let t68 = t9.mul_add(t50, t14 * (n(p.l) * t58));
-        let t69 = t44.mul_add(t67, sin_q_4.neg_mul_add(t61, t68));
-        let t70 = t66 * t69;
-        let t71 = n(p.l) * sin_q_4;
-        let t72 = t13.mul_add(n(p.l) + t71, sin_q_4 * n(p.k3));
-        let t73 = sin_q_4.mul_add(t22, sin_q_4.mul_add(n(p.k7), n(p.k30)));
-        let t74 = t14.mul_add(t71, t9.mul_add(t9 * n(p.k5), n(p.k8)));
-        let t75 = sin_q_4.mul_add(t72 + t73, t74);
-        let t76 = t69.neg_mul_add(t70, t26.neg_mul_add(t67, t75));
-        let t77 = N::ONE / t76;
-        let t78 = t34 * t42;
-        let t79 = t44.mul_add(t78, t52);
-        let t80 = t66 * t79;
-        let t81 = sin_q_5.mul_add(n(p.k5), n(p.k28));
-        let t82 = t69.neg_mul_add(t80, t26.neg_mul_add(t78, t9 * t81));
-        let t83 = t77 * t82;
-        let t84 = sin_q_5.mul_add(n(p.k28) + t81, n(p.k6));
-        let t85 = t79.neg_mul_add(t80, t34.neg_mul_add(t78, t84));
-        let t86 = t82.neg_mul_add(t83, t85);
-        let t87 = N::ONE / t86;
-        let t88 = t21 * t42;
-        let t89 = t44.mul_add(t88, t60);
-        let t90 = t66 * t89;
-        let t91 = t69.mul_add(t90, t26.mul_add(t88, t72));
-        let t92 = t77 * t91;
-        let t93 = t82.neg_mul_add(t92, t79.mul_add(t90, t34 * t88));
-        let t94 = t87 * t93;
-        let t95 = t89.neg_mul_add(t90, t21.neg_mul_add(t88, n(p.k3)));
-        let t96 = t93.neg_mul_add(t94, t91.neg_mul_add(t92, t95));
-        let t97 = N::ONE / t96;
-        let t98 = n(p.l).mul_add(sin_q_5, n(p.l));
-        let t99 = sin_q_4.mul_add(t98, n(p.l));
-        let t100 = sin_q_3 * t99;
-        let t101 = n(p.l) * t18;
-        let t102 = t11 * t98;
-        let t103 = sin_q_2.mul_add(t100 - t101, t5 - t102);
-        let t104 = n(p.l) * cos_q_5;
-        let t105 = sin_q_3 * t104;
-        let t106 = cos_q_3.mul_add(t99, t105);
-        let t107 = sin_q_1.neg_mul_add(t103, cos_q_1 * t106);
-        let t108 = t42 * t107;
-        let t109 = cos_q_4 * t98;
-        let t110 = sin_q_2 * cos_q_1;
-        let t111 = t100 + (n(p.l) - t101);
-        let t112 = t111.mul_add(cos_q_2 * cos_q_1, t109 * t110);
-        let t113 = t44.mul_add(t108, t112);
-        let t114 = t66 * t113;
-        let t115 = sin_q_3 * sin_q_1.mul_sub(t99, t104 * t110);
-        let t116 = cos_q_3.mul_sub(t99.mul_add(t110, sin_q_1 * t104), t115);
-        let t117 = t69.neg_mul_add(t114, t26.neg_mul_add(t108, t116));
-        let t118 = t77 * t117;
-        let t119 = sin_q_3.mul_add(t110, cos_q_3 * sin_q_1);
-        let t120 = t98 * cos_q_4.mul_add(t119, t0 * cos_q_1);
-        let t121 = t79.neg_mul_add(t114, t34.neg_mul_add(t108, t120));
-        let t122 = t82.neg_mul_add(t118, t121);
-        let t123 = t87 * t122;
-        let t124 = sin_q_4.neg_mul_add(t119, t11 * cos_q_1);
-        let t125 = cos_q_3.mul_sub(t110, sin_q_3 * sin_q_1);
-        let t126 = n(p.l) * cos_q_5.mul_sub(t124, sin_q_5 * t125);
-        let t127 = t89.neg_mul_add(t114, t21.neg_mul_add(t108, t126));
-        let t128 = t93.mul_add(t123, t91.mul_add(t118, t127));
-        let t129 = t97 * t128;
-        let t130 = t117.mul_add(t118, t113.mul_add(t114, t107 * t108));
-        let t131 = t128.mul_add(t129, t122.mul_add(t123, t130));
-        let t132 = N::ONE / t131;
-        let t133 = sin_q_3 * sin_q_4;
-        let t134 = sin_q_2.neg_mul_add(t98.mul_add(t133, t47 - t101), t102);
-        let t135 = t66 * t134;
-        let t136 = t69.neg_mul_add(t135, cos_q_2.mul_add(t105, t2 * t99));
-        let t137 = t77 * t136;
-        let t138 = t82.neg_mul_add(t137, t79.neg_mul_add(t135, t12 * t98));
-        let t139 = t87 * t138;
-        let t140 = t91.neg_mul_add(t137, t89.mul_add(t135, n(p.l) * t3));
-        let t141 = t93.neg_mul_add(t139, t140);
-        let t142 = t97 * t141;
-        let t143 = t139.mul_add(t122, t137.mul_add(t117, t135 * t113));
-        let t144 = t142.neg_mul_add(t128, t143);
-        let t145 = t132 * t144;
-        let t146 = t136.mul_add(t137, t134 * t135);
-        let t147 = t141.mul_add(t142, t138 * t139) + t146;
-        let t148 = t144.neg_mul_add(t145, t147);
-        let t149 = N::ONE / t148;
-        let t150 = cos_q_1.mul_add(t103, sin_q_1 * t106);
-        let t151 = t42 * t150;
-        let t152 = sin_q_2 * sin_q_1;
-        let t153 = cos_q_2 * sin_q_1;
-        let t154 = t44.mul_add(t151, t153.mul_add(t111, t152 * t109));
-        let t155 = t66 * t154;
-        let t156 = cos_q_3 * t152.mul_sub(t99, cos_q_1 * t104);
-        let t157 = sin_q_3.mul_add(cos_q_1.mul_add(t99, t152 * t104), t156);
-        let t158 = t69.neg_mul_add(t155, t26.neg_mul_add(t151, t157));
-        let t159 = t77 * t158;
-        let t160 = sin_q_3.neg_mul_add(t152, cos_q_3 * cos_q_1);
-        let t161 = cos_q_4.mul_sub(t160, t0 * sin_q_1);
-        let t162 = t79.mul_add(t155, t34.mul_add(t151, t161 * t98));
-        let t163 = t82.mul_add(t159, t162);
-        let t164 = t87 * t163;
-        let t165 = sin_q_4.mul_add(t160, t11 * sin_q_1);
-        let t166 = cos_q_3.mul_add(t152, sin_q_3 * cos_q_1);
-        let t167 = n(p.l) * cos_q_5.mul_sub(t165, sin_q_5 * t166);
-        let t168 = t89.neg_mul_add(t155, t21.neg_mul_add(t151, t167));
-        let t169 = t93.neg_mul_add(t164, t91.mul_add(t159, t168));
-        let t170 = t97 * t169;
-        let t171 = t159.mul_add(t117, t155.mul_add(t113, t151 * t107));
-        let t172 = t170.mul_add(t128, t164.neg_mul_add(t122, t171));
-        let t173 = t132 * t172;
-        let t174 = t164.neg_mul_add(t138, t159.mul_add(t136, t155 * t134));
-        let t175 = t144.neg_mul_add(t173, t170.neg_mul_add(t141, t174));
-        let t176 = t149 * t175;
-        let t177 = t169.mul_add(t170, t154.mul_add(t155, t150 * t151));
-        let t178 = t177 + t163.mul_add(t164, t158 * t159);
-        let t179 = t175.neg_mul_add(t176, t172.neg_mul_add(t173, t178));
-        let t180 = N::ONE / t179;
-        let t181 = sin_q_3.mul_add(t29, t57);
-        let t182 = sin_q_2.neg_mul_add(t181, t11 * cos_q_5);
-        let t183 = t66 * t182;
-        let t184 = t69.neg_mul_add(t183, cos_q_2 * t49);
-        let t185 = t77 * t184;
-        let t186 = t79.neg_mul_add(t183, t12 * cos_q_5);
-        let t187 = t82.neg_mul_add(t185, t186);
-        let t188 = t87 * t187;
-        let t189 = cos_q_2 * t18;
-        let t190 = t89.mul_add(t183, sin_q_5.neg_mul_add(t1, t189));
-        let t191 = t93.neg_mul_add(t188, t91.neg_mul_add(t185, t190));
-        let t192 = t97 * t191;
-        let t193 = t188.mul_add(t122, t185.mul_add(t117, t183 * t113));
-        let t194 = t192.neg_mul_add(t128, t193);
-        let t195 = t132 * t194;
-        let t196 = t188.mul_add(t138, t185.mul_add(t136, t183 * t134));
-        let t197 = t144.neg_mul_add(t195, t192.mul_add(t141, t196));
-        let t198 = t149 * t197;
-        let t199 = t188.neg_mul_add(t163, t185.mul_add(t158, t183 * t154));
-        let t200 = t172.neg_mul_add(t195, t192.neg_mul_add(t169, t199));
-        let t201 = t175.neg_mul_add(t198, t200);
-        let t202 = t180 * t201;
-        let t203 = t184.mul_add(t185, t182 * t183);
-        let t204 = t191.mul_add(t192, t187 * t188) + t203;
-        let t205 = t197.neg_mul_add(t198, t194.neg_mul_add(t195, t204));
-        let t206 = t201.neg_mul_add(t202, t205);
-        let t207 = N::ONE / t206;
-        let t208 = cos_q_1.mul_sub(t182, t49 * sin_q_1);
-        let t209 = t42 * t208;
-        let t210 = t44.neg_mul_add(t209, t181.mul_add(t153, t9 * t152));
-        let t211 = t66 * t210;
-        let t212 = cos_q_3 * t29.mul_add(t152, sin_q_5 * cos_q_1);
-        let t213 = t29.mul_sub(cos_q_1, sin_q_5 * t152);
-        let t214 = t26.mul_add(t209, sin_q_3.mul_add(t213, t212));
-        let t215 = t211.neg_mul_add(t69, t214);
-        let t216 = t77 * t215;
-        let t217 = t211.mul_add(t79, t34.neg_mul_add(t209, cos_q_5 * t161));
-        let t218 = t82.mul_add(t216, t217);
-        let t219 = t87 * t218;
-        let t220 = sin_q_5.mul_add(t165, cos_q_5 * t166);
-        let t221 = t211.mul_add(t89, t21.neg_mul_add(t209, t220));
-        let t222 = t93.mul_add(t219, t91.neg_mul_add(t216, t221));
-        let t223 = t97 * t222;
-        let t224 = t211.neg_mul_add(t113, t209 * t107);
-        let t225 = t219.mul_add(t122, t216.neg_mul_add(t117, t224));
-        let t226 = t223.mul_add(t128, t225);
-        let t227 = t132 * t226;
-        let t228 = t219.neg_mul_add(t138, t216.mul_add(t136, t211 * t134));
-        let t229 = t144.mul_add(t227, t223.mul_add(t141, t228));
-        let t230 = t149 * t229;
-        let t231 = t211.neg_mul_add(t154, t209 * t150);
-        let t232 = t219.neg_mul_add(t163, t216.neg_mul_add(t158, t231));
-        let t233 = t172.neg_mul_add(t227, t223.mul_add(t169, t232));
-        let t234 = t175.mul_add(t230, t233);
-        let t235 = t180 * t234;
-        let t236 = t219.neg_mul_add(t187, t216.mul_add(t184, t182 * t211));
-        let t237 = t194.mul_add(t227, t223.mul_add(t191, t236));
-        let t238 = t201.mul_add(t235, t197.neg_mul_add(t230, t237));
-        let t239 = t207 * t238;
-        let t240 = sin_q_2 * q_1_dot;
-        let t241 = n(p.l) * q_1_dot;
-        let t242 = t240.mul_add(t240, q_2_dot * q_2_dot);
-        let t243 = n(p.l).mul_add(t242, t240.mul_add(t241, cos_q_2 * n(p.g)));
-        let t244 = cos_q_2 * q_2_dot;
-        let t245 = q_1_dot * t244;
-        let t246 = t245 * n(p.k16);
-        let t247 = cos_q_3.mul_sub(t243, sin_q_3 * t246);
-        let t248 = cos_q_2 * q_1_dot;
-        let t249 = sin_q_3.neg_mul_add(t248, cos_q_3 * q_2_dot);
-        let t250 = t2.mul_add(q_1_dot, sin_q_3 * q_2_dot);
-        let t251 = t249 * t250;
-        let t252 = t245 - t251;
-        let t253 = n(p.l).neg_mul_add(t252, t247);
-        let t254 = t240 + q_3_dot;
-        let t255 = cos_q_4.mul_sub(t254, sin_q_4 * t249);
-        let t256 = q_2_dot * t240;
-        let t257 = sin_q_3.mul_sub(t256, q_3_dot * t250);
-        let t258 = cos_q_4.mul_add(t257, sin_q_4 * t245);
-        let t259 = t255.mul_add(q_4_dot, t258);
-        let t260 = q_4_dot + t250;
-        let t261 = t255 * t260;
-        let t262 = t259 + t261;
-        let t263 = t250.mul_add(t250, t254 * t254);
-        let t264 = cos_q_3.mul_add(t246, sin_q_3 * t243);
-        let t265 = n(p.l).mul_add(t263, t264);
-        let t266 = t248.neg_mul_add(t241, sin_q_2 * n(p.g));
-        let t267 = t248 * t240;
-        let t268 = n(p.l).neg_mul_add(t267, t266);
-        let t269 = cos_q_3.mul_sub(t256, t249 * q_3_dot);
-        let t270 = t249 * t254;
-        let t271 = t269 - t270;
-        let t272 = n(p.l).neg_mul_add(t271, t268);
-        let t273 = sin_q_4.mul_add(t254, cos_q_4 * t249);
-        let t274 = t273.mul_add(t273, t260 * t260);
-        let t275 = sin_q_4.mul_add(t265, cos_q_4 * t272);
-        let t276 = sin_q_5 * n(p.l).neg_mul_add(t262, t253);
-        let t277 = sin_q_5.neg_mul_add(t255, cos_q_5 * t260);
-        let t278 = cos_q_5.mul_add(t255, sin_q_5 * t260);
-        let t279 = t277 * t278;
-        let t280 = cos_q_5.mul_add(n(p.l).mul_add(t274, t275), t276);
-        let t281 = n(p.k3).mul_sub(t259, n(p.k5) * t279);
-        let t282 = n(p.k25).neg_mul_add(t280, t281);
-        let t283 = t259 - t279;
-        let t284 = t273 + q_5_dot;
-        let t285 = t284.mul_add(t284, t278 * t278);
-        let t286 = sin_q_5.mul_add(t283, cos_q_5 * t285);
-        let t287 = n(p.k7).mul_add(t259, n(p.k6) * t261);
-        let t288 = n(p.k28).mul_add(t286, n(p.k23).neg_mul_add(t253, t287));
-        let t289 = t282 + t288;
-        let t290 = n(p.k25).mul_add(t286, n(p.k23) * t262);
-        let t291 = n(p.k9).neg_mul_add(t251, n(p.k8) * t245);
-        let t292 = n(p.l).mul_add(t290, n(p.k21).neg_mul_add(t247, t291));
-        let t293 = cos_q_4.mul_sub(t265, sin_q_4 * t272);
-        let t294 = t255 * t273;
-        let t295 = t269 + t294;
-        let t296 = sin_q_4.neg_mul_add(t257, cos_q_4 * t245);
-        let t297 = q_4_dot.neg_mul_add(t273, t296);
-        let t298 = cos_q_5.mul_sub(t297, sin_q_5 * t269);
-        let t299 = t277.mul_add(q_5_dot, t298);
-        let t300 = t277 * t284;
-        let t301 = n(p.k5).mul_add(t299, n(p.k3) * t300);
-        let t302 = n(p.k25).neg_mul_add(n(p.l).mul_add(t295, t293), t301);
-        let t303 = t278 * (t284 * n(p.k24));
-        let t304 = sin_q_5.neg_mul_add(t303, t273 * (t260 * n(p.k22)));
-        let t305 = cos_q_5.neg_mul_add(t302, t304);
-        let t306 = cos_q_4.neg_mul_add(t305, sin_q_4.mul_add(t289, t292));
-        let t307 = sin_q_5.mul_sub(t285, cos_q_5 * t283);
-        let t308 = n(p.k25).mul_add(t307, n(p.k23) * t274);
-        let t309 = t300 + t299;
-        let t310 = n(p.k25).neg_mul_add(t309, n(p.k23) * t295);
-        let t311 = sin_q_4.mul_add(t308, n(p.k21) * t263);
-        let t312 = sin_q_3 * n(p.k21).mul_add(t252, t290);
-        let t313 = cos_q_3.mul_add(cos_q_4.mul_add(t310, t311), t312);
-        let t314 = sin_q_4.neg_mul_add(t305, t250 * (t254 * n(p.k20)));
-        let t315 = cos_q_4.neg_mul_add(t289, t314);
-        let t316 = n(p.k7).mul_add(t294, n(p.k6) * t269);
-        let t317 = cos_q_5.mul_add(t303, n(p.k23).mul_add(t293, t316));
-        let t318 = n(p.k28).neg_mul_add(t309, t317);
-        let t319 = sin_q_5.neg_mul_add(t302, t318);
-        let t320 = n(p.k9).mul_sub(t269, n(p.k8) * t270);
-        let t321 = cos_q_4.mul_sub(t308, sin_q_4 * t310);
-        let t322 = t319 + n(p.k21).neg_mul_add(t268, t320);
-        let t323 = n(p.l).neg_mul_add(t321, t322);
-        let t324 = cos_q_3.mul_add(t323, t256 * n(p.k18));
-        let t325 = n(p.l) * t245.mul_add(n(p.k31), t313);
-        let t326 = cos_q_2.mul_add(sin_q_3.mul_sub(t315, t324), t325);
-        let t327 = n(p.l).mul_add(t313, t245.mul_add(n(p.k17), t306));
-        let t328 = sin_q_2.mul_add(t327, t326);
-        let t329 = n(p.k19).mul_sub(t266, n(p.k11) * t267);
-        let t330 = n(p.l).mul_add(n(p.k21).neg_mul_add(t271, t321), t329);
-        let t331 = cos_q_3.neg_mul_add(t315, sin_q_3.neg_mul_add(t323, t330));
-        let t332 = t45.mul_add(t328, t331);
-        let t333 = t70.neg_mul_add(t332, t67.neg_mul_add(t328, t306));
-        let t334 = t80.mul_add(t332, t78.mul_add(t328, t319));
-        let t335 = t83.mul_add(t333, t334);
-        let t336 = sin_q_1 * q_1_dot;
-        let t337 = t240 * t336;
-        let t338 = sin_q_3 * t244;
-        let t339 = cos_q_1 * q_1_dot;
-        let t340 = t338 * t339;
-        let t341 = cos_q_3 * q_3_dot;
-        let t342 = cos_q_1 * t240;
+        let t32 = t26 + sin_q_2.mul_add(n(p.k9), n(p.k20));
+        let t33 = n(p.k17).neg_mul_add(t6, t2 * n(p.k4));
+        let t34 = t3.mul_add(n(p.half_l_squared_m), t33);
+        let t35 = sin_q_5.mul_add(t8, t34);
+        let t36 = sin_q_4.mul_add(t27, t28 * t9);
+        let t37 = n(p.l).mul_add(t36, t2.mul_add(n(p.k7), t35));
+        let t38 = cos_q_4.mul_add(t24, t29 * t8);
+        let t39 = sin_q_2.neg_mul_add(n(p.k13), t31);
+        let t40 = cos_q_3.mul_add(t37, sin_q_3 * t38);
+        let t41 = cos_q_2.mul_add(t40, n(p.l).neg_mul_add(t39, n(p.k10)));
+        let t42 = sin_q_2.mul_add(n(p.l).neg_mul_add(t31, t32), t41);
+        let t43 = N::ONE / t42;
+        let t44 = cos_q_3.mul_sub(t38, n(p.l) * t2.mul_add(n(p.k15), t36));
+        let t45 = sin_q_3.neg_mul_add(t37, t44);
+        let t46 = t43 * t45;
+        let t47 = n(p.l) * sin_q_3;
+        let t48 = n(p.l) + t47;
+        let t49 = sin_q_4 * t48;
+        let t50 = sin_q_4.mul_sub(t18, sin_q_3 * sin_q_5);
+        let t51 = n(p.half_l_m).mul_sub(t47 + t49, n(p.k3) * t50);
+        let t52 = n(p.k17).mul_add(t49, sin_q_3 * n(p.k4));
+        let t53 = n(p.half_l_squared_m).neg_mul_add(t50, t52);
+        let t54 = sin_q_5.mul_add(t51, t53);
+        let t55 = n(p.half_l_m) * cos_q_4;
+        let t56 = n(p.half_l_m).neg_mul_add(t50, sin_q_3 * n(p.k17));
+        let t57 = sin_q_4.mul_sub(t56, t55 * (cos_q_4 * t18));
+        let t58 = t54 + sin_q_3.mul_add(n(p.k7), n(p.k21));
+        let t59 = cos_q_3 * sin_q_5;
+        let t60 = cos_q_3 * cos_q_4;
+        let t61 = cos_q_5.mul_sub(t48, n(p.l) * t59);
+        let t62 = t55.mul_sub(t61, n(p.k1) * t60);
+        let t63 = t60.neg_mul_add(t22 + n(p.k5), t62);
+        let t64 = n(p.l).mul_add(t10 + t57, n(p.k8));
+        let t65 = cos_q_3.neg_mul_add(cos_q_4.mul_add(t63, t29 * t51), t64);
+        let t66 = sin_q_3.mul_add(n(p.l).mul_add(t57, t58), t65);
+        let t67 = t45.neg_mul_add(t46, t66);
+        let t68 = N::ONE / t67;
+        let t69 = t26 * t43;
+        let t70 = t9.mul_add(t51, t14 * (n(p.l) * t60));
+        let t71 = t45.mul_add(t69, sin_q_4.neg_mul_add(t63, t70));
+        let t72 = t68 * t71;
+        let t73 = n(p.l) * sin_q_4;
+        let t74 = t13.mul_add(n(p.l) + t73, sin_q_4 * n(p.k1));
+        let t75 = sin_q_4.mul_add(t22, sin_q_4.mul_add(n(p.k5), n(p.k22)));
+        let t76 = t14.mul_add(t73, t9.mul_add(t9 * n(p.k3), n(p.k6)));
+        let t77 = sin_q_4.mul_add(t74 + t75, t76);
+        let t78 = t71.neg_mul_add(t72, t26.neg_mul_add(t69, t77));
+        let t79 = N::ONE / t78;
+        let t80 = t35 * t43;
+        let t81 = t45.mul_add(t80, t54);
+        let t82 = t68 * t81;
+        let t83 = sin_q_5.mul_add(n(p.k3), n(p.half_l_squared_m));
+        let t84 = t71.neg_mul_add(t82, t26.neg_mul_add(t80, t9 * t83));
+        let t85 = t79 * t84;
+        let t86 = sin_q_5.mul_add(n(p.half_l_squared_m) + t83, n(p.k4));
+        let t87 = t81.neg_mul_add(t82, t35.neg_mul_add(t80, t86));
+        let t88 = t84.neg_mul_add(t85, t87);
+        let t89 = N::ONE / t88;
+        let t90 = t21 * t43;
+        let t91 = t45.mul_add(t90, t62);
+        let t92 = t68 * t91;
+        let t93 = t71.mul_add(t92, t26.mul_add(t90, t74));
+        let t94 = t79 * t93;
+        let t95 = t84.neg_mul_add(t94, t81.mul_add(t92, t35 * t90));
+        let t96 = t89 * t95;
+        let t97 = t91.neg_mul_add(t92, t21.neg_mul_add(t90, n(p.k1)));
+        let t98 = t95.neg_mul_add(t96, t93.neg_mul_add(t94, t97));
+        let t99 = N::ONE / t98;
+        let t100 = n(p.l).mul_add(sin_q_5, n(p.l));
+        let t101 = sin_q_4.mul_add(t100, n(p.l));
+        let t102 = sin_q_3 * t101;
+        let t103 = n(p.l) * t18;
+        let t104 = t11 * t100;
+        let t105 = sin_q_2.mul_add(t102 - t103, t5 - t104);
+        let t106 = n(p.l) * cos_q_5;
+        let t107 = sin_q_3 * t106;
+        let t108 = cos_q_3.mul_add(t101, t107);
+        let t109 = sin_q_1.neg_mul_add(t105, cos_q_1 * t108);
+        let t110 = t43 * t109;
+        let t111 = cos_q_4 * t100;
+        let t112 = sin_q_2 * cos_q_1;
+        let t113 = t102 + (n(p.l) - t103);
+        let t114 = t113.mul_add(cos_q_2 * cos_q_1, t111 * t112);
+        let t115 = t45.mul_add(t110, t114);
+        let t116 = t68 * t115;
+        let t117 = sin_q_3 * sin_q_1.mul_sub(t101, t106 * t112);
+        let t118 = cos_q_3.mul_sub(t101.mul_add(t112, sin_q_1 * t106), t117);
+        let t119 = t71.neg_mul_add(t116, t26.neg_mul_add(t110, t118));
+        let t120 = t79 * t119;
+        let t121 = sin_q_3.mul_add(t112, cos_q_3 * sin_q_1);
+        let t122 = t100 * cos_q_4.mul_add(t121, t0 * cos_q_1);
+        let t123 = t81.neg_mul_add(t116, t35.neg_mul_add(t110, t122));
+        let t124 = t84.neg_mul_add(t120, t123);
+        let t125 = t89 * t124;
+        let t126 = sin_q_4.neg_mul_add(t121, t11 * cos_q_1);
+        let t127 = cos_q_3.mul_sub(t112, sin_q_3 * sin_q_1);
+        let t128 = n(p.l) * cos_q_5.mul_sub(t126, sin_q_5 * t127);
+        let t129 = t91.neg_mul_add(t116, t21.neg_mul_add(t110, t128));
+        let t130 = t95.mul_add(t125, t93.mul_add(t120, t129));
+        let t131 = t99 * t130;
+        let t132 = t119.mul_add(t120, t115.mul_add(t116, t109 * t110));
+        let t133 = t130.mul_add(t131, t124.mul_add(t125, t132));
+        let t134 = N::ONE / t133;
+        let t135 = sin_q_3 * sin_q_4;
+        let t136 = sin_q_2.neg_mul_add(t100.mul_add(t135, t48 - t103), t104);
+        let t137 = t68 * t136;
+        let t138 = t71.neg_mul_add(t137, cos_q_2.mul_add(t107, t2 * t101));
+        let t139 = t79 * t138;
+        let t140 = t84.neg_mul_add(t139, t81.neg_mul_add(t137, t12 * t100));
+        let t141 = t89 * t140;
+        let t142 = t93.neg_mul_add(t139, t91.mul_add(t137, n(p.l) * t3));
+        let t143 = t95.neg_mul_add(t141, t142);
+        let t144 = t99 * t143;
+        let t145 = t141.mul_add(t124, t139.mul_add(t119, t137 * t115));
+        let t146 = t144.neg_mul_add(t130, t145);
+        let t147 = t134 * t146;
+        let t148 = t138.mul_add(t139, t136 * t137);
+        let t149 = t143.mul_add(t144, t140 * t141) + t148;
+        let t150 = t146.neg_mul_add(t147, t149);
+        let t151 = N::ONE / t150;
+        let t152 = cos_q_1.mul_add(t105, sin_q_1 * t108);
+        let t153 = t43 * t152;
+        let t154 = sin_q_2 * sin_q_1;
+        let t155 = cos_q_2 * sin_q_1;
+        let t156 = t45.mul_add(t153, t155.mul_add(t113, t154 * t111));
+        let t157 = t68 * t156;
+        let t158 = cos_q_3 * t154.mul_sub(t101, cos_q_1 * t106);
+        let t159 = sin_q_3.mul_add(cos_q_1.mul_add(t101, t154 * t106), t158);
+        let t160 = t71.neg_mul_add(t157, t26.neg_mul_add(t153, t159));
+        let t161 = t79 * t160;
+        let t162 = sin_q_3.neg_mul_add(t154, cos_q_3 * cos_q_1);
+        let t163 = cos_q_4.mul_sub(t162, t0 * sin_q_1);
+        let t164 = t81.mul_add(t157, t35.mul_add(t153, t163 * t100));
+        let t165 = t84.mul_add(t161, t164);
+        let t166 = t89 * t165;
+        let t167 = sin_q_4.mul_add(t162, t11 * sin_q_1);
+        let t168 = cos_q_3.mul_add(t154, sin_q_3 * cos_q_1);
+        let t169 = n(p.l) * cos_q_5.mul_sub(t167, sin_q_5 * t168);
+        let t170 = t91.neg_mul_add(t157, t21.neg_mul_add(t153, t169));
+        let t171 = t95.neg_mul_add(t166, t93.mul_add(t161, t170));
+        let t172 = t99 * t171;
+        let t173 = t161.mul_add(t119, t157.mul_add(t115, t153 * t109));
+        let t174 = t172.mul_add(t130, t166.neg_mul_add(t124, t173));
+        let t175 = t134 * t174;
+        let t176 = t166.neg_mul_add(t140, t161.mul_add(t138, t157 * t136));
+        let t177 = t146.neg_mul_add(t175, t172.neg_mul_add(t143, t176));
+        let t178 = t151 * t177;
+        let t179 = t171.mul_add(t172, t156.mul_add(t157, t152 * t153));
+        let t180 = t179 + t165.mul_add(t166, t160 * t161);
+        let t181 = t177.neg_mul_add(t178, t174.neg_mul_add(t175, t180));
+        let t182 = N::ONE / t181;
+        let t183 = sin_q_3.mul_add(t29, t59);
+        let t184 = sin_q_2.neg_mul_add(t183, t11 * cos_q_5);
+        let t185 = t68 * t184;
+        let t186 = t71.neg_mul_add(t185, cos_q_2 * t50);
+        let t187 = t79 * t186;
+        let t188 = t81.neg_mul_add(t185, t12 * cos_q_5);
+        let t189 = t84.neg_mul_add(t187, t188);
+        let t190 = t89 * t189;
+        let t191 = cos_q_2 * t18;
+        let t192 = t91.mul_add(t185, sin_q_5.neg_mul_add(t1, t191));
+        let t193 = t95.neg_mul_add(t190, t93.neg_mul_add(t187, t192));
+        let t194 = t99 * t193;
+        let t195 = t190.mul_add(t124, t187.mul_add(t119, t185 * t115));
+        let t196 = t194.neg_mul_add(t130, t195);
+        let t197 = t134 * t196;
+        let t198 = t190.mul_add(t140, t187.mul_add(t138, t185 * t136));
+        let t199 = t146.neg_mul_add(t197, t194.mul_add(t143, t198));
+        let t200 = t151 * t199;
+        let t201 = t190.neg_mul_add(t165, t187.mul_add(t160, t185 * t156));
+        let t202 = t174.neg_mul_add(t197, t194.neg_mul_add(t171, t201));
+        let t203 = t177.neg_mul_add(t200, t202);
+        let t204 = t182 * t203;
+        let t205 = t186.mul_add(t187, t184 * t185);
+        let t206 = t193.mul_add(t194, t189 * t190) + t205;
+        let t207 = t199.neg_mul_add(t200, t196.neg_mul_add(t197, t206));
+        let t208 = t203.neg_mul_add(t204, t207);
+        let t209 = N::ONE / t208;
+        let t210 = cos_q_1.mul_sub(t184, t50 * sin_q_1);
+        let t211 = t43 * t210;
+        let t212 = t45.neg_mul_add(t211, t183.mul_add(t155, t9 * t154));
+        let t213 = t68 * t212;
+        let t214 = cos_q_3 * t29.mul_add(t154, sin_q_5 * cos_q_1);
+        let t215 = t29.mul_sub(cos_q_1, sin_q_5 * t154);
+        let t216 = t26.mul_add(t211, sin_q_3.mul_add(t215, t214));
+        let t217 = t213.neg_mul_add(t71, t216);
+        let t218 = t79 * t217;
+        let t219 = t213.mul_add(t81, t35.neg_mul_add(t211, cos_q_5 * t163));
+        let t220 = t84.mul_add(t218, t219);
+        let t221 = t89 * t220;
+        let t222 = sin_q_5.mul_add(t167, cos_q_5 * t168);
+        let t223 = t213.mul_add(t91, t21.neg_mul_add(t211, t222));
+        let t224 = t95.mul_add(t221, t93.neg_mul_add(t218, t223));
+        let t225 = t99 * t224;
+        let t226 = t213.neg_mul_add(t115, t211 * t109);
+        let t227 = t221.mul_add(t124, t218.neg_mul_add(t119, t226));
+        let t228 = t225.mul_add(t130, t227);
+        let t229 = t134 * t228;
+        let t230 = t221.neg_mul_add(t140, t218.mul_add(t138, t213 * t136));
+        let t231 = t146.mul_add(t229, t225.mul_add(t143, t230));
+        let t232 = t151 * t231;
+        let t233 = t213.neg_mul_add(t156, t211 * t152);
+        let t234 = t221.neg_mul_add(t165, t218.neg_mul_add(t160, t233));
+        let t235 = t174.neg_mul_add(t229, t225.mul_add(t171, t234));
+        let t236 = t177.mul_add(t232, t235);
+        let t237 = t182 * t236;
+        let t238 = t221.neg_mul_add(t189, t218.mul_add(t186, t184 * t213));
+        let t239 = t196.mul_add(t229, t225.mul_add(t193, t238));
+        let t240 = t203.mul_add(t237, t199.neg_mul_add(t232, t239));
+        let t241 = t209 * t240;
+        let t242 = sin_q_2 * q_1_dot;
+        let t243 = n(p.l) * q_1_dot;
+        let t244 = t242.mul_add(t242, q_2_dot * q_2_dot);
+        let t245 = n(p.l).mul_add(t244, t242.mul_add(t243, cos_q_2 * n(p.g)));
+        let t246 = cos_q_2 * q_2_dot;
+        let t247 = q_1_dot * t246;
+        let t248 = t247 * n(p.two_l);
+        let t249 = cos_q_3.mul_sub(t245, sin_q_3 * t248);
+        let t250 = cos_q_2 * q_1_dot;
+        let t251 = sin_q_3.neg_mul_add(t250, cos_q_3 * q_2_dot);
+        let t252 = t2.mul_add(q_1_dot, sin_q_3 * q_2_dot);
+        let t253 = t251 * t252;
+        let t254 = t247 - t253;
+        let t255 = n(p.l).neg_mul_add(t254, t249);
+        let t256 = t242 + q_3_dot;
+        let t257 = cos_q_4.mul_sub(t256, sin_q_4 * t251);
+        let t258 = q_2_dot * t242;
+        let t259 = sin_q_3.mul_sub(t258, q_3_dot * t252);
+        let t260 = cos_q_4.mul_add(t259, sin_q_4 * t247);
+        let t261 = t257.mul_add(q_4_dot, t260);
+        let t262 = q_4_dot + t252;
+        let t263 = t257 * t262;
+        let t264 = t261 + t263;
+        let t265 = t252.mul_add(t252, t256 * t256);
+        let t266 = cos_q_3.mul_add(t248, sin_q_3 * t245);
+        let t267 = n(p.l).mul_add(t265, t266);
+        let t268 = t250.neg_mul_add(t243, sin_q_2 * n(p.g));
+        let t269 = t250 * t242;
+        let t270 = n(p.l).neg_mul_add(t269, t268);
+        let t271 = cos_q_3.mul_sub(t258, t251 * q_3_dot);
+        let t272 = t251 * t256;
+        let t273 = t271 - t272;
+        let t274 = n(p.l).neg_mul_add(t273, t270);
+        let t275 = sin_q_4.mul_add(t256, cos_q_4 * t251);
+        let t276 = t275.mul_add(t275, t262 * t262);
+        let t277 = sin_q_4.mul_add(t267, cos_q_4 * t274);
+        let t278 = sin_q_5 * n(p.l).neg_mul_add(t264, t255);
+        let t279 = sin_q_5.neg_mul_add(t257, cos_q_5 * t262);
+        let t280 = cos_q_5.mul_add(t257, sin_q_5 * t262);
+        let t281 = t279 * t280;
+        let t282 = cos_q_5.mul_add(n(p.l).mul_add(t276, t277), t278);
+        let t283 = n(p.k1).mul_sub(t261, n(p.k3) * t281);
+        let t284 = n(p.half_l_m).neg_mul_add(t282, t283);
+        let t285 = t261 - t281;
+        let t286 = t275 + q_5_dot;
+        let t287 = t286.mul_add(t286, t280 * t280);
+        let t288 = sin_q_5.mul_add(t285, cos_q_5 * t287);
+        let t289 = n(p.k5).mul_add(t261, n(p.k4) * t263);
+        let t290 = n(p.k17).neg_mul_add(t255, t289);
+        let t291 = t284 + n(p.half_l_squared_m).mul_add(t288, t290);
+        let t292 = n(p.half_l_m).mul_add(t288, n(p.k17) * t264);
+        let t293 = n(p.k7).neg_mul_add(t253, n(p.k6) * t247);
+        let t294 = n(p.l).mul_add(t292, n(p.k15).neg_mul_add(t249, t293));
+        let t295 = cos_q_4.mul_sub(t267, sin_q_4 * t274);
+        let t296 = t257 * t275;
+        let t297 = t271 + t296;
+        let t298 = sin_q_4.neg_mul_add(t259, cos_q_4 * t247);
+        let t299 = q_4_dot.neg_mul_add(t275, t298);
+        let t300 = cos_q_5.mul_sub(t299, sin_q_5 * t271);
+        let t301 = t279.mul_add(q_5_dot, t300);
+        let t302 = t279 * t286;
+        let t303 = n(p.k3).mul_add(t301, n(p.k1) * t302);
+        let t304 = n(p.l).mul_add(t297, t295);
+        let t305 = n(p.half_l_m).neg_mul_add(t304, t303);
+        let t306 = t280 * (t286 * n(p.k18));
+        let t307 = sin_q_5.neg_mul_add(t306, t275 * (t262 * n(p.k16)));
+        let t308 = cos_q_5.neg_mul_add(t305, t307);
+        let t309 = cos_q_4.neg_mul_add(t308, sin_q_4.mul_add(t291, t294));
+        let t310 = sin_q_5.mul_sub(t287, cos_q_5 * t285);
+        let t311 = n(p.half_l_m).mul_add(t310, n(p.k17) * t276);
+        let t312 = t302 + t301;
+        let t313 = n(p.half_l_m).neg_mul_add(t312, n(p.k17) * t297);
+        let t314 = sin_q_4.mul_add(t311, n(p.k15) * t265);
+        let t315 = sin_q_3 * n(p.k15).mul_add(t254, t292);
+        let t316 = cos_q_3.mul_add(cos_q_4.mul_add(t313, t314), t315);
+        let t317 = sin_q_4.neg_mul_add(t308, t252 * (t256 * n(p.k14)));
+        let t318 = cos_q_4.neg_mul_add(t291, t317);
+        let t319 = n(p.k5).mul_add(t296, n(p.k4) * t271);
+        let t320 = cos_q_5.mul_add(t306, n(p.k17).mul_add(t295, t319));
+        let t321 = n(p.half_l_squared_m).neg_mul_add(t312, t320);
+        let t322 = sin_q_5.neg_mul_add(t305, t321);
+        let t323 = n(p.k7).mul_sub(t271, n(p.k6) * t272);
+        let t324 = cos_q_4.mul_sub(t311, sin_q_4 * t313);
+        let t325 = t322 + n(p.k15).neg_mul_add(t270, t323);
+        let t326 = n(p.l).neg_mul_add(t324, t325);
+        let t327 = cos_q_3.mul_add(t326, t258 * n(p.k12));
+        let t328 = n(p.l) * t247.mul_add(n(p.k23), t316);
+        let t329 = cos_q_2.mul_add(sin_q_3.mul_sub(t318, t327), t328);
+        let t330 = n(p.l).mul_add(t316, t247.mul_add(n(p.k11), t309));
+        let t331 = sin_q_2.mul_add(t330, t329);
+        let t332 = n(p.k13).mul_sub(t268, n(p.k9) * t269);
+        let t333 = n(p.l).mul_add(n(p.k15).neg_mul_add(t273, t324), t332);
+        let t334 = cos_q_3.neg_mul_add(t318, sin_q_3.neg_mul_add(t326, t333));
+        let t335 = t46.mul_add(t331, t334);
+        let t336 = t72.neg_mul_add(t335, t69.neg_mul_add(t331, t309));
+        let t337 = t82.mul_add(t335, t80.mul_add(t331, t322));
+        let t338 = t85.mul_add(t336, t337);
+        let t339 = sin_q_1 * q_1_dot;
+        let t340 = t242 * t339;
+        let t341 = sin_q_3 * t246;
+        let t342 = cos_q_1 * q_1_dot;
         let t343 = t341 * t342;
-        let t344 = sin_q_1 * t244;
-        let t345 = t341 * t344;
-        let t346 = sin_q_2 * q_2_dot;
-        let t347 = q_2_dot * t346;
-        let t348 = sin_q_1 * t347;
-        let t349 = sin_q_3.neg_mul_add(t348, t345 + t340);
-        let t350 = sin_q_3 * q_3_dot;
-        let t351 = q_3_dot * t350;
-        let t352 = sin_q_3.mul_sub(t337, t340) - t343 - t349;
-        let t353 = t350 * t336;
-        let t354 = q_1_dot * t339;
-        let t355 = q_3_dot * t341;
-        let t356 = cos_q_1.neg_mul_add(t355, t353);
-        let t357 = t352 - t152.neg_mul_add(t351, t345 + t343);
-        let t358 = cos_q_3.mul_sub(t354, t353) - t356 - t357;
-        let t359 = sin_q_2.mul_add(t341, t338);
-        let t360 = cos_q_1.mul_add(t350, cos_q_3 * t336);
-        let t361 = sin_q_1.mul_add(t359, sin_q_3 * t342) + t360;
-        let t362 = cos_q_4 * q_4_dot;
-        let t363 = t362 * t361;
-        let t364 = sin_q_4 * q_4_dot;
-        let t365 = q_4_dot * t364;
-        let t366 = cos_q_4 * cos_q_1;
-        let t367 = t256 * t366;
-        let t368 = cos_q_4 * sin_q_1;
-        let t369 = q_2_dot * t244;
-        let t370 = t346 * t364;
-        let t371 = sin_q_1 * t370;
-        let t372 = q_1_dot * t336;
-        let t373 = t0 * q_4_dot;
-        let t374 = t339 * t373;
-        let t375 = t368.mul_add(t369, t367) - t371;
-        let t376 = t11 * q_4_dot;
-        let t377 = q_4_dot * t376;
-        let t378 = t375 + (t374 + t11.mul_add(t372, t367));
-        let t379 = t160.mul_add(t365, t363) + sin_q_4.mul_add(t358, t363);
-        let t380 = t379 + (sin_q_1.mul_add(t377, t374 - t371) + t378);
-        let t381 = t244 * t339;
-        let t382 = cos_q_4.mul_add(t346, t373);
-        let t383 = sin_q_1.neg_mul_add(t382, t11 * t339);
-        let t384 = t383 - sin_q_4.mul_sub(t361, t160 * t362);
-        let t385 = cos_q_5 * q_5_dot;
-        let t386 = t385 * t384;
-        let t387 = sin_q_5 * q_5_dot;
-        let t388 = q_5_dot * t387;
-        let t389 = sin_q_5.neg_mul_add(t380, t386);
-        let t390 = t350 * t344;
-        let t391 = t350 * t342;
-        let t392 = cos_q_3 * t244;
-        let t393 = t339 * t392;
-        let t394 = cos_q_3.mul_add(t337, t391) - t393;
-        let t395 = cos_q_3.neg_mul_add(t348, t393 - t390);
-        let t396 = t341 * t336;
-        let t397 = cos_q_1.mul_add(t351, t396) + sin_q_3.mul_add(t354, t396);
-        let t398 = t397 + (t152.mul_add(t355, t390 + t391) + t394 - t395);
-        let t399 = sin_q_2 * t350;
-        let t400 = sin_q_1.mul_add(t392 - t399, cos_q_3 * t342);
-        let t401 = t400 - sin_q_3.mul_sub(t336, cos_q_1 * t341);
-        let t402 = t387 * t401;
-        let t403 = q_5_dot * t385;
-        let t404 = t166.mul_add(t403, t402) + cos_q_5.mul_add(t398, t402);
-        let t405 = t372 + (t337 - t381 - (t381 - t348)) - t358 - t380;
-        let t406 = t405 - (t404 - (t165.neg_mul_add(t388, t386) + t389));
-        let t407 = t155.mul_add(t332, t151.mul_add(t328, n(p.l) * t406));
-        let t408 = t90.mul_add(t332, t88.mul_add(t328, t282));
-        let t409 = t94.mul_add(t335, t92.neg_mul_add(t333, t408));
-        let t410 = t164.mul_add(t335, t159.mul_add(t333, t407));
-        let t411 = t338 * t336;
-        let t412 = cos_q_1 * t244;
-        let t413 = t341 * t412;
-        let t414 = cos_q_1 * t347;
-        let t415 = t240 * t339;
-        let t416 = sin_q_1 * t240;
-        let t417 = t341 * t416;
-        let t418 = t417 + sin_q_3.mul_add(t415, t411);
-        let t419 = sin_q_3.mul_add(t414, t411 - t413) + t418;
-        let t420 = t350 * t339;
-        let t421 = sin_q_1.mul_add(t355, t420) + cos_q_3.mul_add(t372, t420);
-        let t422 = t110.mul_add(t351, t417) - t413 + t419 + t421;
-        let t423 = cos_q_1.neg_mul_add(t359, sin_q_3 * t416);
-        let t424 = cos_q_3.mul_sub(t339, sin_q_1 * t350) - t423;
-        let t425 = t362 * t424;
-        let t426 = sin_q_4.neg_mul_add(t422, t425);
-        let t427 = t256 * t368;
-        let t428 = t373 * t336;
-        let t429 = cos_q_1 * t370;
-        let t430 = t366.neg_mul_add(t369, t429 + t427);
-        let t431 = cos_q_1.neg_mul_add(t377, t429 + t428);
-        let t432 = t11.mul_sub(t354, t427) - t428 - t430 - t431;
-        let t433 = t119.neg_mul_add(t365, t425) + t426 + t432;
-        let t434 = sin_q_4.mul_add(t424, t119 * t362);
-        let t435 = t385 * (t434 + cos_q_1.mul_add(t382, t11 * t336));
-        let t436 = t350 * t412;
-        let t437 = t336 * t392;
-        let t438 = t416 * t350;
-        let t439 = cos_q_3.mul_add(t415, t437) - t438;
-        let t440 = cos_q_3.mul_add(t414, t436 + t437) + t439;
-        let t441 = t341 * t339;
-        let t442 = sin_q_1.neg_mul_add(t351, t441);
-        let t443 = t440 - t110.neg_mul_add(t355, t438 - t436);
-        let t444 = cos_q_1.mul_add(t399 - t392, cos_q_3 * t416);
-        let t445 = t387 * (sin_q_1.mul_add(t341, sin_q_3 * t339) + t444);
-        let t446 = t443 - (sin_q_3.mul_sub(t372, t441) - t442);
-        let t447 = cos_q_5.neg_mul_add(t446, t445);
-        let t448 = t124.mul_add(t388, t435) + sin_q_5.mul_add(t433, t435);
-        let t449 = t244 * t336;
-        let t450 = t422 + (t354 + (t414 + t449 + (t415 + t449))) - t433;
-        let t451 = t125.neg_mul_add(t403, t445) + t447 - t448 + t450;
-        let t452 = t114.mul_add(t332, t108.mul_add(t328, n(p.l) * t451));
-        let t453 = t123.neg_mul_add(t335, t118.mul_add(t333, t452));
-        let t454 = t129.neg_mul_add(t409, t453);
-        let t455 = sin_q_4 * t341;
-        let t456 = t346 * t455;
-        let t457 = t341 * t376;
-        let t458 = sin_q_3 * t362;
-        let t459 = t346 * t458;
-        let t460 = t459 + t133.mul_add(t369, t456);
-        let t461 = t373.mul_add(sin_q_3 * q_4_dot, t459) - t457;
-        let t462 = t244 * t364;
-        let t463 = t362.mul_add(sin_q_2 * q_4_dot, t462);
-        let t464 = t461 + (t0.mul_add(t351, t456) - t457 + t460);
-        let t465 = t464 + (t463 + cos_q_4.mul_add(t347, t462));
-        let t466 = cos_q_2.neg_mul_add(t458 + t455, t133 * t346);
-        let t467 = cos_q_4.mul_sub(t244, sin_q_2 * t364) - t466;
-        let t468 = t385 * t467;
-        let t469 = sin_q_5.neg_mul_add(t465, t468);
-        let t470 = t350 * t346;
-        let t471 = cos_q_5 * t470;
-        let t472 = t387 * (cos_q_3 * t346);
-        let t473 = cos_q_2 * t350;
-        let t474 = t387 * t473;
-        let t475 = cos_q_2 * t355;
-        let t476 = cos_q_5.neg_mul_add(t475, t474 + t471);
-        let t477 = t189.neg_mul_add(q_5_dot * q_5_dot, t474 + t472);
-        let t478 = t18.mul_sub(t369, t471) - t472 - t476 - t477;
-        let t479 = t341 * t346;
-        let t480 = cos_q_2.mul_add(t351, t479) + sin_q_3.mul_add(t369, t479);
-        let t481 = t1.neg_mul_add(t388, t468) + t469 + t478;
-        let t482 = t135.mul_add(t332, n(p.l) * (t465 + (t369 + t480) - t481));
-        let t483 = t139.neg_mul_add(t335, t137.mul_add(t333, t482));
-        let t484 = t145.neg_mul_add(t454, t142.mul_add(t409, t483));
-        let t485 = t173.neg_mul_add(t454, t170.neg_mul_add(t409, t410));
-        let t486 = t176.neg_mul_add(t484, t485);
-        let t487 = t385 * t473;
-        let t488 = t346 * (t18 * q_5_dot);
-        let t489 = sin_q_5 * t470;
-        let t490 = t57.mul_add(t369, t488) - t489;
-        let t491 = sin_q_5.neg_mul_add(t475, t489 - t487);
-        let t492 = t387 * t467;
-        let t493 = t1.mul_add(t403, t492) + cos_q_5.mul_add(t465, t492);
-        let t494 = t2.mul_add(t388, t487 + t488) + t490 - t491 + t493;
-        let t495 = t185.mul_add(t333, t183.mul_add(t332, t494));
-        let t496 = t192.mul_add(t409, t188.neg_mul_add(t335, t495));
-        let t497 = t198.neg_mul_add(t484, t195.neg_mul_add(t454, t496));
-        let t498 = t202.neg_mul_add(t486, t497);
-        let t499 = t387 * t384;
-        let t500 = t385 * t401;
-        let t501 = sin_q_5.neg_mul_add(t398, t500);
-        let t502 = t165.mul_add(t403, t499) + cos_q_5.mul_add(t380, t499);
-        let t503 = t166.neg_mul_add(t388, t500) + t501 + t502;
-        let t504 = t211.neg_mul_add(t332, t209.mul_add(t328, t503));
-        let t505 = t219.neg_mul_add(t335, t216.neg_mul_add(t333, t504));
-        let t506 = t227.neg_mul_add(t454, t223.neg_mul_add(t409, t505));
-        let t507 = t235.neg_mul_add(t486, t230.mul_add(t484, t506));
-        let t508 = t222.mul_add(t223, t210.mul_add(t211, t208 * t209));
-        let t509 = t508 + t218.mul_add(t219, t215 * t216);
-        let t510 = t229.neg_mul_add(t230, t226.neg_mul_add(t227, t509));
-        let t511 = t238.neg_mul_add(t239, t234.neg_mul_add(t235, t510));
-        let t512 = t239.mul_add(t498, t507) / t511;
-        let lambda4 = t239.mul_add(t512, t207 * t498);
-        let t513 = t227.neg_mul_add(t512, t132 * t454);
-        let t514 = t235.neg_mul_add(t512, t180 * t486);
-        let t515 = t202 * lambda4;
-        let t516 = t514 - t515;
-        let t517 = t198.neg_mul_add(lambda4, t230.mul_add(t512, t149 * t484));
-        let t518 = t176 * t516;
-        let t519 = t173.neg_mul_add(t516, t195.neg_mul_add(lambda4, t513));
-        let lambda1 = t145.neg_mul_add(t517 - t518, t519);
-        let lambda2 = t518 - t517;
-        let lambda3 = t515 - t514;
-        let lambda5 = -t512;
-        let sound = PIVOTS.hold(t41, t41)
-            & PIVOTS.hold(t65, t64)
-            & PIVOTS.hold(t76, t75)
-            & PIVOTS.hold(t86, t84)
-            & PIVOTS.hold(t96, n(p.k3))
-            & PIVOTS.hold(t131, t131)
-            & PIVOTS.hold(t148, t147)
-            & PIVOTS.hold(t179, t178)
-            & PIVOTS.hold(t206, t204)
-            & PIVOTS.hold(t511, t509)
+        let t344 = cos_q_3 * q_3_dot;
+        let t345 = cos_q_1 * t242;
+        let t346 = t344 * t345;
+        let t347 = sin_q_1 * t246;
+        let t348 = t344 * t347;
+        let t349 = sin_q_2 * q_2_dot;
+        let t350 = q_2_dot * t349;
+        let t351 = sin_q_1 * t350;
+        let t352 = sin_q_3.neg_mul_add(t351, t348 + t343);
+        let t353 = sin_q_3 * q_3_dot;
+        let t354 = q_3_dot * t353;
+        let t355 = sin_q_3.mul_sub(t340, t343) - t346 - t352;
+        let t356 = t353 * t339;
+        let t357 = q_1_dot * t342;
+        let t358 = q_3_dot * t344;
+        let t359 = cos_q_1.neg_mul_add(t358, t356);
+        let t360 = t355 - t154.neg_mul_add(t354, t348 + t346);
+        let t361 = cos_q_3.mul_sub(t357, t356) - t359 - t360;
+        let t362 = sin_q_2.mul_add(t344, t341);
+        let t363 = cos_q_1.mul_add(t353, cos_q_3 * t339);
+        let t364 = sin_q_1.mul_add(t362, sin_q_3 * t345) + t363;
+        let t365 = cos_q_4 * q_4_dot;
+        let t366 = t365 * t364;
+        let t367 = sin_q_4 * q_4_dot;
+        let t368 = q_4_dot * t367;
+        let t369 = cos_q_4 * cos_q_1;
+        let t370 = t258 * t369;
+        let t371 = cos_q_4 * sin_q_1;
+        let t372 = q_2_dot * t246;
+        let t373 = t349 * t367;
+        let t374 = sin_q_1 * t373;
+        let t375 = q_1_dot * t339;
+        let t376 = t0 * q_4_dot;
+        let t377 = t342 * t376;
+        let t378 = t371.mul_add(t372, t370) - t374;
+        let t379 = t11 * q_4_dot;
+        let t380 = q_4_dot * t379;
+        let t381 = t378 + (t377 + t11.mul_add(t375, t370));
+        let t382 = t162.mul_add(t368, t366) + sin_q_4.mul_add(t361, t366);
+        let t383 = t382 + (sin_q_1.mul_add(t380, t377 - t374) + t381);
+        let t384 = t246 * t342;
+        let t385 = cos_q_4.mul_add(t349, t376);
+        let t386 = sin_q_1.neg_mul_add(t385, t11 * t342);
+        let t387 = t386 - sin_q_4.mul_sub(t364, t162 * t365);
+        let t388 = cos_q_5 * q_5_dot;
+        let t389 = t388 * t387;
+        let t390 = sin_q_5 * q_5_dot;
+        let t391 = q_5_dot * t390;
+        let t392 = sin_q_5.neg_mul_add(t383, t389);
+        let t393 = t353 * t347;
+        let t394 = t353 * t345;
+        let t395 = cos_q_3 * t246;
+        let t396 = t342 * t395;
+        let t397 = cos_q_3.mul_add(t340, t394) - t396;
+        let t398 = cos_q_3.neg_mul_add(t351, t396 - t393);
+        let t399 = t344 * t339;
+        let t400 = cos_q_1.mul_add(t354, t399) + sin_q_3.mul_add(t357, t399);
+        let t401 = t400 + (t154.mul_add(t358, t393 + t394) + t397 - t398);
+        let t402 = sin_q_2 * t353;
+        let t403 = sin_q_1.mul_add(t395 - t402, cos_q_3 * t345);
+        let t404 = t403 - sin_q_3.mul_sub(t339, cos_q_1 * t344);
+        let t405 = t390 * t404;
+        let t406 = q_5_dot * t388;
+        let t407 = t168.mul_add(t406, t405) + cos_q_5.mul_add(t401, t405);
+        let t408 = t375 + (t340 - t384 - (t384 - t351)) - t361 - t383;
+        let t409 = t408 - (t407 - (t167.neg_mul_add(t391, t389) + t392));
+        let t410 = t157.mul_add(t335, t153.mul_add(t331, n(p.l) * t409));
+        let t411 = t92.mul_add(t335, t90.mul_add(t331, t284));
+        let t412 = t96.mul_add(t338, t94.neg_mul_add(t336, t411));
+        let t413 = t166.mul_add(t338, t161.mul_add(t336, t410));
+        let t414 = t341 * t339;
+        let t415 = cos_q_1 * t246;
+        let t416 = t344 * t415;
+        let t417 = cos_q_1 * t350;
+        let t418 = t242 * t342;
+        let t419 = sin_q_1 * t242;
+        let t420 = t344 * t419;
+        let t421 = t420 + sin_q_3.mul_add(t418, t414);
+        let t422 = sin_q_3.mul_add(t417, t414 - t416) + t421;
+        let t423 = t353 * t342;
+        let t424 = sin_q_1.mul_add(t358, t423) + cos_q_3.mul_add(t375, t423);
+        let t425 = t112.mul_add(t354, t420) - t416 + t422 + t424;
+        let t426 = cos_q_1.neg_mul_add(t362, sin_q_3 * t419);
+        let t427 = cos_q_3.mul_sub(t342, sin_q_1 * t353) - t426;
+        let t428 = t365 * t427;
+        let t429 = sin_q_4.neg_mul_add(t425, t428);
+        let t430 = t258 * t371;
+        let t431 = t376 * t339;
+        let t432 = cos_q_1 * t373;
+        let t433 = t369.neg_mul_add(t372, t432 + t430);
+        let t434 = cos_q_1.neg_mul_add(t380, t432 + t431);
+        let t435 = t11.mul_sub(t357, t430) - t431 - t433 - t434;
+        let t436 = t121.neg_mul_add(t368, t428) + t429 + t435;
+        let t437 = sin_q_4.mul_add(t427, t121 * t365);
+        let t438 = t388 * (t437 + cos_q_1.mul_add(t385, t11 * t339));
+        let t439 = t353 * t415;
+        let t440 = t339 * t395;
+        let t441 = t419 * t353;
+        let t442 = cos_q_3.mul_add(t418, t440) - t441;
+        let t443 = cos_q_3.mul_add(t417, t439 + t440) + t442;
+        let t444 = t344 * t342;
+        let t445 = sin_q_1.neg_mul_add(t354, t444);
+        let t446 = t443 - t112.neg_mul_add(t358, t441 - t439);
+        let t447 = cos_q_1.mul_add(t402 - t395, cos_q_3 * t419);
+        let t448 = t390 * (sin_q_1.mul_add(t344, sin_q_3 * t342) + t447);
+        let t449 = t446 - (sin_q_3.mul_sub(t375, t444) - t445);
+        let t450 = cos_q_5.neg_mul_add(t449, t448);
+        let t451 = t126.mul_add(t391, t438) + sin_q_5.mul_add(t436, t438);
+        let t452 = t246 * t339;
+        let t453 = t425 + (t357 + (t417 + t452 + (t418 + t452))) - t436;
+        let t454 = t127.neg_mul_add(t406, t448) + t450 - t451 + t453;
+        let t455 = t116.mul_add(t335, t110.mul_add(t331, n(p.l) * t454));
+        let t456 = t125.neg_mul_add(t338, t120.mul_add(t336, t455));
+        let t457 = t131.neg_mul_add(t412, t456);
+        let t458 = sin_q_4 * t344;
+        let t459 = t349 * t458;
+        let t460 = t344 * t379;
+        let t461 = sin_q_3 * t365;
+        let t462 = t349 * t461;
+        let t463 = t462 + t135.mul_add(t372, t459);
+        let t464 = t376.mul_add(sin_q_3 * q_4_dot, t462) - t460;
+        let t465 = t246 * t367;
+        let t466 = t365.mul_add(sin_q_2 * q_4_dot, t465);
+        let t467 = t464 + (t0.mul_add(t354, t459) - t460 + t463);
+        let t468 = t467 + (t466 + cos_q_4.mul_add(t350, t465));
+        let t469 = cos_q_2.neg_mul_add(t461 + t458, t135 * t349);
+        let t470 = cos_q_4.mul_sub(t246, sin_q_2 * t367) - t469;
+        let t471 = t388 * t470;
+        let t472 = sin_q_5.neg_mul_add(t468, t471);
+        let t473 = t353 * t349;
+        let t474 = cos_q_5 * t473;
+        let t475 = t390 * (cos_q_3 * t349);
+        let t476 = cos_q_2 * t353;
+        let t477 = t390 * t476;
+        let t478 = cos_q_2 * t358;
+        let t479 = cos_q_5.neg_mul_add(t478, t477 + t474);
+        let t480 = t191.neg_mul_add(q_5_dot * q_5_dot, t477 + t475);
+        let t481 = t18.mul_sub(t372, t474) - t475 - t479 - t480;
+        let t482 = t344 * t349;
+        let t483 = cos_q_2.mul_add(t354, t482) + sin_q_3.mul_add(t372, t482);
+        let t484 = t1.neg_mul_add(t391, t471) + t472 + t481;
+        let t485 = t137.mul_add(t335, n(p.l) * (t468 + (t372 + t483) - t484));
+        let t486 = t141.neg_mul_add(t338, t139.mul_add(t336, t485));
+        let t487 = t147.neg_mul_add(t457, t144.mul_add(t412, t486));
+        let t488 = t175.neg_mul_add(t457, t172.neg_mul_add(t412, t413));
+        let t489 = t178.neg_mul_add(t487, t488);
+        let t490 = t388 * t476;
+        let t491 = t349 * (t18 * q_5_dot);
+        let t492 = sin_q_5 * t473;
+        let t493 = t59.mul_add(t372, t491) - t492;
+        let t494 = sin_q_5.neg_mul_add(t478, t492 - t490);
+        let t495 = t390 * t470;
+        let t496 = t1.mul_add(t406, t495) + cos_q_5.mul_add(t468, t495);
+        let t497 = t2.mul_add(t391, t490 + t491) + t493 - t494 + t496;
+        let t498 = t187.mul_add(t336, t185.mul_add(t335, t497));
+        let t499 = t194.mul_add(t412, t190.neg_mul_add(t338, t498));
+        let t500 = t200.neg_mul_add(t487, t197.neg_mul_add(t457, t499));
+        let t501 = t204.neg_mul_add(t489, t500);
+        let t502 = t390 * t387;
+        let t503 = t388 * t404;
+        let t504 = sin_q_5.neg_mul_add(t401, t503);
+        let t505 = t167.mul_add(t406, t502) + cos_q_5.mul_add(t383, t502);
+        let t506 = t168.neg_mul_add(t391, t503) + t504 + t505;
+        let t507 = t213.neg_mul_add(t335, t211.mul_add(t331, t506));
+        let t508 = t221.neg_mul_add(t338, t218.neg_mul_add(t336, t507));
+        let t509 = t229.neg_mul_add(t457, t225.neg_mul_add(t412, t508));
+        let t510 = t237.neg_mul_add(t489, t232.mul_add(t487, t509));
+        let t511 = t224.mul_add(t225, t212.mul_add(t213, t210 * t211));
+        let t512 = t511 + t220.mul_add(t221, t217 * t218);
+        let t513 = t231.neg_mul_add(t232, t228.neg_mul_add(t229, t512));
+        let t514 = t240.neg_mul_add(t241, t236.neg_mul_add(t237, t513));
+        let t515 = t241.mul_add(t501, t510) / t514;
+        let lambda4 = t241.mul_add(t515, t209 * t501);
+        let t516 = t229.neg_mul_add(t515, t134 * t457);
+        let t517 = t237.neg_mul_add(t515, t182 * t489);
+        let t518 = t204 * lambda4;
+        let t519 = t517 - t518;
+        let t520 = t200.neg_mul_add(lambda4, t232.mul_add(t515, t151 * t487));
+        let t521 = t178 * t519;
+        let t522 = t175.neg_mul_add(t519, t197.neg_mul_add(lambda4, t516));
+        let lambda1 = t147.neg_mul_add(t520 - t521, t522);
+        let lambda2 = t521 - t520;
+        let lambda3 = t518 - t517;
+        let lambda5 = -t515;
+        let sound = PIVOTS.hold(t42, t42)
+            & PIVOTS.hold(t67, t66)
+            & PIVOTS.hold(t78, t77)
+            & PIVOTS.hold(t88, t86)
+            & PIVOTS.hold(t98, n(p.k1))
+            & PIVOTS.hold(t133, t133)
+            & PIVOTS.hold(t150, t149)
+            & PIVOTS.hold(t181, t180)
+            & PIVOTS.hold(t208, t206)
+            & PIVOTS.hold(t514, t512)
             & lambda1.is_finite();
         if !sound {
             let pivots = [
-                (0, t41, t41),
-                (1, t65, t64),
-                (2, t76, t75),
-                (3, t86, t84),
-                (4, t96, n(p.k3)),
-                (5, t131, t131),
-                (6, t148, t147),
-                (7, t179, t178),
-                (8, t206, t204),
-                (9, t511, t509),
+                (0, t42, t42),
+                (1, t67, t66),
+                (2, t78, t77),
+                (3, t88, t86),
+                (4, t98, n(p.k1)),
+                (5, t133, t133),
+                (6, t150, t149),
+                (7, t181, t180),
+                (8, t208, t206),
+                (9, t514, t512),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -2328,12 +2341,12 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t4 = q_1_dot + t2;
     let t5 = cos_q_3 * q_2_dot - sin_q_3 * t1;
     let t6 = t2 + q_3_dot;
-    let t7 = t2 * p.k1 + q_1_dot * p.l;
+    let t7 = t2 * p.half_l + q_1_dot * p.l;
     let t8 = q_2_dot + t3;
     let t9 = t3 + q_4_dot;
     let t10 = t4 * sin_q_3;
     let t11 = t4 * cos_q_3;
-    let t12 = t3 * p.k1 + q_2_dot * p.l;
+    let t12 = t3 * p.half_l + q_2_dot * p.l;
     let t13 = cos_q_4 * t6 - sin_q_4 * t5;
     let t14 = sin_q_4 * t6 + cos_q_4 * t5;
     let t15 = t6 + t10;
@@ -2341,23 +2354,23 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t17 = sin_q_5 * t9 + cos_q_5 * t13;
     let t18 = t14 + t15;
     let t19 = t11 * sin_q_4 + cos_q_4 * t8;
-    let t20 = t14 * p.k1 + t15 * p.l;
+    let t20 = t14 * p.half_l + t15 * p.l;
     let t21 = t14 + q_5_dot;
-    let t22 = p.l * (t16 - t9) - t17 * p.k1;
+    let t22 = p.l * (t16 - t9) - t17 * p.half_l;
     let t23 = t19 * sin_q_5 + cos_q_5 * t18;
-    let t24 = t6 * p.k1 + t10 * p.l;
+    let t24 = t6 * p.half_l + t10 * p.l;
     let t25 = cos_q_5 * t9 - sin_q_5 * t13;
-    let t26 = p.l * t16 - t9 * p.k1;
-    let t27 = t1 * (t1 * p.k4) + (p.k2 * t0 + t2 * (t2 * p.k2));
-    let t28 = p.l * (t19 * cos_q_5 - sin_q_5 * t18) - p.k1 * t21;
-    let t29 = t5 * (t5 * p.k4) + (t3 * (t3 * p.k2) + t6 * (t6 * p.k2));
-    let t30 = S::from_f64(0.5) * (p.m * (t0 * p.k13 + t7 * t7) + t27);
-    let t31 = t14 * (t14 * p.k2) + (t9 * (t9 * p.k2) + t13 * (t13 * p.k4));
-    let t32 = p.m * (t24 * t24 + (t11 * (t11 * p.k0) + t12 * t12)) + t29;
-    let t33 = t25 * (t25 * p.k4) + (t21 * (t21 * p.k2) + t17 * (t17 * p.k2));
-    let t34 = p.m * (t26 * t26 + (t19 * (t19 * p.k0) + t20 * t20)) + t31;
-    let t35 = S::from_f64(0.5) * t32 + (t30 + q_1_dot * (q_1_dot * p.k26));
-    let t36 = p.m * (t28 * t28 + (t23 * (t23 * p.k0) + t22 * t22)) + t33;
+    let t26 = p.l * t16 - t9 * p.half_l;
+    let t27 = t1 * (t1 * p.k2) + (p.k0 * t0 + t2 * (t2 * p.k0));
+    let t28 = p.l * (t19 * cos_q_5 - sin_q_5 * t18) - p.half_l * t21;
+    let t29 = p.m * (t24 * t24 + (t11 * (t11 * p.l_squared) + t12 * t12));
+    let t30 = S::from_f64(0.5) * (p.m * (t0 * p.quarter_l_squared + t7 * t7) + t27);
+    let t31 = t14 * (t14 * p.k0) + (t9 * (t9 * p.k0) + t13 * (t13 * p.k2));
+    let t32 = t29 + (t5 * (t5 * p.k2) + (t3 * (t3 * p.k0) + t6 * (t6 * p.k0)));
+    let t33 = t25 * (t25 * p.k2) + (t21 * (t21 * p.k0) + t17 * (t17 * p.k0));
+    let t34 = p.m * (t26 * t26 + (t19 * (t19 * p.l_squared) + t20 * t20)) + t31;
+    let t35 = S::from_f64(0.5) * t32 + (t30 + q_1_dot * (q_1_dot * p.k19));
+    let t36 = p.m * (t28 * t28 + (t23 * (t23 * p.l_squared) + t22 * t22)) + t33;
     S::from_f64(0.5) * t36 + (S::from_f64(0.5) * t34 + t35)
 }
 
@@ -2381,9 +2394,10 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t0 = sin_q_3 * cos_q_2;
     let t1 = cos_q_2 + t0;
     let t2 = t0 * sin_q_4 + sin_q_2 * cos_q_4;
-    let t3 = p.k14 * (p.k1 * t0 + cos_q_2 * p.l) + cos_q_2 * p.k15;
-    let t4 = p.l * (t2 + t1) - p.k1 * (cos_q_5 * (cos_q_3 * cos_q_2) - t2 * sin_q_5);
-    -(p.k14 * t4 + (p.k14 * (p.k1 * t2 + p.l * t1) + t3))
+    let t3 = p.m_g * (p.half_l * t0 + cos_q_2 * p.l) + cos_q_2 * p.half_l_m_g;
+    let t4 = p.half_l * (cos_q_5 * (cos_q_3 * cos_q_2) - t2 * sin_q_5);
+    let t5 = p.m_g * (p.half_l * t2 + p.l * t1) + t3;
+    -(p.m_g * (p.l * (t2 + t1) - t4) + t5)
 }
 
 /// `x3`. Unit: `m`.
@@ -2413,7 +2427,7 @@ pub fn output_y3<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) 
     let q_3 = q[2];
     let sin_q_3 = q_3.sin();
     let cos_q_2 = q_2.cos();
-    p.k35 * (cos_q_2 + sin_q_3 * cos_q_2)
+    p.minus_l * (cos_q_2 + sin_q_3 * cos_q_2)
 }
 
 /// `z3`. Unit: `m`.
@@ -2430,7 +2444,7 @@ pub fn output_z3<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) 
     let (sin_q_3, cos_q_3) = q_3.sin_cos();
     let sin_q_2 = q_2.sin();
     let t0 = sin_q_2 * sin_q_1;
-    p.k35 * (sin_q_1 + t0 - (cos_q_1 * cos_q_3 - t0 * sin_q_3))
+    p.minus_l * (sin_q_1 + t0 - (cos_q_1 * cos_q_3 - t0 * sin_q_3))
 }
 
 /// Everything that the description asks to observe.
@@ -2464,8 +2478,9 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
         z3: "z3" "m";
     ]
     prepared Prepared {
-        l, m, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17,
-        k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30, k31, k32, k33, k34, k35,
+        l, m, g, l_squared, half_l, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, quarter_l_squared,
+        m_g, half_l_m_g, two_l, k11, k12, k13, k14, k15, k16, k17, k18, half_l_m, k19, k20,
+        half_l_squared_m, k21, k22, k23, k24, k25, k26, minus_l,
     }
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

@@ -100,69 +100,69 @@ pub struct CakedCrusher<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> CakedCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.delta + self.r2;
-        let k1 = self.omega * self.e;
-        let k8 = self.m1 + self.m2;
-        let k9 = self.m0 * self.y0;
-        let k10 = self.m0 * self.x0;
-        let k20 = self.m + self.m0;
-        let k11 = k8 + k20;
-        let k12 = self.R - self.r1;
-        let k13 = self.rho - k0;
-        let k15 = self.J + (self.y0 * k9 + self.x0 * k10);
-        let k25 = S::ONE / k20;
-        let k22 = k15 - k25 * (k9 * k9) - k25 * (k10 * k10);
-        let k23 = S::ONE / k22;
+        let r2_plus_delta = self.delta + self.r2;
+        let e_omega = self.omega * self.e;
+        let m1_plus_m2 = self.m1 + self.m2;
+        let m0_y0 = self.m0 * self.y0;
+        let m0_x0 = self.m0 * self.x0;
+        let m_plus_m0 = self.m + self.m0;
+        let k0 = m1_plus_m2 + m_plus_m0;
+        let R_minus_r1 = self.R - self.r1;
+        let rho_minus_r2_minus_delta = self.rho - r2_plus_delta;
+        let k1 = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
+        let k7 = S::ONE / m_plus_m0;
+        let k4 = k1 - k7 * (m0_y0 * m0_y0) - k7 * (m0_x0 * m0_x0);
+        let k5 = S::ONE / k4;
         let pivot_10 = self.r1 * self.r1;
         let t0 = S::ONE / self.J1;
         let t1 = self.rho * t0;
-        let pivot_12 = k0 * k0;
+        let pivot_12 = r2_plus_delta * r2_plus_delta;
         let t2 = S::ONE / self.r1;
-        let k32 = self.R * t2;
-        let k33 = k12 * t2;
-        let t3 = S::ONE / k0;
+        let R_over_r1 = self.R * t2;
+        let k10 = R_minus_r1 * t2;
+        let t3 = S::ONE / r2_plus_delta;
         let t4 = self.rho * t2 * t3;
-        let k34 = self.R * t4;
-        let k35 = k12 * t4;
-        let k36 = k13 * t3;
-        let k38 = self.m2 * k13;
-        let k39 = k8 * k12;
+        let k11 = self.R * t4;
+        let k12 = R_minus_r1 * t4;
+        let k13 = rho_minus_r2_minus_delta * t3;
+        let k15 = self.m2 * rho_minus_r2_minus_delta;
+        let k16 = m1_plus_m2 * R_minus_r1;
         let t5 = self.J2 * t4;
         let t6 = self.R * t5;
-        let t7 = k12 * t5;
-        let t8 = self.J1 * k32;
-        let k2 = self.omega * (self.omega * self.J0);
-        let k3 = self.cx * S::from_f64(0.5);
-        let k4 = self.cy * S::from_f64(0.5);
-        let k5 = self.bx * S::from_f64(0.5);
-        let k6 = self.by * S::from_f64(0.5);
-        let k7 = self.omega * k1;
-        let k14 = self.m0 * k1;
-        let k16 = -k8;
-        let k17 = -self.m2;
-        let k18 = -self.R;
-        let k19 = -self.rho;
-        let k21 = self.m0 * k25;
-        let k24 = self.m0 * k23;
-        let k26 = S::ONE / self.m2;
-        let k27 = S::ONE / self.m1;
-        let k28 = pivot_10 * t0;
-        let k29 = self.R * k23;
-        let k30 = self.r1 * t1;
-        let k31 = pivot_12 / self.J2 + self.rho * t1;
-        let k37 = self.m1 * k12;
-        let k40 = k36 * t6;
-        let k41 = k33 * t8 + k34 * t7;
-        let k42 = k36 * t7;
-        let k43 = k12 * k38;
-        let k44 = k35 * t7 + (k12 * k39 + k33 * (self.J1 * k33));
-        let k45 = k13 * k38 + k36 * (self.J2 * k36);
-        let k46 = k34 * t6 + (k15 + k32 * t8);
-        let k47 = S::ONE / k11;
+        let t7 = R_minus_r1 * t5;
+        let t8 = self.J1 * R_over_r1;
+        let J0_omega2 = self.omega * (self.omega * self.J0);
+        let half_cx = self.cx * S::from_f64(0.5);
+        let half_cy = self.cy * S::from_f64(0.5);
+        let half_bx = self.bx * S::from_f64(0.5);
+        let half_by = self.by * S::from_f64(0.5);
+        let e_omega2 = self.omega * e_omega;
+        let m0_e_omega = self.m0 * e_omega;
+        let k2 = -m1_plus_m2;
+        let minus_m2 = -self.m2;
+        let minus_R = -self.R;
+        let minus_rho = -self.rho;
+        let k3 = self.m0 * k7;
+        let k6 = self.m0 * k5;
+        let inverse_m2 = S::ONE / self.m2;
+        let inverse_m1 = S::ONE / self.m1;
+        let r1_squared_over_J1 = pivot_10 * t0;
+        let k8 = self.R * k5;
+        let r1_rho_over_J1 = self.r1 * t1;
+        let k9 = pivot_12 / self.J2 + self.rho * t1;
+        let k14 = self.m1 * R_minus_r1;
+        let k17 = k13 * t6;
+        let k18 = k10 * t8 + k11 * t7;
+        let k19 = k13 * t7;
+        let k20 = R_minus_r1 * k15;
+        let k21 = k12 * t7 + (R_minus_r1 * k16 + k10 * (self.J1 * k10));
+        let k22 = rho_minus_r2_minus_delta * k15 + k13 * (self.J2 * k13);
+        let k23 = k11 * t6 + (k1 + R_over_r1 * t8);
+        let k24 = S::ONE / k0;
         let one = S::ONE;
         let pivots = [
-            (0, k11, k11),
-            (1, k11, k11),
+            (0, k0, k0),
+            (1, k0, k0),
             (9, one, one),
             (10, pivot_10, pivot_10),
             (11, one, one),
@@ -188,16 +188,39 @@ impl<S: ::lagrangian::emitted::Scalar> CakedCrusher<S> {
             R: self.R,
             r1: self.r1,
             rho: self.rho,
+            r2_plus_delta,
+            e_omega,
+            J0_omega2,
+            half_cx,
+            half_cy,
+            half_bx,
+            half_by,
+            e_omega2,
+            m1_plus_m2,
+            m0_y0,
+            m0_x0,
             k0,
+            R_minus_r1,
+            rho_minus_r2_minus_delta,
+            m0_e_omega,
             k1,
             k2,
+            minus_m2,
+            minus_R,
+            minus_rho,
+            m_plus_m0,
             k3,
             k4,
             k5,
             k6,
             k7,
+            inverse_m2,
+            inverse_m1,
+            r1_squared_over_J1,
             k8,
+            r1_rho_over_J1,
             k9,
+            R_over_r1,
             k10,
             k11,
             k12,
@@ -213,29 +236,6 @@ impl<S: ::lagrangian::emitted::Scalar> CakedCrusher<S> {
             k22,
             k23,
             k24,
-            k25,
-            k26,
-            k27,
-            k28,
-            k29,
-            k30,
-            k31,
-            k32,
-            k33,
-            k34,
-            k35,
-            k36,
-            k37,
-            k38,
-            k39,
-            k40,
-            k41,
-            k42,
-            k43,
-            k44,
-            k45,
-            k46,
-            k47,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -353,118 +353,112 @@ pub struct Prepared<S = f64> {
     /// `rho`
     rho: S,
     /// `r2 + delta`
-    k0: S,
+    r2_plus_delta: S,
     /// `e*omega`
-    k1: S,
+    e_omega: S,
     /// `J0*omega^2`
-    k2: S,
+    J0_omega2: S,
     /// `0.5*cx`
-    k3: S,
+    half_cx: S,
     /// `0.5*cy`
-    k4: S,
+    half_cy: S,
     /// `0.5*bx`
-    k5: S,
+    half_bx: S,
     /// `0.5*by`
-    k6: S,
+    half_by: S,
     /// `e*omega^2`
-    k7: S,
+    e_omega2: S,
     /// `m1 + m2`
-    k8: S,
+    m1_plus_m2: S,
     /// `m0*y0`
-    k9: S,
+    m0_y0: S,
     /// `m0*x0`
-    k10: S,
+    m0_x0: S,
     /// `m + m0 + m1 + m2`
-    k11: S,
+    k0: S,
     /// `R - r1`
-    k12: S,
+    R_minus_r1: S,
     /// `rho - r2 - delta`
-    k13: S,
+    rho_minus_r2_minus_delta: S,
     /// `m0*e*omega`
-    k14: S,
+    m0_e_omega: S,
     /// `J + m0*x0^2 + m0*y0^2`
-    k15: S,
+    k1: S,
     /// `-(m1 + m2)`
-    k16: S,
+    k2: S,
     /// `-m2`
-    k17: S,
+    minus_m2: S,
     /// `-R`
-    k18: S,
+    minus_R: S,
     /// `-rho`
-    k19: S,
+    minus_rho: S,
     /// `m + m0`
-    k20: S,
+    m_plus_m0: S,
     /// `m0/(m + m0)`
-    k21: S,
+    k3: S,
     /// `J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0)`
-    k22: S,
+    k4: S,
     /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k23: S,
+    k5: S,
     /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k24: S,
+    k6: S,
     /// `1/(m + m0)`
-    k25: S,
+    k7: S,
     /// `1/m2`
-    k26: S,
+    inverse_m2: S,
     /// `1/m1`
-    k27: S,
+    inverse_m1: S,
     /// `r1^2/J1`
-    k28: S,
+    r1_squared_over_J1: S,
     /// `R/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k29: S,
+    k8: S,
     /// `r1*rho/J1`
-    k30: S,
+    r1_rho_over_J1: S,
     /// `rho^2/J1 + (r2 + delta)^2/J2`
-    k31: S,
+    k9: S,
     /// `R/r1`
-    k32: S,
+    R_over_r1: S,
     /// `(R - r1)/r1`
-    k33: S,
+    k10: S,
     /// `R*rho/r1/(r2 + delta)`
-    k34: S,
+    k11: S,
     /// `rho*(R - r1)/r1/(r2 + delta)`
-    k35: S,
+    k12: S,
     /// `(rho - r2 - delta)/(r2 + delta)`
-    k36: S,
+    k13: S,
     /// `m1*(R - r1)`
-    k37: S,
+    k14: S,
     /// `m2*(rho - r2 - delta)`
-    k38: S,
+    k15: S,
     /// `(m1 + m2)*(R - r1)`
-    k39: S,
+    k16: S,
     /// `J2*R*rho*(rho - r2 - delta)/r1/(r2 + delta)^2`
-    k40: S,
+    k17: S,
     /// `J2*R*rho^2*(R - r1)/r1^2/(r2 + delta)^2 + J1*R*(R - r1)/r1^2`
-    k41: S,
+    k18: S,
     /// `J2*rho*(R - r1)*(rho - r2 - delta)/r1/(r2 + delta)^2`
-    k42: S,
+    k19: S,
     /// `m2*(R - r1)*(rho - r2 - delta)`
-    k43: S,
+    k20: S,
     /// `J2*rho^2*(R - r1)^2/r1^2/(r2 + delta)^2 + J1*(R - r1)^2/r1^2 + (m1 + m2)*(R - r1)^2`
-    k44: S,
+    k21: S,
     /// `J2*(rho - r2 - delta)^2/(r2 + delta)^2 + m2*(rho - r2 - delta)^2`
-    k45: S,
+    k22: S,
     /// `J + m0*x0^2 + m0*y0^2 + J2*R^2*rho^2/r1^2/(r2 + delta)^2 + J1*R^2/r1^2`
-    k46: S,
+    k23: S,
     /// `1/(m + m0 + m1 + m2)`
-    k47: S,
+    k24: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 1.1546319456101628e-14,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 13);
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS_1: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS_1: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 9);
 
 /// Mass matrix `M`.
 ///
@@ -503,33 +497,33 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.k8 * s1;
+    let t1 = p.m1_plus_m2 * s1;
     let t2 = p.m2 * s2;
     let t3 = sin_phi1 * cos_phi2;
     let t4 = cos_phi1 * sin_phi2;
     let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
     let zero = S::ZERO;
-    let m31 = -(p.k10 * sin_theta + cos_theta * p.k9);
-    let m32 = p.k10 * cos_theta - sin_theta * p.k9;
-    let m41 = p.k8 * cos_phi1;
-    let m42 = p.k8 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k16);
+    let m31 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
+    let m32 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
+    let m41 = p.m1_plus_m2 * cos_phi1;
+    let m42 = p.m1_plus_m2 * sin_phi1;
+    let m51 = sin_phi1 * (s1 * p.k2);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
     let m75 = (t4 - t3) * t0;
-    let m81 = sin_phi2 * (s2 * p.k17);
+    let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t3 - t4);
     let m85 = t5 * (t0 * s2);
     let m88 = s2 * t2;
     [
-        [p.k11, zero, m31, m41, m51, zero, m71, m81, zero],
-        [zero, p.k11, m32, m42, m52, zero, m72, m82, zero],
-        [m31, m32, p.k15, zero, zero, zero, zero, zero, zero],
-        [m41, m42, zero, p.k8, zero, zero, m74, m84, zero],
+        [p.k0, zero, m31, m41, m51, zero, m71, m81, zero],
+        [zero, p.k0, m32, m42, m52, zero, m72, m82, zero],
+        [m31, m32, p.k1, zero, zero, zero, zero, zero, zero],
+        [m41, m42, zero, p.m1_plus_m2, zero, zero, m74, m84, zero],
         [m51, m52, zero, zero, m55, zero, m75, m85, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
         [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
@@ -592,21 +586,21 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t12 = cos_phi1 * s1;
     let t13 = t6 * t10 - t8 * cos_phi1;
     let t14 = t8 * sin_phi1 + t6 * t12;
-    let t15 = p.k7 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
+    let t15 = p.e_omega2 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
     let t16 = t3 * t9 - t7 * cos_phi2 + t13;
-    let t17 = p.k7 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
+    let t17 = p.e_omega2 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
     let t18 = t7 * sin_phi2 + t3 * t11 + t14;
     let t19 = p.m2 * t16 + p.m1 * t13;
     let t20 = t18 * p.m2 + t14 * p.m1;
-    let t21 = cos_theta * (t17 * p.k9 - t15 * p.k10);
+    let t21 = cos_theta * (t17 * p.m0_y0 - t15 * p.m0_x0);
     let h_x = -(t17 * p.m0 + t20);
     let h_y = -(p.m0 * t15 + t19);
-    let h_theta = sin_theta * (t15 * p.k9 + t17 * p.k10) + t21;
+    let h_theta = sin_theta * (t15 * p.m0_y0 + t17 * p.m0_x0) + t21;
     let h_s1 = -(cos_phi1 * t20 + sin_phi1 * t19);
     let h_phi1 = t20 * t10 - t12 * t19;
     let zero = S::ZERO;
-    let h_s2 = p.k17 * (cos_phi2 * t18 + sin_phi2 * t16);
-    let h_phi2 = p.k17 * (t11 * t16 - t18 * t9);
+    let h_s2 = p.minus_m2 * (cos_phi2 * t18 + sin_phi2 * t16);
+    let h_phi2 = p.minus_m2 * (t11 * t16 - t18 * t9);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -689,19 +683,19 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t18 = cos_phi1 * s1;
     let t19 = sin_phi2 * s2;
     let t20 = sin_phi1 * s1;
-    let t21 = p.k7 * (sin_t0 + t7 * cos_t0) + (sin_theta * t8 + t5 * cos_theta);
+    let t21 = p.e_omega2 * (sin_t0 + t7 * cos_t0) + (sin_theta * t8 + t5 * cos_theta);
     let t22 = t10 * sin_phi1 + t14 * t18;
-    let t23 = p.k7 * (cos_t0 - t7 * sin_t0) + (cos_theta * t8 - t5 * sin_theta);
+    let t23 = p.e_omega2 * (cos_t0 - t7 * sin_t0) + (cos_theta * t8 - t5 * sin_theta);
     let t24 = t14 * t20 - t10 * cos_phi1;
     let t25 = t9 * sin_phi2 + t11 * t17 + t22;
     let t26 = t11 * t19 - t9 * cos_phi2 + t24;
     let t27 = t25 * p.m2 + t22 * p.m1;
     let t28 = p.m2 * t26 + p.m1 * t24;
-    let t29 = p.yc * (t16 - t15) + p.xc * (t13 - t12);
-    let t30 = cos_theta * (t23 * p.k9 - t21 * p.k10) + t29;
+    let t29 = cos_theta * (t23 * p.m0_y0 - t21 * p.m0_x0);
+    let t30 = t29 + (p.yc * (t16 - t15) + p.xc * (t13 - t12));
     let f_x = t23 * p.m0 + (t27 - (t15 + t16));
     let f_y = p.m0 * t21 + (t28 - (t12 + t13));
-    let f_theta = -(sin_theta * (t21 * p.k9 + t23 * p.k10) + t30);
+    let f_theta = -(sin_theta * (t21 * p.m0_y0 + t23 * p.m0_x0) + t30);
     let f_s1 = cos_phi1 * t27 + sin_phi1 * t28;
     let f_phi1 = t18 * t28 - t27 * t20;
     let zero = S::ZERO;
@@ -722,9 +716,9 @@ pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
 ) -> [S; 4] {
     let s1 = q[3];
     let s2 = q[6];
-    let g1 = p.k12 - s1;
+    let g1 = p.R_minus_r1 - s1;
     let zero = S::ZERO;
-    let g3 = p.k13 - s2;
+    let g3 = p.rho_minus_r2_minus_delta - s2;
     [g1, zero, g3, zero]
 }
 
@@ -753,7 +747,7 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let phi1 = -s1_dot;
     let phi2 = theta1_dot * p.r1 + phi1_dot * s1 - p.R * theta_dot;
     let phi3 = -s2_dot;
-    let phi4 = p.k0 * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho;
+    let phi4 = p.r2_plus_delta * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho;
     [phi1, phi2, phi3, phi4]
 }
 
@@ -785,7 +779,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
         zero,
         zero,
         zero,
-        p.k18,
+        p.minus_R,
         zero,
         s1,
         p.r1,
@@ -806,10 +800,10 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
         zero,
         zero,
         zero,
-        p.k19,
+        p.minus_rho,
         zero,
         s2,
-        p.k0,
+        p.r2_plus_delta,
     ]
 }
 
@@ -886,7 +880,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t2 = theta * n(p.xc);
         let t3 = theta_dot * n(p.yc);
         let t4 = theta_dot * n(p.xc);
-        let t5 = phi2_dot * (phi2_dot * n(p.k13));
+        let t5 = phi2_dot * (phi2_dot * n(p.rho_minus_r2_minus_delta));
         let t6 = phi1_dot * phi1_dot;
         let t7 = n(p.omega).product_error(n(t));
         let t8 = theta_dot * theta_dot;
@@ -894,75 +888,75 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t10 = n(p.bx).mul_add(x_dot - t3, n(p.cx) * (x - t1));
         let t11 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
         let t12 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
-        let t13 = sin_phi1 * n(p.k39);
-        let t14 = cos_phi1 * n(p.k39);
+        let t13 = sin_phi1 * n(p.k16);
+        let t14 = cos_phi1 * n(p.k16);
         let t15 = t6 * cos_phi1;
-        let t16 = sin_theta.mul_add(n(p.k10), cos_theta * n(p.k9));
-        let t17 = cos_theta.mul_sub(n(p.k10), sin_theta * n(p.k9));
-        let t18 = n(p.k47) * t13;
-        let t19 = n(p.k47) * t14;
-        let t20 = n(p.k47) * t16;
-        let t21 = n(p.k47) * t17;
+        let t16 = sin_theta.mul_add(n(p.m0_x0), cos_theta * n(p.m0_y0));
+        let t17 = cos_theta.mul_sub(n(p.m0_x0), sin_theta * n(p.m0_y0));
+        let t18 = n(p.k24) * t13;
+        let t19 = n(p.k24) * t14;
+        let t20 = n(p.k24) * t16;
+        let t21 = n(p.k24) * t17;
         let t22 = t6 * sin_phi1;
-        let t23 = t15.mul_add(n(p.k12), t5 * cos_phi2);
-        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k41)));
+        let t23 = t15.mul_add(n(p.R_minus_r1), t5 * cos_phi2);
+        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k18)));
         let t25 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
-        let t26 = n(p.k7).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
-        let t27 = n(p.k12).mul_add(t22, t5 * sin_phi2);
-        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k37));
-        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k46)));
-        let t30 = sin_phi2 * n(p.k38);
+        let t26 = n(p.e_omega2).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
+        let t27 = n(p.R_minus_r1).mul_add(t22, t5 * sin_phi2);
+        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k14));
+        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k23)));
+        let t30 = sin_phi2 * n(p.k15);
         let t31 = t8 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
-        let t32 = n(p.k7).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
-        let t33 = cos_phi2 * n(p.k38);
-        let t34 = n(p.m2).mul_add(t27, n(p.k37) * t22);
+        let t32 = n(p.e_omega2).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
+        let t33 = cos_phi2 * n(p.k15);
+        let t34 = n(p.m2).mul_add(t27, n(p.k14) * t22);
         let t35 = N::ONE / t29;
-        let t36 = n(p.k47) * t30;
+        let t36 = n(p.k24) * t30;
         let t37 = t32.mul_add(n(p.m0), t28 - (t10 + t9));
-        let t38 = n(p.k47) * t33;
+        let t38 = n(p.k24) * t33;
         let t39 = n(p.yc).mul_add(t9 - t10, n(p.xc) * (t11 - t12));
-        let t40 = t32.mul_sub(n(p.k9), n(p.k10) * t26);
+        let t40 = t32.mul_sub(n(p.m0_y0), n(p.m0_x0) * t26);
         let t41 = n(p.m0).mul_add(t26, t34 - (t12 + t11));
-        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k40)));
+        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k17)));
         let t43 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
-        let t44 = n(p.k9).mul_add(t26, t32 * n(p.k10));
+        let t44 = n(p.m0_y0).mul_add(t26, t32 * n(p.m0_x0));
         let t45 = t35 * t24;
         let t46 = t35 * t42;
-        let t47 = n(p.k38) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
+        let t47 = n(p.k15) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
         let t48 = cos_phi1.mul_sub(t34, sin_phi1 * t28);
-        let t49 = t43.mul_add(n(p.k43), n(p.k42));
+        let t49 = t43.mul_add(n(p.k20), n(p.k19));
         let t50 = sin_theta.mul_add(t44, cos_theta.mul_add(t40, t39));
         let t51 = t50 + t21.mul_sub(t41, t37 * t20);
-        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k44)));
+        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k21)));
         let t53 = t24.neg_mul_add(t45, t52);
-        let t54 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
-        let t55 = N::ONE / t53;
-        let t56 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
-        let t57 = t19.neg_mul_add(t41, n(p.k12).mul_add(t48, t37 * t18));
-        let t58 = t45.neg_mul_add(t51, t57);
-        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k45)));
-        let t60 = t55 * t54;
-        let t61 = t54.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
-        let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t56)) / t61;
-        let phi1_ddot = t60.neg_mul_add(phi2_ddot, t55 * t58);
+        let t54 = n(p.R_minus_r1).mul_add(t48, t37 * t18);
+        let t55 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
+        let t56 = N::ONE / t53;
+        let t57 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
+        let t58 = t45.neg_mul_add(t51, t19.neg_mul_add(t41, t54));
+        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k22)));
+        let t60 = t56 * t55;
+        let t61 = t55.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
+        let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t57)) / t61;
+        let phi1_ddot = t60.neg_mul_add(phi2_ddot, t56 * t58);
         let t62 = t46.neg_mul_add(phi2_ddot, t35 * t51);
         let t63 = t45 * phi1_ddot;
-        let t64 = t36.mul_add(phi2_ddot, n(p.k47) * t37);
-        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k47) * t41);
+        let t64 = t36.mul_add(phi2_ddot, n(p.k24) * t37);
+        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k24) * t41);
         let t66 = t62 - t63;
-        let t67 = phi1_ddot.mul_add(n(p.k35), phi2_ddot * n(p.k36));
+        let t67 = phi1_ddot.mul_add(n(p.k12), phi2_ddot * n(p.k13));
         let x_ddot = t20.neg_mul_add(t66, t18.mul_add(phi1_ddot, t64));
         let y_ddot = t21.mul_add(t66, t19.neg_mul_add(phi1_ddot, t65));
         let theta_ddot = t63 - t62;
         let zero = N::ZERO;
-        let theta1_ddot = -t66.mul_add(n(p.k32), phi1_ddot * n(p.k33));
-        let theta2_ddot = -t66.mul_add(n(p.k34), t67);
-        let sound = PIVOTS_1.hold(t29, n(p.k46))
-            & PIVOTS_1.hold(t53, n(p.k44))
-            & PIVOTS_1.hold(t61, n(p.k45))
+        let theta1_ddot = -t66.mul_add(n(p.R_over_r1), phi1_ddot * n(p.k10));
+        let theta2_ddot = -t66.mul_add(n(p.k11), t67);
+        let sound = PIVOTS_1.hold(t29, n(p.k23))
+            & PIVOTS_1.hold(t53, n(p.k21))
+            & PIVOTS_1.hold(t61, n(p.k22))
             & theta2_ddot.is_finite();
         if !sound {
-            let pivots = [(2, t29, n(p.k46)), (4, t53, n(p.k44)), (7, t61, n(p.k45))];
+            let pivots = [(2, t29, n(p.k23)), (4, t53, n(p.k21)), (7, t61, n(p.k22))];
             PIVOTS_1.check(pivots)?;
         }
         let accelerations = [
@@ -1048,7 +1042,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t11 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
         let t12 = n(p.bx).mul_add(t5 + x_dot, n(p.cx) * (t3 + x));
         let t13 = n(p.bx).mul_add(x_dot - t5, n(p.cx) * (x - t3));
-        let t14 = t1 * (n(p.k27) * t1);
+        let t14 = t1 * (n(p.inverse_m1) * t1);
         let t15 = s2 * (s2 * n(p.m2));
         let t16 = s1 * (s1 * n(p.m1));
         let t17 = n(p.yc).mul_add(t13, n(p.xc) * t11);
@@ -1060,13 +1054,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t23 = cos_phi1 * s1;
         let t24 = sin_phi1 * t1;
         let t25 = t18 + t19;
-        let t26 = n(p.k25) * cos_phi1;
+        let t26 = n(p.k7) * cos_phi1;
         let t27 = t20 - t21;
         let t28 = cos_phi1 * t1;
         let t29 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t30 = n(p.k25) * sin_phi1;
-        let t31 = n(p.k21) * t25;
-        let t32 = n(p.k21) * t27;
+        let t30 = n(p.k7) * sin_phi1;
+        let t31 = n(p.k3) * t25;
+        let t32 = n(p.k3) * t27;
         let t33 = t23.mul_sub(sin_phi2, cos_phi2 * t22);
         let t34 = sin_phi1.mul_sub(cos_phi2, cos_phi1 * sin_phi2);
         let t35 = sin_phi2.mul_add(t22, t23 * cos_phi2);
@@ -1074,107 +1068,113 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t37 = t28.neg_mul_add(t33, sin_phi1.neg_mul_add(t29, sin_phi2));
         let t38 = cos_phi1.neg_mul_add(t32, n(p.R));
         let t39 = t28.neg_mul_add(t35, sin_phi1.neg_mul_add(t34, cos_phi2));
-        let t40 = n(p.k21) * sin_phi1.mul_sub(t27, cos_phi1 * t25);
-        let t41 = n(p.k23) * t40;
+        let t40 = n(p.k3) * sin_phi1.mul_sub(t27, cos_phi1 * t25);
+        let t41 = n(p.k5) * t40;
         let t42 = t24.neg_mul_add(t35, cos_phi1.mul_add(t34, sin_phi2));
-        let t43 = n(p.k23) * sin_phi1.neg_mul_add(t31, t38);
+        let t43 = n(p.k5) * sin_phi1.neg_mul_add(t31, t38);
         let t44 = t41.neg_mul_add(t31, t26);
         let t45 = t32.mul_add(t41, t30);
         let t46 = t31.neg_mul_add(t43, t30);
         let t47 = t32.neg_mul_add(t43, t26);
-        let t48 = n(p.k23) * (n(p.k21) * t27.mul_sub(t37, t25 * t36));
+        let t48 = n(p.k5) * (n(p.k3) * t27.mul_sub(t37, t25 * t36));
         let t49 = t7.neg_mul_add(sin_t0, cos_t0);
-        let t50 = sin_phi1.mul_add(t45, cos_phi1.mul_add(t44, n(p.k27)));
-        let t51 = t44.mul_sub(t24, t45 * t28);
-        let t52 = t28.mul_add(t47, t24.mul_add(t46, s1 * t14));
-        let t53 = cos_phi1.mul_sub(t46, sin_phi1 * t47);
-        let t54 = t31.neg_mul_add(t48, n(p.k25) * t36);
-        let t55 = t32.mul_add(t48, n(p.k25) * t37);
-        let t56 = t7.mul_add(cos_t0, sin_t0);
-        let t57 = N::ONE / t50;
-        let t58 = s1.mul_add(t51, t41 * n(p.R));
-        let t59 = s1.mul_add(t52, n(p.R).mul_add(t43, n(p.k28)));
-        let t60 = n(p.k7).mul_add(t49, t20.mul_sub(t6, t21 * t6)) * n(p.m0);
-        let t61 = n(p.m0) * n(p.k7).mul_add(t56, t18.mul_add(t6, t19 * t6));
-        let t62 = cos_phi1.neg_mul_add(t50, t51.neg_mul_add(t22, t44));
-        let t63 = n(p.k23) * (n(p.k21) * t25.mul_add(t42, t27 * t39));
-        let t64 = cos_phi1.mul_sub(t54, n(p.k27) * t29);
-        let t65 = sin_phi1.mul_add(t55, t64);
-        let t66 = t28.neg_mul_add(t55, t24.mul_add(t54, t14 * t33));
-        let t67 = sin_phi1.neg_mul_add(t50, t51.mul_add(t23, t45));
-        let t68 = t52.neg_mul_add(t23, sin_phi1.mul_add(t53, t47));
-        let t69 = n(p.yc).mul_add(t12, n(p.xc) * t10) - t17;
-        let t70 = t11 + t10 - t61;
-        let t71 = t13 + t12 - t60;
-        let t72 = t31.mul_add(t63, n(p.k25) * t42);
-        let t73 = t57 * t58;
-        let t74 = t22.neg_mul_add(t66, cos_phi1.neg_mul_add(t65, t54));
-        let t75 = t67.mul_add(sin_phi2, cos_phi2 * t62);
-        let t76 = t52.neg_mul_add(t22, cos_phi1.neg_mul_add(t53, t46));
-        let t77 = cos_phi2 * t8;
-        let t78 = t58.neg_mul_add(t73, t59);
-        let t79 = t32.mul_add(t63, n(p.k25) * t39);
-        let t80 = sin_phi1.neg_mul_add(t65, t23.mul_add(t66, t55));
-        let t81 = N::ONE / t78;
-        let t82 = t57 * t75;
-        let t83 = sin_phi2 * t8;
-        let t84 = t32.neg_mul_add(t70, t25.mul_add(t60, t69));
-        let t85 = t31.mul_sub(t71, t27 * t61) + t84;
-        let t86 = t28.neg_mul_add(t79, t24.neg_mul_add(t72, t14 * t35));
-        let t87 = sin_phi2.mul_add(t80, cos_phi2.mul_add(t74, n(p.k26)));
-        let t88 = cos_phi2.mul_sub(t76, sin_phi2 * t68);
-        let t89 = t58.neg_mul_add(t82, t88);
-        let t90 = n(p.k24) * t85;
-        let t91 = cos_phi1.mul_add(t72, n(p.k27) * t34);
-        let t92 = sin_phi1.neg_mul_add(t79, t91);
-        let t93 = s2 * t62.mul_sub(t83, t67 * t77);
-        let t94 = t25.mul_add(t90, t71);
-        let t95 = t27.neg_mul_add(t90, t70);
-        let t96 = t81 * t89;
-        let t97 = t57 * t93;
-        let t98 = cos_phi1.neg_mul_add(t92, t22.mul_add(t86, t72));
-        let t99 = t89.neg_mul_add(t96, t75.neg_mul_add(t82, t87));
-        let t100 = s2.neg_mul_add(t68.mul_add(t77, t76 * t83), n(p.k30));
-        let t101 = t58.mul_add(t97, t100);
-        let t102 = t30.mul_add(t94, t9 * N::from_f64(2.0));
-        let t103 = t83.mul_add(t98, s2 * (t8 * (n(p.k26) * t8)));
-        let t104 = t23.mul_add(t86, sin_phi1.mul_add(t92, t79));
-        let t105 = t26.mul_add(t94, phi1_dot * (s1 * phi1_dot));
-        let t106 = t30.mul_add(t95, t105);
-        let t107 = N::ONE / t99;
-        let t108 = t81 * t101;
-        let t109 = s2.mul_add(t77.mul_add(t104, t103), n(p.k31));
-        let t110 = s2.mul_sub(t74.mul_sub(t83, t80 * t77), t75 * t97);
-        let t111 = t89.mul_add(t108, t110);
-        let t112 = t85.mul_add(n(p.k29), t9) - t26.neg_mul_add(t95, t102);
-        let t113 = t73.mul_add(t106, t112);
-        let t114 = t82.neg_mul_add(t106, phi2_dot * (s2 * phi2_dot));
-        let t115 = t96.mul_add(t113, t114);
-        let t116 = t97.neg_mul_add(t106, phi2_dot * s2_dot);
-        let t117 = t107 * t111;
-        let t118 = t101.neg_mul_add(t108, t93.neg_mul_add(t97, t109));
-        let t119 = t111.neg_mul_add(t117, t118);
-        let t120 = t117.neg_mul_add(t115, t108.neg_mul_add(t113, t116));
-        let lambda4 = t120 / t119;
-        let lambda3 = t117.neg_mul_add(lambda4, t107 * t115);
-        let t121 = t108.neg_mul_add(lambda4, t81 * t113);
-        let t122 = t96.mul_add(lambda3, t121);
-        let t123 = t97.neg_mul_add(lambda4, t57 * t106);
-        let lambda1 = t73.mul_add(t122, t82.neg_mul_add(lambda3, t123));
-        let lambda2 = -t122;
+        let t50 = cos_phi1.mul_add(t44, n(p.inverse_m1));
+        let t51 = sin_phi1.mul_add(t45, t50);
+        let t52 = t44.mul_sub(t24, t45 * t28);
+        let t53 = t28.mul_add(t47, t24.mul_add(t46, s1 * t14));
+        let t54 = cos_phi1.mul_sub(t46, sin_phi1 * t47);
+        let t55 = t31.neg_mul_add(t48, n(p.k7) * t36);
+        let t56 = t32.mul_add(t48, n(p.k7) * t37);
+        let t57 = t7.mul_add(cos_t0, sin_t0);
+        let t58 = N::ONE / t51;
+        let t59 = s1.mul_add(t52, t41 * n(p.R));
+        let t60 = n(p.R).mul_add(t43, n(p.r1_squared_over_J1));
+        let t61 = s1.mul_add(t53, t60);
+        let t62 = n(p.e_omega2).mul_add(t49, t20.mul_sub(t6, t21 * t6));
+        let t63 = t62 * n(p.m0);
+        let t64 = n(p.e_omega2).mul_add(t57, t18.mul_add(t6, t19 * t6));
+        let t65 = n(p.m0) * t64;
+        let t66 = cos_phi1.neg_mul_add(t51, t52.neg_mul_add(t22, t44));
+        let t67 = n(p.k5) * (n(p.k3) * t25.mul_add(t42, t27 * t39));
+        let t68 = cos_phi1.mul_sub(t55, n(p.inverse_m1) * t29);
+        let t69 = sin_phi1.mul_add(t56, t68);
+        let t70 = t28.neg_mul_add(t56, t24.mul_add(t55, t14 * t33));
+        let t71 = sin_phi1.neg_mul_add(t51, t52.mul_add(t23, t45));
+        let t72 = t53.neg_mul_add(t23, sin_phi1.mul_add(t54, t47));
+        let t73 = n(p.yc).mul_add(t12, n(p.xc) * t10) - t17;
+        let t74 = t11 + t10 - t65;
+        let t75 = t13 + t12 - t63;
+        let t76 = t31.mul_add(t67, n(p.k7) * t42);
+        let t77 = t58 * t59;
+        let t78 = t22.neg_mul_add(t70, cos_phi1.neg_mul_add(t69, t55));
+        let t79 = t71.mul_add(sin_phi2, cos_phi2 * t66);
+        let t80 = t53.neg_mul_add(t22, cos_phi1.neg_mul_add(t54, t46));
+        let t81 = cos_phi2 * t8;
+        let t82 = t59.neg_mul_add(t77, t61);
+        let t83 = t32.mul_add(t67, n(p.k7) * t39);
+        let t84 = sin_phi1.neg_mul_add(t69, t23.mul_add(t70, t56));
+        let t85 = N::ONE / t82;
+        let t86 = t58 * t79;
+        let t87 = sin_phi2 * t8;
+        let t88 = t32.neg_mul_add(t74, t25.mul_add(t63, t73));
+        let t89 = t31.mul_sub(t75, t27 * t65) + t88;
+        let t90 = t28.neg_mul_add(t83, t24.neg_mul_add(t76, t14 * t35));
+        let t91 = cos_phi2.mul_add(t78, n(p.inverse_m2));
+        let t92 = sin_phi2.mul_add(t84, t91);
+        let t93 = cos_phi2.mul_sub(t80, sin_phi2 * t72);
+        let t94 = t59.neg_mul_add(t86, t93);
+        let t95 = n(p.k6) * t89;
+        let t96 = cos_phi1.mul_add(t76, n(p.inverse_m1) * t34);
+        let t97 = sin_phi1.neg_mul_add(t83, t96);
+        let t98 = s2 * t66.mul_sub(t87, t71 * t81);
+        let t99 = t25.mul_add(t95, t75);
+        let t100 = t27.neg_mul_add(t95, t74);
+        let t101 = t85 * t94;
+        let t102 = t72.mul_add(t81, t80 * t87);
+        let t103 = t58 * t98;
+        let t104 = cos_phi1.neg_mul_add(t97, t22.mul_add(t90, t76));
+        let t105 = t94.neg_mul_add(t101, t79.neg_mul_add(t86, t92));
+        let t106 = s2.neg_mul_add(t102, n(p.r1_rho_over_J1));
+        let t107 = t59.mul_add(t103, t106);
+        let t108 = t30.mul_add(t99, t9 * N::from_f64(2.0));
+        let t109 = t87.mul_add(t104, s2 * (t8 * (n(p.inverse_m2) * t8)));
+        let t110 = t23.mul_add(t90, sin_phi1.mul_add(t97, t83));
+        let t111 = t26.mul_add(t99, phi1_dot * (s1 * phi1_dot));
+        let t112 = t30.mul_add(t100, t111);
+        let t113 = N::ONE / t105;
+        let t114 = t85 * t107;
+        let t115 = s2.mul_add(t81.mul_add(t110, t109), n(p.k9));
+        let t116 = s2.mul_sub(t78.mul_sub(t87, t84 * t81), t79 * t103);
+        let t117 = t94.mul_add(t114, t116);
+        let t118 = t89.mul_add(n(p.k8), t9) - t26.neg_mul_add(t100, t108);
+        let t119 = t77.mul_add(t112, t118);
+        let t120 = t86.neg_mul_add(t112, phi2_dot * (s2 * phi2_dot));
+        let t121 = t101.mul_add(t119, t120);
+        let t122 = t103.neg_mul_add(t112, phi2_dot * s2_dot);
+        let t123 = t113 * t117;
+        let t124 = t107.neg_mul_add(t114, t98.neg_mul_add(t103, t115));
+        let t125 = t117.neg_mul_add(t123, t124);
+        let t126 = t123.neg_mul_add(t121, t114.neg_mul_add(t119, t122));
+        let lambda4 = t126 / t125;
+        let lambda3 = t123.neg_mul_add(lambda4, t113 * t121);
+        let t127 = t114.neg_mul_add(lambda4, t85 * t119);
+        let t128 = t101.mul_add(lambda3, t127);
+        let t129 = t103.neg_mul_add(lambda4, t58 * t112);
+        let lambda1 = t77.mul_add(t128, t86.neg_mul_add(lambda3, t129));
+        let lambda2 = -t128;
         let sound = PIVOTS.hold(n(p.J1), n(p.J1))
             & PIVOTS.hold(n(p.J2), n(p.J2))
             & PIVOTS.hold(n(p.m2), n(p.m2))
             & PIVOTS.hold(t15, t15)
-            & PIVOTS.hold(n(p.m1), n(p.k8))
+            & PIVOTS.hold(n(p.m1), n(p.m1_plus_m2))
             & PIVOTS.hold(t16, t16)
-            & PIVOTS.hold(n(p.k20), n(p.k11))
-            & PIVOTS.hold(n(p.k20), n(p.k11))
-            & PIVOTS.hold(n(p.k22), n(p.k15))
-            & PIVOTS.hold(t50, t50)
-            & PIVOTS.hold(t78, t59)
-            & PIVOTS.hold(t99, t87)
-            & PIVOTS.hold(t119, t109)
+            & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
+            & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
+            & PIVOTS.hold(n(p.k4), n(p.k1))
+            & PIVOTS.hold(t51, t51)
+            & PIVOTS.hold(t82, t61)
+            & PIVOTS.hold(t105, t92)
+            & PIVOTS.hold(t125, t115)
             & lambda2.is_finite();
         if !sound {
             let pivots = [
@@ -1182,15 +1182,15 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
                 (8, n(p.J2), n(p.J2)),
                 (6, n(p.m2), n(p.m2)),
                 (7, t15, t15),
-                (3, n(p.m1), n(p.k8)),
+                (3, n(p.m1), n(p.m1_plus_m2)),
                 (4, t16, t16),
-                (1, n(p.k20), n(p.k11)),
-                (0, n(p.k20), n(p.k11)),
-                (2, n(p.k22), n(p.k15)),
-                (9, t50, t50),
-                (10, t78, t59),
-                (11, t99, t87),
-                (12, t119, t109),
+                (1, n(p.m_plus_m0), n(p.k0)),
+                (0, n(p.m_plus_m0), n(p.k0)),
+                (2, n(p.k4), n(p.k1)),
+                (9, t51, t51),
+                (10, t82, t61),
+                (11, t105, t92),
+                (12, t125, t115),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -1248,15 +1248,16 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t5 = theta_dot * p.y0;
     let t6 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t7 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t8 = x_dot - t3 * sin_theta - cos_theta * t5 - p.k1 * (sin_t0 + t4 * cos_t0);
-    let t9 = y_dot + t3 * cos_theta - sin_theta * t5;
-    let t10 = p.k1 * (cos_t0 - t4 * sin_t0) + t9;
-    let t11 = cos_phi2 * s2_dot - t2 * sin_phi2 + t6;
-    let t12 = t2 * cos_phi2 + sin_phi2 * s2_dot + t7;
-    let t13 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t14 = (t7 * t7 + t6 * t6) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t13;
-    let t15 = (t12 * t12 + t11 * t11) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
-    ((t10 * t10 + t8 * t8) * p.m0 + p.k2 + t15) * S::from_f64(0.5)
+    let t8 = x_dot - t3 * sin_theta - cos_theta * t5;
+    let t9 = t8 - p.e_omega * (sin_t0 + t4 * cos_t0);
+    let t10 = y_dot + t3 * cos_theta - sin_theta * t5;
+    let t11 = p.e_omega * (cos_t0 - t4 * sin_t0) + t10;
+    let t12 = cos_phi2 * s2_dot - t2 * sin_phi2 + t6;
+    let t13 = t2 * cos_phi2 + sin_phi2 * s2_dot + t7;
+    let t14 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t15 = (t7 * t7 + t6 * t6) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t14;
+    let t16 = (t13 * t13 + t12 * t12) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t15;
+    ((t11 * t11 + t9 * t9) * p.m0 + p.J0_omega2 + t16) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -1274,7 +1275,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t3 = y - t1;
     let t4 = t0 + x;
     let t5 = t1 + y;
-    (t5 * t5 + t3 * t3) * p.k4 + (t4 * t4 + t2 * t2) * p.k3
+    (t5 * t5 + t3 * t3) * p.half_cy + (t4 * t4 + t2 * t2) * p.half_cx
 }
 
 /// Dissipation function `D`, in W.
@@ -1292,7 +1293,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     let t3 = y_dot - t1;
     let t4 = t0 + x_dot;
     let t5 = t1 + y_dot;
-    (t5 * t5 + t3 * t3) * p.k6 + (t4 * t4 + t2 * t2) * p.k5
+    (t5 * t5 + t3 * t3) * p.half_by + (t4 * t4 + t2 * t2) * p.half_bx
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -1325,8 +1326,9 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let t4 = sin_theta * t1 - cos_theta * theta_ddot;
     let t5 = sin_t0 + t2 * cos_t0;
     let t6 = cos_t0 - t2 * sin_t0;
-    let t7 = t6 * (t5 * p.k7 - (y_ddot - t3 * p.y0 - t4 * p.x0));
-    (t5 * (t6 * p.k7 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7) * p.k14
+    let t7 = t6 * (t5 * p.e_omega2 - (y_ddot - t3 * p.y0 - t4 * p.x0));
+    let t8 = t5 * (t6 * p.e_omega2 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7;
+    t8 * p.m0_e_omega
 }
 
 /// Power `R` that dampers take out, in W.
@@ -1405,10 +1407,12 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, R, r1, rho, k0, k1, k2, k3,
-        k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22,
-        k23, k24, k25, k26, k27, k28, k29, k30, k31, k32, k33, k34, k35, k36, k37, k38, k39, k40,
-        k41, k42, k43, k44, k45, k46, k47,
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, R, r1, rho, r2_plus_delta,
+        e_omega, J0_omega2, half_cx, half_cy, half_bx, half_by, e_omega2, m1_plus_m2, m0_y0, m0_x0,
+        k0, R_minus_r1, rho_minus_r2_minus_delta, m0_e_omega, k1, k2, minus_m2, minus_R, minus_rho,
+        m_plus_m0, k3, k4, k5, k6, k7, inverse_m2, inverse_m1, r1_squared_over_J1, k8,
+        r1_rho_over_J1, k9, R_over_r1, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21,
+        k22, k23, k24,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

@@ -60,37 +60,37 @@ pub struct CartPole<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> CartPole<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k7 = self.pole + self.cart;
-        let k5 = self.pole * self.l;
-        let k0 = self.l * S::from_f64(2.0);
-        let k1 = self.l * self.l;
-        let k2 = k5 * self.g;
-        let k3 = self.hinge * S::from_f64(0.5);
-        let k4 = self.rail * S::from_f64(0.5);
-        let k6 = S::from_f64(0.5) * self.cart;
-        let k8 = self.J + self.l * k5;
-        let k9 = -k5;
-        let k10 = -self.pole;
-        let k11 = S::ONE / k7;
-        let pivots = [(0, k7, k7)];
+        let cart_plus_pole = self.pole + self.cart;
+        let pole_l = self.pole * self.l;
+        let two_l = self.l * S::from_f64(2.0);
+        let l_squared = self.l * self.l;
+        let pole_l_g = pole_l * self.g;
+        let half_hinge = self.hinge * S::from_f64(0.5);
+        let half_rail = self.rail * S::from_f64(0.5);
+        let half_cart = S::from_f64(0.5) * self.cart;
+        let J_plus_pole_l_squared = self.J + self.l * pole_l;
+        let minus_pole_l = -pole_l;
+        let minus_pole = -self.pole;
+        let k0 = S::ONE / cart_plus_pole;
+        let pivots = [(0, cart_plus_pole, cart_plus_pole)];
         Prepared {
             pole: self.pole,
             l: self.l,
             J: self.J,
             rail: self.rail,
             hinge: self.hinge,
+            two_l,
+            l_squared,
+            pole_l_g,
+            half_hinge,
+            half_rail,
+            pole_l,
+            half_cart,
+            cart_plus_pole,
+            J_plus_pole_l_squared,
+            minus_pole_l,
+            minus_pole,
             k0,
-            k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
-            k10,
-            k11,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -148,39 +148,36 @@ pub struct Prepared<S = f64> {
     /// `hinge`
     hinge: S,
     /// `2*l`
-    k0: S,
+    two_l: S,
     /// `l^2`
-    k1: S,
+    l_squared: S,
     /// `pole*l*g`
-    k2: S,
+    pole_l_g: S,
     /// `0.5*hinge`
-    k3: S,
+    half_hinge: S,
     /// `0.5*rail`
-    k4: S,
+    half_rail: S,
     /// `pole*l`
-    k5: S,
+    pole_l: S,
     /// `0.5*cart`
-    k6: S,
+    half_cart: S,
     /// `cart + pole`
-    k7: S,
+    cart_plus_pole: S,
     /// `J + pole*l^2`
-    k8: S,
+    J_plus_pole_l_squared: S,
     /// `-pole*l`
-    k9: S,
+    minus_pole_l: S,
     /// `-pole`
-    k10: S,
+    minus_pole: S,
     /// `1/(cart + pole)`
-    k11: S,
+    k0: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -192,8 +189,8 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
     let theta = q[1];
     let cos_theta = theta.cos();
-    let m21 = p.k5 * cos_theta;
-    [[p.k7, m21], [m21, p.k8]]
+    let m21 = p.pole_l * cos_theta;
+    [[p.cart_plus_pole, m21], [m21, p.J_plus_pole_l_squared]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -205,7 +202,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[
     let theta = q[1];
     let theta_dot = v[1];
     let sin_theta = theta.sin();
-    let h_x = sin_theta * (theta_dot * (theta_dot * p.k9));
+    let h_x = sin_theta * (theta_dot * (theta_dot * p.minus_pole_l));
     let zero = S::ZERO;
     [h_x, zero]
 }
@@ -227,7 +224,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let theta_dot = v[1];
     let sin_theta = theta.sin();
     let q_x = u.push - x_dot * p.rail;
-    let q_theta = p.k2 * sin_theta - theta_dot * p.hinge;
+    let q_theta = p.pole_l_g * sin_theta - theta_dot * p.hinge;
     [q_x, q_theta]
 }
 
@@ -242,8 +239,9 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let x_dot = v[0];
     let theta_dot = v[1];
     let sin_theta = theta.sin();
-    let f_x = sin_theta * (theta_dot * (theta_dot * p.k5)) + (u.push - x_dot * p.rail);
-    let f_theta = sin_theta * p.k2 - theta_dot * p.hinge;
+    let t0 = sin_theta * (theta_dot * (theta_dot * p.pole_l));
+    let f_x = t0 + (u.push - x_dot * p.rail);
+    let f_theta = sin_theta * p.pole_l_g - theta_dot * p.hinge;
     [f_x, f_theta]
 }
 
@@ -285,18 +283,20 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let x_dot = n(v[0]);
         let theta_dot = n(v[1]);
         let (sin_theta, cos_theta) = theta.sin_cos();
-        let t0 = n(p.k5) * cos_theta;
+        let t0 = n(p.pole_l) * cos_theta;
         let t1 = x_dot.neg_mul_add(n(p.rail), n(u.push));
-        let t2 = sin_theta.mul_add(theta_dot * (n(p.k5) * theta_dot), t1);
-        let t3 = n(p.k11) * t0;
-        let t4 = sin_theta.neg_mul_add(n(p.k2), theta_dot * n(p.hinge));
-        let t5 = t0.neg_mul_add(t3, n(p.k8));
-        let t6 = t3.mul_add(t2, t4) / t5;
-        let x_ddot = t3.mul_add(t6, n(p.k11) * t2);
-        let theta_ddot = -t6;
-        let sound = PIVOTS.hold(t5, n(p.k8)) & theta_ddot.is_finite();
+        let t2 = theta_dot * (n(p.pole_l) * theta_dot);
+        let t3 = sin_theta.mul_add(t2, t1);
+        let t4 = theta_dot * n(p.hinge);
+        let t5 = n(p.k0) * t0;
+        let t6 = t0.neg_mul_add(t5, n(p.J_plus_pole_l_squared));
+        let t7 = t5.mul_add(t3, sin_theta.neg_mul_add(n(p.pole_l_g), t4));
+        let t8 = t7 / t6;
+        let x_ddot = t5.mul_add(t8, n(p.k0) * t3);
+        let theta_ddot = -t8;
+        let sound = PIVOTS.hold(t6, n(p.J_plus_pole_l_squared)) & theta_ddot.is_finite();
         if !sound {
-            let pivots = [(1, t5, n(p.k8))];
+            let pivots = [(1, t6, n(p.J_plus_pole_l_squared))];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [x_ddot.store(), theta_ddot.store()];
@@ -321,8 +321,8 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = theta_dot * theta_dot;
     let t1 = cos_theta * (theta_dot * p.l) + x_dot;
-    let t2 = (sin_theta * (sin_theta * (t0 * p.k1)) + t1 * t1) * p.pole + t0 * p.J;
-    S::from_f64(0.5) * t2 + x_dot * (x_dot * p.k6)
+    let t2 = (sin_theta * (sin_theta * (t0 * p.l_squared)) + t1 * t1) * p.pole;
+    S::from_f64(0.5) * (t2 + t0 * p.J) + x_dot * (x_dot * p.half_cart)
 }
 
 /// Potential energy `V`, in J.
@@ -333,7 +333,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let theta = q[1];
     let cos_theta = theta.cos();
-    p.k2 * cos_theta
+    p.pole_l_g * cos_theta
 }
 
 /// Dissipation function `D`, in W.
@@ -344,7 +344,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
 pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
     let x_dot = v[0];
     let theta_dot = v[1];
-    x_dot * (x_dot * p.k4) + theta_dot * (theta_dot * p.k3)
+    x_dot * (x_dot * p.half_rail) + theta_dot * (theta_dot * p.half_hinge)
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -376,7 +376,7 @@ pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[
 pub fn output_tip<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let theta = q[1];
     let cos_theta = theta.cos();
-    p.k0 * cos_theta
+    p.two_l * cos_theta
 }
 
 /// Force of the pole on the hinge along the rail. Unit: `N`.
@@ -396,7 +396,7 @@ pub fn output_hinge_force<S: ::lagrangian::emitted::Scalar>(
     let theta_ddot = a[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = (cos_theta * theta_ddot - sin_theta * (theta_dot * theta_dot)) * p.l;
-    p.k10 * (t0 + x_ddot)
+    p.minus_pole * (t0 + x_ddot)
 }
 
 /// Everything that the description asks to observe.
@@ -434,7 +434,10 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         tip: "tip" "m";
         hinge_force: "hinge_force" "N";
     ]
-    prepared Prepared { pole, l, J, rail, hinge, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11 }
+    prepared Prepared {
+        pole, l, J, rail, hinge, two_l, l_squared, pole_l_g, half_hinge, half_rail, pole_l,
+        half_cart, cart_plus_pole, J_plus_pole_l_squared, minus_pole_l, minus_pole, k0,
+    }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }
     system {

@@ -47,59 +47,64 @@ pub struct Chain<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> Chain<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k3 = self.l * self.m;
+        let l_m = self.l * self.m;
         let t0 = self.l * self.l;
-        let t1 = self.l * k3;
-        let t2 = self.g * k3;
-        let k22 = S::from_f64(0.5) * k3;
+        let t1 = self.l * l_m;
+        let t2 = self.g * l_m;
+        let half_l_m = S::from_f64(0.5) * l_m;
         let t3 = t1 * S::from_f64(0.25);
-        let k2 = S::from_f64(0.5) * t2;
-        let k19 = self.J + t3;
-        let t4 = S::ONE / k19;
+        let half_l_m_g = S::from_f64(0.5) * t2;
+        let k14 = self.J + t3;
+        let t4 = S::ONE / k14;
         let t5 = S::from_f64(0.25) * t4;
-        let k0 = self.l * S::from_f64(0.5);
-        let k1 = self.m * self.g;
-        let k4 = S::from_f64(0.125) * (self.J * S::from_f64(4.0) + t1);
-        let k5 = S::from_f64(0.5) * t1;
-        let k6 = t1 * S::from_f64(1.5);
-        let k7 = t1 * S::from_f64(2.5);
-        let k8 = t1 * S::from_f64(3.5);
-        let k9 = t1 * S::from_f64(4.5);
-        let k10 = t1 * S::from_f64(5.5);
-        let k11 = t1 * S::from_f64(6.5);
-        let k12 = self.J + t1 * S::from_f64(7.25);
-        let k13 = self.J + t1 * S::from_f64(6.25);
-        let k14 = self.J + t1 * S::from_f64(5.25);
-        let k15 = self.J + t1 * S::from_f64(4.25);
-        let k16 = self.J + t1 * S::from_f64(3.25);
-        let k17 = self.J + t1 * S::from_f64(2.25);
-        let k18 = self.J + t1 * S::from_f64(1.25);
-        let k20 = self.m * S::from_f64(0.5);
-        let k21 = k3 * S::from_f64(0.25);
-        let k23 = -(t2 * S::from_f64(7.5));
-        let k24 = -(t2 * S::from_f64(6.5));
-        let k25 = -(t2 * S::from_f64(5.5));
-        let k26 = -(t2 * S::from_f64(4.5));
-        let k27 = -(t2 * S::from_f64(3.5));
-        let k28 = -(t2 * S::from_f64(2.5));
-        let k29 = -(t2 * S::from_f64(1.5));
-        let k30 = -k2;
-        let k31 = -self.l;
-        let k32 = t1 * t5;
-        let k33 = self.J - t3;
-        let k34 = t5 * t0;
-        let k35 = S::from_f64(0.5) * t0;
-        let k36 = self.m * self.m;
-        let k37 = k22 * t4;
-        let k38 = self.m * S::from_f64(1.5);
-        let k39 = t5 * (k3 * k3);
-        let pivots = [(7, k19, k19)];
+        let half_l = self.l * S::from_f64(0.5);
+        let m_g = self.m * self.g;
+        let k0 = S::from_f64(0.125) * (self.J * S::from_f64(4.0) + t1);
+        let half_l_squared_m = S::from_f64(0.5) * t1;
+        let k1 = t1 * S::from_f64(1.5);
+        let k2 = t1 * S::from_f64(2.5);
+        let k3 = t1 * S::from_f64(3.5);
+        let k4 = t1 * S::from_f64(4.5);
+        let k5 = t1 * S::from_f64(5.5);
+        let k6 = t1 * S::from_f64(6.5);
+        let k7 = self.J + t1 * S::from_f64(7.25);
+        let k8 = self.J + t1 * S::from_f64(6.25);
+        let k9 = self.J + t1 * S::from_f64(5.25);
+        let k10 = self.J + t1 * S::from_f64(4.25);
+        let k11 = self.J + t1 * S::from_f64(3.25);
+        let k12 = self.J + t1 * S::from_f64(2.25);
+        let k13 = self.J + t1 * S::from_f64(1.25);
+        let half_m = self.m * S::from_f64(0.5);
+        let quarter_l_m = l_m * S::from_f64(0.25);
+        let k15 = -(t2 * S::from_f64(7.5));
+        let k16 = -(t2 * S::from_f64(6.5));
+        let k17 = -(t2 * S::from_f64(5.5));
+        let k18 = -(t2 * S::from_f64(4.5));
+        let k19 = -(t2 * S::from_f64(3.5));
+        let k20 = -(t2 * S::from_f64(2.5));
+        let k21 = -(t2 * S::from_f64(1.5));
+        let minus_half_l_m_g = -half_l_m_g;
+        let minus_l = -self.l;
+        let k22 = t1 * t5;
+        let k23 = self.J - t3;
+        let k24 = t5 * t0;
+        let half_l_squared = S::from_f64(0.5) * t0;
+        let m_squared = self.m * self.m;
+        let k25 = half_l_m * t4;
+        let k26 = self.m * S::from_f64(1.5);
+        let k27 = t5 * (l_m * l_m);
+        let pivots = [(7, k14, k14)];
         Prepared {
             l: self.l,
             m: self.m,
             J: self.J,
             g: self.g,
+            half_l,
+            m_g,
+            half_l_m_g,
+            l_m,
             k0,
+            half_l_squared_m,
             k1,
             k2,
             k3,
@@ -114,6 +119,9 @@ impl<S: ::lagrangian::emitted::Scalar> Chain<S> {
             k12,
             k13,
             k14,
+            half_m,
+            quarter_l_m,
+            half_l_m,
             k15,
             k16,
             k17,
@@ -121,24 +129,16 @@ impl<S: ::lagrangian::emitted::Scalar> Chain<S> {
             k19,
             k20,
             k21,
+            minus_half_l_m_g,
+            minus_l,
             k22,
             k23,
             k24,
+            half_l_squared,
+            m_squared,
             k25,
             k26,
             k27,
-            k28,
-            k29,
-            k30,
-            k31,
-            k32,
-            k33,
-            k34,
-            k35,
-            k36,
-            k37,
-            k38,
-            k39,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -186,95 +186,92 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `0.5*l`
-    k0: S,
+    half_l: S,
     /// `m*g`
-    k1: S,
+    m_g: S,
     /// `0.5*l*m*g`
-    k2: S,
+    half_l_m_g: S,
     /// `l*m`
-    k3: S,
+    l_m: S,
     /// `0.125*(l^2*m + 4*J)`
-    k4: S,
+    k0: S,
     /// `0.5*l^2*m`
-    k5: S,
+    half_l_squared_m: S,
     /// `1.5*l^2*m`
-    k6: S,
+    k1: S,
     /// `2.5*l^2*m`
-    k7: S,
+    k2: S,
     /// `3.5*l^2*m`
-    k8: S,
+    k3: S,
     /// `4.5*l^2*m`
-    k9: S,
+    k4: S,
     /// `5.5*l^2*m`
-    k10: S,
+    k5: S,
     /// `6.5*l^2*m`
-    k11: S,
+    k6: S,
     /// `J + 7.25*l^2*m`
-    k12: S,
+    k7: S,
     /// `J + 6.25*l^2*m`
-    k13: S,
+    k8: S,
     /// `J + 5.25*l^2*m`
-    k14: S,
+    k9: S,
     /// `J + 4.25*l^2*m`
-    k15: S,
+    k10: S,
     /// `J + 3.25*l^2*m`
-    k16: S,
+    k11: S,
     /// `J + 2.25*l^2*m`
-    k17: S,
+    k12: S,
     /// `J + 1.25*l^2*m`
-    k18: S,
+    k13: S,
     /// `J + 0.25*l^2*m`
-    k19: S,
+    k14: S,
     /// `0.5*m`
-    k20: S,
+    half_m: S,
     /// `0.25*l*m`
-    k21: S,
+    quarter_l_m: S,
     /// `0.5*l*m`
-    k22: S,
+    half_l_m: S,
     /// `-7.5*l*m*g`
-    k23: S,
+    k15: S,
     /// `-6.5*l*m*g`
-    k24: S,
+    k16: S,
     /// `-5.5*l*m*g`
-    k25: S,
+    k17: S,
     /// `-4.5*l*m*g`
-    k26: S,
+    k18: S,
     /// `-3.5*l*m*g`
-    k27: S,
+    k19: S,
     /// `-2.5*l*m*g`
-    k28: S,
+    k20: S,
     /// `-1.5*l*m*g`
-    k29: S,
+    k21: S,
     /// `-0.5*l*m*g`
-    k30: S,
+    minus_half_l_m_g: S,
     /// `-l`
-    k31: S,
+    minus_l: S,
     /// `0.25*l^2*m/(J + 0.25*l^2*m)`
-    k32: S,
+    k22: S,
     /// `J - 0.25*l^2*m`
-    k33: S,
+    k23: S,
     /// `0.25*l^2/(J + 0.25*l^2*m)`
-    k34: S,
+    k24: S,
     /// `0.5*l^2`
-    k35: S,
+    half_l_squared: S,
     /// `m^2`
-    k36: S,
+    m_squared: S,
     /// `0.5*l*m/(J + 0.25*l^2*m)`
-    k37: S,
+    k25: S,
     /// `1.5*m`
-    k38: S,
+    k26: S,
     /// `0.25*l^2*m^2/(J + 0.25*l^2*m)`
-    k39: S,
+    k27: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 8,
-    tolerance: 7.105427357601002e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(8, 8);
 
 /// Mass matrix `M`.
 ///
@@ -333,43 +330,43 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]
     let (sin_q_6, cos_q_6) = q_6.sin_cos();
     let (sin_q_7, cos_q_7) = q_7.sin_cos();
     let (sin_q_8, cos_q_8) = q_8.sin_cos();
-    let m21 = (cos_q_2 * cos_q_1 + sin_q_2 * sin_q_1) * p.k11;
-    let m31 = p.k10 * (cos_q_1 * cos_q_3 + sin_q_1 * sin_q_3);
-    let m32 = p.k10 * (cos_q_2 * cos_q_3 + sin_q_2 * sin_q_3);
-    let m41 = p.k9 * (cos_q_1 * cos_q_4 + sin_q_1 * sin_q_4);
-    let m42 = p.k9 * (cos_q_2 * cos_q_4 + sin_q_2 * sin_q_4);
-    let m43 = p.k9 * (cos_q_3 * cos_q_4 + sin_q_3 * sin_q_4);
-    let m51 = p.k8 * (cos_q_1 * cos_q_5 + sin_q_1 * sin_q_5);
-    let m52 = p.k8 * (cos_q_2 * cos_q_5 + sin_q_2 * sin_q_5);
-    let m53 = p.k8 * (cos_q_3 * cos_q_5 + sin_q_3 * sin_q_5);
-    let m54 = p.k8 * (cos_q_4 * cos_q_5 + sin_q_4 * sin_q_5);
-    let m61 = p.k7 * (cos_q_1 * cos_q_6 + sin_q_1 * sin_q_6);
-    let m62 = p.k7 * (cos_q_2 * cos_q_6 + sin_q_2 * sin_q_6);
-    let m63 = p.k7 * (cos_q_3 * cos_q_6 + sin_q_3 * sin_q_6);
-    let m64 = p.k7 * (cos_q_4 * cos_q_6 + sin_q_4 * sin_q_6);
-    let m65 = p.k7 * (cos_q_5 * cos_q_6 + sin_q_5 * sin_q_6);
-    let m71 = p.k6 * (cos_q_1 * cos_q_7 + sin_q_1 * sin_q_7);
-    let m72 = p.k6 * (cos_q_2 * cos_q_7 + sin_q_2 * sin_q_7);
-    let m73 = p.k6 * (cos_q_3 * cos_q_7 + sin_q_3 * sin_q_7);
-    let m74 = p.k6 * (cos_q_4 * cos_q_7 + sin_q_4 * sin_q_7);
-    let m75 = p.k6 * (cos_q_5 * cos_q_7 + sin_q_5 * sin_q_7);
-    let m76 = p.k6 * (cos_q_6 * cos_q_7 + sin_q_6 * sin_q_7);
-    let m81 = p.k5 * (cos_q_1 * cos_q_8 + sin_q_1 * sin_q_8);
-    let m82 = p.k5 * (cos_q_2 * cos_q_8 + sin_q_2 * sin_q_8);
-    let m83 = p.k5 * (cos_q_3 * cos_q_8 + sin_q_3 * sin_q_8);
-    let m84 = p.k5 * (cos_q_4 * cos_q_8 + sin_q_4 * sin_q_8);
-    let m85 = p.k5 * (cos_q_5 * cos_q_8 + sin_q_5 * sin_q_8);
-    let m86 = p.k5 * (cos_q_6 * cos_q_8 + sin_q_6 * sin_q_8);
-    let m87 = p.k5 * (cos_q_7 * cos_q_8 + sin_q_7 * sin_q_8);
+    let m21 = (cos_q_2 * cos_q_1 + sin_q_2 * sin_q_1) * p.k6;
+    let m31 = p.k5 * (cos_q_1 * cos_q_3 + sin_q_1 * sin_q_3);
+    let m32 = p.k5 * (cos_q_2 * cos_q_3 + sin_q_2 * sin_q_3);
+    let m41 = p.k4 * (cos_q_1 * cos_q_4 + sin_q_1 * sin_q_4);
+    let m42 = p.k4 * (cos_q_2 * cos_q_4 + sin_q_2 * sin_q_4);
+    let m43 = p.k4 * (cos_q_3 * cos_q_4 + sin_q_3 * sin_q_4);
+    let m51 = p.k3 * (cos_q_1 * cos_q_5 + sin_q_1 * sin_q_5);
+    let m52 = p.k3 * (cos_q_2 * cos_q_5 + sin_q_2 * sin_q_5);
+    let m53 = p.k3 * (cos_q_3 * cos_q_5 + sin_q_3 * sin_q_5);
+    let m54 = p.k3 * (cos_q_4 * cos_q_5 + sin_q_4 * sin_q_5);
+    let m61 = p.k2 * (cos_q_1 * cos_q_6 + sin_q_1 * sin_q_6);
+    let m62 = p.k2 * (cos_q_2 * cos_q_6 + sin_q_2 * sin_q_6);
+    let m63 = p.k2 * (cos_q_3 * cos_q_6 + sin_q_3 * sin_q_6);
+    let m64 = p.k2 * (cos_q_4 * cos_q_6 + sin_q_4 * sin_q_6);
+    let m65 = p.k2 * (cos_q_5 * cos_q_6 + sin_q_5 * sin_q_6);
+    let m71 = p.k1 * (cos_q_1 * cos_q_7 + sin_q_1 * sin_q_7);
+    let m72 = p.k1 * (cos_q_2 * cos_q_7 + sin_q_2 * sin_q_7);
+    let m73 = p.k1 * (cos_q_3 * cos_q_7 + sin_q_3 * sin_q_7);
+    let m74 = p.k1 * (cos_q_4 * cos_q_7 + sin_q_4 * sin_q_7);
+    let m75 = p.k1 * (cos_q_5 * cos_q_7 + sin_q_5 * sin_q_7);
+    let m76 = p.k1 * (cos_q_6 * cos_q_7 + sin_q_6 * sin_q_7);
+    let m81 = p.half_l_squared_m * (cos_q_1 * cos_q_8 + sin_q_1 * sin_q_8);
+    let m82 = p.half_l_squared_m * (cos_q_2 * cos_q_8 + sin_q_2 * sin_q_8);
+    let m83 = p.half_l_squared_m * (cos_q_3 * cos_q_8 + sin_q_3 * sin_q_8);
+    let m84 = p.half_l_squared_m * (cos_q_4 * cos_q_8 + sin_q_4 * sin_q_8);
+    let m85 = p.half_l_squared_m * (cos_q_5 * cos_q_8 + sin_q_5 * sin_q_8);
+    let m86 = p.half_l_squared_m * (cos_q_6 * cos_q_8 + sin_q_6 * sin_q_8);
+    let m87 = p.half_l_squared_m * (cos_q_7 * cos_q_8 + sin_q_7 * sin_q_8);
     [
-        [p.k12, m21, m31, m41, m51, m61, m71, m81],
-        [m21, p.k13, m32, m42, m52, m62, m72, m82],
-        [m31, m32, p.k14, m43, m53, m63, m73, m83],
-        [m41, m42, m43, p.k15, m54, m64, m74, m84],
-        [m51, m52, m53, m54, p.k16, m65, m75, m85],
-        [m61, m62, m63, m64, m65, p.k17, m76, m86],
-        [m71, m72, m73, m74, m75, m76, p.k18, m87],
-        [m81, m82, m83, m84, m85, m86, m87, p.k19],
+        [p.k7, m21, m31, m41, m51, m61, m71, m81],
+        [m21, p.k8, m32, m42, m52, m62, m72, m82],
+        [m31, m32, p.k9, m43, m53, m63, m73, m83],
+        [m41, m42, m43, p.k10, m54, m64, m74, m84],
+        [m51, m52, m53, m54, p.k11, m65, m75, m85],
+        [m61, m62, m63, m64, m65, p.k12, m76, m86],
+        [m71, m72, m73, m74, m75, m76, p.k13, m87],
+        [m81, m82, m83, m84, m85, m86, m87, p.k14],
     ]
 }
 
@@ -420,7 +417,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[
     let t4 = q_5_dot * q_5_dot;
     let t5 = q_6_dot * q_6_dot;
     let t6 = q_7_dot * q_7_dot;
-    let t7 = q_8_dot * (q_8_dot * p.k0);
+    let t7 = q_8_dot * (q_8_dot * p.half_l);
     let t8 = t0 * sin_q_2;
     let t9 = sin_q_1 * t1;
     let t10 = t0 * cos_q_2;
@@ -442,21 +439,21 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[
     let t26 = t14 + t24;
     let t27 = t15 + t25;
     let t28 = t17 + t26;
-    let t29 = p.k0 * t17 + p.l * t26;
+    let t29 = p.half_l * t17 + p.l * t26;
     let t30 = t19 + t27;
-    let t31 = p.k0 * t19 + p.l * t27;
-    let t32 = p.k0 * t14 + p.l * t24;
-    let t33 = p.k0 * t15 + p.l * t25;
-    let t34 = p.k0 * t12 + p.l * t16;
+    let t31 = p.half_l * t19 + p.l * t27;
+    let t32 = p.half_l * t14 + p.l * t24;
+    let t33 = p.half_l * t15 + p.l * t25;
+    let t34 = p.half_l * t12 + p.l * t16;
     let t35 = t20 + t28;
-    let t36 = p.k0 * t20 + p.l * t28;
+    let t36 = p.half_l * t20 + p.l * t28;
     let t37 = t21 + t30;
-    let t38 = p.k0 * t21 + p.l * t30;
-    let t39 = p.k0 * t13 + p.l * t18;
-    let t40 = p.k0 * t8 + p.l * t9;
-    let t41 = p.k0 * t22 + p.l * t35;
-    let t42 = p.k0 * t23 + p.l * t37;
-    let t43 = p.k0 * t10 + p.l * t11;
+    let t38 = p.half_l * t21 + p.l * t30;
+    let t39 = p.half_l * t13 + p.l * t18;
+    let t40 = p.half_l * t8 + p.l * t9;
+    let t41 = p.half_l * t22 + p.l * t35;
+    let t42 = p.half_l * t23 + p.l * t37;
+    let t43 = p.half_l * t10 + p.l * t11;
     let t44 = t7 * sin_q_8 + p.l * (t22 + t35);
     let t45 = t7 * cos_q_8 + p.l * (t23 + t37);
     let t46 = t44 + t41;
@@ -465,24 +462,25 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[
     let t49 = t47 + t38;
     let t50 = t48 + t29;
     let t51 = t49 + t31;
-    let t52 = cos_q_7 * (p.m * t44 + t41 * p.k20);
+    let t52 = cos_q_7 * (p.m * t44 + t41 * p.half_m);
     let t53 = t50 + t32;
     let t54 = t51 + t33;
-    let t55 = cos_q_6 * (p.m * t46 + t36 * p.k20);
-    let t56 = cos_q_5 * (p.m * t48 + t29 * p.k20);
+    let t55 = cos_q_6 * (p.m * t46 + t36 * p.half_m);
+    let t56 = cos_q_5 * (p.m * t48 + t29 * p.half_m);
     let t57 = p.m * (t53 + t34);
     let t58 = p.m * (t54 + t39);
-    let t59 = cos_q_4 * (p.m * t50 + t32 * p.k20);
-    let t60 = cos_q_3 * (p.m * t53 + t34 * p.k20);
-    let t61 = sin_q_1 * (t58 + (p.m * t43 + p.k21 * t11));
-    let h_q_1 = p.l * (t61 - cos_q_1 * (t57 + (p.m * t40 + t9 * p.k21)));
-    let h_q_2 = p.l * (sin_q_2 * (t58 + t43 * p.k20) - cos_q_2 * (t57 + t40 * p.k20));
-    let h_q_3 = p.l * (sin_q_3 * (p.m * t54 + t39 * p.k20) - t60);
-    let h_q_4 = p.l * (sin_q_4 * (p.m * t51 + t33 * p.k20) - t59);
-    let h_q_5 = p.l * (sin_q_5 * (p.m * t49 + t31 * p.k20) - t56);
-    let h_q_6 = p.l * (sin_q_6 * (p.m * t47 + t38 * p.k20) - t55);
-    let h_q_7 = p.l * (sin_q_7 * (p.m * t45 + t42 * p.k20) - t52);
-    let h_q_8 = (sin_q_8 * t45 - cos_q_8 * t44) * p.k22;
+    let t59 = cos_q_4 * (p.m * t50 + t32 * p.half_m);
+    let t60 = cos_q_3 * (p.m * t53 + t34 * p.half_m);
+    let t61 = sin_q_1 * (t58 + (p.m * t43 + p.quarter_l_m * t11));
+    let t62 = sin_q_2 * (t58 + t43 * p.half_m) - cos_q_2 * (t57 + t40 * p.half_m);
+    let h_q_1 = p.l * (t61 - cos_q_1 * (t57 + (p.m * t40 + t9 * p.quarter_l_m)));
+    let h_q_2 = p.l * t62;
+    let h_q_3 = p.l * (sin_q_3 * (p.m * t54 + t39 * p.half_m) - t60);
+    let h_q_4 = p.l * (sin_q_4 * (p.m * t51 + t33 * p.half_m) - t59);
+    let h_q_5 = p.l * (sin_q_5 * (p.m * t49 + t31 * p.half_m) - t56);
+    let h_q_6 = p.l * (sin_q_6 * (p.m * t47 + t38 * p.half_m) - t55);
+    let h_q_7 = p.l * (sin_q_7 * (p.m * t45 + t42 * p.half_m) - t52);
+    let h_q_8 = (sin_q_8 * t45 - cos_q_8 * t44) * p.half_l_m;
     [h_q_1, h_q_2, h_q_3, h_q_4, h_q_5, h_q_6, h_q_7, h_q_8]
 }
 
@@ -515,14 +513,14 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
     let sin_q_6 = q_6.sin();
     let sin_q_7 = q_7.sin();
     let sin_q_8 = q_8.sin();
-    let q_q_1 = p.k23 * sin_q_1;
-    let q_q_2 = p.k24 * sin_q_2;
-    let q_q_3 = p.k25 * sin_q_3;
-    let q_q_4 = p.k26 * sin_q_4;
-    let q_q_5 = p.k27 * sin_q_5;
-    let q_q_6 = p.k28 * sin_q_6;
-    let q_q_7 = p.k29 * sin_q_7;
-    let q_q_8 = p.k30 * sin_q_8;
+    let q_q_1 = p.k15 * sin_q_1;
+    let q_q_2 = p.k16 * sin_q_2;
+    let q_q_3 = p.k17 * sin_q_3;
+    let q_q_4 = p.k18 * sin_q_4;
+    let q_q_5 = p.k19 * sin_q_5;
+    let q_q_6 = p.k20 * sin_q_6;
+    let q_q_7 = p.k21 * sin_q_7;
+    let q_q_8 = p.minus_half_l_m_g * sin_q_8;
     [q_q_1, q_q_2, q_q_3, q_q_4, q_q_5, q_q_6, q_q_7, q_q_8]
 }
 
@@ -559,7 +557,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8], v: 
     let t4 = q_5_dot * q_5_dot;
     let t5 = q_6_dot * q_6_dot;
     let t6 = q_7_dot * q_7_dot;
-    let t7 = q_8_dot * (q_8_dot * p.k0);
+    let t7 = q_8_dot * (q_8_dot * p.half_l);
     let t8 = t0 * sin_q_2;
     let t9 = t0 * cos_q_2;
     let t10 = sin_q_1 * t1;
@@ -582,21 +580,21 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8], v: 
     let t27 = t15 + t25;
     let t28 = t16 + t26;
     let t29 = t17 + t27;
-    let t30 = p.k0 * t16 + p.l * t26;
-    let t31 = p.k0 * t14 + p.l * t24;
-    let t32 = p.k0 * t12 + p.l * t18;
+    let t30 = p.half_l * t16 + p.l * t26;
+    let t31 = p.half_l * t14 + p.l * t24;
+    let t32 = p.half_l * t12 + p.l * t18;
     let t33 = t20 + t28;
     let t34 = t21 + t29;
-    let t35 = p.k0 * t20 + p.l * t28;
-    let t36 = p.g + (p.k0 * t17 + p.l * t27);
-    let t37 = p.g + (p.k0 * t15 + p.l * t25);
-    let t38 = p.k0 * t8 + p.l * t10;
-    let t39 = p.k0 * t22 + p.l * t33;
-    let t40 = p.g + (p.k0 * t21 + p.l * t29);
-    let t41 = p.g + (p.k0 * t13 + p.l * t19);
+    let t35 = p.half_l * t20 + p.l * t28;
+    let t36 = p.g + (p.half_l * t17 + p.l * t27);
+    let t37 = p.g + (p.half_l * t15 + p.l * t25);
+    let t38 = p.half_l * t8 + p.l * t10;
+    let t39 = p.half_l * t22 + p.l * t33;
+    let t40 = p.g + (p.half_l * t21 + p.l * t29);
+    let t41 = p.g + (p.half_l * t13 + p.l * t19);
     let t42 = t7 * sin_q_8 + p.l * (t22 + t33);
-    let t43 = p.g + (p.k0 * t23 + p.l * t34);
-    let t44 = p.g + (p.k0 * t9 + p.l * t11);
+    let t43 = p.g + (p.half_l * t23 + p.l * t34);
+    let t44 = p.g + (p.half_l * t9 + p.l * t11);
     let t45 = t42 + t39;
     let t46 = p.g + (t7 * cos_q_8 + p.l * (t23 + t34));
     let t47 = t45 + t35;
@@ -605,23 +603,24 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8], v: 
     let t50 = t48 + t40;
     let t51 = t49 + t31;
     let t52 = t50 + t36;
-    let t53 = sin_q_6 * (p.m * t48 + t40 * p.k20);
-    let t54 = sin_q_7 * (p.m * t46 + t43 * p.k20);
+    let t53 = sin_q_6 * (p.m * t48 + t40 * p.half_m);
+    let t54 = sin_q_7 * (p.m * t46 + t43 * p.half_m);
     let t55 = t52 + t37;
-    let t56 = sin_q_5 * (p.m * t50 + t36 * p.k20);
+    let t56 = sin_q_5 * (p.m * t50 + t36 * p.half_m);
     let t57 = p.m * (t51 + t32);
-    let t58 = sin_q_4 * (p.m * t52 + t37 * p.k20);
+    let t58 = sin_q_4 * (p.m * t52 + t37 * p.half_m);
     let t59 = p.m * (t55 + t41);
-    let t60 = sin_q_3 * (p.m * t55 + t41 * p.k20);
-    let t61 = sin_q_1 * (t59 + (p.m * t44 + p.k20 * (p.g + p.k0 * t11)));
-    let f_q_1 = p.l * (cos_q_1 * (t57 + (p.m * t38 + t10 * p.k21)) - t61);
-    let f_q_2 = p.l * (cos_q_2 * (t57 + p.k20 * t38) - sin_q_2 * (t59 + t44 * p.k20));
-    let f_q_3 = p.l * (cos_q_3 * (p.m * t51 + p.k20 * t32) - t60);
-    let f_q_4 = p.l * (cos_q_4 * (p.m * t49 + p.k20 * t31) - t58);
-    let f_q_5 = p.l * (cos_q_5 * (p.m * t47 + p.k20 * t30) - t56);
-    let f_q_6 = p.l * (cos_q_6 * (p.m * t45 + p.k20 * t35) - t53);
-    let f_q_7 = p.l * (cos_q_7 * (p.m * t42 + p.k20 * t39) - t54);
-    let f_q_8 = (cos_q_8 * t42 - sin_q_8 * t46) * p.k22;
+    let t60 = sin_q_3 * (p.m * t55 + t41 * p.half_m);
+    let t61 = sin_q_1 * (t59 + (p.m * t44 + p.half_m * (p.g + p.half_l * t11)));
+    let t62 = cos_q_2 * (t57 + p.half_m * t38) - sin_q_2 * (t59 + t44 * p.half_m);
+    let f_q_1 = p.l * (cos_q_1 * (t57 + (p.m * t38 + t10 * p.quarter_l_m)) - t61);
+    let f_q_2 = p.l * t62;
+    let f_q_3 = p.l * (cos_q_3 * (p.m * t51 + p.half_m * t32) - t60);
+    let f_q_4 = p.l * (cos_q_4 * (p.m * t49 + p.half_m * t31) - t58);
+    let f_q_5 = p.l * (cos_q_5 * (p.m * t47 + p.half_m * t30) - t56);
+    let f_q_6 = p.l * (cos_q_6 * (p.m * t45 + p.half_m * t35) - t53);
+    let f_q_7 = p.l * (cos_q_7 * (p.m * t42 + p.half_m * t39) - t54);
+    let f_q_8 = (cos_q_8 * t42 - sin_q_8 * t46) * p.half_l_m;
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6, f_q_7, f_q_8]
 }
 
@@ -684,7 +683,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let (sin_q_1, cos_q_1) = circular[7];
         let t0 = q_7_dot * q_7_dot;
         let t1 = q_6_dot * q_6_dot;
-        let t2 = q_8_dot * (n(p.k22) * q_8_dot);
+        let t2 = q_8_dot * (n(p.half_l_m) * q_8_dot);
         let t3 = q_5_dot * q_5_dot;
         let t4 = q_4_dot * q_4_dot;
         let t5 = q_3_dot * q_3_dot;
@@ -698,19 +697,19 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t13 = cos_q_8 * cos_q_8;
         let t14 = n(p.l) * sin_q_6;
         let t15 = n(p.l) * cos_q_5;
-        let t16 = t8 * n(p.k38);
-        let t17 = t9 * n(p.k38);
-        let t18 = t10 * n(p.k32);
-        let t19 = n(p.k32).neg_mul_add(t11, N::from_f64(2.5));
-        let t20 = n(p.k32).neg_mul_add(t13, N::from_f64(2.5));
+        let t16 = t8 * n(p.k26);
+        let t17 = t9 * n(p.k26);
+        let t18 = t10 * n(p.k22);
+        let t19 = n(p.k22).neg_mul_add(t11, N::from_f64(2.5));
+        let t20 = n(p.k22).neg_mul_add(t13, N::from_f64(2.5));
         let t21 = t9.mul_add(cos_q_8, sin_q_8 * t8);
         let t22 = n(p.l) * sin_q_5;
-        let t23 = t21 * n(p.k39);
+        let t23 = t21 * n(p.k27);
         let t24 = t14.mul_sub(t19, t12 * t18);
         let t25 = t12.mul_sub(t20, t14 * t18);
-        let t26 = t21 * n(p.k32);
+        let t26 = t21 * n(p.k22);
         let t27 = n(p.m) * t15;
-        let t28 = t9.mul_add(t17, t8.mul_add(t16, n(p.k33)));
+        let t28 = t9.mul_add(t17, t8.mul_add(t16, n(p.k23)));
         let t29 = t21.neg_mul_add(t23, t28);
         let t30 = sin_q_8.neg_mul_add(t23, t16);
         let t31 = cos_q_8.neg_mul_add(t23, t17);
@@ -719,8 +718,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t34 = n(p.m) * t22;
         let t35 = t9 * t0;
         let t36 = N::ONE / t29;
-        let t37 = t24.mul_add(t14 * n(p.m), n(p.k33));
-        let t38 = n(p.k39) * t10;
+        let t37 = t24.mul_add(t14 * n(p.m), n(p.k23));
+        let t38 = n(p.k27) * t10;
         let t39 = t31.mul_add(t12, t30 * t14);
         let t40 = t8 * t0;
         let t41 = n(p.l) * cos_q_4;
@@ -728,15 +727,15 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t43 = t12 * t1;
         let t44 = t14 * t1;
         let t45 = n(p.m) * t41;
-        let t46 = n(p.k39).neg_mul_add(t13, n(p.k38));
+        let t46 = n(p.k27).neg_mul_add(t13, n(p.k26));
         let t47 = t40.mul_add(t46, t38.mul_add(t35, sin_q_8 * t2));
         let t48 = n(p.m) * t42;
         let t49 = t22 * t3;
         let t50 = t15 * t3;
         let t51 = t36 * t39;
         let t52 = t36 * n(p.m);
-        let t53 = t36.mul_add(t32 * t33, t10 * n(p.k34));
-        let t54 = n(p.k39).neg_mul_add(t11, n(p.k38));
+        let t53 = t36.mul_add(t32 * t33, t10 * n(p.k24));
+        let t54 = n(p.k27).neg_mul_add(t11, n(p.k26));
         let t55 = t35.mul_add(t54, t38.mul_add(t40, cos_q_8 * t2));
         let t56 = t36 * t31;
         let t57 = t36 * t30;
@@ -757,7 +756,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t72 = t44.neg_mul_add(t31.mul_sub(t56, n(p.m) * t20), t71);
         let t73 = t44.mul_add(t68, t64.neg_mul_add(t57, t55));
         let t74 = t43.neg_mul_add(t30.mul_sub(t57, n(p.m) * t19), t73);
-        let t75 = t65 * n(p.k36);
+        let t75 = t65 * n(p.m_squared);
         let t76 = n(p.m) * t65;
         let t77 = t65.mul_add(t63 * t61, t53);
         let t78 = n(p.m) * t58;
@@ -767,8 +766,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t82 = t75 * t69;
         let t83 = t61 * t76;
         let t84 = t63 * t76;
-        let t85 = n(p.k36) * t77;
-        let t86 = t27.mul_add(t67, t34.mul_add(t66, n(p.k33)));
+        let t85 = n(p.m_squared) * t77;
+        let t86 = t27.mul_add(t67, t34.mul_add(t66, n(p.k23)));
         let t87 = t69.neg_mul_add(t82, t86);
         let t88 = t61.neg_mul_add(t82, n(p.m) * t66);
         let t89 = t61.neg_mul_add(t83, N::ONE + t60);
@@ -793,7 +792,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t108 = t95.mul_add(t92 * t93, t77);
         let t109 = t95 * t91;
         let t110 = t95 * t88;
-        let t111 = t45.mul_add(t97, t48.mul_add(t96, n(p.k33)));
+        let t111 = t45.mul_add(t97, t48.mul_add(t96, n(p.k23)));
         let t112 = t98.neg_mul_add(t106, t111);
         let t113 = t106.neg_mul_add(t93, t96);
         let t114 = t107.neg_mul_add(t93 * t93, N::ONE + t89);
@@ -809,7 +808,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t124 = t101.neg_mul_add(t91.mul_sub(t109, n(p.m) * t90), t123);
         let t125 = t101.mul_add(t120, t117.neg_mul_add(t110, t103));
         let t126 = t80.neg_mul_add(t88.mul_sub(t110, n(p.m) * t89), t125);
-        let t127 = n(p.k36) * t118;
+        let t127 = n(p.m_squared) * t118;
         let t128 = n(p.m) * t118;
         let t129 = t118.mul_add(t115 * t113, t108);
         let t130 = t58 * t5;
@@ -820,8 +819,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t135 = n(p.m) * t129;
         let t136 = t115 * t128;
         let t137 = t42.mul_sub(t126, t41 * t124);
-        let t138 = n(p.k36) * t129;
-        let t139 = t78.mul_add(t121, t79.mul_add(t119, n(p.k33)));
+        let t138 = n(p.m_squared) * t129;
+        let t139 = t78.mul_add(t121, t79.mul_add(t119, n(p.k23)));
         let t140 = t122.neg_mul_add(t133, t139);
         let t141 = t113.neg_mul_add(t133, n(p.m) * t119);
         let t142 = t113.neg_mul_add(t134, t114 + N::from_f64(0.5));
@@ -829,15 +828,15 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t144 = t115.neg_mul_add(t136, t116 + N::from_f64(0.5));
         let t145 = N::ONE / t140;
         let t146 = t104.mul_sub(t142, t81 * t135);
-        let t147 = sin_q_2 * (sin_q_1 * n(p.k35));
+        let t147 = sin_q_2 * (sin_q_1 * n(p.half_l_squared));
         let t148 = t81.mul_sub(t144, t104 * t135);
         let t149 = t105 * t127.neg_mul_add(t115 * t115, n(p.m) * t116);
         let t150 = t143.mul_add(t81, t141 * t104);
-        let t151 = cos_q_2.mul_add(cos_q_1 * n(p.k35), t147);
+        let t151 = cos_q_2.mul_add(cos_q_1 * n(p.half_l_squared), t147);
         let t152 = t130 * t127.neg_mul_add(t113 * t113, n(p.m) * t114);
         let t153 = t136.mul_add(t137, t124) + t138.mul_add(t130, t149);
         let t154 = t143.mul_add(t131, t141 * t132);
-        let t155 = t146.mul_add(n(p.m) * t104, n(p.k19));
+        let t155 = t146.mul_add(n(p.m) * t104, n(p.k14));
         let t156 = t134.neg_mul_add(t137, t126) + t138.mul_add(t105, t152);
         let t157 = t148.mul_add(n(p.m) * t81, t155);
         let t158 = t145.neg_mul_add(t150 * t150, t157);
@@ -851,80 +850,81 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t166 = cos_q_2 * t7;
         let t167 = n(p.m) * t148.mul_add(t131, t146.mul_add(t132, t151));
         let t168 = t150.mul_sub(t159, t167);
-        let t169 = t160.mul_add(n(p.m) * t132, n(p.k18));
+        let t169 = t160.mul_add(n(p.m) * t132, n(p.k13));
         let t170 = t144.mul_sub(t131, t135 * t132);
         let t171 = t141.mul_add(t163, t138);
         let t172 = t104.mul_add(t7, t165);
-        let t173 = sin_q_2.mul_add(t7 * n(p.k0), t165);
+        let t173 = sin_q_2.mul_add(t7 * n(p.half_l), t165);
         let t174 = n(p.l).mul_add(cos_q_1.mul_add(t6, t166), n(p.g));
-        let t175 = n(p.g) + n(p.k0).mul_add(t166, t131 * t6);
+        let t175 = n(p.g) + n(p.half_l).mul_add(t166, t131 * t6);
         let t176 = t164 * t168;
-        let t177 = t172.mul_add(t171, t162.neg_mul_add(t161, t156));
-        let t178 = t174.neg_mul_add(t141.mul_sub(t161, n(p.m) * t142), t177);
-        let t179 = t173 * (cos_q_2 * n(p.k22));
-        let t180 = t154.neg_mul_add(t159, t170.mul_add(n(p.m) * t131, t169));
-        let t181 = t168.neg_mul_add(t176, t180);
-        let t182 = t173.neg_mul_add(cos_q_1 * n(p.k3), sin_q_1 * n(p.k2));
-        let t183 = t171.mul_add(t174, t163.mul_add(t162, t153));
-        let t184 = t172.neg_mul_add(t143.mul_sub(t163, n(p.m) * t144), t183);
-        let t185 = t104.mul_add(t178, t175.mul_sub(sin_q_2 * n(p.k22), t179));
-        let t186 = t81.neg_mul_add(t184, t185);
-        let t187 = t132.mul_add(t178, t175.mul_add(sin_q_1 * n(p.k3), t182));
-        let t188 = t176.mul_add(t186, t131.neg_mul_add(t184, t187));
-        let t189 = N::ONE / t181 * t188;
-        let t190 = t176.mul_add(t189, t164 * t186);
-        let t191 = t81.mul_add(t190, t131.mul_add(t189, t172));
-        let t192 = t104.neg_mul_add(t190, t132.neg_mul_add(t189, t174));
-        let t193 = t163 * t191;
-        let t194 = t161.mul_add(t192, t145 * t162);
-        let t195 = t194 - t193;
-        let t196 = t58.mul_add(t195, t105 + t191);
-        let t197 = t70.neg_mul_add(t195, t130 + t192);
-        let t198 = t136 * t196;
-        let t199 = t134.mul_add(t197, t118 * t137);
-        let t200 = t199 - t198;
-        let t201 = t41.mul_add(t200, t101 + t196);
-        let t202 = t42.neg_mul_add(t200, t80 + t197);
-        let t203 = t109 * t201;
-        let t204 = t110.mul_add(t202, t95 * t117);
-        let t205 = t204 - t203;
-        let t206 = t15.mul_add(t205, t49 + t201);
-        let t207 = t22.neg_mul_add(t205, t50 + t202);
-        let t208 = t84 * t206;
-        let t209 = t83.mul_add(t207, t65 * t94);
-        let t210 = t209 - t208;
-        let t211 = t12.mul_add(t210, t44 + t206);
-        let t212 = t14.neg_mul_add(t210, t43 + t207);
-        let t213 = t56 * t211;
-        let t214 = t57.mul_add(t212, t36 * t64);
-        let t215 = t214 - t213;
-        let t216 = sin_q_8 * t8.neg_mul_add(t215, t35 + t212);
-        let t217 = cos_q_8.mul_sub(t9.mul_add(t215, t40 + t211), t216);
-        let q_1_ddot = -t189;
-        let q_2_ddot = -t190;
-        let q_3_ddot = t193 - t194;
-        let q_4_ddot = t198 - t199;
-        let q_5_ddot = t203 - t204;
-        let q_6_ddot = t208 - t209;
-        let q_7_ddot = t213 - t214;
-        let q_8_ddot = t217 * n(p.k37);
-        let sound = PIVOTS.hold(t29, n(p.k18))
-            & PIVOTS.hold(t59, n(p.k17))
-            & PIVOTS.hold(t87, n(p.k16))
-            & PIVOTS.hold(t112, n(p.k15))
-            & PIVOTS.hold(t140, n(p.k14))
-            & PIVOTS.hold(t158, n(p.k13))
-            & PIVOTS.hold(t181, n(p.k12))
+        let t177 = sin_q_1 * n(p.half_l_m_g);
+        let t178 = t172.mul_add(t171, t162.neg_mul_add(t161, t156));
+        let t179 = t174.neg_mul_add(t141.mul_sub(t161, n(p.m) * t142), t178);
+        let t180 = t173 * (cos_q_2 * n(p.half_l_m));
+        let t181 = t154.neg_mul_add(t159, t170.mul_add(n(p.m) * t131, t169));
+        let t182 = t168.neg_mul_add(t176, t181);
+        let t183 = t173.neg_mul_add(cos_q_1 * n(p.l_m), t177);
+        let t184 = t175.mul_sub(sin_q_2 * n(p.half_l_m), t180);
+        let t185 = t171.mul_add(t174, t163.mul_add(t162, t153));
+        let t186 = t172.neg_mul_add(t143.mul_sub(t163, n(p.m) * t144), t185);
+        let t187 = t81.neg_mul_add(t186, t104.mul_add(t179, t184));
+        let t188 = t132.mul_add(t179, t175.mul_add(sin_q_1 * n(p.l_m), t183));
+        let t189 = t176.mul_add(t187, t131.neg_mul_add(t186, t188));
+        let t190 = N::ONE / t182 * t189;
+        let t191 = t176.mul_add(t190, t164 * t187);
+        let t192 = t81.mul_add(t191, t131.mul_add(t190, t172));
+        let t193 = t104.neg_mul_add(t191, t132.neg_mul_add(t190, t174));
+        let t194 = t163 * t192;
+        let t195 = t161.mul_add(t193, t145 * t162);
+        let t196 = t195 - t194;
+        let t197 = t58.mul_add(t196, t105 + t192);
+        let t198 = t70.neg_mul_add(t196, t130 + t193);
+        let t199 = t136 * t197;
+        let t200 = t134.mul_add(t198, t118 * t137);
+        let t201 = t200 - t199;
+        let t202 = t41.mul_add(t201, t101 + t197);
+        let t203 = t42.neg_mul_add(t201, t80 + t198);
+        let t204 = t109 * t202;
+        let t205 = t110.mul_add(t203, t95 * t117);
+        let t206 = t205 - t204;
+        let t207 = t15.mul_add(t206, t49 + t202);
+        let t208 = t22.neg_mul_add(t206, t50 + t203);
+        let t209 = t84 * t207;
+        let t210 = t83.mul_add(t208, t65 * t94);
+        let t211 = t210 - t209;
+        let t212 = t12.mul_add(t211, t44 + t207);
+        let t213 = t14.neg_mul_add(t211, t43 + t208);
+        let t214 = t56 * t212;
+        let t215 = t57.mul_add(t213, t36 * t64);
+        let t216 = t215 - t214;
+        let t217 = sin_q_8 * t8.neg_mul_add(t216, t35 + t213);
+        let t218 = cos_q_8.mul_sub(t9.mul_add(t216, t40 + t212), t217);
+        let q_1_ddot = -t190;
+        let q_2_ddot = -t191;
+        let q_3_ddot = t194 - t195;
+        let q_4_ddot = t199 - t200;
+        let q_5_ddot = t204 - t205;
+        let q_6_ddot = t209 - t210;
+        let q_7_ddot = t214 - t215;
+        let q_8_ddot = t218 * n(p.k25);
+        let sound = PIVOTS.hold(t29, n(p.k13))
+            & PIVOTS.hold(t59, n(p.k12))
+            & PIVOTS.hold(t87, n(p.k11))
+            & PIVOTS.hold(t112, n(p.k10))
+            & PIVOTS.hold(t140, n(p.k9))
+            & PIVOTS.hold(t158, n(p.k8))
+            & PIVOTS.hold(t182, n(p.k7))
             & q_8_ddot.is_finite();
         if !sound {
             let pivots = [
-                (6, t29, n(p.k18)),
-                (5, t59, n(p.k17)),
-                (4, t87, n(p.k16)),
-                (3, t112, n(p.k15)),
-                (2, t140, n(p.k14)),
-                (1, t158, n(p.k13)),
-                (0, t181, n(p.k12)),
+                (6, t29, n(p.k13)),
+                (5, t59, n(p.k12)),
+                (4, t87, n(p.k11)),
+                (3, t112, n(p.k10)),
+                (2, t140, n(p.k9)),
+                (1, t158, n(p.k8)),
+                (0, t182, n(p.k7)),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -977,7 +977,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let (sin_q_7, cos_q_7) = q_7.sin_cos();
     let (sin_q_8, cos_q_8) = q_8.sin_cos();
     let t0 = p.l * q_1_dot;
-    let t1 = p.k0 * q_8_dot;
+    let t1 = p.half_l * q_8_dot;
     let t2 = cos_q_2 * q_2_dot;
     let t3 = cos_q_3 * q_3_dot;
     let t4 = sin_q_2 * q_2_dot;
@@ -985,37 +985,37 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t6 = cos_q_4 * q_4_dot;
     let t7 = sin_q_4 * q_4_dot;
     let t8 = t2 + cos_q_1 * q_1_dot;
-    let t9 = p.k0 * t2 + cos_q_1 * t0;
+    let t9 = p.half_l * t2 + cos_q_1 * t0;
     let t10 = t4 + sin_q_1 * q_1_dot;
-    let t11 = p.k0 * t4 + sin_q_1 * t0;
+    let t11 = p.half_l * t4 + sin_q_1 * t0;
     let t12 = cos_q_5 * q_5_dot;
     let t13 = t3 + t8;
-    let t14 = p.k0 * t3 + p.l * t8;
+    let t14 = p.half_l * t3 + p.l * t8;
     let t15 = t5 + t10;
-    let t16 = p.k0 * t5 + p.l * t10;
+    let t16 = p.half_l * t5 + p.l * t10;
     let t17 = sin_q_5 * q_5_dot;
-    let t18 = p.k0 * t6 + p.l * t13;
+    let t18 = p.half_l * t6 + p.l * t13;
     let t19 = t6 + t13;
     let t20 = cos_q_6 * q_6_dot;
-    let t21 = p.k0 * t7 + p.l * t15;
+    let t21 = p.half_l * t7 + p.l * t15;
     let t22 = t7 + t15;
-    let t23 = p.k0 * t12 + p.l * t19;
+    let t23 = p.half_l * t12 + p.l * t19;
     let t24 = sin_q_6 * q_6_dot;
     let t25 = t12 + t19;
     let t26 = cos_q_7 * q_7_dot;
     let t27 = p.m * (t11 * t11 + t9 * t9) + q_2_dot * (q_2_dot * p.J);
-    let t28 = p.k0 * t17 + p.l * t22;
+    let t28 = p.half_l * t17 + p.l * t22;
     let t29 = t17 + t22;
-    let t30 = p.k0 * t20 + p.l * t25;
+    let t30 = p.half_l * t20 + p.l * t25;
     let t31 = sin_q_7 * q_7_dot;
     let t32 = t20 + t25;
     let t33 = p.m * (t16 * t16 + t14 * t14) + q_3_dot * (q_3_dot * p.J);
-    let t34 = S::from_f64(0.5) * t27 + q_1_dot * (q_1_dot * p.k4);
-    let t35 = p.k0 * t24 + p.l * t29;
+    let t34 = S::from_f64(0.5) * t27 + q_1_dot * (q_1_dot * p.k0);
+    let t35 = p.half_l * t24 + p.l * t29;
     let t36 = t24 + t29;
-    let t37 = p.k0 * t26 + p.l * t32;
+    let t37 = p.half_l * t26 + p.l * t32;
     let t38 = p.m * (t21 * t21 + t18 * t18) + q_4_dot * (q_4_dot * p.J);
-    let t39 = p.k0 * t31 + p.l * t36;
+    let t39 = p.half_l * t31 + p.l * t36;
     let t40 = t1 * cos_q_8 + p.l * (t26 + t32);
     let t41 = p.m * (t28 * t28 + t23 * t23) + q_5_dot * (q_5_dot * p.J);
     let t42 = S::from_f64(0.5) * t38 + (S::from_f64(0.5) * t33 + t34);
@@ -1052,12 +1052,13 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t0 = cos_q_2 + cos_q_1;
     let t1 = cos_q_3 + t0;
     let t2 = cos_q_4 + t1;
-    let t3 = p.k0 * cos_q_3 + p.l * t0 + (p.k0 * cos_q_2 + p.l * cos_q_1);
+    let t3 = p.half_l * cos_q_3 + p.l * t0 + (p.half_l * cos_q_2 + p.l * cos_q_1);
     let t4 = cos_q_5 + t2;
     let t5 = cos_q_6 + t4;
-    let t6 = p.k0 * cos_q_5 + p.l * t2 + (p.k0 * cos_q_4 + p.l * t1 + t3);
-    let t7 = p.k0 * cos_q_7 + p.l * t5 + (p.k0 * cos_q_6 + p.l * t4 + t6);
-    -((p.k0 * cos_q_8 + p.l * (cos_q_7 + t5) + t7) * p.k1 + cos_q_1 * p.k2)
+    let t6 = p.half_l * cos_q_5 + p.l * t2 + (p.half_l * cos_q_4 + p.l * t1 + t3);
+    let t7 = p.half_l * cos_q_7 + p.l * t5 + (p.half_l * cos_q_6 + p.l * t4 + t6);
+    let t8 = (p.half_l * cos_q_8 + p.l * (cos_q_7 + t5) + t7) * p.m_g;
+    -(t8 + cos_q_1 * p.half_l_m_g)
 }
 
 /// Height of the chain's end above the hinge. Unit: `m`.
@@ -1084,7 +1085,7 @@ pub fn output_end<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8])
     let cos_q_7 = q_7.cos();
     let cos_q_8 = q_8.cos();
     let t0 = cos_q_6 + (cos_q_5 + (cos_q_4 + (cos_q_3 + (cos_q_2 + cos_q_1))));
-    p.k31 * (cos_q_8 + (cos_q_7 + t0))
+    p.minus_l * (cos_q_8 + (cos_q_7 + t0))
 }
 
 /// Everything that the description asks to observe.
@@ -1117,9 +1118,10 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
         end: "end" "m";
     ]
     prepared Prepared {
-        l, m, J, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17,
-        k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30, k31, k32, k33, k34, k35,
-        k36, k37, k38, k39,
+        l, m, J, g, half_l, m_g, half_l_m_g, l_m, k0, half_l_squared_m, k1, k2, k3, k4, k5, k6, k7,
+        k8, k9, k10, k11, k12, k13, k14, half_m, quarter_l_m, half_l_m, k15, k16, k17, k18, k19,
+        k20, k21, minus_half_l_m_g, minus_l, k22, k23, k24, half_l_squared, m_squared, k25, k26,
+        k27,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

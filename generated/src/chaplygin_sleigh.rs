@@ -51,21 +51,25 @@ pub struct ChaplyginSleigh<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> ChaplyginSleigh<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.m * self.a;
-        let k1 = self.J + self.a * k0;
-        let k2 = -k0;
-        let k3 = S::ONE / self.m;
-        let k4 = S::ONE / self.J;
-        let pivots = [(0, self.m, self.m), (1, self.m, self.m), (2, self.J, k1)];
+        let m_a = self.m * self.a;
+        let J_plus_m_a_squared = self.J + self.a * m_a;
+        let minus_m_a = -m_a;
+        let inverse_m = S::ONE / self.m;
+        let inverse_J = S::ONE / self.J;
+        let pivots = [
+            (0, self.m, self.m),
+            (1, self.m, self.m),
+            (2, self.J, J_plus_m_a_squared),
+        ];
         Prepared {
             m: self.m,
             J: self.J,
             a: self.a,
-            k0,
-            k1,
-            k2,
-            k3,
-            k4,
+            m_a,
+            J_plus_m_a_squared,
+            minus_m_a,
+            inverse_m,
+            inverse_J,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -116,25 +120,22 @@ pub struct Prepared<S = f64> {
     /// `a`
     a: S,
     /// `m*a`
-    k0: S,
+    m_a: S,
     /// `J + m*a^2`
-    k1: S,
+    J_plus_m_a_squared: S,
     /// `-m*a`
-    k2: S,
+    minus_m_a: S,
     /// `1/m`
-    k3: S,
+    inverse_m: S,
     /// `1/J`
-    k4: S,
+    inverse_J: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 3,
-    tolerance: 3.552713678800501e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(3, 4);
 
 /// Mass matrix `M`.
 ///
@@ -149,9 +150,13 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]
     let phi = q[2];
     let (sin_phi, cos_phi) = phi.sin_cos();
     let zero = S::ZERO;
-    let m31 = p.k2 * sin_phi;
-    let m32 = cos_phi * p.k0;
-    [[p.m, zero, m31], [zero, p.m, m32], [m31, m32, p.k1]]
+    let m31 = p.minus_m_a * sin_phi;
+    let m32 = cos_phi * p.m_a;
+    [
+        [p.m, zero, m31],
+        [zero, p.m, m32],
+        [m31, m32, p.J_plus_m_a_squared],
+    ]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -164,7 +169,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[
     let phi = q[2];
     let phi_dot = v[2];
     let (sin_phi, cos_phi) = phi.sin_cos();
-    let t0 = phi_dot * (phi_dot * p.k2);
+    let t0 = phi_dot * (phi_dot * p.minus_m_a);
     let h_x = t0 * cos_phi;
     let h_y = t0 * sin_phi;
     let zero = S::ZERO;
@@ -176,7 +181,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let phi = q[2];
     let phi_dot = v[2];
     let (sin_phi, cos_phi) = phi.sin_cos();
-    let t0 = phi_dot * (phi_dot * p.k0);
+    let t0 = phi_dot * (phi_dot * p.m_a);
     let f_x = t0 * cos_phi;
     let f_y = t0 * sin_phi;
     let zero = S::ZERO;
@@ -268,9 +273,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t2 = cos_phi * n(p.a);
         let t3 = sin_phi * (phi_dot * y_dot);
         let t4 = n(p.a) * sin_phi.mul_add(sin_phi, cos_phi * cos_phi);
-        let t5 = t4 * n(p.k4);
-        let t6 = t5.mul_add(t1, sin_phi * n(p.k3));
-        let t7 = t2.mul_add(t5, cos_phi * n(p.k3));
+        let t5 = t4 * n(p.inverse_J);
+        let t6 = t5.mul_add(t1, sin_phi * n(p.inverse_m));
+        let t7 = t2.mul_add(t5, cos_phi * n(p.inverse_m));
         let t8 = cos_phi.mul_add(t7, sin_phi * t6);
         let t9 = cos_phi.mul_add(phi_dot * x_dot, t3) / t8;
         let x_ddot = t6.neg_mul_add(t9, t0 * t2);
@@ -324,12 +329,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let (sin_phi, cos_phi) = phi.sin_cos();
         let t0 = sin_phi * sin_phi;
         let t1 = cos_phi * cos_phi;
-        let t2 = n(p.a).mul_add(n(p.a) * (t0 + t1) * n(p.k4), n(p.k3));
-        let t3 = t1.mul_add(t2, t0 * t2);
-        let lambda1 = cos_phi.mul_add(x_dot, sin_phi * y_dot) * phi_dot / t3;
-        let sound = PIVOTS.hold(t3, t3) & lambda1.is_finite();
+        let t2 = n(p.a) * (t0 + t1) * n(p.inverse_J);
+        let t3 = n(p.a).mul_add(t2, n(p.inverse_m));
+        let t4 = t1.mul_add(t3, t0 * t3);
+        let lambda1 = cos_phi.mul_add(x_dot, sin_phi * y_dot) * phi_dot / t4;
+        let sound = PIVOTS.hold(t4, t4) & lambda1.is_finite();
         if !sound {
-            let pivots = [(3, t3, t3)];
+            let pivots = [(3, t4, t4)];
             PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store()];
@@ -396,7 +402,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> Outp
     outputs Outputs { along } [
         along: "along" "m/s";
     ]
-    prepared Prepared { m, J, a, k0, k1, k2, k3, k4 }
+    prepared Prepared { m, J, a, m_a, J_plus_m_a_squared, minus_m_a, inverse_m, inverse_J }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

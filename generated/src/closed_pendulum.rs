@@ -58,57 +58,61 @@ impl<S: ::lagrangian::emitted::Scalar> ClosedPendulum<S> {
         let t0 = self.l * self.m;
         let t1 = self.l * t0;
         let t2 = self.g * t0;
-        let k3 = S::from_f64(0.5) * t2;
+        let half_l_m_g = S::from_f64(0.5) * t2;
         let t3 = S::from_ratio(1, 6);
         let t4 = S::from_ratio(4, 3);
         let t5 = S::from_ratio(1, 3);
-        let k13 = t1 * t5;
-        let k17 = t2 * S::from_f64(1.5);
-        let k18 = t2 * S::from_f64(2.5);
-        let k19 = t2 * S::from_f64(3.5);
-        let k20 = t2 * S::from_f64(4.5);
+        let k9 = t1 * t5;
+        let k10 = t2 * S::from_f64(1.5);
+        let k11 = t2 * S::from_f64(2.5);
+        let k12 = t2 * S::from_f64(3.5);
+        let k13 = t2 * S::from_f64(4.5);
         let t6 = self.l * self.l;
         let t7 = S::ONE / self.l;
-        let k34 = S::ONE / self.m;
-        let t8 = t7 * t7 * k34;
-        let k0 = self.l * S::from_f64(0.5);
-        let k1 = t1 * S::from_ratio(1, 12);
-        let k2 = self.m * self.g;
-        let k4 = t1 * t3;
-        let k5 = S::from_f64(0.5) * t1;
-        let k6 = t1 * S::from_f64(1.5);
-        let k7 = t1 * S::from_f64(2.5);
-        let k8 = t1 * S::from_f64(3.5);
-        let k9 = t1 * S::from_ratio(13, 3);
-        let k10 = t1 * S::from_ratio(10, 3);
-        let k11 = t1 * S::from_ratio(7, 3);
-        let k12 = t1 * t4;
-        let k14 = self.m * S::from_f64(0.5);
-        let k15 = t0 * S::from_f64(0.25);
-        let k16 = S::from_f64(0.5) * t0;
-        let k21 = -self.l;
-        let k22 = -k20;
-        let k23 = -k19;
-        let k24 = -k18;
-        let k25 = -k17;
-        let k26 = -k3;
-        let k27 = t3 * t6;
-        let k28 = S::from_f64(0.5) * t6;
-        let k29 = t5 * t6;
-        let k30 = t4 * t6;
-        let k31 = S::from_f64(0.25) * t6;
-        let k32 = S::from_f64(1.5) * t7;
-        let k33 = t8 * S::from_f64(3.0);
-        let k35 = -self.m;
-        let k36 = t8 * S::from_ratio(3, 13);
-        let pivots = [(4, k13, k13)];
+        let inverse_m = S::ONE / self.m;
+        let t8 = t7 * t7 * inverse_m;
+        let half_l = self.l * S::from_f64(0.5);
+        let k0 = t1 * S::from_ratio(1, 12);
+        let m_g = self.m * self.g;
+        let k1 = t1 * t3;
+        let half_l_squared_m = S::from_f64(0.5) * t1;
+        let k2 = t1 * S::from_f64(1.5);
+        let k3 = t1 * S::from_f64(2.5);
+        let k4 = t1 * S::from_f64(3.5);
+        let k5 = t1 * S::from_ratio(13, 3);
+        let k6 = t1 * S::from_ratio(10, 3);
+        let k7 = t1 * S::from_ratio(7, 3);
+        let k8 = t1 * t4;
+        let half_m = self.m * S::from_f64(0.5);
+        let quarter_l_m = t0 * S::from_f64(0.25);
+        let half_l_m = S::from_f64(0.5) * t0;
+        let minus_l = -self.l;
+        let k14 = -k13;
+        let k15 = -k12;
+        let k16 = -k11;
+        let k17 = -k10;
+        let minus_half_l_m_g = -half_l_m_g;
+        let k18 = t3 * t6;
+        let half_l_squared = S::from_f64(0.5) * t6;
+        let k19 = t5 * t6;
+        let k20 = t4 * t6;
+        let quarter_l_squared = S::from_f64(0.25) * t6;
+        let k21 = S::from_f64(1.5) * t7;
+        let k22 = t8 * S::from_f64(3.0);
+        let minus_m = -self.m;
+        let k23 = t8 * S::from_ratio(3, 13);
+        let pivots = [(4, k9, k9)];
         Prepared {
             l: self.l,
             m: self.m,
             d: self.d,
             g: self.g,
+            half_l,
             k0,
+            m_g,
+            half_l_m_g,
             k1,
+            half_l_squared_m,
             k2,
             k3,
             k4,
@@ -117,33 +121,29 @@ impl<S: ::lagrangian::emitted::Scalar> ClosedPendulum<S> {
             k7,
             k8,
             k9,
+            half_m,
+            quarter_l_m,
+            half_l_m,
             k10,
             k11,
             k12,
             k13,
+            minus_l,
             k14,
             k15,
             k16,
             k17,
+            minus_half_l_m_g,
             k18,
+            half_l_squared,
             k19,
             k20,
+            quarter_l_squared,
             k21,
             k22,
+            inverse_m,
+            minus_m,
             k23,
-            k24,
-            k25,
-            k26,
-            k27,
-            k28,
-            k29,
-            k30,
-            k31,
-            k32,
-            k33,
-            k34,
-            k35,
-            k36,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -192,89 +192,86 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `0.5*l`
-    k0: S,
+    half_l: S,
     /// `(1/12)*l^2*m`
-    k1: S,
+    k0: S,
     /// `m*g`
-    k2: S,
+    m_g: S,
     /// `0.5*l*m*g`
-    k3: S,
+    half_l_m_g: S,
     /// `(1/6)*l^2*m`
-    k4: S,
+    k1: S,
     /// `0.5*l^2*m`
-    k5: S,
+    half_l_squared_m: S,
     /// `1.5*l^2*m`
-    k6: S,
+    k2: S,
     /// `2.5*l^2*m`
-    k7: S,
+    k3: S,
     /// `3.5*l^2*m`
-    k8: S,
+    k4: S,
     /// `(13/3)*l^2*m`
-    k9: S,
+    k5: S,
     /// `(10/3)*l^2*m`
-    k10: S,
+    k6: S,
     /// `(7/3)*l^2*m`
-    k11: S,
+    k7: S,
     /// `(4/3)*l^2*m`
-    k12: S,
+    k8: S,
     /// `(1/3)*l^2*m`
-    k13: S,
+    k9: S,
     /// `0.5*m`
-    k14: S,
+    half_m: S,
     /// `0.25*l*m`
-    k15: S,
+    quarter_l_m: S,
     /// `0.5*l*m`
-    k16: S,
+    half_l_m: S,
     /// `1.5*l*m*g`
-    k17: S,
+    k10: S,
     /// `2.5*l*m*g`
-    k18: S,
+    k11: S,
     /// `3.5*l*m*g`
-    k19: S,
+    k12: S,
     /// `4.5*l*m*g`
-    k20: S,
+    k13: S,
     /// `-l`
-    k21: S,
+    minus_l: S,
     /// `-4.5*l*m*g`
-    k22: S,
+    k14: S,
     /// `-3.5*l*m*g`
-    k23: S,
+    k15: S,
     /// `-2.5*l*m*g`
-    k24: S,
+    k16: S,
     /// `-1.5*l*m*g`
-    k25: S,
+    k17: S,
     /// `-0.5*l*m*g`
-    k26: S,
+    minus_half_l_m_g: S,
     /// `(1/6)*l^2`
-    k27: S,
+    k18: S,
     /// `0.5*l^2`
-    k28: S,
+    half_l_squared: S,
     /// `(1/3)*l^2`
-    k29: S,
+    k19: S,
     /// `(4/3)*l^2`
-    k30: S,
+    k20: S,
     /// `0.25*l^2`
-    k31: S,
+    quarter_l_squared: S,
     /// `1.5/l`
-    k32: S,
+    k21: S,
     /// `3/l^2/m`
-    k33: S,
+    k22: S,
     /// `1/m`
-    k34: S,
+    inverse_m: S,
     /// `-m`
-    k35: S,
+    minus_m: S,
     /// `(3/13)/l^2/m`
-    k36: S,
+    k23: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 5,
-    tolerance: 6.217248937900877e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(5, 7);
 
 /// Mass matrix `M`.
 ///
@@ -306,22 +303,22 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]
     let (sin_q_3, cos_q_3) = q_3.sin_cos();
     let (sin_q_4, cos_q_4) = q_4.sin_cos();
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
-    let m21 = (sin_q_2 * sin_q_1 + cos_q_2 * cos_q_1) * p.k8;
-    let m31 = p.k7 * (sin_q_1 * sin_q_3 + cos_q_1 * cos_q_3);
-    let m32 = p.k7 * (sin_q_2 * sin_q_3 + cos_q_2 * cos_q_3);
-    let m41 = p.k6 * (sin_q_1 * sin_q_4 + cos_q_1 * cos_q_4);
-    let m42 = p.k6 * (sin_q_2 * sin_q_4 + cos_q_2 * cos_q_4);
-    let m43 = p.k6 * (sin_q_3 * sin_q_4 + cos_q_3 * cos_q_4);
-    let m51 = p.k5 * (sin_q_1 * sin_q_5 + cos_q_1 * cos_q_5);
-    let m52 = p.k5 * (sin_q_2 * sin_q_5 + cos_q_2 * cos_q_5);
-    let m53 = p.k5 * (sin_q_3 * sin_q_5 + cos_q_3 * cos_q_5);
-    let m54 = p.k5 * (sin_q_4 * sin_q_5 + cos_q_4 * cos_q_5);
+    let m21 = (sin_q_2 * sin_q_1 + cos_q_2 * cos_q_1) * p.k4;
+    let m31 = p.k3 * (sin_q_1 * sin_q_3 + cos_q_1 * cos_q_3);
+    let m32 = p.k3 * (sin_q_2 * sin_q_3 + cos_q_2 * cos_q_3);
+    let m41 = p.k2 * (sin_q_1 * sin_q_4 + cos_q_1 * cos_q_4);
+    let m42 = p.k2 * (sin_q_2 * sin_q_4 + cos_q_2 * cos_q_4);
+    let m43 = p.k2 * (sin_q_3 * sin_q_4 + cos_q_3 * cos_q_4);
+    let m51 = p.half_l_squared_m * (sin_q_1 * sin_q_5 + cos_q_1 * cos_q_5);
+    let m52 = p.half_l_squared_m * (sin_q_2 * sin_q_5 + cos_q_2 * cos_q_5);
+    let m53 = p.half_l_squared_m * (sin_q_3 * sin_q_5 + cos_q_3 * cos_q_5);
+    let m54 = p.half_l_squared_m * (sin_q_4 * sin_q_5 + cos_q_4 * cos_q_5);
     [
-        [p.k9, m21, m31, m41, m51],
-        [m21, p.k10, m32, m42, m52],
-        [m31, m32, p.k11, m43, m53],
-        [m41, m42, m43, p.k12, m54],
-        [m51, m52, m53, m54, p.k13],
+        [p.k5, m21, m31, m41, m51],
+        [m21, p.k6, m32, m42, m52],
+        [m31, m32, p.k7, m43, m53],
+        [m41, m42, m43, p.k8, m54],
+        [m51, m52, m53, m54, p.k9],
     ]
 }
 
@@ -356,29 +353,29 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[
     let t1 = q_3_dot * q_3_dot;
     let t2 = q_2_dot * q_2_dot;
     let t3 = q_1_dot * q_1_dot;
-    let t4 = t0 * p.k6;
-    let t5 = q_5_dot * (q_5_dot * p.k5);
+    let t4 = t0 * p.k2;
+    let t5 = q_5_dot * (q_5_dot * p.half_l_squared_m);
     let t6 = t1 * sin_q_3;
     let t7 = t2 * sin_q_2;
     let t8 = sin_q_1 * t3;
     let t9 = t1 * cos_q_3;
     let t10 = t2 * cos_q_2;
     let t11 = cos_q_1 * t3;
-    let t12 = p.k7 * t6;
+    let t12 = p.k3 * t6;
     let t13 = t7 + t8;
-    let t14 = t9 * p.k7;
+    let t14 = t9 * p.k3;
     let t15 = t5 * sin_q_5 + t4 * sin_q_4;
     let t16 = t10 + t11;
     let t17 = t5 * cos_q_5 + t4 * cos_q_4;
     let t18 = cos_q_5 * (t13 + (t6 + t0 * sin_q_4));
-    let t19 = sin_q_1 * (t17 + (t14 + t10 * p.k8));
-    let t20 = sin_q_2 * (t17 + (t14 + p.k8 * t11));
-    let t21 = p.k6 * (sin_q_4 * (t9 + t16) - cos_q_4 * (t6 + t13));
-    let h_q_1 = t19 - cos_q_1 * (t15 + (t12 + p.k8 * t7));
-    let h_q_2 = t20 - cos_q_2 * (t15 + (t12 + p.k8 * t8));
-    let h_q_3 = sin_q_3 * (t17 + p.k7 * t16) - cos_q_3 * (t15 + p.k7 * t13);
+    let t19 = sin_q_1 * (t17 + (t14 + t10 * p.k4));
+    let t20 = sin_q_2 * (t17 + (t14 + p.k4 * t11));
+    let t21 = p.k2 * (sin_q_4 * (t9 + t16) - cos_q_4 * (t6 + t13));
+    let h_q_1 = t19 - cos_q_1 * (t15 + (t12 + p.k4 * t7));
+    let h_q_2 = t20 - cos_q_2 * (t15 + (t12 + p.k4 * t8));
+    let h_q_3 = sin_q_3 * (t17 + p.k3 * t16) - cos_q_3 * (t15 + p.k3 * t13);
     let h_q_4 = t5 * (cos_q_5 * sin_q_4 - sin_q_5 * cos_q_4) + t21;
-    let h_q_5 = p.k5 * (sin_q_5 * (t16 + (t9 + t0 * cos_q_4)) - t18);
+    let h_q_5 = p.half_l_squared_m * (sin_q_5 * (t16 + (t9 + t0 * cos_q_4)) - t18);
     [h_q_1, h_q_2, h_q_3, h_q_4, h_q_5]
 }
 
@@ -402,11 +399,11 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
     let cos_q_3 = q_3.cos();
     let cos_q_4 = q_4.cos();
     let cos_q_5 = q_5.cos();
-    let q_q_1 = p.k22 * cos_q_1;
-    let q_q_2 = p.k23 * cos_q_2;
-    let q_q_3 = p.k24 * cos_q_3;
-    let q_q_4 = p.k25 * cos_q_4;
-    let q_q_5 = p.k26 * cos_q_5;
+    let q_q_1 = p.k14 * cos_q_1;
+    let q_q_2 = p.k15 * cos_q_2;
+    let q_q_3 = p.k16 * cos_q_3;
+    let q_q_4 = p.k17 * cos_q_4;
+    let q_q_5 = p.minus_half_l_m_g * cos_q_5;
     [q_q_1, q_q_2, q_q_3, q_q_4, q_q_5]
 }
 
@@ -431,8 +428,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: 
     let t1 = q_2_dot * q_2_dot;
     let t2 = q_3_dot * q_3_dot;
     let t3 = q_1_dot * q_1_dot;
-    let t4 = t0 * p.k6;
-    let t5 = q_5_dot * (q_5_dot * p.k5);
+    let t4 = t0 * p.k2;
+    let t5 = q_5_dot * (q_5_dot * p.half_l_squared_m);
     let t6 = t1 * sin_q_2;
     let t7 = t2 * sin_q_3;
     let t8 = t4 * sin_q_4;
@@ -440,22 +437,23 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: 
     let t10 = t5 * sin_q_5;
     let t11 = t1 * cos_q_2;
     let t12 = t2 * cos_q_3;
-    let t13 = p.k7 * t7;
+    let t13 = p.k3 * t7;
     let t14 = cos_q_1 * t3;
     let t15 = t6 + t9;
     let t16 = t5 * cos_q_5 + t4 * cos_q_4;
-    let t17 = t12 * p.k7;
+    let t17 = t12 * p.k3;
     let t18 = t11 + t14;
     let t19 = sin_q_5 * (t18 + (t12 + t0 * cos_q_4));
-    let t20 = cos_q_2 * (p.k19 - t8 - t13 - (t10 + p.k8 * t9));
-    let t21 = t5 * (cos_q_5 * sin_q_4 - sin_q_5 * cos_q_4) + cos_q_4 * p.k17;
-    let t22 = cos_q_1 * (t10 + p.k8 * t6 + (t13 + (t8 - p.k20)));
-    let t23 = sin_q_3 * (t16 + p.k7 * t18) + cos_q_3 * (p.k18 - t8 - t10 - p.k7 * t15);
-    let f_q_1 = t22 - sin_q_1 * (t16 + (t17 + t11 * p.k8));
-    let f_q_2 = -(sin_q_2 * (t16 + (t17 + p.k8 * t14)) + t20);
-    let f_q_3 = -t23;
-    let f_q_4 = -(p.k6 * (sin_q_4 * (t12 + t18) - cos_q_4 * (t7 + t15)) + t21);
-    let f_q_5 = -(p.k5 * (t19 - cos_q_5 * (t15 + (t7 + t0 * sin_q_4))) + cos_q_5 * p.k3);
+    let t20 = cos_q_2 * (p.k12 - t8 - t13 - (t10 + p.k4 * t9));
+    let t21 = t5 * (cos_q_5 * sin_q_4 - sin_q_5 * cos_q_4) + cos_q_4 * p.k10;
+    let t22 = p.half_l_squared_m * (t19 - cos_q_5 * (t15 + (t7 + t0 * sin_q_4)));
+    let t23 = cos_q_1 * (t10 + p.k4 * t6 + (t13 + (t8 - p.k13)));
+    let t24 = sin_q_3 * (t16 + p.k3 * t18) + cos_q_3 * (p.k11 - t8 - t10 - p.k3 * t15);
+    let f_q_1 = t23 - sin_q_1 * (t16 + (t17 + t11 * p.k4));
+    let f_q_2 = -(sin_q_2 * (t16 + (t17 + p.k4 * t14)) + t20);
+    let f_q_3 = -t24;
+    let f_q_4 = -(p.k2 * (sin_q_4 * (t12 + t18) - cos_q_4 * (t7 + t15)) + t21);
+    let f_q_5 = -(t22 + cos_q_5 * p.half_l_m_g);
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5]
 }
 
@@ -514,7 +512,7 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
     let t0 = q_3_dot * sin_q_3 + (q_2_dot * sin_q_2 + q_1_dot * sin_q_1);
     let t1 = q_3_dot * cos_q_3 + (q_2_dot * cos_q_2 + q_1_dot * cos_q_1);
-    let phi1 = p.k21 * (q_5_dot * sin_q_5 + (q_4_dot * sin_q_4 + t0));
+    let phi1 = p.minus_l * (q_5_dot * sin_q_5 + (q_4_dot * sin_q_4 + t0));
     let phi2 = (q_5_dot * cos_q_5 + (q_4_dot * cos_q_4 + t1)) * p.l;
     [phi1, phi2]
 }
@@ -544,11 +542,11 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let (sin_q_3, cos_q_3) = q_3.sin_cos();
     let (sin_q_4, cos_q_4) = q_4.sin_cos();
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
-    let g1_1 = p.k21 * sin_q_1;
-    let g1_2 = p.k21 * sin_q_2;
-    let g1_3 = p.k21 * sin_q_3;
-    let g1_4 = p.k21 * sin_q_4;
-    let g1_5 = p.k21 * sin_q_5;
+    let g1_1 = p.minus_l * sin_q_1;
+    let g1_2 = p.minus_l * sin_q_2;
+    let g1_3 = p.minus_l * sin_q_3;
+    let g1_4 = p.minus_l * sin_q_4;
+    let g1_5 = p.minus_l * sin_q_5;
     let g2_1 = cos_q_1 * p.l;
     let g2_2 = cos_q_2 * p.l;
     let g2_3 = cos_q_3 * p.l;
@@ -671,58 +669,58 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t22 = t15.mul_sub(t6, t12 * t7);
         let t23 = t9 * t2;
         let t24 = n(p.l) * sin_q_1;
-        let t25 = t15.mul_add(t17, t12.mul_add(t16, n(p.k0) * t10));
-        let t26 = t13.mul_add(t16, t12.mul_add(t17, n(p.k0) * t11));
+        let t25 = t15.mul_add(t17, t12.mul_add(t16, n(p.half_l) * t10));
+        let t26 = t13.mul_add(t16, t12.mul_add(t17, n(p.half_l) * t11));
         let t27 = n(p.l) * sin_q_5;
-        let t28 = cos_q_5 * n(p.k32);
+        let t28 = cos_q_5 * n(p.k21);
         let t29 = n(p.l) * cos_q_1;
-        let t30 = sin_q_5 * n(p.k32);
+        let t30 = sin_q_5 * n(p.k21);
         let t31 = sin_q_1 * t3;
-        let t32 = t6.mul_add(t22, t7.mul_sub(t21, n(p.k27)));
-        let t33 = sin_q_2 * n(p.k0);
-        let t34 = cos_q_2 * (n(p.k28) * cos_q_1);
+        let t32 = t6.mul_add(t22, t7.mul_sub(t21, n(p.k18)));
+        let t33 = sin_q_2 * n(p.half_l);
+        let t34 = cos_q_2 * (n(p.half_l_squared) * cos_q_1);
         let t35 = t27 * t28;
         let t36 = t30 * t27;
         let t37 = t7.mul_sub(t26, t6 * t25);
         let t38 = t29 * t3;
         let t39 = N::ONE / t32;
-        let t40 = cos_q_2 * n(p.k0);
+        let t40 = cos_q_2 * n(p.half_l);
         let t41 = t19.mul_add(t4, t38);
         let t42 = sin_q_2.mul_add(t4, t31);
         let t43 = t40.mul_add(t4, t38);
         let t44 = t6.neg_mul_add(t36, t7.neg_mul_add(t35, t6));
         let t45 = n(p.g) - t4.mul_add(t33, t24 * t3);
         let t46 = n(p.l) * cos_q_5;
-        let t47 = n(p.l).neg_mul_add(t42, n(p.g));
-        let t48 = t28 * t46;
-        let t49 = t30 * t46;
-        let t50 = t31.neg_mul_add(n(p.k0), n(p.g)) * (cos_q_1 * n(p.k0));
+        let t47 = t31.neg_mul_add(n(p.half_l), n(p.g));
+        let t48 = n(p.l).neg_mul_add(t42, n(p.g));
+        let t49 = t28 * t46;
+        let t50 = t30 * t46;
         let t51 = t22 * t39;
         let t52 = t21 * t39;
-        let t53 = t39 * n(p.k34);
-        let t54 = t24.mul_add(t43, t31 * (cos_q_1 * n(p.k31)));
+        let t53 = t39 * n(p.inverse_m);
+        let t54 = t24.mul_add(t43, t31 * (cos_q_1 * n(p.quarter_l_squared)));
         let t55 = t22.neg_mul_add(t51, t15 + N::ONE);
         let t56 = t22.mul_add(t52, t12);
         let t57 = t21.neg_mul_add(t52, t13 + N::ONE);
         let t58 = t52.mul_add(t44, t35);
         let t59 = t51.mul_add(t44, t36);
-        let t60 = t6.neg_mul_add(t49, t7.neg_mul_add(t48, t7));
-        let t61 = t52.mul_add(t60, t48);
+        let t60 = t6.neg_mul_add(t50, t7.neg_mul_add(t49, t7));
+        let t61 = t52.mul_add(t60, t49);
         let t62 = t56.mul_sub(t9, t55 * t8);
         let t63 = t9.mul_sub(t57, t8 * t56);
-        let t64 = t51.mul_add(t60, t49);
+        let t64 = t51.mul_add(t60, t50);
         let t65 = t55.mul_add(t23, t56.mul_add(t20, t51.mul_add(t37, t25)));
         let t66 = t57.mul_add(t20, t52.neg_mul_add(t37, t26));
         let t67 = t56.mul_add(t23, t66);
         let t68 = t8.neg_mul_add(t59, t9.neg_mul_add(t58, t8));
         let t69 = cos_q_3.mul_add(t2, cos_q_2.mul_add(t4, cos_q_1 * t3));
         let t70 = t8.neg_mul_add(t64, t9.neg_mul_add(t61, t9));
-        let t71 = t9.neg_mul_add(t63, t8.mul_add(t62, n(p.k27)));
+        let t71 = t9.neg_mul_add(t63, t8.mul_add(t62, n(p.k18)));
         let t72 = t9.mul_sub(t67, t8 * t65);
         let t73 = N::ONE / t71;
         let t74 = t63 * t73;
         let t75 = t62 * t73;
-        let t76 = t73 * n(p.k34);
+        let t76 = t73 * n(p.inverse_m);
         let t77 = t62.mul_add(t74, t56);
         let t78 = t63.mul_add(t74, t57 + N::from_f64(0.5));
         let t79 = t62.mul_add(t75, t55 + N::from_f64(0.5));
@@ -732,110 +730,111 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t83 = t19.mul_sub(t78, t18 * t77);
         let t84 = t77.mul_sub(t19, t79 * t18);
         let t85 = t77.mul_add(t41, t74.mul_add(t72, t67));
-        let t86 = t78.neg_mul_add(t47, t85);
+        let t86 = t78.neg_mul_add(t48, t85);
         let t87 = t79.mul_add(t41, t75.mul_add(t72, t65));
-        let t88 = t77.neg_mul_add(t47, t87);
+        let t88 = t77.neg_mul_add(t48, t87);
         let t89 = t18.neg_mul_add(t81, t19.neg_mul_add(t80, t18));
-        let t90 = t75.mul_add(t70, t64);
-        let t91 = t18.neg_mul_add(t84, t19.mul_add(t83, n(p.k29)));
-        let t92 = t83.mul_add(t29, sin_q_2.mul_add(n(p.k28) * sin_q_1, t34));
-        let t93 = t84.neg_mul_add(t24, t92);
-        let t94 = t29.mul_add(t78.mul_sub(t29, t77 * t24), n(p.k30));
-        let t95 = t19.mul_sub(t86, t40.mul_add(t45, t43 * t33));
-        let t96 = t18.neg_mul_add(t88, t95);
-        let t97 = t29.mul_sub(t86, t54 + t29.mul_add(t45, t50));
-        let t98 = t18.neg_mul_add(t90, t19.neg_mul_add(t82, t19));
-        let t99 = N::ONE / t91;
-        let t100 = t99 * t93;
-        let t101 = t99 * n(p.k34);
-        let t102 = t24.neg_mul_add(t77.mul_sub(t29, t79 * t24), t94);
-        let t103 = t93.neg_mul_add(t100, t102);
-        let t104 = t24.neg_mul_add(t81, t29.neg_mul_add(t80, t24));
-        let t105 = t24.neg_mul_add(t90, t29.neg_mul_add(t82, t29));
-        let t106 = N::ONE / t103;
-        let t107 = t106 * t100.neg_mul_add(t96, t24.neg_mul_add(t88, t97));
-        let t108 = t106 * n(p.k34);
-        let t109 = t108 * t100.neg_mul_add(t89, t104);
-        let t110 = t24 * t107;
-        let t111 = t29 * t107;
-        let t112 = t108 * t100.neg_mul_add(t98, t105);
-        let t113 = t99 * t93.neg_mul_add(t107, t96);
-        let t114 = t100.neg_mul_add(t109, t89 * t101);
-        let t115 = t100.neg_mul_add(t112, t101 * t98);
-        let t116 = t18 * t113;
-        let t117 = t19 * t113;
-        let t118 = t18.mul_add(t114, t24 * t109);
-        let t119 = t19.mul_add(t114, t29 * t109);
-        let t120 = t18.mul_add(t115, t24 * t112);
-        let t121 = t116 + (t41 + t110);
-        let t122 = t117 + (t47 + t111);
-        let t123 = t19.mul_add(t115, t29 * t112);
-        let t124 = t74.neg_mul_add(t119, t75.mul_add(t118, t68 * t76));
-        let t125 = t11 + sin_q_4.mul_add(t1, sin_q_3.mul_add(t2, t42));
-        let t126 = t74.neg_mul_add(t123, t75.mul_add(t120, t76 * t70));
-        let t127 = t8.neg_mul_add(t124, t118);
-        let t128 = t9.neg_mul_add(t124, t119);
-        let t129 = sin_q_2.mul_add(t114, sin_q_1 * t109);
-        let t130 = cos_q_2.mul_add(t114, cos_q_1 * t109);
-        let t131 = t8.neg_mul_add(t126, t120);
-        let t132 = t9.neg_mul_add(t126, t123);
-        let t133 = t73 * t63.neg_mul_add(t122, t62.mul_add(t121, t72));
-        let t134 = n(p.l).mul_add(t10 + cos_q_4.mul_add(t1, t69), t110);
-        let t135 = cos_q_2.mul_add(t115, cos_q_1 * t112);
-        let t136 = t9 * t133;
-        let t137 = t8 * t133;
-        let t138 = t52.neg_mul_add(t128, t51.neg_mul_add(t127, t44 * t53));
-        let t139 = t52.neg_mul_add(t132, t51.neg_mul_add(t131, t53 * t60));
-        let t140 = t136 + (t20 - t122);
-        let t141 = t23 + t121 - t137;
-        let t142 = t30.neg_mul_add(t6.mul_add(t138, t127), t27 * n(p.k33));
-        let t143 = t28.neg_mul_add(t7.mul_add(t138, t128), t142);
-        let t144 = t30.neg_mul_add(t6.mul_add(t139, t131), n(p.k33) * t46);
-        let t145 = t28.neg_mul_add(t7.mul_add(t139, t132), t144);
-        let t146 = t39 * t22.neg_mul_add(t141, t21.mul_add(t140, t37));
-        let t147 = sin_q_4.mul_add(t138, sin_q_3.neg_mul_add(t124, t129));
-        let t148 = cos_q_4.mul_add(t138, cos_q_3.neg_mul_add(t124, t130));
-        let t149 = cos_q_4.mul_add(t139, cos_q_3.neg_mul_add(t126, t135));
-        let t150 = t7 * t146;
-        let t151 = t6 * t146;
-        let t152 = n(p.l) * sin_q_5.mul_add(t143, t147);
-        let t153 = n(p.l) * cos_q_5.mul_add(t143, t148);
-        let t154 = n(p.l) * cos_q_5.mul_add(t145, t149);
-        let t155 = N::ONE / t152;
-        let t156 = cos_q_5 * (t16 + t140 - t150);
-        let t157 = sin_q_5.mul_sub(t151 + (t17 + t141), t156);
-        let t158 = N::from_f64(1.5) * t157;
-        let t159 = t155 * t153;
-        let t160 = sin_q_5.neg_mul_add(t158, t151 + (t116 + t134 - t137));
-        let t161 = t136 + (n(p.l).mul_sub(t125, t111) - t117) - t150;
-        let t162 = t153.neg_mul_add(t159, t154);
-        let t163 = t159.mul_add(t160, cos_q_5.mul_add(t158, t161)) / t162;
-        let t164 = t159.mul_add(t163, t155 * t160);
-        let t165 = t145.neg_mul_add(t163, n(p.k32) * t157);
-        let q_1_ddot = t109.neg_mul_add(t164, t112.mul_add(t163, t107));
-        let q_2_ddot = t114.neg_mul_add(t164, t115.mul_add(t163, t113));
-        let q_3_ddot = t124.mul_sub(t164, t126.mul_add(t163, t133));
-        let q_4_ddot = t138.neg_mul_add(t164, t139.mul_add(t163, t146));
-        let q_5_ddot = -t143.mul_add(t164, t165);
-        let t166 = t32 * n(p.m);
-        let t167 = t71 * n(p.k35);
-        let t168 = t91 * n(p.m);
-        let t169 = t103 * n(p.m);
-        let sound = PIVOTS.hold(t166, n(p.k12))
-            & PIVOTS.hold(t167, n(p.k11))
-            & PIVOTS.hold(t168, n(p.k10))
-            & PIVOTS.hold(t169, n(p.k9))
-            & PIVOTS.hold(t152, t152)
-            & PIVOTS.hold(t162, t154)
+        let t90 = sin_q_2.mul_add(n(p.half_l_squared) * sin_q_1, t34);
+        let t91 = t54 + t29.mul_add(t45, t47 * (cos_q_1 * n(p.half_l)));
+        let t92 = t75.mul_add(t70, t64);
+        let t93 = t18.neg_mul_add(t84, t19.mul_add(t83, n(p.k19)));
+        let t94 = t84.neg_mul_add(t24, t83.mul_add(t29, t90));
+        let t95 = t29.mul_add(t78.mul_sub(t29, t77 * t24), n(p.k20));
+        let t96 = t19.mul_sub(t86, t40.mul_add(t45, t43 * t33));
+        let t97 = t18.neg_mul_add(t88, t96);
+        let t98 = t18.neg_mul_add(t92, t19.neg_mul_add(t82, t19));
+        let t99 = N::ONE / t93;
+        let t100 = t99 * t94;
+        let t101 = t99 * n(p.inverse_m);
+        let t102 = t24.neg_mul_add(t77.mul_sub(t29, t79 * t24), t95);
+        let t103 = t94.neg_mul_add(t100, t102);
+        let t104 = t24.neg_mul_add(t88, t29.mul_sub(t86, t91));
+        let t105 = t24.neg_mul_add(t81, t29.neg_mul_add(t80, t24));
+        let t106 = t24.neg_mul_add(t92, t29.neg_mul_add(t82, t29));
+        let t107 = N::ONE / t103;
+        let t108 = t107 * t100.neg_mul_add(t97, t104);
+        let t109 = t107 * n(p.inverse_m);
+        let t110 = t109 * t100.neg_mul_add(t89, t105);
+        let t111 = t24 * t108;
+        let t112 = t29 * t108;
+        let t113 = t109 * t100.neg_mul_add(t98, t106);
+        let t114 = t99 * t94.neg_mul_add(t108, t97);
+        let t115 = t100.neg_mul_add(t110, t89 * t101);
+        let t116 = t100.neg_mul_add(t113, t101 * t98);
+        let t117 = t18 * t114;
+        let t118 = t19 * t114;
+        let t119 = t18.mul_add(t115, t24 * t110);
+        let t120 = t19.mul_add(t115, t29 * t110);
+        let t121 = t18.mul_add(t116, t24 * t113);
+        let t122 = t117 + (t41 + t111);
+        let t123 = t118 + (t48 + t112);
+        let t124 = t19.mul_add(t116, t29 * t113);
+        let t125 = t74.neg_mul_add(t120, t75.mul_add(t119, t68 * t76));
+        let t126 = t11 + sin_q_4.mul_add(t1, sin_q_3.mul_add(t2, t42));
+        let t127 = t74.neg_mul_add(t124, t75.mul_add(t121, t76 * t70));
+        let t128 = t8.neg_mul_add(t125, t119);
+        let t129 = t9.neg_mul_add(t125, t120);
+        let t130 = sin_q_2.mul_add(t115, sin_q_1 * t110);
+        let t131 = cos_q_2.mul_add(t115, cos_q_1 * t110);
+        let t132 = t8.neg_mul_add(t127, t121);
+        let t133 = t9.neg_mul_add(t127, t124);
+        let t134 = t73 * t63.neg_mul_add(t123, t62.mul_add(t122, t72));
+        let t135 = n(p.l).mul_add(t10 + cos_q_4.mul_add(t1, t69), t111);
+        let t136 = cos_q_2.mul_add(t116, cos_q_1 * t113);
+        let t137 = t9 * t134;
+        let t138 = t8 * t134;
+        let t139 = t52.neg_mul_add(t129, t51.neg_mul_add(t128, t44 * t53));
+        let t140 = t52.neg_mul_add(t133, t51.neg_mul_add(t132, t53 * t60));
+        let t141 = t137 + (t20 - t123);
+        let t142 = t23 + t122 - t138;
+        let t143 = t30.neg_mul_add(t6.mul_add(t139, t128), t27 * n(p.k22));
+        let t144 = t28.neg_mul_add(t7.mul_add(t139, t129), t143);
+        let t145 = t30.neg_mul_add(t6.mul_add(t140, t132), n(p.k22) * t46);
+        let t146 = t28.neg_mul_add(t7.mul_add(t140, t133), t145);
+        let t147 = t39 * t22.neg_mul_add(t142, t21.mul_add(t141, t37));
+        let t148 = sin_q_4.mul_add(t139, sin_q_3.neg_mul_add(t125, t130));
+        let t149 = cos_q_4.mul_add(t139, cos_q_3.neg_mul_add(t125, t131));
+        let t150 = cos_q_4.mul_add(t140, cos_q_3.neg_mul_add(t127, t136));
+        let t151 = t7 * t147;
+        let t152 = t6 * t147;
+        let t153 = n(p.l) * sin_q_5.mul_add(t144, t148);
+        let t154 = n(p.l) * cos_q_5.mul_add(t144, t149);
+        let t155 = n(p.l) * cos_q_5.mul_add(t146, t150);
+        let t156 = N::ONE / t153;
+        let t157 = cos_q_5 * (t16 + t141 - t151);
+        let t158 = sin_q_5.mul_sub(t152 + (t17 + t142), t157);
+        let t159 = N::from_f64(1.5) * t158;
+        let t160 = t156 * t154;
+        let t161 = sin_q_5.neg_mul_add(t159, t152 + (t117 + t135 - t138));
+        let t162 = t137 + (n(p.l).mul_sub(t126, t112) - t118) - t151;
+        let t163 = t154.neg_mul_add(t160, t155);
+        let t164 = t160.mul_add(t161, cos_q_5.mul_add(t159, t162)) / t163;
+        let t165 = t160.mul_add(t164, t156 * t161);
+        let t166 = t146.neg_mul_add(t164, n(p.k21) * t158);
+        let q_1_ddot = t110.neg_mul_add(t165, t113.mul_add(t164, t108));
+        let q_2_ddot = t115.neg_mul_add(t165, t116.mul_add(t164, t114));
+        let q_3_ddot = t125.mul_sub(t165, t127.mul_add(t164, t134));
+        let q_4_ddot = t139.neg_mul_add(t165, t140.mul_add(t164, t147));
+        let q_5_ddot = -t144.mul_add(t165, t166);
+        let t167 = t32 * n(p.m);
+        let t168 = t71 * n(p.minus_m);
+        let t169 = t93 * n(p.m);
+        let t170 = t103 * n(p.m);
+        let sound = PIVOTS.hold(t167, n(p.k8))
+            & PIVOTS.hold(t168, n(p.k7))
+            & PIVOTS.hold(t169, n(p.k6))
+            & PIVOTS.hold(t170, n(p.k5))
+            & PIVOTS.hold(t153, t153)
+            & PIVOTS.hold(t163, t155)
             & q_5_ddot.is_finite();
         if !sound {
             let pivots = [
-                (3, t166, n(p.k12)),
-                (2, t167, n(p.k11)),
-                (1, t168, n(p.k10)),
-                (0, t169, n(p.k9)),
-                (5, t152, t152),
-                (6, t162, t154),
+                (3, t167, n(p.k8)),
+                (2, t168, n(p.k7)),
+                (1, t169, n(p.k6)),
+                (0, t170, n(p.k5)),
+                (5, t153, t153),
+                (6, t163, t155),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -906,147 +905,150 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t5 = cos_q_2 * t0;
         let t6 = sin_q_2 * t0;
         let t7 = sin_q_1 * t1;
-        let t8 = sin_q_2.mul_add(sin_q_1, cos_q_2 * cos_q_1) * n(p.k8);
-        let t9 = n(p.k7) * sin_q_1.mul_add(sin_q_3, cos_q_1 * cos_q_3);
-        let t10 = n(p.k6) * sin_q_1.mul_add(sin_q_4, cos_q_1 * cos_q_4);
-        let t11 = n(p.k36) * t8;
-        let t12 = n(p.k5) * sin_q_1.mul_add(sin_q_5, cos_q_1 * cos_q_5);
-        let t13 = n(p.k36) * t9;
-        let t14 = n(p.k36) * t10;
-        let t15 = t8.neg_mul_add(t11, n(p.k10));
-        let t16 = cos_q_1 * t1;
-        let t17 = n(p.k36) * t12;
-        let t18 = n(p.k7) * sin_q_2.mul_add(sin_q_3, cos_q_2 * cos_q_3);
-        let t19 = t8.neg_mul_add(t13, t18);
-        let t20 = n(p.k6) * sin_q_2.mul_add(sin_q_4, cos_q_2 * cos_q_4);
+        let t8 = sin_q_2.mul_add(sin_q_1, cos_q_2 * cos_q_1) * n(p.k4);
+        let t9 = n(p.k3) * sin_q_1.mul_add(sin_q_3, cos_q_1 * cos_q_3);
+        let t10 = n(p.k2) * sin_q_1.mul_add(sin_q_4, cos_q_1 * cos_q_4);
+        let t11 = n(p.k23) * t8;
+        let t12 = sin_q_1.mul_add(sin_q_5, cos_q_1 * cos_q_5);
+        let t13 = n(p.half_l_squared_m) * t12;
+        let t14 = n(p.k23) * t9;
+        let t15 = sin_q_2.mul_add(sin_q_5, cos_q_2 * cos_q_5);
+        let t16 = n(p.k23) * t10;
+        let t17 = t8.neg_mul_add(t11, n(p.k6));
+        let t18 = cos_q_1 * t1;
+        let t19 = n(p.k23) * t13;
+        let t20 = n(p.k3) * sin_q_2.mul_add(sin_q_3, cos_q_2 * cos_q_3);
         let t21 = t8.neg_mul_add(t14, t20);
-        let t22 = n(p.k6) * sin_q_3.mul_add(sin_q_4, cos_q_3 * cos_q_4);
-        let t23 = N::ONE / t15;
-        let t24 = n(p.k5) * sin_q_2.mul_add(sin_q_5, cos_q_2 * cos_q_5);
-        let t25 = t8.neg_mul_add(t17, t24);
-        let t26 = t6 + t7;
-        let t27 = sin_q_3 * t2;
-        let t28 = t5 + t16;
-        let t29 = cos_q_3 * t2;
-        let t30 = sin_q_1 * n(p.l);
-        let t31 = n(p.k5) * sin_q_3.mul_add(sin_q_5, cos_q_3 * cos_q_5);
-        let t32 = sin_q_4 * t3;
-        let t33 = sin_q_5 * t4;
-        let t34 = t27 + t26;
-        let t35 = cos_q_4 * t3;
+        let t22 = n(p.k2) * sin_q_2.mul_add(sin_q_4, cos_q_2 * cos_q_4);
+        let t23 = t8.neg_mul_add(t16, t22);
+        let t24 = n(p.k2) * sin_q_3.mul_add(sin_q_4, cos_q_3 * cos_q_4);
+        let t25 = N::ONE / t17;
+        let t26 = t8.neg_mul_add(t19, n(p.half_l_squared_m) * t15);
+        let t27 = sin_q_3.mul_add(sin_q_5, cos_q_3 * cos_q_5);
+        let t28 = t6 + t7;
+        let t29 = sin_q_3 * t2;
+        let t30 = t5 + t18;
+        let t31 = cos_q_3 * t2;
+        let t32 = sin_q_1 * n(p.l);
+        let t33 = sin_q_4 * t3;
+        let t34 = sin_q_4.mul_add(sin_q_5, cos_q_4 * cos_q_5);
+        let t35 = sin_q_5 * t4;
         let t36 = t29 + t28;
-        let t37 = cos_q_5 * t4;
-        let t38 = n(p.k36) * t30;
-        let t39 = n(p.k5) * sin_q_4.mul_add(sin_q_5, cos_q_4 * cos_q_5);
-        let t40 = t32 + t34;
-        let t41 = t35 + t36;
-        let t42 = t23 * t19;
-        let t43 = t23 * t21;
-        let t44 = t23 * t25;
-        let t45 = t8.neg_mul_add(t38, sin_q_2 * n(p.l));
-        let t46 = t19.neg_mul_add(t42, t9.neg_mul_add(t13, n(p.k11)));
-        let t47 = t19.neg_mul_add(t43, t9.neg_mul_add(t14, t22));
-        let t48 = t19.neg_mul_add(t44, t9.neg_mul_add(t17, t31));
-        let t49 = n(p.l).mul_add(t41, n(p.k0) * t37);
-        let t50 = N::ONE / t46;
-        let t51 = n(p.l).mul_add(t36, n(p.k0) * t35);
-        let t52 = t23 * t45;
-        let t53 = cos_q_1 * n(p.l);
-        let t54 = n(p.g) - n(p.l).mul_add(t40, t33 * n(p.k0));
-        let t55 = n(p.g) - n(p.l).mul_add(t34, n(p.k0) * t32);
-        let t56 = t49 + t51;
-        let t57 = n(p.l).mul_add(t28, n(p.k0) * t29);
-        let t58 = t9.neg_mul_add(t38, sin_q_3 * n(p.l));
-        let t59 = t19.neg_mul_add(t52, t58);
-        let t60 = n(p.k36) * t53;
-        let t61 = t54 + t55;
-        let t62 = n(p.g) - n(p.l).mul_add(t26, n(p.k0) * t27);
-        let t63 = n(p.k0).mul_add(t5, n(p.l) * t16);
-        let t64 = t50 * t47;
-        let t65 = t50 * t48;
-        let t66 = t50 * t59;
-        let t67 = t10.neg_mul_add(t38, sin_q_4 * n(p.l));
-        let t68 = t8.neg_mul_add(t60, cos_q_2 * n(p.l));
-        let t69 = t21.neg_mul_add(t43, t10.neg_mul_add(t14, n(p.k12)));
-        let t70 = t47.neg_mul_add(t64, t69);
-        let t71 = t21.neg_mul_add(t44, t10.neg_mul_add(t17, t39));
-        let t72 = t47.neg_mul_add(t65, t71);
-        let t73 = t25.neg_mul_add(t44, t12.neg_mul_add(t17, n(p.k13)));
-        let t74 = n(p.g) - n(p.k0).mul_add(t6, n(p.l) * t7);
-        let t75 = n(p.m) * (t56 + t57);
-        let t76 = N::ONE / t70;
-        let t77 = t47.neg_mul_add(t66, t21.neg_mul_add(t52, t67));
-        let t78 = t12.neg_mul_add(t38, sin_q_5 * n(p.l));
-        let t79 = t23 * t68;
-        let t80 = n(p.m) * (t61 + t62);
-        let t81 = n(p.k14) * n(p.k0).neg_mul_add(t7, n(p.g));
-        let t82 = t9.neg_mul_add(t60, cos_q_3 * n(p.l));
-        let t83 = t19.neg_mul_add(t79, t82);
-        let t84 = t76 * t72;
-        let t85 = t76 * t77;
-        let t86 = t72.neg_mul_add(t84, t48.neg_mul_add(t65, t73));
-        let t87 = t48.neg_mul_add(t66, t25.neg_mul_add(t52, t78));
-        let t88 = t72.neg_mul_add(t85, t87);
-        let t89 = t50 * t83;
-        let t90 = t10.neg_mul_add(t60, cos_q_4 * n(p.l));
-        let t91 = sin_q_1 * (t75 + n(p.m).mul_add(t63, t16 * n(p.k15)));
-        let t92 = sin_q_4 * t49.mul_add(n(p.m), n(p.k14) * t51);
-        let t93 = sin_q_2 * n(p.k14).mul_add(t63, t75);
-        let t94 = N::ONE / t86;
-        let t95 = sin_q_3 * n(p.m).mul_add(t56, n(p.k14) * t57);
-        let t96 = t59.mul_add(t66, t45.mul_add(t52, t30 * t38));
-        let t97 = t47.neg_mul_add(t89, t21.neg_mul_add(t79, t90));
-        let t98 = t12.neg_mul_add(t60, cos_q_5 * n(p.l));
-        let t99 = cos_q_1.mul_add(t80 + n(p.m).mul_add(t74, t81), t91);
-        let t100 = n(p.l) * t99;
-        let t101 = cos_q_4.mul_add(t54.mul_add(n(p.m), n(p.k14) * t55), t92);
-        let t102 = cos_q_3.mul_add(n(p.m).mul_add(t61, n(p.k14) * t62), t95);
-        let t103 = t76 * t97;
-        let t104 = n(p.l) * cos_q_2.mul_add(n(p.k14).mul_add(t74, t80), t93);
-        let t105 = t11.mul_sub(t100, t104);
-        let t106 = cos_q_5.mul_add(t54, sin_q_5 * t49) * n(p.k16);
-        let t107 = t48.neg_mul_add(t89, t25.neg_mul_add(t79, t98));
-        let t108 = t72.neg_mul_add(t103, t107);
-        let t109 = t94 * t88;
-        let t110 = t42.neg_mul_add(t105, t13.mul_sub(t100, n(p.l) * t102));
-        let t111 = t38.neg_mul_add(t100, n(p.l) * (t37 + t41));
-        let t112 = t60.mul_add(t100, n(p.l) * (t33 + t40));
-        let t113 = t88.mul_add(t109, t77.mul_add(t85, t96));
-        let t114 = t94 * t108;
-        let t115 = t59.mul_add(t89, t45.mul_add(t79, t30 * t60));
-        let t116 = t43.neg_mul_add(t105, t14.mul_sub(t100, n(p.l) * t101));
-        let t117 = t64.neg_mul_add(t110, t116);
-        let t118 = t44.neg_mul_add(t105, t17.mul_sub(t100, t106));
-        let t119 = N::ONE / t113;
-        let t120 = t88.mul_add(t114, t77.mul_add(t103, t115));
-        let t121 = t84.neg_mul_add(t117, t65.neg_mul_add(t110, t118));
-        let t122 = t66.mul_add(t110, t52.mul_add(t105, t111));
-        let t123 = t89.neg_mul_add(t110, t79.neg_mul_add(t105, t112));
-        let t124 = t109.mul_add(t121, t85.mul_add(t117, t122));
-        let t125 = t108.mul_add(t114, t68.mul_add(t79, t53 * t60));
-        let t126 = t125 + t97.mul_add(t103, t83 * t89);
-        let t127 = t119 * t120;
-        let t128 = t114.neg_mul_add(t121, t103.neg_mul_add(t117, t123));
-        let t129 = t120.neg_mul_add(t127, t126);
-        let lambda2 = t127.mul_add(t124, t128) / t129;
-        let lambda1 = t127.mul_add(lambda2, t119 * t124);
-        let sound = PIVOTS.hold(n(p.k9), n(p.k9))
-            & PIVOTS.hold(t15, n(p.k10))
-            & PIVOTS.hold(t46, n(p.k11))
-            & PIVOTS.hold(t70, n(p.k12))
-            & PIVOTS.hold(t86, n(p.k13))
-            & PIVOTS.hold(t113, t113)
-            & PIVOTS.hold(t129, t126)
+        let t37 = cos_q_4 * t3;
+        let t38 = t31 + t30;
+        let t39 = cos_q_5 * t4;
+        let t40 = n(p.k23) * t32;
+        let t41 = t33 + t36;
+        let t42 = t37 + t38;
+        let t43 = t25 * t21;
+        let t44 = t25 * t23;
+        let t45 = t25 * t26;
+        let t46 = t8.neg_mul_add(t40, sin_q_2 * n(p.l));
+        let t47 = t21.neg_mul_add(t43, t9.neg_mul_add(t14, n(p.k7)));
+        let t48 = t21.neg_mul_add(t44, t9.neg_mul_add(t16, t24));
+        let t49 = t9.neg_mul_add(t19, n(p.half_l_squared_m) * t27);
+        let t50 = t21.neg_mul_add(t45, t49);
+        let t51 = t10.neg_mul_add(t19, n(p.half_l_squared_m) * t34);
+        let t52 = n(p.l).mul_add(t42, n(p.half_l) * t39);
+        let t53 = N::ONE / t47;
+        let t54 = n(p.l).mul_add(t38, n(p.half_l) * t37);
+        let t55 = t25 * t46;
+        let t56 = cos_q_1 * n(p.l);
+        let t57 = n(p.g) - n(p.l).mul_add(t41, t35 * n(p.half_l));
+        let t58 = n(p.g) - n(p.l).mul_add(t36, n(p.half_l) * t33);
+        let t59 = t52 + t54;
+        let t60 = n(p.l).mul_add(t30, n(p.half_l) * t31);
+        let t61 = t9.neg_mul_add(t40, sin_q_3 * n(p.l));
+        let t62 = t21.neg_mul_add(t55, t61);
+        let t63 = n(p.k23) * t56;
+        let t64 = t57 + t58;
+        let t65 = n(p.g) - n(p.l).mul_add(t28, n(p.half_l) * t29);
+        let t66 = n(p.half_l).mul_add(t5, n(p.l) * t18);
+        let t67 = t53 * t48;
+        let t68 = t53 * t50;
+        let t69 = t53 * t62;
+        let t70 = t10.neg_mul_add(t40, sin_q_4 * n(p.l));
+        let t71 = t8.neg_mul_add(t63, cos_q_2 * n(p.l));
+        let t72 = t23.neg_mul_add(t44, t10.neg_mul_add(t16, n(p.k8)));
+        let t73 = t48.neg_mul_add(t67, t72);
+        let t74 = t48.neg_mul_add(t68, t23.neg_mul_add(t45, t51));
+        let t75 = t26.neg_mul_add(t45, t13.neg_mul_add(t19, n(p.k9)));
+        let t76 = n(p.g) - n(p.half_l).mul_add(t6, n(p.l) * t7);
+        let t77 = n(p.m) * (t59 + t60);
+        let t78 = N::ONE / t73;
+        let t79 = t48.neg_mul_add(t69, t23.neg_mul_add(t55, t70));
+        let t80 = t13.neg_mul_add(t40, sin_q_5 * n(p.l));
+        let t81 = t25 * t71;
+        let t82 = n(p.m) * (t64 + t65);
+        let t83 = n(p.half_m) * n(p.half_l).neg_mul_add(t7, n(p.g));
+        let t84 = t9.neg_mul_add(t63, cos_q_3 * n(p.l));
+        let t85 = t21.neg_mul_add(t81, t84);
+        let t86 = t77 + n(p.m).mul_add(t66, t18 * n(p.quarter_l_m));
+        let t87 = t78 * t74;
+        let t88 = t78 * t79;
+        let t89 = t74.neg_mul_add(t87, t50.neg_mul_add(t68, t75));
+        let t90 = t50.neg_mul_add(t69, t26.neg_mul_add(t55, t80));
+        let t91 = t74.neg_mul_add(t88, t90);
+        let t92 = t53 * t85;
+        let t93 = t10.neg_mul_add(t63, cos_q_4 * n(p.l));
+        let t94 = t82 + n(p.m).mul_add(t76, t83);
+        let t95 = sin_q_4 * t52.mul_add(n(p.m), n(p.half_m) * t54);
+        let t96 = t57.mul_add(n(p.m), n(p.half_m) * t58);
+        let t97 = sin_q_2 * n(p.half_m).mul_add(t66, t77);
+        let t98 = N::ONE / t89;
+        let t99 = sin_q_3 * n(p.m).mul_add(t59, n(p.half_m) * t60);
+        let t100 = n(p.m).mul_add(t64, n(p.half_m) * t65);
+        let t101 = t62.mul_add(t69, t46.mul_add(t55, t32 * t40));
+        let t102 = t48.neg_mul_add(t92, t23.neg_mul_add(t81, t93));
+        let t103 = t13.neg_mul_add(t63, cos_q_5 * n(p.l));
+        let t104 = n(p.l) * cos_q_1.mul_add(t94, sin_q_1 * t86);
+        let t105 = cos_q_2.mul_add(n(p.half_m).mul_add(t76, t82), t97);
+        let t106 = t78 * t102;
+        let t107 = t11.mul_sub(t104, n(p.l) * t105);
+        let t108 = cos_q_5.mul_add(t57, sin_q_5 * t52) * n(p.half_l_m);
+        let t109 = t50.neg_mul_add(t92, t26.neg_mul_add(t81, t103));
+        let t110 = t74.neg_mul_add(t106, t109);
+        let t111 = t98 * t91;
+        let t112 = t16.mul_sub(t104, n(p.l) * cos_q_4.mul_add(t96, t95));
+        let t113 = t14.mul_sub(t104, n(p.l) * cos_q_3.mul_add(t100, t99));
+        let t114 = t43.neg_mul_add(t107, t113);
+        let t115 = t40.neg_mul_add(t104, n(p.l) * (t39 + t42));
+        let t116 = t63.mul_add(t104, n(p.l) * (t35 + t41));
+        let t117 = t91.mul_add(t111, t79.mul_add(t88, t101));
+        let t118 = t98 * t110;
+        let t119 = t62.mul_add(t92, t46.mul_add(t81, t32 * t63));
+        let t120 = t67.neg_mul_add(t114, t44.neg_mul_add(t107, t112));
+        let t121 = t45.neg_mul_add(t107, t19.mul_sub(t104, t108));
+        let t122 = N::ONE / t117;
+        let t123 = t91.mul_add(t118, t79.mul_add(t106, t119));
+        let t124 = t87.neg_mul_add(t120, t68.neg_mul_add(t114, t121));
+        let t125 = t69.mul_add(t114, t55.mul_add(t107, t115));
+        let t126 = t92.neg_mul_add(t114, t81.neg_mul_add(t107, t116));
+        let t127 = t111.mul_add(t124, t88.mul_add(t120, t125));
+        let t128 = t110.mul_add(t118, t71.mul_add(t81, t56 * t63));
+        let t129 = t128 + t102.mul_add(t106, t85 * t92);
+        let t130 = t122 * t123;
+        let t131 = t118.neg_mul_add(t124, t106.neg_mul_add(t120, t126));
+        let t132 = t123.neg_mul_add(t130, t129);
+        let lambda2 = t130.mul_add(t127, t131) / t132;
+        let lambda1 = t130.mul_add(lambda2, t122 * t127);
+        let sound = PIVOTS.hold(n(p.k5), n(p.k5))
+            & PIVOTS.hold(t17, n(p.k6))
+            & PIVOTS.hold(t47, n(p.k7))
+            & PIVOTS.hold(t73, n(p.k8))
+            & PIVOTS.hold(t89, n(p.k9))
+            & PIVOTS.hold(t117, t117)
+            & PIVOTS.hold(t132, t129)
             & lambda1.is_finite();
         if !sound {
             let pivots = [
-                (0, n(p.k9), n(p.k9)),
-                (1, t15, n(p.k10)),
-                (2, t46, n(p.k11)),
-                (3, t70, n(p.k12)),
-                (4, t86, n(p.k13)),
-                (5, t113, t113),
-                (6, t129, t126),
+                (0, n(p.k5), n(p.k5)),
+                (1, t17, n(p.k6)),
+                (2, t47, n(p.k7)),
+                (3, t73, n(p.k8)),
+                (4, t89, n(p.k9)),
+                (5, t117, t117),
+                (6, t132, t129),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -1081,7 +1083,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let (sin_q_4, cos_q_4) = q_4.sin_cos();
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
     let t0 = p.l * q_1_dot;
-    let t1 = p.k0 * q_5_dot;
+    let t1 = p.half_l * q_5_dot;
     let t2 = sin_q_2 * q_2_dot;
     let t3 = sin_q_3 * q_3_dot;
     let t4 = cos_q_2 * q_2_dot;
@@ -1089,22 +1091,22 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t6 = sin_q_4 * q_4_dot;
     let t7 = cos_q_4 * q_4_dot;
     let t8 = t2 + sin_q_1 * q_1_dot;
-    let t9 = p.k0 * t2 + sin_q_1 * t0;
+    let t9 = p.half_l * t2 + sin_q_1 * t0;
     let t10 = t4 + cos_q_1 * q_1_dot;
-    let t11 = p.k0 * t4 + cos_q_1 * t0;
+    let t11 = p.half_l * t4 + cos_q_1 * t0;
     let t12 = t3 + t8;
-    let t13 = p.k0 * t3 + p.l * t8;
+    let t13 = p.half_l * t3 + p.l * t8;
     let t14 = t5 + t10;
-    let t15 = p.k0 * t5 + p.l * t10;
-    let t16 = p.k0 * t6 + p.l * t12;
-    let t17 = p.k0 * t7 + p.l * t14;
+    let t15 = p.half_l * t5 + p.l * t10;
+    let t16 = p.half_l * t6 + p.l * t12;
+    let t17 = p.half_l * t7 + p.l * t14;
     let t18 = t1 * sin_q_5 + p.l * (t6 + t12);
     let t19 = t1 * cos_q_5 + p.l * (t7 + t14);
-    let t20 = p.m * (t11 * t11 + t9 * t9) + q_2_dot * (q_2_dot * p.k1);
-    let t21 = p.m * (t15 * t15 + t13 * t13) + q_3_dot * (q_3_dot * p.k1);
-    let t22 = S::from_f64(0.5) * t20 + q_1_dot * (q_1_dot * p.k4);
-    let t23 = p.m * (t17 * t17 + t16 * t16) + q_4_dot * (q_4_dot * p.k1);
-    let t24 = p.m * (t19 * t19 + t18 * t18) + q_5_dot * (q_5_dot * p.k1);
+    let t20 = p.m * (t11 * t11 + t9 * t9) + q_2_dot * (q_2_dot * p.k0);
+    let t21 = p.m * (t15 * t15 + t13 * t13) + q_3_dot * (q_3_dot * p.k0);
+    let t22 = S::from_f64(0.5) * t20 + q_1_dot * (q_1_dot * p.k1);
+    let t23 = p.m * (t17 * t17 + t16 * t16) + q_4_dot * (q_4_dot * p.k0);
+    let t24 = p.m * (t19 * t19 + t18 * t18) + q_5_dot * (q_5_dot * p.k0);
     let t25 = S::from_f64(0.5) * t23 + (S::from_f64(0.5) * t21 + t22);
     S::from_f64(0.5) * t24 + t25
 }
@@ -1128,9 +1130,10 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let sin_q_5 = q_5.sin();
     let t0 = sin_q_2 + sin_q_1;
     let t1 = sin_q_3 + t0;
-    let t2 = p.k0 * sin_q_3 + p.l * t0 + (p.k0 * sin_q_2 + p.l * sin_q_1);
-    let t3 = p.k0 * sin_q_5 + p.l * (sin_q_4 + t1) + (p.k0 * sin_q_4 + p.l * t1 + t2);
-    t3 * p.k2 + sin_q_1 * p.k3
+    let t2 = p.half_l * sin_q_3 + p.l * t0 + (p.half_l * sin_q_2 + p.l * sin_q_1);
+    let t3 = p.half_l * sin_q_5 + p.l * (sin_q_4 + t1);
+    let t4 = (t3 + (p.half_l * sin_q_4 + p.l * t1 + t2)) * p.m_g;
+    t4 + sin_q_1 * p.half_l_m_g
 }
 
 ::lagrangian::emitted::implement! {
@@ -1151,9 +1154,10 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        l, m, d, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17,
-        k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30, k31, k32, k33, k34, k35,
-        k36,
+        l, m, d, g, half_l, k0, m_g, half_l_m_g, k1, half_l_squared_m, k2, k3, k4, k5, k6, k7, k8,
+        k9, half_m, quarter_l_m, half_l_m, k10, k11, k12, k13, minus_l, k14, k15, k16, k17,
+        minus_half_l_m_g, k18, half_l_squared, k19, k20, quarter_l_squared, k21, k22, inverse_m,
+        minus_m, k23,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

@@ -110,45 +110,45 @@ pub struct CollidingCrusher<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> CollidingCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k7 = self.m + self.m0;
-        let k8 = self.x0 * self.m0;
+        let m_plus_m0 = self.m + self.m0;
+        let m0_x0 = self.x0 * self.m0;
         let t0 = self.y0 * self.m0;
-        let k1 = self.w * self.e;
-        let k0 = self.rho - self.delta;
-        let t1 = S::ONE / k7;
-        let k4 = self.w * k1;
-        let k9 = self.J + self.x0 * k8 + self.y0 * t0;
-        let k5 = k4 * self.m0;
-        let k10 = k4 * k8;
-        let k11 = k4 * t0;
-        let t2 = k8 * t1;
+        let e_w = self.w * self.e;
+        let rho_minus_delta = self.rho - self.delta;
+        let t1 = S::ONE / m_plus_m0;
+        let e_w_squared = self.w * e_w;
+        let k0 = self.J + self.x0 * m0_x0 + self.y0 * t0;
+        let m0_e_w_squared = e_w_squared * self.m0;
+        let m0_e_x0_w_squared = e_w_squared * m0_x0;
+        let m0_e_y0_w_squared = e_w_squared * t0;
+        let t2 = m0_x0 * t1;
         let t3 = t0 * t1;
         let t4 = S::ONE - self.m0 * t1;
-        let pivot_2 = k9 - k8 * t2 - t0 * t3;
+        let pivot_2 = k0 - m0_x0 * t2 - t0 * t3;
         let t5 = S::ONE / pivot_2;
-        let k2 = self.c * S::from_f64(0.25);
-        let k3 = self.b * S::from_f64(0.25);
-        let k6 = self.m0 * S::from_f64(0.5);
-        let k12 = self.c * S::from_f64(0.5);
-        let k13 = self.b * S::from_f64(0.5);
-        let k14 = self.R - self.r1;
-        let k15 = k0 - self.r2;
-        let k16 = -t0;
-        let k17 = -k5;
-        let k18 = -self.R;
-        let k19 = self.delta - self.rho;
-        let k20 = -(k1 * self.m0);
-        let k21 = -self.m2;
-        let k22 = k10 * t4;
-        let k23 = k11 * t4;
-        let k24 = self.xc + t2;
-        let k25 = self.xc - t2;
-        let k26 = self.yc + t3;
-        let k27 = self.yc - t3;
-        let k28 = t0 * t5;
-        let k29 = k8 * t5;
-        let k30 = -t1;
-        let k31 = -t5;
+        let quarter_c = self.c * S::from_f64(0.25);
+        let quarter_b = self.b * S::from_f64(0.25);
+        let half_m0 = self.m0 * S::from_f64(0.5);
+        let half_c = self.c * S::from_f64(0.5);
+        let half_b = self.b * S::from_f64(0.5);
+        let R_minus_r1 = self.R - self.r1;
+        let rho_minus_r2_minus_delta = rho_minus_delta - self.r2;
+        let minus_m0_y0 = -t0;
+        let minus_m0_e_w_squared = -m0_e_w_squared;
+        let minus_R = -self.R;
+        let k1 = self.delta - self.rho;
+        let minus_m0_e_w = -(e_w * self.m0);
+        let minus_m2 = -self.m2;
+        let k2 = m0_e_x0_w_squared * t4;
+        let k3 = m0_e_y0_w_squared * t4;
+        let k4 = self.xc + t2;
+        let k5 = self.xc - t2;
+        let k6 = self.yc + t3;
+        let k7 = self.yc - t3;
+        let k8 = t0 * t5;
+        let k9 = m0_x0 * t5;
+        let k10 = -t1;
+        let k11 = -t5;
         let pivots = [
             (3, self.m1, self.m1),
             (4, self.m1, self.m1),
@@ -156,9 +156,9 @@ impl<S: ::lagrangian::emitted::Scalar> CollidingCrusher<S> {
             (6, self.m2, self.m2),
             (7, self.m2, self.m2),
             (8, self.J2, self.J2),
-            (1, k7, k7),
-            (0, k7, k7),
-            (2, pivot_2, k9),
+            (1, m_plus_m0, m_plus_m0),
+            (0, m_plus_m0, m_plus_m0),
+            (2, pivot_2, k0),
         ];
         Prepared {
             m: self.m,
@@ -179,8 +179,28 @@ impl<S: ::lagrangian::emitted::Scalar> CollidingCrusher<S> {
             r2: self.r2,
             eN: self.eN,
             mu: self.mu,
+            rho_minus_delta,
+            e_w,
+            quarter_c,
+            quarter_b,
+            e_w_squared,
+            m0_e_w_squared,
+            half_m0,
+            m_plus_m0,
+            m0_x0,
             k0,
+            m0_e_x0_w_squared,
+            m0_e_y0_w_squared,
+            half_c,
+            half_b,
+            R_minus_r1,
+            rho_minus_r2_minus_delta,
+            minus_m0_y0,
+            minus_m0_e_w_squared,
+            minus_R,
             k1,
+            minus_m0_e_w,
+            minus_m2,
             k2,
             k3,
             k4,
@@ -191,26 +211,6 @@ impl<S: ::lagrangian::emitted::Scalar> CollidingCrusher<S> {
             k9,
             k10,
             k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
-            k20,
-            k21,
-            k22,
-            k23,
-            k24,
-            k25,
-            k26,
-            k27,
-            k28,
-            k29,
-            k30,
-            k31,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -324,79 +324,76 @@ pub struct Prepared<S = f64> {
     /// `mu`
     mu: S,
     /// `rho - delta`
-    k0: S,
+    rho_minus_delta: S,
     /// `e*w`
-    k1: S,
+    e_w: S,
     /// `0.25*c`
-    k2: S,
+    quarter_c: S,
     /// `0.25*b`
-    k3: S,
+    quarter_b: S,
     /// `e*w^2`
-    k4: S,
+    e_w_squared: S,
     /// `m0*e*w^2`
-    k5: S,
+    m0_e_w_squared: S,
     /// `0.5*m0`
-    k6: S,
+    half_m0: S,
     /// `m + m0`
-    k7: S,
+    m_plus_m0: S,
     /// `m0*x0`
-    k8: S,
+    m0_x0: S,
     /// `J + m0*x0^2 + m0*y0^2`
-    k9: S,
+    k0: S,
     /// `m0*e*x0*w^2`
-    k10: S,
+    m0_e_x0_w_squared: S,
     /// `m0*e*y0*w^2`
-    k11: S,
+    m0_e_y0_w_squared: S,
     /// `0.5*c`
-    k12: S,
+    half_c: S,
     /// `0.5*b`
-    k13: S,
+    half_b: S,
     /// `R - r1`
-    k14: S,
+    R_minus_r1: S,
     /// `rho - r2 - delta`
-    k15: S,
+    rho_minus_r2_minus_delta: S,
     /// `-m0*y0`
-    k16: S,
+    minus_m0_y0: S,
     /// `-m0*e*w^2`
-    k17: S,
+    minus_m0_e_w_squared: S,
     /// `-R`
-    k18: S,
+    minus_R: S,
     /// `-(rho - delta)`
-    k19: S,
+    k1: S,
     /// `-m0*e*w`
-    k20: S,
+    minus_m0_e_w: S,
     /// `-m2`
-    k21: S,
+    minus_m2: S,
     /// `m0*e*x0*w^2*(1 - m0/(m + m0))`
-    k22: S,
+    k2: S,
     /// `m0*e*y0*w^2*(1 - m0/(m + m0))`
-    k23: S,
+    k3: S,
     /// `xc + m0*x0/(m + m0)`
-    k24: S,
+    k4: S,
     /// `xc - m0*x0/(m + m0)`
-    k25: S,
+    k5: S,
     /// `yc + m0*y0/(m + m0)`
-    k26: S,
+    k6: S,
     /// `yc - m0*y0/(m + m0)`
-    k27: S,
+    k7: S,
     /// `m0*y0/(J + m0*x0^2 + m0*y0^2 - m0^2*x0^2/(m + m0) - m0^2*y0^2/(m + m0))`
-    k28: S,
+    k8: S,
     /// `m0*x0/(J + m0*x0^2 + m0*y0^2 - m0^2*x0^2/(m + m0) - m0^2*y0^2/(m + m0))`
-    k29: S,
+    k9: S,
     /// `-1/(m + m0)`
-    k30: S,
+    k10: S,
     /// `-1/(J + m0*x0^2 + m0*y0^2 - m0^2*x0^2/(m + m0) - m0^2*y0^2/(m + m0))`
-    k31: S,
+    k11: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 9);
 
 /// Mass matrix `M`.
 ///
@@ -416,9 +413,39 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 9]; 9] {
     let zero = S::ZERO;
     [
-        [p.k7, zero, p.k16, zero, zero, zero, zero, zero, zero],
-        [zero, p.k7, p.k8, zero, zero, zero, zero, zero, zero],
-        [p.k16, p.k8, p.k9, zero, zero, zero, zero, zero, zero],
+        [
+            p.m_plus_m0,
+            zero,
+            p.minus_m0_y0,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+        ],
+        [
+            zero,
+            p.m_plus_m0,
+            p.m0_x0,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+        ],
+        [
+            p.minus_m0_y0,
+            p.m0_x0,
+            p.k0,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+        ],
         [zero, zero, zero, p.m1, zero, zero, zero, zero, zero],
         [zero, zero, zero, zero, p.m1, zero, zero, zero, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
@@ -441,9 +468,9 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S) -> [S; 9] {
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t2 = sin_t0 + t1 * cos_t0;
     let t3 = cos_t0 - t1 * sin_t0;
-    let h_x = p.k17 * t3;
-    let h_y = p.k17 * t2;
-    let h_theta = t3 * p.k11 - t2 * p.k10;
+    let h_x = p.minus_m0_e_w_squared * t3;
+    let h_y = p.minus_m0_e_w_squared * t2;
+    let h_theta = t3 * p.m0_e_y0_w_squared - t2 * p.m0_e_x0_w_squared;
     let zero = S::ZERO;
     [h_x, h_y, h_theta, zero, zero, zero, zero, zero, zero]
 }
@@ -470,10 +497,10 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let t1 = theta_dot * p.yc;
     let t2 = theta * p.xc;
     let t3 = theta_dot * p.xc;
-    let t4 = p.k13 * (x_dot - t1) + p.k12 * (x - t0);
-    let t5 = p.k13 * (t1 + x_dot) + p.k12 * (t0 + x);
-    let t6 = p.k13 * (t3 + y_dot) + p.k12 * (t2 + y);
-    let t7 = p.k13 * (y_dot - t3) + p.k12 * (y - t2);
+    let t4 = p.half_b * (x_dot - t1) + p.half_c * (x - t0);
+    let t5 = p.half_b * (t1 + x_dot) + p.half_c * (t0 + x);
+    let t6 = p.half_b * (t3 + y_dot) + p.half_c * (t2 + y);
+    let t7 = p.half_b * (y_dot - t3) + p.half_c * (y - t2);
     let q_x = -(t4 + t5);
     let q_y = -(t6 + t7);
     let q_theta = p.xc * (t7 - t6) - p.yc * (t5 - t4);
@@ -501,15 +528,16 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t4 = theta_dot * p.yc;
     let t5 = p.w.product_error(t);
     let (sin_t0, cos_t0) = t0.sin_cos();
-    let t6 = p.k13 * (t3 + y_dot) + p.k12 * (t1 + y);
-    let t7 = p.k13 * (y_dot - t3) + p.k12 * (y - t1);
-    let t8 = p.k13 * (x_dot - t4) + p.k12 * (x - t2);
-    let t9 = p.k13 * (t4 + x_dot) + p.k12 * (t2 + x);
+    let t6 = p.half_b * (t3 + y_dot) + p.half_c * (t1 + y);
+    let t7 = p.half_b * (y_dot - t3) + p.half_c * (y - t1);
+    let t8 = p.half_b * (x_dot - t4) + p.half_c * (x - t2);
+    let t9 = p.half_b * (t4 + x_dot) + p.half_c * (t2 + x);
     let t10 = cos_t0 - t5 * sin_t0;
     let t11 = sin_t0 + t5 * cos_t0;
-    let f_x = p.k5 * t10 - (t8 + t9);
-    let f_y = p.k5 * t11 - (t6 + t7);
-    let f_theta = t11 * p.k10 - (t10 * p.k11 + (p.yc * (t9 - t8) - p.xc * (t7 - t6)));
+    let t12 = t10 * p.m0_e_y0_w_squared + (p.yc * (t9 - t8) - p.xc * (t7 - t6));
+    let f_x = p.m0_e_w_squared * t10 - (t8 + t9);
+    let f_y = p.m0_e_w_squared * t11 - (t6 + t7);
+    let f_theta = t11 * p.m0_e_x0_w_squared - t12;
     let zero = S::ZERO;
     [f_x, f_y, f_theta, zero, zero, zero, zero, zero, zero]
 }
@@ -561,20 +589,20 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t4 = theta_dot * n(p.yc);
         let t5 = n(p.w).product_error(n(t));
         let (sin_t0, cos_t0) = t0.sin_cos();
-        let t6 = n(p.k13).mul_add(t3 + y_dot, n(p.k12) * (t1 + y));
-        let t7 = n(p.k13).mul_add(y_dot - t3, n(p.k12) * (y - t1));
-        let t8 = n(p.k13).mul_add(t4 + x_dot, n(p.k12) * (t2 + x));
-        let t9 = n(p.k13).mul_add(x_dot - t4, n(p.k12) * (x - t2));
-        let t10 = n(p.k27).mul_add(t9, n(p.k24) * t7);
+        let t6 = n(p.half_b).mul_add(t3 + y_dot, n(p.half_c) * (t1 + y));
+        let t7 = n(p.half_b).mul_add(y_dot - t3, n(p.half_c) * (y - t1));
+        let t8 = n(p.half_b).mul_add(t4 + x_dot, n(p.half_c) * (t2 + x));
+        let t9 = n(p.half_b).mul_add(x_dot - t4, n(p.half_c) * (x - t2));
+        let t10 = n(p.k7).mul_add(t9, n(p.k4) * t7);
         let t11 = t5.neg_mul_add(sin_t0, cos_t0);
         let t12 = t5.mul_add(cos_t0, sin_t0);
-        let t13 = n(p.k26).mul_add(t8, n(p.k25) * t6) - t10;
-        let t14 = t12.neg_mul_add(n(p.k22), t11.mul_add(n(p.k23), t13));
-        let t15 = t12.neg_mul_add(n(p.k5), t6 + t7);
-        let t16 = t14.mul_add(n(p.k28), t11.neg_mul_add(n(p.k5), t9 + t8));
-        let x_ddot = n(p.k30) * t16;
-        let y_ddot = n(p.k30) * t14.neg_mul_add(n(p.k29), t15);
-        let theta_ddot = t14 * n(p.k31);
+        let t13 = n(p.k6).mul_add(t8, n(p.k5) * t6) - t10;
+        let t14 = t12.neg_mul_add(n(p.k2), t11.mul_add(n(p.k3), t13));
+        let t15 = t11.neg_mul_add(n(p.m0_e_w_squared), t9 + t8);
+        let t16 = t12.neg_mul_add(n(p.m0_e_w_squared), t6 + t7);
+        let x_ddot = n(p.k10) * t14.mul_add(n(p.k8), t15);
+        let y_ddot = n(p.k10) * t14.neg_mul_add(n(p.k9), t16);
+        let theta_ddot = t14 * n(p.k11);
         let zero = N::ZERO;
         let accelerations = [
             x_ddot.store(),
@@ -607,8 +635,9 @@ pub fn gaps<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [S
     let t0 = x1 * S::from_f64(2.0);
     let t1 = y1 * S::from_f64(2.0);
     let t2 = y1 * y1 + x1 * x1;
-    let gap1 = p.k14 - (y * (y - t1) + (t2 + x * (x - t0))).sqrt();
-    let gap2 = p.k15 - (y2 * (y2 - t1) + (t2 + x2 * (x2 - t0))).sqrt();
+    let t3 = (y2 * (y2 - t1) + (t2 + x2 * (x2 - t0))).sqrt();
+    let gap1 = p.R_minus_r1 - (y * (y - t1) + (t2 + x * (x - t0))).sqrt();
+    let gap2 = p.rho_minus_r2_minus_delta - t3;
     [gap1, gap2]
 }
 
@@ -658,7 +687,7 @@ pub fn contact_rates<S: ::lagrangian::emitted::Scalar>(
     let rate1 = t9 * (t5 - (t3 + (y * y_dot + x * x_dot)));
     let rate2 = t11 + (theta1_dot * p.r1 - theta_dot * p.R);
     let rate3 = -(t8 * (t3 - (x1 * x2_dot + x1_dot * x2) + t4));
-    let rate4 = t10 + (theta2_dot * p.r2 - theta1_dot * p.k0);
+    let rate4 = t10 + (theta2_dot * p.r2 - theta1_dot * p.rho_minus_delta);
     [rate1, rate2, rate3, rate4]
 }
 
@@ -724,9 +753,9 @@ pub fn contact_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S;
     let w3_8 = -w3_5;
     let zero = S::ZERO;
     [
-        w1_1, w1_2, zero, w1_4, w1_5, zero, zero, zero, zero, w1_2, w1_4, p.k18, w1_5, w1_1, p.r1,
-        zero, zero, zero, zero, zero, zero, w3_4, w3_5, zero, w3_7, w3_8, zero, zero, zero, zero,
-        w3_5, w3_7, p.k19, w3_8, w3_4, p.r2,
+        w1_1, w1_2, zero, w1_4, w1_5, zero, zero, zero, zero, w1_2, w1_4, p.minus_R, w1_5, w1_1,
+        p.r1, zero, zero, zero, zero, zero, zero, w3_4, w3_5, zero, w3_7, w3_8, zero, zero, zero,
+        zero, w3_5, w3_7, p.k1, w3_8, w3_4, p.r2,
     ]
 }
 
@@ -854,10 +883,10 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, v
     let t3 = (y2_dot * y2_dot + x2_dot * x2_dot) * p.m2;
     let t4 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
     let t5 = t2 + theta1_dot * (theta1_dot * p.J1) + t4;
-    let t6 = x_dot - theta_dot * p.y0 - p.k1 * (sin_t0 + t1 * cos_t0);
-    let t7 = p.k1 * (cos_t0 - t1 * sin_t0) + (y_dot + theta_dot * p.x0);
+    let t6 = x_dot - theta_dot * p.y0 - p.e_w * (sin_t0 + t1 * cos_t0);
+    let t7 = p.e_w * (cos_t0 - t1 * sin_t0) + (y_dot + theta_dot * p.x0);
     let t8 = (t3 + theta2_dot * (theta2_dot * p.J2) + t5) * S::from_f64(0.5);
-    t8 + p.k6 * (t7 * t7 + t6 * t6)
+    t8 + p.half_m0 * (t7 * t7 + t6 * t6)
 }
 
 /// Potential energy `V`, in J.
@@ -875,7 +904,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t3 = t1 + y;
     let t4 = t0 + x;
     let t5 = y - t1;
-    (t4 * t4 + t2 * t2 + (t5 * t5 + t3 * t3)) * p.k2
+    (t4 * t4 + t2 * t2 + (t5 * t5 + t3 * t3)) * p.quarter_c
 }
 
 /// Dissipation function `D`, in W.
@@ -893,7 +922,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     let t3 = t1 + y_dot;
     let t4 = t0 + x_dot;
     let t5 = y_dot - t1;
-    (t4 * t4 + t2 * t2 + (t5 * t5 + t3 * t3)) * p.k3
+    (t4 * t4 + t2 * t2 + (t5 * t5 + t3 * t3)) * p.quarter_b
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -911,8 +940,9 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, a: &[S
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t2 = sin_t0 + t1 * cos_t0;
     let t3 = cos_t0 - t1 * sin_t0;
-    let t4 = t3 * (theta_ddot * p.x0 + y_ddot - t2 * p.k4);
-    p.k20 * (t2 * (x_ddot - theta_ddot * p.y0 - t3 * p.k4) - t4)
+    let t4 = t3 * (theta_ddot * p.x0 + y_ddot - t2 * p.e_w_squared);
+    let t5 = t2 * (x_ddot - theta_ddot * p.y0 - t3 * p.e_w_squared) - t4;
+    p.minus_m0_e_w * t5
 }
 
 /// Power `R` that dampers take out, in W.
@@ -930,7 +960,7 @@ pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[
     let t3 = t1 + y_dot;
     let t4 = t0 + x_dot;
     let t5 = y_dot - t1;
-    p.k13 * (t4 * t4 + t2 * t2 + (t5 * t5 + t3 * t3))
+    p.half_b * (t4 * t4 + t2 * t2 + (t5 * t5 + t3 * t3))
 }
 
 /// `s1`. Unit: `m`.
@@ -1079,7 +1109,7 @@ pub fn output_R_s2<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let y2_ddot = a[7];
     let t0 = x1 - x2;
     let t1 = y1 - y2;
-    p.k21 * (t1 * y2_ddot + t0 * x2_ddot) / (t1 * t1 + t0 * t0).sqrt()
+    p.minus_m2 * (t1 * y2_ddot + t0 * x2_ddot) / (t1 * t1 + t0 * t0).sqrt()
 }
 
 /// `R_phi2`. Unit: `N*m`.
@@ -1098,7 +1128,7 @@ pub fn output_R_phi2<S: ::lagrangian::emitted::Scalar>(
     let y2 = q[7];
     let x2_ddot = a[6];
     let y2_ddot = a[7];
-    p.k21 * ((x1 - x2) * y2_ddot - (y1 - y2) * x2_ddot)
+    p.minus_m2 * ((x1 - x2) * y2_ddot - (y1 - y2) * x2_ddot)
 }
 
 /// `R_theta2`. Unit: `N*m`.
@@ -1187,9 +1217,11 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         R_theta2: "R_theta2" "N*m";
     ]
     prepared Prepared {
-        m, J, x0, y0, w, m1, J1, m2, J2, c, b, xc, yc, R, r1, r2, eN, mu, k0, k1, k2, k3, k4, k5,
-        k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24,
-        k25, k26, k27, k28, k29, k30, k31,
+        m, J, x0, y0, w, m1, J1, m2, J2, c, b, xc, yc, R, r1, r2, eN, mu, rho_minus_delta, e_w,
+        quarter_c, quarter_b, e_w_squared, m0_e_w_squared, half_m0, m_plus_m0, m0_x0, k0,
+        m0_e_x0_w_squared, m0_e_y0_w_squared, half_c, half_b, R_minus_r1, rho_minus_r2_minus_delta,
+        minus_m0_y0, minus_m0_e_w_squared, minus_R, k1, minus_m0_e_w, minus_m2, k2, k3, k4, k5, k6,
+        k7, k8, k9, k10, k11,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

@@ -96,37 +96,37 @@ impl<S: ::lagrangian::emitted::Scalar> Crusher9<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let pivot_1 = self.m + self.m0;
-        let k13 = self.m0 * self.x0;
-        let k12 = self.m0 * self.y0;
-        let k0 = self.w * self.e;
-        let k11 = self.m1 + self.m2;
-        let k28 = S::ONE / pivot_1;
-        let k14 = k11 + pivot_1;
-        let k20 = self.J + (self.y0 * k12 + self.x0 * k13);
-        let pivot_2 = k20 - k28 * (k12 * k12) - k28 * (k13 * k13);
-        let k26 = S::ONE / pivot_2;
-        let k1_ = self.cx * S::from_f64(0.5);
-        let k2_ = self.cy * S::from_f64(0.5);
-        let k3 = self.k1 * S::from_f64(0.5);
-        let k4 = self.k2 * S::from_f64(0.5);
-        let k5 = self.bx * S::from_f64(0.5);
-        let k6 = self.by * S::from_f64(0.5);
-        let k7 = self.d1 * S::from_f64(0.5);
-        let k8 = self.d2 * S::from_f64(0.5);
-        let k9 = self.w * k0;
-        let k10 = self.m0 * S::from_f64(0.5);
-        let k15 = self.by * self.xb;
-        let k16 = self.bx * self.yb;
-        let k17 = self.cy * self.xc;
-        let k18 = self.cx * self.yc;
-        let k19 = self.m0 * k0;
-        let k21 = -k11;
-        let k22 = -self.m2;
-        let k23 = S::ONE / self.m2;
-        let k24 = S::ONE / self.m1;
-        let k25 = self.m0 * k28;
-        let k27 = self.m0 * k26;
-        let k29 = -k28;
+        let m0_x0 = self.m0 * self.x0;
+        let m0_y0 = self.m0 * self.y0;
+        let e_w = self.w * self.e;
+        let m1_plus_m2 = self.m1 + self.m2;
+        let k6 = S::ONE / pivot_1;
+        let k0 = m1_plus_m2 + pivot_1;
+        let k1_ = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
+        let pivot_2 = k1_ - k6 * (m0_y0 * m0_y0) - k6 * (m0_x0 * m0_x0);
+        let k4 = S::ONE / pivot_2;
+        let half_cx = self.cx * S::from_f64(0.5);
+        let half_cy = self.cy * S::from_f64(0.5);
+        let half_k1 = self.k1 * S::from_f64(0.5);
+        let half_k2 = self.k2 * S::from_f64(0.5);
+        let half_bx = self.bx * S::from_f64(0.5);
+        let half_by = self.by * S::from_f64(0.5);
+        let half_d1 = self.d1 * S::from_f64(0.5);
+        let half_d2 = self.d2 * S::from_f64(0.5);
+        let e_w_squared = self.w * e_w;
+        let half_m0 = self.m0 * S::from_f64(0.5);
+        let by_xb = self.by * self.xb;
+        let bx_yb = self.bx * self.yb;
+        let cy_xc = self.cy * self.xc;
+        let cx_yc = self.cx * self.yc;
+        let m0_e_w = self.m0 * e_w;
+        let k2_ = -m1_plus_m2;
+        let minus_m2 = -self.m2;
+        let inverse_m2 = S::ONE / self.m2;
+        let inverse_m1 = S::ONE / self.m1;
+        let k3 = self.m0 * k6;
+        let k5 = self.m0 * k4;
+        let k7 = -k6;
         let c0 = self.yc;
         let c1 = -c0;
         let c2 = self.w;
@@ -169,10 +169,10 @@ impl<S: ::lagrangian::emitted::Scalar> Crusher9<S> {
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
             (6, self.m2, self.m2),
-            (3, self.m1, k11),
-            (1, pivot_1, k14),
-            (0, pivot_1, k14),
-            (2, pivot_2, k20),
+            (3, self.m1, m1_plus_m2),
+            (1, pivot_1, k0),
+            (0, pivot_1, k0),
+            (2, pivot_2, k1_),
         ];
         Prepared {
             m: self.m,
@@ -199,36 +199,36 @@ impl<S: ::lagrangian::emitted::Scalar> Crusher9<S> {
             k2: self.k2,
             d2: self.d2,
             r2: self.r2,
+            e_w,
+            half_cx,
+            half_cy,
+            half_k1,
+            half_k2,
+            half_bx,
+            half_by,
+            half_d1,
+            half_d2,
+            e_w_squared,
+            half_m0,
+            m1_plus_m2,
+            m0_y0,
+            m0_x0,
             k0,
+            by_xb,
+            bx_yb,
+            cy_xc,
+            cx_yc,
+            m0_e_w,
             k1_,
             k2_,
+            minus_m2,
+            inverse_m2,
+            inverse_m1,
             k3,
             k4,
             k5,
             k6,
             k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
-            k20,
-            k21,
-            k22,
-            k23,
-            k24,
-            k25,
-            k26,
-            k27,
-            k28,
-            k29,
             singular: PIVOTS.vanished(pivots),
             series: [
                 c1, c2, c3, c4, c5, c7, c8, c10, c11, c12, c13, c14, c15, c16, c17, c18, c9, c19,
@@ -338,65 +338,65 @@ pub struct Prepared<S = f64> {
     /// `r2`
     r2: S,
     /// `e*w`
-    k0: S,
+    e_w: S,
     /// `0.5*cx`
-    k1_: S,
+    half_cx: S,
     /// `0.5*cy`
-    k2_: S,
+    half_cy: S,
     /// `0.5*k1`
-    k3: S,
+    half_k1: S,
     /// `0.5*k2`
-    k4: S,
+    half_k2: S,
     /// `0.5*bx`
-    k5: S,
+    half_bx: S,
     /// `0.5*by`
-    k6: S,
+    half_by: S,
     /// `0.5*d1`
-    k7: S,
+    half_d1: S,
     /// `0.5*d2`
-    k8: S,
+    half_d2: S,
     /// `e*w^2`
-    k9: S,
+    e_w_squared: S,
     /// `0.5*m0`
-    k10: S,
+    half_m0: S,
     /// `m1 + m2`
-    k11: S,
+    m1_plus_m2: S,
     /// `m0*y0`
-    k12: S,
+    m0_y0: S,
     /// `m0*x0`
-    k13: S,
+    m0_x0: S,
     /// `m + m0 + m1 + m2`
-    k14: S,
+    k0: S,
     /// `by*xb`
-    k15: S,
+    by_xb: S,
     /// `bx*yb`
-    k16: S,
+    bx_yb: S,
     /// `cy*xc`
-    k17: S,
+    cy_xc: S,
     /// `cx*yc`
-    k18: S,
+    cx_yc: S,
     /// `m0*e*w`
-    k19: S,
+    m0_e_w: S,
     /// `J + m0*x0^2 + m0*y0^2`
-    k20: S,
+    k1_: S,
     /// `-(m1 + m2)`
-    k21: S,
+    k2_: S,
     /// `-m2`
-    k22: S,
+    minus_m2: S,
     /// `1/m2`
-    k23: S,
+    inverse_m2: S,
     /// `1/m1`
-    k24: S,
+    inverse_m1: S,
     /// `m0/(m + m0)`
-    k25: S,
+    k3: S,
     /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k26: S,
+    k4: S,
     /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k27: S,
+    k5: S,
     /// `1/(m + m0)`
-    k28: S,
+    k6: S,
     /// `-1/(m + m0)`
-    k29: S,
+    k7: S,
     /// What the Taylor series takes from the parameters.
     series: [S; 34],
     /// Why these parameters leave the machine without accelerations, if they do.
@@ -405,10 +405,7 @@ pub struct Prepared<S = f64> {
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 9);
 
 /// Mass matrix `M`.
 ///
@@ -447,33 +444,33 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.k11 * s1;
+    let t1 = p.m1_plus_m2 * s1;
     let t2 = p.m2 * s2;
     let t3 = sin_phi1 * cos_phi2;
     let t4 = cos_phi1 * sin_phi2;
     let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
     let zero = S::ZERO;
-    let m31 = -(p.k13 * sin_theta + cos_theta * p.k12);
-    let m32 = p.k13 * cos_theta - sin_theta * p.k12;
-    let m41 = p.k11 * cos_phi1;
-    let m42 = p.k11 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k21);
+    let m31 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
+    let m32 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
+    let m41 = p.m1_plus_m2 * cos_phi1;
+    let m42 = p.m1_plus_m2 * sin_phi1;
+    let m51 = sin_phi1 * (s1 * p.k2_);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
     let m75 = (t4 - t3) * t0;
-    let m81 = sin_phi2 * (s2 * p.k22);
+    let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t3 - t4);
     let m85 = t5 * (t0 * s2);
     let m88 = s2 * t2;
     [
-        [p.k14, zero, m31, m41, m51, zero, m71, m81, zero],
-        [zero, p.k14, m32, m42, m52, zero, m72, m82, zero],
-        [m31, m32, p.k20, zero, zero, zero, zero, zero, zero],
-        [m41, m42, zero, p.k11, zero, zero, m74, m84, zero],
+        [p.k0, zero, m31, m41, m51, zero, m71, m81, zero],
+        [zero, p.k0, m32, m42, m52, zero, m72, m82, zero],
+        [m31, m32, p.k1_, zero, zero, zero, zero, zero, zero],
+        [m41, m42, zero, p.m1_plus_m2, zero, zero, m74, m84, zero],
         [m51, m52, zero, zero, m55, zero, m75, m85, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
         [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
@@ -536,21 +533,23 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t12 = cos_phi1 * s1;
     let t13 = t6 * t10 - t8 * cos_phi1;
     let t14 = t8 * sin_phi1 + t6 * t12;
-    let t15 = p.k9 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
-    let t16 = t3 * t9 - t7 * cos_phi2 + t13;
-    let t17 = p.k9 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
-    let t18 = t7 * sin_phi2 + t3 * t11 + t14;
-    let t19 = p.m2 * t16 + p.m1 * t13;
-    let t20 = t18 * p.m2 + t14 * p.m1;
-    let t21 = cos_theta * (t17 * p.k12 - t15 * p.k13);
-    let h_x = -(t17 * p.m0 + t20);
-    let h_y = -(p.m0 * t15 + t19);
-    let h_theta = sin_theta * (t15 * p.k12 + t17 * p.k13) + t21;
-    let h_s1 = -(cos_phi1 * t20 + sin_phi1 * t19);
-    let h_phi1 = t20 * t10 - t12 * t19;
+    let t15 = p.e_w_squared * (sin_t0 + t2 * cos_t0);
+    let t16 = t15 + (sin_theta * t5 + t4 * cos_theta);
+    let t17 = t3 * t9 - t7 * cos_phi2 + t13;
+    let t18 = p.e_w_squared * (cos_t0 - t2 * sin_t0);
+    let t19 = t18 + (cos_theta * t5 - t4 * sin_theta);
+    let t20 = t7 * sin_phi2 + t3 * t11 + t14;
+    let t21 = p.m2 * t17 + p.m1 * t13;
+    let t22 = t20 * p.m2 + t14 * p.m1;
+    let t23 = cos_theta * (t19 * p.m0_y0 - t16 * p.m0_x0);
+    let h_x = -(t19 * p.m0 + t22);
+    let h_y = -(p.m0 * t16 + t21);
+    let h_theta = sin_theta * (t16 * p.m0_y0 + t19 * p.m0_x0) + t23;
+    let h_s1 = -(cos_phi1 * t22 + sin_phi1 * t21);
+    let h_phi1 = t22 * t10 - t12 * t21;
     let zero = S::ZERO;
-    let h_s2 = p.k22 * (cos_phi2 * t18 + sin_phi2 * t16);
-    let h_phi2 = p.k22 * (t11 * t16 - t18 * t9);
+    let h_s2 = p.minus_m2 * (cos_phi2 * t20 + sin_phi2 * t17);
+    let h_phi2 = p.minus_m2 * (t11 * t17 - t20 * t9);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -585,7 +584,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let t3 = theta_dot * p.xb + y_dot;
     let q_x = -(t2 * p.bx + t0 * p.cx);
     let q_y = -(t3 * p.by + t1 * p.cy);
-    let q_theta = t2 * p.k16 + t0 * p.k18 - (t3 * p.k15 + t1 * p.k17);
+    let q_theta = t2 * p.bx_yb + t0 * p.cx_yc - (t3 * p.by_xb + t1 * p.cy_xc);
     let q_s1 = (p.r1 - s1) * p.k1 - s1_dot * p.d1;
     let zero = S::ZERO;
     let q_s2 = (p.r2 - s2) * p.k2 - s2_dot * p.d2;
@@ -635,25 +634,27 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t15 = sin_phi2 * s2;
     let t16 = sin_phi1 * s1;
     let t17 = t9 * sin_phi1 + t6 * t14;
-    let t18 = p.k9 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
-    let t19 = t6 * t16 - t9 * cos_phi1;
-    let t20 = p.k9 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
-    let t21 = t8 * sin_phi2 + t3 * t13 + t17;
-    let t22 = t3 * t15 - t8 * cos_phi2 + t19;
-    let t23 = t21 * p.m2;
-    let t24 = p.m2 * t22;
-    let t25 = t23 + t17 * p.m1;
-    let t26 = t12 * p.k15 + t10 * p.k17 - (t11 * p.k16 + t7 * p.k18);
-    let t27 = t24 + p.m1 * t19;
-    let t28 = cos_theta * (t20 * p.k12 - t18 * p.k13) + t26;
-    let f_x = t20 * p.m0 + (t25 - (t11 * p.bx + t7 * p.cx));
-    let f_y = p.m0 * t18 + (t27 - (t12 * p.by + t10 * p.cy));
-    let f_theta = -(sin_theta * (t18 * p.k12 + t20 * p.k13) + t28);
-    let f_s1 = cos_phi1 * t25 + (sin_phi1 * t27 + ((p.r1 - s1) * p.k1 - s1_dot * p.d1));
-    let f_phi1 = t14 * t27 - t25 * t16;
+    let t18 = p.e_w_squared * (sin_t0 + t2 * cos_t0);
+    let t19 = t18 + (sin_theta * t5 + t4 * cos_theta);
+    let t20 = t6 * t16 - t9 * cos_phi1;
+    let t21 = p.e_w_squared * (cos_t0 - t2 * sin_t0);
+    let t22 = t21 + (cos_theta * t5 - t4 * sin_theta);
+    let t23 = t8 * sin_phi2 + t3 * t13 + t17;
+    let t24 = t3 * t15 - t8 * cos_phi2 + t20;
+    let t25 = t23 * p.m2;
+    let t26 = p.m2 * t24;
+    let t27 = t25 + t17 * p.m1;
+    let t28 = t12 * p.by_xb + t10 * p.cy_xc - (t11 * p.bx_yb + t7 * p.cx_yc);
+    let t29 = t26 + p.m1 * t20;
+    let t30 = cos_theta * (t22 * p.m0_y0 - t19 * p.m0_x0) + t28;
+    let f_x = t22 * p.m0 + (t27 - (t11 * p.bx + t7 * p.cx));
+    let f_y = p.m0 * t19 + (t29 - (t12 * p.by + t10 * p.cy));
+    let f_theta = -(sin_theta * (t19 * p.m0_y0 + t22 * p.m0_x0) + t30);
+    let f_s1 = cos_phi1 * t27 + (sin_phi1 * t29 + ((p.r1 - s1) * p.k1 - s1_dot * p.d1));
+    let f_phi1 = t14 * t29 - t27 * t16;
     let zero = S::ZERO;
-    let f_s2 = cos_phi2 * t23 - (s2_dot * p.d2 - (p.r2 - s2) * p.k2 - sin_phi2 * t24);
-    let f_phi2 = p.m2 * (t13 * t22 - t21 * t15);
+    let f_s2 = cos_phi2 * t25 - (s2_dot * p.d2 - (p.r2 - s2) * p.k2 - sin_phi2 * t26);
+    let f_phi2 = p.m2 * (t13 * t24 - t23 * t15);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -723,7 +724,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t9 = (n(p.r2) - s2).neg_mul_add(n(p.k2), s2_dot * n(p.d2));
         let t10 = s2 * n(p.m2);
         let t11 = phi1_dot * (s1 * phi1_dot);
-        let t12 = t6.mul_add(n(p.k15), t4 * n(p.k17));
+        let t12 = t6.mul_add(n(p.by_xb), t4 * n(p.cy_xc));
         let t13 = s1 * s1;
         let t14 = s2 * t10;
         let t15 = cos_theta * n(p.y0);
@@ -740,43 +741,45 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t26 = t2.mul_add(cos_t0, sin_t0);
         let t27 = t2.neg_mul_add(sin_t0, cos_t0);
         let t28 = n(p.m1).mul_add(t25, t9 * cos_phi2);
-        let t29 = n(p.m0) * n(p.k9).mul_add(t26, t17.mul_add(t1, t15 * t1));
-        let t30 = n(p.k9).mul_add(t27, t1.mul_sub(t18, t16 * t1)) * n(p.m0);
-        let t31 = t5.mul_add(n(p.k16), t3 * n(p.k18)) - t12;
-        let t32 = t7.neg_mul_add(cos_phi1, t19) - t30;
-        let t33 = t7.neg_mul_add(sin_phi1, t20) - t29;
-        let t34 = cos_phi1.neg_mul_add(t28, sin_phi1.neg_mul_add(t24, t7));
-        let t35 = t32.neg_mul_add(n(p.k25) * t22, t21.mul_add(t29, t31));
-        let t36 = t33.mul_sub(n(p.k25) * t21, t22 * t30) + t35;
-        let t37 = n(p.k27) * t36;
-        let t38 = t22.neg_mul_add(t37, t32);
-        let t39 = t21.mul_add(t37, t33);
-        let t40 = t39 * n(p.k28);
-        let t41 = t38 * n(p.k28);
-        let t42 = sin_phi1 * t40;
-        let t43 = cos_phi1.neg_mul_add(t41, n(p.k24) * t34);
-        let t44 = n(p.k24) * cos_phi1.mul_sub(t24, sin_phi1 * t28);
-        let t45 = t43 - t42;
-        let t46 = sin_phi1.neg_mul_add(t41, cos_phi1.mul_add(t40, t44));
-        let t47 = sin_phi1.mul_add(t46, cos_phi1.mul_add(t45, t41 + t25));
-        let t48 = sin_phi1.mul_add(t45, t40 + t23);
-        let t49 = cos_phi1.neg_mul_add(t46, t48);
-        let t50 = phi2_dot * (s2_dot * N::from_f64(2.0));
-        let t51 = n(p.k23) * t10.neg_mul_add(phi2_dot * phi2_dot, t9);
-        let t52 = cos_phi2.neg_mul_add(t49, sin_phi2.mul_add(t47, t50)) / s2;
-        let x_ddot = n(p.k29) * t38;
-        let y_ddot = n(p.k29) * t39;
-        let theta_ddot = t36 * n(p.k26);
-        let s1_ddot = t42 - t43;
-        let phi1_ddot = t46 / s1;
+        let t29 = n(p.e_w_squared).mul_add(t26, t17.mul_add(t1, t15 * t1));
+        let t30 = n(p.m0) * t29;
+        let t31 = n(p.e_w_squared).mul_add(t27, t1.mul_sub(t18, t16 * t1));
+        let t32 = t31 * n(p.m0);
+        let t33 = t5.mul_add(n(p.bx_yb), t3 * n(p.cx_yc)) - t12;
+        let t34 = t7.neg_mul_add(cos_phi1, t19) - t32;
+        let t35 = t7.neg_mul_add(sin_phi1, t20) - t30;
+        let t36 = cos_phi1.neg_mul_add(t28, sin_phi1.neg_mul_add(t24, t7));
+        let t37 = t34.neg_mul_add(n(p.k3) * t22, t21.mul_add(t30, t33));
+        let t38 = t35.mul_sub(n(p.k3) * t21, t22 * t32) + t37;
+        let t39 = n(p.k5) * t38;
+        let t40 = t22.neg_mul_add(t39, t34);
+        let t41 = t21.mul_add(t39, t35);
+        let t42 = t41 * n(p.k6);
+        let t43 = t40 * n(p.k6);
+        let t44 = sin_phi1 * t42;
+        let t45 = cos_phi1.neg_mul_add(t43, n(p.inverse_m1) * t36);
+        let t46 = n(p.inverse_m1) * cos_phi1.mul_sub(t24, sin_phi1 * t28);
+        let t47 = t45 - t44;
+        let t48 = sin_phi1.neg_mul_add(t43, cos_phi1.mul_add(t42, t46));
+        let t49 = sin_phi1.mul_add(t48, cos_phi1.mul_add(t47, t43 + t25));
+        let t50 = sin_phi1.mul_add(t47, t42 + t23);
+        let t51 = cos_phi1.neg_mul_add(t48, t50);
+        let t52 = phi2_dot * (s2_dot * N::from_f64(2.0));
+        let t53 = n(p.inverse_m2) * t10.neg_mul_add(phi2_dot * phi2_dot, t9);
+        let t54 = cos_phi2.neg_mul_add(t51, sin_phi2.mul_add(t49, t52)) / s2;
+        let x_ddot = n(p.k7) * t40;
+        let y_ddot = n(p.k7) * t41;
+        let theta_ddot = t38 * n(p.k4);
+        let s1_ddot = t44 - t45;
+        let phi1_ddot = t48 / s1;
         let zero = N::ZERO;
-        let s2_ddot = sin_phi2.mul_add(t49, cos_phi2.mul_sub(t47, t51));
-        let phi2_ddot = -t52;
-        let t53 = n(p.m1) * t13;
-        let t54 = t13 * n(p.k11);
-        let sound = PIVOTS.hold(t14, t14) & PIVOTS.hold(t53, t54) & phi2_ddot.is_finite();
+        let s2_ddot = sin_phi2.mul_add(t51, cos_phi2.mul_sub(t49, t53));
+        let phi2_ddot = -t54;
+        let t55 = n(p.m1) * t13;
+        let t56 = t13 * n(p.m1_plus_m2);
+        let sound = PIVOTS.hold(t14, t14) & PIVOTS.hold(t55, t56) & phi2_ddot.is_finite();
         if !sound {
-            let pivots = [(7, t14, t14), (4, t53, t54)];
+            let pivots = [(7, t14, t14), (4, t55, t56)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [
@@ -839,13 +842,13 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t6 = cos_phi2 * s2_dot - t2 * sin_phi2 + t4;
     let t7 = t2 * cos_phi2 + sin_phi2 * s2_dot + t5;
     let t8 = x_dot - theta_dot * (cos_theta * p.y0 + sin_theta * p.x0);
-    let t9 = t8 - p.k0 * (sin_t0 + t3 * cos_t0);
+    let t9 = t8 - p.e_w * (sin_t0 + t3 * cos_t0);
     let t10 = y_dot + theta_dot * (cos_theta * p.x0 - sin_theta * p.y0);
-    let t11 = p.k0 * (cos_t0 - t3 * sin_t0) + t10;
+    let t11 = p.e_w * (cos_t0 - t3 * sin_t0) + t10;
     let t12 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
     let t13 = (t5 * t5 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t12;
     let t14 = (t7 * t7 + t6 * t6) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t13;
-    t14 * S::from_f64(0.5) + p.k10 * (t11 * t11 + t9 * t9)
+    t14 * S::from_f64(0.5) + p.half_m0 * (t11 * t11 + t9 * t9)
 }
 
 /// Potential energy `V`, in J.
@@ -863,8 +866,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t1 = x - theta * p.yc;
     let t2 = p.r2 - s2;
     let t3 = theta * p.xc + y;
-    let t4 = t3 * (t3 * p.k2_) + t1 * (t1 * p.k1_);
-    t2 * (t2 * p.k4) + t0 * (t0 * p.k3) + t4
+    let t4 = t3 * (t3 * p.half_cy) + t1 * (t1 * p.half_cx);
+    t2 * (t2 * p.half_k2) + t0 * (t0 * p.half_k1) + t4
 }
 
 /// Dissipation function `D`, in W.
@@ -881,8 +884,8 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     let s2_dot = v[6];
     let t0 = x_dot - theta_dot * p.yb;
     let t1 = theta_dot * p.xb + y_dot;
-    let t2 = t0 * (t0 * p.k5) + (s2_dot * (s2_dot * p.k8) + s1_dot * (s1_dot * p.k7));
-    t1 * (t1 * p.k6) + t2
+    let t2 = s2_dot * (s2_dot * p.half_d2) + s1_dot * (s1_dot * p.half_d1);
+    t1 * (t1 * p.half_by) + (t0 * (t0 * p.half_bx) + t2)
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -913,8 +916,9 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let t4 = sin_theta * t1 - cos_theta * theta_ddot;
     let t5 = sin_t0 + t2 * cos_t0;
     let t6 = cos_t0 - t2 * sin_t0;
-    let t7 = t6 * (t5 * p.k9 - (y_ddot - t3 * p.y0 - t4 * p.x0));
-    (t5 * (t6 * p.k9 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7) * p.k19
+    let t7 = t6 * (t5 * p.e_w_squared - (y_ddot - t3 * p.y0 - t4 * p.x0));
+    let t8 = t5 * (t6 * p.e_w_squared - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7;
+    t8 * p.m0_e_w
 }
 
 /// Power `R` that dampers take out, in W.
@@ -1720,95 +1724,96 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             let x560 = n(x554[5]);
             let x561 = n(x554[6]);
             let x562 = N::from_ratio(1, order as i64 - 1);
-            let x563 = x555 * x562;
-            let x564 = x563 * x377;
-            let x565 = x556 * x562;
-            let x566 = x565 * x377;
-            let x567 = x557 * x562;
-            let x568 = x567 * x377;
-            let x569 = x558 * x562;
-            let x570 = x569 * x377;
-            let x571 = x559 * x562;
-            let x572 = x571 * x377;
-            let x573 = x560 * x562;
-            let x574 = x573 * x377;
-            let x575 = x561 * x562;
-            let x576 = x575 * x377;
-            let x577 = x562 * x377;
-            let x578 = x32.mul_add(x558, x555);
-            let x579 = x190.mul_add(x559, x578);
-            let x580 = x34.mul_add(x560, x579);
-            let x581 = x192.mul_add(x561, x580);
-            let x582 = x462 + x581;
-            let x583 = x195 * x555;
-            let x584 = x196.mul_add(x558, x583);
-            let x585 = x197.mul_add(x559, x584);
-            let x586 = x198.mul_add(x560, x585);
-            let x587 = x199.mul_add(x561, x586);
-            let x588 = x464 + x587;
-            let x589 = x31.mul_add(x558, x556);
-            let x590 = x35.mul_add(x559, x589);
-            let x591 = x33.mul_add(x560, x590);
-            let x592 = x36.mul_add(x561, x591);
-            let x593 = x480 + x592;
-            let x594 = x195 * x556;
-            let x595 = x207.mul_add(x558, x594);
-            let x596 = x208.mul_add(x559, x595);
-            let x597 = x209.mul_add(x560, x596);
-            let x598 = x210.mul_add(x561, x597);
-            let x599 = x482 + x598;
-            let x600 = x142 * x555;
-            let x601 = x140.mul_add(x556, x600);
-            let x602 = x213.mul_add(x557, x601);
-            let x603 = x489 + x602;
-            let x604 = x140 * x555;
-            let x605 = x145.mul_add(x556, x604);
-            let x606 = x218.mul_add(x557, x605);
-            let x607 = x495 + x606;
-            let x608 = x2.mul_add(x557, x555);
-            let x609 = x577 * x608;
-            let x610 = x30 * x577;
-            let x611 = x610.mul_add(x557, x389);
-            let x612 = x186 * x577;
-            let x613 = x612.mul_add(x557, x395);
-            let x614 = x32 * x577;
-            let x615 = x614.mul_add(x559, x401);
-            let x616 = x189 * x577;
-            let x617 = x616.mul_add(x559, x407);
-            let x618 = x32 * x558;
-            let x619 = x190.mul_add(x559, x618);
-            let x620 = x577.mul_add(x619, x412);
-            let x621 = x34 * x577;
-            let x622 = x621.mul_add(x561, x418);
-            let x623 = x191 * x577;
-            let x624 = x623.mul_add(x561, x424);
-            let x625 = x34 * x560;
-            let x626 = x192.mul_add(x561, x625);
-            let x627 = x577.mul_add(x626, x429);
-            let x628 = x15.mul_add(x557, x556);
-            let x629 = x577 * x628;
-            let x630 = x31 * x558;
-            let x631 = x35.mul_add(x559, x630);
-            let x632 = x577.mul_add(x631, x433);
-            let x633 = x33 * x560;
-            let x634 = x36.mul_add(x561, x633);
-            let x635 = x577.mul_add(x634, x437);
-            let x636 = x577 * x558;
-            let x637 = x577 * x560;
-            let x638 = y18;
-            let x639 = y56;
-            let x640 = y88;
-            let x641 = y102;
+            let x563 = N::from_ratio(order as i64 * (order as i64 - 1), 1);
+            let x564 = x555 * x562;
+            let x565 = x555 / x563;
+            let x566 = x556 * x562;
+            let x567 = x556 / x563;
+            let x568 = x557 * x562;
+            let x569 = x557 / x563;
+            let x570 = x558 * x562;
+            let x571 = x558 / x563;
+            let x572 = x559 * x562;
+            let x573 = x559 / x563;
+            let x574 = x560 * x562;
+            let x575 = x560 / x563;
+            let x576 = x561 * x562;
+            let x577 = x561 / x563;
+            let x578 = x562 * x377;
+            let x579 = x32.mul_add(x558, x555);
+            let x580 = x190.mul_add(x559, x579);
+            let x581 = x34.mul_add(x560, x580);
+            let x582 = x192.mul_add(x561, x581);
+            let x583 = x462 + x582;
+            let x584 = x195 * x555;
+            let x585 = x196.mul_add(x558, x584);
+            let x586 = x197.mul_add(x559, x585);
+            let x587 = x198.mul_add(x560, x586);
+            let x588 = x199.mul_add(x561, x587);
+            let x589 = x464 + x588;
+            let x590 = x31.mul_add(x558, x556);
+            let x591 = x35.mul_add(x559, x590);
+            let x592 = x33.mul_add(x560, x591);
+            let x593 = x36.mul_add(x561, x592);
+            let x594 = x480 + x593;
+            let x595 = x195 * x556;
+            let x596 = x207.mul_add(x558, x595);
+            let x597 = x208.mul_add(x559, x596);
+            let x598 = x209.mul_add(x560, x597);
+            let x599 = x210.mul_add(x561, x598);
+            let x600 = x482 + x599;
+            let x601 = x142 * x555;
+            let x602 = x140.mul_add(x556, x601);
+            let x603 = x213.mul_add(x557, x602);
+            let x604 = x489 + x603;
+            let x605 = x140 * x555;
+            let x606 = x145.mul_add(x556, x605);
+            let x607 = x218.mul_add(x557, x606);
+            let x608 = x495 + x607;
+            let x609 = x2.mul_add(x557, x555);
+            let x610 = x578 * x609;
+            let x611 = x30 * x578;
+            let x612 = x611.mul_add(x557, x389);
+            let x613 = x186 * x578;
+            let x614 = x613.mul_add(x557, x395);
+            let x615 = x32 * x578;
+            let x616 = x615.mul_add(x559, x401);
+            let x617 = x189 * x578;
+            let x618 = x617.mul_add(x559, x407);
+            let x619 = x32 * x558;
+            let x620 = x190.mul_add(x559, x619);
+            let x621 = x578.mul_add(x620, x412);
+            let x622 = x34 * x578;
+            let x623 = x622.mul_add(x561, x418);
+            let x624 = x191 * x578;
+            let x625 = x624.mul_add(x561, x424);
+            let x626 = x34 * x560;
+            let x627 = x192.mul_add(x561, x626);
+            let x628 = x578.mul_add(x627, x429);
+            let x629 = x15.mul_add(x557, x556);
+            let x630 = x578 * x629;
+            let x631 = x31 * x558;
+            let x632 = x35.mul_add(x559, x631);
+            let x633 = x578.mul_add(x632, x433);
+            let x634 = x33 * x560;
+            let x635 = x36.mul_add(x561, x634);
+            let x636 = x578.mul_add(x635, x437);
+            let x637 = x578 * x558;
+            let x638 = x578 * x560;
+            let x639 = y18;
+            let x640 = y56;
+            let x641 = y88;
+            let x642 = y102;
             if let Some(row) = coefficients.get_mut(order) {
                 *row = [
-                    x564.store(),
-                    x566.store(),
-                    x568.store(),
-                    x570.store(),
-                    x572.store(),
+                    x565.store(),
+                    x567.store(),
+                    x569.store(),
+                    x571.store(),
+                    x573.store(),
                     N::ZERO.store(),
-                    x574.store(),
-                    x576.store(),
+                    x575.store(),
+                    x577.store(),
                     N::ZERO.store(),
                 ];
             }
@@ -1816,26 +1821,26 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                 &mut lists.a0.0,
                 order,
                 [
-                    x567.store(),
-                    x567.store(),
+                    x568.store(),
+                    x568.store(),
+                    x572.store(),
+                    x572.store(),
                     x571.store(),
+                    x576.store(),
+                    x576.store(),
+                    x575.store(),
                     x571.store(),
-                    x570.store(),
                     x575.store(),
-                    x575.store(),
-                    x574.store(),
-                    x570.store(),
-                    x574.store(),
-                    x603.store(),
-                    x607.store(),
-                    x599.store(),
-                    x588.store(),
-                    x599.store(),
-                    x588.store(),
-                    x593.store(),
-                    x582.store(),
-                    x593.store(),
-                    x582.store(),
+                    x604.store(),
+                    x608.store(),
+                    x600.store(),
+                    x589.store(),
+                    x600.store(),
+                    x589.store(),
+                    x594.store(),
+                    x583.store(),
+                    x594.store(),
+                    x583.store(),
                 ],
                 &A0,
             );
@@ -1843,61 +1848,61 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                 &mut lists.b0.0,
                 order,
                 [
-                    x613.store(),
-                    x611.store(),
-                    x617.store(),
-                    x615.store(),
-                    x617.store(),
-                    x624.store(),
-                    x622.store(),
-                    x624.store(),
-                    x615.store(),
-                    x622.store(),
-                    x613.store(),
-                    x611.store(),
-                    x615.store(),
-                    x617.store(),
-                    x620.store(),
-                    x632.store(),
-                    x622.store(),
-                    x624.store(),
-                    x627.store(),
-                    x635.store(),
+                    x614.store(),
+                    x612.store(),
+                    x618.store(),
+                    x616.store(),
+                    x618.store(),
+                    x625.store(),
+                    x623.store(),
+                    x625.store(),
+                    x616.store(),
+                    x623.store(),
+                    x614.store(),
+                    x612.store(),
+                    x616.store(),
+                    x618.store(),
+                    x621.store(),
+                    x633.store(),
+                    x623.store(),
+                    x625.store(),
+                    x628.store(),
+                    x636.store(),
                 ],
                 &B0,
             );
-            y18 = x609;
+            y18 = x610;
             y24 = x378;
             y25 = x382;
-            y27 = x611;
-            y28 = x613;
-            y33 = x570;
-            y35 = x615;
-            y36 = x617;
-            y40 = x574;
-            y42 = x622;
-            y43 = x624;
-            y46 = x582;
-            y47 = x588;
-            y56 = x629;
-            y65 = x593;
-            y66 = x599;
-            y77 = x603;
-            y79 = x607;
-            y88 = x636;
-            y102 = x637;
-            z14 = x567;
-            z34 = x571;
-            z41 = x575;
-            older_y18 = x638;
-            older_y56 = x639;
-            older_y88 = x640;
-            older_y102 = x641;
-            r0 = x563;
-            r1 = x565;
-            r2 = x567;
-            r3 = x569;
-            r6 = x573;
+            y27 = x612;
+            y28 = x614;
+            y33 = x571;
+            y35 = x616;
+            y36 = x618;
+            y40 = x575;
+            y42 = x623;
+            y43 = x625;
+            y46 = x583;
+            y47 = x589;
+            y56 = x630;
+            y65 = x594;
+            y66 = x600;
+            y77 = x604;
+            y79 = x608;
+            y88 = x637;
+            y102 = x638;
+            z14 = x568;
+            z34 = x572;
+            z41 = x576;
+            older_y18 = x639;
+            older_y56 = x640;
+            older_y88 = x641;
+            older_y102 = x642;
+            r0 = x564;
+            r1 = x566;
+            r2 = x568;
+            r3 = x570;
+            r6 = x574;
         }
         Ok(())
     }
@@ -1950,8 +1955,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
     outputs Outputs {} []
     prepared Prepared {
         m, J, m0, x0, y0, w, m1, J1, m2, J2, cx, cy, xc, yc, bx, by, xb, yb, k1, d1, r1, k2, d2, r2,
-        k0, k1_, k2_, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19,
-        k20, k21, k22, k23, k24, k25, k26, k27, k28, k29,
+        e_w, half_cx, half_cy, half_k1, half_k2, half_bx, half_by, half_d1, half_d2, e_w_squared,
+        half_m0, m1_plus_m2, m0_y0, m0_x0, k0, by_xb, bx_yb, cy_xc, cx_yc, m0_e_w, k1_, k2_,
+        minus_m2, inverse_m2, inverse_m1, k3, k4, k5, k6, k7,
     }
     series series
     singular singular

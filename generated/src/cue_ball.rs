@@ -70,13 +70,13 @@ impl<S: ::lagrangian::emitted::Scalar> CueBall<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m * self.r;
-        let k1 = self.m * self.g;
+        let m_g = self.m * self.g;
         let k0 = t0 * (self.r * S::from_ratio(2, 5));
-        let k2 = -k0;
-        let k3 = -k1;
-        let k4 = -self.r;
-        let k5 = -self.g;
-        let k6 = S::from_f64(2.5) / (self.r * t0);
+        let k1 = -k0;
+        let minus_m_g = -m_g;
+        let minus_r = -self.r;
+        let minus_g = -self.g;
+        let k2 = S::from_f64(2.5) / (self.r * t0);
         let pivots = [
             (0, self.m, self.m),
             (1, self.m, self.m),
@@ -90,12 +90,12 @@ impl<S: ::lagrangian::emitted::Scalar> CueBall<S> {
             e: self.e,
             mu: self.mu,
             k0,
+            m_g,
             k1,
+            minus_m_g,
+            minus_r,
+            minus_g,
             k2,
-            k3,
-            k4,
-            k5,
-            k6,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -152,27 +152,24 @@ pub struct Prepared<S = f64> {
     /// `0.4*m*r^2`
     k0: S,
     /// `m*g`
-    k1: S,
+    m_g: S,
     /// `-0.4*m*r^2`
-    k2: S,
+    k1: S,
     /// `-m*g`
-    k3: S,
+    minus_m_g: S,
     /// `-r`
-    k4: S,
+    minus_r: S,
     /// `-g`
-    k5: S,
+    minus_g: S,
     /// `2.5/m/r^2`
-    k6: S,
+    k2: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 6,
-    tolerance: 5.329070518200751e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(6, 6);
 
 /// Mass matrix `M`.
 ///
@@ -216,7 +213,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[
     let t0 = p.k0 * cos_b * b_dot;
     let zero = S::ZERO;
     let h_a = t0 * c_dot;
-    let h_b = cos_b * (c_dot * (a_dot * p.k2));
+    let h_b = cos_b * (c_dot * (a_dot * p.k1));
     let h_c = t0 * a_dot;
     [zero, zero, zero, h_a, h_b, h_c]
 }
@@ -228,7 +225,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[
 /// ```
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 6] {
     let zero = S::ZERO;
-    [zero, zero, p.k3, zero, zero, zero]
+    [zero, zero, p.minus_m_g, zero, zero, zero]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
@@ -238,12 +235,12 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: 
     let b_dot = v[4];
     let c_dot = v[5];
     let cos_b = b.cos();
-    let t0 = p.k2 * cos_b * b_dot;
+    let t0 = p.k1 * cos_b * b_dot;
     let zero = S::ZERO;
     let f_a = t0 * c_dot;
     let f_b = cos_b * (c_dot * (a_dot * p.k0));
     let f_c = t0 * a_dot;
-    [zero, zero, p.k3, f_a, f_b, f_c]
+    [zero, zero, p.minus_m_g, f_a, f_b, f_c]
 }
 
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out.
@@ -285,13 +282,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t0 = n(p.k0) * cos_b;
         let t1 = n(p.k0) * sin_b;
         let t2 = t0 * (c_dot * b_dot);
-        let t3 = n(p.k6) * t1;
+        let t3 = n(p.k2) * t1;
         let t4 = t0 * a_dot;
         let t5 = t1.neg_mul_add(t3, n(p.k0));
         let t6 = b_dot.mul_sub(t4, t2 * t3) / t5;
         let zero = N::ZERO;
-        let a_ddot = t3.mul_sub(t6, n(p.k6) * t2);
-        let b_ddot = t4 * (n(p.k6) * c_dot);
+        let a_ddot = t3.mul_sub(t6, n(p.k2) * t2);
+        let b_ddot = t4 * (n(p.k2) * c_dot);
         let c_ddot = -t6;
         let sound = PIVOTS.hold(t5, n(p.k0)) & c_ddot.is_finite();
         if !sound {
@@ -301,7 +298,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let accelerations = [
             zero.store(),
             zero.store(),
-            n(p.k5).store(),
+            n(p.minus_g).store(),
             a_ddot.store(),
             b_ddot.store(),
             c_ddot.store(),
@@ -370,7 +367,7 @@ pub fn contact_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S;
     let (sin_b, cos_b) = b.sin_cos();
     let zero = S::ZERO;
     let one = S::ONE;
-    let w2_5 = p.k4 * cos_a_;
+    let w2_5 = p.minus_r * cos_a_;
     let w2_6 = cos_b * (sin_a_ * p.r);
     let w4_6 = p.r * sin_b;
     [
@@ -455,7 +452,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 /// ```
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> S {
     let z = q[2];
-    p.k1 * z
+    p.m_g * z
 }
 
 ::lagrangian::emitted::implement! {
@@ -482,7 +479,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     ]
     inputs Inputs {} []
     outputs Outputs {} []
-    prepared Prepared { m, r, e, mu, k0, k1, k2, k3, k4, k5, k6 }
+    prepared Prepared { m, r, e, mu, k0, m_g, k1, minus_m_g, minus_r, minus_g, k2 }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

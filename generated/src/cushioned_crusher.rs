@@ -112,54 +112,54 @@ pub struct CushionedCrusher<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.omega * self.e;
-        let k13 = self.m1 + self.m2;
-        let k14 = self.m0 * self.y0;
-        let k15 = self.m0 * self.x0;
+        let e_omega = self.omega * self.e;
+        let m1_plus_m2 = self.m1 + self.m2;
+        let m0_y0 = self.m0 * self.y0;
+        let m0_x0 = self.m0 * self.x0;
         let pivot_1 = self.m + self.m0;
-        let k16 = k13 + pivot_1;
-        let k21 = self.J + (self.y0 * k14 + self.x0 * k15);
+        let k0 = m1_plus_m2 + pivot_1;
+        let k1_ = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
         let t0 = self.drag2 * self.r2;
-        let k33 = S::ONE / pivot_1;
-        let pivot_2 = k21 - k33 * (k14 * k14) - k33 * (k15 * k15);
-        let k31 = S::ONE / pivot_2;
-        let k1_ = self.omega * (self.omega * self.J0);
-        let k2_ = self.cx * S::from_f64(0.5);
-        let k3 = self.cy * S::from_f64(0.5);
-        let k4 = self.k1 * S::from_f64(0.5);
-        let k5 = self.k2 * S::from_f64(0.5);
-        let k6 = self.drag1 * S::from_f64(0.5);
-        let k7 = self.drag2 * S::from_f64(0.5);
-        let k8 = self.bx * S::from_f64(0.5);
-        let k9 = self.by * S::from_f64(0.5);
-        let k10 = self.d1 * S::from_f64(0.5);
-        let k11 = self.d2 * S::from_f64(0.5);
-        let k12 = self.omega * k0;
-        let k17 = self.drag2 * self.rho;
-        let k18 = self.drag1 * self.R;
-        let k19 = self.drag1 * self.r1;
-        let k20 = self.m0 * k0;
-        let k22 = -k13;
-        let k23 = -self.m2;
-        let k24 = -self.drag1;
-        let k25 = -self.drag2;
-        let k26 = -t0;
-        let k27 = S::ONE / self.m2;
-        let k28 = self.m2 * S::from_f64(2.0);
-        let k29 = S::ONE / self.m1;
-        let k30 = self.m0 * k33;
-        let k32 = self.m0 * k31;
-        let k34 = -k33;
-        let k35 = -(S::ONE / self.J1);
-        let k36 = -(t0 / self.J2);
+        let k6 = S::ONE / pivot_1;
+        let pivot_2 = k1_ - k6 * (m0_y0 * m0_y0) - k6 * (m0_x0 * m0_x0);
+        let k4 = S::ONE / pivot_2;
+        let J0_omega2 = self.omega * (self.omega * self.J0);
+        let half_cx = self.cx * S::from_f64(0.5);
+        let half_cy = self.cy * S::from_f64(0.5);
+        let half_k1 = self.k1 * S::from_f64(0.5);
+        let half_k2 = self.k2 * S::from_f64(0.5);
+        let half_drag1 = self.drag1 * S::from_f64(0.5);
+        let half_drag2 = self.drag2 * S::from_f64(0.5);
+        let half_bx = self.bx * S::from_f64(0.5);
+        let half_by = self.by * S::from_f64(0.5);
+        let half_d1 = self.d1 * S::from_f64(0.5);
+        let half_d2 = self.d2 * S::from_f64(0.5);
+        let e_omega2 = self.omega * e_omega;
+        let drag2_rho = self.drag2 * self.rho;
+        let drag1_R = self.drag1 * self.R;
+        let drag1_r1 = self.drag1 * self.r1;
+        let m0_e_omega = self.m0 * e_omega;
+        let k2_ = -m1_plus_m2;
+        let minus_m2 = -self.m2;
+        let minus_drag1 = -self.drag1;
+        let minus_drag2 = -self.drag2;
+        let minus_drag2_r2 = -t0;
+        let inverse_m2 = S::ONE / self.m2;
+        let two_m2 = self.m2 * S::from_f64(2.0);
+        let inverse_m1 = S::ONE / self.m1;
+        let k3 = self.m0 * k6;
+        let k5 = self.m0 * k4;
+        let k7 = -k6;
+        let minus_inverse_J1 = -(S::ONE / self.J1);
+        let minus_drag2_r2_over_J2 = -(t0 / self.J2);
         let pivots = [
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
             (6, self.m2, self.m2),
-            (3, self.m1, k13),
-            (1, pivot_1, k16),
-            (0, pivot_1, k16),
-            (2, pivot_2, k21),
+            (3, self.m1, m1_plus_m2),
+            (1, pivot_1, k0),
+            (0, pivot_1, k0),
+            (2, pivot_2, k1_),
         ];
         Prepared {
             m: self.m,
@@ -190,43 +190,43 @@ impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
             r1: self.r1,
             rho: self.rho,
             r2: self.r2,
+            e_omega,
+            J0_omega2,
+            half_cx,
+            half_cy,
+            half_k1,
+            half_k2,
+            half_drag1,
+            half_drag2,
+            half_bx,
+            half_by,
+            half_d1,
+            half_d2,
+            e_omega2,
+            m1_plus_m2,
+            m0_y0,
+            m0_x0,
             k0,
+            drag2_rho,
+            drag1_R,
+            drag1_r1,
+            m0_e_omega,
             k1_,
             k2_,
+            minus_m2,
+            minus_drag1,
+            minus_drag2,
+            minus_drag2_r2,
+            inverse_m2,
+            two_m2,
+            inverse_m1,
             k3,
             k4,
             k5,
             k6,
             k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
-            k20,
-            k21,
-            k22,
-            k23,
-            k24,
-            k25,
-            k26,
-            k27,
-            k28,
-            k29,
-            k30,
-            k31,
-            k32,
-            k33,
-            k34,
-            k35,
-            k36,
+            minus_inverse_J1,
+            minus_drag2_r2_over_J2,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -344,89 +344,86 @@ pub struct Prepared<S = f64> {
     /// `r2`
     r2: S,
     /// `e*omega`
-    k0: S,
+    e_omega: S,
     /// `J0*omega^2`
-    k1_: S,
+    J0_omega2: S,
     /// `0.5*cx`
-    k2_: S,
+    half_cx: S,
     /// `0.5*cy`
-    k3: S,
+    half_cy: S,
     /// `0.5*k1`
-    k4: S,
+    half_k1: S,
     /// `0.5*k2`
-    k5: S,
+    half_k2: S,
     /// `0.5*drag1`
-    k6: S,
+    half_drag1: S,
     /// `0.5*drag2`
-    k7: S,
+    half_drag2: S,
     /// `0.5*bx`
-    k8: S,
+    half_bx: S,
     /// `0.5*by`
-    k9: S,
+    half_by: S,
     /// `0.5*d1`
-    k10: S,
+    half_d1: S,
     /// `0.5*d2`
-    k11: S,
+    half_d2: S,
     /// `e*omega^2`
-    k12: S,
+    e_omega2: S,
     /// `m1 + m2`
-    k13: S,
+    m1_plus_m2: S,
     /// `m0*y0`
-    k14: S,
+    m0_y0: S,
     /// `m0*x0`
-    k15: S,
+    m0_x0: S,
     /// `m + m0 + m1 + m2`
-    k16: S,
+    k0: S,
     /// `drag2*rho`
-    k17: S,
+    drag2_rho: S,
     /// `drag1*R`
-    k18: S,
+    drag1_R: S,
     /// `drag1*r1`
-    k19: S,
+    drag1_r1: S,
     /// `m0*e*omega`
-    k20: S,
+    m0_e_omega: S,
     /// `J + m0*x0^2 + m0*y0^2`
-    k21: S,
+    k1_: S,
     /// `-(m1 + m2)`
-    k22: S,
+    k2_: S,
     /// `-m2`
-    k23: S,
+    minus_m2: S,
     /// `-drag1`
-    k24: S,
+    minus_drag1: S,
     /// `-drag2`
-    k25: S,
+    minus_drag2: S,
     /// `-drag2*r2`
-    k26: S,
+    minus_drag2_r2: S,
     /// `1/m2`
-    k27: S,
+    inverse_m2: S,
     /// `2*m2`
-    k28: S,
+    two_m2: S,
     /// `1/m1`
-    k29: S,
+    inverse_m1: S,
     /// `m0/(m + m0)`
-    k30: S,
+    k3: S,
     /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k31: S,
+    k4: S,
     /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k32: S,
+    k5: S,
     /// `1/(m + m0)`
-    k33: S,
+    k6: S,
     /// `-1/(m + m0)`
-    k34: S,
+    k7: S,
     /// `-1/J1`
-    k35: S,
+    minus_inverse_J1: S,
     /// `-drag2*r2/J2`
-    k36: S,
+    minus_drag2_r2_over_J2: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 9);
 
 /// Mass matrix `M`.
 ///
@@ -465,33 +462,33 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.k13 * s1;
+    let t1 = p.m1_plus_m2 * s1;
     let t2 = p.m2 * s2;
     let t3 = sin_phi1 * cos_phi2;
     let t4 = cos_phi1 * sin_phi2;
     let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
     let zero = S::ZERO;
-    let m31 = -(p.k15 * sin_theta + cos_theta * p.k14);
-    let m32 = p.k15 * cos_theta - sin_theta * p.k14;
-    let m41 = p.k13 * cos_phi1;
-    let m42 = p.k13 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k22);
+    let m31 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
+    let m32 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
+    let m41 = p.m1_plus_m2 * cos_phi1;
+    let m42 = p.m1_plus_m2 * sin_phi1;
+    let m51 = sin_phi1 * (s1 * p.k2_);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
     let m75 = (t4 - t3) * t0;
-    let m81 = sin_phi2 * (s2 * p.k23);
+    let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t3 - t4);
     let m85 = t5 * (t0 * s2);
     let m88 = s2 * t2;
     [
-        [p.k16, zero, m31, m41, m51, zero, m71, m81, zero],
-        [zero, p.k16, m32, m42, m52, zero, m72, m82, zero],
-        [m31, m32, p.k21, zero, zero, zero, zero, zero, zero],
-        [m41, m42, zero, p.k13, zero, zero, m74, m84, zero],
+        [p.k0, zero, m31, m41, m51, zero, m71, m81, zero],
+        [zero, p.k0, m32, m42, m52, zero, m72, m82, zero],
+        [m31, m32, p.k1_, zero, zero, zero, zero, zero, zero],
+        [m41, m42, zero, p.m1_plus_m2, zero, zero, m74, m84, zero],
         [m51, m52, zero, zero, m55, zero, m75, m85, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
         [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
@@ -554,21 +551,21 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t12 = cos_phi1 * s1;
     let t13 = t6 * t10 - t8 * cos_phi1;
     let t14 = t8 * sin_phi1 + t6 * t12;
-    let t15 = p.k12 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
+    let t15 = p.e_omega2 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
     let t16 = t3 * t9 - t7 * cos_phi2 + t13;
-    let t17 = p.k12 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
+    let t17 = p.e_omega2 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
     let t18 = t7 * sin_phi2 + t3 * t11 + t14;
     let t19 = p.m2 * t16 + p.m1 * t13;
     let t20 = t18 * p.m2 + t14 * p.m1;
-    let t21 = cos_theta * (t17 * p.k14 - t15 * p.k15);
+    let t21 = cos_theta * (t17 * p.m0_y0 - t15 * p.m0_x0);
     let h_x = -(t17 * p.m0 + t20);
     let h_y = -(p.m0 * t15 + t19);
-    let h_theta = sin_theta * (t15 * p.k14 + t17 * p.k15) + t21;
+    let h_theta = sin_theta * (t15 * p.m0_y0 + t17 * p.m0_x0) + t21;
     let h_s1 = -(cos_phi1 * t20 + sin_phi1 * t19);
     let h_phi1 = t20 * t10 - t12 * t19;
     let zero = S::ZERO;
-    let h_s2 = p.k23 * (cos_phi2 * t18 + sin_phi2 * t16);
-    let h_phi2 = p.k23 * (t11 * t16 - t18 * t9);
+    let h_s2 = p.minus_m2 * (cos_phi2 * t18 + sin_phi2 * t16);
+    let h_phi2 = p.minus_m2 * (t11 * t16 - t18 * t9);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -618,13 +615,13 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let t9 = p.r2 * theta2_dot + s2 * phi2_dot - theta1_dot * p.rho;
     let q_x = -(t6 + t7);
     let q_y = -(t4 + t5);
-    let q_theta = t8 * p.k18 - (p.yc * (t7 - t6) + p.xc * (t5 - t4));
+    let q_theta = t8 * p.drag1_R - (p.yc * (t7 - t6) + p.xc * (t5 - t4));
     let q_s1 = -((s1 - p.gap1) * p.k1 + p.d1 * s1_dot);
-    let q_phi1 = t8 * (s1 * p.k24);
-    let q_theta1 = t9 * p.k17 - t8 * p.k19;
+    let q_phi1 = t8 * (s1 * p.minus_drag1);
+    let q_theta1 = t9 * p.drag2_rho - t8 * p.drag1_r1;
     let q_s2 = -((s2 - p.gap2) * p.k2 + p.d2 * s2_dot);
-    let q_phi2 = t9 * (s2 * p.k25);
-    let q_theta2 = t9 * p.k26;
+    let q_phi2 = t9 * (s2 * p.minus_drag2);
+    let q_theta2 = t9 * p.minus_drag2_r2;
     [
         q_x, q_y, q_theta, q_s1, q_phi1, q_theta1, q_s2, q_phi2, q_theta2,
     ]
@@ -681,25 +678,27 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t21 = t11 * sin_phi1 + cos_phi1 * t6;
     let t22 = sin_phi1 * t6 - t11 * cos_phi1;
     let t23 = t10 * sin_phi2 + cos_phi2 * t5 + t21;
-    let t24 = p.k12 * (sin_t0 + t13 * cos_t0) + (sin_theta * t14 + t8 * cos_theta);
-    let t25 = p.k12 * (cos_t0 - t13 * sin_t0) + (cos_theta * t14 - t8 * sin_theta);
-    let t26 = sin_phi2 * t5 - t10 * cos_phi2 + t22;
-    let t27 = t23 * p.m2;
-    let t28 = p.m2 * t26;
-    let t29 = t27 + t21 * p.m1;
-    let t30 = t28 + p.m1 * t22;
-    let t31 = p.yc * (t18 - t17) + p.xc * (t16 - t15);
-    let t32 = p.m2 * (t26 * (cos_phi2 * s2) - t23 * (sin_phi2 * s2));
-    let t33 = cos_theta * (t25 * p.k14 - t24 * p.k15) + t31;
-    let f_x = t25 * p.m0 + (t29 - (t17 + t18));
-    let f_y = p.m0 * t24 + (t30 - (t15 + t16));
-    let f_theta = t19 * p.k18 - (sin_theta * (t24 * p.k14 + t25 * p.k15) + t33);
-    let f_s1 = cos_phi1 * t29 - ((s1 - p.gap1) * p.k1 + s1_dot * p.d1 - sin_phi1 * t30);
-    let f_phi1 = t30 * (cos_phi1 * s1) - t29 * (sin_phi1 * s1) - t19 * (s1 * p.drag1);
-    let f_theta1 = t20 * p.k17 - t19 * p.k19;
-    let f_s2 = cos_phi2 * t27 - ((s2 - p.gap2) * p.k2 + s2_dot * p.d2 - sin_phi2 * t28);
-    let f_phi2 = t32 - t20 * (s2 * p.drag2);
-    let f_theta2 = t20 * p.k26;
+    let t24 = p.e_omega2 * (sin_t0 + t13 * cos_t0);
+    let t25 = t24 + (sin_theta * t14 + t8 * cos_theta);
+    let t26 = p.e_omega2 * (cos_t0 - t13 * sin_t0);
+    let t27 = t26 + (cos_theta * t14 - t8 * sin_theta);
+    let t28 = sin_phi2 * t5 - t10 * cos_phi2 + t22;
+    let t29 = t23 * p.m2;
+    let t30 = p.m2 * t28;
+    let t31 = t29 + t21 * p.m1;
+    let t32 = t30 + p.m1 * t22;
+    let t33 = cos_theta * (t27 * p.m0_y0 - t25 * p.m0_x0);
+    let t34 = p.m2 * (t28 * (cos_phi2 * s2) - t23 * (sin_phi2 * s2));
+    let t35 = t33 + (p.yc * (t18 - t17) + p.xc * (t16 - t15));
+    let f_x = t27 * p.m0 + (t31 - (t17 + t18));
+    let f_y = p.m0 * t25 + (t32 - (t15 + t16));
+    let f_theta = t19 * p.drag1_R - (sin_theta * (t25 * p.m0_y0 + t27 * p.m0_x0) + t35);
+    let f_s1 = cos_phi1 * t31 - ((s1 - p.gap1) * p.k1 + s1_dot * p.d1 - sin_phi1 * t32);
+    let f_phi1 = t32 * (cos_phi1 * s1) - t31 * (sin_phi1 * s1) - t19 * (s1 * p.drag1);
+    let f_theta1 = t20 * p.drag2_rho - t19 * p.drag1_r1;
+    let f_s2 = cos_phi2 * t29 - ((s2 - p.gap2) * p.k2 + s2_dot * p.d2 - sin_phi2 * t30);
+    let f_phi2 = t34 - t20 * (s2 * p.drag2);
+    let f_theta2 = t20 * p.minus_drag2_r2;
     [
         f_x, f_y, f_theta, f_s1, f_phi1, f_theta1, f_s2, f_phi2, f_theta2,
     ]
@@ -778,7 +777,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t14 = t8 * n(p.drag1);
         let t15 = (s1 - n(p.gap1)).mul_add(n(p.k1), s1_dot * n(p.d1));
         let t16 = phi1_dot * t3;
-        let t17 = n(p.xc).mul_add(t12, t8 * n(p.k18));
+        let t17 = n(p.xc).mul_add(t12, t8 * n(p.drag1_R));
         let t18 = (s2 - n(p.gap2)).mul_add(n(p.k2), s2_dot * n(p.d2));
         let t19 = s2 * n(p.m2);
         let t20 = n(p.r2).mul_add(theta2_dot, phi2_dot * s2);
@@ -788,61 +787,65 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t24 = n(p.yc).mul_sub(t10, n(p.xc) * t11);
         let t25 = s2 * t19;
         let t26 = t21 * n(p.drag2);
-        let t27 = cos_theta * n(p.y0);
-        let t28 = sin_theta * n(p.y0);
-        let t29 = sin_theta * n(p.x0);
-        let t30 = cos_theta * n(p.x0);
-        let t31 = t30 - t28;
-        let t32 = t14.mul_add(sin_phi1, t10 + t13);
-        let t33 = t29 + t27;
-        let t34 = sin_phi1.neg_mul_add(t15, t12 + t11);
-        let t35 = sin_phi1.mul_sub(t16, cos_phi1 * t22);
-        let t36 = t9.mul_add(cos_t0, sin_t0);
-        let t37 = t9.neg_mul_add(sin_t0, cos_t0);
-        let t38 = t26.mul_add(cos_phi2, sin_phi2 * t18);
-        let t39 = n(p.m1).mul_add(t35, t38);
-        let t40 = sin_phi1.mul_add(t22, cos_phi1 * t16);
-        let t41 = n(p.m0) * n(p.k12).mul_add(t36, t29.mul_add(t6, t27 * t6));
-        let t42 = n(p.k12).mul_add(t37, t6.mul_sub(t30, t28 * t6)) * n(p.m0);
-        let t43 = cos_phi2.mul_sub(t18, t26 * sin_phi2);
-        let t44 = n(p.m1).mul_add(t40, t43);
-        let t45 = cos_phi1.neg_mul_add(t15, t32) - t42;
-        let t46 = t14.neg_mul_add(cos_phi1, t34) - t41;
-        let t47 = t31.mul_add(t41, t24 + n(p.yc).neg_mul_add(t13, t17));
-        let t48 = cos_phi1.neg_mul_add(t44, sin_phi1.neg_mul_add(t39, t15));
-        let t49 = sin_phi1.neg_mul_add(t44, cos_phi1.mul_sub(t39, t14));
-        let t50 = t46.mul_sub(n(p.k30) * t31, t33 * t42);
-        let t51 = t50 + t45.neg_mul_add(n(p.k30) * t33, t47);
-        let t52 = n(p.k32) * t51;
-        let t53 = t33.neg_mul_add(t52, t45);
-        let t54 = t31.mul_add(t52, t46);
-        let t55 = t54 * n(p.k33);
-        let t56 = t53 * n(p.k33);
-        let t57 = sin_phi1 * t55;
-        let t58 = cos_phi1.neg_mul_add(t56, n(p.k29) * t48);
-        let t59 = t58 - t57;
-        let t60 = cos_phi1.mul_add(t55, n(p.k29) * t49);
-        let t61 = sin_phi1.neg_mul_add(t56, t60);
-        let t62 = sin_phi1.mul_add(t61, cos_phi1.mul_add(t59, t56 + t40));
-        let t63 = sin_phi1.mul_add(t59, t55 + t35);
-        let t64 = cos_phi1.neg_mul_add(t61, t63);
-        let t65 = n(p.k27) * phi2_dot.mul_add(s2_dot * n(p.k28), t26);
-        let t66 = n(p.k27) * t19.neg_mul_add(phi2_dot * phi2_dot, t18);
-        let t67 = cos_phi2.neg_mul_add(t64, sin_phi2.mul_add(t62, t65)) / s2;
-        let x_ddot = n(p.k34) * t53;
-        let y_ddot = n(p.k34) * t54;
-        let theta_ddot = t51 * n(p.k31);
-        let s1_ddot = t57 - t58;
-        let phi1_ddot = t61 / s1;
-        let theta1_ddot = n(p.k35) * t8.mul_sub(n(p.k19), t21 * n(p.k17));
-        let s2_ddot = sin_phi2.mul_add(t64, cos_phi2.mul_sub(t62, t66));
-        let phi2_ddot = -t67;
-        let theta2_ddot = t21 * n(p.k36);
-        let t68 = n(p.m1) * t23;
-        let t69 = t23 * n(p.k13);
-        let sound = PIVOTS.hold(t25, t25) & PIVOTS.hold(t68, t69) & phi2_ddot.is_finite();
+        let t27 = t19.neg_mul_add(phi2_dot * phi2_dot, t18);
+        let t28 = phi2_dot.mul_add(s2_dot * n(p.two_m2), t26);
+        let t29 = t8.mul_sub(n(p.drag1_r1), t21 * n(p.drag2_rho));
+        let t30 = cos_theta * n(p.y0);
+        let t31 = sin_theta * n(p.y0);
+        let t32 = sin_theta * n(p.x0);
+        let t33 = cos_theta * n(p.x0);
+        let t34 = t33 - t31;
+        let t35 = t14.mul_add(sin_phi1, t10 + t13);
+        let t36 = t32 + t30;
+        let t37 = sin_phi1.neg_mul_add(t15, t12 + t11);
+        let t38 = sin_phi1.mul_sub(t16, cos_phi1 * t22);
+        let t39 = t9.mul_add(cos_t0, sin_t0);
+        let t40 = t9.neg_mul_add(sin_t0, cos_t0);
+        let t41 = t26.mul_add(cos_phi2, sin_phi2 * t18);
+        let t42 = n(p.m1).mul_add(t38, t41);
+        let t43 = sin_phi1.mul_add(t22, cos_phi1 * t16);
+        let t44 = n(p.e_omega2).mul_add(t39, t32.mul_add(t6, t30 * t6));
+        let t45 = n(p.m0) * t44;
+        let t46 = n(p.e_omega2).mul_add(t40, t6.mul_sub(t33, t31 * t6));
+        let t47 = t46 * n(p.m0);
+        let t48 = cos_phi2.mul_sub(t18, t26 * sin_phi2);
+        let t49 = n(p.m1).mul_add(t43, t48);
+        let t50 = cos_phi1.neg_mul_add(t15, t35) - t47;
+        let t51 = t14.neg_mul_add(cos_phi1, t37) - t45;
+        let t52 = t34.mul_add(t45, t24 + n(p.yc).neg_mul_add(t13, t17));
+        let t53 = cos_phi1.neg_mul_add(t49, sin_phi1.neg_mul_add(t42, t15));
+        let t54 = sin_phi1.neg_mul_add(t49, cos_phi1.mul_sub(t42, t14));
+        let t55 = t51.mul_sub(n(p.k3) * t34, t36 * t47);
+        let t56 = t55 + t50.neg_mul_add(n(p.k3) * t36, t52);
+        let t57 = n(p.k5) * t56;
+        let t58 = t36.neg_mul_add(t57, t50);
+        let t59 = t34.mul_add(t57, t51);
+        let t60 = t59 * n(p.k6);
+        let t61 = t58 * n(p.k6);
+        let t62 = sin_phi1 * t60;
+        let t63 = cos_phi1.neg_mul_add(t61, n(p.inverse_m1) * t53);
+        let t64 = t63 - t62;
+        let t65 = cos_phi1.mul_add(t60, n(p.inverse_m1) * t54);
+        let t66 = sin_phi1.neg_mul_add(t61, t65);
+        let t67 = sin_phi1.mul_add(t66, cos_phi1.mul_add(t64, t61 + t43));
+        let t68 = sin_phi1.mul_add(t64, t60 + t38);
+        let t69 = cos_phi1.neg_mul_add(t66, t68);
+        let t70 = sin_phi2.mul_add(t67, n(p.inverse_m2) * t28);
+        let t71 = cos_phi2.mul_sub(t67, n(p.inverse_m2) * t27);
+        let x_ddot = n(p.k7) * t58;
+        let y_ddot = n(p.k7) * t59;
+        let theta_ddot = t56 * n(p.k4);
+        let s1_ddot = t62 - t63;
+        let phi1_ddot = t66 / s1;
+        let theta1_ddot = n(p.minus_inverse_J1) * t29;
+        let s2_ddot = sin_phi2.mul_add(t69, t71);
+        let phi2_ddot = -(cos_phi2.neg_mul_add(t69, t70) / s2);
+        let theta2_ddot = t21 * n(p.minus_drag2_r2_over_J2);
+        let t72 = n(p.m1) * t23;
+        let t73 = t23 * n(p.m1_plus_m2);
+        let sound = PIVOTS.hold(t25, t25) & PIVOTS.hold(t72, t73) & phi2_ddot.is_finite();
         if !sound {
-            let pivots = [(7, t25, t25), (4, t68, t69)];
+            let pivots = [(7, t25, t25), (4, t72, t73)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [
@@ -904,15 +907,16 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t5 = theta_dot * p.y0;
     let t6 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t7 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t8 = x_dot - t3 * sin_theta - cos_theta * t5 - p.k0 * (sin_t0 + t4 * cos_t0);
-    let t9 = y_dot + t3 * cos_theta - sin_theta * t5;
-    let t10 = p.k0 * (cos_t0 - t4 * sin_t0) + t9;
-    let t11 = cos_phi2 * s2_dot - t2 * sin_phi2 + t6;
-    let t12 = t2 * cos_phi2 + sin_phi2 * s2_dot + t7;
-    let t13 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t14 = (t7 * t7 + t6 * t6) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t13;
-    let t15 = (t12 * t12 + t11 * t11) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
-    ((t10 * t10 + t8 * t8) * p.m0 + p.k1_ + t15) * S::from_f64(0.5)
+    let t8 = x_dot - t3 * sin_theta - cos_theta * t5;
+    let t9 = t8 - p.e_omega * (sin_t0 + t4 * cos_t0);
+    let t10 = y_dot + t3 * cos_theta - sin_theta * t5;
+    let t11 = p.e_omega * (cos_t0 - t4 * sin_t0) + t10;
+    let t12 = cos_phi2 * s2_dot - t2 * sin_phi2 + t6;
+    let t13 = t2 * cos_phi2 + sin_phi2 * s2_dot + t7;
+    let t14 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t15 = (t7 * t7 + t6 * t6) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t14;
+    let t16 = (t13 * t13 + t12 * t12) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t15;
+    ((t11 * t11 + t9 * t9) * p.m0 + p.J0_omega2 + t16) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -935,8 +939,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t5 = t0 + x;
     let t6 = y - t3;
     let t7 = t3 + y;
-    let t8 = (t5 * t5 + t4 * t4) * p.k2_ + (t2 * (t2 * p.k5) + t1 * (t1 * p.k4));
-    (t7 * t7 + t6 * t6) * p.k3 + t8
+    let t8 = t2 * (t2 * p.half_k2) + t1 * (t1 * p.half_k1);
+    (t7 * t7 + t6 * t6) * p.half_cy + ((t5 * t5 + t4 * t4) * p.half_cx + t8)
 }
 
 /// Dissipation function `D`, in W.
@@ -968,9 +972,9 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let t5 = t1 + y_dot;
     let t6 = p.r2 * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho;
     let t7 = theta1_dot * p.r1 + phi1_dot * s1 - theta_dot * p.R;
-    let t8 = s2_dot * (s2_dot * p.k11) + s1_dot * (s1_dot * p.k10);
-    let t9 = (t5 * t5 + t3 * t3) * p.k9 + (t7 * (t7 * p.k6) + t8);
-    (t4 * t4 + t2 * t2) * p.k8 + t6 * (t6 * p.k7) + t9
+    let t8 = s2_dot * (s2_dot * p.half_d2) + s1_dot * (s1_dot * p.half_d1);
+    let t9 = (t5 * t5 + t3 * t3) * p.half_by + (t7 * (t7 * p.half_drag1) + t8);
+    (t4 * t4 + t2 * t2) * p.half_bx + t6 * (t6 * p.half_drag2) + t9
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -1003,8 +1007,9 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let t4 = sin_theta * t1 - cos_theta * theta_ddot;
     let t5 = sin_t0 + t2 * cos_t0;
     let t6 = cos_t0 - t2 * sin_t0;
-    let t7 = t6 * (t5 * p.k12 - (y_ddot - t3 * p.y0 - t4 * p.x0));
-    (t5 * (t6 * p.k12 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7) * p.k20
+    let t7 = t6 * (t5 * p.e_omega2 - (y_ddot - t3 * p.y0 - t4 * p.x0));
+    let t8 = t5 * (t6 * p.e_omega2 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7;
+    t8 * p.m0_e_omega
 }
 
 /// Power `R` that dampers take out, in W.
@@ -1166,9 +1171,11 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     ]
     prepared Prepared {
         m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, gap1, gap2, k1, k2, d1, d2,
-        drag1, drag2, R, r1, rho, r2, k0, k1_, k2_, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13,
-        k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30, k31,
-        k32, k33, k34, k35, k36,
+        drag1, drag2, R, r1, rho, r2, e_omega, J0_omega2, half_cx, half_cy, half_k1, half_k2,
+        half_drag1, half_drag2, half_bx, half_by, half_d1, half_d2, e_omega2, m1_plus_m2, m0_y0,
+        m0_x0, k0, drag2_rho, drag1_R, drag1_r1, m0_e_omega, k1_, k2_, minus_m2, minus_drag1,
+        minus_drag2, minus_drag2_r2, inverse_m2, two_m2, inverse_m1, k3, k4, k5, k6, k7,
+        minus_inverse_J1, minus_drag2_r2_over_J2,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

@@ -57,11 +57,11 @@ pub struct DcMotor<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> DcMotor<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = S::ONE / self.L;
-        let k1 = self.b * S::from_f64(0.5);
-        let k2 = self.L * S::from_f64(0.5);
-        let k3 = self.J * S::from_f64(0.5);
-        let k4 = -(S::ONE / self.J);
+        let inverse_L = S::ONE / self.L;
+        let half_b = self.b * S::from_f64(0.5);
+        let half_L = self.L * S::from_f64(0.5);
+        let half_J = self.J * S::from_f64(0.5);
+        let minus_inverse_J = -(S::ONE / self.J);
         let one = S::ONE;
         let pivots = [(0, self.J, self.J), (1, one, one)];
         Prepared {
@@ -69,11 +69,11 @@ impl<S: ::lagrangian::emitted::Scalar> DcMotor<S> {
             b: self.b,
             R: self.R,
             k: self.k,
-            k0,
-            k1,
-            k2,
-            k3,
-            k4,
+            inverse_L,
+            half_b,
+            half_L,
+            half_J,
+            minus_inverse_J,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -127,25 +127,22 @@ pub struct Prepared<S = f64> {
     /// `k`
     k: S,
     /// `1/L`
-    k0: S,
+    inverse_L: S,
     /// `0.5*b`
-    k1: S,
+    half_b: S,
     /// `0.5*L`
-    k2: S,
+    half_L: S,
     /// `0.5*J`
-    k3: S,
+    half_J: S,
     /// `-1/J`
-    k4: S,
+    minus_inverse_J: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -173,7 +170,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let phi_dot = v[0];
     let i_dot = v[1];
     let q_phi = i_dot * p.k - phi_dot * p.b;
-    let q_i = p.k0 * (u.U - p.k * phi_dot - i_dot * p.R);
+    let q_i = p.inverse_L * (u.U - p.k * phi_dot - i_dot * p.R);
     [q_phi, q_i]
 }
 
@@ -186,7 +183,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let phi_dot = v[0];
     let i_dot = v[1];
     let f_phi = i_dot * p.k - phi_dot * p.b;
-    let f_i = p.k0 * (u.U - p.k * phi_dot - i_dot * p.R);
+    let f_i = p.inverse_L * (u.U - p.k * phi_dot - i_dot * p.R);
     [f_phi, f_i]
 }
 
@@ -224,8 +221,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let phi_dot = n(v[0]);
         let i_dot = n(v[1]);
         let t0 = n(p.k).neg_mul_add(phi_dot, n(u.U));
-        let phi_ddot = n(p.k4) * phi_dot.mul_sub(n(p.b), i_dot * n(p.k));
-        let i_ddot = n(p.k0) * i_dot.neg_mul_add(n(p.R), t0);
+        let t1 = phi_dot.mul_sub(n(p.b), i_dot * n(p.k));
+        let phi_ddot = n(p.minus_inverse_J) * t1;
+        let i_ddot = n(p.inverse_L) * i_dot.neg_mul_add(n(p.R), t0);
         let accelerations = [phi_ddot.store(), i_ddot.store()];
         Ok(accelerations)
     }
@@ -238,7 +236,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
 /// ```
 pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
     let phi_dot = v[0];
-    phi_dot * (phi_dot * p.k3)
+    phi_dot * (phi_dot * p.half_J)
 }
 
 /// Energy `E` that states of first order store, in J.
@@ -248,7 +246,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 /// ```
 pub fn state_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
     let i_dot = v[1];
-    i_dot * (i_dot * p.k2)
+    i_dot * (i_dot * p.half_L)
 }
 
 /// Dissipation function `D`, in W.
@@ -258,7 +256,7 @@ pub fn state_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2
 /// ```
 pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
     let phi_dot = v[0];
-    phi_dot * (phi_dot * p.k1)
+    phi_dot * (phi_dot * p.half_b)
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -326,7 +324,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(v: &[S; 2], u: &Inputs<S>) -> O
     outputs Outputs { supplied } [
         supplied: "supplied" "W";
     ]
-    prepared Prepared { J, b, R, k, k0, k1, k2, k3, k4 }
+    prepared Prepared { J, b, R, k, inverse_L, half_b, half_L, half_J, minus_inverse_J }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, v, u } }
     system {

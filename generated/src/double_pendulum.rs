@@ -53,22 +53,22 @@ impl<S: ::lagrangian::emitted::Scalar> DoublePendulum<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.l1 * self.l1;
         let t1 = self.g * self.m1;
-        let k1 = self.g * self.m2;
+        let m2_g = self.g * self.m2;
         let t2 = self.l2 * self.m2;
         let t3 = self.m1 * t0;
-        let k4 = self.l1 * t2;
-        let k7 = self.g * t2;
+        let m2_l1_l2 = self.l1 * t2;
+        let m2_l2_g = self.g * t2;
         let pivot_0 = t3 + self.m2 * t0;
-        let k8 = self.l1 * (t1 + k1);
-        let k0 = self.l1 * t1;
-        let k2 = t3 * S::from_f64(0.5);
-        let k3 = self.m2 * S::from_f64(0.5);
-        let k5 = t0 * (self.m1 + self.m2);
-        let k6 = self.l2 * t2;
-        let k9 = -k4;
-        let k10 = -k8;
-        let k11 = -k7;
-        let k12 = S::ONE / pivot_0;
+        let k1 = self.l1 * (t1 + m2_g);
+        let m1_l1_g = self.l1 * t1;
+        let half_m1_l1_squared = t3 * S::from_f64(0.5);
+        let half_m2 = self.m2 * S::from_f64(0.5);
+        let k0 = t0 * (self.m1 + self.m2);
+        let m2_l2_squared = self.l2 * t2;
+        let minus_m2_l1_l2 = -m2_l1_l2;
+        let k2 = -k1;
+        let minus_m2_l2_g = -m2_l2_g;
+        let k3 = S::ONE / pivot_0;
         let c0 = self.g;
         let c1 = self.l1;
         let c2 = -c1;
@@ -84,19 +84,19 @@ impl<S: ::lagrangian::emitted::Scalar> DoublePendulum<S> {
         Prepared {
             l1: self.l1,
             l2: self.l2,
+            m1_l1_g,
+            m2_g,
+            half_m1_l1_squared,
+            half_m2,
+            m2_l1_l2,
             k0,
+            m2_l2_squared,
+            m2_l2_g,
             k1,
+            minus_m2_l1_l2,
             k2,
+            minus_m2_l2_g,
             k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
             singular: PIVOTS.vanished(pivots),
             series: [c0, c2, c1, c3, c4, c6, c8, c9, c7, c10],
         }
@@ -141,31 +141,31 @@ pub struct Prepared<S = f64> {
     /// `l2`
     l2: S,
     /// `m1*l1*g`
-    k0: S,
+    m1_l1_g: S,
     /// `m2*g`
-    k1: S,
+    m2_g: S,
     /// `0.5*m1*l1^2`
-    k2: S,
+    half_m1_l1_squared: S,
     /// `0.5*m2`
-    k3: S,
+    half_m2: S,
     /// `m2*l1*l2`
-    k4: S,
+    m2_l1_l2: S,
     /// `l1^2*(m1 + m2)`
-    k5: S,
+    k0: S,
     /// `m2*l2^2`
-    k6: S,
+    m2_l2_squared: S,
     /// `m2*l2*g`
-    k7: S,
+    m2_l2_g: S,
     /// `l1*(m2*g + m1*g)`
-    k8: S,
+    k1: S,
     /// `-m2*l1*l2`
-    k9: S,
+    minus_m2_l1_l2: S,
     /// `-l1*(m2*g + m1*g)`
-    k10: S,
+    k2: S,
     /// `-m2*l2*g`
-    k11: S,
+    minus_m2_l2_g: S,
     /// `1/(m1*l1^2 + m2*l1^2)`
-    k12: S,
+    k3: S,
     /// What the Taylor series takes from the parameters.
     series: [S; 10],
     /// Why these parameters leave the machine without accelerations, if they do.
@@ -174,10 +174,7 @@ pub struct Prepared<S = f64> {
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -191,8 +188,8 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]
     let theta2 = q[1];
     let (sin_theta2, cos_theta2) = theta2.sin_cos();
     let (sin_theta1, cos_theta1) = theta1.sin_cos();
-    let m21 = (cos_theta2 * cos_theta1 + sin_theta2 * sin_theta1) * p.k4;
-    [[p.k5, m21], [m21, p.k6]]
+    let m21 = (cos_theta2 * cos_theta1 + sin_theta2 * sin_theta1) * p.m2_l1_l2;
+    [[p.k0, m21], [m21, p.m2_l2_squared]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -209,8 +206,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[
     let (sin_theta2, cos_theta2) = theta2.sin_cos();
     let (sin_theta1, cos_theta1) = theta1.sin_cos();
     let t0 = cos_theta2 * sin_theta1 - sin_theta2 * cos_theta1;
-    let h_theta1 = t0 * (theta2_dot * (theta2_dot * p.k4));
-    let h_theta2 = t0 * (theta1_dot * (p.k9 * theta1_dot));
+    let h_theta1 = t0 * (theta2_dot * (theta2_dot * p.m2_l1_l2));
+    let h_theta2 = t0 * (theta1_dot * (p.minus_m2_l1_l2 * theta1_dot));
     [h_theta1, h_theta2]
 }
 
@@ -225,8 +222,8 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     let theta2 = q[1];
     let sin_theta1 = theta1.sin();
     let sin_theta2 = theta2.sin();
-    let q_theta1 = p.k10 * sin_theta1;
-    let q_theta2 = p.k11 * sin_theta2;
+    let q_theta1 = p.k2 * sin_theta1;
+    let q_theta2 = p.minus_m2_l2_g * sin_theta2;
     [q_theta1, q_theta2]
 }
 
@@ -240,10 +237,10 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
     let (sin_theta2, cos_theta2) = theta2.sin_cos();
     let t0 = theta2_dot * theta2_dot;
     let t1 = theta1_dot * theta1_dot;
-    let t2 = sin_theta2 * (cos_theta1 * p.k4);
-    let t3 = cos_theta2 * (sin_theta1 * p.k4);
-    let f_theta1 = t0 * t2 - (t0 * t3 + sin_theta1 * p.k8);
-    let f_theta2 = t3 * t1 - (t2 * t1 + sin_theta2 * p.k7);
+    let t2 = sin_theta2 * (cos_theta1 * p.m2_l1_l2);
+    let t3 = cos_theta2 * (sin_theta1 * p.m2_l1_l2);
+    let f_theta1 = t0 * t2 - (t0 * t3 + sin_theta1 * p.k1);
+    let f_theta2 = t3 * t1 - (t2 * t1 + sin_theta2 * p.m2_l2_g);
     [f_theta1, f_theta2]
 }
 
@@ -289,19 +286,19 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t0 = cos_theta2 * sin_theta1;
         let t1 = sin_theta2 * cos_theta1;
         let t2 = cos_theta2.mul_add(cos_theta1, sin_theta2 * sin_theta1);
-        let t3 = n(p.k4) * t2;
-        let t4 = theta2_dot * (n(p.k4) * theta2_dot);
-        let t5 = (t0 - t1).mul_add(t4, sin_theta1 * n(p.k8));
-        let t6 = theta1_dot * (n(p.k4) * theta1_dot);
-        let t7 = n(p.k12) * t3;
-        let t8 = (t1 - t0).mul_add(t6, sin_theta2 * n(p.k7));
-        let t9 = t3.neg_mul_add(t7, n(p.k6));
+        let t3 = n(p.m2_l1_l2) * t2;
+        let t4 = theta2_dot * (n(p.m2_l1_l2) * theta2_dot);
+        let t5 = (t0 - t1).mul_add(t4, sin_theta1 * n(p.k1));
+        let t6 = theta1_dot * (n(p.m2_l1_l2) * theta1_dot);
+        let t7 = n(p.k3) * t3;
+        let t8 = (t1 - t0).mul_add(t6, sin_theta2 * n(p.m2_l2_g));
+        let t9 = t3.neg_mul_add(t7, n(p.m2_l2_squared));
         let t10 = t5.neg_mul_add(t7, t8) / t9;
-        let theta1_ddot = t7.mul_sub(t10, n(p.k12) * t5);
+        let theta1_ddot = t7.mul_sub(t10, n(p.k3) * t5);
         let theta2_ddot = -t10;
-        let sound = PIVOTS.hold(t9, n(p.k6)) & theta2_ddot.is_finite();
+        let sound = PIVOTS.hold(t9, n(p.m2_l2_squared)) & theta2_ddot.is_finite();
         if !sound {
-            let pivots = [(1, t9, n(p.k6))];
+            let pivots = [(1, t9, n(p.m2_l2_squared))];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [theta1_ddot.store(), theta2_ddot.store()];
@@ -330,7 +327,8 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t1 = theta2_dot * p.l2;
     let t2 = t1 * cos_theta2 + t0 * cos_theta1;
     let t3 = t1 * sin_theta2 + t0 * sin_theta1;
-    p.k3 * (t3 * t3 + t2 * t2) + theta1_dot * (theta1_dot * p.k2)
+    let t4 = theta1_dot * (theta1_dot * p.half_m1_l1_squared);
+    p.half_m2 * (t3 * t3 + t2 * t2) + t4
 }
 
 /// Potential energy `V`, in J.
@@ -343,7 +341,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let theta2 = q[1];
     let cos_theta1 = theta1.cos();
     let cos_theta2 = theta2.cos();
-    -(p.k1 * (cos_theta2 * p.l2 + cos_theta1 * p.l1) + cos_theta1 * p.k0)
+    let t0 = p.m2_g * (cos_theta2 * p.l2 + cos_theta1 * p.l1);
+    -(t0 + cos_theta1 * p.m1_l1_g)
 }
 
 /// The coefficients of which products are made, order by order, while the Taylor series is
@@ -626,46 +625,47 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             let x184 = x90 * x180;
             let x185 = x92.mul_add(x181, x184);
             let x186 = N::from_ratio(1, order as i64 - 1);
-            let x187 = x183 * x186;
-            let x188 = x187 * x122;
-            let x189 = x185 * x186;
-            let x190 = x189 * x122;
-            let x191 = x186 * x122;
-            let x192 = x58 * x183;
-            let x193 = x59.mul_add(x185, x192);
-            let x194 = x151 + x193;
-            let x195 = x56 * x183;
-            let x196 = x60.mul_add(x185, x195);
-            let x197 = x154 + x196;
-            let x198 = x62 * x183;
-            let x199 = x63.mul_add(x185, x198);
-            let x200 = x156 + x199;
-            let x201 = x65 * x183;
-            let x202 = x66.mul_add(x185, x201);
-            let x203 = x159 + x202;
-            let x204 = x4 * x191;
-            let x205 = x204.mul_add(x183, x123);
-            let x206 = x55 * x191;
-            let x207 = x206.mul_add(x183, x129);
-            let x208 = x6 * x191;
-            let x209 = x208.mul_add(x185, x135);
-            let x210 = x57 * x191;
-            let x211 = x210.mul_add(x185, x141);
+            let x187 = N::from_ratio(order as i64 * (order as i64 - 1), 1);
+            let x188 = x183 * x186;
+            let x189 = x183 / x187;
+            let x190 = x185 * x186;
+            let x191 = x185 / x187;
+            let x192 = x186 * x122;
+            let x193 = x58 * x183;
+            let x194 = x59.mul_add(x185, x193);
+            let x195 = x151 + x194;
+            let x196 = x56 * x183;
+            let x197 = x60.mul_add(x185, x196);
+            let x198 = x154 + x197;
+            let x199 = x62 * x183;
+            let x200 = x63.mul_add(x185, x199);
+            let x201 = x156 + x200;
+            let x202 = x65 * x183;
+            let x203 = x66.mul_add(x185, x202);
+            let x204 = x159 + x203;
+            let x205 = x4 * x192;
+            let x206 = x205.mul_add(x183, x123);
+            let x207 = x55 * x192;
+            let x208 = x207.mul_add(x183, x129);
+            let x209 = x6 * x192;
+            let x210 = x209.mul_add(x185, x135);
+            let x211 = x57 * x192;
+            let x212 = x211.mul_add(x185, x141);
             if let Some(row) = coefficients.get_mut(order) {
-                *row = [x188.store(), x190.store()];
+                *row = [x189.store(), x191.store()];
             }
             ::lagrangian::emitted::series::keep::<N, 8, 8>(
                 &mut lists.a0.0,
                 order,
                 [
-                    x187.store(),
-                    x187.store(),
-                    x189.store(),
-                    x189.store(),
-                    x200.store(),
-                    x203.store(),
-                    x197.store(),
-                    x194.store(),
+                    x188.store(),
+                    x188.store(),
+                    x190.store(),
+                    x190.store(),
+                    x201.store(),
+                    x204.store(),
+                    x198.store(),
+                    x195.store(),
                 ],
                 &A0,
             );
@@ -673,27 +673,27 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
                 &mut lists.b0.0,
                 order,
                 [
-                    x207.store(),
-                    x205.store(),
-                    x211.store(),
-                    x209.store(),
-                    x205.store(),
-                    x207.store(),
-                    x209.store(),
-                    x211.store(),
+                    x208.store(),
+                    x206.store(),
+                    x212.store(),
+                    x210.store(),
+                    x206.store(),
+                    x208.store(),
+                    x210.store(),
+                    x212.store(),
                 ],
                 &B0,
             );
-            y6 = x205;
-            y7 = x207;
-            y15 = x209;
-            y16 = x211;
-            y18 = x194;
-            y22 = x197;
-            y25 = x200;
-            y26 = x203;
-            z5 = x187;
-            z14 = x189;
+            y6 = x206;
+            y7 = x208;
+            y15 = x210;
+            y16 = x212;
+            y18 = x195;
+            y22 = x198;
+            y25 = x201;
+            y26 = x204;
+            z5 = x188;
+            z14 = x190;
         }
         Ok(())
     }
@@ -714,7 +714,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
     ]
     inputs Inputs {} []
     outputs Outputs {} []
-    prepared Prepared { l1, l2, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12 }
+    prepared Prepared {
+        l1, l2, m1_l1_g, m2_g, half_m1_l1_squared, half_m2, m2_l1_l2, k0, m2_l2_squared, m2_l2_g,
+        k1, minus_m2_l1_l2, k2, minus_m2_l2_g, k3,
+    }
     series series
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

@@ -63,25 +63,25 @@ pub struct ElasticPendulum<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> ElasticPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k1 = self.m * self.g;
-        let k0 = self.m * S::from_f64(0.5);
-        let k2 = self.k * S::from_f64(0.5);
-        let k3 = self.m * S::from_f64(2.0);
-        let k4 = -self.m;
-        let k5 = -k1;
-        let k6 = S::ONE / self.m;
+        let m_g = self.m * self.g;
+        let half_m = self.m * S::from_f64(0.5);
+        let half_k = self.k * S::from_f64(0.5);
+        let two_m = self.m * S::from_f64(2.0);
+        let minus_m = -self.m;
+        let minus_m_g = -m_g;
+        let inverse_m = S::ONE / self.m;
         let pivots = [(0, self.m, self.m)];
         Prepared {
             m: self.m,
             k: self.k,
             l0: self.l0,
-            k0,
-            k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
+            half_m,
+            m_g,
+            half_k,
+            two_m,
+            minus_m,
+            minus_m_g,
+            inverse_m,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -130,29 +130,26 @@ pub struct Prepared<S = f64> {
     /// `l0`
     l0: S,
     /// `0.5*m`
-    k0: S,
+    half_m: S,
     /// `m*g`
-    k1: S,
+    m_g: S,
     /// `0.5*k`
-    k2: S,
+    half_k: S,
     /// `2*m`
-    k3: S,
+    two_m: S,
     /// `-m`
-    k4: S,
+    minus_m: S,
     /// `-m*g`
-    k5: S,
+    minus_m_g: S,
     /// `1/m`
-    k6: S,
+    inverse_m: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -178,8 +175,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[
     let r_dot = v[0];
     let theta_dot = v[1];
     let t0 = theta_dot * r;
-    let h_r = t0 * (theta_dot * p.k4);
-    let h_theta = t0 * (p.k3 * r_dot);
+    let h_r = t0 * (theta_dot * p.minus_m);
+    let h_theta = t0 * (p.two_m * r_dot);
     [h_r, h_theta]
 }
 
@@ -193,8 +190,8 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     let r = q[0];
     let theta = q[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let q_r = (p.l0 - r) * p.k + p.k1 * cos_theta;
-    let q_theta = sin_theta * (r * p.k5);
+    let q_r = (p.l0 - r) * p.k + p.m_g * cos_theta;
+    let q_theta = sin_theta * (r * p.minus_m_g);
     [q_r, q_theta]
 }
 
@@ -206,8 +203,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
     let theta_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = theta_dot * r;
-    let f_r = t0 * (theta_dot * p.m) + ((p.l0 - r) * p.k + p.k1 * cos_theta);
-    let f_theta = -(t0 * (p.k3 * r_dot) + sin_theta * (r * p.k1));
+    let f_r = t0 * (theta_dot * p.m) + ((p.l0 - r) * p.k + p.m_g * cos_theta);
+    let f_theta = -(t0 * (p.two_m * r_dot) + sin_theta * (r * p.m_g));
     [f_r, f_theta]
 }
 
@@ -249,10 +246,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let (sin_theta, cos_theta) = theta.sin_cos();
         let t0 = r * n(p.m);
         let t1 = r * t0;
-        let t2 = r * n(p.k3) * (theta_dot * r_dot);
-        let t3 = n(p.k1).mul_add(cos_theta, (n(p.l0) - r) * n(p.k));
-        let r_ddot = n(p.k6) * t0.mul_add(theta_dot * theta_dot, t3);
-        let theta_ddot = -(sin_theta.mul_add(r * n(p.k1), t2) / t1);
+        let t2 = r * n(p.two_m) * (theta_dot * r_dot);
+        let t3 = n(p.m_g).mul_add(cos_theta, (n(p.l0) - r) * n(p.k));
+        let r_ddot = n(p.inverse_m) * t0.mul_add(theta_dot * theta_dot, t3);
+        let theta_ddot = -(sin_theta.mul_add(r * n(p.m_g), t2) / t1);
         let sound = PIVOTS.hold(t1, t1) & theta_ddot.is_finite();
         if !sound {
             let pivots = [(1, t1, t1)];
@@ -281,7 +278,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t0 = theta_dot * r;
     let t1 = t0 * cos_theta + sin_theta * r_dot;
     let t2 = cos_theta * r_dot - t0 * sin_theta;
-    p.k0 * (t2 * t2 + t1 * t1)
+    p.half_m * (t2 * t2 + t1 * t1)
 }
 
 /// Potential energy `V`, in J.
@@ -294,7 +291,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let theta = q[1];
     let cos_theta = theta.cos();
     let t0 = p.l0 - r;
-    t0 * (t0 * p.k2) - cos_theta * (p.k1 * r)
+    t0 * (t0 * p.half_k) - cos_theta * (p.m_g * r)
 }
 
 /// Angular momentum about the pivot: conserved where nothing weighs. Unit: `J*s`.
@@ -345,7 +342,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     outputs Outputs { momentum } [
         momentum: "momentum" "J*s";
     ]
-    prepared Prepared { m, k, l0, k0, k1, k2, k3, k4, k5, k6 }
+    prepared Prepared { m, k, l0, half_m, m_g, half_k, two_m, minus_m, minus_m_g, inverse_m }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

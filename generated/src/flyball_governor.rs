@@ -66,58 +66,58 @@ impl<S: ::lagrangian::emitted::Scalar> FlyballGovernor<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = S::ONE / self.l;
-        let k2 = S::ONE / self.b;
-        let k1 = self.l * self.l;
-        let k18 = self.l * S::from_f64(2.0);
-        let k4 = k1 * self.m;
-        let k6 = k18 * (self.g * self.m);
-        let k9 = k4 * S::from_f64(2.0);
-        let k19 = S::from_f64(0.5) * t0;
-        let k3 = k2 * S::from_f64(0.5);
-        let k0 = self.b * self.b;
-        let k5 = self.M * self.g;
-        let k7 = self.J * S::from_f64(0.5);
-        let k8 = self.M * S::from_f64(0.5);
-        let k10 = k4 * S::from_f64(4.0);
-        let k11 = k1 * S::from_f64(2.0);
-        let k12 = self.l * k2;
-        let k13 = k1 * k2;
-        let k14 = self.J + k9;
-        let k15 = -k9;
-        let k16 = -k6;
-        let k17 = -k3;
-        let k20 = S::ONE / self.M;
-        let k21 = t0 * k19 / self.m;
-        let k22 = self.g * k2;
-        let pivots = [(1, k9, k9), (2, self.M, self.M)];
+        let inverse_b = S::ONE / self.b;
+        let l_squared = self.l * self.l;
+        let two_l = self.l * S::from_f64(2.0);
+        let l_squared_m = l_squared * self.m;
+        let two_l_m_g = two_l * (self.g * self.m);
+        let two_l_squared_m = l_squared_m * S::from_f64(2.0);
+        let half_over_l = S::from_f64(0.5) * t0;
+        let half_over_b = inverse_b * S::from_f64(0.5);
+        let b_squared = self.b * self.b;
+        let M_g = self.M * self.g;
+        let half_J = self.J * S::from_f64(0.5);
+        let half_M = self.M * S::from_f64(0.5);
+        let four_l_squared_m = l_squared_m * S::from_f64(4.0);
+        let two_l_squared = l_squared * S::from_f64(2.0);
+        let l_over_b = self.l * inverse_b;
+        let l_squared_over_b = l_squared * inverse_b;
+        let J_plus_two_l_squared_m = self.J + two_l_squared_m;
+        let minus_two_l_squared_m = -two_l_squared_m;
+        let minus_two_l_m_g = -two_l_m_g;
+        let minus_half_over_b = -half_over_b;
+        let inverse_M = S::ONE / self.M;
+        let k0 = t0 * half_over_l / self.m;
+        let g_over_b = self.g * inverse_b;
+        let pivots = [(1, two_l_squared_m, two_l_squared_m), (2, self.M, self.M)];
         Prepared {
             l: self.l,
             M: self.M,
             J: self.J,
             g: self.g,
+            b_squared,
+            l_squared,
+            inverse_b,
+            half_over_b,
+            l_squared_m,
+            M_g,
+            two_l_m_g,
+            half_J,
+            half_M,
+            two_l_squared_m,
+            four_l_squared_m,
+            two_l_squared,
+            l_over_b,
+            l_squared_over_b,
+            J_plus_two_l_squared_m,
+            minus_two_l_squared_m,
+            minus_two_l_m_g,
+            minus_half_over_b,
+            two_l,
+            half_over_l,
+            inverse_M,
             k0,
-            k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
-            k20,
-            k21,
-            k22,
+            g_over_b,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -174,61 +174,58 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `b^2`
-    k0: S,
+    b_squared: S,
     /// `l^2`
-    k1: S,
+    l_squared: S,
     /// `1/b`
-    k2: S,
+    inverse_b: S,
     /// `0.5/b`
-    k3: S,
+    half_over_b: S,
     /// `l^2*m`
-    k4: S,
+    l_squared_m: S,
     /// `M*g`
-    k5: S,
+    M_g: S,
     /// `2*l*m*g`
-    k6: S,
+    two_l_m_g: S,
     /// `0.5*J`
-    k7: S,
+    half_J: S,
     /// `0.5*M`
-    k8: S,
+    half_M: S,
     /// `2*l^2*m`
-    k9: S,
+    two_l_squared_m: S,
     /// `4*l^2*m`
-    k10: S,
+    four_l_squared_m: S,
     /// `2*l^2`
-    k11: S,
+    two_l_squared: S,
     /// `l/b`
-    k12: S,
+    l_over_b: S,
     /// `l^2/b`
-    k13: S,
+    l_squared_over_b: S,
     /// `J + 2*l^2*m`
-    k14: S,
+    J_plus_two_l_squared_m: S,
     /// `-2*l^2*m`
-    k15: S,
+    minus_two_l_squared_m: S,
     /// `-2*l*m*g`
-    k16: S,
+    minus_two_l_m_g: S,
     /// `-0.5/b`
-    k17: S,
+    minus_half_over_b: S,
     /// `2*l`
-    k18: S,
+    two_l: S,
     /// `0.5/l`
-    k19: S,
+    half_over_l: S,
     /// `1/M`
-    k20: S,
+    inverse_M: S,
     /// `0.5/l^2/m`
-    k21: S,
+    k0: S,
     /// `g/b`
-    k22: S,
+    g_over_b: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 3,
-    tolerance: 3.552713678800501e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(3, 4);
 
 /// Mass matrix `M`.
 ///
@@ -240,9 +237,13 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let alpha = q[1];
     let sin_alpha = alpha.sin();
-    let m11 = sin_alpha * (sin_alpha * p.k9) + p.J;
+    let m11 = sin_alpha * (sin_alpha * p.two_l_squared_m) + p.J;
     let zero = S::ZERO;
-    [[m11, zero, zero], [zero, p.k9, zero], [zero, zero, p.M]]
+    [
+        [m11, zero, zero],
+        [zero, p.two_l_squared_m, zero],
+        [zero, zero, p.M],
+    ]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -257,8 +258,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[
     let alpha_dot = v[1];
     let (sin_alpha, cos_alpha) = alpha.sin_cos();
     let t0 = cos_alpha * (sin_alpha * phi_dot);
-    let h_phi = t0 * (p.k10 * alpha_dot);
-    let h_alpha = t0 * (phi_dot * p.k15);
+    let h_phi = t0 * (p.four_l_squared_m * alpha_dot);
+    let h_alpha = t0 * (phi_dot * p.minus_two_l_squared_m);
     let zero = S::ZERO;
     [h_phi, h_alpha, zero]
 }
@@ -277,8 +278,8 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
 ) -> [S; 3] {
     let alpha = q[1];
     let sin_alpha = alpha.sin();
-    let q_alpha = p.k16 * sin_alpha;
-    [u.drive, q_alpha, p.k5]
+    let q_alpha = p.minus_two_l_m_g * sin_alpha;
+    [u.drive, q_alpha, p.M_g]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
@@ -293,9 +294,9 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let alpha_dot = v[1];
     let (sin_alpha, cos_alpha) = alpha.sin_cos();
     let t0 = cos_alpha * (sin_alpha * phi_dot);
-    let f_phi = u.drive - t0 * (p.k10 * alpha_dot);
-    let f_alpha = t0 * (phi_dot * p.k9) - sin_alpha * p.k6;
-    [f_phi, f_alpha, p.k5]
+    let f_phi = u.drive - t0 * (p.four_l_squared_m * alpha_dot);
+    let f_alpha = t0 * (phi_dot * p.two_l_squared_m) - sin_alpha * p.two_l_m_g;
+    [f_phi, f_alpha, p.M_g]
 }
 
 /// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
@@ -311,7 +312,8 @@ pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
     let s = q[2];
     let (sin_alpha, cos_alpha) = alpha.sin_cos();
     let t0 = s - cos_alpha * p.l;
-    let g1 = p.k17 * (p.k0 - sin_alpha * (sin_alpha * p.k1) - t0 * t0);
+    let t1 = p.b_squared - sin_alpha * (sin_alpha * p.l_squared) - t0 * t0;
+    let g1 = p.minus_half_over_b * t1;
     [g1]
 }
 
@@ -332,7 +334,7 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let (sin_alpha, cos_alpha) = alpha.sin_cos();
     let t0 = sin_alpha * alpha_dot;
     let t1 = (t0 * p.l + s_dot) * (S::from_f64(2.0) * (s - cos_alpha * p.l));
-    let phi1 = (t1 + t0 * (cos_alpha * p.k11)) * p.k3;
+    let phi1 = (t1 + t0 * (cos_alpha * p.two_l_squared)) * p.half_over_b;
     [phi1]
 }
 
@@ -348,8 +350,8 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let (sin_alpha, cos_alpha) = alpha.sin_cos();
     let t0 = s - cos_alpha * p.l;
     let zero = S::ZERO;
-    let g1_2 = sin_alpha * (cos_alpha * p.k13 + t0 * p.k12);
-    let g1_3 = t0 * p.k2;
+    let g1_2 = sin_alpha * (cos_alpha * p.l_squared_over_b + t0 * p.l_over_b);
+    let g1_3 = t0 * p.inverse_b;
     [zero, g1_2, g1_3]
 }
 
@@ -371,8 +373,9 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     let t0 = alpha_dot * alpha_dot;
     let t1 = cos_alpha * p.l;
     let t2 = sin_alpha * (alpha_dot * p.l) + s_dot;
-    let t3 = (cos_alpha * cos_alpha - sin_alpha * sin_alpha) * (t0 * p.k11);
-    let gamma1 = p.k17 * (((s - t1) * (t0 * t1) + t2 * t2) * S::from_f64(2.0) + t3);
+    let t3 = (cos_alpha * cos_alpha - sin_alpha * sin_alpha) * (t0 * p.two_l_squared);
+    let t4 = ((s - t1) * (t0 * t1) + t2 * t2) * S::from_f64(2.0) + t3;
+    let gamma1 = p.minus_half_over_b * t4;
     [gamma1]
 }
 
@@ -422,26 +425,28 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t2 = cos_alpha * alpha_dot;
         let t3 = sin_alpha * cos_alpha;
         let t4 = t0.mul_add(n(p.l), s_dot);
-        let t5 = t1 * n(p.k2);
-        let t6 = phi_dot * (n(p.k9) * phi_dot);
-        let t7 = t3.neg_mul_add(t6, sin_alpha * n(p.k6));
-        let t8 = cos_alpha * (phi_dot * n(p.k10));
-        let t9 = cos_alpha.neg_mul_add(n(p.k9) * cos_alpha, n(p.k14));
-        let t10 = t3.mul_add(n(p.k13), t1 * (sin_alpha * n(p.k12)));
-        let t11 = t5 * n(p.k20);
-        let t12 = n(p.k21) * t10;
-        let t13 = t1.mul_add(t2 * (alpha_dot * n(p.l)), t4 * t4);
-        let t14 = t2.mul_sub(t2, t0 * t0) * n(p.k11);
-        let t15 = t10.mul_add(t12, t5 * t11);
-        let t16 = t7.neg_mul_add(t12, t11 * n(p.k5));
-        let t17 = t13.mul_add(N::from_f64(2.0), t14).mul_add(n(p.k3), t16);
-        let t18 = t17 / t15;
-        let phi_ddot = t0.neg_mul_add(t8, n(u.drive)) / t9;
-        let alpha_ddot = -t12.mul_add(t18, n(p.k21) * t7);
-        let s_ddot = t11.neg_mul_add(t18, n(p.g));
-        let sound = PIVOTS.hold(t9, t9) & PIVOTS.hold(t15, t15) & alpha_ddot.is_finite();
+        let t5 = t1 * n(p.inverse_b);
+        let t6 = phi_dot * (n(p.two_l_squared_m) * phi_dot);
+        let t7 = t3.neg_mul_add(t6, sin_alpha * n(p.two_l_m_g));
+        let t8 = cos_alpha * (phi_dot * n(p.four_l_squared_m));
+        let t9 = n(p.two_l_squared_m) * cos_alpha;
+        let t10 = cos_alpha.neg_mul_add(t9, n(p.J_plus_two_l_squared_m));
+        let t11 = t1 * (sin_alpha * n(p.l_over_b));
+        let t12 = t3.mul_add(n(p.l_squared_over_b), t11);
+        let t13 = t5 * n(p.inverse_M);
+        let t14 = n(p.k0) * t12;
+        let t15 = t1.mul_add(t2 * (alpha_dot * n(p.l)), t4 * t4);
+        let t16 = t2.mul_sub(t2, t0 * t0) * n(p.two_l_squared);
+        let t17 = t12.mul_add(t14, t5 * t13);
+        let t18 = t7.neg_mul_add(t14, t13 * n(p.M_g));
+        let t19 = t15.mul_add(N::from_f64(2.0), t16);
+        let t20 = t19.mul_add(n(p.half_over_b), t18) / t17;
+        let phi_ddot = t0.neg_mul_add(t8, n(u.drive)) / t10;
+        let alpha_ddot = -t14.mul_add(t20, n(p.k0) * t7);
+        let s_ddot = t13.neg_mul_add(t20, n(p.g));
+        let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t17, t17) & alpha_ddot.is_finite();
         if !sound {
-            let pivots = [(0, t9, t9), (3, t15, t15)];
+            let pivots = [(0, t10, t10), (3, t17, t17)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [phi_ddot.store(), alpha_ddot.store(), s_ddot.store()];
@@ -492,20 +497,22 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t3 = sin_alpha * sin_alpha;
         let t4 = t1 * t0;
         let t5 = s - t1;
-        let t6 = sin_alpha * (n(p.k18) * phi_dot.mul_add(phi_dot, t0));
-        let t7 = t3.mul_add(n(p.k9), n(p.J));
-        let t8 = n(p.k2) * t5;
-        let t9 = sin_alpha * t5.mul_add(n(p.k12), cos_alpha * n(p.k13));
-        let t10 = cos_alpha.mul_sub(cos_alpha, t3) * (t0 * n(p.k11));
-        let t11 = sin_alpha * N::from_f64(2.0);
-        let t12 = N::from_f64(2.0).mul_add(t5.mul_add(t4, t2 * t2), t10);
-        let t13 = (t4 + n(p.g)).neg_mul_add(t11, cos_alpha * t6);
-        let t14 = t12.mul_add(n(p.k3), t5 * n(p.k22));
-        let t15 = t9.mul_add(t9 * n(p.k21), t8 * (t8 * n(p.k20)));
-        let lambda1 = -(t13.mul_add(t9 * n(p.k19), t14) / t15);
-        let sound = PIVOTS.hold(t7, t7) & PIVOTS.hold(t15, t15) & lambda1.is_finite();
+        let t6 = sin_alpha * (n(p.two_l) * phi_dot.mul_add(phi_dot, t0));
+        let t7 = t3.mul_add(n(p.two_l_squared_m), n(p.J));
+        let t8 = cos_alpha * n(p.l_squared_over_b);
+        let t9 = n(p.inverse_b) * t5;
+        let t10 = cos_alpha.mul_sub(cos_alpha, t3);
+        let t11 = sin_alpha * t5.mul_add(n(p.l_over_b), t8);
+        let t12 = t10 * (t0 * n(p.two_l_squared));
+        let t13 = sin_alpha * N::from_f64(2.0);
+        let t14 = N::from_f64(2.0).mul_add(t5.mul_add(t4, t2 * t2), t12);
+        let t15 = t14.mul_add(n(p.half_over_b), t5 * n(p.g_over_b));
+        let t16 = (t4 + n(p.g)).neg_mul_add(t13, cos_alpha * t6);
+        let t17 = t11.mul_add(t11 * n(p.k0), t9 * (t9 * n(p.inverse_M)));
+        let lambda1 = -(t16.mul_add(t11 * n(p.half_over_l), t15) / t17);
+        let sound = PIVOTS.hold(t7, t7) & PIVOTS.hold(t17, t17) & lambda1.is_finite();
         if !sound {
-            let pivots = [(0, t7, t7), (3, t15, t15)];
+            let pivots = [(0, t7, t7), (3, t17, t17)];
             PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store()];
@@ -529,8 +536,8 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let s_dot = v[2];
     let sin_alpha = alpha.sin();
     let t0 = phi_dot * phi_dot;
-    let t1 = (alpha_dot * alpha_dot + sin_alpha * (t0 * sin_alpha)) * p.k4;
-    t1 + (s_dot * (s_dot * p.k8) + t0 * p.k7)
+    let t1 = (alpha_dot * alpha_dot + sin_alpha * (t0 * sin_alpha)) * p.l_squared_m;
+    t1 + (s_dot * (s_dot * p.half_M) + t0 * p.half_J)
 }
 
 /// Potential energy `V`, in J.
@@ -542,7 +549,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let alpha = q[1];
     let s = q[2];
     let cos_alpha = alpha.cos();
-    -(p.k6 * cos_alpha + p.k5 * s)
+    -(p.two_l_m_g * cos_alpha + p.M_g * s)
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -575,8 +582,10 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 3], u: &Inputs<S>) ->
     ] over S
     outputs Outputs {} []
     prepared Prepared {
-        l, M, J, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17,
-        k18, k19, k20, k21, k22,
+        l, M, J, g, b_squared, l_squared, inverse_b, half_over_b, l_squared_m, M_g, two_l_m_g,
+        half_J, half_M, two_l_squared_m, four_l_squared_m, two_l_squared, l_over_b,
+        l_squared_over_b, J_plus_two_l_squared_m, minus_two_l_squared_m, minus_two_l_m_g,
+        minus_half_over_b, two_l, half_over_l, inverse_M, k0, g_over_b,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }

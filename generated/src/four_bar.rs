@@ -68,68 +68,68 @@ impl<S: ::lagrangian::emitted::Scalar> FourBar<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.a * self.a;
         let t1 = S::from_f64(0.5) * self.g;
-        let k2 = self.m2 * self.g;
+        let m2_g = self.m2 * self.g;
         let t2 = self.b * self.m2;
         let t3 = self.c * self.m3;
         let t4 = self.m1 * t0;
         let t5 = t1 * self.m1;
         let t6 = self.b * t2;
-        let k4 = t1 * t3;
+        let half_c_m3_g = t1 * t3;
         let t7 = self.c * t3;
-        let k7 = t2 * (self.a * S::from_f64(0.5));
+        let half_a_b_m2 = t2 * (self.a * S::from_f64(0.5));
         let t8 = S::from_ratio(1, 3);
         let pivot_0 = t4 * t8 + self.m2 * t0;
         let t9 = S::from_ratio(1, 12);
-        let k12 = t2 * t1;
-        let k11 = self.a * (k2 + t5);
+        let half_b_m2_g = t2 * t1;
+        let k6 = self.a * (m2_g + t5);
         let t10 = S::from_ratio(1, 6);
         let t11 = (self.m1 + self.m2 * S::from_f64(4.0)) * (t0 * S::from_f64(0.25));
-        let k10 = t7 * t8;
-        let k0 = self.b * S::from_f64(0.5);
-        let k1 = t6 * t9;
-        let k3 = self.a * t5;
-        let k5 = t4 * t10;
-        let k6 = t10 * t7;
-        let k8 = t11 + t9 * t4;
-        let k9 = t6 * t8;
-        let k13 = -self.a;
-        let k14 = -k7;
-        let k15 = -k11;
-        let k16 = -k12;
-        let k17 = -k4;
-        let k18 = -self.b;
-        let k19 = -self.c;
-        let k20 = S::from_f64(3.0) / (self.m3 * (self.c * self.c));
-        let k21 = S::ONE / pivot_0;
-        let pivots = [(2, k10, k10), (0, pivot_0, pivot_0)];
+        let k5 = t7 * t8;
+        let half_b = self.b * S::from_f64(0.5);
+        let k0 = t6 * t9;
+        let half_a_m1_g = self.a * t5;
+        let k1 = t4 * t10;
+        let k2 = t10 * t7;
+        let k3 = t11 + t9 * t4;
+        let k4 = t6 * t8;
+        let minus_a = -self.a;
+        let minus_half_a_b_m2 = -half_a_b_m2;
+        let k7 = -k6;
+        let minus_half_b_m2_g = -half_b_m2_g;
+        let minus_half_c_m3_g = -half_c_m3_g;
+        let minus_b = -self.b;
+        let minus_c = -self.c;
+        let k8 = S::from_f64(3.0) / (self.m3 * (self.c * self.c));
+        let k9 = S::ONE / pivot_0;
+        let pivots = [(2, k5, k5), (0, pivot_0, pivot_0)];
         Prepared {
             a: self.a,
             b: self.b,
             c: self.c,
             d: self.d,
             m2: self.m2,
+            half_b,
             k0,
+            m2_g,
+            half_a_m1_g,
+            half_c_m3_g,
             k1,
             k2,
+            half_a_b_m2,
             k3,
             k4,
             k5,
             k6,
+            half_b_m2_g,
+            minus_a,
+            minus_half_a_b_m2,
             k7,
+            minus_half_b_m2_g,
+            minus_half_c_m3_g,
+            minus_b,
+            minus_c,
             k8,
             k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
-            k20,
-            k21,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -188,59 +188,56 @@ pub struct Prepared<S = f64> {
     /// `m2`
     m2: S,
     /// `0.5*b`
-    k0: S,
+    half_b: S,
     /// `(1/12)*b^2*m2`
-    k1: S,
+    k0: S,
     /// `m2*g`
-    k2: S,
+    m2_g: S,
     /// `0.5*a*m1*g`
-    k3: S,
+    half_a_m1_g: S,
     /// `0.5*c*m3*g`
-    k4: S,
+    half_c_m3_g: S,
     /// `(1/6)*a^2*m1`
-    k5: S,
+    k1: S,
     /// `(1/6)*c^2*m3`
-    k6: S,
+    k2: S,
     /// `0.5*a*b*m2`
-    k7: S,
+    half_a_b_m2: S,
     /// `(1/12)*a^2*m1 + 0.25*a^2*(m1 + 4*m2)`
-    k8: S,
+    k3: S,
     /// `(1/3)*b^2*m2`
-    k9: S,
+    k4: S,
     /// `(1/3)*c^2*m3`
-    k10: S,
+    k5: S,
     /// `a*(m2*g + 0.5*m1*g)`
-    k11: S,
+    k6: S,
     /// `0.5*b*m2*g`
-    k12: S,
+    half_b_m2_g: S,
     /// `-a`
-    k13: S,
+    minus_a: S,
     /// `-0.5*a*b*m2`
-    k14: S,
+    minus_half_a_b_m2: S,
     /// `-a*(m2*g + 0.5*m1*g)`
-    k15: S,
+    k7: S,
     /// `-0.5*b*m2*g`
-    k16: S,
+    minus_half_b_m2_g: S,
     /// `-0.5*c*m3*g`
-    k17: S,
+    minus_half_c_m3_g: S,
     /// `-b`
-    k18: S,
+    minus_b: S,
     /// `-c`
-    k19: S,
+    minus_c: S,
     /// `3/c^2/m3`
-    k20: S,
+    k8: S,
     /// `1/(a^2*m2 + (1/3)*a^2*m1)`
-    k21: S,
+    k9: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 3,
-    tolerance: 4.440892098500626e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(3, 5);
 
 /// Mass matrix `M`.
 ///
@@ -255,9 +252,9 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]
     let coupler = q[1];
     let (sin_coupler, cos_coupler) = coupler.sin_cos();
     let (sin_crank, cos_crank) = crank.sin_cos();
-    let m21 = (sin_coupler * sin_crank + cos_coupler * cos_crank) * p.k7;
+    let m21 = (sin_coupler * sin_crank + cos_coupler * cos_crank) * p.half_a_b_m2;
     let zero = S::ZERO;
-    [[p.k8, m21, zero], [m21, p.k9, zero], [zero, zero, p.k10]]
+    [[p.k3, m21, zero], [m21, p.k4, zero], [zero, zero, p.k5]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -274,8 +271,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[
     let (sin_coupler, cos_coupler) = coupler.sin_cos();
     let (sin_crank, cos_crank) = crank.sin_cos();
     let t0 = sin_coupler * cos_crank - cos_coupler * sin_crank;
-    let h_crank = t0 * (coupler_dot * (p.k14 * coupler_dot));
-    let h_coupler = t0 * (crank_dot * (crank_dot * p.k7));
+    let h_crank = t0 * (coupler_dot * (p.minus_half_a_b_m2 * coupler_dot));
+    let h_coupler = t0 * (crank_dot * (crank_dot * p.half_a_b_m2));
     let zero = S::ZERO;
     [h_crank, h_coupler, zero]
 }
@@ -294,9 +291,9 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     let cos_crank = crank.cos();
     let cos_coupler = coupler.cos();
     let cos_rocker = rocker.cos();
-    let q_crank = p.k15 * cos_crank;
-    let q_coupler = p.k16 * cos_coupler;
-    let q_rocker = p.k17 * cos_rocker;
+    let q_crank = p.k7 * cos_crank;
+    let q_coupler = p.minus_half_b_m2_g * cos_coupler;
+    let q_rocker = p.minus_half_c_m3_g * cos_rocker;
     [q_crank, q_coupler, q_rocker]
 }
 
@@ -312,11 +309,11 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let cos_rocker = rocker.cos();
     let t0 = coupler_dot * coupler_dot;
     let t1 = crank_dot * crank_dot;
-    let t2 = sin_coupler * (cos_crank * p.k7);
-    let t3 = cos_coupler * (sin_crank * p.k7);
-    let f_crank = t0 * t2 - (t0 * t3 + cos_crank * p.k11);
-    let f_coupler = t3 * t1 - (t2 * t1 + cos_coupler * p.k12);
-    let f_rocker = p.k17 * cos_rocker;
+    let t2 = sin_coupler * (cos_crank * p.half_a_b_m2);
+    let t3 = cos_coupler * (sin_crank * p.half_a_b_m2);
+    let f_crank = t0 * t2 - (t0 * t3 + cos_crank * p.k6);
+    let f_coupler = t3 * t1 - (t2 * t1 + cos_coupler * p.half_b_m2_g);
+    let f_rocker = p.minus_half_c_m3_g * cos_rocker;
     [f_crank, f_coupler, f_rocker]
 }
 
@@ -386,12 +383,12 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let (sin_crank, cos_crank) = crank.sin_cos();
     let (sin_coupler, cos_coupler) = coupler.sin_cos();
     let (sin_rocker, cos_rocker) = rocker.sin_cos();
-    let g1_1 = p.k13 * sin_crank;
-    let g1_2 = p.k18 * sin_coupler;
+    let g1_1 = p.minus_a * sin_crank;
+    let g1_2 = p.minus_b * sin_coupler;
     let g1_3 = sin_rocker * p.c;
     let g2_1 = cos_crank * p.a;
     let g2_2 = cos_coupler * p.b;
-    let g2_3 = cos_rocker * p.k19;
+    let g2_3 = cos_rocker * p.minus_c;
     [g1_1, g1_2, g1_3, g2_1, g2_2, g2_3]
 }
 
@@ -478,48 +475,50 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t7 = cos_coupler * n(p.b);
         let t8 = cos_rocker * n(p.c);
         let t9 = cos_coupler * sin_crank;
-        let t10 = n(p.k21) * t4;
-        let t11 = n(p.k20) * t6;
-        let t12 = n(p.k21) * t3;
-        let t13 = n(p.k20) * t8;
+        let t10 = n(p.k9) * t4;
+        let t11 = n(p.k8) * t6;
+        let t12 = n(p.k9) * t3;
+        let t13 = n(p.k8) * t8;
         let t14 = sin_coupler * cos_crank;
         let t15 = sin_coupler.mul_add(sin_crank, cos_coupler * cos_crank);
-        let t16 = n(p.k7) * t15;
-        let t17 = n(p.k21) * t16;
+        let t16 = n(p.half_a_b_m2) * t15;
+        let t17 = n(p.k9) * t16;
         let t18 = t16.neg_mul_add(t10, t5);
         let t19 = t12.neg_mul_add(t16, t7);
-        let t20 = cos_rocker * n(p.k4);
-        let t21 = t16.neg_mul_add(t17, n(p.k9));
-        let t22 = (t9 - t14).mul_add(t1 * n(p.k7), cos_crank * n(p.k11));
-        let t23 = t8.neg_mul_add(t2, t1.mul_add(t7, t3 * t0));
-        let t24 = t6.neg_mul_add(t2, t1.mul_add(t5, t4 * t0));
-        let t25 = N::ONE / t21;
-        let t26 = (t14 - t9).mul_add(n(p.k7) * t0, cos_coupler * n(p.k12));
-        let t27 = t22.neg_mul_add(t17, t26);
-        let t28 = t25 * t18;
-        let t29 = t25 * t19;
-        let t30 = t18.mul_add(t28, t4.mul_add(t10, t6 * t11));
-        let t31 = t29.mul_add(t18, t12.mul_add(t4, t13 * t6));
-        let t32 = t22.neg_mul_add(t10, t11.mul_add(t20, t23));
-        let t33 = t28.neg_mul_add(t27, t32);
-        let t34 = t22.mul_add(t12, t13.neg_mul_add(t20, t24));
-        let t35 = t19.mul_add(t29, t3.mul_add(t12, t8 * t13));
-        let t36 = N::ONE / t30;
-        let t37 = t36 * t31;
-        let t38 = t31.neg_mul_add(t37, t35);
-        let t39 = t37.mul_add(t33, t29.mul_add(t27, t34)) / t38;
-        let t40 = t37.mul_add(t39, t36 * t33);
-        let t41 = t28.mul_add(t40, t29.neg_mul_add(t39, t25 * t27));
-        let t42 = t10.neg_mul_add(t40, t12.mul_sub(t39, n(p.k21) * t22));
-        let crank_ddot = t17.mul_add(t41, t42);
-        let coupler_ddot = -t41;
-        let rocker_ddot = t11.mul_sub(t40, t13.mul_add(t39, n(p.k20) * t20));
-        let sound = PIVOTS.hold(t21, n(p.k9))
-            & PIVOTS.hold(t30, t30)
-            & PIVOTS.hold(t38, t35)
+        let t20 = cos_rocker * n(p.half_c_m3_g);
+        let t21 = t16.neg_mul_add(t17, n(p.k4));
+        let t22 = t1 * n(p.half_a_b_m2);
+        let t23 = (t9 - t14).mul_add(t22, cos_crank * n(p.k6));
+        let t24 = cos_coupler * n(p.half_b_m2_g);
+        let t25 = t8.neg_mul_add(t2, t1.mul_add(t7, t3 * t0));
+        let t26 = t6.neg_mul_add(t2, t1.mul_add(t5, t4 * t0));
+        let t27 = N::ONE / t21;
+        let t28 = (t14 - t9).mul_add(n(p.half_a_b_m2) * t0, t24);
+        let t29 = t23.neg_mul_add(t17, t28);
+        let t30 = t27 * t18;
+        let t31 = t27 * t19;
+        let t32 = t18.mul_add(t30, t4.mul_add(t10, t6 * t11));
+        let t33 = t31.mul_add(t18, t12.mul_add(t4, t13 * t6));
+        let t34 = t23.neg_mul_add(t10, t11.mul_add(t20, t25));
+        let t35 = t30.neg_mul_add(t29, t34);
+        let t36 = t23.mul_add(t12, t13.neg_mul_add(t20, t26));
+        let t37 = t19.mul_add(t31, t3.mul_add(t12, t8 * t13));
+        let t38 = N::ONE / t32;
+        let t39 = t38 * t33;
+        let t40 = t33.neg_mul_add(t39, t37);
+        let t41 = t39.mul_add(t35, t31.mul_add(t29, t36)) / t40;
+        let t42 = t39.mul_add(t41, t38 * t35);
+        let t43 = t30.mul_add(t42, t31.neg_mul_add(t41, t27 * t29));
+        let t44 = t10.neg_mul_add(t42, t12.mul_sub(t41, n(p.k9) * t23));
+        let crank_ddot = t17.mul_add(t43, t44);
+        let coupler_ddot = -t43;
+        let rocker_ddot = t11.mul_sub(t42, t13.mul_add(t41, n(p.k8) * t20));
+        let sound = PIVOTS.hold(t21, n(p.k4))
+            & PIVOTS.hold(t32, t32)
+            & PIVOTS.hold(t40, t37)
             & coupler_ddot.is_finite();
         if !sound {
-            let pivots = [(1, t21, n(p.k9)), (3, t30, t30), (4, t38, t35)];
+            let pivots = [(1, t21, n(p.k4)), (3, t32, t32), (4, t40, t37)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [
@@ -583,43 +582,45 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t7 = cos_coupler * n(p.b);
         let t8 = cos_rocker * n(p.c);
         let t9 = cos_coupler * sin_crank;
-        let t10 = n(p.k21) * t4;
-        let t11 = n(p.k20) * t6;
-        let t12 = n(p.k21) * t3;
-        let t13 = n(p.k20) * t8;
+        let t10 = n(p.k9) * t4;
+        let t11 = n(p.k8) * t6;
+        let t12 = n(p.k9) * t3;
+        let t13 = n(p.k8) * t8;
         let t14 = sin_coupler * cos_crank;
         let t15 = sin_coupler.mul_add(sin_crank, cos_coupler * cos_crank);
-        let t16 = n(p.k7) * t15;
-        let t17 = n(p.k21) * t16;
+        let t16 = n(p.half_a_b_m2) * t15;
+        let t17 = n(p.k9) * t16;
         let t18 = t16.neg_mul_add(t10, t5);
         let t19 = t16.neg_mul_add(t12, t7);
-        let t20 = cos_rocker * n(p.k4);
-        let t21 = t16.neg_mul_add(t17, n(p.k9));
-        let t22 = (t9 - t14).mul_add(n(p.k7) * t1, cos_crank * n(p.k11));
-        let t23 = t8.neg_mul_add(t2, t7.mul_add(t1, t3 * t0));
-        let t24 = t6.neg_mul_add(t2, t5.mul_add(t1, t4 * t0));
-        let t25 = N::ONE / t21;
-        let t26 = (t14 - t9).mul_add(n(p.k7) * t0, cos_coupler * n(p.k12));
-        let t27 = t17.neg_mul_add(t22, t26);
-        let t28 = t25 * t18;
-        let t29 = t25 * t19;
-        let t30 = t18.mul_add(t28, t4.mul_add(t10, t6 * t11));
-        let t31 = t18.mul_add(t29, t4.mul_add(t12, t6 * t13));
-        let t32 = t10.neg_mul_add(t22, t11.mul_add(t20, t23));
-        let t33 = t28.neg_mul_add(t27, t32);
-        let t34 = t12.mul_add(t22, t13.neg_mul_add(t20, t24));
-        let t35 = t19.mul_add(t29, t3.mul_add(t12, t8 * t13));
-        let t36 = N::ONE / t30;
-        let t37 = t36 * t31;
-        let t38 = t31.neg_mul_add(t37, t35);
-        let lambda2 = t37.mul_add(t33, t29.mul_add(t27, t34)) / t38;
-        let lambda1 = t37.mul_add(lambda2, t36 * t33);
-        let sound = PIVOTS.hold(t21, n(p.k9))
-            & PIVOTS.hold(t30, t30)
-            & PIVOTS.hold(t38, t35)
+        let t20 = cos_rocker * n(p.half_c_m3_g);
+        let t21 = t16.neg_mul_add(t17, n(p.k4));
+        let t22 = n(p.half_a_b_m2) * t1;
+        let t23 = (t9 - t14).mul_add(t22, cos_crank * n(p.k6));
+        let t24 = cos_coupler * n(p.half_b_m2_g);
+        let t25 = t8.neg_mul_add(t2, t7.mul_add(t1, t3 * t0));
+        let t26 = t6.neg_mul_add(t2, t5.mul_add(t1, t4 * t0));
+        let t27 = N::ONE / t21;
+        let t28 = (t14 - t9).mul_add(n(p.half_a_b_m2) * t0, t24);
+        let t29 = t17.neg_mul_add(t23, t28);
+        let t30 = t27 * t18;
+        let t31 = t27 * t19;
+        let t32 = t18.mul_add(t30, t4.mul_add(t10, t6 * t11));
+        let t33 = t18.mul_add(t31, t4.mul_add(t12, t6 * t13));
+        let t34 = t10.neg_mul_add(t23, t11.mul_add(t20, t25));
+        let t35 = t30.neg_mul_add(t29, t34);
+        let t36 = t12.mul_add(t23, t13.neg_mul_add(t20, t26));
+        let t37 = t19.mul_add(t31, t3.mul_add(t12, t8 * t13));
+        let t38 = N::ONE / t32;
+        let t39 = t38 * t33;
+        let t40 = t33.neg_mul_add(t39, t37);
+        let lambda2 = t39.mul_add(t35, t31.mul_add(t29, t36)) / t40;
+        let lambda1 = t39.mul_add(lambda2, t38 * t35);
+        let sound = PIVOTS.hold(t21, n(p.k4))
+            & PIVOTS.hold(t32, t32)
+            & PIVOTS.hold(t40, t37)
             & lambda1.is_finite();
         if !sound {
-            let pivots = [(1, t21, n(p.k9)), (3, t30, t30), (4, t38, t35)];
+            let pivots = [(1, t21, n(p.k4)), (3, t32, t32), (4, t40, t37)];
             PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store(), lambda2.store()];
@@ -646,11 +647,11 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let (sin_crank, cos_crank) = crank.sin_cos();
     let (sin_coupler, cos_coupler) = coupler.sin_cos();
     let t0 = crank_dot * p.a;
-    let t1 = p.k0 * coupler_dot;
+    let t1 = p.half_b * coupler_dot;
     let t2 = t1 * sin_coupler + t0 * sin_crank;
     let t3 = t1 * cos_coupler + t0 * cos_crank;
-    let t4 = (t3 * t3 + t2 * t2) * p.m2 + coupler_dot * (coupler_dot * p.k1);
-    let t5 = rocker_dot * (rocker_dot * p.k6) + crank_dot * (crank_dot * p.k5);
+    let t4 = (t3 * t3 + t2 * t2) * p.m2 + coupler_dot * (coupler_dot * p.k0);
+    let t5 = rocker_dot * (rocker_dot * p.k2) + crank_dot * (crank_dot * p.k1);
     t4 * S::from_f64(0.5) + t5
 }
 
@@ -666,8 +667,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let sin_crank = crank.sin();
     let sin_coupler = coupler.sin();
     let sin_rocker = rocker.sin();
-    let t0 = p.k2 * (p.k0 * sin_coupler + sin_crank * p.a);
-    t0 + (p.k4 * sin_rocker + sin_crank * p.k3)
+    let t0 = p.half_c_m3_g * sin_rocker + sin_crank * p.half_a_m1_g;
+    p.m2_g * (p.half_b * sin_coupler + sin_crank * p.a) + t0
 }
 
 ::lagrangian::emitted::implement! {
@@ -691,8 +692,9 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        a, b, c, d, m2, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16,
-        k17, k18, k19, k20, k21,
+        a, b, c, d, m2, half_b, k0, m2_g, half_a_m1_g, half_c_m3_g, k1, k2, half_a_b_m2, k3, k4, k5,
+        k6, half_b_m2_g, minus_a, minus_half_a_b_m2, k7, minus_half_b_m2_g, minus_half_c_m3_g,
+        minus_b, minus_c, k8, k9,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

@@ -64,40 +64,40 @@ impl<S: ::lagrangian::emitted::Scalar> FourBars<S> {
         let t1 = self.l * t0;
         let t2 = t0 * self.g;
         let t3 = S::ONE / (self.m * (self.l * self.l));
-        let k5 = S::from_f64(0.5) * t1;
-        let k3 = S::from_f64(0.5) * t2;
-        let k8 = t2 * S::from_f64(1.5);
-        let k6 = t1 * S::from_ratio(4, 3);
-        let k7 = t1 * S::from_ratio(1, 3);
-        let k0 = self.l * S::from_f64(0.5);
-        let k1 = t1 * S::from_ratio(1, 12);
-        let k2 = self.m * self.g;
-        let k4 = t1 * S::from_ratio(1, 6);
-        let k9 = -self.l;
-        let k10 = -k5;
-        let k11 = -k8;
-        let k12 = -k3;
-        let k13 = t3 * S::from_f64(3.0);
-        let k14 = t3 * S::from_f64(0.75);
-        let pivots = [(2, k7, k7), (0, k6, k6), (4, k7, k7)];
+        let half_l_squared_m = S::from_f64(0.5) * t1;
+        let half_l_m_g = S::from_f64(0.5) * t2;
+        let k4 = t2 * S::from_f64(1.5);
+        let k2 = t1 * S::from_ratio(4, 3);
+        let k3 = t1 * S::from_ratio(1, 3);
+        let half_l = self.l * S::from_f64(0.5);
+        let k0 = t1 * S::from_ratio(1, 12);
+        let m_g = self.m * self.g;
+        let k1 = t1 * S::from_ratio(1, 6);
+        let minus_l = -self.l;
+        let minus_half_l_squared_m = -half_l_squared_m;
+        let k5 = -k4;
+        let minus_half_l_m_g = -half_l_m_g;
+        let k6 = t3 * S::from_f64(3.0);
+        let k7 = t3 * S::from_f64(0.75);
+        let pivots = [(2, k3, k3), (0, k2, k2), (4, k3, k3)];
         Prepared {
             l: self.l,
             m: self.m,
+            half_l,
             k0,
+            m_g,
+            half_l_m_g,
             k1,
+            half_l_squared_m,
             k2,
             k3,
             k4,
+            minus_l,
+            minus_half_l_squared_m,
             k5,
+            minus_half_l_m_g,
             k6,
             k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -142,45 +142,42 @@ pub struct Prepared<S = f64> {
     /// `m`
     m: S,
     /// `0.5*l`
-    k0: S,
+    half_l: S,
     /// `(1/12)*l^2*m`
-    k1: S,
+    k0: S,
     /// `m*g`
-    k2: S,
+    m_g: S,
     /// `0.5*l*m*g`
-    k3: S,
+    half_l_m_g: S,
     /// `(1/6)*l^2*m`
-    k4: S,
+    k1: S,
     /// `0.5*l^2*m`
-    k5: S,
+    half_l_squared_m: S,
     /// `(4/3)*l^2*m`
-    k6: S,
+    k2: S,
     /// `(1/3)*l^2*m`
-    k7: S,
+    k3: S,
     /// `1.5*l*m*g`
-    k8: S,
+    k4: S,
     /// `-l`
-    k9: S,
+    minus_l: S,
     /// `-0.5*l^2*m`
-    k10: S,
+    minus_half_l_squared_m: S,
     /// `-1.5*l*m*g`
-    k11: S,
+    k5: S,
     /// `-0.5*l*m*g`
-    k12: S,
+    minus_half_l_m_g: S,
     /// `3/l^2/m`
-    k13: S,
+    k6: S,
     /// `0.75/l^2/m`
-    k14: S,
+    k7: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 5,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(5, 9);
 
 /// Mass matrix `M`.
 ///
@@ -202,15 +199,17 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]
     let (sin_crank_0, cos_crank_0) = crank_0.sin_cos();
     let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
     let (sin_crank_1, cos_crank_1) = crank_1.sin_cos();
+    let t0 = sin_coupler_1 * sin_crank_0 + cos_coupler_1 * cos_crank_0;
+    let t1 = sin_coupler_2 * sin_crank_1 + cos_coupler_2 * cos_crank_1;
     let zero = S::ZERO;
-    let m41 = p.k5 * (sin_coupler_1 * sin_crank_0 + cos_coupler_1 * cos_crank_0);
-    let m52 = p.k5 * (sin_coupler_2 * sin_crank_1 + cos_coupler_2 * cos_crank_1);
+    let m41 = p.half_l_squared_m * t0;
+    let m52 = p.half_l_squared_m * t1;
     [
-        [p.k6, zero, zero, m41, zero],
-        [zero, p.k6, zero, zero, m52],
-        [zero, zero, p.k7, zero, zero],
-        [m41, zero, zero, p.k7, zero],
-        [zero, m52, zero, zero, p.k7],
+        [p.k2, zero, zero, m41, zero],
+        [zero, p.k2, zero, zero, m52],
+        [zero, zero, p.k3, zero, zero],
+        [m41, zero, zero, p.k3, zero],
+        [zero, m52, zero, zero, p.k3],
     ]
 }
 
@@ -237,11 +236,11 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[
     let (sin_crank_1, cos_crank_1) = crank_1.sin_cos();
     let t0 = sin_coupler_1 * cos_crank_0 - cos_coupler_1 * sin_crank_0;
     let t1 = sin_coupler_2 * cos_crank_1 - cos_coupler_2 * sin_crank_1;
-    let h_crank_0 = t0 * (coupler_1_dot * (p.k10 * coupler_1_dot));
-    let h_crank_1 = t1 * (coupler_2_dot * (p.k10 * coupler_2_dot));
+    let h_crank_0 = t0 * (coupler_1_dot * (p.minus_half_l_squared_m * coupler_1_dot));
+    let h_crank_1 = t1 * (coupler_2_dot * (p.minus_half_l_squared_m * coupler_2_dot));
     let zero = S::ZERO;
-    let h_coupler_1 = t0 * (crank_0_dot * (p.k5 * crank_0_dot));
-    let h_coupler_2 = t1 * (crank_1_dot * (p.k5 * crank_1_dot));
+    let h_coupler_1 = t0 * (crank_0_dot * (p.half_l_squared_m * crank_0_dot));
+    let h_coupler_2 = t1 * (crank_1_dot * (p.half_l_squared_m * crank_1_dot));
     [h_crank_0, h_crank_1, zero, h_coupler_1, h_coupler_2]
 }
 
@@ -265,11 +264,11 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
     let cos_crank_2 = crank_2.cos();
     let cos_coupler_1 = coupler_1.cos();
     let cos_coupler_2 = coupler_2.cos();
-    let q_crank_0 = p.k11 * cos_crank_0;
-    let q_crank_1 = p.k11 * cos_crank_1;
-    let q_crank_2 = p.k12 * cos_crank_2;
-    let q_coupler_1 = p.k12 * cos_coupler_1;
-    let q_coupler_2 = p.k12 * cos_coupler_2;
+    let q_crank_0 = p.k5 * cos_crank_0;
+    let q_crank_1 = p.k5 * cos_crank_1;
+    let q_crank_2 = p.minus_half_l_m_g * cos_crank_2;
+    let q_coupler_1 = p.minus_half_l_m_g * cos_coupler_1;
+    let q_coupler_2 = p.minus_half_l_m_g * cos_coupler_2;
     [q_crank_0, q_crank_1, q_crank_2, q_coupler_1, q_coupler_2]
 }
 
@@ -293,15 +292,15 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: 
     let t1 = coupler_2_dot * coupler_2_dot;
     let t2 = crank_0_dot * crank_0_dot;
     let t3 = crank_1_dot * crank_1_dot;
-    let t4 = sin_coupler_1 * (cos_crank_0 * p.k5);
-    let t5 = cos_coupler_1 * (sin_crank_0 * p.k5);
-    let t6 = sin_coupler_2 * (p.k5 * cos_crank_1);
-    let t7 = cos_coupler_2 * (p.k5 * sin_crank_1);
-    let f_crank_0 = t0 * t4 - (t0 * t5 + cos_crank_0 * p.k8);
-    let f_crank_1 = t1 * t6 - (t1 * t7 + p.k8 * cos_crank_1);
-    let f_crank_2 = p.k12 * cos_crank_2;
-    let f_coupler_1 = t5 * t2 - (t4 * t2 + cos_coupler_1 * p.k3);
-    let f_coupler_2 = t7 * t3 - (t6 * t3 + cos_coupler_2 * p.k3);
+    let t4 = sin_coupler_1 * (cos_crank_0 * p.half_l_squared_m);
+    let t5 = cos_coupler_1 * (sin_crank_0 * p.half_l_squared_m);
+    let t6 = sin_coupler_2 * (p.half_l_squared_m * cos_crank_1);
+    let t7 = cos_coupler_2 * (p.half_l_squared_m * sin_crank_1);
+    let f_crank_0 = t0 * t4 - (t0 * t5 + cos_crank_0 * p.k4);
+    let f_crank_1 = t1 * t6 - (t1 * t7 + p.k4 * cos_crank_1);
+    let f_crank_2 = p.minus_half_l_m_g * cos_crank_2;
+    let f_coupler_1 = t5 * t2 - (t4 * t2 + cos_coupler_1 * p.half_l_m_g);
+    let f_coupler_2 = t7 * t3 - (t6 * t3 + cos_coupler_2 * p.half_l_m_g);
     [f_crank_0, f_crank_1, f_crank_2, f_coupler_1, f_coupler_2]
 }
 
@@ -327,8 +326,8 @@ pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
     let (sin_crank_0, cos_crank_0) = crank_0.sin_cos();
     let (sin_crank_2, cos_crank_2) = crank_2.sin_cos();
     let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
-    let g1 = p.k9 * (cos_crank_1 + S::ONE - (cos_coupler_1 + cos_crank_0));
-    let g2 = p.k9 * (S::ONE + cos_crank_2 - (cos_crank_1 + cos_coupler_2));
+    let g1 = p.minus_l * (cos_crank_1 + S::ONE - (cos_coupler_1 + cos_crank_0));
+    let g2 = p.minus_l * (S::ONE + cos_crank_2 - (cos_crank_1 + cos_coupler_2));
     let g3 = p.l * (sin_coupler_1 + sin_crank_0 - sin_crank_1);
     let g4 = p.l * (sin_crank_1 + sin_coupler_2 - sin_crank_2);
     [g1, g2, g3, g4]
@@ -368,8 +367,10 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let (sin_crank_2, cos_crank_2) = crank_2.sin_cos();
     let t0 = crank_1_dot * sin_crank_1;
     let t1 = crank_1_dot * cos_crank_1;
-    let phi1 = p.k9 * (coupler_1_dot * sin_coupler_1 + crank_0_dot * sin_crank_0 - t0);
-    let phi2 = p.k9 * (t0 + coupler_2_dot * sin_coupler_2 - crank_2_dot * sin_crank_2);
+    let t2 = coupler_1_dot * sin_coupler_1 + crank_0_dot * sin_crank_0 - t0;
+    let t3 = t0 + coupler_2_dot * sin_coupler_2 - crank_2_dot * sin_crank_2;
+    let phi1 = p.minus_l * t2;
+    let phi2 = p.minus_l * t3;
     let phi3 = p.l * (coupler_1_dot * cos_coupler_1 + crank_0_dot * cos_crank_0 - t1);
     let phi4 = p.l * (t1 + coupler_2_dot * cos_coupler_2 - crank_2_dot * cos_crank_2);
     [phi1, phi2, phi3, phi4]
@@ -402,18 +403,18 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let (sin_coupler_1, cos_coupler_1) = coupler_1.sin_cos();
     let (sin_crank_2, cos_crank_2) = crank_2.sin_cos();
     let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
-    let g1_1 = p.k9 * sin_crank_0;
+    let g1_1 = p.minus_l * sin_crank_0;
     let g1_2 = sin_crank_1 * p.l;
     let zero = S::ZERO;
-    let g1_4 = p.k9 * sin_coupler_1;
-    let g2_2 = p.k9 * sin_crank_1;
+    let g1_4 = p.minus_l * sin_coupler_1;
+    let g2_2 = p.minus_l * sin_crank_1;
     let g2_3 = p.l * sin_crank_2;
-    let g2_5 = p.k9 * sin_coupler_2;
+    let g2_5 = p.minus_l * sin_coupler_2;
     let g3_1 = cos_crank_0 * p.l;
-    let g3_2 = p.k9 * cos_crank_1;
+    let g3_2 = p.minus_l * cos_crank_1;
     let g3_4 = p.l * cos_coupler_1;
     let g4_2 = cos_crank_1 * p.l;
-    let g4_3 = p.k9 * cos_crank_2;
+    let g4_3 = p.minus_l * cos_crank_2;
     let g4_5 = p.l * cos_coupler_2;
     [
         g1_1, g1_2, zero, g1_4, zero, zero, g2_2, g2_3, zero, g2_5, g3_1, g3_2, zero, g3_4, zero,
@@ -528,116 +529,122 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t9 = cos_coupler_1 * cos_crank_0;
         let t10 = n(p.l) * sin_crank_2;
         let t11 = cos_coupler_2 * cos_crank_1;
-        let t12 = n(p.k14) * t5;
-        let t13 = n(p.k14) * t6;
+        let t12 = n(p.k7) * t5;
+        let t13 = n(p.k7) * t6;
         let t14 = n(p.l) * cos_crank_1;
-        let t15 = n(p.k13) * t8;
+        let t15 = n(p.k6) * t8;
         let t16 = cos_coupler_2 * n(p.l);
-        let t17 = n(p.k5) * sin_coupler_1.mul_add(sin_crank_0, t9);
-        let t18 = n(p.k13) * t10;
-        let t19 = n(p.k5) * sin_coupler_2.mul_add(sin_crank_1, t11);
-        let t20 = n(p.k13) * t16;
-        let t21 = n(p.l) * cos_crank_2;
-        let t22 = n(p.k14) * t17;
-        let t23 = t17.neg_mul_add(t13, sin_coupler_1 * n(p.l));
-        let t24 = n(p.k13) * t19;
-        let t25 = t19.neg_mul_add(t15, t7);
-        let t26 = t17.neg_mul_add(t12, cos_coupler_1 * n(p.l));
-        let t27 = cos_coupler_1 * sin_crank_0;
-        let t28 = sin_coupler_1 * cos_crank_0;
-        let t29 = t17.neg_mul_add(t22, n(p.k7));
-        let t30 = t19.neg_mul_add(t24, n(p.k6));
-        let t31 = t20.neg_mul_add(t19, t14);
-        let t32 = n(p.k13) * t21;
-        let t33 = sin_coupler_2 * cos_crank_1;
-        let t34 = cos_coupler_2 * sin_crank_1;
-        let t35 = N::ONE / t29;
-        let t36 = N::ONE / t30;
-        let t37 = cos_crank_1 * t1;
-        let t38 = sin_crank_1 * t1;
-        let t39 = (t27 - t28).mul_add(t2 * n(p.k5), cos_crank_0 * n(p.k8));
-        let t40 = cos_crank_2 * n(p.k3);
-        let t41 = (t33 - t34).mul_add(n(p.k5) * t1, cos_coupler_2 * n(p.k3));
-        let t42 = t35 * t23;
-        let t43 = t35 * t26;
-        let t44 = t36 * t7;
-        let t45 = t36 * t25;
-        let t46 = t36 * t14;
-        let t47 = t36 * t31;
-        let t48 = t2.mul_add(sin_coupler_1, sin_crank_0 * t0) - t38;
-        let t49 = t7 * t45;
-        let t50 = t25.mul_add(t45, t8.mul_add(t15, t10 * t18));
-        let t51 = t47 * t7;
-        let t52 = t7.mul_add(t44, t23.mul_add(t42, t6 * t13));
-        let t53 = t46.mul_add(t7, t43.mul_add(t23, t12 * t6));
-        let t54 = cos_coupler_2.mul_add(t3, t37);
-        let t55 = sin_coupler_2.mul_add(t3, t38);
-        let t56 = t14.mul_add(t46, t26.mul_add(t43, t5 * t12));
-        let t57 = (t34 - t33).mul_add(n(p.k5) * t3, n(p.k8) * cos_crank_1);
-        let t58 = t24.neg_mul_add(t41, t57);
-        let t59 = N::ONE / t52;
-        let t60 = t2.mul_add(cos_coupler_1, cos_crank_0 * t0) - t37;
-        let t61 = (t28 - t27).mul_add(n(p.k5) * t0, cos_coupler_1 * n(p.k3));
-        let t62 = t39.neg_mul_add(t22, t61);
-        let t63 = cos_crank_2.neg_mul_add(t4, t54);
-        let t64 = sin_crank_2.neg_mul_add(t4, t55);
-        let t65 = t44.mul_add(t58, n(p.l).mul_sub(t60, t39 * t13));
-        let t66 = t42.neg_mul_add(t62, t65);
-        let t67 = t43.mul_add(t62, t39.mul_add(t12, n(p.l) * t48));
-        let t68 = t15.neg_mul_add(t41, n(p.l).mul_add(t63, t18 * t40));
-        let t69 = t20.mul_add(t41, n(p.l).mul_sub(t64, t32 * t40));
-        let t70 = t31.mul_add(t47, t16.mul_add(t20, t21 * t32));
-        let t71 = t59 * t49;
-        let t72 = t59 * t53;
-        let t73 = t59 * t51;
-        let t74 = t49.neg_mul_add(t71, t50);
-        let t75 = t49.neg_mul_add(t72, t46 * t25);
-        let t76 = t47.mul_add(t25, t20.mul_add(t8, t32 * t10));
-        let t77 = t49.neg_mul_add(t73, t76);
-        let t78 = t71.mul_add(t66, t45.neg_mul_add(t58, t68));
-        let t79 = N::ONE / t74;
-        let t80 = t79 * t75;
-        let t81 = t79 * t77;
-        let t82 = t75.neg_mul_add(t80, t53.neg_mul_add(t72, t56));
-        let t83 = t75.neg_mul_add(t81, t53.neg_mul_add(t73, t14 * t47));
-        let t84 = t72.mul_add(t66, t46.neg_mul_add(t58, t67));
-        let t85 = t80.neg_mul_add(t78, t84);
-        let t86 = t73.neg_mul_add(t66, t47.mul_add(t58, t69));
-        let t87 = N::ONE / t82;
-        let t88 = t87 * t83;
-        let t89 = t77.neg_mul_add(t81, t51.neg_mul_add(t73, t70));
-        let t90 = t83.neg_mul_add(t88, t89);
-        let t91 = t88.mul_add(t85, t81.mul_add(t78, t86)) / t90;
-        let t92 = t88.mul_add(t91, t87 * t85);
-        let t93 = t80.neg_mul_add(t92, t81.mul_add(t91, t79 * t78));
-        let t94 = t72.mul_add(t92, t73.neg_mul_add(t91, t59 * t66));
-        let t95 = t71.mul_add(t93, t94);
-        let t96 = t46.mul_add(t92, t47.neg_mul_add(t91, t36 * t58));
-        let t97 = t45.mul_add(t93, t96);
-        let t98 = t44 * t95;
-        let t99 = t42.mul_add(t95, t43.neg_mul_add(t92, t35 * t62));
-        let t100 = t13.neg_mul_add(t95, t12.mul_sub(t92, n(p.k14) * t39));
-        let t101 = t15.neg_mul_add(t93, t20.mul_sub(t91, n(p.k13) * t41));
-        let crank_0_ddot = t22.mul_add(t99, t100);
-        let crank_1_ddot = t98 - t97;
-        let crank_2_ddot = t18.mul_sub(t93, t32.mul_add(t91, n(p.k13) * t40));
-        let coupler_1_ddot = -t99;
-        let coupler_2_ddot = t24.mul_add(t97 - t98, t101);
-        let sound = PIVOTS.hold(t29, n(p.k7))
-            & PIVOTS.hold(t30, n(p.k6))
-            & PIVOTS.hold(t52, t52)
-            & PIVOTS.hold(t74, t50)
-            & PIVOTS.hold(t82, t56)
-            & PIVOTS.hold(t90, t70)
+        let t17 = sin_coupler_1.mul_add(sin_crank_0, t9);
+        let t18 = n(p.half_l_squared_m) * t17;
+        let t19 = n(p.k6) * t10;
+        let t20 = sin_coupler_2.mul_add(sin_crank_1, t11);
+        let t21 = n(p.half_l_squared_m) * t20;
+        let t22 = n(p.k6) * t16;
+        let t23 = n(p.l) * cos_crank_2;
+        let t24 = n(p.k7) * t18;
+        let t25 = t18.neg_mul_add(t13, sin_coupler_1 * n(p.l));
+        let t26 = n(p.k6) * t21;
+        let t27 = t21.neg_mul_add(t15, t7);
+        let t28 = t18.neg_mul_add(t12, cos_coupler_1 * n(p.l));
+        let t29 = cos_coupler_1 * sin_crank_0;
+        let t30 = sin_coupler_1 * cos_crank_0;
+        let t31 = t18.neg_mul_add(t24, n(p.k3));
+        let t32 = t21.neg_mul_add(t26, n(p.k2));
+        let t33 = t22.neg_mul_add(t21, t14);
+        let t34 = n(p.k6) * t23;
+        let t35 = sin_coupler_2 * cos_crank_1;
+        let t36 = cos_coupler_2 * sin_crank_1;
+        let t37 = N::ONE / t31;
+        let t38 = N::ONE / t32;
+        let t39 = cos_crank_1 * t1;
+        let t40 = sin_crank_1 * t1;
+        let t41 = t2 * n(p.half_l_squared_m);
+        let t42 = (t29 - t30).mul_add(t41, cos_crank_0 * n(p.k4));
+        let t43 = cos_crank_2 * n(p.half_l_m_g);
+        let t44 = cos_coupler_2 * n(p.half_l_m_g);
+        let t45 = (t35 - t36).mul_add(n(p.half_l_squared_m) * t1, t44);
+        let t46 = n(p.half_l_squared_m) * t3;
+        let t47 = t37 * t25;
+        let t48 = t37 * t28;
+        let t49 = t38 * t7;
+        let t50 = t38 * t27;
+        let t51 = t38 * t14;
+        let t52 = t38 * t33;
+        let t53 = cos_coupler_1 * n(p.half_l_m_g);
+        let t54 = t2.mul_add(sin_coupler_1, sin_crank_0 * t0) - t40;
+        let t55 = t7 * t50;
+        let t56 = t27.mul_add(t50, t8.mul_add(t15, t10 * t19));
+        let t57 = t52 * t7;
+        let t58 = t7.mul_add(t49, t25.mul_add(t47, t6 * t13));
+        let t59 = t51.mul_add(t7, t48.mul_add(t25, t12 * t6));
+        let t60 = cos_coupler_2.mul_add(t3, t39);
+        let t61 = sin_coupler_2.mul_add(t3, t40);
+        let t62 = t14.mul_add(t51, t28.mul_add(t48, t5 * t12));
+        let t63 = (t36 - t35).mul_add(t46, n(p.k4) * cos_crank_1);
+        let t64 = t26.neg_mul_add(t45, t63);
+        let t65 = N::ONE / t58;
+        let t66 = t2.mul_add(cos_coupler_1, cos_crank_0 * t0) - t39;
+        let t67 = (t30 - t29).mul_add(n(p.half_l_squared_m) * t0, t53);
+        let t68 = t42.neg_mul_add(t24, t67);
+        let t69 = cos_crank_2.neg_mul_add(t4, t60);
+        let t70 = sin_crank_2.neg_mul_add(t4, t61);
+        let t71 = t49.mul_add(t64, n(p.l).mul_sub(t66, t42 * t13));
+        let t72 = t47.neg_mul_add(t68, t71);
+        let t73 = t48.mul_add(t68, t42.mul_add(t12, n(p.l) * t54));
+        let t74 = t15.neg_mul_add(t45, n(p.l).mul_add(t69, t19 * t43));
+        let t75 = t22.mul_add(t45, n(p.l).mul_sub(t70, t34 * t43));
+        let t76 = t33.mul_add(t52, t16.mul_add(t22, t23 * t34));
+        let t77 = t65 * t55;
+        let t78 = t65 * t59;
+        let t79 = t65 * t57;
+        let t80 = t55.neg_mul_add(t77, t56);
+        let t81 = t55.neg_mul_add(t78, t51 * t27);
+        let t82 = t52.mul_add(t27, t22.mul_add(t8, t34 * t10));
+        let t83 = t55.neg_mul_add(t79, t82);
+        let t84 = t77.mul_add(t72, t50.neg_mul_add(t64, t74));
+        let t85 = N::ONE / t80;
+        let t86 = t85 * t81;
+        let t87 = t85 * t83;
+        let t88 = t81.neg_mul_add(t86, t59.neg_mul_add(t78, t62));
+        let t89 = t81.neg_mul_add(t87, t59.neg_mul_add(t79, t14 * t52));
+        let t90 = t78.mul_add(t72, t51.neg_mul_add(t64, t73));
+        let t91 = t86.neg_mul_add(t84, t90);
+        let t92 = t79.neg_mul_add(t72, t52.mul_add(t64, t75));
+        let t93 = N::ONE / t88;
+        let t94 = t93 * t89;
+        let t95 = t83.neg_mul_add(t87, t57.neg_mul_add(t79, t76));
+        let t96 = t89.neg_mul_add(t94, t95);
+        let t97 = t94.mul_add(t91, t87.mul_add(t84, t92)) / t96;
+        let t98 = t94.mul_add(t97, t93 * t91);
+        let t99 = t86.neg_mul_add(t98, t87.mul_add(t97, t85 * t84));
+        let t100 = t78.mul_add(t98, t79.neg_mul_add(t97, t65 * t72));
+        let t101 = t77.mul_add(t99, t100);
+        let t102 = t51.mul_add(t98, t52.neg_mul_add(t97, t38 * t64));
+        let t103 = t50.mul_add(t99, t102);
+        let t104 = t49 * t101;
+        let t105 = t47.mul_add(t101, t48.neg_mul_add(t98, t37 * t68));
+        let t106 = t13.neg_mul_add(t101, t12.mul_sub(t98, n(p.k7) * t42));
+        let t107 = t15.neg_mul_add(t99, t22.mul_sub(t97, n(p.k6) * t45));
+        let crank_0_ddot = t24.mul_add(t105, t106);
+        let crank_1_ddot = t104 - t103;
+        let crank_2_ddot = t19.mul_sub(t99, t34.mul_add(t97, n(p.k6) * t43));
+        let coupler_1_ddot = -t105;
+        let coupler_2_ddot = t26.mul_add(t103 - t104, t107);
+        let sound = PIVOTS.hold(t31, n(p.k3))
+            & PIVOTS.hold(t32, n(p.k2))
+            & PIVOTS.hold(t58, t58)
+            & PIVOTS.hold(t80, t56)
+            & PIVOTS.hold(t88, t62)
+            & PIVOTS.hold(t96, t76)
             & coupler_2_ddot.is_finite();
         if !sound {
             let pivots = [
-                (3, t29, n(p.k7)),
-                (1, t30, n(p.k6)),
-                (5, t52, t52),
-                (6, t74, t50),
-                (7, t82, t56),
-                (8, t90, t70),
+                (3, t31, n(p.k3)),
+                (1, t32, n(p.k2)),
+                (5, t58, t58),
+                (6, t80, t56),
+                (7, t88, t62),
+                (8, t96, t76),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -712,105 +719,111 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t9 = cos_coupler_1 * cos_crank_0;
         let t10 = n(p.l) * sin_crank_2;
         let t11 = cos_coupler_2 * cos_crank_1;
-        let t12 = n(p.k14) * t5;
-        let t13 = n(p.k14) * t6;
+        let t12 = n(p.k7) * t5;
+        let t13 = n(p.k7) * t6;
         let t14 = n(p.l) * cos_crank_1;
-        let t15 = n(p.k13) * t8;
+        let t15 = n(p.k6) * t8;
         let t16 = cos_coupler_2 * n(p.l);
-        let t17 = n(p.k5) * sin_coupler_1.mul_add(sin_crank_0, t9);
-        let t18 = n(p.k13) * t10;
-        let t19 = n(p.k5) * sin_coupler_2.mul_add(sin_crank_1, t11);
-        let t20 = n(p.k13) * t16;
-        let t21 = n(p.l) * cos_crank_2;
-        let t22 = n(p.k14) * t17;
-        let t23 = t17.neg_mul_add(t13, n(p.l) * sin_coupler_1);
-        let t24 = n(p.k13) * t19;
-        let t25 = t19.neg_mul_add(t15, t7);
-        let t26 = t17.neg_mul_add(t12, n(p.l) * cos_coupler_1);
-        let t27 = cos_coupler_1 * sin_crank_0;
-        let t28 = sin_coupler_1 * cos_crank_0;
-        let t29 = t17.neg_mul_add(t22, n(p.k7));
-        let t30 = t19.neg_mul_add(t24, n(p.k6));
-        let t31 = t20.neg_mul_add(t19, t14);
-        let t32 = n(p.k13) * t21;
-        let t33 = sin_coupler_2 * cos_crank_1;
-        let t34 = cos_coupler_2 * sin_crank_1;
-        let t35 = N::ONE / t29;
-        let t36 = N::ONE / t30;
-        let t37 = cos_crank_1 * t1;
-        let t38 = sin_crank_1 * t1;
-        let t39 = (t27 - t28).mul_add(n(p.k5) * t2, cos_crank_0 * n(p.k8));
-        let t40 = cos_crank_2 * n(p.k3);
-        let t41 = (t33 - t34).mul_add(n(p.k5) * t1, cos_coupler_2 * n(p.k3));
-        let t42 = t35 * t23;
-        let t43 = t35 * t26;
-        let t44 = t36 * t7;
-        let t45 = t36 * t25;
-        let t46 = t36 * t14;
-        let t47 = t36 * t31;
-        let t48 = sin_coupler_1.mul_add(t2, sin_crank_0 * t0) - t38;
-        let t49 = t7 * t45;
-        let t50 = t25.mul_add(t45, t8.mul_add(t15, t10 * t18));
-        let t51 = t47 * t7;
-        let t52 = t7.mul_add(t44, t23.mul_add(t42, t6 * t13));
-        let t53 = t46.mul_add(t7, t43.mul_add(t23, t12 * t6));
-        let t54 = cos_coupler_2.mul_add(t3, t37);
-        let t55 = sin_coupler_2.mul_add(t3, t38);
-        let t56 = t14.mul_add(t46, t26.mul_add(t43, t5 * t12));
-        let t57 = (t34 - t33).mul_add(n(p.k5) * t3, cos_crank_1 * n(p.k8));
-        let t58 = t24.neg_mul_add(t41, t57);
-        let t59 = N::ONE / t52;
-        let t60 = cos_coupler_1.mul_add(t2, cos_crank_0 * t0) - t37;
-        let t61 = (t28 - t27).mul_add(n(p.k5) * t0, cos_coupler_1 * n(p.k3));
-        let t62 = t22.neg_mul_add(t39, t61);
-        let t63 = cos_crank_2.neg_mul_add(t4, t54);
-        let t64 = sin_crank_2.neg_mul_add(t4, t55);
-        let t65 = t44.mul_add(t58, n(p.l).mul_sub(t60, t13 * t39));
-        let t66 = t42.neg_mul_add(t62, t65);
-        let t67 = t43.mul_add(t62, t12.mul_add(t39, n(p.l) * t48));
-        let t68 = t15.neg_mul_add(t41, n(p.l).mul_add(t63, t18 * t40));
-        let t69 = t20.mul_add(t41, n(p.l).mul_sub(t64, t32 * t40));
-        let t70 = t31.mul_add(t47, t16.mul_add(t20, t21 * t32));
-        let t71 = t59 * t49;
-        let t72 = t59 * t53;
-        let t73 = t59 * t51;
-        let t74 = t49.neg_mul_add(t71, t50);
-        let t75 = t49.neg_mul_add(t72, t46 * t25);
-        let t76 = t47.mul_add(t25, t20.mul_add(t8, t32 * t10));
-        let t77 = t49.neg_mul_add(t73, t76);
-        let t78 = t71.mul_add(t66, t45.neg_mul_add(t58, t68));
-        let t79 = N::ONE / t74;
-        let t80 = t79 * t75;
-        let t81 = t79 * t77;
-        let t82 = t75.neg_mul_add(t80, t53.neg_mul_add(t72, t56));
-        let t83 = t75.neg_mul_add(t81, t53.neg_mul_add(t73, t14 * t47));
-        let t84 = t72.mul_add(t66, t46.neg_mul_add(t58, t67));
-        let t85 = t80.neg_mul_add(t78, t84);
-        let t86 = t73.neg_mul_add(t66, t47.mul_add(t58, t69));
-        let t87 = N::ONE / t82;
-        let t88 = t87 * t83;
-        let t89 = t77.neg_mul_add(t81, t51.neg_mul_add(t73, t70));
-        let t90 = t83.neg_mul_add(t88, t89);
-        let lambda4 = t88.mul_add(t85, t81.mul_add(t78, t86)) / t90;
-        let lambda3 = t88.mul_add(lambda4, t87 * t85);
-        let lambda2 = t80.neg_mul_add(lambda3, t81.mul_add(lambda4, t79 * t78));
-        let t91 = t72.mul_add(lambda3, t73.neg_mul_add(lambda4, t59 * t66));
-        let lambda1 = t71.mul_add(lambda2, t91);
-        let sound = PIVOTS.hold(t29, n(p.k7))
-            & PIVOTS.hold(t30, n(p.k6))
-            & PIVOTS.hold(t52, t52)
-            & PIVOTS.hold(t74, t50)
-            & PIVOTS.hold(t82, t56)
-            & PIVOTS.hold(t90, t70)
+        let t17 = sin_coupler_1.mul_add(sin_crank_0, t9);
+        let t18 = n(p.half_l_squared_m) * t17;
+        let t19 = n(p.k6) * t10;
+        let t20 = sin_coupler_2.mul_add(sin_crank_1, t11);
+        let t21 = n(p.half_l_squared_m) * t20;
+        let t22 = n(p.k6) * t16;
+        let t23 = n(p.l) * cos_crank_2;
+        let t24 = n(p.k7) * t18;
+        let t25 = t18.neg_mul_add(t13, n(p.l) * sin_coupler_1);
+        let t26 = n(p.k6) * t21;
+        let t27 = t21.neg_mul_add(t15, t7);
+        let t28 = t18.neg_mul_add(t12, n(p.l) * cos_coupler_1);
+        let t29 = cos_coupler_1 * sin_crank_0;
+        let t30 = sin_coupler_1 * cos_crank_0;
+        let t31 = t18.neg_mul_add(t24, n(p.k3));
+        let t32 = t21.neg_mul_add(t26, n(p.k2));
+        let t33 = t22.neg_mul_add(t21, t14);
+        let t34 = n(p.k6) * t23;
+        let t35 = sin_coupler_2 * cos_crank_1;
+        let t36 = cos_coupler_2 * sin_crank_1;
+        let t37 = N::ONE / t31;
+        let t38 = N::ONE / t32;
+        let t39 = cos_crank_1 * t1;
+        let t40 = sin_crank_1 * t1;
+        let t41 = n(p.half_l_squared_m) * t2;
+        let t42 = (t29 - t30).mul_add(t41, cos_crank_0 * n(p.k4));
+        let t43 = cos_crank_2 * n(p.half_l_m_g);
+        let t44 = cos_coupler_2 * n(p.half_l_m_g);
+        let t45 = (t35 - t36).mul_add(n(p.half_l_squared_m) * t1, t44);
+        let t46 = n(p.half_l_squared_m) * t3;
+        let t47 = t37 * t25;
+        let t48 = t37 * t28;
+        let t49 = t38 * t7;
+        let t50 = t38 * t27;
+        let t51 = t38 * t14;
+        let t52 = t38 * t33;
+        let t53 = cos_coupler_1 * n(p.half_l_m_g);
+        let t54 = sin_coupler_1.mul_add(t2, sin_crank_0 * t0) - t40;
+        let t55 = t7 * t50;
+        let t56 = t27.mul_add(t50, t8.mul_add(t15, t10 * t19));
+        let t57 = t52 * t7;
+        let t58 = t7.mul_add(t49, t25.mul_add(t47, t6 * t13));
+        let t59 = t51.mul_add(t7, t48.mul_add(t25, t12 * t6));
+        let t60 = cos_coupler_2.mul_add(t3, t39);
+        let t61 = sin_coupler_2.mul_add(t3, t40);
+        let t62 = t14.mul_add(t51, t28.mul_add(t48, t5 * t12));
+        let t63 = (t36 - t35).mul_add(t46, cos_crank_1 * n(p.k4));
+        let t64 = t26.neg_mul_add(t45, t63);
+        let t65 = N::ONE / t58;
+        let t66 = cos_coupler_1.mul_add(t2, cos_crank_0 * t0) - t39;
+        let t67 = (t30 - t29).mul_add(n(p.half_l_squared_m) * t0, t53);
+        let t68 = t24.neg_mul_add(t42, t67);
+        let t69 = cos_crank_2.neg_mul_add(t4, t60);
+        let t70 = sin_crank_2.neg_mul_add(t4, t61);
+        let t71 = t49.mul_add(t64, n(p.l).mul_sub(t66, t13 * t42));
+        let t72 = t47.neg_mul_add(t68, t71);
+        let t73 = t48.mul_add(t68, t12.mul_add(t42, n(p.l) * t54));
+        let t74 = t15.neg_mul_add(t45, n(p.l).mul_add(t69, t19 * t43));
+        let t75 = t22.mul_add(t45, n(p.l).mul_sub(t70, t34 * t43));
+        let t76 = t33.mul_add(t52, t16.mul_add(t22, t23 * t34));
+        let t77 = t65 * t55;
+        let t78 = t65 * t59;
+        let t79 = t65 * t57;
+        let t80 = t55.neg_mul_add(t77, t56);
+        let t81 = t55.neg_mul_add(t78, t51 * t27);
+        let t82 = t52.mul_add(t27, t22.mul_add(t8, t34 * t10));
+        let t83 = t55.neg_mul_add(t79, t82);
+        let t84 = t77.mul_add(t72, t50.neg_mul_add(t64, t74));
+        let t85 = N::ONE / t80;
+        let t86 = t85 * t81;
+        let t87 = t85 * t83;
+        let t88 = t81.neg_mul_add(t86, t59.neg_mul_add(t78, t62));
+        let t89 = t81.neg_mul_add(t87, t59.neg_mul_add(t79, t14 * t52));
+        let t90 = t78.mul_add(t72, t51.neg_mul_add(t64, t73));
+        let t91 = t86.neg_mul_add(t84, t90);
+        let t92 = t79.neg_mul_add(t72, t52.mul_add(t64, t75));
+        let t93 = N::ONE / t88;
+        let t94 = t93 * t89;
+        let t95 = t83.neg_mul_add(t87, t57.neg_mul_add(t79, t76));
+        let t96 = t89.neg_mul_add(t94, t95);
+        let lambda4 = t94.mul_add(t91, t87.mul_add(t84, t92)) / t96;
+        let lambda3 = t94.mul_add(lambda4, t93 * t91);
+        let lambda2 = t86.neg_mul_add(lambda3, t87.mul_add(lambda4, t85 * t84));
+        let t97 = t78.mul_add(lambda3, t79.neg_mul_add(lambda4, t65 * t72));
+        let lambda1 = t77.mul_add(lambda2, t97);
+        let sound = PIVOTS.hold(t31, n(p.k3))
+            & PIVOTS.hold(t32, n(p.k2))
+            & PIVOTS.hold(t58, t58)
+            & PIVOTS.hold(t80, t56)
+            & PIVOTS.hold(t88, t62)
+            & PIVOTS.hold(t96, t76)
             & lambda1.is_finite();
         if !sound {
             let pivots = [
-                (3, t29, n(p.k7)),
-                (1, t30, n(p.k6)),
-                (5, t52, t52),
-                (6, t74, t50),
-                (7, t82, t56),
-                (8, t90, t70),
+                (3, t31, n(p.k3)),
+                (1, t32, n(p.k2)),
+                (5, t58, t58),
+                (6, t80, t56),
+                (7, t88, t62),
+                (8, t96, t76),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -853,16 +866,16 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let (sin_coupler_1, cos_coupler_1) = coupler_1.sin_cos();
     let t0 = crank_1_dot * p.l;
     let t1 = p.l * crank_0_dot;
-    let t2 = p.k0 * coupler_2_dot;
-    let t3 = p.k0 * coupler_1_dot;
+    let t2 = p.half_l * coupler_2_dot;
+    let t3 = p.half_l * coupler_1_dot;
     let t4 = crank_1_dot * crank_1_dot + crank_0_dot * crank_0_dot;
     let t5 = t2 * sin_coupler_2 + t0 * sin_crank_1;
     let t6 = t3 * sin_coupler_1 + t1 * sin_crank_0;
     let t7 = t2 * cos_coupler_2 + t0 * cos_crank_1;
     let t8 = t3 * cos_coupler_1 + t1 * cos_crank_0;
-    let t9 = p.m * (t8 * t8 + t6 * t6) + coupler_1_dot * (p.k1 * coupler_1_dot);
-    let t10 = p.m * (t7 * t7 + t5 * t5) + coupler_2_dot * (coupler_2_dot * p.k1) + t9;
-    t10 * S::from_f64(0.5) + (crank_2_dot * crank_2_dot + t4) * p.k4
+    let t9 = p.m * (t8 * t8 + t6 * t6) + coupler_1_dot * (p.k0 * coupler_1_dot);
+    let t10 = p.m * (t7 * t7 + t5 * t5) + coupler_2_dot * (coupler_2_dot * p.k0) + t9;
+    t10 * S::from_f64(0.5) + (crank_2_dot * crank_2_dot + t4) * p.k1
 }
 
 /// Potential energy `V`, in J.
@@ -882,9 +895,9 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let sin_coupler_2 = coupler_2.sin();
     let sin_coupler_1 = coupler_1.sin();
     let sin_crank_2 = crank_2.sin();
-    let t0 = p.k0 * sin_coupler_1 + p.l * sin_crank_0;
-    let t1 = (p.k0 * sin_coupler_2 + p.l * sin_crank_1 + t0) * p.k2;
-    t1 + (sin_crank_2 + (sin_crank_1 + sin_crank_0)) * p.k3
+    let t0 = p.half_l * sin_coupler_1 + p.l * sin_crank_0;
+    let t1 = (p.half_l * sin_coupler_2 + p.l * sin_crank_1 + t0) * p.m_g;
+    t1 + (sin_crank_2 + (sin_crank_1 + sin_crank_0)) * p.half_l_m_g
 }
 
 ::lagrangian::emitted::implement! {
@@ -906,7 +919,10 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     ]
     inputs Inputs {} []
     outputs Outputs {} []
-    prepared Prepared { l, m, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14 }
+    prepared Prepared {
+        l, m, half_l, k0, m_g, half_l_m_g, k1, half_l_squared_m, k2, k3, k4, minus_l,
+        minus_half_l_squared_m, k5, minus_half_l_m_g, k6, k7,
+    }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

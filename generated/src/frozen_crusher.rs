@@ -91,40 +91,40 @@ pub struct FrozenCrusher<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> FrozenCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k8 = self.m0 * self.x0;
+        let m0_x0 = self.m0 * self.x0;
         let t0 = self.m0 * self.y0;
-        let k6 = self.m1 + self.m2;
-        let k0 = self.omega * self.e;
-        let k10 = self.omega * k0;
-        let k7 = k6 + (self.m + self.m0);
-        let k9 = self.y0 * t0 + (self.J + self.x0 * k8);
-        let k24 = S::ONE / k9;
-        let k21 = t0 * k24;
-        let k22 = k8 * k24;
-        let k1 = self.omega * (self.omega * self.J0);
-        let k2 = self.cx * S::from_f64(0.5);
-        let k3 = self.cy * S::from_f64(0.5);
-        let k4 = self.bx * S::from_f64(0.5);
-        let k5 = self.by * S::from_f64(0.5);
-        let k11 = self.m0 * k10;
-        let k12 = k8 * k10;
-        let k13 = t0 * k10;
-        let k14 = self.cy * self.xc;
-        let k15 = self.cx * self.yc;
-        let k16 = self.by * self.xc;
-        let k17 = self.bx * self.yc;
-        let k18 = -t0;
-        let k19 = -k6;
-        let k20 = -self.m2;
-        let k23 = k8 * k21;
-        let k25 = S::ONE / k6;
-        let k26 = k7 - t0 * k21;
-        let k27 = k7 - k8 * k22;
+        let m1_plus_m2 = self.m1 + self.m2;
+        let e_omega = self.omega * self.e;
+        let e_omega2 = self.omega * e_omega;
+        let k0 = m1_plus_m2 + (self.m + self.m0);
+        let k1 = self.y0 * t0 + (self.J + self.x0 * m0_x0);
+        let k6 = S::ONE / k1;
+        let k3 = t0 * k6;
+        let k4 = m0_x0 * k6;
+        let J0_omega2 = self.omega * (self.omega * self.J0);
+        let half_cx = self.cx * S::from_f64(0.5);
+        let half_cy = self.cy * S::from_f64(0.5);
+        let half_bx = self.bx * S::from_f64(0.5);
+        let half_by = self.by * S::from_f64(0.5);
+        let m0_e_omega2 = self.m0 * e_omega2;
+        let m0_e_x0_omega2 = m0_x0 * e_omega2;
+        let m0_e_y0_omega2 = t0 * e_omega2;
+        let cy_xc = self.cy * self.xc;
+        let cx_yc = self.cx * self.yc;
+        let by_xc = self.by * self.xc;
+        let bx_yc = self.bx * self.yc;
+        let minus_m0_y0 = -t0;
+        let k2 = -m1_plus_m2;
+        let minus_m2 = -self.m2;
+        let k5 = m0_x0 * k3;
+        let k7 = S::ONE / m1_plus_m2;
+        let k8 = k0 - t0 * k3;
+        let k9 = k0 - m0_x0 * k4;
         let pivots = [
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
-            (2, k9, k9),
-            (3, k6, k6),
+            (2, k1, k1),
+            (3, m1_plus_m2, m1_plus_m2),
         ];
         Prepared {
             m: self.m,
@@ -143,9 +143,27 @@ impl<S: ::lagrangian::emitted::Scalar> FrozenCrusher<S> {
             by: self.by,
             xc: self.xc,
             yc: self.yc,
+            e_omega,
+            J0_omega2,
+            half_cx,
+            half_cy,
+            half_bx,
+            half_by,
+            m1_plus_m2,
             k0,
+            m0_x0,
             k1,
+            e_omega2,
+            m0_e_omega2,
+            m0_e_x0_omega2,
+            m0_e_y0_omega2,
+            cy_xc,
+            cx_yc,
+            by_xc,
+            bx_yc,
+            minus_m0_y0,
             k2,
+            minus_m2,
             k3,
             k4,
             k5,
@@ -153,24 +171,6 @@ impl<S: ::lagrangian::emitted::Scalar> FrozenCrusher<S> {
             k7,
             k8,
             k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
-            k20,
-            k21,
-            k22,
-            k23,
-            k24,
-            k25,
-            k26,
-            k27,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -257,71 +257,68 @@ pub struct Prepared<S = f64> {
     /// `yc`
     yc: S,
     /// `e*omega`
-    k0: S,
+    e_omega: S,
     /// `J0*omega^2`
-    k1: S,
+    J0_omega2: S,
     /// `0.5*cx`
-    k2: S,
+    half_cx: S,
     /// `0.5*cy`
-    k3: S,
+    half_cy: S,
     /// `0.5*bx`
-    k4: S,
+    half_bx: S,
     /// `0.5*by`
-    k5: S,
+    half_by: S,
     /// `m1 + m2`
-    k6: S,
+    m1_plus_m2: S,
     /// `m + m0 + m1 + m2`
-    k7: S,
+    k0: S,
     /// `m0*x0`
-    k8: S,
+    m0_x0: S,
     /// `J + m0*x0^2 + m0*y0^2`
-    k9: S,
+    k1: S,
     /// `e*omega^2`
-    k10: S,
+    e_omega2: S,
     /// `m0*e*omega^2`
-    k11: S,
+    m0_e_omega2: S,
     /// `m0*e*x0*omega^2`
-    k12: S,
+    m0_e_x0_omega2: S,
     /// `m0*e*y0*omega^2`
-    k13: S,
+    m0_e_y0_omega2: S,
     /// `cy*xc`
-    k14: S,
+    cy_xc: S,
     /// `cx*yc`
-    k15: S,
+    cx_yc: S,
     /// `by*xc`
-    k16: S,
+    by_xc: S,
     /// `bx*yc`
-    k17: S,
+    bx_yc: S,
     /// `-m0*y0`
-    k18: S,
+    minus_m0_y0: S,
     /// `-(m1 + m2)`
-    k19: S,
+    k2: S,
     /// `-m2`
-    k20: S,
+    minus_m2: S,
     /// `m0*y0/(J + m0*x0^2 + m0*y0^2)`
-    k21: S,
+    k3: S,
     /// `m0*x0/(J + m0*x0^2 + m0*y0^2)`
-    k22: S,
+    k4: S,
     /// `m0^2*x0*y0/(J + m0*x0^2 + m0*y0^2)`
-    k23: S,
+    k5: S,
     /// `1/(J + m0*x0^2 + m0*y0^2)`
-    k24: S,
+    k6: S,
     /// `1/(m1 + m2)`
-    k25: S,
+    k7: S,
     /// `m + m0 + m1 + m2 - m0^2*y0^2/(J + m0*x0^2 + m0*y0^2)`
-    k26: S,
+    k8: S,
     /// `m + m0 + m1 + m2 - m0^2*x0^2/(J + m0*x0^2 + m0*y0^2)`
-    k27: S,
+    k9: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 9);
 
 /// Mass matrix `M`.
 ///
@@ -358,31 +355,41 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.k6 * s1;
+    let t1 = p.m1_plus_m2 * s1;
     let t2 = p.m2 * s2;
     let t3 = cos_phi1 * sin_phi2;
     let t4 = sin_phi1 * cos_phi2;
     let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
     let zero = S::ZERO;
-    let m41 = p.k6 * cos_phi1;
-    let m42 = p.k6 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k19);
+    let m41 = p.m1_plus_m2 * cos_phi1;
+    let m42 = p.m1_plus_m2 * sin_phi1;
+    let m51 = sin_phi1 * (s1 * p.k2);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
     let m75 = (t3 - t4) * t0;
-    let m81 = sin_phi2 * (s2 * p.k20);
+    let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t4 - t3);
     let m85 = t5 * (t0 * s2);
     let m88 = s2 * t2;
     [
-        [p.k7, zero, p.k18, m41, m51, zero, m71, m81, zero],
-        [zero, p.k7, p.k8, m42, m52, zero, m72, m82, zero],
-        [p.k18, p.k8, p.k9, zero, zero, zero, zero, zero, zero],
-        [m41, m42, zero, p.k6, zero, zero, m74, m84, zero],
+        [p.k0, zero, p.minus_m0_y0, m41, m51, zero, m71, m81, zero],
+        [zero, p.k0, p.m0_x0, m42, m52, zero, m72, m82, zero],
+        [
+            p.minus_m0_y0,
+            p.m0_x0,
+            p.k1,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+        ],
+        [m41, m42, zero, p.m1_plus_m2, zero, zero, m74, m84, zero],
         [m51, m52, zero, zero, m55, zero, m75, m85, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
         [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
@@ -465,14 +472,15 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t39 = sin_phi1 * (s1_dot * t29 + t1 * t26);
     let t40 = t19 * t22 + t28 * (cos_phi2 * s2) - (t25 * t15 - t27 * (sin_phi2 * s2));
     let t41 = t18 * t26 + t33 * (cos_phi1 * s1) - (t29 * t12 - t32 * (sin_phi1 * s1));
-    let h_x = -(p.k11 * t36 + t32);
-    let h_y = t33 - p.k11 * t37;
-    let h_theta = t36 * p.k13 - t37 * p.k12;
+    let t42 = t30 - t31 - (t30 + sin_phi2 * t28 - (t31 + cos_phi2 * t27));
+    let h_x = -(p.m0_e_omega2 * t36 + t32);
+    let h_y = t33 - p.m0_e_omega2 * t37;
+    let h_theta = t36 * p.m0_e_y0_omega2 - t37 * p.m0_e_x0_omega2;
     let h_s1 = t34 + sin_phi1 * t33 - (t35 + cos_phi1 * t32) - (t34 - t35);
     let h_phi1 = t41 - (cos_phi1 * (s1_dot * t26 - t1 * t29) - t39);
     let zero = S::ZERO;
-    let h_s2 = p.k20 * (t30 - t31 - (t30 + sin_phi2 * t28 - (t31 + cos_phi2 * t27)));
-    let h_phi2 = p.k20 * (cos_phi2 * (s2_dot * t22 - t2 * t25) - t38 - t40);
+    let h_s2 = p.minus_m2 * t42;
+    let h_phi2 = p.minus_m2 * (cos_phi2 * (s2_dot * t22 - t2 * t25) - t38 - t40);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -506,10 +514,10 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let t9 = y - t2;
     let t10 = t3 + x_dot;
     let t11 = x_dot - t3;
-    let t12 = p.k17 * (t11 - t10) + p.k16 * (t7 - t6);
+    let t12 = p.bx_yc * (t11 - t10) + p.by_xc * (t7 - t6);
     let q_x = -((t10 + t11) * p.bx + (t4 + t5) * p.cx);
     let q_y = -((t6 + t7) * p.by + (t8 + t9) * p.cy);
-    let q_theta = t12 + (p.k15 * (t5 - t4) + p.k14 * (t9 - t8));
+    let q_theta = t12 + (p.cx_yc * (t5 - t4) + p.cy_xc * (t9 - t8));
     let zero = S::ZERO;
     [q_x, q_y, q_theta, zero, zero, zero, zero, zero, zero]
 }
@@ -554,7 +562,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t13 = x_dot - t5;
     let t14 = t6 + x;
     let t15 = x - t6;
-    let t16 = p.k15 * (t15 - t14) + p.k14 * (t11 - t10);
+    let t16 = p.cx_yc * (t15 - t14) + p.cy_xc * (t11 - t10);
     let t17 = sin_phi1 * s1_dot;
     let t18 = cos_phi1 * t1;
     let t19 = sin_phi2 * s2_dot;
@@ -592,11 +600,11 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t51 = sin_phi2 * (s2_dot * t38 + t2 * t35);
     let t52 = sin_phi1 * (s1_dot * t42 + t1 * t39);
     let t53 = t32 * t35 + t41 * (cos_phi2 * s2) - (t38 * t28 - t40 * (sin_phi2 * s2));
-    let t54 = p.k17 * (t13 - t12) + p.k16 * (t9 - t8) + t16;
+    let t54 = p.bx_yc * (t13 - t12) + p.by_xc * (t9 - t8) + t16;
     let t55 = t31 * t39 + t46 * (cos_phi1 * s1) - (t42 * t25 - t45 * (sin_phi1 * s1));
-    let f_x = p.k11 * t50 + t45 - ((t12 + t13) * p.bx + (t14 + t15) * p.cx);
-    let f_y = -((t8 + t9) * p.by + (t10 + t11) * p.cy + (t46 - p.k11 * t47));
-    let f_theta = t54 - (t50 * p.k13 - t47 * p.k12);
+    let f_x = p.m0_e_omega2 * t50 + t45 - ((t12 + t13) * p.bx + (t14 + t15) * p.cx);
+    let f_y = -((t8 + t9) * p.by + (t10 + t11) * p.cy + (t46 - p.m0_e_omega2 * t47));
+    let f_theta = t54 - (t50 * p.m0_e_y0_omega2 - t47 * p.m0_e_x0_omega2);
     let f_s1 = t48 - t49 - (t48 + sin_phi1 * t46 - (t49 + cos_phi1 * t45));
     let f_phi1 = cos_phi1 * (s1_dot * t39 - t1 * t42) - t52 - t55;
     let zero = S::ZERO;
@@ -659,7 +667,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let (sin_phi1, cos_phi1) = circular[0];
         let (sin_phi2, cos_phi2) = circular[1];
         let (sin_t0, cos_t0) = circular[2];
-        let t1 = n(p.k6) * s1;
+        let t1 = n(p.m1_plus_m2) * s1;
         let t2 = s1 * phi1_dot;
         let t3 = s2 * phi2_dot;
         let t4 = theta_dot * n(p.xc);
@@ -679,144 +687,145 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t18 = t7 + x;
         let t19 = x - t7;
         let t20 = s2 * t9;
-        let t21 = n(p.k15).mul_add(t19 - t18, n(p.k14) * (t12 - t13));
-        let t22 = n(p.k6) * cos_phi1;
-        let t23 = n(p.k6) * sin_phi1;
-        let t24 = sin_phi1 * t1;
-        let t25 = sin_phi2 * s2_dot;
-        let t26 = sin_phi1 * s1_dot;
-        let t27 = cos_phi1 * t2;
-        let t28 = cos_phi2 * s2_dot;
-        let t29 = n(p.k25) * t22;
-        let t30 = n(p.k25) * t23;
-        let t31 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t32 = cos_phi1 * s1_dot;
-        let t33 = sin_phi1 * t2;
-        let t34 = phi2_dot * t25;
-        let t35 = cos_phi2 * t3;
-        let t36 = t22 * t29;
-        let t37 = t22.neg_mul_add(t30, n(p.k23));
-        let t38 = t23.mul_sub(t30, n(p.k27));
-        let t39 = n(p.m2) * t31;
-        let t40 = phi1_dot * t26;
-        let t41 = t26 + t27;
-        let t42 = phi2_dot * t28;
-        let t43 = sin_phi2 * t3;
-        let t44 = phi1_dot * t32;
-        let t45 = t32 - t33;
-        let t46 = n(p.k25) * t39;
-        let t47 = t25 + t35;
-        let t48 = N::ONE / (t36 - n(p.k26));
-        let t49 = y_dot + t41;
-        let t50 = t28 - t43;
-        let t51 = x_dot + t45;
-        let t52 = cos_phi1 * sin_phi2;
-        let t53 = sin_phi1 * cos_phi2;
-        let t54 = t22.neg_mul_add(t46, n(p.m2) * cos_phi2);
-        let t55 = t40 + phi1_dot.mul_add(t27, t40);
-        let t56 = t47 + t49;
-        let t57 = t44 + phi1_dot.neg_mul_add(t33, t44);
-        let t58 = t50 + t51;
-        let t59 = t34 + phi2_dot.mul_add(t35, t34) + t55;
-        let t60 = n(p.m2).mul_add(t56, n(p.m1) * t49);
-        let t61 = t42 + phi2_dot.neg_mul_add(t43, t42) + t57;
-        let t62 = t48 * t37;
-        let t63 = t48 * t24;
-        let t64 = t48 * t54;
-        let t65 = n(p.m2).mul_add(t58, t51 * n(p.m1));
-        let t66 = t37 * t62;
-        let t67 = t37.neg_mul_add(t63, cos_phi1 * t1);
-        let t68 = t9 * (t53 - t52);
-        let t69 = t37.mul_add(t64, t23.neg_mul_add(t46, n(p.m2) * sin_phi2));
-        let t70 = n(p.m2).mul_add(t59, n(p.m1) * t55);
-        let t71 = t15.mul_add(cos_t0, sin_t0);
-        let t72 = t60 * (cos_phi1 * phi1_dot);
-        let t73 = n(p.m2).mul_add(t61, n(p.m1) * t57);
-        let t74 = t65 * (sin_phi1 * phi1_dot);
-        let t75 = t56 * (cos_phi2 * phi2_dot);
-        let t76 = t58 * (sin_phi2 * phi2_dot);
-        let t77 = n(p.k25) * t68;
-        let t78 = N::ONE / (t38 - t66);
-        let t79 = t15.neg_mul_add(sin_t0, cos_t0);
-        let t80 = t22.mul_add(t77, sin_phi2 * t9);
-        let t81 = t78 * t67;
-        let t82 = t78 * t69;
-        let t83 = t67.mul_add(t81, t24.mul_add(t63, t8));
-        let t84 = t67.mul_add(t82, t24.neg_mul_add(t64, (t52 - t53) * t14));
-        let t85 = t48 * t80;
-        let t86 = N::ONE / t83;
-        let t87 = t54.mul_add(t64, t39.neg_mul_add(t46, n(p.m2)));
-        let t88 = (t16 + t17).mul_add(n(p.bx), (t18 + t19) * n(p.cx));
-        let t89 = n(p.k17).mul_add(t17 - t16, n(p.k16) * (t10 - t11)) + t21;
-        let t90 = t79.mul_sub(n(p.k13), t71 * n(p.k12)) - t89;
-        let t91 = sin_phi1.mul_add(t73, t72) - cos_phi1.mul_add(t70, t74);
-        let t92 = t72 - t74 - t91;
-        let t93 = sin_phi2.mul_add(t61, t75) - cos_phi2.mul_add(t59, t76);
-        let t94 = (t11 + t10).mul_add(n(p.by), (t13 + t12) * n(p.cy));
-        let t95 = t37.neg_mul_add(t85, t23.neg_mul_add(t77, cos_phi2 * t9));
-        let t96 = sin_phi2 * s2_dot.mul_add(t58, t3 * t56);
-        let t97 = t59.neg_mul_add(sin_phi2 * s2, t58 * t47);
-        let t98 = t79.mul_add(n(p.k11), t70) - t88;
-        let t99 = t94 + t71.neg_mul_add(n(p.k11), t73);
-        let t100 = sin_phi1 * s1_dot.mul_add(t65, t2 * t60);
-        let t101 = t70.neg_mul_add(sin_phi1 * s1, t65 * t41);
-        let t102 = t78 * t95;
-        let t103 = cos_phi2.mul_sub(s2_dot.mul_sub(t56, t3 * t58), t96);
-        let t104 = t86 * t84;
-        let t105 = t29.neg_mul_add(t92, t90.neg_mul_add(n(p.k21), t98));
-        let t106 = cos_phi1.mul_sub(s1_dot.mul_sub(t60, t2 * t65), t100);
-        let t107 = t67.mul_add(t102, t24.mul_add(t85, t31 * (t14 * s2)));
-        let t108 = t103 - (t61.mul_add(cos_phi2 * s2, t50 * t56) - t97);
-        let t109 = t84.neg_mul_add(t104, t69.mul_add(t82, t87));
-        let t110 = t46.neg_mul_add(t92, n(p.m2) * (t75 - t76 - t93));
-        let t111 = t30.mul_add(t92, n(p.k22).neg_mul_add(t90, t99));
-        let t112 = t62.neg_mul_add(t105, t111);
-        let t113 = t106 - (t73.mul_add(cos_phi1 * s1, t45 * t60) - t101);
-        let t114 = t86 * t107;
-        let t115 = N::ONE / t109;
-        let t116 = t81.neg_mul_add(t112, t63.neg_mul_add(t105, t113));
-        let t117 = t69.neg_mul_add(t102, t54.mul_add(t85, t39 * t77));
-        let t118 = t84.mul_add(t114, t117);
-        let t119 = t85.neg_mul_add(t105, n(p.m2).mul_sub(t108, t77 * t92));
-        let t120 = t80.mul_add(t85, t68.neg_mul_add(t77, t20));
-        let t121 = t82.neg_mul_add(t112, t64.mul_add(t105, t110));
-        let t122 = t104.neg_mul_add(t116, t121);
-        let t123 = t115 * t118;
-        let t124 = t114.neg_mul_add(t116, t102.neg_mul_add(t112, t119));
-        let t125 = t107.neg_mul_add(t114, t95.mul_add(t102, t120));
-        let t126 = t118.neg_mul_add(t123, t125);
-        let phi2_ddot = t123.mul_add(t122, t124) / t126;
-        let s2_ddot = t123.mul_add(phi2_ddot, t115 * t122);
-        let t127 = t114.neg_mul_add(phi2_ddot, t86 * t116);
-        let phi1_ddot = t104.neg_mul_add(s2_ddot, t127);
-        let t128 = t85.mul_add(phi2_ddot, t48 * t105);
-        let t129 = t77.neg_mul_add(phi2_ddot, n(p.k25) * t92);
-        let t130 = t82.mul_add(s2_ddot, t102.mul_add(phi2_ddot, t78 * t112));
-        let y_ddot = t81.mul_add(phi1_ddot, t130);
-        let t131 = t63.mul_add(phi1_ddot, t64.neg_mul_add(s2_ddot, t128));
-        let t132 = t62 * y_ddot;
-        let t133 = t131 - t132;
-        let t134 = n(p.k22).mul_add(y_ddot, t90 * n(p.k24));
-        let t135 = t30.neg_mul_add(y_ddot, t46.neg_mul_add(s2_ddot, t129));
-        let x_ddot = t132 - t131;
-        let theta_ddot = -n(p.k21).mul_add(t133, t134);
-        let s1_ddot = t29.mul_add(t133, t135);
+        let t21 = n(p.cx_yc).mul_add(t19 - t18, n(p.cy_xc) * (t12 - t13));
+        let t22 = n(p.bx_yc).mul_add(t17 - t16, n(p.by_xc) * (t10 - t11));
+        let t23 = n(p.m1_plus_m2) * cos_phi1;
+        let t24 = n(p.m1_plus_m2) * sin_phi1;
+        let t25 = sin_phi1 * t1;
+        let t26 = sin_phi2 * s2_dot;
+        let t27 = sin_phi1 * s1_dot;
+        let t28 = cos_phi1 * t2;
+        let t29 = cos_phi2 * s2_dot;
+        let t30 = n(p.k7) * t23;
+        let t31 = n(p.k7) * t24;
+        let t32 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
+        let t33 = cos_phi1 * s1_dot;
+        let t34 = sin_phi1 * t2;
+        let t35 = phi2_dot * t26;
+        let t36 = cos_phi2 * t3;
+        let t37 = t23 * t30;
+        let t38 = t23.neg_mul_add(t31, n(p.k5));
+        let t39 = t24.mul_sub(t31, n(p.k9));
+        let t40 = n(p.m2) * t32;
+        let t41 = phi1_dot * t27;
+        let t42 = t27 + t28;
+        let t43 = phi2_dot * t29;
+        let t44 = sin_phi2 * t3;
+        let t45 = phi1_dot * t33;
+        let t46 = t33 - t34;
+        let t47 = n(p.k7) * t40;
+        let t48 = t26 + t36;
+        let t49 = N::ONE / (t37 - n(p.k8));
+        let t50 = y_dot + t42;
+        let t51 = t29 - t44;
+        let t52 = x_dot + t46;
+        let t53 = cos_phi1 * sin_phi2;
+        let t54 = sin_phi1 * cos_phi2;
+        let t55 = t23.neg_mul_add(t47, n(p.m2) * cos_phi2);
+        let t56 = t41 + phi1_dot.mul_add(t28, t41);
+        let t57 = t48 + t50;
+        let t58 = t45 + phi1_dot.neg_mul_add(t34, t45);
+        let t59 = t51 + t52;
+        let t60 = t35 + phi2_dot.mul_add(t36, t35) + t56;
+        let t61 = n(p.m2).mul_add(t57, n(p.m1) * t50);
+        let t62 = t43 + phi2_dot.neg_mul_add(t44, t43) + t58;
+        let t63 = t49 * t38;
+        let t64 = t49 * t25;
+        let t65 = t49 * t55;
+        let t66 = n(p.m2).mul_add(t59, t52 * n(p.m1));
+        let t67 = t38 * t63;
+        let t68 = t38.neg_mul_add(t64, cos_phi1 * t1);
+        let t69 = t9 * (t54 - t53);
+        let t70 = t38.mul_add(t65, t24.neg_mul_add(t47, n(p.m2) * sin_phi2));
+        let t71 = n(p.m2).mul_add(t60, n(p.m1) * t56);
+        let t72 = t15.mul_add(cos_t0, sin_t0);
+        let t73 = t61 * (cos_phi1 * phi1_dot);
+        let t74 = n(p.m2).mul_add(t62, n(p.m1) * t58);
+        let t75 = t66 * (sin_phi1 * phi1_dot);
+        let t76 = t57 * (cos_phi2 * phi2_dot);
+        let t77 = t59 * (sin_phi2 * phi2_dot);
+        let t78 = n(p.k7) * t69;
+        let t79 = N::ONE / (t39 - t67);
+        let t80 = t15.neg_mul_add(sin_t0, cos_t0);
+        let t81 = t23.mul_add(t78, sin_phi2 * t9);
+        let t82 = t72 * n(p.m0_e_x0_omega2);
+        let t83 = t79 * t68;
+        let t84 = t79 * t70;
+        let t85 = t68.mul_add(t83, t25.mul_add(t64, t8));
+        let t86 = t68.mul_add(t84, t25.neg_mul_add(t65, (t53 - t54) * t14));
+        let t87 = t49 * t81;
+        let t88 = N::ONE / t85;
+        let t89 = t55.mul_add(t65, t40.neg_mul_add(t47, n(p.m2)));
+        let t90 = (t16 + t17).mul_add(n(p.bx), (t18 + t19) * n(p.cx));
+        let t91 = t80.mul_sub(n(p.m0_e_y0_omega2), t82) - (t22 + t21);
+        let t92 = sin_phi1.mul_add(t74, t73) - cos_phi1.mul_add(t71, t75);
+        let t93 = t73 - t75 - t92;
+        let t94 = sin_phi2.mul_add(t62, t76) - cos_phi2.mul_add(t60, t77);
+        let t95 = (t11 + t10).mul_add(n(p.by), (t13 + t12) * n(p.cy));
+        let t96 = t38.neg_mul_add(t87, t24.neg_mul_add(t78, cos_phi2 * t9));
+        let t97 = sin_phi2 * s2_dot.mul_add(t59, t3 * t57);
+        let t98 = t60.neg_mul_add(sin_phi2 * s2, t59 * t48);
+        let t99 = t80.mul_add(n(p.m0_e_omega2), t71) - t90;
+        let t100 = t95 + t72.neg_mul_add(n(p.m0_e_omega2), t74);
+        let t101 = sin_phi1 * s1_dot.mul_add(t66, t2 * t61);
+        let t102 = t71.neg_mul_add(sin_phi1 * s1, t66 * t42);
+        let t103 = t79 * t96;
+        let t104 = cos_phi2.mul_sub(s2_dot.mul_sub(t57, t3 * t59), t97);
+        let t105 = t88 * t86;
+        let t106 = t30.neg_mul_add(t93, t91.neg_mul_add(n(p.k3), t99));
+        let t107 = cos_phi1.mul_sub(s1_dot.mul_sub(t61, t2 * t66), t101);
+        let t108 = t68.mul_add(t103, t25.mul_add(t87, t32 * (t14 * s2)));
+        let t109 = t104 - (t62.mul_add(cos_phi2 * s2, t51 * t57) - t98);
+        let t110 = t86.neg_mul_add(t105, t70.mul_add(t84, t89));
+        let t111 = t47.neg_mul_add(t93, n(p.m2) * (t76 - t77 - t94));
+        let t112 = t31.mul_add(t93, n(p.k4).neg_mul_add(t91, t100));
+        let t113 = t63.neg_mul_add(t106, t112);
+        let t114 = t107 - (t74.mul_add(cos_phi1 * s1, t46 * t61) - t102);
+        let t115 = t88 * t108;
+        let t116 = N::ONE / t110;
+        let t117 = t83.neg_mul_add(t113, t64.neg_mul_add(t106, t114));
+        let t118 = t70.neg_mul_add(t103, t55.mul_add(t87, t40 * t78));
+        let t119 = t86.mul_add(t115, t118);
+        let t120 = t87.neg_mul_add(t106, n(p.m2).mul_sub(t109, t78 * t93));
+        let t121 = t81.mul_add(t87, t69.neg_mul_add(t78, t20));
+        let t122 = t84.neg_mul_add(t113, t65.mul_add(t106, t111));
+        let t123 = t105.neg_mul_add(t117, t122);
+        let t124 = t116 * t119;
+        let t125 = t115.neg_mul_add(t117, t103.neg_mul_add(t113, t120));
+        let t126 = t108.neg_mul_add(t115, t96.mul_add(t103, t121));
+        let t127 = t119.neg_mul_add(t124, t126);
+        let phi2_ddot = t124.mul_add(t123, t125) / t127;
+        let s2_ddot = t124.mul_add(phi2_ddot, t116 * t123);
+        let t128 = t115.neg_mul_add(phi2_ddot, t88 * t117);
+        let phi1_ddot = t105.neg_mul_add(s2_ddot, t128);
+        let t129 = t87.mul_add(phi2_ddot, t49 * t106);
+        let t130 = t78.neg_mul_add(phi2_ddot, n(p.k7) * t93);
+        let t131 = t84.mul_add(s2_ddot, t103.mul_add(phi2_ddot, t79 * t113));
+        let y_ddot = t83.mul_add(phi1_ddot, t131);
+        let t132 = t64.mul_add(phi1_ddot, t65.neg_mul_add(s2_ddot, t129));
+        let t133 = t63 * y_ddot;
+        let t134 = t132 - t133;
+        let t135 = n(p.k4).mul_add(y_ddot, t91 * n(p.k6));
+        let t136 = t31.neg_mul_add(y_ddot, t47.neg_mul_add(s2_ddot, t130));
+        let x_ddot = t133 - t132;
+        let theta_ddot = -n(p.k3).mul_add(t134, t135);
+        let s1_ddot = t30.mul_add(t134, t136);
         let zero = N::ZERO;
-        let t136 = n(p.k26) - t36;
-        let t137 = t66 - t38;
-        let sound = PIVOTS.hold(t136, n(p.k7))
-            & PIVOTS.hold(t137, n(p.k7))
-            & PIVOTS.hold(t83, t8)
-            & PIVOTS.hold(t109, n(p.m2))
-            & PIVOTS.hold(t126, t20)
+        let t137 = n(p.k8) - t37;
+        let t138 = t67 - t39;
+        let sound = PIVOTS.hold(t137, n(p.k0))
+            & PIVOTS.hold(t138, n(p.k0))
+            & PIVOTS.hold(t85, t8)
+            & PIVOTS.hold(t110, n(p.m2))
+            & PIVOTS.hold(t127, t20)
             & theta_ddot.is_finite();
         if !sound {
             let pivots = [
-                (0, t136, n(p.k7)),
-                (1, t137, n(p.k7)),
-                (4, t83, t8),
-                (6, t109, n(p.m2)),
-                (7, t126, t20),
+                (0, t137, n(p.k0)),
+                (1, t138, n(p.k0)),
+                (4, t85, t8),
+                (6, t110, n(p.m2)),
+                (7, t127, t20),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -874,14 +883,14 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t5 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t6 = x_dot - theta_dot * p.y0 - p.k0 * (sin_t0 + t3 * cos_t0);
-    let t7 = p.k0 * (cos_t0 - t3 * sin_t0) + (y_dot + theta_dot * p.x0);
+    let t6 = x_dot - theta_dot * p.y0 - p.e_omega * (sin_t0 + t3 * cos_t0);
+    let t7 = p.e_omega * (cos_t0 - t3 * sin_t0) + (y_dot + theta_dot * p.x0);
     let t8 = cos_phi2 * s2_dot - t2 * sin_phi2 + t4;
     let t9 = t2 * cos_phi2 + sin_phi2 * s2_dot + t5;
     let t10 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
     let t11 = (t5 * t5 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t10;
     let t12 = (t9 * t9 + t8 * t8) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t11;
-    ((t7 * t7 + t6 * t6) * p.m0 + p.k1 + t12) * S::from_f64(0.5)
+    ((t7 * t7 + t6 * t6) * p.m0 + p.J0_omega2 + t12) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -899,7 +908,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t3 = y - t1;
     let t4 = t0 + x;
     let t5 = t1 + y;
-    (t5 * t5 + t3 * t3) * p.k3 + (t4 * t4 + t2 * t2) * p.k2
+    (t5 * t5 + t3 * t3) * p.half_cy + (t4 * t4 + t2 * t2) * p.half_cx
 }
 
 /// Dissipation function `D`, in W.
@@ -917,7 +926,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     let t3 = y_dot - t1;
     let t4 = t0 + x_dot;
     let t5 = t1 + y_dot;
-    (t5 * t5 + t3 * t3) * p.k5 + (t4 * t4 + t2 * t2) * p.k4
+    (t5 * t5 + t3 * t3) * p.half_by + (t4 * t4 + t2 * t2) * p.half_bx
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -943,15 +952,15 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t2 = sin_t0 + t1 * cos_t0;
     let t3 = cos_t0 - t1 * sin_t0;
-    let t4 = t2 * p.k10;
-    let t5 = p.k0 * t2;
-    let t6 = p.k0 * t3;
-    let t7 = t3 * p.k10;
+    let t4 = t2 * p.e_omega2;
+    let t5 = p.e_omega * t2;
+    let t6 = p.e_omega * t3;
+    let t7 = t3 * p.e_omega2;
     let t8 = x_dot - theta_dot * p.y0 - t5;
     let t9 = t6 + (p.x0 * theta_dot + y_dot);
     let t10 = t5 * (x_ddot - theta_ddot * p.y0 - t7) + t7 * t8;
     let t11 = (t4 * t9 - t6 * (theta_ddot * p.x0 + y_ddot - t4) + t10) * p.m0;
-    (t2 * t9 + t3 * t8) * p.k11 - t11
+    (t2 * t9 + t3 * t8) * p.m0_e_omega2 - t11
 }
 
 /// Power `R` that dampers take out, in W.
@@ -1020,9 +1029,10 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, k0, k1, k2, k3, k4, k5, k6,
-        k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25,
-        k26, k27,
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, e_omega, J0_omega2,
+        half_cx, half_cy, half_bx, half_by, m1_plus_m2, k0, m0_x0, k1, e_omega2, m0_e_omega2,
+        m0_e_x0_omega2, m0_e_y0_omega2, cy_xc, cx_yc, by_xc, bx_yc, minus_m0_y0, k2, minus_m2, k3,
+        k4, k5, k6, k7, k8, k9,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

@@ -103,69 +103,69 @@ pub struct GrainCrusher<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.rho - self.r2 - self.delta;
-        let k1 = self.rho + self.r2;
-        let k3 = self.omega * self.e;
-        let k10 = self.m1 + self.m2;
-        let k11 = self.m0 * self.y0;
-        let k12 = self.m0 * self.x0;
-        let k21 = self.m + self.m0;
-        let k13 = k10 + k21;
-        let k14 = self.R - self.r1;
-        let k16 = self.J + (self.y0 * k11 + self.x0 * k12);
-        let k26 = S::ONE / k21;
-        let k23 = k16 - k26 * (k11 * k11) - k26 * (k12 * k12);
-        let k24 = S::ONE / k23;
+        let rho_minus_r2_minus_delta = self.rho - self.r2 - self.delta;
+        let rho_plus_r2 = self.rho + self.r2;
+        let e_omega = self.omega * self.e;
+        let m1_plus_m2 = self.m1 + self.m2;
+        let m0_y0 = self.m0 * self.y0;
+        let m0_x0 = self.m0 * self.x0;
+        let m_plus_m0 = self.m + self.m0;
+        let k0 = m1_plus_m2 + m_plus_m0;
+        let R_minus_r1 = self.R - self.r1;
+        let k1 = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
+        let k8 = S::ONE / m_plus_m0;
+        let k5 = k1 - k8 * (m0_y0 * m0_y0) - k8 * (m0_x0 * m0_x0);
+        let k6 = S::ONE / k5;
         let pivot_10 = self.r2 * self.r2;
         let t0 = S::ONE / self.J1;
         let t1 = self.rho * t0;
         let pivot_12 = self.r1 * self.r1;
         let t2 = S::ONE / self.r2;
-        let k34 = self.rho * t2;
-        let k35 = k1 * t2;
+        let rho_over_r2 = self.rho * t2;
+        let k12 = rho_plus_r2 * t2;
         let t3 = S::ONE / self.r1;
-        let k36 = self.R * t3;
-        let k37 = k14 * t3;
-        let k39 = self.m2 * k0;
-        let k40 = k10 * k14;
-        let t4 = self.J2 * k34;
-        let t5 = k34 * t4;
-        let t6 = k36 * t5 + self.J1 * k36;
-        let t7 = k35 * t4;
-        let k2 = self.rho * S::from_f64(2.0) / self.delta;
-        let k4 = self.omega * (self.omega * self.J0);
-        let k5 = self.cx * S::from_f64(0.5);
-        let k6 = self.cy * S::from_f64(0.5);
-        let k7 = self.bx * S::from_f64(0.5);
-        let k8 = self.by * S::from_f64(0.5);
-        let k9 = self.omega * k3;
-        let k15 = self.m0 * k3;
-        let k17 = -k10;
-        let k18 = -self.m2;
-        let k19 = -k1;
-        let k20 = -self.R;
-        let k22 = self.m0 * k26;
-        let k25 = self.m0 * k24;
-        let k27 = S::ONE / self.m2;
-        let k28 = S::ONE / self.m1;
-        let k29 = pivot_10 / self.J2 + self.rho * t1;
-        let k30 = k1 * S::from_f64(2.0);
-        let k31 = self.r1 * t1;
-        let k32 = t0 * pivot_12;
-        let k33 = self.R * k24;
-        let k38 = self.m1 * k14;
-        let k41 = k37 * t6;
-        let k42 = k36 * t7;
-        let k43 = k37 * t7;
-        let k44 = k14 * k39;
-        let k45 = k14 * k40 + k37 * (k37 * t5 + self.J1 * k37);
-        let k46 = k0 * k39 + k35 * (self.J2 * k35);
-        let k47 = k16 + k36 * t6;
-        let k48 = S::ONE / k13;
+        let R_over_r1 = self.R * t3;
+        let k13 = R_minus_r1 * t3;
+        let k15 = self.m2 * rho_minus_r2_minus_delta;
+        let k16 = m1_plus_m2 * R_minus_r1;
+        let t4 = self.J2 * rho_over_r2;
+        let t5 = rho_over_r2 * t4;
+        let t6 = R_over_r1 * t5 + self.J1 * R_over_r1;
+        let t7 = k12 * t4;
+        let two_rho_over_delta = self.rho * S::from_f64(2.0) / self.delta;
+        let J0_omega2 = self.omega * (self.omega * self.J0);
+        let half_cx = self.cx * S::from_f64(0.5);
+        let half_cy = self.cy * S::from_f64(0.5);
+        let half_bx = self.bx * S::from_f64(0.5);
+        let half_by = self.by * S::from_f64(0.5);
+        let e_omega2 = self.omega * e_omega;
+        let m0_e_omega = self.m0 * e_omega;
+        let k2 = -m1_plus_m2;
+        let minus_m2 = -self.m2;
+        let k3 = -rho_plus_r2;
+        let minus_R = -self.R;
+        let k4 = self.m0 * k8;
+        let k7 = self.m0 * k6;
+        let inverse_m2 = S::ONE / self.m2;
+        let inverse_m1 = S::ONE / self.m1;
+        let k9 = pivot_10 / self.J2 + self.rho * t1;
+        let k10 = rho_plus_r2 * S::from_f64(2.0);
+        let r1_rho_over_J1 = self.r1 * t1;
+        let r1_squared_over_J1 = t0 * pivot_12;
+        let k11 = self.R * k6;
+        let k14 = self.m1 * R_minus_r1;
+        let k17 = k13 * t6;
+        let k18 = R_over_r1 * t7;
+        let k19 = k13 * t7;
+        let k20 = R_minus_r1 * k15;
+        let k21 = R_minus_r1 * k16 + k13 * (k13 * t5 + self.J1 * k13);
+        let k22 = rho_minus_r2_minus_delta * k15 + k12 * (self.J2 * k12);
+        let k23 = k1 + R_over_r1 * t6;
+        let k24 = S::ONE / k0;
         let one = S::ONE;
         let pivots = [
-            (0, k13, k13),
-            (1, k13, k13),
+            (0, k0, k0),
+            (1, k0, k0),
             (9, one, one),
             (10, pivot_10, pivot_10),
             (11, one, one),
@@ -192,19 +192,43 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
             r1: self.r1,
             rho: self.rho,
             r2: self.r2,
+            rho_minus_r2_minus_delta,
+            rho_plus_r2,
+            two_rho_over_delta,
+            e_omega,
+            J0_omega2,
+            half_cx,
+            half_cy,
+            half_bx,
+            half_by,
+            e_omega2,
+            m1_plus_m2,
+            m0_y0,
+            m0_x0,
             k0,
+            R_minus_r1,
+            m0_e_omega,
             k1,
             k2,
+            minus_m2,
             k3,
+            minus_R,
+            m_plus_m0,
             k4,
             k5,
             k6,
             k7,
             k8,
+            inverse_m2,
+            inverse_m1,
             k9,
             k10,
+            r1_rho_over_J1,
+            r1_squared_over_J1,
             k11,
+            rho_over_r2,
             k12,
+            R_over_r1,
             k13,
             k14,
             k15,
@@ -217,30 +241,6 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
             k22,
             k23,
             k24,
-            k25,
-            k26,
-            k27,
-            k28,
-            k29,
-            k30,
-            k31,
-            k32,
-            k33,
-            k34,
-            k35,
-            k36,
-            k37,
-            k38,
-            k39,
-            k40,
-            k41,
-            k42,
-            k43,
-            k44,
-            k45,
-            k46,
-            k47,
-            k48,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -362,120 +362,114 @@ pub struct Prepared<S = f64> {
     /// `r2`
     r2: S,
     /// `rho - r2 - delta`
-    k0: S,
+    rho_minus_r2_minus_delta: S,
     /// `rho + r2`
-    k1: S,
+    rho_plus_r2: S,
     /// `2*rho/delta`
-    k2: S,
+    two_rho_over_delta: S,
     /// `e*omega`
-    k3: S,
+    e_omega: S,
     /// `J0*omega^2`
-    k4: S,
+    J0_omega2: S,
     /// `0.5*cx`
-    k5: S,
+    half_cx: S,
     /// `0.5*cy`
-    k6: S,
+    half_cy: S,
     /// `0.5*bx`
-    k7: S,
+    half_bx: S,
     /// `0.5*by`
-    k8: S,
+    half_by: S,
     /// `e*omega^2`
-    k9: S,
+    e_omega2: S,
     /// `m1 + m2`
-    k10: S,
+    m1_plus_m2: S,
     /// `m0*y0`
-    k11: S,
+    m0_y0: S,
     /// `m0*x0`
-    k12: S,
+    m0_x0: S,
     /// `m + m0 + m1 + m2`
-    k13: S,
+    k0: S,
     /// `R - r1`
-    k14: S,
+    R_minus_r1: S,
     /// `m0*e*omega`
-    k15: S,
+    m0_e_omega: S,
     /// `J + m0*x0^2 + m0*y0^2`
-    k16: S,
+    k1: S,
     /// `-(m1 + m2)`
-    k17: S,
+    k2: S,
     /// `-m2`
-    k18: S,
+    minus_m2: S,
     /// `-(rho + r2)`
-    k19: S,
+    k3: S,
     /// `-R`
-    k20: S,
+    minus_R: S,
     /// `m + m0`
-    k21: S,
+    m_plus_m0: S,
     /// `m0/(m + m0)`
-    k22: S,
+    k4: S,
     /// `J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0)`
-    k23: S,
+    k5: S,
     /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k24: S,
+    k6: S,
     /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k25: S,
+    k7: S,
     /// `1/(m + m0)`
-    k26: S,
+    k8: S,
     /// `1/m2`
-    k27: S,
+    inverse_m2: S,
     /// `1/m1`
-    k28: S,
+    inverse_m1: S,
     /// `rho^2/J1 + r2^2/J2`
-    k29: S,
+    k9: S,
     /// `2*(rho + r2)`
-    k30: S,
+    k10: S,
     /// `r1*rho/J1`
-    k31: S,
+    r1_rho_over_J1: S,
     /// `r1^2/J1`
-    k32: S,
+    r1_squared_over_J1: S,
     /// `R/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k33: S,
+    k11: S,
     /// `rho/r2`
-    k34: S,
+    rho_over_r2: S,
     /// `(rho + r2)/r2`
-    k35: S,
+    k12: S,
     /// `R/r1`
-    k36: S,
+    R_over_r1: S,
     /// `(R - r1)/r1`
-    k37: S,
+    k13: S,
     /// `m1*(R - r1)`
-    k38: S,
+    k14: S,
     /// `m2*(rho - r2 - delta)`
-    k39: S,
+    k15: S,
     /// `(m1 + m2)*(R - r1)`
-    k40: S,
+    k16: S,
     /// `(R - r1)*(J1*R/r1 + J2*R*rho^2/r1/r2^2)/r1`
-    k41: S,
+    k17: S,
     /// `J2*R*rho*(rho + r2)/r1/r2^2`
-    k42: S,
+    k18: S,
     /// `J2*rho*(rho + r2)*(R - r1)/r1/r2^2`
-    k43: S,
+    k19: S,
     /// `m2*(rho - r2 - delta)*(R - r1)`
-    k44: S,
+    k20: S,
     /// `(R - r1)*(J1*(R - r1)/r1 + J2*rho^2*(R - r1)/r1/r2^2)/r1 + (m1 + m2)*(R - r1)^2`
-    k45: S,
+    k21: S,
     /// `J2*(rho + r2)^2/r2^2 + m2*(rho - r2 - delta)^2`
-    k46: S,
+    k22: S,
     /// `J + m0*x0^2 + m0*y0^2 + R*(J1*R/r1 + J2*R*rho^2/r1/r2^2)/r1`
-    k47: S,
+    k23: S,
     /// `1/(m + m0 + m1 + m2)`
-    k48: S,
+    k24: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 1.1546319456101628e-14,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 13);
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS_1: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS_1: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 9);
 
 /// Mass matrix `M`.
 ///
@@ -514,33 +508,33 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.k10 * s1;
+    let t1 = p.m1_plus_m2 * s1;
     let t2 = p.m2 * s2;
     let t3 = sin_phi1 * cos_phi2;
     let t4 = cos_phi1 * sin_phi2;
     let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
     let zero = S::ZERO;
-    let m31 = -(p.k12 * sin_theta + cos_theta * p.k11);
-    let m32 = p.k12 * cos_theta - sin_theta * p.k11;
-    let m41 = p.k10 * cos_phi1;
-    let m42 = p.k10 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k17);
+    let m31 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
+    let m32 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
+    let m41 = p.m1_plus_m2 * cos_phi1;
+    let m42 = p.m1_plus_m2 * sin_phi1;
+    let m51 = sin_phi1 * (s1 * p.k2);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
     let m75 = (t4 - t3) * t0;
-    let m81 = sin_phi2 * (s2 * p.k18);
+    let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t3 - t4);
     let m85 = t5 * (t0 * s2);
     let m88 = s2 * t2;
     [
-        [p.k13, zero, m31, m41, m51, zero, m71, m81, zero],
-        [zero, p.k13, m32, m42, m52, zero, m72, m82, zero],
-        [m31, m32, p.k16, zero, zero, zero, zero, zero, zero],
-        [m41, m42, zero, p.k10, zero, zero, m74, m84, zero],
+        [p.k0, zero, m31, m41, m51, zero, m71, m81, zero],
+        [zero, p.k0, m32, m42, m52, zero, m72, m82, zero],
+        [m31, m32, p.k1, zero, zero, zero, zero, zero, zero],
+        [m41, m42, zero, p.m1_plus_m2, zero, zero, m74, m84, zero],
         [m51, m52, zero, zero, m55, zero, m75, m85, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
         [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
@@ -603,21 +597,21 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t12 = cos_phi1 * s1;
     let t13 = t6 * t10 - t8 * cos_phi1;
     let t14 = t8 * sin_phi1 + t6 * t12;
-    let t15 = p.k9 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
+    let t15 = p.e_omega2 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
     let t16 = t3 * t9 - t7 * cos_phi2 + t13;
-    let t17 = p.k9 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
+    let t17 = p.e_omega2 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
     let t18 = t7 * sin_phi2 + t3 * t11 + t14;
     let t19 = p.m2 * t16 + p.m1 * t13;
     let t20 = t18 * p.m2 + t14 * p.m1;
-    let t21 = cos_theta * (t17 * p.k11 - t15 * p.k12);
+    let t21 = cos_theta * (t17 * p.m0_y0 - t15 * p.m0_x0);
     let h_x = -(t17 * p.m0 + t20);
     let h_y = -(p.m0 * t15 + t19);
-    let h_theta = sin_theta * (t15 * p.k11 + t17 * p.k12) + t21;
+    let h_theta = sin_theta * (t15 * p.m0_y0 + t17 * p.m0_x0) + t21;
     let h_s1 = -(cos_phi1 * t20 + sin_phi1 * t19);
     let h_phi1 = t20 * t10 - t12 * t19;
     let zero = S::ZERO;
-    let h_s2 = p.k18 * (cos_phi2 * t18 + sin_phi2 * t16);
-    let h_phi2 = p.k18 * (t11 * t16 - t18 * t9);
+    let h_s2 = p.minus_m2 * (cos_phi2 * t18 + sin_phi2 * t16);
+    let h_phi2 = p.minus_m2 * (t11 * t16 - t18 * t9);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -700,19 +694,19 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t18 = cos_phi1 * s1;
     let t19 = sin_phi2 * s2;
     let t20 = sin_phi1 * s1;
-    let t21 = p.k9 * (sin_t0 + t7 * cos_t0) + (sin_theta * t8 + t5 * cos_theta);
+    let t21 = p.e_omega2 * (sin_t0 + t7 * cos_t0) + (sin_theta * t8 + t5 * cos_theta);
     let t22 = t10 * sin_phi1 + t14 * t18;
-    let t23 = p.k9 * (cos_t0 - t7 * sin_t0) + (cos_theta * t8 - t5 * sin_theta);
+    let t23 = p.e_omega2 * (cos_t0 - t7 * sin_t0) + (cos_theta * t8 - t5 * sin_theta);
     let t24 = t14 * t20 - t10 * cos_phi1;
     let t25 = t9 * sin_phi2 + t11 * t17 + t22;
     let t26 = t11 * t19 - t9 * cos_phi2 + t24;
     let t27 = t25 * p.m2 + t22 * p.m1;
     let t28 = p.m2 * t26 + p.m1 * t24;
-    let t29 = p.yc * (t16 - t15) + p.xc * (t13 - t12);
-    let t30 = cos_theta * (t23 * p.k11 - t21 * p.k12) + t29;
+    let t29 = cos_theta * (t23 * p.m0_y0 - t21 * p.m0_x0);
+    let t30 = t29 + (p.yc * (t16 - t15) + p.xc * (t13 - t12));
     let f_x = t23 * p.m0 + (t27 - (t15 + t16));
     let f_y = p.m0 * t21 + (t28 - (t12 + t13));
-    let f_theta = -(sin_theta * (t21 * p.k11 + t23 * p.k12) + t30);
+    let f_theta = -(sin_theta * (t21 * p.m0_y0 + t23 * p.m0_x0) + t30);
     let f_s1 = cos_phi1 * t27 + sin_phi1 * t28;
     let f_phi1 = t18 * t28 - t27 * t20;
     let zero = S::ZERO;
@@ -733,9 +727,9 @@ pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
 ) -> [S; 4] {
     let s1 = q[3];
     let s2 = q[6];
-    let g1 = p.k0 - s2;
+    let g1 = p.rho_minus_r2_minus_delta - s2;
     let zero = S::ZERO;
-    let g3 = p.k14 - s1;
+    let g3 = p.R_minus_r1 - s1;
     [g1, zero, g3, zero]
 }
 
@@ -799,7 +793,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
         zero,
         p.rho,
         zero,
-        p.k19,
+        p.k3,
         p.r2,
         zero,
         zero,
@@ -812,7 +806,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
         zero,
         zero,
         zero,
-        p.k20,
+        p.minus_R,
         zero,
         s1,
         p.r1,
@@ -891,7 +885,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t2 = theta * n(p.xc);
         let t3 = theta_dot * n(p.yc);
         let t4 = theta_dot * n(p.xc);
-        let t5 = phi2_dot * (phi2_dot * n(p.k0));
+        let t5 = phi2_dot * (phi2_dot * n(p.rho_minus_r2_minus_delta));
         let t6 = phi1_dot * phi1_dot;
         let t7 = n(p.omega).product_error(n(t));
         let t8 = theta_dot * theta_dot;
@@ -899,75 +893,75 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t10 = n(p.bx).mul_add(x_dot - t3, n(p.cx) * (x - t1));
         let t11 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
         let t12 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
-        let t13 = sin_phi1 * n(p.k40);
-        let t14 = cos_phi1 * n(p.k40);
+        let t13 = sin_phi1 * n(p.k16);
+        let t14 = cos_phi1 * n(p.k16);
         let t15 = t6 * cos_phi1;
-        let t16 = sin_theta.mul_add(n(p.k12), cos_theta * n(p.k11));
-        let t17 = cos_theta.mul_sub(n(p.k12), sin_theta * n(p.k11));
-        let t18 = n(p.k48) * t13;
-        let t19 = n(p.k48) * t14;
-        let t20 = n(p.k48) * t16;
-        let t21 = n(p.k48) * t17;
+        let t16 = sin_theta.mul_add(n(p.m0_x0), cos_theta * n(p.m0_y0));
+        let t17 = cos_theta.mul_sub(n(p.m0_x0), sin_theta * n(p.m0_y0));
+        let t18 = n(p.k24) * t13;
+        let t19 = n(p.k24) * t14;
+        let t20 = n(p.k24) * t16;
+        let t21 = n(p.k24) * t17;
         let t22 = t6 * sin_phi1;
-        let t23 = t15.mul_add(n(p.k14), t5 * cos_phi2);
-        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k41)));
+        let t23 = t15.mul_add(n(p.R_minus_r1), t5 * cos_phi2);
+        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k17)));
         let t25 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
-        let t26 = n(p.k9).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
-        let t27 = n(p.k14).mul_add(t22, t5 * sin_phi2);
-        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k38));
-        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k47)));
-        let t30 = sin_phi2 * n(p.k39);
+        let t26 = n(p.e_omega2).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
+        let t27 = n(p.R_minus_r1).mul_add(t22, t5 * sin_phi2);
+        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k14));
+        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k23)));
+        let t30 = sin_phi2 * n(p.k15);
         let t31 = t8 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
-        let t32 = n(p.k9).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
-        let t33 = cos_phi2 * n(p.k39);
-        let t34 = n(p.m2).mul_add(t27, n(p.k38) * t22);
+        let t32 = n(p.e_omega2).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
+        let t33 = cos_phi2 * n(p.k15);
+        let t34 = n(p.m2).mul_add(t27, n(p.k14) * t22);
         let t35 = N::ONE / t29;
-        let t36 = n(p.k48) * t30;
+        let t36 = n(p.k24) * t30;
         let t37 = t32.mul_add(n(p.m0), t28 - (t10 + t9));
-        let t38 = n(p.k48) * t33;
+        let t38 = n(p.k24) * t33;
         let t39 = n(p.yc).mul_add(t9 - t10, n(p.xc) * (t11 - t12));
-        let t40 = t32.mul_sub(n(p.k11), n(p.k12) * t26);
+        let t40 = t32.mul_sub(n(p.m0_y0), n(p.m0_x0) * t26);
         let t41 = n(p.m0).mul_add(t26, t34 - (t12 + t11));
-        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k42)));
+        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k18)));
         let t43 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
-        let t44 = n(p.k11).mul_add(t26, t32 * n(p.k12));
+        let t44 = n(p.m0_y0).mul_add(t26, t32 * n(p.m0_x0));
         let t45 = t35 * t24;
         let t46 = t35 * t42;
-        let t47 = n(p.k39) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
+        let t47 = n(p.k15) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
         let t48 = cos_phi1.mul_sub(t34, sin_phi1 * t28);
-        let t49 = t43.mul_add(n(p.k44), n(p.k43));
+        let t49 = t43.mul_add(n(p.k20), n(p.k19));
         let t50 = sin_theta.mul_add(t44, cos_theta.mul_add(t40, t39));
         let t51 = t50 + t21.mul_sub(t41, t37 * t20);
-        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k45)));
+        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k21)));
         let t53 = t24.neg_mul_add(t45, t52);
-        let t54 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
-        let t55 = N::ONE / t53;
-        let t56 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
-        let t57 = t19.neg_mul_add(t41, n(p.k14).mul_add(t48, t37 * t18));
-        let t58 = t45.neg_mul_add(t51, t57);
-        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k46)));
-        let t60 = t55 * t54;
-        let t61 = t54.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
-        let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t56)) / t61;
-        let phi1_ddot = t60.neg_mul_add(phi2_ddot, t55 * t58);
+        let t54 = n(p.R_minus_r1).mul_add(t48, t37 * t18);
+        let t55 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
+        let t56 = N::ONE / t53;
+        let t57 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
+        let t58 = t45.neg_mul_add(t51, t19.neg_mul_add(t41, t54));
+        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k22)));
+        let t60 = t56 * t55;
+        let t61 = t55.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
+        let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t57)) / t61;
+        let phi1_ddot = t60.neg_mul_add(phi2_ddot, t56 * t58);
         let t62 = t46.neg_mul_add(phi2_ddot, t35 * t51);
         let t63 = t45 * phi1_ddot;
-        let t64 = t36.mul_add(phi2_ddot, n(p.k48) * t37);
-        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k48) * t41);
+        let t64 = t36.mul_add(phi2_ddot, n(p.k24) * t37);
+        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k24) * t41);
         let t66 = t62 - t63;
-        let t67 = t66.mul_add(n(p.k36), phi1_ddot * n(p.k37));
+        let t67 = t66.mul_add(n(p.R_over_r1), phi1_ddot * n(p.k13));
         let x_ddot = t20.neg_mul_add(t66, t18.mul_add(phi1_ddot, t64));
         let y_ddot = t21.mul_add(t66, t19.neg_mul_add(phi1_ddot, t65));
         let theta_ddot = t63 - t62;
         let zero = N::ZERO;
         let theta1_ddot = -t67;
-        let theta2_ddot = t67.mul_add(n(p.k34), phi2_ddot * n(p.k35));
-        let sound = PIVOTS_1.hold(t29, n(p.k47))
-            & PIVOTS_1.hold(t53, n(p.k45))
-            & PIVOTS_1.hold(t61, n(p.k46))
+        let theta2_ddot = t67.mul_add(n(p.rho_over_r2), phi2_ddot * n(p.k12));
+        let sound = PIVOTS_1.hold(t29, n(p.k23))
+            & PIVOTS_1.hold(t53, n(p.k21))
+            & PIVOTS_1.hold(t61, n(p.k22))
             & theta2_ddot.is_finite();
         if !sound {
-            let pivots = [(2, t29, n(p.k47)), (4, t53, n(p.k45)), (7, t61, n(p.k46))];
+            let pivots = [(2, t29, n(p.k23)), (4, t53, n(p.k21)), (7, t61, n(p.k22))];
             PIVOTS_1.check(pivots)?;
         }
         let accelerations = [
@@ -1053,7 +1047,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t11 = n(p.by).mul_add(y_dot - t5, n(p.cy) * (y - t3));
         let t12 = n(p.bx).mul_add(t6 + x_dot, n(p.cx) * (t4 + x));
         let t13 = n(p.bx).mul_add(x_dot - t6, n(p.cx) * (x - t4));
-        let t14 = t2 * (t2 * n(p.k28));
+        let t14 = t2 * (t2 * n(p.inverse_m1));
         let t15 = phi2_dot * (s2 * phi2_dot);
         let t16 = n(p.yc).mul_add(t13, n(p.xc) * t11);
         let t17 = s2 * (s2 * n(p.m2));
@@ -1066,114 +1060,120 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t24 = cos_theta * n(p.y0);
         let t25 = cos_phi2 * t1;
         let t26 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t27 = n(p.k1) * t21;
+        let t27 = n(p.rho_plus_r2) * t21;
         let t28 = cos_phi1 * t2;
         let t29 = cos_theta * n(p.x0);
         let t30 = sin_theta * n(p.y0);
         let t31 = t23 + t24;
-        let t32 = n(p.k1) * t25;
+        let t32 = n(p.rho_plus_r2) * t25;
         let t33 = t20.mul_sub(sin_phi2, t19 * cos_phi2);
         let t34 = t29 - t30;
-        let t35 = n(p.k22) * t31;
+        let t35 = n(p.k4) * t31;
         let t36 = t22.mul_add(t33, cos_phi1.neg_mul_add(t26, cos_phi2));
         let t37 = t28.neg_mul_add(t33, sin_phi1.neg_mul_add(t26, sin_phi2));
         let t38 = sin_phi1.mul_sub(t32, cos_phi1 * t27);
-        let t39 = n(p.k22) * t34;
+        let t39 = n(p.k4) * t34;
         let t40 = t19.mul_add(t27, t20 * t32);
         let t41 = t28.neg_mul_add(t40, sin_phi1.neg_mul_add(t38, t32));
         let t42 = t22.neg_mul_add(t40, cos_phi1.mul_add(t38, t27));
-        let t43 = cos_phi1 * n(p.k26);
+        let t43 = cos_phi1 * n(p.k8);
         let t44 = t8.neg_mul_add(sin_t0, cos_t0);
         let t45 = t8.mul_add(cos_t0, sin_t0);
-        let t46 = n(p.k24) * (n(p.k22) * t34.mul_sub(t37, t36 * t31));
-        let t47 = sin_phi1 * n(p.k26);
-        let t48 = n(p.k9).mul_add(t44, t29.mul_sub(t7, t30 * t7)) * n(p.m0);
-        let t49 = n(p.m0) * n(p.k9).mul_add(t45, t23.mul_add(t7, t24 * t7));
-        let t50 = n(p.k22) * sin_phi1.mul_sub(t34, cos_phi1 * t31);
-        let t51 = n(p.k24) * t50;
-        let t52 = t46.neg_mul_add(t35, t36 * n(p.k26));
-        let t53 = t39.mul_add(t46, t37 * n(p.k26));
-        let t54 = cos_phi1.neg_mul_add(t39, n(p.R));
-        let t55 = n(p.yc).mul_add(t12, n(p.xc) * t10) - t16;
-        let t56 = t13 + t12 - t48;
-        let t57 = t11 + t10 - t49;
-        let t58 = n(p.k24) * (n(p.k22) * t31.mul_add(t42, t34 * t41));
-        let t59 = t35.neg_mul_add(t51, t43);
-        let t60 = t39.mul_add(t51, t47);
-        let t61 = cos_phi1.mul_sub(t52, t26 * n(p.k28));
-        let t62 = sin_phi1.mul_add(t53, t61);
-        let t63 = t28.neg_mul_add(t53, t22.mul_add(t52, t33 * t14));
-        let t64 = t35.mul_add(t58, n(p.k26) * t42);
-        let t65 = t39.mul_add(t58, n(p.k26) * t41);
-        let t66 = n(p.k24) * sin_phi1.neg_mul_add(t35, t54);
-        let t67 = t39.neg_mul_add(t57, t31.mul_add(t48, t55));
-        let t68 = t35.mul_sub(t56, t34 * t49) + t67;
-        let t69 = sin_phi1.mul_add(t60, cos_phi1.mul_add(t59, n(p.k28)));
-        let t70 = s1.mul_add(t63, t46 * n(p.R));
-        let t71 = n(p.k25) * t68;
-        let t72 = t19.neg_mul_add(t63, cos_phi1.neg_mul_add(t62, t52));
-        let t73 = sin_phi1.neg_mul_add(t62, t20.mul_add(t63, t53));
-        let t74 = t28.neg_mul_add(t65, t22.neg_mul_add(t64, t14 * t40));
-        let t75 = cos_phi1.mul_add(t64, n(p.k28) * t38);
-        let t76 = sin_phi1.neg_mul_add(t65, t75);
-        let t77 = t31.mul_add(t71, t56);
-        let t78 = t34.neg_mul_add(t71, t57);
-        let t79 = sin_phi2.mul_add(t73, cos_phi2.mul_add(t72, n(p.k27)));
-        let t80 = t47.mul_add(t77, t9 * N::from_f64(2.0));
-        let t81 = N::ONE / t79;
-        let t82 = n(p.k1) * t72.mul_sub(t21, t73 * t25);
-        let t83 = cos_phi1.neg_mul_add(t76, t19.mul_add(t74, t64));
-        let t84 = t22.mul_add(t35.neg_mul_add(t66, t47), s1 * t14);
-        let t85 = t43.mul_add(t77, phi1_dot * (s1 * phi1_dot));
-        let t86 = t21.mul_add(t83, n(p.k1) * (t1 * (n(p.k27) * t1)));
-        let t87 = t20.mul_add(t74, sin_phi1.mul_add(t76, t65));
-        let t88 = t28.mul_add(t39.neg_mul_add(t66, t43), t84);
-        let t89 = s1.mul_add(t88, n(p.R).mul_add(t66, n(p.k32)));
-        let t90 = n(p.k1).mul_add(t25.mul_add(t87, t86), n(p.k29));
-        let t91 = t81 * t82;
-        let t92 = t62 * t81;
-        let t93 = t81 * t70;
-        let t94 = t82.neg_mul_add(t91, t90);
-        let t95 = t82.neg_mul_add(t92, t76);
-        let t96 = s1.mul_add(t74, t58.mul_add(n(p.R), n(p.k31)));
-        let t97 = t82.mul_add(t93, t96);
-        let t98 = s1.mul_add(t22.mul_sub(t59, t28 * t60), t51 * n(p.R));
-        let t99 = t1 * (phi2_dot * (n(p.k30) * s2_dot));
-        let t100 = t91.neg_mul_add(t15, t99);
-        let t101 = t68.mul_add(n(p.k33), t9) - t43.neg_mul_add(t78, t80);
-        let t102 = N::ONE / t94;
-        let t103 = t102 * t95;
-        let t104 = t102 * t97;
-        let t105 = t95.neg_mul_add(t103, t62.neg_mul_add(t92, t69));
-        let t106 = t95.mul_add(t104, t62.neg_mul_add(t93, t98));
-        let t107 = t92.neg_mul_add(t15, t47.mul_add(t78, t85));
-        let t108 = t103.neg_mul_add(t100, t107);
-        let t109 = N::ONE / t105;
-        let t110 = t109 * t106;
-        let t111 = t104.neg_mul_add(t100, t93.mul_add(t15, t101));
-        let t112 = t97.neg_mul_add(t104, t70.neg_mul_add(t93, t89));
-        let t113 = t106.neg_mul_add(t110, t112);
-        let t114 = t110.mul_add(t108, t111) / t113;
-        let lambda3 = t110.mul_add(t114, t109 * t108);
-        let t115 = t104.neg_mul_add(t114, t102 * t100);
-        let t116 = t103 * lambda3;
-        let t117 = t92.neg_mul_add(lambda3, t93.mul_add(t114, t81 * t15));
-        let lambda1 = t91.neg_mul_add(t115 - t116, t117);
-        let lambda2 = t116 - t115;
-        let lambda4 = -t114;
+        let t46 = n(p.k6) * (n(p.k4) * t34.mul_sub(t37, t36 * t31));
+        let t47 = sin_phi1 * n(p.k8);
+        let t48 = n(p.e_omega2).mul_add(t44, t29.mul_sub(t7, t30 * t7));
+        let t49 = t48 * n(p.m0);
+        let t50 = n(p.e_omega2).mul_add(t45, t23.mul_add(t7, t24 * t7));
+        let t51 = n(p.m0) * t50;
+        let t52 = n(p.k4) * sin_phi1.mul_sub(t34, cos_phi1 * t31);
+        let t53 = n(p.k6) * t52;
+        let t54 = t46.neg_mul_add(t35, t36 * n(p.k8));
+        let t55 = t39.mul_add(t46, t37 * n(p.k8));
+        let t56 = cos_phi1.neg_mul_add(t39, n(p.R));
+        let t57 = n(p.yc).mul_add(t12, n(p.xc) * t10) - t16;
+        let t58 = t13 + t12 - t49;
+        let t59 = t11 + t10 - t51;
+        let t60 = n(p.k6) * (n(p.k4) * t31.mul_add(t42, t34 * t41));
+        let t61 = t35.neg_mul_add(t53, t43);
+        let t62 = t39.mul_add(t53, t47);
+        let t63 = cos_phi1.mul_sub(t54, t26 * n(p.inverse_m1));
+        let t64 = sin_phi1.mul_add(t55, t63);
+        let t65 = t28.neg_mul_add(t55, t22.mul_add(t54, t33 * t14));
+        let t66 = t35.mul_add(t60, n(p.k8) * t42);
+        let t67 = t39.mul_add(t60, n(p.k8) * t41);
+        let t68 = n(p.k6) * sin_phi1.neg_mul_add(t35, t56);
+        let t69 = t39.neg_mul_add(t59, t31.mul_add(t49, t57));
+        let t70 = t35.mul_sub(t58, t34 * t51) + t69;
+        let t71 = cos_phi1.mul_add(t61, n(p.inverse_m1));
+        let t72 = sin_phi1.mul_add(t62, t71);
+        let t73 = s1.mul_add(t65, t46 * n(p.R));
+        let t74 = n(p.k7) * t70;
+        let t75 = t19.neg_mul_add(t65, cos_phi1.neg_mul_add(t64, t54));
+        let t76 = sin_phi1.neg_mul_add(t64, t20.mul_add(t65, t55));
+        let t77 = t28.neg_mul_add(t67, t22.neg_mul_add(t66, t14 * t40));
+        let t78 = cos_phi1.mul_add(t66, n(p.inverse_m1) * t38);
+        let t79 = sin_phi1.neg_mul_add(t67, t78);
+        let t80 = t31.mul_add(t74, t58);
+        let t81 = t34.neg_mul_add(t74, t59);
+        let t82 = cos_phi2.mul_add(t75, n(p.inverse_m2));
+        let t83 = sin_phi2.mul_add(t76, t82);
+        let t84 = t47.mul_add(t80, t9 * N::from_f64(2.0));
+        let t85 = N::ONE / t83;
+        let t86 = n(p.rho_plus_r2) * t75.mul_sub(t21, t76 * t25);
+        let t87 = n(p.rho_plus_r2) * (t1 * (n(p.inverse_m2) * t1));
+        let t88 = cos_phi1.neg_mul_add(t79, t19.mul_add(t77, t66));
+        let t89 = t22.mul_add(t35.neg_mul_add(t68, t47), s1 * t14);
+        let t90 = t43.mul_add(t80, phi1_dot * (s1 * phi1_dot));
+        let t91 = t20.mul_add(t77, sin_phi1.mul_add(t79, t67));
+        let t92 = n(p.R).mul_add(t68, n(p.r1_squared_over_J1));
+        let t93 = t28.mul_add(t39.neg_mul_add(t68, t43), t89);
+        let t94 = s1.mul_add(t93, t92);
+        let t95 = t25.mul_add(t91, t21.mul_add(t88, t87));
+        let t96 = n(p.rho_plus_r2).mul_add(t95, n(p.k9));
+        let t97 = t85 * t86;
+        let t98 = t64 * t85;
+        let t99 = t85 * t73;
+        let t100 = t86.neg_mul_add(t97, t96);
+        let t101 = t86.neg_mul_add(t98, t79);
+        let t102 = s1.mul_add(t77, t60.mul_add(n(p.R), n(p.r1_rho_over_J1)));
+        let t103 = t86.mul_add(t99, t102);
+        let t104 = s1.mul_add(t22.mul_sub(t61, t28 * t62), t53 * n(p.R));
+        let t105 = t1 * (phi2_dot * (n(p.k10) * s2_dot));
+        let t106 = t97.neg_mul_add(t15, t105);
+        let t107 = t70.mul_add(n(p.k11), t9) - t43.neg_mul_add(t81, t84);
+        let t108 = N::ONE / t100;
+        let t109 = t108 * t101;
+        let t110 = t108 * t103;
+        let t111 = t101.neg_mul_add(t109, t64.neg_mul_add(t98, t72));
+        let t112 = t101.mul_add(t110, t64.neg_mul_add(t99, t104));
+        let t113 = t98.neg_mul_add(t15, t47.mul_add(t81, t90));
+        let t114 = t109.neg_mul_add(t106, t113);
+        let t115 = N::ONE / t111;
+        let t116 = t115 * t112;
+        let t117 = t110.neg_mul_add(t106, t99.mul_add(t15, t107));
+        let t118 = t103.neg_mul_add(t110, t73.neg_mul_add(t99, t94));
+        let t119 = t112.neg_mul_add(t116, t118);
+        let t120 = t116.mul_add(t114, t117) / t119;
+        let lambda3 = t116.mul_add(t120, t115 * t114);
+        let t121 = t110.neg_mul_add(t120, t108 * t106);
+        let t122 = t109 * lambda3;
+        let t123 = t98.neg_mul_add(lambda3, t99.mul_add(t120, t85 * t15));
+        let lambda1 = t97.neg_mul_add(t121 - t122, t123);
+        let lambda2 = t122 - t121;
+        let lambda4 = -t120;
         let sound = PIVOTS.hold(n(p.J1), n(p.J1))
             & PIVOTS.hold(n(p.J2), n(p.J2))
             & PIVOTS.hold(n(p.m2), n(p.m2))
             & PIVOTS.hold(t17, t17)
-            & PIVOTS.hold(n(p.m1), n(p.k10))
+            & PIVOTS.hold(n(p.m1), n(p.m1_plus_m2))
             & PIVOTS.hold(t18, t18)
-            & PIVOTS.hold(n(p.k21), n(p.k13))
-            & PIVOTS.hold(n(p.k21), n(p.k13))
-            & PIVOTS.hold(n(p.k23), n(p.k16))
-            & PIVOTS.hold(t79, t79)
-            & PIVOTS.hold(t94, t90)
-            & PIVOTS.hold(t105, t69)
-            & PIVOTS.hold(t113, t89)
+            & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
+            & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
+            & PIVOTS.hold(n(p.k5), n(p.k1))
+            & PIVOTS.hold(t83, t83)
+            & PIVOTS.hold(t100, t96)
+            & PIVOTS.hold(t111, t72)
+            & PIVOTS.hold(t119, t94)
             & lambda1.is_finite();
         if !sound {
             let pivots = [
@@ -1181,15 +1181,15 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
                 (8, n(p.J2), n(p.J2)),
                 (6, n(p.m2), n(p.m2)),
                 (7, t17, t17),
-                (3, n(p.m1), n(p.k10)),
+                (3, n(p.m1), n(p.m1_plus_m2)),
                 (4, t18, t18),
-                (1, n(p.k21), n(p.k13)),
-                (0, n(p.k21), n(p.k13)),
-                (2, n(p.k23), n(p.k16)),
-                (9, t79, t79),
-                (10, t94, t90),
-                (11, t105, t69),
-                (12, t113, t89),
+                (1, n(p.m_plus_m0), n(p.k0)),
+                (0, n(p.m_plus_m0), n(p.k0)),
+                (2, n(p.k5), n(p.k1)),
+                (9, t83, t83),
+                (10, t100, t96),
+                (11, t111, t72),
+                (12, t119, t94),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -1247,15 +1247,16 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t5 = theta_dot * p.y0;
     let t6 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t7 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t8 = x_dot - t3 * sin_theta - cos_theta * t5 - p.k3 * (sin_t0 + t4 * cos_t0);
-    let t9 = y_dot + t3 * cos_theta - sin_theta * t5;
-    let t10 = p.k3 * (cos_t0 - t4 * sin_t0) + t9;
-    let t11 = cos_phi2 * s2_dot - t2 * sin_phi2 + t6;
-    let t12 = t2 * cos_phi2 + sin_phi2 * s2_dot + t7;
-    let t13 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t14 = (t7 * t7 + t6 * t6) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t13;
-    let t15 = (t12 * t12 + t11 * t11) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
-    ((t10 * t10 + t8 * t8) * p.m0 + p.k4 + t15) * S::from_f64(0.5)
+    let t8 = x_dot - t3 * sin_theta - cos_theta * t5;
+    let t9 = t8 - p.e_omega * (sin_t0 + t4 * cos_t0);
+    let t10 = y_dot + t3 * cos_theta - sin_theta * t5;
+    let t11 = p.e_omega * (cos_t0 - t4 * sin_t0) + t10;
+    let t12 = cos_phi2 * s2_dot - t2 * sin_phi2 + t6;
+    let t13 = t2 * cos_phi2 + sin_phi2 * s2_dot + t7;
+    let t14 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t15 = (t7 * t7 + t6 * t6) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t14;
+    let t16 = (t13 * t13 + t12 * t12) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t15;
+    ((t11 * t11 + t9 * t9) * p.m0 + p.J0_omega2 + t16) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -1273,7 +1274,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t3 = y - t1;
     let t4 = t0 + x;
     let t5 = t1 + y;
-    (t5 * t5 + t3 * t3) * p.k6 + (t4 * t4 + t2 * t2) * p.k5
+    (t5 * t5 + t3 * t3) * p.half_cy + (t4 * t4 + t2 * t2) * p.half_cx
 }
 
 /// Dissipation function `D`, in W.
@@ -1291,7 +1292,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     let t3 = y_dot - t1;
     let t4 = t0 + x_dot;
     let t5 = t1 + y_dot;
-    (t5 * t5 + t3 * t3) * p.k8 + (t4 * t4 + t2 * t2) * p.k7
+    (t5 * t5 + t3 * t3) * p.half_by + (t4 * t4 + t2 * t2) * p.half_bx
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -1324,8 +1325,9 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let t4 = sin_theta * t1 - cos_theta * theta_ddot;
     let t5 = sin_t0 + t2 * cos_t0;
     let t6 = cos_t0 - t2 * sin_t0;
-    let t7 = t6 * (t5 * p.k9 - (y_ddot - t3 * p.y0 - t4 * p.x0));
-    (t5 * (t6 * p.k9 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7) * p.k15
+    let t7 = t6 * (t5 * p.e_omega2 - (y_ddot - t3 * p.y0 - t4 * p.x0));
+    let t8 = t5 * (t6 * p.e_omega2 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7;
+    t8 * p.m0_e_omega
 }
 
 /// Power `R` that dampers take out, in W.
@@ -1354,7 +1356,7 @@ pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[
 pub fn output_grain_spin<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let theta1_dot = v[5];
     let phi2_dot = v[7];
-    phi2_dot + p.k2 * (theta1_dot - phi2_dot)
+    phi2_dot + p.two_rho_over_delta * (theta1_dot - phi2_dot)
 }
 
 /// By how much `s1 > 0` holds.
@@ -1424,10 +1426,12 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
         grain_spin: "grain_spin" "rad/s";
     ]
     prepared Prepared {
-        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, R, r1, rho, r2, k0, k1, k2,
-        k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22,
-        k23, k24, k25, k26, k27, k28, k29, k30, k31, k32, k33, k34, k35, k36, k37, k38, k39, k40,
-        k41, k42, k43, k44, k45, k46, k47, k48,
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, R, r1, rho, r2,
+        rho_minus_r2_minus_delta, rho_plus_r2, two_rho_over_delta, e_omega, J0_omega2, half_cx,
+        half_cy, half_bx, half_by, e_omega2, m1_plus_m2, m0_y0, m0_x0, k0, R_minus_r1, m0_e_omega,
+        k1, k2, minus_m2, k3, minus_R, m_plus_m0, k4, k5, k6, k7, k8, inverse_m2, inverse_m1, k9,
+        k10, r1_rho_over_J1, r1_squared_over_J1, k11, rho_over_r2, k12, R_over_r1, k13, k14, k15,
+        k16, k17, k18, k19, k20, k21, k22, k23, k24,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

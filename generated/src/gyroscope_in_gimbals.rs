@@ -100,23 +100,23 @@ impl<S: ::lagrangian::emitted::Scalar> GyroscopeInGimbals<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.d * self.w;
         let t1 = self.d * t0;
-        let k4 = t0 * self.g;
+        let w_d_g = t0 * self.g;
         let k1 = self.A3 + (self.A2 + t1);
         let k0 = self.A3 + (self.C2 + t1);
         let k2 = self.B2 - k0;
-        let k9 = self.B2 + self.C3 - k0;
+        let k6 = self.B2 + self.C3 - k0;
         let t2 = k1 - k2;
         let t3 = self.C3 + (k1 + k2);
         let k3 = self.A1 + k0;
-        let k5 = self.C3 + k2;
-        let k6 = t2 - t3;
-        let k7 = self.A1 * S::from_f64(0.5);
-        let k8 = t1 * S::from_f64(0.5);
-        let k10 = k9 * S::from_f64(2.0);
-        let k11 = -k4;
-        let k12 = -self.C3;
-        let k13 = t3 - t2;
-        let k14 = -(S::ONE / k1);
+        let k4 = self.C3 + k2;
+        let k5 = t2 - t3;
+        let half_A1 = self.A1 * S::from_f64(0.5);
+        let half_w_d_squared = t1 * S::from_f64(0.5);
+        let k7 = k6 * S::from_f64(2.0);
+        let minus_w_d_g = -w_d_g;
+        let minus_C3 = -self.C3;
+        let k8 = t3 - t2;
+        let k9 = -(S::ONE / k1);
         let pivots = [(2, self.C3, self.C3), (1, k1, k1)];
         Prepared {
             A1: self.A1,
@@ -129,17 +129,17 @@ impl<S: ::lagrangian::emitted::Scalar> GyroscopeInGimbals<S> {
             k1,
             k2,
             k3,
+            w_d_g,
             k4,
             k5,
+            half_A1,
+            half_w_d_squared,
             k6,
             k7,
+            minus_w_d_g,
+            minus_C3,
             k8,
             k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -207,39 +207,36 @@ pub struct Prepared<S = f64> {
     /// `A1 + A3 + C2 + w*d^2`
     k3: S,
     /// `w*d*g`
-    k4: S,
+    w_d_g: S,
     /// `C3 + B2 - (A3 + C2 + w*d^2)`
-    k5: S,
+    k4: S,
     /// `A3 + A2 + w*d^2 - (B2 - (A3 + C2 + w*d^2)) - (C3 + A3 + A2 + w*d^2 + B2 - (A3 + C2 +
     /// w*d^2))`
-    k6: S,
+    k5: S,
     /// `0.5*A1`
-    k7: S,
+    half_A1: S,
     /// `0.5*w*d^2`
-    k8: S,
+    half_w_d_squared: S,
     /// `B2 - C2 - A3 + C3 - w*d^2`
-    k9: S,
+    k6: S,
     /// `2*(B2 - C2 - A3 + C3 - w*d^2)`
-    k10: S,
+    k7: S,
     /// `-w*d*g`
-    k11: S,
+    minus_w_d_g: S,
     /// `-C3`
-    k12: S,
+    minus_C3: S,
     /// `C3 + A3 + A2 + w*d^2 + B2 - (A3 + C2 + w*d^2) - (A3 + A2 + w*d^2 - (B2 - (A3 + C2 +
     /// w*d^2)))`
-    k13: S,
+    k8: S,
     /// `-1/(A3 + A2 + w*d^2)`
-    k14: S,
+    k9: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 3,
-    tolerance: 2.6645352591003757e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(3, 3);
 
 /// Mass matrix `M`.
 ///
@@ -252,7 +249,7 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let beta = q[1];
     let sin_beta = beta.sin();
-    let m11 = sin_beta * (sin_beta * p.k5) + p.k3;
+    let m11 = sin_beta * (sin_beta * p.k4) + p.k3;
     let zero = S::ZERO;
     let m31 = sin_beta * p.C3;
     [[m11, zero, m31], [zero, p.k1, zero], [m31, zero, p.C3]]
@@ -276,8 +273,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[
     let t0 = gamma_dot * p.C3;
     let t1 = sin_beta * alpha_dot;
     let t2 = cos_beta * alpha_dot;
-    let h_alpha = (t0 + t1 * p.k10) * (cos_beta * beta_dot);
-    let h_beta = -(t2 * (t0 + t1 * p.k9));
+    let h_alpha = (t0 + t1 * p.k7) * (cos_beta * beta_dot);
+    let h_beta = -(t2 * (t0 + t1 * p.k6));
     let h_gamma = t2 * (beta_dot * p.C3);
     [h_alpha, h_beta, h_gamma]
 }
@@ -291,7 +288,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     let beta = q[1];
     let cos_beta = beta.cos();
     let zero = S::ZERO;
-    let q_beta = p.k11 * cos_beta;
+    let q_beta = p.minus_w_d_g * cos_beta;
     [zero, q_beta, zero]
 }
 
@@ -306,9 +303,9 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let t1 = sin_beta * alpha_dot;
     let t2 = beta_dot * t0;
     let t3 = (t1 + gamma_dot) * p.C3;
-    let f_alpha = t2 * (sin_beta * p.k6) - t3 * (cos_beta * beta_dot);
-    let f_beta = t3 * t0 - (cos_beta * p.k4 - t0 * (t1 * p.k2));
-    let f_gamma = t2 * p.k12;
+    let f_alpha = t2 * (sin_beta * p.k5) - t3 * (cos_beta * beta_dot);
+    let f_beta = t3 * t0 - (cos_beta * p.w_d_g - t0 * (t1 * p.k2));
+    let f_gamma = t2 * p.minus_C3;
     [f_alpha, f_beta, f_gamma]
 }
 
@@ -353,13 +350,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t2 = sin_beta * alpha_dot;
         let t3 = cos_beta * beta_dot;
         let t4 = t1.mul_add(n(p.k2), n(p.k3));
-        let t5 = alpha_dot.neg_mul_add(t0, n(p.k4));
-        let t6 = t2.neg_mul_add(alpha_dot * n(p.k5), t5);
-        let t7 = N::ONE / t4 * (t2.mul_add(n(p.k13), t0) * t3);
+        let t5 = alpha_dot.neg_mul_add(t0, n(p.w_d_g));
+        let t6 = t2.neg_mul_add(alpha_dot * n(p.k4), t5);
+        let t7 = N::ONE / t4 * (t2.mul_add(n(p.k8), t0) * t3);
         let alpha_ddot = -t7;
-        let beta_ddot = t6 * (cos_beta * n(p.k14));
+        let beta_ddot = t6 * (cos_beta * n(p.k9));
         let gamma_ddot = sin_beta.mul_sub(t7, alpha_dot * t3);
-        let t8 = t1.mul_add(n(p.k5), n(p.k3));
+        let t8 = t1.mul_add(n(p.k4), n(p.k3));
         let sound = PIVOTS.hold(t4, t8) & gamma_ddot.is_finite();
         if !sound {
             let pivots = [(0, t4, t8)];
@@ -394,7 +391,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t4 = t3 * t0 + t1;
     let t5 = t0 * (t3 * p.C2 + sin_beta * (sin_beta * p.B2)) + t1 * p.A2;
     let t6 = (t4 * p.A3 + t2 * (t2 * p.C3) + t5) * S::from_f64(0.5);
-    t6 + (t4 * p.k8 + t0 * p.k7)
+    t6 + (t4 * p.half_w_d_squared + t0 * p.half_A1)
 }
 
 /// Potential energy `V`, in J.
@@ -405,7 +402,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
     let beta = q[1];
     let sin_beta = beta.sin();
-    p.k4 * sin_beta
+    p.w_d_g * sin_beta
 }
 
 /// Angular momentum of the rotor about its axis, H: conserved. Unit: `J*s`.
@@ -483,7 +480,8 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         vertical_momentum: "vertical_momentum" "J*s";
     ]
     prepared Prepared {
-        A1, A2, B2, C2, A3, C3, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14,
+        A1, A2, B2, C2, A3, C3, k0, k1, k2, k3, w_d_g, k4, k5, half_A1, half_w_d_squared, k6, k7,
+        minus_w_d_g, minus_C3, k8, k9,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

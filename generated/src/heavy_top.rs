@@ -62,28 +62,31 @@ impl<S: ::lagrangian::emitted::Scalar> HeavyTop<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.l * self.m;
-        let k0 = self.l * t0;
-        let k1 = self.A + k0;
-        let k7 = S::ONE / k1;
-        let k4 = k1 - self.C;
-        let k2 = t0 * self.g;
-        let k3 = self.C - k1;
-        let k5 = k4 * S::from_f64(2.0);
-        let k6 = -self.C;
-        let k8 = -k7;
-        let pivots = [(2, self.C, self.C), (1, k1, k1)];
+        let m_l_squared = self.l * t0;
+        let A_plus_m_l_squared = self.A + m_l_squared;
+        let k3 = S::ONE / A_plus_m_l_squared;
+        let k1 = A_plus_m_l_squared - self.C;
+        let m_l_g = t0 * self.g;
+        let k0 = self.C - A_plus_m_l_squared;
+        let k2 = k1 * S::from_f64(2.0);
+        let minus_C = -self.C;
+        let k4 = -k3;
+        let pivots = [
+            (2, self.C, self.C),
+            (1, A_plus_m_l_squared, A_plus_m_l_squared),
+        ];
         Prepared {
             A: self.A,
             C: self.C,
+            m_l_squared,
+            A_plus_m_l_squared,
+            m_l_g,
             k0,
             k1,
             k2,
+            minus_C,
             k3,
             k4,
-            k5,
-            k6,
-            k7,
-            k8,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -136,33 +139,30 @@ pub struct Prepared<S = f64> {
     /// `C`
     C: S,
     /// `m*l^2`
-    k0: S,
+    m_l_squared: S,
     /// `A + m*l^2`
-    k1: S,
+    A_plus_m_l_squared: S,
     /// `m*l*g`
-    k2: S,
+    m_l_g: S,
     /// `C - (A + m*l^2)`
-    k3: S,
+    k0: S,
     /// `A - C + m*l^2`
-    k4: S,
+    k1: S,
     /// `2*(A - C + m*l^2)`
-    k5: S,
+    k2: S,
     /// `-C`
-    k6: S,
+    minus_C: S,
     /// `1/(A + m*l^2)`
-    k7: S,
+    k3: S,
     /// `-1/(A + m*l^2)`
-    k8: S,
+    k4: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 3,
-    tolerance: 2.6645352591003757e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(3, 3);
 
 /// Mass matrix `M`.
 ///
@@ -175,10 +175,14 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let theta = q[1];
     let cos_theta = theta.cos();
-    let m11 = p.k1 - cos_theta * (cos_theta * p.k4);
+    let m11 = p.A_plus_m_l_squared - cos_theta * (cos_theta * p.k1);
     let zero = S::ZERO;
     let m31 = cos_theta * p.C;
-    [[m11, zero, m31], [zero, p.k1, zero], [m31, zero, p.C]]
+    [
+        [m11, zero, m31],
+        [zero, p.A_plus_m_l_squared, zero],
+        [m31, zero, p.C],
+    ]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -198,9 +202,9 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[
     let t0 = phi_dot * p.C;
     let t1 = cos_theta * psi_dot;
     let t2 = sin_theta * psi_dot;
-    let h_psi = (t1 * p.k5 - t0) * (sin_theta * theta_dot);
-    let h_theta = t2 * (t0 - t1 * p.k4);
-    let h_phi = t2 * (theta_dot * p.k6);
+    let h_psi = (t1 * p.k2 - t0) * (sin_theta * theta_dot);
+    let h_theta = t2 * (t0 - t1 * p.k1);
+    let h_phi = t2 * (theta_dot * p.minus_C);
     [h_psi, h_theta, h_phi]
 }
 
@@ -213,7 +217,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     let theta = q[1];
     let sin_theta = theta.sin();
     let zero = S::ZERO;
-    let q_theta = p.k2 * sin_theta;
+    let q_theta = p.m_l_g * sin_theta;
     [zero, q_theta, zero]
 }
 
@@ -227,8 +231,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let t0 = theta_dot * p.C;
     let t1 = sin_theta * psi_dot;
     let t2 = cos_theta * t1;
-    let f_psi = sin_theta * (t0 * phi_dot) - t2 * (theta_dot * p.k5);
-    let f_theta = t2 * (psi_dot * p.k4) + (sin_theta * p.k2 - t1 * (p.C * phi_dot));
+    let f_psi = sin_theta * (t0 * phi_dot) - t2 * (theta_dot * p.k2);
+    let f_theta = t2 * (psi_dot * p.k1) + (sin_theta * p.m_l_g - t1 * (p.C * phi_dot));
     let f_phi = t0 * t1;
     [f_psi, f_theta, f_phi]
 }
@@ -276,23 +280,25 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t0 = psi_dot * theta_dot;
         let t1 = sin_theta * psi_dot;
         let t2 = cos_theta * t0;
-        let t3 = sin_theta * n(p.k2);
-        let t4 = n(p.k3) * cos_theta.mul_add(psi_dot, phi_dot);
+        let t3 = sin_theta * n(p.m_l_g);
+        let t4 = n(p.k0) * cos_theta.mul_add(psi_dot, phi_dot);
         let t5 = sin_phi.mul_add(t1, cos_phi * theta_dot);
         let t6 = cos_phi.mul_sub(t1, sin_phi * theta_dot);
-        let t7 = sin_theta * (sin_theta * n(p.k1));
+        let t7 = sin_theta * (sin_theta * n(p.A_plus_m_l_squared));
         let t8 = phi_dot.neg_mul_add(t5, cos_phi * t2);
         let t9 = phi_dot.mul_add(t6, sin_phi * t2);
-        let t10 = t3.mul_add(sin_phi, n(p.k1).mul_sub(t8, t4 * t5));
-        let t11 = t3.neg_mul_add(cos_phi, n(p.k1).mul_add(t9, t4 * t6));
-        let t12 = N::ONE / sin_theta * sin_phi.mul_add(t11, cos_phi * t10);
-        let psi_ddot = t12 * n(p.k8);
-        let theta_ddot = n(p.k7) * sin_phi.mul_sub(t10, cos_phi * t11);
-        let phi_ddot = t12.mul_add(cos_theta * n(p.k7), sin_theta * t0);
-        let t13 = cos_theta.mul_add(cos_theta * n(p.C), t7);
-        let sound = PIVOTS.hold(t7, t13) & phi_ddot.is_finite();
+        let t10 = n(p.A_plus_m_l_squared).mul_sub(t8, t4 * t5);
+        let t11 = t3.mul_add(sin_phi, t10);
+        let t12 = n(p.A_plus_m_l_squared).mul_add(t9, t4 * t6);
+        let t13 = t3.neg_mul_add(cos_phi, t12);
+        let t14 = N::ONE / sin_theta * sin_phi.mul_add(t13, cos_phi * t11);
+        let psi_ddot = t14 * n(p.k4);
+        let theta_ddot = n(p.k3) * sin_phi.mul_sub(t11, cos_phi * t13);
+        let phi_ddot = t14.mul_add(cos_theta * n(p.k3), sin_theta * t0);
+        let t15 = cos_theta.mul_add(cos_theta * n(p.C), t7);
+        let sound = PIVOTS.hold(t7, t15) & phi_ddot.is_finite();
         if !sound {
-            let pivots = [(0, t7, t13)];
+            let pivots = [(0, t7, t15)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [psi_ddot.store(), theta_ddot.store(), phi_ddot.store()];
@@ -319,7 +325,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t0 = cos_theta * psi_dot + phi_dot;
     let t1 = sin_theta * psi_dot;
     let t2 = t1 * t1 + theta_dot * theta_dot;
-    S::from_f64(0.5) * (t2 * p.k0 + (t2 * p.A + t0 * (t0 * p.C)))
+    S::from_f64(0.5) * (t2 * p.m_l_squared + (t2 * p.A + t0 * (t0 * p.C)))
 }
 
 /// Potential energy `V`, in J.
@@ -330,7 +336,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
     let theta = q[1];
     let cos_theta = theta.cos();
-    p.k2 * cos_theta
+    p.m_l_g * cos_theta
 }
 
 /// Angular momentum about the vertical: conserved. Unit: `J*s`.
@@ -349,8 +355,8 @@ pub fn output_vertical_momentum<S: ::lagrangian::emitted::Scalar>(
     let phi_dot = v[2];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = cos_theta * p.C;
-    let t1 = (cos_theta * t0 + sin_theta * (sin_theta * p.k1)) * psi_dot;
-    t0 * phi_dot + t1
+    let t1 = cos_theta * t0 + sin_theta * (sin_theta * p.A_plus_m_l_squared);
+    t0 * phi_dot + t1 * psi_dot
 }
 
 /// Angular momentum about the top's axis: conserved. Unit: `J*s`.
@@ -408,7 +414,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         vertical_momentum: "vertical_momentum" "J*s";
         axial_momentum: "axial_momentum" "J*s";
     ]
-    prepared Prepared { A, C, k0, k1, k2, k3, k4, k5, k6, k7, k8 }
+    prepared Prepared { A, C, m_l_squared, A_plus_m_l_squared, m_l_g, k0, k1, k2, minus_C, k3, k4 }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

@@ -69,35 +69,35 @@ impl<S: ::lagrangian::emitted::Scalar> KapitzaPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m * self.l;
-        let k0 = self.a * self.omega;
-        let k4 = self.m * self.g;
-        let k5 = self.l * t0;
-        let k1 = self.omega * k0;
-        let k2 = self.l * self.l;
-        let k3 = self.m * S::from_f64(0.5);
-        let k6 = self.g * t0;
-        let k7 = k0 * k4;
-        let k8 = self.m * k0;
-        let k9 = k1 * t0;
-        let k10 = S::ONE / k5;
-        let pivots = [(0, k5, k5)];
+        let a_omega = self.a * self.omega;
+        let m_g = self.m * self.g;
+        let m_l_squared = self.l * t0;
+        let a_omega2 = self.omega * a_omega;
+        let l_squared = self.l * self.l;
+        let half_m = self.m * S::from_f64(0.5);
+        let m_l_g = self.g * t0;
+        let m_a_omega_g = a_omega * m_g;
+        let m_a_omega = self.m * a_omega;
+        let m_l_a_omega2 = a_omega2 * t0;
+        let k0 = S::ONE / m_l_squared;
+        let pivots = [(0, m_l_squared, m_l_squared)];
         Prepared {
             m: self.m,
             l: self.l,
             a: self.a,
             omega: self.omega,
             g: self.g,
+            a_omega,
+            a_omega2,
+            l_squared,
+            half_m,
+            m_g,
+            m_l_squared,
+            m_l_g,
+            m_a_omega_g,
+            m_a_omega,
+            m_l_a_omega2,
             k0,
-            k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
-            k10,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -147,37 +147,34 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `a*omega`
-    k0: S,
+    a_omega: S,
     /// `a*omega^2`
-    k1: S,
+    a_omega2: S,
     /// `l^2`
-    k2: S,
+    l_squared: S,
     /// `0.5*m`
-    k3: S,
+    half_m: S,
     /// `m*g`
-    k4: S,
+    m_g: S,
     /// `m*l^2`
-    k5: S,
+    m_l_squared: S,
     /// `m*l*g`
-    k6: S,
+    m_l_g: S,
     /// `m*a*omega*g`
-    k7: S,
+    m_a_omega_g: S,
     /// `m*a*omega`
-    k8: S,
+    m_a_omega: S,
     /// `m*l*a*omega^2`
-    k9: S,
+    m_l_a_omega2: S,
     /// `1/m/l^2`
-    k10: S,
+    k0: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 1,
-    tolerance: 8.881784197001252e-16,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(1, 1);
 
 /// Mass matrix `M`.
 ///
@@ -185,7 +182,7 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 /// M[theta, theta] = m*l^2
 /// ```
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
-    [[p.k5]]
+    [[p.m_l_squared]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -198,7 +195,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1])
     let t0 = p.omega * t;
     let sin_theta = theta.sin();
     let (sin_t0, cos_t0) = t0.sin_cos();
-    let h_theta = (cos_t0 - p.omega.product_error(t) * sin_t0) * (p.k9 * sin_theta);
+    let t1 = cos_t0 - p.omega.product_error(t) * sin_t0;
+    let h_theta = t1 * (p.m_l_a_omega2 * sin_theta);
     [h_theta]
 }
 
@@ -210,7 +208,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1])
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let sin_theta = theta.sin();
-    let q_theta = p.k6 * sin_theta;
+    let q_theta = p.m_l_g * sin_theta;
     [q_theta]
 }
 
@@ -220,8 +218,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1
     let t0 = p.omega * t;
     let sin_theta = theta.sin();
     let (sin_t0, cos_t0) = t0.sin_cos();
-    let t1 = (cos_t0 - p.omega.product_error(t) * sin_t0) * (sin_theta * p.k9);
-    let f_theta = sin_theta * p.k6 - t1;
+    let t1 = cos_t0 - p.omega.product_error(t) * sin_t0;
+    let f_theta = sin_theta * p.m_l_g - t1 * (sin_theta * p.m_l_a_omega2);
     [f_theta]
 }
 
@@ -263,7 +261,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let (sin_theta, _) = circular[0];
         let (sin_t0, cos_t0) = circular[1];
         let t1 = n(p.omega).product_error(n(t)).neg_mul_add(sin_t0, cos_t0);
-        let theta_ddot = n(p.k9).neg_mul_add(t1, n(p.k6)) * (n(p.k10) * sin_theta);
+        let t2 = n(p.m_l_a_omega2).neg_mul_add(t1, n(p.m_l_g));
+        let theta_ddot = t2 * (n(p.k0) * sin_theta);
         let accelerations = [theta_ddot.store()];
         Ok(accelerations)
     }
@@ -286,9 +285,9 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let (sin_theta, cos_theta) = theta.sin_cos();
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t1 = cos_theta * theta_dot;
-    let t2 = p.k0 * (sin_t0 + p.omega.product_error(t) * cos_t0);
+    let t2 = p.a_omega * (sin_t0 + p.omega.product_error(t) * cos_t0);
     let t3 = sin_theta * (theta_dot * p.l) + t2;
-    p.k3 * (t1 * (t1 * p.k2) + t3 * t3)
+    p.half_m * (t1 * (t1 * p.l_squared) + t3 * t3)
 }
 
 /// Potential energy `V`, in J.
@@ -302,7 +301,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S,
     let cos_theta = theta.cos();
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t1 = cos_theta * p.l + (cos_t0 - p.omega.product_error(t) * sin_t0) * p.a;
-    p.k4 * t1
+    p.m_g * t1
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -327,7 +326,8 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t2 = sin_t0 + t1 * cos_t0;
     let t3 = (cos_theta * (theta_dot * theta_dot) + sin_theta * theta_ddot) * p.l;
-    (t3 + (cos_t0 - t1 * sin_t0) * p.k1) * (t2 * p.k8) - t2 * p.k7
+    let t4 = (t3 + (cos_t0 - t1 * sin_t0) * p.a_omega2) * (t2 * p.m_a_omega);
+    t4 - t2 * p.m_a_omega_g
 }
 
 /// Force that shakes the pivot, upwards. Unit: `N`.
@@ -350,7 +350,8 @@ pub fn output_force<S: ::lagrangian::emitted::Scalar>(
     let (sin_theta, cos_theta) = theta.sin_cos();
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t1 = (cos_theta * (theta_dot * theta_dot) + sin_theta * theta_ddot) * p.l;
-    (p.g - (t1 + p.k1 * (cos_t0 - p.omega.product_error(t) * sin_t0))) * p.m
+    let t2 = p.g - (t1 + p.a_omega2 * (cos_t0 - p.omega.product_error(t) * sin_t0));
+    t2 * p.m
 }
 
 /// Everything that the description asks to observe.
@@ -382,7 +383,10 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     outputs Outputs { force } [
         force: "force" "N";
     ]
-    prepared Prepared { m, l, a, omega, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10 }
+    prepared Prepared {
+        m, l, a, omega, g, a_omega, a_omega2, l_squared, half_m, m_g, m_l_squared, m_l_g,
+        m_a_omega_g, m_a_omega, m_l_a_omega2, k0,
+    }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q } }
     system {

@@ -131,37 +131,37 @@ pub struct MotorCrusher<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> MotorCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k8 = self.m0 * self.e;
+        let m0_e = self.m0 * self.e;
         let t0 = S::ONE / self.omega;
-        let k10 = self.m0 * self.x0;
-        let k9 = self.m0 * self.y0;
-        let k7 = self.m1 + self.m2;
-        let k19 = self.m + self.m0;
-        let k12 = self.J0 + self.e * k8;
-        let k23 = S::ONE / k12;
-        let k17 = k8 * k23;
-        let k18 = k8 * k17;
-        let k0 = t0 * t0;
-        let k1 = self.sk * self.sk;
-        let k2 = t0 * (S::from_f64(2.0) * (self.sk * self.Mk));
-        let k3 = self.cx * S::from_f64(0.5);
-        let k4 = self.cy * S::from_f64(0.5);
-        let k5 = self.bx * S::from_f64(0.5);
-        let k6 = self.by * S::from_f64(0.5);
-        let k11 = k7 + k19;
-        let k13 = self.J + (self.y0 * k9 + self.x0 * k10);
-        let k14 = -k7;
-        let k15 = -self.m2;
-        let k16 = -k8;
-        let k20 = self.e * k17;
-        let k21 = k18 * k18;
-        let k22 = self.m0 * self.m0;
+        let m0_x0 = self.m0 * self.x0;
+        let m0_y0 = self.m0 * self.y0;
+        let m1_plus_m2 = self.m1 + self.m2;
+        let m_plus_m0 = self.m + self.m0;
+        let J0_plus_m0_e_squared = self.J0 + self.e * m0_e;
+        let k7 = S::ONE / J0_plus_m0_e_squared;
+        let k3 = m0_e * k7;
+        let k4 = m0_e * k3;
+        let inverse_omega2 = t0 * t0;
+        let sk2 = self.sk * self.sk;
+        let two_Mk_sk_over_omega = t0 * (S::from_f64(2.0) * (self.sk * self.Mk));
+        let half_cx = self.cx * S::from_f64(0.5);
+        let half_cy = self.cy * S::from_f64(0.5);
+        let half_bx = self.bx * S::from_f64(0.5);
+        let half_by = self.by * S::from_f64(0.5);
+        let k0 = m1_plus_m2 + m_plus_m0;
+        let k1 = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
+        let k2 = -m1_plus_m2;
+        let minus_m2 = -self.m2;
+        let minus_m0_e = -m0_e;
+        let k5 = self.e * k3;
+        let k6 = k4 * k4;
+        let m0_squared = self.m0 * self.m0;
         let pivots = [
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
-            (9, k12, k12),
+            (9, J0_plus_m0_e_squared, J0_plus_m0_e_squared),
             (6, self.m2, self.m2),
-            (3, self.m1, k7),
+            (3, self.m1, m1_plus_m2),
         ];
         Prepared {
             m: self.m,
@@ -182,30 +182,30 @@ impl<S: ::lagrangian::emitted::Scalar> MotorCrusher<S> {
             by: self.by,
             xc: self.xc,
             yc: self.yc,
+            inverse_omega2,
+            sk2,
+            two_Mk_sk_over_omega,
+            half_cx,
+            half_cy,
+            half_bx,
+            half_by,
+            m1_plus_m2,
+            m0_e,
+            m0_y0,
+            m0_x0,
             k0,
+            J0_plus_m0_e_squared,
             k1,
             k2,
+            minus_m2,
+            minus_m0_e,
             k3,
             k4,
+            m_plus_m0,
             k5,
             k6,
+            m0_squared,
             k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
-            k20,
-            k21,
-            k22,
-            k23,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -318,63 +318,60 @@ pub struct Prepared<S = f64> {
     /// `yc`
     yc: S,
     /// `1/omega^2`
-    k0: S,
+    inverse_omega2: S,
     /// `sk^2`
-    k1: S,
+    sk2: S,
     /// `2*Mk*sk/omega`
-    k2: S,
+    two_Mk_sk_over_omega: S,
     /// `0.5*cx`
-    k3: S,
+    half_cx: S,
     /// `0.5*cy`
-    k4: S,
+    half_cy: S,
     /// `0.5*bx`
-    k5: S,
+    half_bx: S,
     /// `0.5*by`
-    k6: S,
+    half_by: S,
     /// `m1 + m2`
-    k7: S,
+    m1_plus_m2: S,
     /// `m0*e`
-    k8: S,
+    m0_e: S,
     /// `m0*y0`
-    k9: S,
+    m0_y0: S,
     /// `m0*x0`
-    k10: S,
+    m0_x0: S,
     /// `m + m0 + m1 + m2`
-    k11: S,
+    k0: S,
     /// `J0 + m0*e^2`
-    k12: S,
+    J0_plus_m0_e_squared: S,
     /// `J + m0*x0^2 + m0*y0^2`
-    k13: S,
+    k1: S,
     /// `-(m1 + m2)`
-    k14: S,
+    k2: S,
     /// `-m2`
-    k15: S,
+    minus_m2: S,
     /// `-m0*e`
-    k16: S,
+    minus_m0_e: S,
     /// `m0*e/(J0 + m0*e^2)`
-    k17: S,
+    k3: S,
     /// `m0^2*e^2/(J0 + m0*e^2)`
-    k18: S,
+    k4: S,
     /// `m + m0`
-    k19: S,
+    m_plus_m0: S,
     /// `m0*e^2/(J0 + m0*e^2)`
-    k20: S,
+    k5: S,
     /// `m0^4*e^4/(J0 + m0*e^2)^2`
-    k21: S,
+    k6: S,
     /// `m0^2`
-    k22: S,
+    m0_squared: S,
     /// `1/(J0 + m0*e^2)`
-    k23: S,
+    k7: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 10,
-    tolerance: 8.881784197001252e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(10, 10);
 
 /// Mass matrix `M`.
 ///
@@ -422,44 +419,64 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let (sin_psi, cos_psi) = psi.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.k7 * s1;
+    let t1 = p.m1_plus_m2 * s1;
     let t2 = p.m2 * s2;
     let t3 = cos_phi1 * sin_phi2;
     let t4 = sin_phi1 * cos_phi2;
     let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
     let t6 = cos_psi * (cos_theta * p.x0 - sin_theta * p.y0);
     let zero = S::ZERO;
-    let m3_1 = -(p.k10 * sin_theta + cos_theta * p.k9);
-    let m3_2 = p.k10 * cos_theta - sin_theta * p.k9;
-    let m4_1 = p.k7 * cos_phi1;
-    let m4_2 = p.k7 * sin_phi1;
-    let m5_1 = sin_phi1 * (s1 * p.k14);
+    let m3_1 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
+    let m3_2 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
+    let m4_1 = p.m1_plus_m2 * cos_phi1;
+    let m4_2 = p.m1_plus_m2 * sin_phi1;
+    let m5_1 = sin_phi1 * (s1 * p.k2);
     let m5_2 = cos_phi1 * t1;
     let m5_5 = s1 * t1;
     let m7_1 = cos_phi2 * p.m2;
     let m7_2 = sin_phi2 * p.m2;
     let m7_4 = p.m2 * t5;
     let m7_5 = (t3 - t4) * t0;
-    let m8_1 = sin_phi2 * (s2 * p.k15);
+    let m8_1 = sin_phi2 * (s2 * p.minus_m2);
     let m8_2 = cos_phi2 * t2;
     let m8_4 = t2 * (t4 - t3);
     let m8_5 = t5 * (t0 * s2);
     let m8_8 = s2 * t2;
-    let m10_1 = sin_psi * p.k16;
-    let m10_2 = cos_psi * p.k8;
-    let m10_3 = p.k8 * (sin_psi * (sin_theta * p.x0 + cos_theta * p.y0) + t6);
+    let m10_1 = sin_psi * p.minus_m0_e;
+    let m10_2 = cos_psi * p.m0_e;
+    let m10_3 = p.m0_e * (sin_psi * (sin_theta * p.x0 + cos_theta * p.y0) + t6);
     [
-        [p.k11, zero, m3_1, m4_1, m5_1, zero, m7_1, m8_1, zero, m10_1],
-        [zero, p.k11, m3_2, m4_2, m5_2, zero, m7_2, m8_2, zero, m10_2],
-        [m3_1, m3_2, p.k13, zero, zero, zero, zero, zero, zero, m10_3],
-        [m4_1, m4_2, zero, p.k7, zero, zero, m7_4, m8_4, zero, zero],
+        [p.k0, zero, m3_1, m4_1, m5_1, zero, m7_1, m8_1, zero, m10_1],
+        [zero, p.k0, m3_2, m4_2, m5_2, zero, m7_2, m8_2, zero, m10_2],
+        [m3_1, m3_2, p.k1, zero, zero, zero, zero, zero, zero, m10_3],
+        [
+            m4_1,
+            m4_2,
+            zero,
+            p.m1_plus_m2,
+            zero,
+            zero,
+            m7_4,
+            m8_4,
+            zero,
+            zero,
+        ],
         [m5_1, m5_2, zero, zero, m5_5, zero, m7_5, m8_5, zero, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero, zero],
         [m7_1, m7_2, zero, m7_4, m7_5, zero, p.m2, zero, zero, zero],
         [m8_1, m8_2, zero, m8_4, m8_5, zero, zero, m8_8, zero, zero],
         [zero, zero, zero, zero, zero, zero, zero, zero, p.J2, zero],
         [
-            m10_1, m10_2, m10_3, zero, zero, zero, zero, zero, zero, p.k12,
+            m10_1,
+            m10_2,
+            m10_3,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+            p.J0_plus_m0_e_squared,
         ],
     ]
 }
@@ -525,16 +542,16 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t17 = t7 * cos_psi + (cos_theta * t6 - t5 * sin_theta);
     let t18 = p.m2 * t14 + p.m1 * t12;
     let t19 = t16 * p.m2 + t13 * p.m1;
-    let t20 = cos_theta * (t17 * p.k9 - t15 * p.k10);
+    let t20 = cos_theta * (t17 * p.m0_y0 - t15 * p.m0_x0);
     let h_x = -(t17 * p.m0 + t19);
     let h_y = -(p.m0 * t15 + t18);
-    let h_theta = sin_theta * (t15 * p.k9 + t17 * p.k10) + t20;
+    let h_theta = sin_theta * (t15 * p.m0_y0 + t17 * p.m0_x0) + t20;
     let h_s1 = -(cos_phi1 * t19 + sin_phi1 * t18);
     let h_phi1 = t19 * t9 - t11 * t18;
     let zero = S::ZERO;
-    let h_s2 = p.k15 * (cos_phi2 * t16 + sin_phi2 * t14);
-    let h_phi2 = p.k15 * (t10 * t14 - t16 * t8);
-    let h_psi = p.k16 * (cos_psi * t15 - sin_psi * t17);
+    let h_s2 = p.minus_m2 * (cos_phi2 * t16 + sin_phi2 * t14);
+    let h_phi2 = p.minus_m2 * (t10 * t14 - t16 * t8);
+    let h_psi = p.minus_m0_e * (cos_psi * t15 - sin_psi * t17);
     [
         h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero, h_psi,
     ]
@@ -573,7 +590,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let q_y = -(t5 + t6);
     let q_theta = -(p.yc * (t8 - t7) + p.xc * (t6 - t5));
     let zero = S::ZERO;
-    let q_psi = t3 * p.k2 / (t3 * (t3 * p.k0) + p.k1);
+    let q_psi = t3 * p.two_Mk_sk_over_omega / (t3 * (t3 * p.inverse_omega2) + p.sk2);
     [q_x, q_y, q_theta, zero, zero, zero, zero, zero, zero, q_psi]
 }
 
@@ -626,18 +643,18 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t20 = phi2_dot * (sin_phi2 * t4 - t9 * cos_phi2) + t17;
     let t21 = t19 * p.m2 + t15 * p.m1;
     let t22 = p.m2 * t20 + p.m1 * t17;
-    let t23 = p.yc * (t14 - t13) + p.xc * (t12 - t11);
-    let t24 = (cos_psi * t16 - sin_psi * t18) * p.k8;
-    let t25 = cos_theta * (t18 * p.k9 - t16 * p.k10) + t23;
+    let t23 = cos_theta * (t18 * p.m0_y0 - t16 * p.m0_x0);
+    let t24 = t8 * p.two_Mk_sk_over_omega / (t8 * (t8 * p.inverse_omega2) + p.sk2);
+    let t25 = t23 + (p.yc * (t14 - t13) + p.xc * (t12 - t11));
     let f_x = t21 + (t18 * p.m0 - (t13 + t14));
     let f_y = t22 + (p.m0 * t16 - (t11 + t12));
-    let f_theta = -(sin_theta * (t16 * p.k9 + t18 * p.k10) + t25);
+    let f_theta = -(sin_theta * (t16 * p.m0_y0 + t18 * p.m0_x0) + t25);
     let f_s1 = cos_phi1 * t21 + sin_phi1 * t22;
     let f_phi1 = s1 * (cos_phi1 * t22 - sin_phi1 * t21);
     let zero = S::ZERO;
     let f_s2 = p.m2 * (cos_phi2 * t19 + sin_phi2 * t20);
     let f_phi2 = (cos_phi2 * t20 - sin_phi2 * t19) * (s2 * p.m2);
-    let f_psi = t24 + t8 * p.k2 / (t8 * (t8 * p.k0) + p.k1);
+    let f_psi = (cos_psi * t16 - sin_psi * t18) * p.m0_e + t24;
     [
         f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero, f_psi,
     ]
@@ -701,83 +718,84 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t4 = theta_dot * n(p.yc);
         let t5 = theta_dot * theta_dot;
         let t6 = psi_dot * (psi_dot * n(p.e));
-        let t7 = n(p.by).mul_add(y_dot - t3, n(p.cy) * (y - t1));
-        let t8 = n(p.by).mul_add(t3 + y_dot, n(p.cy) * (t1 + y));
-        let t9 = n(p.bx).mul_add(x_dot - t4, n(p.cx) * (x - t2));
-        let t10 = n(p.bx).mul_add(t4 + x_dot, n(p.cx) * (t2 + x));
-        let t11 = s1 * s1;
-        let t12 = n(p.yc).mul_add(t10, n(p.xc) * t8);
-        let t13 = s2 * (s2 * n(p.m2));
-        let t14 = cos_theta * n(p.x0);
-        let t15 = sin_theta * n(p.y0);
-        let t16 = sin_theta * n(p.x0);
-        let t17 = cos_theta * n(p.y0);
-        let t18 = sin_psi * cos_psi;
-        let t19 = t14 - t15;
-        let t20 = cos_psi.neg_mul_add(cos_psi * n(p.k18), n(p.k19));
-        let t21 = cos_psi * n(p.k8);
-        let t22 = t16 + t17;
-        let t23 = t18 * n(p.k18);
-        let t24 = t19 * n(p.m0);
-        let t25 = N::ONE / t20;
-        let t26 = t22 * n(p.m0);
-        let t27 = sin_psi * n(p.k8);
-        let t28 = sin_psi.mul_add(t22, cos_psi * t19);
-        let t29 = t16.mul_add(t5, t17.mul_add(t5, sin_psi * t6));
-        let t30 = t15.neg_mul_add(t5, t14.mul_add(t5, cos_psi * t6));
-        let t31 = n(p.k20) * t28;
-        let t32 = t0 * n(p.k2) / t0.mul_add(t0 * n(p.k0), n(p.k1));
-        let t33 = cos_psi.neg_mul_add(t31, t19);
-        let t34 = t22.mul_add(t26, t19.mul_add(t24, n(p.J)));
-        let t35 = t27.neg_mul_add(t30, t21.mul_add(t29, t32));
-        let t36 = sin_psi.neg_mul_add(sin_psi * n(p.k18), n(p.k19));
-        let t37 = t25.neg_mul_add(t18 * (t18 * n(p.k21)), t36);
-        let t38 = t26.mul_add(t30, t12 - n(p.yc).mul_add(t9, n(p.xc) * t7));
-        let t39 = t25 * t33;
-        let t40 = n(p.k17) * t35;
-        let t41 = N::ONE / t37;
-        let t42 = t39.mul_add(t23, sin_psi.neg_mul_add(t31, t22));
-        let t43 = t28.neg_mul_add(n(p.k18) * t28, t34);
-        let t44 = n(p.m0).neg_mul_add(t30, t9 + t10);
-        let t45 = cos_psi.mul_add(t40, n(p.m0).neg_mul_add(t29, t7 + t8));
-        let t46 = t42 * n(p.m0);
-        let t47 = t45.neg_mul_add(t25 * t23, sin_psi.neg_mul_add(t40, t44));
-        let t48 = t28.mul_add(t40, t24.neg_mul_add(t29, t38));
-        let t49 = t39.neg_mul_add(t33 * n(p.k22), t43);
-        let t50 = t41.neg_mul_add(t42 * (t42 * n(p.k22)), t49);
-        let t51 = t45.neg_mul_add(t39 * n(p.m0), t48);
-        let t52 = N::ONE / t50 * t47.mul_add(t41 * t46, t51);
-        let t53 = t41 * t46.mul_add(t52, t47);
-        let t54 = phi1_dot * (N::from_f64(2.0) * s1_dot);
-        let t55 = t23.neg_mul_add(t53, t52.neg_mul_add(t33 * n(p.m0), t45));
-        let t56 = t25 * t55;
-        let t57 = t27.neg_mul_add(t53, t52.mul_add(t28 * n(p.k8), t35));
-        let t58 = t53.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
-        let t59 = t56.neg_mul_add(cos_phi1, t53.mul_add(sin_phi1, t54)) / s1;
-        let x_ddot = -t53;
-        let y_ddot = -t56;
-        let theta_ddot = -t52;
-        let s1_ddot = t56.mul_add(sin_phi1, t58);
-        let phi1_ddot = -t59;
+        let t7 = t0.mul_add(t0 * n(p.inverse_omega2), n(p.sk2));
+        let t8 = n(p.by).mul_add(y_dot - t3, n(p.cy) * (y - t1));
+        let t9 = n(p.by).mul_add(t3 + y_dot, n(p.cy) * (t1 + y));
+        let t10 = n(p.bx).mul_add(x_dot - t4, n(p.cx) * (x - t2));
+        let t11 = n(p.bx).mul_add(t4 + x_dot, n(p.cx) * (t2 + x));
+        let t12 = s1 * s1;
+        let t13 = n(p.yc).mul_add(t10, n(p.xc) * t8);
+        let t14 = s2 * (s2 * n(p.m2));
+        let t15 = cos_theta * n(p.x0);
+        let t16 = sin_theta * n(p.y0);
+        let t17 = sin_theta * n(p.x0);
+        let t18 = cos_theta * n(p.y0);
+        let t19 = sin_psi * cos_psi;
+        let t20 = t15 - t16;
+        let t21 = cos_psi.neg_mul_add(cos_psi * n(p.k4), n(p.m_plus_m0));
+        let t22 = cos_psi * n(p.m0_e);
+        let t23 = t17 + t18;
+        let t24 = t19 * n(p.k4);
+        let t25 = t20 * n(p.m0);
+        let t26 = N::ONE / t21;
+        let t27 = t23 * n(p.m0);
+        let t28 = sin_psi * n(p.m0_e);
+        let t29 = sin_psi.mul_add(t23, cos_psi * t20);
+        let t30 = t17.mul_add(t5, t18.mul_add(t5, sin_psi * t6));
+        let t31 = t16.neg_mul_add(t5, t15.mul_add(t5, cos_psi * t6));
+        let t32 = n(p.k5) * t29;
+        let t33 = cos_psi.neg_mul_add(t32, t20);
+        let t34 = t23.mul_add(t27, t20.mul_add(t25, n(p.J)));
+        let t35 = t22.mul_add(t30, t0 * n(p.two_Mk_sk_over_omega) / t7);
+        let t36 = t28.neg_mul_add(t31, t35);
+        let t37 = sin_psi.neg_mul_add(sin_psi * n(p.k4), n(p.m_plus_m0));
+        let t38 = t26.neg_mul_add(t19 * (t19 * n(p.k6)), t37);
+        let t39 = t27.mul_add(t31, n(p.yc).mul_add(t11, n(p.xc) * t9) - t13);
+        let t40 = t26 * t33;
+        let t41 = n(p.k3) * t36;
+        let t42 = N::ONE / t38;
+        let t43 = t40.mul_add(t24, sin_psi.neg_mul_add(t32, t23));
+        let t44 = t29.neg_mul_add(n(p.k4) * t29, t34);
+        let t45 = n(p.m0).neg_mul_add(t31, t10 + t11);
+        let t46 = cos_psi.mul_add(t41, n(p.m0).neg_mul_add(t30, t8 + t9));
+        let t47 = t43 * n(p.m0);
+        let t48 = t46.neg_mul_add(t26 * t24, sin_psi.neg_mul_add(t41, t45));
+        let t49 = t29.mul_add(t41, t25.neg_mul_add(t30, t39));
+        let t50 = t40.neg_mul_add(t33 * n(p.m0_squared), t44);
+        let t51 = t42.neg_mul_add(t43 * (t43 * n(p.m0_squared)), t50);
+        let t52 = t46.neg_mul_add(t40 * n(p.m0), t49);
+        let t53 = N::ONE / t51 * t48.mul_add(t42 * t47, t52);
+        let t54 = t42 * t47.mul_add(t53, t48);
+        let t55 = phi1_dot * (N::from_f64(2.0) * s1_dot);
+        let t56 = t24.neg_mul_add(t54, t53.neg_mul_add(t33 * n(p.m0), t46));
+        let t57 = t26 * t56;
+        let t58 = t28.neg_mul_add(t54, t53.mul_add(t29 * n(p.m0_e), t36));
+        let t59 = t54.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
+        let t60 = t57.neg_mul_add(cos_phi1, t54.mul_add(sin_phi1, t55)) / s1;
+        let x_ddot = -t54;
+        let y_ddot = -t57;
+        let theta_ddot = -t53;
+        let s1_ddot = t57.mul_add(sin_phi1, t59);
+        let phi1_ddot = -t60;
         let zero = N::ZERO;
         let s2_ddot = phi2_dot * (phi2_dot * s2);
         let phi2_ddot = phi2_dot * (N::from_f64(-2.0) * s2_dot) / s2;
-        let psi_ddot = n(p.k23) * t21.mul_add(t56, t57);
-        let t60 = t11 * n(p.m1);
-        let t61 = t11 * n(p.k7);
-        let sound = PIVOTS.hold(t13, t13)
-            & PIVOTS.hold(t60, t61)
-            & PIVOTS.hold(t20, n(p.k11))
-            & PIVOTS.hold(t37, n(p.k11))
-            & PIVOTS.hold(t50, n(p.k13))
+        let psi_ddot = n(p.k7) * t22.mul_add(t57, t58);
+        let t61 = t12 * n(p.m1);
+        let t62 = t12 * n(p.m1_plus_m2);
+        let sound = PIVOTS.hold(t14, t14)
+            & PIVOTS.hold(t61, t62)
+            & PIVOTS.hold(t21, n(p.k0))
+            & PIVOTS.hold(t38, n(p.k0))
+            & PIVOTS.hold(t51, n(p.k1))
             & phi1_ddot.is_finite();
         if !sound {
             let pivots = [
-                (7, t13, t13),
-                (4, t60, t61),
-                (1, t20, n(p.k11)),
-                (0, t37, n(p.k11)),
-                (2, t50, n(p.k13)),
+                (7, t14, t14),
+                (4, t61, t62),
+                (1, t21, n(p.k0)),
+                (0, t38, n(p.k0)),
+                (2, t51, n(p.k1)),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -868,7 +886,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t3 = y - t1;
     let t4 = t0 + x;
     let t5 = t1 + y;
-    (t5 * t5 + t3 * t3) * p.k4 + (t4 * t4 + t2 * t2) * p.k3
+    (t5 * t5 + t3 * t3) * p.half_cy + (t4 * t4 + t2 * t2) * p.half_cx
 }
 
 /// Dissipation function `D`, in W.
@@ -886,7 +904,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10
     let t3 = y_dot - t1;
     let t4 = t0 + x_dot;
     let t5 = t1 + y_dot;
-    (t5 * t5 + t3 * t3) * p.k6 + (t4 * t4 + t2 * t2) * p.k5
+    (t5 * t5 + t3 * t3) * p.half_by + (t4 * t4 + t2 * t2) * p.half_bx
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -897,7 +915,8 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10
 pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     let psi_dot = v[9];
     let t0 = p.omega - psi_dot;
-    t0 * (psi_dot * p.k2) / (t0 * (t0 * p.k0) + p.k1)
+    let t1 = t0 * (psi_dot * p.two_Mk_sk_over_omega);
+    t1 / (t0 * (t0 * p.inverse_omega2) + p.sk2)
 }
 
 /// Power `R` that dampers take out, in W.
@@ -936,7 +955,7 @@ pub fn output_speed<S: ::lagrangian::emitted::Scalar>(v: &[S; 10]) -> S {
 pub fn output_motor_torque<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     let psi_dot = v[9];
     let t0 = p.omega - psi_dot;
-    t0 * p.k2 / (t0 * (t0 * p.k0) + p.k1)
+    t0 * p.two_Mk_sk_over_omega / (t0 * (t0 * p.inverse_omega2) + p.sk2)
 }
 
 /// Power of the motor. Unit: `W`.
@@ -947,7 +966,8 @@ pub fn output_motor_torque<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v:
 pub fn output_motor_power<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     let psi_dot = v[9];
     let t0 = p.omega - psi_dot;
-    t0 * (psi_dot * p.k2) / (t0 * (t0 * p.k0) + p.k1)
+    let t1 = t0 * (psi_dot * p.two_Mk_sk_over_omega);
+    t1 / (t0 * (t0 * p.inverse_omega2) + p.sk2)
 }
 
 /// Distance of the platform's centre from where it rests. Unit: `m`.
@@ -1038,8 +1058,10 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         amplitude: "amplitude" "m";
     ]
     prepared Prepared {
-        m, m0, m1, m2, J, J0, J1, J2, e, x0, y0, omega, cx, cy, bx, by, xc, yc, k0, k1, k2, k3, k4,
-        k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23,
+        m, m0, m1, m2, J, J0, J1, J2, e, x0, y0, omega, cx, cy, bx, by, xc, yc, inverse_omega2, sk2,
+        two_Mk_sk_over_omega, half_cx, half_cy, half_bx, half_by, m1_plus_m2, m0_e, m0_y0, m0_x0,
+        k0, J0_plus_m0_e_squared, k1, k2, minus_m2, minus_m0_e, k3, k4, m_plus_m0, k5, k6,
+        m0_squared, k7,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

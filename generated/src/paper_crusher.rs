@@ -100,40 +100,40 @@ pub struct PaperCrusher<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> PaperCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k12 = self.m0 * self.x0;
+        let m0_x0 = self.m0 * self.x0;
         let t0 = self.m0 * self.y0;
-        let k2 = self.m1 + self.m2;
-        let k0 = self.omega * self.e;
-        let k14 = self.omega * k0;
-        let k11 = k2 + (self.m + self.m0);
-        let k13 = self.y0 * t0 + (self.J + self.x0 * k12);
-        let k24 = S::ONE / k13;
-        let k21 = t0 * k24;
-        let k22 = k12 * k24;
-        let k1 = self.omega * (self.omega * self.J0);
-        let k3 = self.cx * self.yc;
-        let k4 = self.bx * self.yb;
-        let k5 = self.cy * self.xc;
-        let k6 = self.m0 * k14;
-        let k7 = self.cx * S::from_f64(0.5);
-        let k8 = self.cy * S::from_f64(0.5);
-        let k9 = self.bx * S::from_f64(0.5);
-        let k10 = self.by * S::from_f64(0.5);
-        let k15 = k14 * k12;
-        let k16 = k14 * t0;
-        let k17 = self.by * self.xb;
-        let k18 = -t0;
-        let k19 = -k2;
-        let k20 = -self.m2;
-        let k23 = k12 * k21;
-        let k25 = S::ONE / k2;
-        let k26 = k11 - t0 * k21;
-        let k27 = k11 - k12 * k22;
+        let m1_plus_m2 = self.m1 + self.m2;
+        let e_omega = self.omega * self.e;
+        let e_omega2 = self.omega * e_omega;
+        let k0 = m1_plus_m2 + (self.m + self.m0);
+        let k1 = self.y0 * t0 + (self.J + self.x0 * m0_x0);
+        let k6 = S::ONE / k1;
+        let k3 = t0 * k6;
+        let k4 = m0_x0 * k6;
+        let J0_omega2 = self.omega * (self.omega * self.J0);
+        let cx_yc = self.cx * self.yc;
+        let bx_yb = self.bx * self.yb;
+        let cy_xc = self.cy * self.xc;
+        let m0_e_omega2 = self.m0 * e_omega2;
+        let half_cx = self.cx * S::from_f64(0.5);
+        let half_cy = self.cy * S::from_f64(0.5);
+        let half_bx = self.bx * S::from_f64(0.5);
+        let half_by = self.by * S::from_f64(0.5);
+        let m0_e_x0_omega2 = e_omega2 * m0_x0;
+        let m0_e_y0_omega2 = e_omega2 * t0;
+        let by_xb = self.by * self.xb;
+        let minus_m0_y0 = -t0;
+        let k2 = -m1_plus_m2;
+        let minus_m2 = -self.m2;
+        let k5 = m0_x0 * k3;
+        let k7 = S::ONE / m1_plus_m2;
+        let k8 = k0 - t0 * k3;
+        let k9 = k0 - m0_x0 * k4;
         let pivots = [
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
-            (2, k13, k13),
-            (3, k2, k2),
+            (2, k1, k1),
+            (3, m1_plus_m2, m1_plus_m2),
         ];
         Prepared {
             m: self.m,
@@ -154,9 +154,27 @@ impl<S: ::lagrangian::emitted::Scalar> PaperCrusher<S> {
             yc: self.yc,
             xb: self.xb,
             yb: self.yb,
+            e_omega,
+            J0_omega2,
+            m1_plus_m2,
+            cx_yc,
+            bx_yb,
+            cy_xc,
+            m0_e_omega2,
+            half_cx,
+            half_cy,
+            half_bx,
+            half_by,
             k0,
+            m0_x0,
             k1,
+            e_omega2,
+            m0_e_x0_omega2,
+            m0_e_y0_omega2,
+            by_xb,
+            minus_m0_y0,
             k2,
+            minus_m2,
             k3,
             k4,
             k5,
@@ -164,24 +182,6 @@ impl<S: ::lagrangian::emitted::Scalar> PaperCrusher<S> {
             k7,
             k8,
             k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
-            k20,
-            k21,
-            k22,
-            k23,
-            k24,
-            k25,
-            k26,
-            k27,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -272,71 +272,68 @@ pub struct Prepared<S = f64> {
     /// `yb`
     yb: S,
     /// `e*omega`
-    k0: S,
+    e_omega: S,
     /// `J0*omega^2`
-    k1: S,
+    J0_omega2: S,
     /// `m1 + m2`
-    k2: S,
+    m1_plus_m2: S,
     /// `cx*yc`
-    k3: S,
+    cx_yc: S,
     /// `bx*yb`
-    k4: S,
+    bx_yb: S,
     /// `cy*xc`
-    k5: S,
+    cy_xc: S,
     /// `m0*e*omega^2`
-    k6: S,
+    m0_e_omega2: S,
     /// `0.5*cx`
-    k7: S,
+    half_cx: S,
     /// `0.5*cy`
-    k8: S,
+    half_cy: S,
     /// `0.5*bx`
-    k9: S,
+    half_bx: S,
     /// `0.5*by`
-    k10: S,
+    half_by: S,
     /// `m + m0 + m1 + m2`
-    k11: S,
+    k0: S,
     /// `m0*x0`
-    k12: S,
+    m0_x0: S,
     /// `J + m0*x0^2 + m0*y0^2`
-    k13: S,
+    k1: S,
     /// `e*omega^2`
-    k14: S,
+    e_omega2: S,
     /// `m0*e*x0*omega^2`
-    k15: S,
+    m0_e_x0_omega2: S,
     /// `m0*e*y0*omega^2`
-    k16: S,
+    m0_e_y0_omega2: S,
     /// `by*xb`
-    k17: S,
+    by_xb: S,
     /// `-m0*y0`
-    k18: S,
+    minus_m0_y0: S,
     /// `-(m1 + m2)`
-    k19: S,
+    k2: S,
     /// `-m2`
-    k20: S,
+    minus_m2: S,
     /// `m0*y0/(J + m0*x0^2 + m0*y0^2)`
-    k21: S,
+    k3: S,
     /// `m0*x0/(J + m0*x0^2 + m0*y0^2)`
-    k22: S,
+    k4: S,
     /// `m0^2*x0*y0/(J + m0*x0^2 + m0*y0^2)`
-    k23: S,
+    k5: S,
     /// `1/(J + m0*x0^2 + m0*y0^2)`
-    k24: S,
+    k6: S,
     /// `1/(m1 + m2)`
-    k25: S,
+    k7: S,
     /// `m + m0 + m1 + m2 - m0^2*y0^2/(J + m0*x0^2 + m0*y0^2)`
-    k26: S,
+    k8: S,
     /// `m + m0 + m1 + m2 - m0^2*x0^2/(J + m0*x0^2 + m0*y0^2)`
-    k27: S,
+    k9: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 9);
 
 /// Mass matrix `M`.
 ///
@@ -373,31 +370,41 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.k2 * s1;
+    let t1 = p.m1_plus_m2 * s1;
     let t2 = p.m2 * s2;
     let t3 = cos_phi1 * sin_phi2;
     let t4 = sin_phi1 * cos_phi2;
     let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
     let zero = S::ZERO;
-    let m41 = p.k2 * cos_phi1;
-    let m42 = p.k2 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k19);
+    let m41 = p.m1_plus_m2 * cos_phi1;
+    let m42 = p.m1_plus_m2 * sin_phi1;
+    let m51 = sin_phi1 * (s1 * p.k2);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
     let m75 = (t3 - t4) * t0;
-    let m81 = sin_phi2 * (s2 * p.k20);
+    let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t4 - t3);
     let m85 = t5 * (t0 * s2);
     let m88 = s2 * t2;
     [
-        [p.k11, zero, p.k18, m41, m51, zero, m71, m81, zero],
-        [zero, p.k11, p.k12, m42, m52, zero, m72, m82, zero],
-        [p.k18, p.k12, p.k13, zero, zero, zero, zero, zero, zero],
-        [m41, m42, zero, p.k2, zero, zero, m74, m84, zero],
+        [p.k0, zero, p.minus_m0_y0, m41, m51, zero, m71, m81, zero],
+        [zero, p.k0, p.m0_x0, m42, m52, zero, m72, m82, zero],
+        [
+            p.minus_m0_y0,
+            p.m0_x0,
+            p.k1,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+            zero,
+        ],
+        [m41, m42, zero, p.m1_plus_m2, zero, zero, m74, m84, zero],
         [m51, m52, zero, zero, m55, zero, m75, m85, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
         [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
@@ -480,14 +487,15 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t39 = cos_phi1 * (s1_dot * t29 - t1 * t26);
     let t40 = t19 * t22 + t28 * (cos_phi2 * s2) - (t24 * t17 - t27 * (sin_phi2 * s2));
     let t41 = t14 * t29 + t33 * (cos_phi1 * s1) - (t26 * t12 - t32 * (sin_phi1 * s1));
-    let h_x = -(p.k6 * t36 + t32);
-    let h_y = t33 - p.k6 * t37;
-    let h_theta = t36 * p.k16 - t37 * p.k15;
+    let t42 = t30 - t31 - (t30 + sin_phi2 * t28 - (t31 + cos_phi2 * t27));
+    let h_x = -(p.m0_e_omega2 * t36 + t32);
+    let h_y = t33 - p.m0_e_omega2 * t37;
+    let h_theta = t36 * p.m0_e_y0_omega2 - t37 * p.m0_e_x0_omega2;
     let h_s1 = t34 + sin_phi1 * t33 - (t35 + cos_phi1 * t32) - (t34 - t35);
     let h_phi1 = t41 + (sin_phi1 * (s1_dot * t26 + t1 * t29) - t39);
     let zero = S::ZERO;
-    let h_s2 = p.k20 * (t30 - t31 - (t30 + sin_phi2 * t28 - (t31 + cos_phi2 * t27)));
-    let h_phi2 = p.k20 * (cos_phi2 * (s2_dot * t22 - t2 * t24) - t38 - t40);
+    let h_s2 = p.minus_m2 * t42;
+    let h_phi2 = p.minus_m2 * (cos_phi2 * (s2_dot * t22 - t2 * t24) - t38 - t40);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -516,7 +524,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let t3 = x_dot - theta_dot * p.yb;
     let q_x = -(t3 * p.bx + t0 * p.cx);
     let q_y = -(t1 * p.by + t2 * p.cy);
-    let q_theta = t3 * p.k4 - t1 * p.k17 + (t0 * p.k3 - t2 * p.k5);
+    let q_theta = t3 * p.bx_yb - t1 * p.by_xb + (t0 * p.cx_yc - t2 * p.cy_xc);
     let zero = S::ZERO;
     [q_x, q_y, q_theta, zero, zero, zero, zero, zero, zero]
 }
@@ -591,10 +599,10 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t43 = sin_phi2 * (s2_dot * t26 + t2 * t29);
     let t44 = t16 * t33 + t35 * (cos_phi1 * s1) - (t30 * t21 - t34 * (sin_phi1 * s1));
     let t45 = t22 * t29 + t32 * (cos_phi2 * s2) - (t26 * t23 - t31 * (sin_phi2 * s2));
-    let t46 = t6 * p.k4 - t4 * p.k17 + (t7 * p.k3 - t5 * p.k5);
-    let f_x = p.k6 * t41 + t34 - (t6 * p.bx + t7 * p.cx);
-    let f_y = -(t35 - p.k6 * t38 + (t4 * p.by + t5 * p.cy));
-    let f_theta = t46 - (t41 * p.k16 - t38 * p.k15);
+    let t46 = t6 * p.bx_yb - t4 * p.by_xb + (t7 * p.cx_yc - t5 * p.cy_xc);
+    let f_x = p.m0_e_omega2 * t41 + t34 - (t6 * p.bx + t7 * p.cx);
+    let f_y = -(t35 - p.m0_e_omega2 * t38 + (t4 * p.by + t5 * p.cy));
+    let f_theta = t46 - (t41 * p.m0_e_y0_omega2 - t38 * p.m0_e_x0_omega2);
     let f_s1 = t39 - t40 - (t39 + sin_phi1 * t35 - (t40 + cos_phi1 * t34));
     let f_phi1 = -(t44 + (sin_phi1 * (s1_dot * t30 + t1 * t33) - t42));
     let zero = S::ZERO;
@@ -657,7 +665,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let (sin_phi1, cos_phi1) = circular[0];
         let (sin_phi2, cos_phi2) = circular[1];
         let (sin_t0, cos_t0) = circular[2];
-        let t1 = n(p.k2) * s1;
+        let t1 = n(p.m1_plus_m2) * s1;
         let t2 = s1 * phi1_dot;
         let t3 = s2 * phi2_dot;
         let t4 = n(p.m2) * s2;
@@ -669,24 +677,24 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t10 = theta_dot.neg_mul_add(n(p.yb), x_dot);
         let t11 = theta.neg_mul_add(n(p.yc), x);
         let t12 = s2 * t4;
-        let t13 = t10.mul_sub(n(p.k4), t7 * n(p.k17));
-        let t14 = n(p.k2) * cos_phi1;
-        let t15 = n(p.k2) * sin_phi1;
+        let t13 = t11.mul_sub(n(p.cx_yc), t9 * n(p.cy_xc));
+        let t14 = n(p.m1_plus_m2) * cos_phi1;
+        let t15 = n(p.m1_plus_m2) * sin_phi1;
         let t16 = sin_phi1 * t1;
         let t17 = sin_phi2 * s2_dot;
         let t18 = sin_phi1 * s1_dot;
         let t19 = cos_phi1 * t2;
         let t20 = cos_phi2 * s2_dot;
-        let t21 = n(p.k25) * t14;
-        let t22 = n(p.k25) * t15;
+        let t21 = n(p.k7) * t14;
+        let t22 = n(p.k7) * t15;
         let t23 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
         let t24 = cos_phi1 * s1_dot;
         let t25 = sin_phi1 * t2;
         let t26 = cos_phi2 * t3;
         let t27 = t18 + t19;
         let t28 = t14 * t21;
-        let t29 = t14.neg_mul_add(t22, n(p.k23));
-        let t30 = t15.mul_sub(t22, n(p.k27));
+        let t29 = t14.neg_mul_add(t22, n(p.k5));
+        let t30 = t15.mul_sub(t22, n(p.k9));
         let t31 = n(p.m2) * t23;
         let t32 = phi2_dot * t20;
         let t33 = sin_phi2 * t3;
@@ -694,10 +702,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t35 = t24 - t25;
         let t36 = phi2_dot * t17;
         let t37 = phi1_dot * t18;
-        let t38 = n(p.k25) * t31;
+        let t38 = n(p.k7) * t31;
         let t39 = t17 + t26;
         let t40 = y_dot + t27;
-        let t41 = N::ONE / (t28 - n(p.k26));
+        let t41 = N::ONE / (t28 - n(p.k8));
         let t42 = t20 - t33;
         let t43 = x_dot + t35;
         let t44 = cos_phi1 * sin_phi2;
@@ -725,86 +733,87 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t66 = t6.mul_add(cos_t0, sin_t0);
         let t67 = t47 * (cos_phi2 * phi2_dot);
         let t68 = t49 * (sin_phi2 * phi2_dot);
-        let t69 = n(p.k25) * t60;
+        let t69 = n(p.k7) * t60;
         let t70 = N::ONE / (t30 - t58);
         let t71 = t6.neg_mul_add(sin_t0, cos_t0);
         let t72 = t14.mul_add(t69, sin_phi2 * t4);
-        let t73 = t70 * t59;
-        let t74 = t70 * t61;
-        let t75 = t59.mul_add(t73, t16.mul_add(t55, t8));
-        let t76 = t59.mul_add(t74, t16.neg_mul_add(t56, (t44 - t45) * t5));
-        let t77 = t41 * t72;
-        let t78 = N::ONE / t75;
-        let t79 = t46.mul_add(t56, t31.neg_mul_add(t38, n(p.m2)));
-        let t80 = sin_phi1.mul_add(t63, t62) - cos_phi1.mul_add(t65, t64);
-        let t81 = t62 - t64 - t80;
-        let t82 = t13 + t11.mul_sub(n(p.k3), t9 * n(p.k5));
-        let t83 = t71.mul_sub(n(p.k16), t66 * n(p.k15)) - t82;
-        let t84 = t10.mul_add(n(p.bx), t11 * n(p.cx));
-        let t85 = t7.mul_add(n(p.by), t9 * n(p.cy));
-        let t86 = sin_phi2.mul_add(t52, t67) - cos_phi2.mul_add(t57, t68);
-        let t87 = t29.neg_mul_add(t77, t15.neg_mul_add(t69, cos_phi2 * t4));
-        let t88 = sin_phi2 * s2_dot.mul_add(t49, t3 * t47);
-        let t89 = t57.neg_mul_add(sin_phi2 * s2, t49 * t39);
-        let t90 = t66.neg_mul_add(n(p.k6), t63) + t85;
-        let t91 = t65.neg_mul_add(sin_phi1 * s1, t53 * t27);
-        let t92 = cos_phi1 * s1_dot.mul_sub(t51, t2 * t53);
-        let t93 = t70 * t87;
-        let t94 = cos_phi2.mul_sub(s2_dot.mul_sub(t47, t3 * t49), t88);
-        let t95 = t78 * t76;
-        let t96 = t83.mul_add(n(p.k21), t84 - t71.mul_add(n(p.k6), t65));
-        let t97 = t21.mul_add(t81, t96);
-        let t98 = sin_phi1.mul_sub(s1_dot.mul_add(t53, t2 * t51), t92);
-        let t99 = t59.mul_add(t93, t16.mul_add(t77, t23 * (t5 * s2)));
-        let t100 = t94 - (t52.mul_add(cos_phi2 * s2, t42 * t47) - t89);
-        let t101 = t76.neg_mul_add(t95, t61.mul_add(t74, t79));
-        let t102 = t22.mul_add(t81, n(p.k22).neg_mul_add(t83, t90));
-        let t103 = t54.mul_add(t97, t102);
-        let t104 = t63.mul_add(cos_phi1 * s1, t35 * t51) - t91 + t98;
-        let t105 = t38.neg_mul_add(t81, n(p.m2) * (t67 - t68 - t86));
-        let t106 = t78 * t99;
-        let t107 = N::ONE / t101;
-        let t108 = t73.mul_add(t103, t55.neg_mul_add(t97, t104));
-        let t109 = t61.neg_mul_add(t93, t46.mul_add(t77, t31 * t69));
-        let t110 = t76.mul_add(t106, t109);
-        let t111 = t77.mul_add(t97, n(p.m2).mul_sub(t100, t69 * t81));
-        let t112 = t72.mul_add(t77, t60.neg_mul_add(t69, t12));
-        let t113 = t74.neg_mul_add(t103, t56.neg_mul_add(t97, t105));
-        let t114 = t95.mul_add(t108, t113);
-        let t115 = t107 * t110;
-        let t116 = t106.mul_add(t108, t93.neg_mul_add(t103, t111));
-        let t117 = t99.neg_mul_add(t106, t87.mul_add(t93, t112));
-        let t118 = t110.neg_mul_add(t115, t117);
-        let phi2_ddot = t115.mul_add(t114, t116) / t118;
-        let s2_ddot = t115.mul_add(phi2_ddot, t107 * t114);
-        let t119 = t95.mul_add(s2_ddot, t106.mul_add(phi2_ddot, t78 * t108));
-        let t120 = t77.neg_mul_add(phi2_ddot, t41 * t97);
-        let t121 = t69.mul_sub(phi2_ddot, n(p.k25) * t81);
-        let t122 = t74.mul_add(s2_ddot, t93.mul_add(phi2_ddot, t70 * t103));
-        let y_ddot = t73.neg_mul_add(t119, t122);
-        let t123 = t55.mul_add(t119, t56.mul_add(s2_ddot, t120));
-        let x_ddot = t54.mul_add(y_ddot, t123);
-        let t124 = t22.mul_add(y_ddot, t38.mul_add(s2_ddot, t121));
-        let t125 = n(p.k22).mul_add(y_ddot, t83 * n(p.k24));
-        let theta_ddot = n(p.k21).mul_sub(x_ddot, t125);
-        let s1_ddot = -t21.mul_add(x_ddot, t124);
-        let phi1_ddot = -t119;
+        let t73 = t66 * n(p.m0_e_x0_omega2);
+        let t74 = t70 * t59;
+        let t75 = t70 * t61;
+        let t76 = t59.mul_add(t74, t16.mul_add(t55, t8));
+        let t77 = t59.mul_add(t75, t16.neg_mul_add(t56, (t44 - t45) * t5));
+        let t78 = t41 * t72;
+        let t79 = N::ONE / t76;
+        let t80 = t46.mul_add(t56, t31.neg_mul_add(t38, n(p.m2)));
+        let t81 = sin_phi1.mul_add(t63, t62) - cos_phi1.mul_add(t65, t64);
+        let t82 = t62 - t64 - t81;
+        let t83 = t10.mul_sub(n(p.bx_yb), t7 * n(p.by_xb)) + t13;
+        let t84 = t71.mul_sub(n(p.m0_e_y0_omega2), t73) - t83;
+        let t85 = t10.mul_add(n(p.bx), t11 * n(p.cx));
+        let t86 = t66.neg_mul_add(n(p.m0_e_omega2), t63);
+        let t87 = sin_phi2.mul_add(t52, t67) - cos_phi2.mul_add(t57, t68);
+        let t88 = t29.neg_mul_add(t78, t15.neg_mul_add(t69, cos_phi2 * t4));
+        let t89 = sin_phi2 * s2_dot.mul_add(t49, t3 * t47);
+        let t90 = t57.neg_mul_add(sin_phi2 * s2, t49 * t39);
+        let t91 = t85 - t71.mul_add(n(p.m0_e_omega2), t65);
+        let t92 = t86 + t7.mul_add(n(p.by), t9 * n(p.cy));
+        let t93 = t65.neg_mul_add(sin_phi1 * s1, t53 * t27);
+        let t94 = cos_phi1 * s1_dot.mul_sub(t51, t2 * t53);
+        let t95 = t70 * t88;
+        let t96 = cos_phi2.mul_sub(s2_dot.mul_sub(t47, t3 * t49), t89);
+        let t97 = t79 * t77;
+        let t98 = t21.mul_add(t82, t84.mul_add(n(p.k3), t91));
+        let t99 = sin_phi1.mul_sub(s1_dot.mul_add(t53, t2 * t51), t94);
+        let t100 = t59.mul_add(t95, t16.mul_add(t78, t23 * (t5 * s2)));
+        let t101 = t96 - (t52.mul_add(cos_phi2 * s2, t42 * t47) - t90);
+        let t102 = t77.neg_mul_add(t97, t61.mul_add(t75, t80));
+        let t103 = t22.mul_add(t82, n(p.k4).neg_mul_add(t84, t92));
+        let t104 = t54.mul_add(t98, t103);
+        let t105 = t63.mul_add(cos_phi1 * s1, t35 * t51) - t93 + t99;
+        let t106 = t38.neg_mul_add(t82, n(p.m2) * (t67 - t68 - t87));
+        let t107 = t79 * t100;
+        let t108 = N::ONE / t102;
+        let t109 = t74.mul_add(t104, t55.neg_mul_add(t98, t105));
+        let t110 = t61.neg_mul_add(t95, t46.mul_add(t78, t31 * t69));
+        let t111 = t77.mul_add(t107, t110);
+        let t112 = t78.mul_add(t98, n(p.m2).mul_sub(t101, t69 * t82));
+        let t113 = t72.mul_add(t78, t60.neg_mul_add(t69, t12));
+        let t114 = t75.neg_mul_add(t104, t56.neg_mul_add(t98, t106));
+        let t115 = t97.mul_add(t109, t114);
+        let t116 = t108 * t111;
+        let t117 = t107.mul_add(t109, t95.neg_mul_add(t104, t112));
+        let t118 = t100.neg_mul_add(t107, t88.mul_add(t95, t113));
+        let t119 = t111.neg_mul_add(t116, t118);
+        let phi2_ddot = t116.mul_add(t115, t117) / t119;
+        let s2_ddot = t116.mul_add(phi2_ddot, t108 * t115);
+        let t120 = t97.mul_add(s2_ddot, t107.mul_add(phi2_ddot, t79 * t109));
+        let t121 = t78.neg_mul_add(phi2_ddot, t41 * t98);
+        let t122 = t69.mul_sub(phi2_ddot, n(p.k7) * t82);
+        let t123 = t75.mul_add(s2_ddot, t95.mul_add(phi2_ddot, t70 * t104));
+        let y_ddot = t74.neg_mul_add(t120, t123);
+        let t124 = t55.mul_add(t120, t56.mul_add(s2_ddot, t121));
+        let x_ddot = t54.mul_add(y_ddot, t124);
+        let t125 = t22.mul_add(y_ddot, t38.mul_add(s2_ddot, t122));
+        let t126 = n(p.k4).mul_add(y_ddot, t84 * n(p.k6));
+        let theta_ddot = n(p.k3).mul_sub(x_ddot, t126);
+        let s1_ddot = -t21.mul_add(x_ddot, t125);
+        let phi1_ddot = -t120;
         let zero = N::ZERO;
-        let t126 = n(p.k26) - t28;
-        let t127 = t58 - t30;
-        let sound = PIVOTS.hold(t126, n(p.k11))
-            & PIVOTS.hold(t127, n(p.k11))
-            & PIVOTS.hold(t75, t8)
-            & PIVOTS.hold(t101, n(p.m2))
-            & PIVOTS.hold(t118, t12)
+        let t127 = n(p.k8) - t28;
+        let t128 = t58 - t30;
+        let sound = PIVOTS.hold(t127, n(p.k0))
+            & PIVOTS.hold(t128, n(p.k0))
+            & PIVOTS.hold(t76, t8)
+            & PIVOTS.hold(t102, n(p.m2))
+            & PIVOTS.hold(t119, t12)
             & s1_ddot.is_finite();
         if !sound {
             let pivots = [
-                (0, t126, n(p.k11)),
-                (1, t127, n(p.k11)),
-                (4, t75, t8),
-                (6, t101, n(p.m2)),
-                (7, t118, t12),
+                (0, t127, n(p.k0)),
+                (1, t128, n(p.k0)),
+                (4, t76, t8),
+                (6, t102, n(p.m2)),
+                (7, t119, t12),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -862,14 +871,14 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t5 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t6 = x_dot - theta_dot * p.y0 - p.k0 * (sin_t0 + t3 * cos_t0);
-    let t7 = p.k0 * (cos_t0 - t3 * sin_t0) + (y_dot + theta_dot * p.x0);
+    let t6 = x_dot - theta_dot * p.y0 - p.e_omega * (sin_t0 + t3 * cos_t0);
+    let t7 = p.e_omega * (cos_t0 - t3 * sin_t0) + (y_dot + theta_dot * p.x0);
     let t8 = cos_phi2 * s2_dot - t2 * sin_phi2 + t4;
     let t9 = t2 * cos_phi2 + sin_phi2 * s2_dot + t5;
     let t10 = theta_dot * (theta_dot * p.J) + (y_dot * y_dot + x_dot * x_dot) * p.m;
     let t11 = (t5 * t5 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t10;
     let t12 = (t9 * t9 + t8 * t8) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t11;
-    ((t7 * t7 + t6 * t6) * p.m0 + p.k1 + t12) * S::from_f64(0.5)
+    ((t7 * t7 + t6 * t6) * p.m0 + p.J0_omega2 + t12) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -883,7 +892,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let theta = q[2];
     let t0 = x - theta * p.yc;
     let t1 = theta * p.xc + y;
-    t1 * (t1 * p.k8) + t0 * (t0 * p.k7)
+    t1 * (t1 * p.half_cy) + t0 * (t0 * p.half_cx)
 }
 
 /// Dissipation function `D`, in W.
@@ -897,7 +906,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     let theta_dot = v[2];
     let t0 = x_dot - theta_dot * p.yb;
     let t1 = theta_dot * p.xb + y_dot;
-    t1 * (t1 * p.k10) + t0 * (t0 * p.k9)
+    t1 * (t1 * p.half_by) + t0 * (t0 * p.half_bx)
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -923,15 +932,15 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t2 = sin_t0 + t1 * cos_t0;
     let t3 = cos_t0 - t1 * sin_t0;
-    let t4 = t2 * p.k14;
-    let t5 = p.k0 * t2;
-    let t6 = p.k0 * t3;
-    let t7 = t3 * p.k14;
+    let t4 = t2 * p.e_omega2;
+    let t5 = p.e_omega * t2;
+    let t6 = p.e_omega * t3;
+    let t7 = t3 * p.e_omega2;
     let t8 = x_dot - theta_dot * p.y0 - t5;
     let t9 = t6 + (p.x0 * theta_dot + y_dot);
     let t10 = t5 * (x_ddot - theta_ddot * p.y0 - t7) + t7 * t8;
     let t11 = (t4 * t9 - t6 * (theta_ddot * p.x0 + y_ddot - t4) + t10) * p.m0;
-    (t2 * t9 + t3 * t8) * p.k6 - t11
+    (t2 * t9 + t3 * t8) * p.m0_e_omega2 - t11
 }
 
 /// Power `R` that dampers take out, in W.
@@ -998,9 +1007,10 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, xb, yb, k0, k1, k2, k3, k4,
-        k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23,
-        k24, k25, k26, k27,
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, xb, yb, e_omega, J0_omega2,
+        m1_plus_m2, cx_yc, bx_yb, cy_xc, m0_e_omega2, half_cx, half_cy, half_bx, half_by, k0, m0_x0,
+        k1, e_omega2, m0_e_x0_omega2, m0_e_y0_omega2, by_xb, minus_m0_y0, k2, minus_m2, k3, k4, k5,
+        k6, k7, k8, k9,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

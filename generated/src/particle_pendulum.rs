@@ -54,23 +54,23 @@ pub struct ParticlePendulum<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> ParticlePendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k1 = S::ONE / self.l1;
-        let k4 = S::ONE / self.l2;
-        let k6 = self.m1 * self.g;
-        let k7 = self.m2 * self.g;
-        let k0 = self.l1 * self.l1;
-        let k2 = k1 * S::from_f64(0.5);
-        let k3 = self.l2 * self.l2;
-        let k5 = S::from_f64(0.5) * k4;
-        let k8 = self.m1 * S::from_f64(0.5);
-        let k9 = self.m2 * S::from_f64(0.5);
-        let k10 = -k6;
-        let k11 = -k7;
-        let k12 = -k4;
-        let k13 = -k1;
-        let k14 = S::ONE / self.m1;
-        let k15 = S::ONE / self.m2;
-        let k16 = self.g * k1;
+        let inverse_l1 = S::ONE / self.l1;
+        let inverse_l2 = S::ONE / self.l2;
+        let m1_g = self.m1 * self.g;
+        let m2_g = self.m2 * self.g;
+        let l1_squared = self.l1 * self.l1;
+        let half_over_l1 = inverse_l1 * S::from_f64(0.5);
+        let l2_squared = self.l2 * self.l2;
+        let half_over_l2 = S::from_f64(0.5) * inverse_l2;
+        let half_m1 = self.m1 * S::from_f64(0.5);
+        let half_m2 = self.m2 * S::from_f64(0.5);
+        let minus_m1_g = -m1_g;
+        let minus_m2_g = -m2_g;
+        let minus_inverse_l2 = -inverse_l2;
+        let minus_inverse_l1 = -inverse_l1;
+        let inverse_m1 = S::ONE / self.m1;
+        let inverse_m2 = S::ONE / self.m2;
+        let g_over_l1 = self.g * inverse_l1;
         let pivots = [
             (0, self.m1, self.m1),
             (1, self.m1, self.m1),
@@ -81,23 +81,23 @@ impl<S: ::lagrangian::emitted::Scalar> ParticlePendulum<S> {
             m1: self.m1,
             m2: self.m2,
             g: self.g,
-            k0,
-            k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
+            l1_squared,
+            inverse_l1,
+            half_over_l1,
+            l2_squared,
+            inverse_l2,
+            half_over_l2,
+            m1_g,
+            m2_g,
+            half_m1,
+            half_m2,
+            minus_m1_g,
+            minus_m2_g,
+            minus_inverse_l2,
+            minus_inverse_l1,
+            inverse_m1,
+            inverse_m2,
+            g_over_l1,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -150,49 +150,46 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `l1^2`
-    k0: S,
+    l1_squared: S,
     /// `1/l1`
-    k1: S,
+    inverse_l1: S,
     /// `0.5/l1`
-    k2: S,
+    half_over_l1: S,
     /// `l2^2`
-    k3: S,
+    l2_squared: S,
     /// `1/l2`
-    k4: S,
+    inverse_l2: S,
     /// `0.5/l2`
-    k5: S,
+    half_over_l2: S,
     /// `m1*g`
-    k6: S,
+    m1_g: S,
     /// `m2*g`
-    k7: S,
+    m2_g: S,
     /// `0.5*m1`
-    k8: S,
+    half_m1: S,
     /// `0.5*m2`
-    k9: S,
+    half_m2: S,
     /// `-m1*g`
-    k10: S,
+    minus_m1_g: S,
     /// `-m2*g`
-    k11: S,
+    minus_m2_g: S,
     /// `-1/l2`
-    k12: S,
+    minus_inverse_l2: S,
     /// `-1/l1`
-    k13: S,
+    minus_inverse_l1: S,
     /// `1/m1`
-    k14: S,
+    inverse_m1: S,
     /// `1/m2`
-    k15: S,
+    inverse_m2: S,
     /// `g/l1`
-    k16: S,
+    g_over_l1: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 4,
-    tolerance: 5.329070518200751e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(4, 6);
 
 /// Mass matrix `M`.
 ///
@@ -220,13 +217,13 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 4]
 /// ```
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] {
     let zero = S::ZERO;
-    [zero, p.k10, zero, p.k11]
+    [zero, p.minus_m1_g, zero, p.minus_m2_g]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
 pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] {
     let zero = S::ZERO;
-    [zero, p.k10, zero, p.k11]
+    [zero, p.minus_m1_g, zero, p.minus_m2_g]
 }
 
 /// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
@@ -245,8 +242,8 @@ pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
     let y2 = q[3];
     let t0 = x1 - x2;
     let t1 = y1 - y2;
-    let g1 = p.k2 * (y1 * y1 + (x1 * x1 - p.k0));
-    let g2 = p.k5 * (t1 * t1 + (t0 * t0 - p.k3));
+    let g1 = p.half_over_l1 * (y1 * y1 + (x1 * x1 - p.l1_squared));
+    let g2 = p.half_over_l2 * (t1 * t1 + (t0 * t0 - p.l2_squared));
     [g1, g2]
 }
 
@@ -269,8 +266,9 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let y1_dot = v[1];
     let x2_dot = v[2];
     let y2_dot = v[3];
-    let phi1 = (y1_dot * y1 + x1_dot * x1) * p.k1;
-    let phi2 = ((y1_dot - y2_dot) * (y1 - y2) + (x1_dot - x2_dot) * (x1 - x2)) * p.k4;
+    let t0 = (y1_dot - y2_dot) * (y1 - y2) + (x1_dot - x2_dot) * (x1 - x2);
+    let phi1 = (y1_dot * y1 + x1_dot * x1) * p.inverse_l1;
+    let phi2 = t0 * p.inverse_l2;
     [phi1, phi2]
 }
 
@@ -291,13 +289,13 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let y2 = q[3];
     let t0 = x1 - x2;
     let t1 = y1 - y2;
-    let g1_1 = p.k1 * x1;
-    let g1_2 = p.k1 * y1;
+    let g1_1 = p.inverse_l1 * x1;
+    let g1_2 = p.inverse_l1 * y1;
     let zero = S::ZERO;
-    let g2_1 = p.k4 * t0;
-    let g2_2 = p.k4 * t1;
-    let g2_3 = t0 * p.k12;
-    let g2_4 = t1 * p.k12;
+    let g2_1 = p.inverse_l2 * t0;
+    let g2_2 = p.inverse_l2 * t1;
+    let g2_3 = t0 * p.minus_inverse_l2;
+    let g2_4 = t1 * p.minus_inverse_l2;
     [g1_1, g1_2, zero, zero, g2_1, g2_2, g2_3, g2_4]
 }
 
@@ -314,8 +312,8 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S
     let y2_dot = v[3];
     let t0 = x1_dot - x2_dot;
     let t1 = y1_dot - y2_dot;
-    let gamma1 = p.k13 * (y1_dot * y1_dot + x1_dot * x1_dot);
-    let gamma2 = p.k12 * (t1 * t1 + t0 * t0);
+    let gamma1 = p.minus_inverse_l1 * (y1_dot * y1_dot + x1_dot * x1_dot);
+    let gamma2 = p.minus_inverse_l2 * (t1 * t1 + t0 * t0);
     [gamma1, gamma2]
 }
 
@@ -363,31 +361,32 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t1 = y1 - y2;
         let t2 = x1_dot - x2_dot;
         let t3 = y1_dot - y2_dot;
-        let t4 = n(p.k14) * (n(p.k1) * x1);
-        let t5 = n(p.k14) * (n(p.k1) * y1);
-        let t6 = n(p.k4) * t0;
-        let t7 = n(p.k4) * t1;
-        let t8 = n(p.k15) * t6;
-        let t9 = n(p.k14) * t6;
-        let t10 = n(p.k15) * t7;
-        let t11 = n(p.k14) * t7;
+        let t4 = n(p.inverse_m1) * (n(p.inverse_l1) * x1);
+        let t5 = n(p.inverse_m1) * (n(p.inverse_l1) * y1);
+        let t6 = n(p.inverse_l2) * t0;
+        let t7 = n(p.inverse_l2) * t1;
+        let t8 = n(p.inverse_m2) * t6;
+        let t9 = n(p.inverse_m1) * t6;
+        let t10 = n(p.inverse_m2) * t7;
+        let t11 = n(p.inverse_m1) * t7;
         let t12 = y1_dot.mul_add(y1_dot, x1_dot * x1_dot);
-        let t13 = n(p.k1).neg_mul_add(t12, y1 * n(p.k16));
-        let t14 = n(p.k1) * y1.mul_add(t5, x1 * t4);
-        let t15 = n(p.k4) * t5.mul_add(t1, t4 * t0);
+        let t13 = n(p.inverse_l1).neg_mul_add(t12, y1 * n(p.g_over_l1));
+        let t14 = n(p.inverse_l1) * y1.mul_add(t5, x1 * t4);
+        let t15 = n(p.inverse_l2) * t5.mul_add(t1, t4 * t0);
         let t16 = N::ONE / t14;
-        let t17 = n(p.k4) * t1.mul_add(t10 + t11, t0 * (t8 + t9));
+        let t17 = n(p.inverse_l2) * t1.mul_add(t10 + t11, t0 * (t8 + t9));
         let t18 = t16 * t15;
-        let t19 = t15.neg_mul_add(t18, t17);
-        let t20 = t18.mul_add(t13, n(p.k4) * t3.mul_add(t3, t2 * t2)) / t19;
-        let t21 = t18.mul_add(t20, t16 * t13);
-        let x1_ddot = t4.mul_sub(t21, t9 * t20);
-        let y1_ddot = t5.mul_sub(t21, t11.mul_add(t20, n(p.g)));
-        let x2_ddot = t8 * t20;
-        let y2_ddot = t10.mul_sub(t20, n(p.g));
-        let sound = PIVOTS.hold(t14, t14) & PIVOTS.hold(t19, t17) & y1_ddot.is_finite();
+        let t19 = n(p.inverse_l2) * t3.mul_add(t3, t2 * t2);
+        let t20 = t15.neg_mul_add(t18, t17);
+        let t21 = t18.mul_add(t13, t19) / t20;
+        let t22 = t18.mul_add(t21, t16 * t13);
+        let x1_ddot = t4.mul_sub(t22, t9 * t21);
+        let y1_ddot = t5.mul_sub(t22, t11.mul_add(t21, n(p.g)));
+        let x2_ddot = t8 * t21;
+        let y2_ddot = t10.mul_sub(t21, n(p.g));
+        let sound = PIVOTS.hold(t14, t14) & PIVOTS.hold(t20, t17) & y1_ddot.is_finite();
         if !sound {
-            let pivots = [(4, t14, t14), (5, t19, t17)];
+            let pivots = [(4, t14, t14), (5, t20, t17)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [
@@ -439,32 +438,33 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let y1_dot = n(v[1]);
         let x2_dot = n(v[2]);
         let y2_dot = n(v[3]);
-        let t0 = n(p.k1) * x1;
-        let t1 = n(p.k1) * y1;
+        let t0 = n(p.inverse_l1) * x1;
+        let t1 = n(p.inverse_l1) * y1;
         let t2 = x1_dot - x2_dot;
         let t3 = y1_dot - y2_dot;
-        let t4 = n(p.k14) * t1;
-        let t5 = n(p.k4) * (x1 - x2);
-        let t6 = n(p.k4) * (y1 - y2);
-        let t7 = n(p.k14) * t5;
-        let t8 = n(p.k14) * t6;
-        let t9 = t6 * n(p.k15);
-        let t10 = t1.mul_add(t4, t0 * (n(p.k14) * t0));
+        let t4 = n(p.inverse_m1) * t1;
+        let t5 = n(p.inverse_l2) * (x1 - x2);
+        let t6 = n(p.inverse_l2) * (y1 - y2);
+        let t7 = n(p.inverse_m1) * t5;
+        let t8 = n(p.inverse_m1) * t6;
+        let t9 = t6 * n(p.inverse_m2);
+        let t10 = t1.mul_add(t4, t0 * (n(p.inverse_m1) * t0));
         let t11 = y1_dot.mul_add(y1_dot, x1_dot * x1_dot);
-        let t12 = n(p.k1).mul_sub(t11, t4 * n(p.k6));
+        let t12 = n(p.inverse_l1).mul_sub(t11, t4 * n(p.m1_g));
         let t13 = N::ONE / t10;
         let t14 = t1.mul_add(t8, t0 * t7);
-        let t15 = t6.mul_add(t9, t5 * (t5 * n(p.k15)));
-        let t16 = t6.mul_add(t8, t5 * t7) + t15;
-        let t17 = t9.mul_add(n(p.k7), n(p.k4) * t3.mul_add(t3, t2 * t2));
+        let t15 = n(p.inverse_l2) * t3.mul_add(t3, t2 * t2);
+        let t16 = t6.mul_add(t9, t5 * (t5 * n(p.inverse_m2)));
+        let t17 = t6.mul_add(t8, t5 * t7) + t16;
         let t18 = t13 * t14;
-        let t19 = t14.neg_mul_add(t18, t16);
-        let t20 = t18.neg_mul_add(t12, t8.neg_mul_add(n(p.k6), t17)) / t19;
-        let lambda1 = t18.mul_sub(t20, t13 * t12);
-        let lambda2 = -t20;
-        let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t19, t16) & lambda2.is_finite();
+        let t19 = t14.neg_mul_add(t18, t17);
+        let t20 = t8.neg_mul_add(n(p.m1_g), t9.mul_add(n(p.m2_g), t15));
+        let t21 = t18.neg_mul_add(t12, t20) / t19;
+        let lambda1 = t18.mul_sub(t21, t13 * t12);
+        let lambda2 = -t21;
+        let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t19, t17) & lambda2.is_finite();
         if !sound {
-            let pivots = [(4, t10, t10), (5, t19, t16)];
+            let pivots = [(4, t10, t10), (5, t19, t17)];
             PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store(), lambda2.store()];
@@ -482,8 +482,8 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
     let y1_dot = v[1];
     let x2_dot = v[2];
     let y2_dot = v[3];
-    let t0 = p.k8 * (y1_dot * y1_dot + x1_dot * x1_dot);
-    p.k9 * (y2_dot * y2_dot + x2_dot * x2_dot) + t0
+    let t0 = p.half_m1 * (y1_dot * y1_dot + x1_dot * x1_dot);
+    p.half_m2 * (y2_dot * y2_dot + x2_dot * x2_dot) + t0
 }
 
 /// Potential energy `V`, in J.
@@ -494,7 +494,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4]) -> S {
     let y1 = q[1];
     let y2 = q[3];
-    p.k7 * y2 + p.k6 * y1
+    p.m2_g * y2 + p.m1_g * y1
 }
 
 ::lagrangian::emitted::implement! {
@@ -515,7 +515,9 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m1, m2, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16,
+        m1, m2, g, l1_squared, inverse_l1, half_over_l1, l2_squared, inverse_l2, half_over_l2, m1_g,
+        m2_g, half_m1, half_m2, minus_m1_g, minus_m2_g, minus_inverse_l2, minus_inverse_l1,
+        inverse_m1, inverse_m2, g_over_l1,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

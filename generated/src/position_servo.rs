@@ -74,33 +74,38 @@ impl<S: ::lagrangian::emitted::Scalar> PositionServo<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.a * self.m;
-        let k3 = S::ONE / self.tau;
-        let k6 = self.a * t0 + self.J;
-        let k0 = self.k * self.n;
-        let k1 = k3 * self.kd;
-        let k2 = S::ONE / self.L;
-        let k4 = self.b * S::from_f64(0.5);
-        let k5 = self.L * S::from_f64(0.5);
-        let k7 = S::from_f64(0.5) * k6;
-        let k8 = t0 * self.g;
-        let k9 = -(S::ONE / k6);
+        let inverse_tau = S::ONE / self.tau;
+        let J_plus_m_a_squared = self.a * t0 + self.J;
+        let n_k = self.k * self.n;
+        let kd_over_tau = inverse_tau * self.kd;
+        let inverse_L = S::ONE / self.L;
+        let half_b = self.b * S::from_f64(0.5);
+        let half_L = self.L * S::from_f64(0.5);
+        let k0 = S::from_f64(0.5) * J_plus_m_a_squared;
+        let m_a_g = t0 * self.g;
+        let k1 = -(S::ONE / J_plus_m_a_squared);
         let one = S::ONE;
-        let pivots = [(1, one, one), (2, one, one), (3, one, one), (0, k6, k6)];
+        let pivots = [
+            (1, one, one),
+            (2, one, one),
+            (3, one, one),
+            (0, J_plus_m_a_squared, J_plus_m_a_squared),
+        ];
         Prepared {
             R: self.R,
             b: self.b,
             kp: self.kp,
             ki: self.ki,
+            n_k,
+            kd_over_tau,
+            inverse_L,
+            inverse_tau,
+            half_b,
+            half_L,
+            J_plus_m_a_squared,
             k0,
+            m_a_g,
             k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -160,35 +165,32 @@ pub struct Prepared<S = f64> {
     /// `ki`
     ki: S,
     /// `n*k`
-    k0: S,
+    n_k: S,
     /// `kd/tau`
-    k1: S,
+    kd_over_tau: S,
     /// `1/L`
-    k2: S,
+    inverse_L: S,
     /// `1/tau`
-    k3: S,
+    inverse_tau: S,
     /// `0.5*b`
-    k4: S,
+    half_b: S,
     /// `0.5*L`
-    k5: S,
+    half_L: S,
     /// `J + m*a^2`
-    k6: S,
+    J_plus_m_a_squared: S,
     /// `0.5*(J + m*a^2)`
-    k7: S,
+    k0: S,
     /// `m*a*g`
-    k8: S,
+    m_a_g: S,
     /// `-1/(J + m*a^2)`
-    k9: S,
+    k1: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 4,
-    tolerance: 3.552713678800501e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(4, 4);
 
 /// Mass matrix `M`.
 ///
@@ -202,7 +204,7 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 4]
     let zero = S::ZERO;
     let one = S::ONE;
     [
-        [p.k6, zero, zero, zero],
+        [p.J_plus_m_a_squared, zero, zero, zero],
         [zero, one, zero, zero],
         [zero, zero, one, zero],
         [zero, zero, zero, one],
@@ -231,10 +233,10 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let error_dot = v[3];
     let cos_theta = theta.cos();
     let t0 = theta - seen_dot;
-    let t1 = error_dot * p.ki - t0 * p.k1 - (seen_dot - u.wanted) * p.kp;
-    let q_theta = p.k0 * i_dot - p.k8 * cos_theta - theta_dot * p.b;
-    let q_i = p.k2 * (t1 - (i_dot * p.R + theta_dot * p.k0));
-    let q_seen = t0 * p.k3;
+    let t1 = error_dot * p.ki - t0 * p.kd_over_tau - (seen_dot - u.wanted) * p.kp;
+    let q_theta = p.n_k * i_dot - p.m_a_g * cos_theta - theta_dot * p.b;
+    let q_i = p.inverse_L * (t1 - (i_dot * p.R + theta_dot * p.n_k));
+    let q_seen = t0 * p.inverse_tau;
     let q_error = u.wanted - seen_dot;
     [q_theta, q_i, q_seen, q_error]
 }
@@ -253,10 +255,10 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let error_dot = v[3];
     let cos_theta = theta.cos();
     let t0 = theta - seen_dot;
-    let t1 = error_dot * p.ki - t0 * p.k1 - (seen_dot - u.wanted) * p.kp;
-    let f_theta = p.k0 * i_dot - p.k8 * cos_theta - theta_dot * p.b;
-    let f_i = p.k2 * (t1 - (i_dot * p.R + theta_dot * p.k0));
-    let f_seen = t0 * p.k3;
+    let t1 = error_dot * p.ki - t0 * p.kd_over_tau - (seen_dot - u.wanted) * p.kp;
+    let f_theta = p.n_k * i_dot - p.m_a_g * cos_theta - theta_dot * p.b;
+    let f_i = p.inverse_L * (t1 - (i_dot * p.R + theta_dot * p.n_k));
+    let f_seen = t0 * p.inverse_tau;
     let f_error = u.wanted - seen_dot;
     [f_theta, f_i, f_seen, f_error]
 }
@@ -302,13 +304,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let error_dot = n(v[3]);
         let cos_theta = theta.cos();
         let t0 = theta - seen_dot;
-        let t1 = t0.neg_mul_add(n(p.k1), error_dot * n(p.ki));
+        let t1 = t0.neg_mul_add(n(p.kd_over_tau), error_dot * n(p.ki));
         let t2 = (seen_dot - n(u.wanted)).neg_mul_add(n(p.kp), t1);
-        let t3 = t2 - i_dot.mul_add(n(p.R), theta_dot * n(p.k0));
-        let t4 = n(p.k0).mul_sub(i_dot, theta_dot * n(p.b));
-        let theta_ddot = n(p.k9) * n(p.k8).mul_sub(cos_theta, t4);
-        let i_ddot = n(p.k2) * t3;
-        let seen_ddot = t0 * n(p.k3);
+        let t3 = t2 - i_dot.mul_add(n(p.R), theta_dot * n(p.n_k));
+        let t4 = n(p.n_k).mul_sub(i_dot, theta_dot * n(p.b));
+        let theta_ddot = n(p.k1) * n(p.m_a_g).mul_sub(cos_theta, t4);
+        let i_ddot = n(p.inverse_L) * t3;
+        let seen_ddot = t0 * n(p.inverse_tau);
         let error_ddot = n(u.wanted) - seen_dot;
         let accelerations = [
             theta_ddot.store(),
@@ -327,7 +329,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
 /// ```
 pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 4]) -> S {
     let theta_dot = v[0];
-    theta_dot * (theta_dot * p.k7)
+    theta_dot * (theta_dot * p.k0)
 }
 
 /// Potential energy `V`, in J.
@@ -338,7 +340,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4]) -> S {
     let theta = q[0];
     let sin_theta = theta.sin();
-    p.k8 * sin_theta
+    p.m_a_g * sin_theta
 }
 
 /// Energy `E` that states of first order store, in J.
@@ -348,7 +350,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
 /// ```
 pub fn state_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 4]) -> S {
     let i_dot = v[1];
-    i_dot * (i_dot * p.k5)
+    i_dot * (i_dot * p.half_L)
 }
 
 /// Dissipation function `D`, in W.
@@ -358,7 +360,7 @@ pub fn state_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 4
 /// ```
 pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 4]) -> S {
     let theta_dot = v[0];
-    theta_dot * (theta_dot * p.k4)
+    theta_dot * (theta_dot * p.half_b)
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -377,9 +379,9 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let i_dot = v[1];
     let seen_dot = v[2];
     let error_dot = v[3];
-    let t0 = p.k0 * theta_dot;
+    let t0 = p.n_k * theta_dot;
     let t1 = i_dot * p.R;
-    let t2 = error_dot * p.ki - p.k1 * (theta - seen_dot);
+    let t2 = error_dot * p.ki - p.kd_over_tau * (theta - seen_dot);
     let t3 = i_dot * t1 + i_dot * (t2 - (seen_dot - u.wanted) * p.kp - (t0 + t1));
     t0 * i_dot + t3
 }
@@ -409,7 +411,7 @@ pub fn output_voltage<S: ::lagrangian::emitted::Scalar>(
     let theta = q[0];
     let seen_dot = v[2];
     let error_dot = v[3];
-    let t0 = error_dot * p.ki - p.k1 * (theta - seen_dot);
+    let t0 = error_dot * p.ki - p.kd_over_tau * (theta - seen_dot);
     t0 - (seen_dot - u.wanted) * p.kp
 }
 
@@ -454,7 +456,10 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     outputs Outputs { voltage } [
         voltage: "voltage" "V";
     ]
-    prepared Prepared { R, b, kp, ki, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9 }
+    prepared Prepared {
+        R, b, kp, ki, n_k, kd_over_tau, inverse_L, inverse_tau, half_b, half_L, J_plus_m_a_squared,
+        k0, m_a_g, k1,
+    }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }
     system {

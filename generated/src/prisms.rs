@@ -57,49 +57,53 @@ impl<S: ::lagrangian::emitted::Scalar> Prisms<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let (sin_self_alpha, cos_self_alpha) = self.alpha.sin_cos();
-        let k1 = self.m + self.M;
+        let m_plus_M = self.m + self.M;
         let t0 = self.m * self.g;
-        let t1 = S::ONE / k1;
+        let t1 = S::ONE / m_plus_M;
         let t2 = self.m * t1;
-        let k6 = S::ONE / cos_self_alpha;
+        let k3 = S::ONE / cos_self_alpha;
         let t3 = sin_self_alpha * self.m;
-        let k0 = k6 * (t3 * self.g);
-        let t4 = sin_self_alpha * k6;
-        let k5 = k6 * (self.m * k6);
-        let pivot_1 = k5 - self.m * t2;
+        let k0 = k3 * (t3 * self.g);
+        let t4 = sin_self_alpha * k3;
+        let k2 = k3 * (self.m * k3);
+        let pivot_1 = k2 - self.m * t2;
         let t5 = S::ONE / pivot_1;
-        let k17 = k6 * t5;
-        let k14 = t2 * t5;
-        let t6 = t3 * k17;
-        let k15 = t1 + t2 * k14;
-        let k9 = self.g * t6;
-        let k10 = t2 * k9;
-        let k11 = k6 * k9;
-        let k2 = t4 * t4;
-        let k3 = self.M * S::from_f64(0.5);
-        let k4 = self.m * S::from_f64(0.5);
-        let k7 = -self.m;
-        let k8 = -k0;
-        let k12 = t0 + self.g * self.M - t3 * k11;
-        let k13 = cos_self_alpha * t0 - t3 * k10;
-        let k16 = t2 * k17;
-        let k18 = k6 * k17;
-        let k19 = -(t2 * t6);
-        let k20 = -(t3 * k15);
-        let k21 = -(k6 * t6);
-        let pivots = [(0, k1, k1), (1, pivot_1, k5)];
+        let k13 = k3 * t5;
+        let k10 = t2 * t5;
+        let t6 = t3 * k13;
+        let k11 = t1 + t2 * k10;
+        let k5 = self.g * t6;
+        let k6 = t2 * k5;
+        let k7 = k3 * k5;
+        let k1 = t4 * t4;
+        let half_M = self.M * S::from_f64(0.5);
+        let half_m = self.m * S::from_f64(0.5);
+        let minus_m = -self.m;
+        let k4 = -k0;
+        let k8 = t0 + self.g * self.M - t3 * k7;
+        let k9 = cos_self_alpha * t0 - t3 * k6;
+        let k12 = t2 * k13;
+        let k14 = k3 * k13;
+        let k15 = -(t2 * t6);
+        let k16 = -(t3 * k11);
+        let k17 = -(k3 * t6);
+        let pivots = [(0, m_plus_M, m_plus_M), (1, pivot_1, k2)];
         Prepared {
             k0,
+            m_plus_M,
             k1,
+            half_M,
+            half_m,
             k2,
             k3,
+            minus_m,
             k4,
+            mu2: self.mu2,
+            mu1: self.mu1,
             k5,
             k6,
             k7,
             k8,
-            mu2: self.mu2,
-            mu1: self.mu1,
             k9,
             k10,
             k11,
@@ -109,10 +113,6 @@ impl<S: ::lagrangian::emitted::Scalar> Prisms<S> {
             k15,
             k16,
             k17,
-            k18,
-            k19,
-            k20,
-            k21,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -153,61 +153,58 @@ pub struct Prepared<S = f64> {
     /// `m*g*sin(alpha)/cos(alpha)`
     k0: S,
     /// `m + M`
-    k1: S,
+    m_plus_M: S,
     /// `sin(alpha)^2/cos(alpha)^2`
-    k2: S,
+    k1: S,
     /// `0.5*M`
-    k3: S,
+    half_M: S,
     /// `0.5*m`
-    k4: S,
+    half_m: S,
     /// `m/cos(alpha)^2`
-    k5: S,
+    k2: S,
     /// `1/cos(alpha)`
-    k6: S,
+    k3: S,
     /// `-m`
-    k7: S,
+    minus_m: S,
     /// `-m*g*sin(alpha)/cos(alpha)`
-    k8: S,
+    k4: S,
     /// `mu2`
     mu2: S,
     /// `mu1`
     mu1: S,
     /// `m*g*sin(alpha)/cos(alpha)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k9: S,
+    k5: S,
     /// `m^2*g*sin(alpha)/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k10: S,
+    k6: S,
     /// `m*g*sin(alpha)/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
-    k11: S,
+    k7: S,
     /// `M*g + m*g - m^2*g*sin(alpha)^2/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
-    k12: S,
+    k8: S,
     /// `m*g*cos(alpha) - m^3*g*sin(alpha)^2/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k13: S,
+    k9: S,
     /// `m/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k14: S,
+    k10: S,
     /// `1/(m + M) + m^2/(m + M)^2/(m/cos(alpha)^2 - m^2/(m + M))`
-    k15: S,
+    k11: S,
     /// `m/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k16: S,
+    k12: S,
     /// `1/cos(alpha)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k17: S,
+    k13: S,
     /// `1/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
-    k18: S,
+    k14: S,
     /// `-m^2*sin(alpha)/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k19: S,
+    k15: S,
     /// `-m*sin(alpha)*(1/(m + M) + m^2/(m + M)^2/(m/cos(alpha)^2 - m^2/(m + M)))`
-    k20: S,
+    k16: S,
     /// `-m*sin(alpha)/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
-    k21: S,
+    k17: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -217,7 +214,7 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 /// M[q2, q2] = m/cos(alpha)^2
 /// ```
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 2]; 2] {
-    [[p.k1, p.k7], [p.k7, p.k5]]
+    [[p.m_plus_M, p.minus_m], [p.minus_m, p.k2]]
 }
 
 /// Applied generalized forces `Q`.
@@ -245,7 +242,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 2] {
 pub fn slips<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
     let q1_dot = v[0];
     let q2_dot = v[1];
-    let w2 = p.k6 * q2_dot;
+    let w2 = p.k3 * q2_dot;
     [q1_dot, w2]
 }
 
@@ -258,7 +255,7 @@ pub fn slips<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [
 pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] {
     let one = S::ONE;
     let zero = S::ZERO;
-    [one, zero, zero, p.k6]
+    [one, zero, zero, p.k3]
 }
 
 /// What there is without friction, and what a unit of each friction force adds to it:
@@ -290,24 +287,24 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
             return Err(singular);
         }
         let friction = [
-            n(p.k10).store(),
+            n(p.k6).store(),
+            n(p.k5).store(),
+            n(p.k6).store(),
+            n(p.k7).store(),
+            n(p.k8).store(),
             n(p.k9).store(),
+            n(p.k11).store(),
             n(p.k10).store(),
             n(p.k11).store(),
             n(p.k12).store(),
+            n(p.k15).store(),
+            n(p.k16).store(),
+            n(p.k12).store(),
             n(p.k13).store(),
-            n(p.k15).store(),
+            n(p.k12).store(),
             n(p.k14).store(),
-            n(p.k15).store(),
-            n(p.k16).store(),
-            n(p.k19).store(),
-            n(p.k20).store(),
-            n(p.k16).store(),
             n(p.k17).store(),
-            n(p.k16).store(),
-            n(p.k18).store(),
-            n(p.k21).store(),
-            n(p.k19).store(),
+            n(p.k15).store(),
             n(p.mu2).store(),
             n(p.mu1).store(),
             n(p.mu2).store(),
@@ -326,7 +323,8 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
     let q1_dot = v[0];
     let q2_dot = v[1];
     let t0 = q1_dot - q2_dot;
-    p.k4 * (q2_dot * (q2_dot * p.k2) + t0 * t0) + q1_dot * (q1_dot * p.k3)
+    let t1 = p.half_m * (q2_dot * (q2_dot * p.k1) + t0 * t0);
+    t1 + q1_dot * (q1_dot * p.half_M)
 }
 
 /// Potential energy `V`, in J.
@@ -336,7 +334,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 /// ```
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q2 = q[1];
-    p.k8 * q2
+    p.k4 * q2
 }
 
 ::lagrangian::emitted::implement! {
@@ -356,8 +354,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        k0, k1, k2, k3, k4, k5, k6, k7, k8, mu2, mu1, k9, k10, k11, k12, k13, k14, k15, k16, k17,
-        k18, k19, k20, k21,
+        k0, m_plus_M, k1, half_M, half_m, k2, k3, minus_m, k4, mu2, mu1, k5, k6, k7, k8, k9, k10,
+        k11, k12, k13, k14, k15, k16, k17,
     }
     singular singular
     accelerations friction

@@ -65,37 +65,38 @@ impl<S: ::lagrangian::emitted::Scalar> PuckInSlot<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let (sin_self_alpha, cos_self_alpha) = self.alpha.sin_cos();
         let t0 = S::ONE / self.m;
-        let k7 = sin_self_alpha * self.g;
+        let k6 = sin_self_alpha * self.g;
         let t1 = (cos_self_alpha + S::from_f64(0.3125)).sign();
-        let k4 = self.m * k7;
+        let k3 = self.m * k6;
         let k2 = t1 + S::ONE - t1.abs();
         let t2 = sin_self_alpha * k2;
-        let k14 = k2 * t0;
+        let k13 = k2 * t0;
         let t3 = sin_self_alpha * t2;
         let t4 = S::ONE - t3 / (cos_self_alpha + k2);
-        let k5 = t3 + cos_self_alpha * t4;
-        let k11 = k5 * t0;
-        let k3 = self.m * S::from_f64(0.5);
-        let k6 = -k4;
-        let k8 = k7 * k5;
-        let k9 = cos_self_alpha * k4;
-        let k10 = self.m * self.g - sin_self_alpha * k4;
-        let k12 = k5 * k11;
-        let k13 = t2 - sin_self_alpha * k5;
-        let k15 = k2 * k14;
-        let k16 = cos_self_alpha * k5 - t4;
+        let k4 = t3 + cos_self_alpha * t4;
+        let k10 = k4 * t0;
+        let half_m = self.m * S::from_f64(0.5);
+        let k5 = -k3;
+        let k7 = k6 * k4;
+        let k8 = cos_self_alpha * k3;
+        let k9 = self.m * self.g - sin_self_alpha * k3;
+        let k11 = k4 * k10;
+        let k12 = t2 - sin_self_alpha * k4;
+        let k14 = k2 * k13;
+        let k15 = cos_self_alpha * k4 - t4;
         let pivots = [(0, self.m, self.m), (1, self.m, self.m)];
         Prepared {
             m: self.m,
             k0: cos_self_alpha,
             k1: sin_self_alpha,
             k2,
+            half_m,
             k3,
             k4,
             k5,
-            k6,
             mu: self.mu,
             mu0: self.mu0,
+            k6,
             k7,
             k8,
             k9,
@@ -105,7 +106,6 @@ impl<S: ::lagrangian::emitted::Scalar> PuckInSlot<S> {
             k13,
             k14,
             k15,
-            k16,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -155,53 +155,50 @@ pub struct Prepared<S = f64> {
     /// `1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125))`
     k2: S,
     /// `0.5*m`
-    k3: S,
+    half_m: S,
     /// `m*g*sin(alpha)`
-    k4: S,
+    k3: S,
     /// `sin(alpha)^2*(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125))) +
     /// cos(alpha)*(1 - sin(…`
-    k5: S,
+    k4: S,
     /// `-m*g*sin(alpha)`
-    k6: S,
+    k5: S,
     /// `mu`
     mu: S,
     /// `mu0`
     mu0: S,
     /// `g*sin(alpha)`
-    k7: S,
+    k6: S,
     /// `g*sin(alpha)*(sin(alpha)^2*(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125)))
     /// + cos(al…`
-    k8: S,
+    k7: S,
     /// `m*g*cos(alpha)*sin(alpha)`
-    k9: S,
+    k8: S,
     /// `m*g - m*g*sin(alpha)^2`
+    k9: S,
+    /// `(sin(alpha)^2*(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125))) +
+    /// cos(alpha)*(1 - sin…`
     k10: S,
     /// `(sin(alpha)^2*(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125))) +
     /// cos(alpha)*(1 - sin…`
     k11: S,
-    /// `(sin(alpha)^2*(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125))) +
-    /// cos(alpha)*(1 - sin…`
-    k12: S,
     /// `sin(alpha)*(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125))) -
     /// sin(alpha)*(sin(alpha)…`
-    k13: S,
+    k12: S,
     /// `(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125)))/m`
-    k14: S,
+    k13: S,
     /// `(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125)))^2/m`
-    k15: S,
+    k14: S,
     /// `-(1 - sin(alpha)^2*(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) +
     /// 0.3125)))/(cos(alpha) + 1 …`
-    k16: S,
+    k15: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -221,13 +218,13 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 2]
 /// ```
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 2] {
     let zero = S::ZERO;
-    [p.k4, zero]
+    [p.k3, zero]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
 pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 2] {
     let zero = S::ZERO;
-    [p.k4, zero]
+    [p.k3, zero]
 }
 
 /// Slips `w` of the guided contacts, in m/s.
@@ -242,7 +239,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 2] {
 pub fn slips<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
     let x_dot = v[0];
     let y_dot = v[1];
-    let w1 = p.k5 * x_dot;
+    let w1 = p.k4 * x_dot;
     let w2 = p.k2 * y_dot;
     [w1, w2]
 }
@@ -258,7 +255,7 @@ pub fn slips<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [
 /// ```
 pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] {
     let zero = S::ZERO;
-    [p.k5, zero, zero, p.k2]
+    [p.k4, zero, zero, p.k2]
 }
 
 /// What there is without friction, and what a unit of each friction force adds to it:
@@ -291,30 +288,30 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
         }
         let zero = N::ZERO;
         let friction = [
+            n(p.k6).store(),
+            zero.store(),
             n(p.k7).store(),
             zero.store(),
             n(p.k8).store(),
             zero.store(),
             n(p.k9).store(),
+            n(p.k8).store(),
             zero.store(),
-            n(p.k10).store(),
             n(p.k9).store(),
-            zero.store(),
             n(p.k10).store(),
+            zero.store(),
             n(p.k11).store(),
             zero.store(),
+            n(p.k15).store(),
+            zero.store(),
             n(p.k12).store(),
+            n(p.k15).store(),
             zero.store(),
-            n(p.k16).store(),
-            zero.store(),
-            n(p.k13).store(),
-            n(p.k16).store(),
+            n(p.k12).store(),
             zero.store(),
             n(p.k13).store(),
             zero.store(),
             n(p.k14).store(),
-            zero.store(),
-            n(p.k15).store(),
             zero.store(),
             zero.store(),
             zero.store(),
@@ -344,7 +341,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
 pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
-    p.k3 * (y_dot * y_dot + x_dot * x_dot)
+    p.half_m * (y_dot * y_dot + x_dot * x_dot)
 }
 
 /// Potential energy `V`, in J.
@@ -354,7 +351,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 /// ```
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let x = q[0];
-    p.k6 * x
+    p.k5 * x
 }
 
 ::lagrangian::emitted::implement! {
@@ -375,7 +372,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, k0, k1, k2, k3, k4, k5, k6, mu, mu0, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16,
+        m, k0, k1, k2, half_m, k3, k4, k5, mu, mu0, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15,
     }
     singular singular
     accelerations friction

@@ -68,22 +68,22 @@ pub struct Rattleback<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> Rattleback<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.a * self.a;
-        let k1 = self.b * self.b;
-        let k2 = self.c * self.c;
-        let k3 = self.m * self.g;
-        let k4 = self.B - self.C;
-        let k5 = self.A - self.C;
-        let k6 = self.A - self.B;
-        let k7 = k0 * S::from_f64(2.0);
-        let k8 = k2 * S::from_f64(2.0);
-        let k9 = k1 * S::from_f64(2.0);
-        let k10 = k2 * S::from_f64(0.5);
-        let k11 = k0 * S::from_f64(0.5);
-        let k12 = k1 * S::from_f64(0.5);
-        let k13 = self.D * S::from_f64(2.0);
-        let k14 = -k3;
-        let k15 = S::ONE / self.m;
+        let a_squared = self.a * self.a;
+        let b_squared = self.b * self.b;
+        let c_squared = self.c * self.c;
+        let m_g = self.m * self.g;
+        let B_minus_C = self.B - self.C;
+        let A_minus_C = self.A - self.C;
+        let A_minus_B = self.A - self.B;
+        let two_a_squared = a_squared * S::from_f64(2.0);
+        let two_c_squared = c_squared * S::from_f64(2.0);
+        let two_b_squared = b_squared * S::from_f64(2.0);
+        let half_c_squared = c_squared * S::from_f64(0.5);
+        let half_a_squared = a_squared * S::from_f64(0.5);
+        let half_b_squared = b_squared * S::from_f64(0.5);
+        let two_D = self.D * S::from_f64(2.0);
+        let minus_m_g = -m_g;
+        let inverse_m = S::ONE / self.m;
         let pivots = [
             (0, self.m, self.m),
             (1, self.m, self.m),
@@ -97,22 +97,22 @@ impl<S: ::lagrangian::emitted::Scalar> Rattleback<S> {
             C: self.C,
             D: self.D,
             g: self.g,
-            k0,
-            k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
+            a_squared,
+            b_squared,
+            c_squared,
+            m_g,
+            B_minus_C,
+            A_minus_C,
+            A_minus_B,
+            two_a_squared,
+            two_c_squared,
+            two_b_squared,
+            half_c_squared,
+            half_a_squared,
+            half_b_squared,
+            two_D,
+            minus_m_g,
+            inverse_m,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -174,47 +174,44 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `a^2`
-    k0: S,
+    a_squared: S,
     /// `b^2`
-    k1: S,
+    b_squared: S,
     /// `c^2`
-    k2: S,
+    c_squared: S,
     /// `m*g`
-    k3: S,
+    m_g: S,
     /// `B - C`
-    k4: S,
+    B_minus_C: S,
     /// `A - C`
-    k5: S,
+    A_minus_C: S,
     /// `A - B`
-    k6: S,
+    A_minus_B: S,
     /// `2*a^2`
-    k7: S,
+    two_a_squared: S,
     /// `2*c^2`
-    k8: S,
+    two_c_squared: S,
     /// `2*b^2`
-    k9: S,
+    two_b_squared: S,
     /// `0.5*c^2`
-    k10: S,
+    half_c_squared: S,
     /// `0.5*a^2`
-    k11: S,
+    half_a_squared: S,
     /// `0.5*b^2`
-    k12: S,
+    half_b_squared: S,
     /// `2*D`
-    k13: S,
+    two_D: S,
     /// `-m*g`
-    k14: S,
+    minus_m_g: S,
     /// `1/m`
-    k15: S,
+    inverse_m: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 6,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(6, 9);
 
 /// Mass matrix `M`.
 ///
@@ -237,11 +234,11 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
     let t0 = cos_roll * cos_roll;
     let t1 = cos_roll * sin_pitch;
-    let t2 = cos_pitch * p.k5;
+    let t2 = cos_pitch * p.A_minus_C;
     let m65 = cos_pitch * p.D;
     let t3 = cos_pitch * t2;
     let zero = S::ZERO;
-    let m44 = t0 * p.k6 + p.B - (t1 * (sin_roll * p.k13) + t0 * t3);
+    let m44 = t0 * p.A_minus_B + p.B - (t1 * (sin_roll * p.two_D) + t0 * t3);
     let m54 = sin_roll * m65 - t1 * t2;
     let m55 = t3 + p.C;
     let m64 = sin_roll * p.B - t1 * p.D;
@@ -287,10 +284,10 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[
     let t8 = t6 * t4;
     let t9 = t6 * t7;
     let t10 = sin_pitch * t3 - t6 * pitch_dot;
-    let t11 = t7 * (t4 * p.k6) + (cos_pitch * t3 - t7 * pitch_dot) * p.C;
+    let t11 = t7 * (t4 * p.A_minus_B) + (cos_pitch * t3 - t7 * pitch_dot) * p.C;
     let t12 = t11 - p.D * (t7 * t7 - t4 * t4);
-    let h_pitch = p.D * (t8 + t10) + (t9 * p.k5 + t5 * p.B);
-    let t13 = p.D * (t5 - t9) + (t10 * p.A - t8 * p.k4);
+    let h_pitch = p.D * (t8 + t10) + (t9 * p.A_minus_C + t5 * p.B);
+    let t13 = p.D * (t5 - t9) + (t10 * p.A - t8 * p.B_minus_C);
     let zero = S::ZERO;
     let h_psi = sin_roll * h_pitch - (t2 * t13 + t1 * t12);
     let h_roll = cos_pitch * t13 - sin_pitch * t12;
@@ -304,7 +301,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[
 /// ```
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 6] {
     let zero = S::ZERO;
-    [zero, zero, p.k14, zero, zero, zero]
+    [zero, zero, p.minus_m_g, zero, zero, zero]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
@@ -327,15 +324,15 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: 
     let t8 = t6 * t4;
     let t9 = t6 * t7;
     let t10 = sin_pitch * t3 - t6 * pitch_dot;
-    let t11 = t7 * (t4 * p.k6) + (cos_pitch * t3 - t7 * pitch_dot) * p.C;
+    let t11 = t7 * (t4 * p.A_minus_B) + (cos_pitch * t3 - t7 * pitch_dot) * p.C;
     let t12 = t11 - p.D * (t7 * t7 - t4 * t4);
-    let t13 = p.D * (t8 + t10) + (t9 * p.k5 + t5 * p.B);
-    let t14 = p.D * (t5 - t9) + (t10 * p.A - t8 * p.k4);
+    let t13 = p.D * (t8 + t10) + (t9 * p.A_minus_C + t5 * p.B);
+    let t14 = p.D * (t5 - t9) + (t10 * p.A - t8 * p.B_minus_C);
     let zero = S::ZERO;
     let f_psi = t2 * t14 + t1 * t12 - sin_roll * t13;
     let f_roll = sin_pitch * t12 - cos_pitch * t14;
     let f_pitch = -t13;
-    [zero, zero, p.k14, f_psi, f_roll, f_pitch]
+    [zero, zero, p.minus_m_g, f_psi, f_roll, f_pitch]
 }
 
 /// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
@@ -355,8 +352,8 @@ pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
     let (sin_roll, cos_roll) = roll.sin_cos();
     let t0 = sin_pitch * cos_roll;
     let t1 = cos_pitch * cos_roll;
-    let t2 = t1 * (t1 * p.k2) + (sin_roll * (sin_roll * p.k1) + t0 * (t0 * p.k0));
-    let g1 = t1 * p.h + z - t2.sqrt();
+    let t2 = sin_roll * (sin_roll * p.b_squared) + t0 * (t0 * p.a_squared);
+    let g1 = t1 * p.h + z - (t1 * (t1 * p.c_squared) + t2).sqrt();
     let zero = S::ZERO;
     [g1, zero, zero]
 }
@@ -391,8 +388,8 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
     let (sin_roll, cos_roll) = roll.sin_cos();
     let (sin_psi, cos_psi) = psi.sin_cos();
-    let t0 = sin_pitch * p.k0;
-    let t1 = sin_roll * p.k1;
+    let t0 = sin_pitch * p.a_squared;
+    let t1 = sin_roll * p.b_squared;
     let t2 = sin_pitch * cos_roll;
     let t3 = cos_pitch * cos_roll;
     let t4 = cos_pitch * sin_roll;
@@ -402,7 +399,7 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let t8 = t3 * psi_dot + sin_pitch * roll_dot;
     let t9 = t7 * t3;
     let t10 = cos_pitch * roll_dot - t2 * psi_dot;
-    let t11 = cos_pitch * (cos_pitch * p.k2) + sin_pitch * t0;
+    let t11 = cos_pitch * (cos_pitch * p.c_squared) + sin_pitch * t0;
     let t12 = t5 * cos_psi + cos_pitch * sin_psi;
     let t13 = pitch_dot + sin_roll * psi_dot;
     let t14 = t4 * cos_psi - sin_pitch * sin_psi;
@@ -410,18 +407,19 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let t16 = cos_pitch * cos_psi - t5 * sin_psi;
     let t17 = t4 * roll_dot;
     let t18 = cos_roll * t13;
-    let t19 = sin_roll * (cos_roll * (roll_dot * p.k9));
+    let t19 = sin_roll * (cos_roll * (roll_dot * p.two_b_squared));
     let t20 = cos_roll * (sin_pitch * t10 - cos_pitch * t8) - sin_roll * t13;
-    let t21 = (t9 + t17 * t3) * p.k8 + ((t5 * (t2 * roll_dot) - t9) * p.k7 - t19);
+    let t21 = (t5 * (t2 * roll_dot) - t9) * p.two_a_squared - t19;
     let t22 = S::ONE / (t11 * (cos_roll * cos_roll) + t6).sqrt();
-    let t23 = p.h - t22 * (p.k2 * t3);
+    let t23 = p.h - t22 * (p.c_squared * t3);
     let t24 = cos_roll * t22;
-    let t25 = cos_roll * (cos_pitch * t23 - t22 * (t2 * t0)) - t6 * t22;
-    let t26 = t20 * (t24 * (t1 * cos_psi - t0 * t12) + t14 * t23);
-    let t27 = t20 * (t24 * (t1 * sin_psi + t0 * t16) + t23 * t15);
-    let phi1 = t22 * (S::from_f64(0.5) * t21) + (z_dot - (t7 + t17) * p.h);
-    let phi2 = t25 * (cos_psi * t18 + t10 * t12 - t8 * t14) - t26 + x_dot;
-    let phi3 = y_dot - (t25 * (t8 * t15 + t10 * t16 - sin_psi * t18) + t27);
+    let t25 = t22 * (S::from_f64(0.5) * ((t9 + t17 * t3) * p.two_c_squared + t21));
+    let t26 = cos_roll * (cos_pitch * t23 - t22 * (t2 * t0)) - t6 * t22;
+    let t27 = t20 * (t24 * (t1 * cos_psi - t0 * t12) + t14 * t23);
+    let t28 = t20 * (t24 * (t1 * sin_psi + t0 * t16) + t23 * t15);
+    let phi1 = t25 + (z_dot - (t7 + t17) * p.h);
+    let phi2 = t26 * (cos_psi * t18 + t10 * t12 - t8 * t14) - t27 + x_dot;
+    let phi3 = y_dot - (t26 * (t8 * t15 + t10 * t16 - sin_psi * t18) + t28);
     [phi1, phi2, phi3]
 }
 
@@ -453,13 +451,13 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let (sin_roll, cos_roll) = roll.sin_cos();
     let (sin_psi, cos_psi) = psi.sin_cos();
     let t0 = sin_pitch * cos_roll;
-    let t1 = sin_roll * p.k1;
+    let t1 = sin_roll * p.b_squared;
     let t2 = cos_pitch * cos_roll;
     let t3 = sin_pitch * sin_roll;
     let t4 = cos_pitch * sin_roll;
-    let t5 = t0 * p.k0;
+    let t5 = t0 * p.a_squared;
     let t6 = sin_roll * t1;
-    let t7 = t2 * p.k2;
+    let t7 = t2 * p.c_squared;
     let t8 = t3 * cos_psi + cos_pitch * sin_psi;
     let t9 = cos_pitch * cos_psi - t3 * sin_psi;
     let t10 = cos_psi * t4 - sin_pitch * sin_psi;
@@ -517,16 +515,16 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     let (sin_roll, cos_roll) = roll.sin_cos();
     let (sin_psi, cos_psi) = psi.sin_cos();
     let t0 = roll_dot * roll_dot;
-    let t1 = p.k1 * psi_dot;
+    let t1 = p.b_squared * psi_dot;
     let t2 = cos_pitch * cos_pitch;
-    let t3 = sin_pitch * p.k0;
-    let t4 = sin_roll * p.k1;
+    let t3 = sin_pitch * p.a_squared;
+    let t4 = sin_roll * p.b_squared;
     let t5 = cos_roll * cos_roll;
     let t6 = cos_pitch * pitch_dot;
     let t7 = sin_roll * roll_dot;
     let t8 = sin_pitch * cos_roll;
     let t9 = cos_roll * roll_dot;
-    let t10 = t2 * p.k2;
+    let t10 = t2 * p.c_squared;
     let t11 = sin_pitch * t3;
     let t12 = sin_roll * t4;
     let t13 = sin_pitch * pitch_dot;
@@ -545,74 +543,78 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     let t26 = psi_dot * t17;
     let t27 = cos_pitch * t7;
     let t28 = psi_dot * t23 + t13 * cos_psi;
-    let t29 = p.k8 * (t21 + t2 * t15) + (p.k7 * (t8 * t16 - t21) - t15 * p.k9);
-    let t30 = sin_pitch * sin_pitch - t2;
-    let t31 = t7 * t8;
-    let t32 = t6 * p.k7;
-    let t33 = cos_pitch * roll_dot;
-    let t34 = sin_pitch * cos_psi;
-    let t35 = t25 - t26 - (sin_pitch * (t18 - t19 * sin_psi) + cos_psi * t20);
-    let t36 = sin_pitch * sin_psi;
-    let t37 = pitch_dot + t19;
-    let t38 = t16 - t14;
-    let t39 = t28 + (sin_pitch * (t22 + t19 * cos_psi) + sin_psi * t20);
-    let t40 = S::ONE / t24 * t29;
-    let t41 = t5 * (pitch_dot * pitch_dot);
-    let t42 = t31 * (t6 * p.k8);
-    let t43 = sin_roll * sin_roll - t5;
-    let t44 = t31 * t32;
-    let t45 = S::ONE / t24.sqrt();
-    let t46 = t40 * p.k11;
-    let t47 = sin_roll * t34 + t23;
-    let t48 = t6 * p.k0;
-    let t49 = t40 * p.k12;
-    let t50 = cos_pitch * cos_roll;
-    let t51 = t33 - t8 * psi_dot;
-    let t52 = t13 * roll_dot - psi_dot * t38;
-    let t53 = pitch_dot * t8 + t27;
-    let t54 = t37 * cos_psi;
-    let t55 = t37 * sin_psi;
-    let t56 = t17 - sin_roll * t36;
-    let t57 = t3 * t47;
-    let t58 = t4 * cos_psi;
-    let t59 = t45 * (cos_roll * (t13 * p.k2 - t40 * (cos_pitch * p.k10)) + p.k2 * t27);
-    let t60 = sin_roll * t17 - t36;
-    let t61 = t50 * psi_dot + sin_pitch * roll_dot;
-    let t62 = roll_dot * t6 - psi_dot * t53;
-    let t63 = cos_roll * psi_dot;
-    let t64 = t34 + sin_roll * t23;
-    let t65 = t3 * t56;
-    let t66 = t4 * sin_psi;
-    let t67 = t9 * t17 - sin_roll * t28 - (psi_dot * t34 + t6 * sin_psi);
-    let t68 = p.h - t45 * (p.k2 * t50);
-    let t69 = t6 * cos_psi - psi_dot * t36 + (sin_roll * (t26 - t25) + t9 * t23);
-    let t70 = t43 * (t11 * t0) - t44 - (t44 + t41 * (p.k0 * t30));
-    let t71 = t13 * t7;
-    let t72 = cos_roll * (sin_roll * (sin_psi * t1 - cos_psi * t49) - p.k1 * t18);
-    let t73 = cos_roll * t45;
-    let t74 = cos_roll * (sin_roll * (cos_psi * t1 + sin_psi * t49) + p.k1 * t22);
-    let t75 = t42 + t41 * (p.k2 * t30) + (t42 + t43 * (t10 * t0)) + t70;
-    let t76 = cos_roll * (sin_pitch * (p.k0 * t35 - t47 * t46) - t47 * t48) + t7 * t57;
-    let t77 = t9 * (t19 + t37) + (t51 * t38 + t8 * t52) - (t61 * t53 - t50 * t62);
-    let t78 = t8 * (p.k7 * t16 - cos_roll * (t32 + sin_pitch * t46));
-    let t79 = t63 * (t55 - t18) + t7 * t54 + (t52 * t47 + t51 * t35);
-    let t80 = cos_roll * (cos_pitch * t68 - t45 * (t3 * t8)) - t12 * t45;
-    let t81 = t52 * t56 + t51 * t39 - (t7 * t55 - t63 * (t54 + t22));
-    let t82 = cos_roll * (sin_pitch * (p.k0 * t39 - t46 * t56) - t48 * t56) + t7 * t65;
-    let t83 = t75 * S::from_f64(2.0) - t43 * (p.k9 * t0);
-    let t84 = cos_roll * (sin_pitch * t51 - cos_pitch * t61) - sin_roll * t37;
-    let t85 = t45 * (t78 - sin_roll * (sin_roll * t49 + t9 * p.k9));
-    let t86 = t85 - (cos_roll * (t13 * t68 - cos_pitch * t59) + t27 * t68);
-    let t87 = t84 * (t45 * (t76 - (t72 + t7 * t58)) + (t68 * t67 + t60 * t59));
-    let t88 = t86 * (cos_roll * t54 + t51 * t47 - t61 * t60);
-    let t89 = t86 * (t61 * t64 + t51 * t56 - cos_roll * t55);
-    let t90 = t84 * (t45 * (t7 * t66 - t74 + t82) - (t68 * t69 + t59 * t64));
-    let t91 = t45 * (S::from_f64(0.5) * (t83 - t40 * (S::from_f64(0.5) * t29)));
-    let t92 = t87 - t77 * (t73 * (t58 - t57) + t60 * t68);
-    let t93 = t77 * (t73 * (t66 + t65) + t68 * t64) + t90;
-    let gamma1 = (t33 * t9 - t71 - (t71 - pitch_dot * t14)) * p.h + t91;
-    let gamma2 = t92 - (t88 - t80 * (t62 * t60 + t61 * t67 + t79));
-    let gamma3 = t89 - t80 * (t81 - (t62 * t64 + t61 * t69)) - t93;
+    let t29 = p.two_a_squared * (t8 * t16 - t21) - t15 * p.two_b_squared;
+    let t30 = p.two_c_squared * (t21 + t2 * t15) + t29;
+    let t31 = sin_pitch * sin_pitch - t2;
+    let t32 = t7 * t8;
+    let t33 = t6 * p.two_a_squared;
+    let t34 = cos_pitch * roll_dot;
+    let t35 = sin_pitch * cos_psi;
+    let t36 = t25 - t26 - (sin_pitch * (t18 - t19 * sin_psi) + cos_psi * t20);
+    let t37 = sin_pitch * sin_psi;
+    let t38 = pitch_dot + t19;
+    let t39 = t16 - t14;
+    let t40 = t28 + (sin_pitch * (t22 + t19 * cos_psi) + sin_psi * t20);
+    let t41 = S::ONE / t24 * t30;
+    let t42 = t5 * (pitch_dot * pitch_dot);
+    let t43 = t32 * (t6 * p.two_c_squared);
+    let t44 = sin_roll * sin_roll - t5;
+    let t45 = t32 * t33;
+    let t46 = S::ONE / t24.sqrt();
+    let t47 = t41 * p.half_a_squared;
+    let t48 = sin_roll * t35 + t23;
+    let t49 = t6 * p.a_squared;
+    let t50 = t41 * p.half_b_squared;
+    let t51 = cos_roll * (t13 * p.c_squared - t41 * (cos_pitch * p.half_c_squared));
+    let t52 = cos_pitch * cos_roll;
+    let t53 = t34 - t8 * psi_dot;
+    let t54 = t13 * roll_dot - psi_dot * t39;
+    let t55 = pitch_dot * t8 + t27;
+    let t56 = t38 * cos_psi;
+    let t57 = t38 * sin_psi;
+    let t58 = t17 - sin_roll * t37;
+    let t59 = t3 * t48;
+    let t60 = t4 * cos_psi;
+    let t61 = t46 * (t51 + p.c_squared * t27);
+    let t62 = sin_roll * t17 - t37;
+    let t63 = t52 * psi_dot + sin_pitch * roll_dot;
+    let t64 = roll_dot * t6 - psi_dot * t55;
+    let t65 = cos_roll * psi_dot;
+    let t66 = t35 + sin_roll * t23;
+    let t67 = t3 * t58;
+    let t68 = t4 * sin_psi;
+    let t69 = t9 * t17 - sin_roll * t28 - (psi_dot * t35 + t6 * sin_psi);
+    let t70 = p.h - t46 * (p.c_squared * t52);
+    let t71 = t6 * cos_psi - psi_dot * t37 + (sin_roll * (t26 - t25) + t9 * t23);
+    let t72 = t44 * (t11 * t0) - t45 - (t45 + t42 * (p.a_squared * t31));
+    let t73 = t13 * t7;
+    let t74 = cos_roll * (sin_pitch * (p.a_squared * t36 - t48 * t47) - t48 * t49);
+    let t75 = sin_roll * (sin_psi * t1 - cos_psi * t50) - p.b_squared * t18;
+    let t76 = cos_roll * t46;
+    let t77 = sin_roll * (cos_psi * t1 + sin_psi * t50) + p.b_squared * t22;
+    let t78 = cos_roll * (sin_pitch * (p.a_squared * t40 - t47 * t58) - t49 * t58);
+    let t79 = t43 + t42 * (p.c_squared * t31) + (t43 + t44 * (t10 * t0)) + t72;
+    let t80 = t9 * (t19 + t38) + (t53 * t39 + t8 * t54) - (t63 * t55 - t52 * t64);
+    let t81 = t8 * (p.two_a_squared * t16 - cos_roll * (t33 + sin_pitch * t47));
+    let t82 = t65 * (t57 - t18) + t7 * t56 + (t54 * t48 + t53 * t36);
+    let t83 = cos_roll * (cos_pitch * t70 - t46 * (t3 * t8)) - t12 * t46;
+    let t84 = t54 * t58 + t53 * t40 - (t7 * t57 - t65 * (t56 + t22));
+    let t85 = t79 * S::from_f64(2.0) - t44 * (p.two_b_squared * t0);
+    let t86 = t46 * (t74 + t7 * t59 - (cos_roll * t75 + t7 * t60));
+    let t87 = cos_roll * (sin_pitch * t53 - cos_pitch * t63) - sin_roll * t38;
+    let t88 = t46 * (t81 - sin_roll * (sin_roll * t50 + t9 * p.two_b_squared));
+    let t89 = t88 - (cos_roll * (t13 * t70 - cos_pitch * t61) + t27 * t70);
+    let t90 = t46 * (t7 * t68 - cos_roll * t77 + (t78 + t7 * t67));
+    let t91 = t80 * (t76 * (t60 - t59) + t62 * t70);
+    let t92 = t89 * (cos_roll * t56 + t53 * t48 - t63 * t62);
+    let t93 = t89 * (t63 * t66 + t53 * t58 - cos_roll * t57);
+    let t94 = t87 * (t90 - (t70 * t71 + t61 * t66));
+    let t95 = t46 * (S::from_f64(0.5) * (t85 - t41 * (S::from_f64(0.5) * t30)));
+    let t96 = t87 * (t86 + (t70 * t69 + t62 * t61)) - t91;
+    let t97 = t80 * (t76 * (t68 + t67) + t70 * t66) + t94;
+    let gamma1 = (t34 * t9 - t73 - (t73 - pitch_dot * t14)) * p.h + t95;
+    let gamma2 = t96 - (t92 - t83 * (t64 * t62 + t63 * t69 + t82));
+    let gamma3 = t93 - t83 * (t84 - (t64 * t66 + t63 * t71)) - t97;
     [gamma1, gamma2, gamma3]
 }
 
@@ -659,15 +661,15 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let (sin_pitch, cos_pitch) = circular[0];
         let (sin_roll, cos_roll) = circular[1];
         let (sin_psi, cos_psi) = circular[2];
-        let t0 = n(p.k1) * psi_dot;
+        let t0 = n(p.b_squared) * psi_dot;
         let t1 = roll_dot * roll_dot;
         let t2 = cos_pitch * cos_pitch;
-        let t3 = sin_pitch * n(p.k0);
-        let t4 = sin_roll * n(p.k1);
+        let t3 = sin_pitch * n(p.a_squared);
+        let t4 = sin_roll * n(p.b_squared);
         let t5 = cos_roll * cos_roll;
         let t6 = cos_roll * cos_pitch;
         let t7 = cos_roll * sin_pitch;
-        let t8 = t2 * n(p.k2);
+        let t8 = t2 * n(p.c_squared);
         let t9 = sin_pitch * t3;
         let t10 = sin_roll * t4;
         let t11 = sin_pitch * sin_pitch;
@@ -700,7 +702,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t38 = cos_pitch.mul_add(t22, t35);
         let t39 = cos_pitch * psi_dot;
         let t40 = cos_pitch * pitch_dot;
-        let t41 = t27 * (cos_roll * n(p.k9));
+        let t41 = t27 * (cos_roll * n(p.two_b_squared));
         let t42 = sin_pitch * pitch_dot;
         let t43 = cos_psi * t36;
         let t44 = sin_psi * t36;
@@ -709,8 +711,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t47 = N::ONE / t18.sqrt();
         let t48 = t31 * t21;
         let t49 = t15 * t31;
-        let t50 = n(p.k7).mul_sub(t7.mul_sub(t32, t33), t41);
-        let t51 = n(p.k8).mul_add(t6.mul_add(t37, t33), t50);
+        let t50 = n(p.two_a_squared).mul_sub(t7.mul_sub(t32, t33), t41);
+        let t51 = n(p.two_c_squared).mul_add(t6.mul_add(t37, t33), t50);
         let t52 = sin_psi * t42;
         let t53 = t21.neg_mul_add(t48, t20);
         let t54 = t21.neg_mul_add(t49, cos_pitch * n(p.D));
@@ -723,179 +725,181 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t61 = t7 * psi_dot;
         let t62 = t46 + pitch_dot;
         let t63 = psi_dot * t32;
-        let t64 = cos_roll * t47;
-        let t65 = t6 * roll_dot;
-        let t66 = t52 - t45 - sin_pitch.mul_add(t57, t12 * t40);
-        let t67 = t11 - t2;
-        let t68 = t6 * t59;
-        let t69 = t6.neg_mul_add(n(p.k2) * t47, n(p.h));
-        let t70 = sin_pitch.mul_add(t12.mul_add(psi_dot, t44), t22 * t40);
-        let t71 = t56 + t70;
-        let t72 = cos_pitch.mul_sub(roll_dot, t61);
-        let t73 = t69.mul_add(t26, t64 * (t16 - t23));
-        let t74 = t58 * t54;
-        let t75 = t14.neg_mul_add(t64, cos_pitch * n(p.h));
-        let t76 = t69.mul_add(t38, t64 * (t30 + t34));
-        let t77 = t55 * n(p.k11);
-        let t78 = t55 * n(p.k12);
-        let t79 = cos_pitch.mul_sub(t69, t47 * (t7 * t3));
-        let t80 = cos_roll.mul_sub(t79, t10 * t47);
-        let t81 = t54.neg_mul_add(t74, t15.neg_mul_add(t49, n(p.B)));
-        let t82 = sin_roll * n(p.k1).mul_add(t64, t75);
-        let t83 = t80.neg_mul_add(t26, t6 * t73);
-        let t84 = cos_roll * t80;
-        let t85 = t80.neg_mul_add(t19, t7 * t73);
-        let t86 = N::ONE / t81;
-        let t87 = t58 * t82;
-        let t88 = t80.neg_mul_add(t38, t6 * t76);
-        let t89 = cos_psi.mul_add(t84, sin_roll * t73);
-        let t90 = t80.mul_add(t29, t7 * t76);
-        let t91 = sin_pitch * cos_roll.mul_add(t69, t64 * (t6 * n(p.k0)));
-        let t92 = t54.neg_mul_add(t87, t91);
-        let t93 = t55.neg_mul_add(cos_pitch * n(p.k10), n(p.k2) * t42);
-        let t94 = sin_psi.mul_add(t84, sin_roll * t76);
-        let t95 = cos_psi * t62;
-        let t96 = sin_pitch.mul_add(t85, cos_pitch * t83);
-        let t97 = cos_roll.mul_add(t96, sin_roll * t89);
-        let t98 = sin_psi * t62;
-        let t99 = n(p.k0) * t40;
-        let t100 = t5 * (pitch_dot * pitch_dot);
-        let t101 = t31 * t97;
-        let t102 = n(p.k8) * t68;
-        let t103 = sin_roll.mul_sub(sin_roll, t5);
-        let t104 = n(p.k7) * t68;
-        let t105 = t86 * t92;
-        let t106 = sin_pitch.mul_sub(t83, cos_pitch * t85);
-        let t107 = t21.neg_mul_add(t101, t106);
-        let t108 = t6.mul_add(psi_dot, sin_pitch * roll_dot);
-        let t109 = t47 * cos_roll.mul_add(t93, n(p.k2) * t37);
-        let t110 = roll_dot.mul_sub(t40, t61.mul_add(pitch_dot, t60));
-        let t111 = roll_dot.mul_sub(t42, psi_dot.neg_mul_add(t28, t63));
-        let t112 = cos_roll * psi_dot;
-        let t113 = t92.mul_add(t105, t82.mul_add(t87, n(p.k15)));
-        let t114 = t58 * t107;
-        let t115 = sin_pitch.mul_add(t90, cos_pitch * t88);
-        let t116 = cos_roll.mul_add(t115, sin_roll * t94);
-        let t117 = psi_dot * t36;
-        let t118 = t108 * t62;
-        let t119 = sin_roll.neg_mul_add(t56, cos_psi * t65);
-        let t120 = t119 - t35.mul_add(psi_dot, sin_psi * t40);
-        let t121 = t19.neg_mul_add(t77, n(p.k0) * t66);
-        let t122 = cos_psi.neg_mul_add(t78, sin_psi * t0);
-        let t123 = t100.mul_add(n(p.k2) * t67, t102);
-        let t124 = t100.mul_add(n(p.k0) * t67, t104);
-        let t125 = sin_psi.mul_add(t78, cos_psi * t0);
-        let t126 = t29.neg_mul_add(t77, n(p.k0) * t71);
-        let t127 = sin_roll.mul_add(t45 - t52, sin_psi * t65);
-        let t128 = cos_psi.mul_sub(t40, t17 * psi_dot) + t127;
-        let t129 = N::ONE / t113;
-        let t130 = t54.neg_mul_add(t114, t15.neg_mul_add(t101, t89));
-        let t131 = t31 * t116;
-        let t132 = t72.neg_mul_add(pitch_dot, t60);
-        let t133 = t108 * t72;
-        let t134 = t108.neg_mul_add(pitch_dot, t63);
-        let t135 = sin_pitch.mul_add(t77, n(p.k7) * t40);
-        let t136 = t112.mul_add(t98 - t43, t27 * t95);
-        let t137 = sin_pitch.mul_sub(t121, t19 * t99);
-        let t138 = sin_roll.mul_sub(t122, n(p.k1) * t43);
-        let t139 = t7.mul_add(t111, t72 * (t32 - t28));
-        let t140 = t103.mul_sub(t9 * t1, t104) - t124;
-        let t141 = sin_roll.mul_add(t125, n(p.k1) * t44);
-        let t142 = sin_pitch.mul_sub(t126, t29 * t99);
-        let t143 = t112.neg_mul_add(t95 + t44, t27 * t98);
-        let t144 = t86 * t130;
-        let t145 = sin_pitch.mul_sub(t88, cos_pitch * t90);
-        let t146 = t21.neg_mul_add(t131, t145);
-        let t147 = n(p.C).mul_add(t132, t72 * (t62 * n(p.k6)));
-        let t148 = n(p.D).neg_mul_add(t72.mul_sub(t72, t62 * t62), t147);
-        let t149 = sin_roll * sin_roll.mul_add(t78, t36 * n(p.k9));
-        let t150 = cos_roll.neg_mul_add(t135, t32 * n(p.k7));
-        let t151 = t69.mul_sub(t42, cos_pitch * t109);
-        let t152 = t136 + t19.mul_add(t111, t72 * t66);
-        let t153 = cos_roll.mul_add(t138, t16 * t27);
-        let t154 = t6.neg_mul_add(t110, t108 * t7.mul_add(pitch_dot, t37));
-        let t155 = t36.mul_add(t46 + t62, t139) - t154;
-        let t156 = t123 + t103.mul_add(t8 * t1, t102) + t140;
-        let t157 = cos_roll.neg_mul_add(t141, t30 * t27);
-        let t158 = t29.mul_add(t111, t72 * t71) - t143;
-        let t159 = t144.mul_add(t92, t114 * t82);
-        let t160 = t58 * t146;
-        let t161 = n(p.A).mul_sub(t134, t118 * n(p.k4));
-        let t162 = n(p.D).mul_add(t117 - t133, t161);
-        let t163 = t133.mul_add(n(p.k5), n(p.B) * t117);
-        let t164 = n(p.D).mul_add(t118 + t134, t163);
-        let t165 = cos_roll.mul_add(t151, t69 * t37);
-        let t166 = t47.mul_sub(t7.mul_sub(t150, t149), t165);
-        let t167 = cos_roll.mul_add(t137, t23 * t27) - t153;
-        let t168 = sin_pitch.mul_sub(t72, cos_pitch * t108);
-        let t169 = cos_roll.mul_sub(t168, sin_roll * t62);
-        let t170 = t156.mul_sub(N::from_f64(2.0), t103 * (t1 * n(p.k9)));
-        let t171 = t157 + cos_roll.mul_add(t142, t34 * t27);
-        let t172 = t130.mul_add(t144, t107 * t114);
-        let t173 = t172 + t97.mul_add(t101, n(p.k15));
-        let t174 = t129 * t159;
-        let t175 = t54.neg_mul_add(t160, t15.neg_mul_add(t131, t94));
-        let t176 = t26.neg_mul_add(t108, cos_roll.mul_add(t95, t19 * t72));
-        let t177 = t80 * (t108.mul_add(t120, t26 * t110) + t152);
-        let t178 = t47.mul_add(t167, t69.mul_add(t120, t26 * t109));
-        let t179 = t55.neg_mul_add(N::from_f64(0.5) * t51, t170);
-        let t180 = t6.mul_sub(t1, t59) - pitch_dot.neg_mul_add(t28, t59);
-        let t181 = t47.mul_sub(t171, t69.mul_add(t128, t38 * t109));
-        let t182 = cos_roll.neg_mul_add(t98, t29.mul_add(t72, t38 * t108));
-        let t183 = t80 * (t158 - t108.mul_add(t128, t38 * t110));
-        let t184 = t159.neg_mul_add(t174, t173);
-        let t185 = t86 * t175;
-        let t186 = sin_pitch.mul_add(t162, cos_pitch * t148);
-        let t187 = cos_roll.mul_sub(t186, sin_roll * t164);
-        let t188 = N::ONE / t184;
-        let t189 = t185.mul_add(t92, t160 * t82);
-        let t190 = sin_pitch.mul_sub(t148, cos_pitch * t162);
-        let t191 = t48.neg_mul_add(t187, t190);
-        let t192 = t166.mul_sub(t176, t177) - t169.mul_sub(t178, t73 * t155);
-        let t193 = t47.mul_add(N::from_f64(0.5) * t179, n(p.h) * t180);
-        let t194 = t169.mul_add(t181, t76 * t155) - t166.mul_sub(t182, t183);
-        let t195 = t129 * t189;
-        let t196 = t74.mul_add(t191, t49.mul_add(t187, t164));
-        let t197 = t185.mul_add(t130, t160.mul_add(t107, t131 * t97));
-        let t198 = t159.neg_mul_add(t195, t197);
-        let t199 = t175.mul_add(t185, t146 * t160);
-        let t200 = t199 + t116.mul_add(t131, n(p.k15));
-        let t201 = t114.mul_add(t191, t101.mul_add(t187, t192));
-        let t202 = t105.neg_mul_add(t196, t87.mul_add(t191, n(p.g) + t193));
-        let t203 = t160.mul_add(t191, t131.mul_add(t187, t194));
-        let t204 = t188 * t198;
-        let t205 = t174.neg_mul_add(t202, t144.neg_mul_add(t196, t201));
-        let t206 = t198.neg_mul_add(t204, t189.neg_mul_add(t195, t200));
-        let t207 = t195.neg_mul_add(t202, t185.neg_mul_add(t196, t203));
-        let t208 = t204.neg_mul_add(t205, t207) / t206;
-        let t209 = t204.neg_mul_add(t208, t188 * t205);
-        let t210 = t195.neg_mul_add(t208, t129 * t202);
-        let t211 = t174.neg_mul_add(t209, t210);
-        let t212 = t144.mul_add(t209, t185.mul_add(t208, t86 * t196));
-        let t213 = t105.mul_add(t211, t212);
-        let t214 = t114.neg_mul_add(t209, t160.neg_mul_add(t208, t58 * t191));
-        let roll_ddot = t74.mul_add(t213, t87.neg_mul_add(t211, t214));
-        let t215 = t101.neg_mul_add(t209, t131.neg_mul_add(t208, t31 * t187));
-        let x_ddot = -(n(p.k15) * t209);
-        let y_ddot = -(n(p.k15) * t208);
-        let z_ddot = n(p.k15).mul_sub(t211, n(p.g));
-        let psi_ddot = t48.neg_mul_add(roll_ddot, t49.mul_add(t213, t215));
-        let pitch_ddot = -t213;
+        let t64 = cos_pitch * n(p.half_c_squared);
+        let t65 = cos_roll * t47;
+        let t66 = t6 * roll_dot;
+        let t67 = t52 - t45 - sin_pitch.mul_add(t57, t12 * t40);
+        let t68 = t11 - t2;
+        let t69 = t6 * t59;
+        let t70 = t6.neg_mul_add(n(p.c_squared) * t47, n(p.h));
+        let t71 = sin_pitch.mul_add(t12.mul_add(psi_dot, t44), t22 * t40);
+        let t72 = t56 + t71;
+        let t73 = cos_pitch.mul_sub(roll_dot, t61);
+        let t74 = t70.mul_add(t26, t65 * (t16 - t23));
+        let t75 = t58 * t54;
+        let t76 = t14.neg_mul_add(t65, cos_pitch * n(p.h));
+        let t77 = t70.mul_add(t38, t65 * (t30 + t34));
+        let t78 = t55 * n(p.half_a_squared);
+        let t79 = t55 * n(p.half_b_squared);
+        let t80 = cos_pitch.mul_sub(t70, t47 * (t7 * t3));
+        let t81 = cos_roll.mul_sub(t80, t10 * t47);
+        let t82 = t54.neg_mul_add(t75, t15.neg_mul_add(t49, n(p.B)));
+        let t83 = sin_roll * n(p.b_squared).mul_add(t65, t76);
+        let t84 = cos_roll.mul_add(t70, t65 * (t6 * n(p.a_squared)));
+        let t85 = t81.neg_mul_add(t26, t6 * t74);
+        let t86 = cos_roll * t81;
+        let t87 = t81.neg_mul_add(t19, t7 * t74);
+        let t88 = N::ONE / t82;
+        let t89 = t58 * t83;
+        let t90 = t81.neg_mul_add(t38, t6 * t77);
+        let t91 = cos_psi.mul_add(t86, sin_roll * t74);
+        let t92 = t81.mul_add(t29, t7 * t77);
+        let t93 = t54.neg_mul_add(t89, sin_pitch * t84);
+        let t94 = t55.neg_mul_add(t64, n(p.c_squared) * t42);
+        let t95 = sin_psi.mul_add(t86, sin_roll * t77);
+        let t96 = cos_psi * t62;
+        let t97 = sin_pitch.mul_add(t87, cos_pitch * t85);
+        let t98 = cos_roll.mul_add(t97, sin_roll * t91);
+        let t99 = sin_psi * t62;
+        let t100 = n(p.a_squared) * t40;
+        let t101 = t5 * (pitch_dot * pitch_dot);
+        let t102 = t31 * t98;
+        let t103 = n(p.two_c_squared) * t69;
+        let t104 = sin_roll.mul_sub(sin_roll, t5);
+        let t105 = n(p.two_a_squared) * t69;
+        let t106 = t88 * t93;
+        let t107 = sin_pitch.mul_sub(t85, cos_pitch * t87);
+        let t108 = t21.neg_mul_add(t102, t107);
+        let t109 = t6.mul_add(psi_dot, sin_pitch * roll_dot);
+        let t110 = t47 * cos_roll.mul_add(t94, n(p.c_squared) * t37);
+        let t111 = roll_dot.mul_sub(t40, t61.mul_add(pitch_dot, t60));
+        let t112 = roll_dot.mul_sub(t42, psi_dot.neg_mul_add(t28, t63));
+        let t113 = cos_roll * psi_dot;
+        let t114 = t93.mul_add(t106, t83.mul_add(t89, n(p.inverse_m)));
+        let t115 = t58 * t108;
+        let t116 = sin_pitch.mul_add(t92, cos_pitch * t90);
+        let t117 = cos_roll.mul_add(t116, sin_roll * t95);
+        let t118 = psi_dot * t36;
+        let t119 = t109 * t62;
+        let t120 = sin_roll.neg_mul_add(t56, cos_psi * t66);
+        let t121 = t120 - t35.mul_add(psi_dot, sin_psi * t40);
+        let t122 = t19.neg_mul_add(t78, n(p.a_squared) * t67);
+        let t123 = cos_psi.neg_mul_add(t79, sin_psi * t0);
+        let t124 = t101.mul_add(n(p.c_squared) * t68, t103);
+        let t125 = t101.mul_add(n(p.a_squared) * t68, t105);
+        let t126 = sin_psi.mul_add(t79, cos_psi * t0);
+        let t127 = t29.neg_mul_add(t78, n(p.a_squared) * t72);
+        let t128 = sin_roll.mul_add(t45 - t52, sin_psi * t66);
+        let t129 = cos_psi.mul_sub(t40, t17 * psi_dot) + t128;
+        let t130 = N::ONE / t114;
+        let t131 = t54.neg_mul_add(t115, t15.neg_mul_add(t102, t91));
+        let t132 = t31 * t117;
+        let t133 = t73.neg_mul_add(pitch_dot, t60);
+        let t134 = t109 * t73;
+        let t135 = t109.neg_mul_add(pitch_dot, t63);
+        let t136 = sin_pitch.mul_add(t78, n(p.two_a_squared) * t40);
+        let t137 = t113.mul_add(t99 - t43, t27 * t96);
+        let t138 = sin_pitch.mul_sub(t122, t19 * t100);
+        let t139 = sin_roll.mul_sub(t123, n(p.b_squared) * t43);
+        let t140 = t7.mul_add(t112, t73 * (t32 - t28));
+        let t141 = t104.mul_sub(t9 * t1, t105) - t125;
+        let t142 = sin_roll.mul_add(t126, n(p.b_squared) * t44);
+        let t143 = sin_pitch.mul_sub(t127, t29 * t100);
+        let t144 = t113.neg_mul_add(t96 + t44, t27 * t99);
+        let t145 = t88 * t131;
+        let t146 = sin_pitch.mul_sub(t90, cos_pitch * t92);
+        let t147 = t21.neg_mul_add(t132, t146);
+        let t148 = n(p.C).mul_add(t133, t73 * (t62 * n(p.A_minus_B)));
+        let t149 = n(p.D).neg_mul_add(t73.mul_sub(t73, t62 * t62), t148);
+        let t150 = sin_roll * sin_roll.mul_add(t79, t36 * n(p.two_b_squared));
+        let t151 = cos_roll.neg_mul_add(t136, t32 * n(p.two_a_squared));
+        let t152 = t70.mul_sub(t42, cos_pitch * t110);
+        let t153 = t137 + t19.mul_add(t112, t73 * t67);
+        let t154 = cos_roll.mul_add(t139, t16 * t27);
+        let t155 = t6.neg_mul_add(t111, t109 * t7.mul_add(pitch_dot, t37));
+        let t156 = t36.mul_add(t46 + t62, t140) - t155;
+        let t157 = t124 + t104.mul_add(t8 * t1, t103) + t141;
+        let t158 = t104 * (t1 * n(p.two_b_squared));
+        let t159 = cos_roll.neg_mul_add(t142, t30 * t27);
+        let t160 = t29.mul_add(t112, t73 * t72) - t144;
+        let t161 = t145.mul_add(t93, t115 * t83);
+        let t162 = t58 * t147;
+        let t163 = n(p.A).mul_sub(t135, t119 * n(p.B_minus_C));
+        let t164 = n(p.D).mul_add(t118 - t134, t163);
+        let t165 = t134.mul_add(n(p.A_minus_C), n(p.B) * t118);
+        let t166 = n(p.D).mul_add(t119 + t135, t165);
+        let t167 = cos_roll.mul_add(t152, t70 * t37);
+        let t168 = t47.mul_sub(t7.mul_sub(t151, t150), t167);
+        let t169 = cos_roll.mul_add(t138, t23 * t27) - t154;
+        let t170 = sin_pitch.mul_sub(t73, cos_pitch * t109);
+        let t171 = cos_roll.mul_sub(t170, sin_roll * t62);
+        let t172 = t157.mul_sub(N::from_f64(2.0), t158);
+        let t173 = t159 + cos_roll.mul_add(t143, t34 * t27);
+        let t174 = t98.mul_add(t102, n(p.inverse_m));
+        let t175 = t131.mul_add(t145, t108 * t115) + t174;
+        let t176 = t130 * t161;
+        let t177 = t54.neg_mul_add(t162, t15.neg_mul_add(t132, t95));
+        let t178 = t26.neg_mul_add(t109, cos_roll.mul_add(t96, t19 * t73));
+        let t179 = t81 * (t109.mul_add(t121, t26 * t111) + t153);
+        let t180 = t47.mul_add(t169, t70.mul_add(t121, t26 * t110));
+        let t181 = t55.neg_mul_add(N::from_f64(0.5) * t51, t172);
+        let t182 = t6.mul_sub(t1, t59) - pitch_dot.neg_mul_add(t28, t59);
+        let t183 = t47.mul_sub(t173, t70.mul_add(t129, t38 * t110));
+        let t184 = cos_roll.neg_mul_add(t99, t29.mul_add(t73, t38 * t109));
+        let t185 = t81 * (t160 - t109.mul_add(t129, t38 * t111));
+        let t186 = t161.neg_mul_add(t176, t175);
+        let t187 = t88 * t177;
+        let t188 = sin_pitch.mul_add(t164, cos_pitch * t149);
+        let t189 = cos_roll.mul_sub(t188, sin_roll * t166);
+        let t190 = N::ONE / t186;
+        let t191 = t187.mul_add(t93, t162 * t83);
+        let t192 = sin_pitch.mul_sub(t149, cos_pitch * t164);
+        let t193 = t48.neg_mul_add(t189, t192);
+        let t194 = t168.mul_sub(t178, t179) - t171.mul_sub(t180, t74 * t156);
+        let t195 = t47.mul_add(N::from_f64(0.5) * t181, n(p.h) * t182);
+        let t196 = t171.mul_add(t183, t77 * t156) - t168.mul_sub(t184, t185);
+        let t197 = t130 * t191;
+        let t198 = t75.mul_add(t193, t49.mul_add(t189, t166));
+        let t199 = t187.mul_add(t131, t162.mul_add(t108, t132 * t98));
+        let t200 = t161.neg_mul_add(t197, t199);
+        let t201 = t117.mul_add(t132, n(p.inverse_m));
+        let t202 = t177.mul_add(t187, t147 * t162) + t201;
+        let t203 = t115.mul_add(t193, t102.mul_add(t189, t194));
+        let t204 = t106.neg_mul_add(t198, t89.mul_add(t193, n(p.g) + t195));
+        let t205 = t162.mul_add(t193, t132.mul_add(t189, t196));
+        let t206 = t190 * t200;
+        let t207 = t176.neg_mul_add(t204, t145.neg_mul_add(t198, t203));
+        let t208 = t200.neg_mul_add(t206, t191.neg_mul_add(t197, t202));
+        let t209 = t197.neg_mul_add(t204, t187.neg_mul_add(t198, t205));
+        let t210 = t206.neg_mul_add(t207, t209) / t208;
+        let t211 = t206.neg_mul_add(t210, t190 * t207);
+        let t212 = t197.neg_mul_add(t210, t130 * t204);
+        let t213 = t176.neg_mul_add(t211, t212);
+        let t214 = t145.mul_add(t211, t187.mul_add(t210, t88 * t198));
+        let t215 = t106.mul_add(t213, t214);
+        let t216 = t115.neg_mul_add(t211, t162.neg_mul_add(t210, t58 * t193));
+        let roll_ddot = t75.mul_add(t215, t89.neg_mul_add(t213, t216));
+        let t217 = t102.neg_mul_add(t211, t132.neg_mul_add(t210, t31 * t189));
+        let x_ddot = -(n(p.inverse_m) * t211);
+        let y_ddot = -(n(p.inverse_m) * t210);
+        let z_ddot = n(p.inverse_m).mul_sub(t213, n(p.g));
+        let psi_ddot = t48.neg_mul_add(roll_ddot, t49.mul_add(t215, t217));
+        let pitch_ddot = -t215;
         let sound = PIVOTS.hold(t25, t25)
             & PIVOTS.hold(t53, t20)
-            & PIVOTS.hold(t81, n(p.B))
-            & PIVOTS.hold(t113, t113)
-            & PIVOTS.hold(t184, t173)
-            & PIVOTS.hold(t206, t200)
+            & PIVOTS.hold(t82, n(p.B))
+            & PIVOTS.hold(t114, t114)
+            & PIVOTS.hold(t186, t175)
+            & PIVOTS.hold(t208, t202)
             & psi_ddot.is_finite();
         if !sound {
             let pivots = [
                 (3, t25, t25),
                 (4, t53, t20),
-                (5, t81, n(p.B)),
-                (6, t113, t113),
-                (7, t184, t173),
-                (8, t206, t200),
+                (5, t82, n(p.B)),
+                (6, t114, t114),
+                (7, t186, t175),
+                (8, t208, t202),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -956,7 +960,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t0 = sin_pitch * cos_roll;
         let t1 = sin_roll * sin_roll;
         let t2 = cos_pitch * cos_roll;
-        let t3 = t2 * n(p.k2);
+        let t3 = t2 * n(p.c_squared);
         let t4 = t0.neg_mul_add(n(p.D), sin_roll * n(p.B));
         let t5 = t0.neg_mul_add(n(p.A), sin_roll * n(p.D));
         let t6 = sin_pitch * (sin_pitch * n(p.C));
@@ -965,211 +969,215 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t9 = cos_pitch.mul_add(t5, t0 * (cos_pitch * n(p.C)));
         let t10 = sin_roll * roll_dot;
         let t11 = t2 * pitch_dot;
-        let t12 = t2.mul_add(t3, t0.mul_add(t0 * n(p.k0), t1 * n(p.k1)));
-        let t13 = cos_pitch.mul_sub(t8, sin_pitch * sin_psi);
-        let t14 = sin_pitch.mul_add(t8, cos_pitch * sin_psi);
-        let t15 = sin_roll * sin_psi;
-        let t16 = sin_pitch * t10;
-        let t17 = t0 * t11;
-        let t18 = t10 * n(p.k9);
-        let t19 = t0.neg_mul_add(t5, t2.mul_add(t2 * n(p.C), sin_roll * t4));
-        let t20 = cos_pitch.mul_add(t15, sin_pitch * cos_psi);
-        let t21 = cos_pitch * t10;
-        let t22 = N::ONE / t19;
-        let t23 = sin_pitch.neg_mul_add(t15, cos_pitch * cos_psi);
-        let t24 = cos_pitch * pitch_dot;
-        let t25 = sin_pitch * psi_dot;
-        let t26 = t0 * pitch_dot;
-        let t27 = cos_pitch * psi_dot;
-        let t28 = sin_pitch * pitch_dot;
-        let t29 = cos_roll * roll_dot;
-        let t30 = n(p.k7).mul_sub(t0.mul_sub(t16, t17), cos_roll * t18);
-        let t31 = n(p.k8).mul_add(t2.mul_add(t21, t17), t30);
-        let t32 = t21 * t26;
-        let t33 = t0 * roll_dot;
-        let t34 = N::ONE / t12 * t31;
-        let t35 = t0.neg_mul_add(psi_dot, cos_pitch * roll_dot);
-        let t36 = sin_roll.mul_add(psi_dot, pitch_dot);
-        let t37 = N::ONE / t12.sqrt();
-        let t38 = t22 * t9;
-        let t39 = t4 * t22;
-        let t40 = psi_dot * t16;
-        let t41 = t26 * t26;
-        let t42 = n(p.k2) * t21;
-        let t43 = t2 * roll_dot;
-        let t44 = t9.neg_mul_add(t38, t7);
-        let t45 = t9.neg_mul_add(t39, cos_pitch * n(p.D));
-        let t46 = n(p.k7) * t32;
-        let t47 = t34 * n(p.k12);
-        let t48 = N::ONE / t44;
-        let t49 = cos_roll * psi_dot;
-        let t50 = cos_psi * t29;
-        let t51 = sin_psi * t29;
-        let t52 = cos_roll * t37;
-        let t53 = t3 * t37;
-        let t54 = n(p.k1) * t37;
-        let t55 = t0 * t37;
-        let t56 = n(p.k0) * t37;
-        let t57 = psi_dot * t21;
-        let t58 = t2.mul_add(psi_dot, sin_pitch * roll_dot);
-        let t59 = n(p.k8) * t32;
-        let t60 = n(p.k1) * t52;
-        let t61 = n(p.h) - t53;
-        let t62 = n(p.k0) * t55;
-        let t63 = t11 * t11;
-        let t64 = t60 * t8;
-        let t65 = t48 * t45;
-        let t66 = cos_pitch.neg_mul_add(t53, cos_pitch * n(p.h));
-        let t67 = t15 * t60;
-        let t68 = t45.neg_mul_add(t65, t4.neg_mul_add(t39, n(p.B)));
-        let t69 = t0.neg_mul_add(t62, t2.mul_sub(t61, t1 * t54));
-        let t70 = sin_pitch.neg_mul_add(t62, t66);
-        let t71 = sin_roll.mul_add(t70, sin_roll * t60);
-        let t72 = sin_pitch * t3.neg_mul_add(t52, cos_roll * n(p.h));
-        let t73 = t62.neg_mul_add(t14, t61.mul_add(t13, t64));
-        let t74 = N::ONE / t68;
-        let t75 = cos_roll * t69;
-        let t76 = t67 + t62.mul_add(t23, t61 * t20);
-        let t77 = t48 * t71;
-        let t78 = t2.mul_sub(t73, t69 * t13);
-        let t79 = t0.mul_sub(t73, t69 * t14);
-        let t80 = t2.mul_sub(t76, t69 * t20);
-        let t81 = t45.neg_mul_add(t77, t2.mul_add(t62, t72));
-        let t82 = t0.mul_add(t76, t69 * t23);
-        let t83 = t55 * n(p.k7);
-        let t84 = sin_roll.mul_add(t73, cos_psi * t75);
-        let t85 = cos_psi * t36;
-        let t86 = cos_psi.mul_add(t33, t8.mul_sub(t24, t15 * t25));
-        let t87 = sin_psi.mul_sub(t28, cos_psi * t27) - t86;
-        let t88 = sin_psi * t36;
-        let t89 = t14 * t56;
-        let t90 = sin_roll.mul_add(t84, t0.mul_add(t79, t2 * t78));
-        let t91 = t52 * t47;
-        let t92 = sin_psi.mul_add(t33, t8.mul_add(t25, t15 * t24));
-        let t93 = t92 + sin_psi.mul_add(t27, cos_psi * t28);
-        let t94 = t23 * t56;
-        let t95 = t22 * t90;
-        let t96 = t74 * t81;
-        let t97 = sin_psi.mul_add(t75, sin_roll * t76);
-        let t98 = sin_pitch.mul_sub(t78, cos_pitch * t79);
-        let t99 = t9.neg_mul_add(t95, t98);
-        let t100 = roll_dot * t43;
-        let t101 = t16.mul_sub(n(p.k0) * t16, t46);
-        let t102 = t37 * t34;
-        let t103 = t34 * (t55 * n(p.k11));
-        let t104 = cos_psi.mul_sub(t43, t15.mul_add(t27, t8 * t28));
-        let t105 = t104 - cos_psi.mul_add(t25, sin_psi * t24);
-        let t106 = roll_dot.mul_sub(t28, psi_dot.neg_mul_add(t11, t40));
-        let t107 = t54 * t10;
-        let t108 = sin_psi.mul_add(t43, t8.mul_sub(t27, t15 * t28));
-        let t109 = cos_psi.mul_sub(t24, sin_psi * t25) + t108;
-        let t110 = t81.mul_add(t96, t71.mul_add(t77, n(p.k15)));
-        let t111 = t48 * t99;
-        let t112 = sin_roll.mul_add(t97, t0.mul_add(t82, t2 * t80));
-        let t113 = t58 * t36;
-        let t114 = n(p.k0).neg_mul_add(t63, n(p.k0).mul_add(t41, t46));
-        let t115 = t55.mul_add(n(p.k2) * pitch_dot, t37 * t42);
-        let t116 = t102.neg_mul_add(t2 * n(p.k10), t115);
-        let t117 = roll_dot.mul_sub(t24, psi_dot.mul_add(t26, t57));
-        let t118 = N::ONE / t110;
-        let t119 = t45.neg_mul_add(t111, t4.neg_mul_add(t95, t84));
-        let t120 = t22 * t112;
-        let t121 = t35.neg_mul_add(pitch_dot, t57);
-        let t122 = t58 * t35;
-        let t123 = psi_dot * t29;
-        let t124 = t58.neg_mul_add(pitch_dot, t40);
-        let t125 = n(p.k2).neg_mul_add(t63, n(p.k2).mul_add(t41, t59));
-        let t126 = t33.neg_mul_add(n(p.k0) * t33, t101) - t114;
-        let t127 = n(p.k9) * t10.mul_sub(t10, t29 * t29);
-        let t128 = pitch_dot * t16;
-        let t129 = t49.mul_add(t88, t10.mul_sub(t85, t49 * t50));
-        let t130 = t0.mul_add(t106, t35.mul_sub(t16, t35 * t11));
-        let t131 = t64.mul_add(psi_dot, t15 * t91);
-        let t132 = t49.neg_mul_add(t85, t10.mul_sub(t88, t49 * t51));
-        let t133 = t74 * t119;
-        let t134 = sin_pitch.mul_sub(t80, cos_pitch * t82);
-        let t135 = t9.neg_mul_add(t120, t134);
-        let t136 = n(p.C).mul_add(t121, t35 * (t36 * n(p.k6)));
-        let t137 = n(p.D).neg_mul_add(t35.mul_sub(t35, t36 * t36), t136);
-        let t138 = t125 + t3.neg_mul_add(t100, t21.mul_add(t42, t59));
-        let t139 = N::from_f64(2.0).mul_sub(t126, t127);
-        let t140 = t0.neg_mul_add(t103, t16.mul_sub(t83, t11 * t83));
-        let t141 = t129 + t14.mul_add(t106, t35 * t87);
-        let t142 = t62.mul_add(t87, t16 * t89) - t14.mul_add(t103, t11 * t89);
-        let t143 = t67.mul_sub(psi_dot, t8 * t91);
-        let t144 = t2.neg_mul_add(t117, t58.mul_add(t26, t58 * t21));
-        let t145 = t10.mul_add(t49, t29 * t36) + t130 - t144;
-        let t146 = t62.mul_add(t93, t16 * t94) - t23.mul_add(t103, t11 * t94);
-        let t147 = t23.mul_add(t106, t35 * t93) - t132;
-        let t148 = t133.mul_add(t81, t111 * t71);
-        let t149 = t48 * t135;
-        let t150 = n(p.A).mul_sub(t124, t113 * n(p.k4));
-        let t151 = n(p.D).mul_add(t123 - t122, t150);
-        let t152 = t2.neg_mul_add(t116, t61.mul_add(t26, t61 * t21));
-        let t153 = t140 - t52.mul_add(t18, t37 * (t1 * t47)) - t152;
-        let t154 = t13.mul_add(t116, t61 * t105) + t142;
-        let t155 = t2.neg_mul_add(t58, t0.mul_sub(t35, sin_roll * t36));
-        let t156 = t15.mul_sub(t107, t60 * t51) - t131 + t146;
-        let t157 = t119.mul_add(t133, t99 * t111);
-        let t158 = t157 + t90.mul_add(t95, n(p.k15));
-        let t159 = t118 * t148;
-        let t160 = t45.neg_mul_add(t149, t4.neg_mul_add(t120, t97));
-        let t161 = t122.mul_add(n(p.k5), n(p.B) * t123);
-        let t162 = n(p.D).mul_add(t113 + t124, t161);
-        let t163 = t37 * N::from_f64(2.0).mul_add(t138, t139);
-        let t164 = t13.neg_mul_add(t58, cos_roll.mul_add(t85, t14 * t35));
-        let t165 = t69 * (t13.mul_add(t117, t58 * t105) + t141);
-        let t166 = t154 - (t8.mul_sub(t107, t60 * t50) + t143);
-        let t167 = t156 - t20.mul_add(t116, t61 * t109);
-        let t168 = cos_roll.neg_mul_add(t88, t20.mul_add(t58, t23 * t35));
-        let t169 = t69 * (t147 - t20.mul_add(t117, t58 * t109));
-        let t170 = t148.neg_mul_add(t159, t158);
-        let t171 = t74 * t160;
-        let t172 = sin_roll.neg_mul_add(t162, t0.mul_add(t151, t2 * t137));
-        let t173 = n(p.h) * (t100 - t128 - pitch_dot.neg_mul_add(t11, t128));
-        let t174 = t102.neg_mul_add(N::from_f64(0.5) * t31, t163);
-        let t175 = N::ONE / t170;
-        let t176 = t171.mul_add(t81, t149 * t71);
-        let t177 = sin_pitch.mul_sub(t137, cos_pitch * t151);
-        let t178 = t38.neg_mul_add(t172, t177);
-        let t179 = t153.mul_sub(t164, t165) - t155.mul_sub(t166, t73 * t145);
-        let t180 = t155.mul_add(t167, t76 * t145) - t153.mul_sub(t168, t169);
-        let t181 = t118 * t176;
-        let t182 = t65.mul_add(t178, t39.mul_add(t172, t162));
-        let t183 = N::from_f64(0.5).mul_add(t174, t173) + n(p.g);
-        let t184 = t171.mul_add(t119, t149.mul_add(t99, t120 * t90));
-        let t185 = t148.neg_mul_add(t181, t184);
-        let t186 = t96.neg_mul_add(t182, t77.mul_add(t178, t183));
-        let t187 = t111.mul_add(t178, t95.mul_add(t172, t179));
-        let t188 = t149.mul_add(t178, t120.mul_add(t172, t180));
-        let t189 = t160.mul_add(t171, t135 * t149);
-        let t190 = t189 + t112.mul_add(t120, n(p.k15));
-        let t191 = t175 * t185;
-        let t192 = t159.neg_mul_add(t186, t133.neg_mul_add(t182, t187));
-        let t193 = t175 * t192;
-        let t194 = t181.neg_mul_add(t186, t171.neg_mul_add(t182, t188));
-        let t195 = t185.neg_mul_add(t191, t176.neg_mul_add(t181, t190));
-        let t196 = t191.neg_mul_add(t192, t194) / t195;
-        let t197 = t191 * t196;
-        let t198 = t181.neg_mul_add(t196, t118 * t186);
-        let lambda1 = t159.neg_mul_add(t193 - t197, t198);
-        let lambda2 = t197 - t193;
-        let lambda3 = -t196;
-        let sound = PIVOTS.hold(t19, t19)
-            & PIVOTS.hold(t44, t7)
-            & PIVOTS.hold(t68, n(p.B))
-            & PIVOTS.hold(t110, t110)
-            & PIVOTS.hold(t170, t158)
-            & PIVOTS.hold(t195, t190)
+        let t12 = t0.mul_add(t0 * n(p.a_squared), t1 * n(p.b_squared));
+        let t13 = t2.mul_add(t3, t12);
+        let t14 = cos_pitch.mul_sub(t8, sin_pitch * sin_psi);
+        let t15 = sin_pitch.mul_add(t8, cos_pitch * sin_psi);
+        let t16 = sin_roll * sin_psi;
+        let t17 = sin_pitch * t10;
+        let t18 = t0 * t11;
+        let t19 = t10 * n(p.two_b_squared);
+        let t20 = t0.neg_mul_add(t5, t2.mul_add(t2 * n(p.C), sin_roll * t4));
+        let t21 = cos_pitch.mul_add(t16, sin_pitch * cos_psi);
+        let t22 = cos_pitch * t10;
+        let t23 = N::ONE / t20;
+        let t24 = sin_pitch.neg_mul_add(t16, cos_pitch * cos_psi);
+        let t25 = cos_pitch * pitch_dot;
+        let t26 = sin_pitch * psi_dot;
+        let t27 = t0.mul_sub(t17, t18);
+        let t28 = t0 * pitch_dot;
+        let t29 = cos_pitch * psi_dot;
+        let t30 = sin_pitch * pitch_dot;
+        let t31 = cos_roll * roll_dot;
+        let t32 = n(p.two_a_squared).mul_sub(t27, cos_roll * t19);
+        let t33 = n(p.two_c_squared).mul_add(t2.mul_add(t22, t18), t32);
+        let t34 = t22 * t28;
+        let t35 = t0 * roll_dot;
+        let t36 = N::ONE / t13 * t33;
+        let t37 = t0.neg_mul_add(psi_dot, cos_pitch * roll_dot);
+        let t38 = sin_roll.mul_add(psi_dot, pitch_dot);
+        let t39 = N::ONE / t13.sqrt();
+        let t40 = t23 * t9;
+        let t41 = t4 * t23;
+        let t42 = psi_dot * t17;
+        let t43 = t28 * t28;
+        let t44 = n(p.c_squared) * t22;
+        let t45 = t2 * roll_dot;
+        let t46 = t9.neg_mul_add(t40, t7);
+        let t47 = t9.neg_mul_add(t41, cos_pitch * n(p.D));
+        let t48 = n(p.two_a_squared) * t34;
+        let t49 = t36 * n(p.half_b_squared);
+        let t50 = N::ONE / t46;
+        let t51 = cos_roll * psi_dot;
+        let t52 = cos_psi * t31;
+        let t53 = sin_psi * t31;
+        let t54 = cos_roll * t39;
+        let t55 = t3 * t39;
+        let t56 = n(p.b_squared) * t39;
+        let t57 = t0 * t39;
+        let t58 = n(p.a_squared) * t39;
+        let t59 = psi_dot * t22;
+        let t60 = t2.mul_add(psi_dot, sin_pitch * roll_dot);
+        let t61 = n(p.two_c_squared) * t34;
+        let t62 = n(p.b_squared) * t54;
+        let t63 = n(p.h) - t55;
+        let t64 = n(p.a_squared) * t57;
+        let t65 = t11 * t11;
+        let t66 = t62 * t8;
+        let t67 = t50 * t47;
+        let t68 = cos_pitch.neg_mul_add(t55, cos_pitch * n(p.h));
+        let t69 = t16 * t62;
+        let t70 = t47.neg_mul_add(t67, t4.neg_mul_add(t41, n(p.B)));
+        let t71 = t0.neg_mul_add(t64, t2.mul_sub(t63, t1 * t56));
+        let t72 = sin_pitch.neg_mul_add(t64, t68);
+        let t73 = sin_roll.mul_add(t72, sin_roll * t62);
+        let t74 = sin_pitch * t3.neg_mul_add(t54, cos_roll * n(p.h));
+        let t75 = t64.neg_mul_add(t15, t63.mul_add(t14, t66));
+        let t76 = N::ONE / t70;
+        let t77 = cos_roll * t71;
+        let t78 = t69 + t64.mul_add(t24, t63 * t21);
+        let t79 = t50 * t73;
+        let t80 = t2.mul_sub(t75, t71 * t14);
+        let t81 = t0.mul_sub(t75, t71 * t15);
+        let t82 = t2.mul_sub(t78, t71 * t21);
+        let t83 = t47.neg_mul_add(t79, t2.mul_add(t64, t74));
+        let t84 = t0.mul_add(t78, t71 * t24);
+        let t85 = t57 * n(p.two_a_squared);
+        let t86 = sin_roll.mul_add(t75, cos_psi * t77);
+        let t87 = cos_psi * t38;
+        let t88 = cos_psi.mul_add(t35, t8.mul_sub(t25, t16 * t26));
+        let t89 = sin_psi.mul_sub(t30, cos_psi * t29) - t88;
+        let t90 = sin_psi * t38;
+        let t91 = t15 * t58;
+        let t92 = sin_roll.mul_add(t86, t0.mul_add(t81, t2 * t80));
+        let t93 = t54 * t49;
+        let t94 = sin_psi.mul_add(t35, t8.mul_add(t26, t16 * t25));
+        let t95 = t94 + sin_psi.mul_add(t29, cos_psi * t30);
+        let t96 = t24 * t58;
+        let t97 = t23 * t92;
+        let t98 = t76 * t83;
+        let t99 = sin_psi.mul_add(t77, sin_roll * t78);
+        let t100 = sin_pitch.mul_sub(t80, cos_pitch * t81);
+        let t101 = t9.neg_mul_add(t97, t100);
+        let t102 = roll_dot * t45;
+        let t103 = t17.mul_sub(n(p.a_squared) * t17, t48);
+        let t104 = n(p.a_squared).mul_add(t43, t48);
+        let t105 = t39 * t36;
+        let t106 = t36 * (t57 * n(p.half_a_squared));
+        let t107 = cos_psi.mul_sub(t45, t16.mul_add(t29, t8 * t30));
+        let t108 = t107 - cos_psi.mul_add(t26, sin_psi * t25);
+        let t109 = roll_dot.mul_sub(t30, psi_dot.neg_mul_add(t11, t42));
+        let t110 = t56 * t10;
+        let t111 = sin_psi.mul_add(t45, t8.mul_sub(t29, t16 * t30));
+        let t112 = cos_psi.mul_sub(t25, sin_psi * t26) + t111;
+        let t113 = t83.mul_add(t98, t73.mul_add(t79, n(p.inverse_m)));
+        let t114 = t50 * t101;
+        let t115 = sin_roll.mul_add(t99, t0.mul_add(t84, t2 * t82));
+        let t116 = t60 * t38;
+        let t117 = n(p.c_squared).mul_add(t43, t61);
+        let t118 = t35.neg_mul_add(n(p.a_squared) * t35, t103);
+        let t119 = t57.mul_add(n(p.c_squared) * pitch_dot, t39 * t44);
+        let t120 = t105.neg_mul_add(t2 * n(p.half_c_squared), t119);
+        let t121 = roll_dot.mul_sub(t25, psi_dot.mul_add(t28, t59));
+        let t122 = N::ONE / t113;
+        let t123 = t47.neg_mul_add(t114, t4.neg_mul_add(t97, t86));
+        let t124 = t23 * t115;
+        let t125 = t37.neg_mul_add(pitch_dot, t59);
+        let t126 = t60 * t37;
+        let t127 = psi_dot * t31;
+        let t128 = t60.neg_mul_add(pitch_dot, t42);
+        let t129 = t3.neg_mul_add(t102, t22.mul_add(t44, t61));
+        let t130 = n(p.two_b_squared) * t10.mul_sub(t10, t31 * t31);
+        let t131 = t118 - n(p.a_squared).neg_mul_add(t65, t104);
+        let t132 = pitch_dot * t17;
+        let t133 = t51.mul_add(t90, t10.mul_sub(t87, t51 * t52));
+        let t134 = t0.mul_add(t109, t37.mul_sub(t17, t37 * t11));
+        let t135 = t66.mul_add(psi_dot, t16 * t93);
+        let t136 = t51.neg_mul_add(t87, t10.mul_sub(t90, t51 * t53));
+        let t137 = t76 * t123;
+        let t138 = sin_pitch.mul_sub(t82, cos_pitch * t84);
+        let t139 = t9.neg_mul_add(t124, t138);
+        let t140 = n(p.C).mul_add(t125, t37 * (t38 * n(p.A_minus_B)));
+        let t141 = n(p.D).neg_mul_add(t37.mul_sub(t37, t38 * t38), t140);
+        let t142 = n(p.c_squared).neg_mul_add(t65, t117) + t129;
+        let t143 = N::from_f64(2.0).mul_sub(t131, t130);
+        let t144 = t0.neg_mul_add(t106, t17.mul_sub(t85, t11 * t85));
+        let t145 = t133 + t15.mul_add(t109, t37 * t89);
+        let t146 = t64.mul_add(t89, t17 * t91) - t15.mul_add(t106, t11 * t91);
+        let t147 = t69.mul_sub(psi_dot, t8 * t93);
+        let t148 = t2.neg_mul_add(t121, t60.mul_add(t28, t60 * t22));
+        let t149 = t10.mul_add(t51, t31 * t38) + t134 - t148;
+        let t150 = t64.mul_add(t95, t17 * t96) - t24.mul_add(t106, t11 * t96);
+        let t151 = t24.mul_add(t109, t37 * t95) - t136;
+        let t152 = t137.mul_add(t83, t114 * t73);
+        let t153 = t50 * t139;
+        let t154 = n(p.A).mul_sub(t128, t116 * n(p.B_minus_C));
+        let t155 = n(p.D).mul_add(t127 - t126, t154);
+        let t156 = t2.neg_mul_add(t120, t63.mul_add(t28, t63 * t22));
+        let t157 = t144 - t54.mul_add(t19, t39 * (t1 * t49)) - t156;
+        let t158 = t14.mul_add(t120, t63 * t108) + t146;
+        let t159 = t2.neg_mul_add(t60, t0.mul_sub(t37, sin_roll * t38));
+        let t160 = t16.mul_sub(t110, t62 * t53) - t135 + t150;
+        let t161 = t92.mul_add(t97, n(p.inverse_m));
+        let t162 = t123.mul_add(t137, t101 * t114) + t161;
+        let t163 = t122 * t152;
+        let t164 = t47.neg_mul_add(t153, t4.neg_mul_add(t124, t99));
+        let t165 = t126.mul_add(n(p.A_minus_C), n(p.B) * t127);
+        let t166 = n(p.D).mul_add(t116 + t128, t165);
+        let t167 = t39 * N::from_f64(2.0).mul_add(t142, t143);
+        let t168 = t14.neg_mul_add(t60, cos_roll.mul_add(t87, t15 * t37));
+        let t169 = t71 * (t14.mul_add(t121, t60 * t108) + t145);
+        let t170 = t158 - (t8.mul_sub(t110, t62 * t52) + t147);
+        let t171 = t160 - t21.mul_add(t120, t63 * t112);
+        let t172 = cos_roll.neg_mul_add(t90, t21.mul_add(t60, t24 * t37));
+        let t173 = t71 * (t151 - t21.mul_add(t121, t60 * t112));
+        let t174 = t152.neg_mul_add(t163, t162);
+        let t175 = t76 * t164;
+        let t176 = sin_roll.neg_mul_add(t166, t0.mul_add(t155, t2 * t141));
+        let t177 = n(p.h) * (t102 - t132 - pitch_dot.neg_mul_add(t11, t132));
+        let t178 = t105.neg_mul_add(N::from_f64(0.5) * t33, t167);
+        let t179 = N::ONE / t174;
+        let t180 = t175.mul_add(t83, t153 * t73);
+        let t181 = sin_pitch.mul_sub(t141, cos_pitch * t155);
+        let t182 = t40.neg_mul_add(t176, t181);
+        let t183 = t157.mul_sub(t168, t169) - t159.mul_sub(t170, t75 * t149);
+        let t184 = t159.mul_add(t171, t78 * t149) - t157.mul_sub(t172, t173);
+        let t185 = t122 * t180;
+        let t186 = t67.mul_add(t182, t41.mul_add(t176, t166));
+        let t187 = N::from_f64(0.5).mul_add(t178, t177) + n(p.g);
+        let t188 = t175.mul_add(t123, t153.mul_add(t101, t124 * t92));
+        let t189 = t152.neg_mul_add(t185, t188);
+        let t190 = t98.neg_mul_add(t186, t79.mul_add(t182, t187));
+        let t191 = t114.mul_add(t182, t97.mul_add(t176, t183));
+        let t192 = t153.mul_add(t182, t124.mul_add(t176, t184));
+        let t193 = t115.mul_add(t124, n(p.inverse_m));
+        let t194 = t164.mul_add(t175, t139 * t153) + t193;
+        let t195 = t179 * t189;
+        let t196 = t163.neg_mul_add(t190, t137.neg_mul_add(t186, t191));
+        let t197 = t179 * t196;
+        let t198 = t185.neg_mul_add(t190, t175.neg_mul_add(t186, t192));
+        let t199 = t189.neg_mul_add(t195, t180.neg_mul_add(t185, t194));
+        let t200 = t195.neg_mul_add(t196, t198) / t199;
+        let t201 = t195 * t200;
+        let t202 = t185.neg_mul_add(t200, t122 * t190);
+        let lambda1 = t163.neg_mul_add(t197 - t201, t202);
+        let lambda2 = t201 - t197;
+        let lambda3 = -t200;
+        let sound = PIVOTS.hold(t20, t20)
+            & PIVOTS.hold(t46, t7)
+            & PIVOTS.hold(t70, n(p.B))
+            & PIVOTS.hold(t113, t113)
+            & PIVOTS.hold(t174, t162)
+            & PIVOTS.hold(t199, t194)
             & lambda1.is_finite();
         if !sound {
             let pivots = [
-                (3, t19, t19),
-                (4, t44, t7),
-                (5, t68, n(p.B)),
-                (6, t110, t110),
-                (7, t170, t158),
-                (8, t195, t190),
+                (3, t20, t20),
+                (4, t46, t7),
+                (5, t70, n(p.B)),
+                (6, t113, t113),
+                (7, t174, t162),
+                (8, t199, t194),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -1223,7 +1231,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 /// ```
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> S {
     let z = q[2];
-    p.k3 * z
+    p.m_g * z
 }
 
 ::lagrangian::emitted::implement! {
@@ -1251,7 +1259,9 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, h, A, B, C, D, g, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15,
+        m, h, A, B, C, D, g, a_squared, b_squared, c_squared, m_g, B_minus_C, A_minus_C, A_minus_B,
+        two_a_squared, two_c_squared, two_b_squared, half_c_squared, half_a_squared, half_b_squared,
+        two_D, minus_m_g, inverse_m,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

@@ -57,41 +57,44 @@ pub struct RollingCoin<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> RollingCoin<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k1 = self.m * self.r;
-        let k11 = S::ONE / self.C;
-        let t0 = self.r * k1;
-        let k3 = self.A + t0;
-        let k2 = self.C + t0;
-        let k5 = k2 - self.A;
-        let k12 = self.r * k11;
-        let k0 = k1 * self.g;
-        let k4 = k1 * S::from_f64(2.0);
-        let k6 = S::from_f64(2.0) * k5;
-        let k7 = -k1;
-        let k8 = -self.C;
-        let k9 = -self.r;
-        let k10 = S::ONE / k3;
-        let k13 = self.r * k12;
-        let pivots = [(4, self.C, self.C), (3, k3, k3)];
+        let m_r = self.m * self.r;
+        let inverse_C = S::ONE / self.C;
+        let t0 = self.r * m_r;
+        let A_plus_m_r_squared = self.A + t0;
+        let C_plus_m_r_squared = self.C + t0;
+        let k0 = C_plus_m_r_squared - self.A;
+        let r_over_C = self.r * inverse_C;
+        let m_r_g = m_r * self.g;
+        let two_m_r = m_r * S::from_f64(2.0);
+        let k1 = S::from_f64(2.0) * k0;
+        let minus_m_r = -m_r;
+        let minus_C = -self.C;
+        let minus_r = -self.r;
+        let k2 = S::ONE / A_plus_m_r_squared;
+        let r_squared_over_C = self.r * r_over_C;
+        let pivots = [
+            (4, self.C, self.C),
+            (3, A_plus_m_r_squared, A_plus_m_r_squared),
+        ];
         Prepared {
             m: self.m,
             r: self.r,
             C: self.C,
             A: self.A,
+            m_r_g,
+            m_r,
+            C_plus_m_r_squared,
+            A_plus_m_r_squared,
+            two_m_r,
             k0,
             k1,
+            minus_m_r,
+            minus_C,
+            minus_r,
             k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
+            inverse_C,
+            r_over_C,
+            r_squared_over_C,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -148,43 +151,40 @@ pub struct Prepared<S = f64> {
     /// `A`
     A: S,
     /// `m*r*g`
-    k0: S,
+    m_r_g: S,
     /// `m*r`
-    k1: S,
+    m_r: S,
     /// `C + m*r^2`
-    k2: S,
+    C_plus_m_r_squared: S,
     /// `A + m*r^2`
-    k3: S,
+    A_plus_m_r_squared: S,
     /// `2*m*r`
-    k4: S,
+    two_m_r: S,
     /// `C - A + m*r^2`
-    k5: S,
+    k0: S,
     /// `2*(C - A + m*r^2)`
-    k6: S,
+    k1: S,
     /// `-m*r`
-    k7: S,
+    minus_m_r: S,
     /// `-C`
-    k8: S,
+    minus_C: S,
     /// `-r`
-    k9: S,
+    minus_r: S,
     /// `1/(A + m*r^2)`
-    k10: S,
+    k2: S,
     /// `1/C`
-    k11: S,
+    inverse_C: S,
     /// `r/C`
-    k12: S,
+    r_over_C: S,
     /// `r^2/C`
-    k13: S,
+    r_squared_over_C: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 5,
-    tolerance: 6.217248937900877e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(5, 7);
 
 /// Mass matrix `M`.
 ///
@@ -205,19 +205,19 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]
     let lean = q[3];
     let (sin_heading, cos_heading) = heading.sin_cos();
     let (sin_lean, cos_lean) = lean.sin_cos();
-    let t0 = p.k1 * sin_heading;
+    let t0 = p.m_r * sin_heading;
     let zero = S::ZERO;
-    let m31 = sin_lean * (p.k1 * cos_heading);
+    let m31 = sin_lean * (p.m_r * cos_heading);
     let m32 = sin_lean * t0;
-    let m33 = p.k2 - cos_lean * (cos_lean * p.k5);
+    let m33 = p.C_plus_m_r_squared - cos_lean * (cos_lean * p.k0);
     let m41 = cos_lean * t0;
-    let m42 = cos_lean * (cos_heading * p.k7);
+    let m42 = cos_lean * (cos_heading * p.minus_m_r);
     let m53 = sin_lean * p.C;
     [
         [p.m, zero, m31, m41, zero],
         [zero, p.m, m32, m42, zero],
         [m31, m32, m33, zero, m53],
-        [m41, m42, zero, p.k3, zero],
+        [m41, m42, zero, p.A_plus_m_r_squared, zero],
         [zero, zero, m53, zero, p.C],
     ]
 }
@@ -247,15 +247,15 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[
     let t0 = roll_dot * p.C;
     let t1 = lean_dot * lean_dot;
     let t2 = cos_lean * lean_dot;
-    let t3 = p.k1 * sin_lean;
+    let t3 = p.m_r * sin_lean;
     let t4 = heading_dot * sin_lean;
-    let t5 = t2 * p.k4;
+    let t5 = t2 * p.two_m_r;
     let t6 = t3 * sin_heading;
     let t7 = t3 * cos_heading;
     let h_x = heading_dot * (cos_heading * t5 - heading_dot * t6) - t6 * t1;
     let h_y = heading_dot * (heading_dot * t7 + sin_heading * t5) + t1 * t7;
-    let h_heading = t2 * (t0 + t4 * p.k6);
-    let h_lean = -((t0 + t4 * p.k5) * (heading_dot * cos_lean));
+    let h_heading = t2 * (t0 + t4 * p.k1);
+    let h_lean = -((t0 + t4 * p.k0) * (heading_dot * cos_lean));
     let h_roll = t2 * (heading_dot * p.C);
     [h_x, h_y, h_heading, h_lean, h_roll]
 }
@@ -269,7 +269,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
     let lean = q[3];
     let sin_lean = lean.sin();
     let zero = S::ZERO;
-    let q_lean = p.k0 * sin_lean;
+    let q_lean = p.m_r_g * sin_lean;
     [zero, zero, zero, q_lean, zero]
 }
 
@@ -285,16 +285,16 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: 
     let t0 = lean_dot * lean_dot;
     let t1 = roll_dot * p.C;
     let t2 = cos_lean * lean_dot;
-    let t3 = p.k1 * sin_lean;
+    let t3 = p.m_r * sin_lean;
     let t4 = heading_dot * sin_lean;
-    let t5 = t2 * p.k4;
+    let t5 = t2 * p.two_m_r;
     let t6 = t3 * sin_heading;
     let t7 = t3 * cos_heading;
     let f_x = t6 * t0 - heading_dot * (cos_heading * t5 - heading_dot * t6);
     let f_y = -(heading_dot * (heading_dot * t7 + sin_heading * t5) + t0 * t7);
-    let f_heading = -(t2 * (t1 + t4 * p.k6));
-    let f_lean = (t1 + t4 * p.k5) * (heading_dot * cos_lean) + sin_lean * p.k0;
-    let f_roll = t2 * (heading_dot * p.k8);
+    let f_heading = -(t2 * (t1 + t4 * p.k1));
+    let f_lean = (t1 + t4 * p.k0) * (heading_dot * cos_lean) + sin_lean * p.m_r_g;
+    let f_roll = t2 * (heading_dot * p.minus_C);
     [f_x, f_y, f_heading, f_lean, f_roll]
 }
 
@@ -338,7 +338,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
         sin_heading,
         zero,
         zero,
-        p.k9,
+        p.minus_r,
         g2_1,
         cos_heading,
         zero,
@@ -412,90 +412,91 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t0 = lean_dot * lean_dot;
         let t1 = n(p.C) * roll_dot;
         let t2 = sin_lean * n(p.C);
-        let t3 = cos_lean * n(p.k1);
-        let t4 = sin_lean * n(p.k1);
+        let t3 = cos_lean * n(p.m_r);
+        let t4 = sin_lean * n(p.m_r);
         let t5 = cos_lean * lean_dot;
         let t6 = sin_lean * heading_dot;
-        let t7 = n(p.k11) * t2;
-        let t8 = cos_lean.neg_mul_add(cos_lean * n(p.k5), n(p.k2));
-        let t9 = sin_heading * t3;
-        let t10 = t4 * cos_heading;
-        let t11 = cos_heading * t3;
-        let t12 = t4 * sin_heading;
-        let t13 = t2 * n(p.k12);
-        let t14 = t5 * n(p.k4);
-        let t15 = t2.neg_mul_add(t7, t8);
-        let t16 = n(p.k10) * t9;
-        let t17 = t5 * (n(p.C) * heading_dot);
-        let t18 = n(p.k10) * t11;
-        let t19 = N::ONE / t15;
-        let t20 = n(p.k5).mul_add(t6, t1);
-        let t21 = t20.mul_add(cos_lean * heading_dot, sin_lean * n(p.k0));
-        let t22 = cos_heading.mul_sub(t14, t12 * heading_dot);
-        let t23 = t10.mul_add(heading_dot, sin_heading * t14);
-        let t24 = t5.mul_sub(t6.mul_add(n(p.k6), t1), t7 * t17);
-        let t25 = sin_heading.mul_sub(x_dot, cos_heading * y_dot);
-        let t26 = t19 * t10;
-        let t27 = t19 * t12;
-        let t28 = t19 * t13;
-        let t29 = cos_heading.mul_add(x_dot, sin_heading * y_dot);
-        let t30 = t10.neg_mul_add(t26, t9.neg_mul_add(t16, n(p.m)));
-        let t31 = t10.neg_mul_add(t27, t9 * t18);
-        let t32 = t10.neg_mul_add(t28, cos_heading);
-        let t33 = t16.mul_add(t21, heading_dot.mul_sub(t22, t12 * t0));
-        let t34 = t26.neg_mul_add(t24, t33);
-        let t35 = t18.neg_mul_add(t21, heading_dot.mul_add(t23, t10 * t0));
-        let t36 = N::ONE / t30;
-        let t37 = t36 * t31;
-        let t38 = t36 * t32;
-        let t39 = sin_heading * t36;
-        let t40 = t12.neg_mul_add(t27, t11.neg_mul_add(t18, n(p.m)));
-        let t41 = t31.neg_mul_add(t37, t40);
-        let t42 = t31.neg_mul_add(t38, t12.neg_mul_add(t28, sin_heading));
-        let t43 = t31.mul_add(t39, cos_heading);
-        let t44 = t37.neg_mul_add(t34, t27.neg_mul_add(t24, t35));
-        let t45 = t28.mul_add(t24, heading_dot.mul_sub(t25, n(p.k12) * t17));
-        let t46 = N::ONE / t41;
-        let t47 = t46 * t42;
-        let t48 = t46 * t43;
-        let t49 = t32.mul_add(t38, t13.mul_add(t28, n(p.k13)));
-        let t50 = t42.mul_add(t47, t49);
-        let t51 = t48.neg_mul_add(t42, t39 * t32);
-        let t52 = t47.mul_add(t44, t38.mul_add(t34, t45));
-        let t53 = t43.mul_add(t48, sin_heading * t39);
-        let t54 = N::ONE / t50;
-        let t55 = t54 * t51;
-        let t56 = t48.mul_add(t44, t39.neg_mul_add(t34, heading_dot * t29));
-        let t57 = t51.neg_mul_add(t55, t53);
-        let t58 = t55.mul_add(t52, t56) / t57;
-        let t59 = t55.mul_add(t58, t54 * t52);
-        let t60 = t48.neg_mul_add(t58, t46 * t44);
-        let t61 = t47 * t59;
-        let t62 = t38.neg_mul_add(t59, t39.mul_add(t58, t36 * t34));
-        let t63 = t60 - t61;
-        let t64 = t37 * t63;
-        let t65 = t27.neg_mul_add(t63, t28.neg_mul_add(t59, t19 * t24));
-        let t66 = t62 - t64;
-        let t67 = t26 * t66;
-        let t68 = n(p.k12).mul_add(t59, n(p.k11) * t17);
-        let x_ddot = t64 - t62;
-        let y_ddot = t61 - t60;
-        let heading_ddot = t67 - t65;
-        let lean_ddot = t16.mul_add(t66, t18.neg_mul_add(t63, n(p.k10) * t21));
-        let roll_ddot = t7.mul_sub(t65 - t67, t68);
-        let sound = PIVOTS.hold(t15, t8)
-            & PIVOTS.hold(t30, n(p.m))
-            & PIVOTS.hold(t41, n(p.m))
-            & PIVOTS.hold(t50, t50)
-            & PIVOTS.hold(t57, t53)
+        let t7 = n(p.inverse_C) * t2;
+        let t8 = cos_lean * n(p.k0);
+        let t9 = cos_lean.neg_mul_add(t8, n(p.C_plus_m_r_squared));
+        let t10 = sin_heading * t3;
+        let t11 = t4 * cos_heading;
+        let t12 = cos_heading * t3;
+        let t13 = t4 * sin_heading;
+        let t14 = t2 * n(p.r_over_C);
+        let t15 = t5 * n(p.two_m_r);
+        let t16 = t2.neg_mul_add(t7, t9);
+        let t17 = n(p.k2) * t10;
+        let t18 = t5 * (n(p.C) * heading_dot);
+        let t19 = n(p.k2) * t12;
+        let t20 = N::ONE / t16;
+        let t21 = n(p.k0).mul_add(t6, t1);
+        let t22 = t21.mul_add(cos_lean * heading_dot, sin_lean * n(p.m_r_g));
+        let t23 = cos_heading.mul_sub(t15, t13 * heading_dot);
+        let t24 = t11.mul_add(heading_dot, sin_heading * t15);
+        let t25 = t5.mul_sub(t6.mul_add(n(p.k1), t1), t7 * t18);
+        let t26 = sin_heading.mul_sub(x_dot, cos_heading * y_dot);
+        let t27 = t20 * t11;
+        let t28 = t20 * t13;
+        let t29 = t20 * t14;
+        let t30 = cos_heading.mul_add(x_dot, sin_heading * y_dot);
+        let t31 = t11.neg_mul_add(t27, t10.neg_mul_add(t17, n(p.m)));
+        let t32 = t11.neg_mul_add(t28, t10 * t19);
+        let t33 = t11.neg_mul_add(t29, cos_heading);
+        let t34 = t17.mul_add(t22, heading_dot.mul_sub(t23, t13 * t0));
+        let t35 = t27.neg_mul_add(t25, t34);
+        let t36 = t19.neg_mul_add(t22, heading_dot.mul_add(t24, t11 * t0));
+        let t37 = N::ONE / t31;
+        let t38 = heading_dot.mul_sub(t26, n(p.r_over_C) * t18);
+        let t39 = t37 * t32;
+        let t40 = t37 * t33;
+        let t41 = sin_heading * t37;
+        let t42 = t13.neg_mul_add(t28, t12.neg_mul_add(t19, n(p.m)));
+        let t43 = t32.neg_mul_add(t39, t42);
+        let t44 = t32.neg_mul_add(t40, t13.neg_mul_add(t29, sin_heading));
+        let t45 = t32.mul_add(t41, cos_heading);
+        let t46 = t39.neg_mul_add(t35, t28.neg_mul_add(t25, t36));
+        let t47 = N::ONE / t43;
+        let t48 = t47 * t44;
+        let t49 = t47 * t45;
+        let t50 = t33.mul_add(t40, t14.mul_add(t29, n(p.r_squared_over_C)));
+        let t51 = t44.mul_add(t48, t50);
+        let t52 = t49.neg_mul_add(t44, t41 * t33);
+        let t53 = t48.mul_add(t46, t40.mul_add(t35, t29.mul_add(t25, t38)));
+        let t54 = t45.mul_add(t49, sin_heading * t41);
+        let t55 = N::ONE / t51;
+        let t56 = t55 * t52;
+        let t57 = t49.mul_add(t46, t41.neg_mul_add(t35, heading_dot * t30));
+        let t58 = t52.neg_mul_add(t56, t54);
+        let t59 = t56.mul_add(t53, t57) / t58;
+        let t60 = t56.mul_add(t59, t55 * t53);
+        let t61 = t49.neg_mul_add(t59, t47 * t46);
+        let t62 = t48 * t60;
+        let t63 = t40.neg_mul_add(t60, t41.mul_add(t59, t37 * t35));
+        let t64 = t61 - t62;
+        let t65 = t39 * t64;
+        let t66 = t28.neg_mul_add(t64, t29.neg_mul_add(t60, t20 * t25));
+        let t67 = t63 - t65;
+        let t68 = t27 * t67;
+        let t69 = n(p.r_over_C).mul_add(t60, n(p.inverse_C) * t18);
+        let x_ddot = t65 - t63;
+        let y_ddot = t62 - t61;
+        let heading_ddot = t68 - t66;
+        let lean_ddot = t17.mul_add(t67, t19.neg_mul_add(t64, n(p.k2) * t22));
+        let roll_ddot = t7.mul_sub(t66 - t68, t69);
+        let sound = PIVOTS.hold(t16, t9)
+            & PIVOTS.hold(t31, n(p.m))
+            & PIVOTS.hold(t43, n(p.m))
+            & PIVOTS.hold(t51, t51)
+            & PIVOTS.hold(t58, t54)
             & roll_ddot.is_finite();
         if !sound {
             let pivots = [
-                (2, t15, t8),
-                (0, t30, n(p.m)),
-                (1, t41, n(p.m)),
-                (5, t50, t50),
-                (6, t57, t53),
+                (2, t16, t9),
+                (0, t31, n(p.m)),
+                (1, t43, n(p.m)),
+                (5, t51, t51),
+                (6, t58, t54),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -555,76 +556,77 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t0 = lean_dot * lean_dot;
         let t1 = n(p.C) * roll_dot;
         let t2 = sin_lean * n(p.C);
-        let t3 = cos_lean * n(p.k1);
-        let t4 = sin_lean * n(p.k1);
+        let t3 = cos_lean * n(p.m_r);
+        let t4 = sin_lean * n(p.m_r);
         let t5 = cos_lean * lean_dot;
         let t6 = sin_lean * heading_dot;
-        let t7 = t2 * n(p.k11);
-        let t8 = cos_lean.neg_mul_add(cos_lean * n(p.k5), n(p.k2));
-        let t9 = sin_heading * t3;
-        let t10 = t4 * cos_heading;
-        let t11 = cos_heading * t3;
-        let t12 = t4 * sin_heading;
-        let t13 = t2 * n(p.k12);
-        let t14 = t5 * n(p.k4);
-        let t15 = t2.neg_mul_add(t7, t8);
-        let t16 = n(p.k10) * t9;
-        let t17 = t5 * (n(p.C) * heading_dot);
-        let t18 = n(p.k10) * t11;
-        let t19 = N::ONE / t15;
-        let t20 = n(p.k5).mul_add(t6, t1);
-        let t21 = t20.mul_add(cos_lean * heading_dot, sin_lean * n(p.k0));
-        let t22 = cos_heading.mul_sub(t14, t12 * heading_dot);
-        let t23 = t10.mul_add(heading_dot, sin_heading * t14);
-        let t24 = t5.mul_sub(t6.mul_add(n(p.k6), t1), t7 * t17);
-        let t25 = sin_heading.mul_sub(x_dot, cos_heading * y_dot);
-        let t26 = t19 * t10;
-        let t27 = t19 * t12;
-        let t28 = t19 * t13;
-        let t29 = cos_heading.mul_add(x_dot, sin_heading * y_dot);
-        let t30 = t10.neg_mul_add(t26, t9.neg_mul_add(t16, n(p.m)));
-        let t31 = t10.neg_mul_add(t27, t9 * t18);
-        let t32 = t10.neg_mul_add(t28, cos_heading);
-        let t33 = t16.mul_add(t21, heading_dot.mul_sub(t22, t12 * t0));
-        let t34 = t26.neg_mul_add(t24, t33);
-        let t35 = t18.neg_mul_add(t21, heading_dot.mul_add(t23, t10 * t0));
-        let t36 = N::ONE / t30;
-        let t37 = t36 * t31;
-        let t38 = t36 * t32;
-        let t39 = sin_heading * t36;
-        let t40 = t12.neg_mul_add(t27, t11.neg_mul_add(t18, n(p.m)));
-        let t41 = t31.neg_mul_add(t37, t40);
-        let t42 = t31.neg_mul_add(t38, t12.neg_mul_add(t28, sin_heading));
-        let t43 = t31.mul_add(t39, cos_heading);
-        let t44 = t37.neg_mul_add(t34, t27.neg_mul_add(t24, t35));
-        let t45 = t28.mul_add(t24, heading_dot.mul_sub(t25, n(p.k12) * t17));
-        let t46 = N::ONE / t41;
-        let t47 = t46 * t42;
-        let t48 = t46 * t43;
-        let t49 = t32.mul_add(t38, t13.mul_add(t28, n(p.k13)));
-        let t50 = t42.mul_add(t47, t49);
-        let t51 = t42.neg_mul_add(t48, t32 * t39);
-        let t52 = t47.mul_add(t44, t38.mul_add(t34, t45));
-        let t53 = t43.mul_add(t48, sin_heading * t39);
-        let t54 = N::ONE / t50;
-        let t55 = t54 * t51;
-        let t56 = t48.mul_add(t44, t39.neg_mul_add(t34, heading_dot * t29));
-        let t57 = t51.neg_mul_add(t55, t53);
-        let lambda2 = t55.mul_add(t52, t56) / t57;
-        let lambda1 = t55.mul_add(lambda2, t54 * t52);
-        let sound = PIVOTS.hold(t15, t8)
-            & PIVOTS.hold(t30, n(p.m))
-            & PIVOTS.hold(t41, n(p.m))
-            & PIVOTS.hold(t50, t50)
-            & PIVOTS.hold(t57, t53)
+        let t7 = t2 * n(p.inverse_C);
+        let t8 = cos_lean * n(p.k0);
+        let t9 = cos_lean.neg_mul_add(t8, n(p.C_plus_m_r_squared));
+        let t10 = sin_heading * t3;
+        let t11 = t4 * cos_heading;
+        let t12 = cos_heading * t3;
+        let t13 = t4 * sin_heading;
+        let t14 = t2 * n(p.r_over_C);
+        let t15 = t5 * n(p.two_m_r);
+        let t16 = t2.neg_mul_add(t7, t9);
+        let t17 = n(p.k2) * t10;
+        let t18 = t5 * (n(p.C) * heading_dot);
+        let t19 = n(p.k2) * t12;
+        let t20 = N::ONE / t16;
+        let t21 = n(p.k0).mul_add(t6, t1);
+        let t22 = t21.mul_add(cos_lean * heading_dot, sin_lean * n(p.m_r_g));
+        let t23 = cos_heading.mul_sub(t15, t13 * heading_dot);
+        let t24 = t11.mul_add(heading_dot, sin_heading * t15);
+        let t25 = t5.mul_sub(t6.mul_add(n(p.k1), t1), t7 * t18);
+        let t26 = sin_heading.mul_sub(x_dot, cos_heading * y_dot);
+        let t27 = t20 * t11;
+        let t28 = t20 * t13;
+        let t29 = t20 * t14;
+        let t30 = cos_heading.mul_add(x_dot, sin_heading * y_dot);
+        let t31 = t11.neg_mul_add(t27, t10.neg_mul_add(t17, n(p.m)));
+        let t32 = t11.neg_mul_add(t28, t10 * t19);
+        let t33 = t11.neg_mul_add(t29, cos_heading);
+        let t34 = t17.mul_add(t22, heading_dot.mul_sub(t23, t13 * t0));
+        let t35 = t27.neg_mul_add(t25, t34);
+        let t36 = t19.neg_mul_add(t22, heading_dot.mul_add(t24, t11 * t0));
+        let t37 = N::ONE / t31;
+        let t38 = heading_dot.mul_sub(t26, n(p.r_over_C) * t18);
+        let t39 = t37 * t32;
+        let t40 = t37 * t33;
+        let t41 = sin_heading * t37;
+        let t42 = t13.neg_mul_add(t28, t12.neg_mul_add(t19, n(p.m)));
+        let t43 = t32.neg_mul_add(t39, t42);
+        let t44 = t32.neg_mul_add(t40, t13.neg_mul_add(t29, sin_heading));
+        let t45 = t32.mul_add(t41, cos_heading);
+        let t46 = t39.neg_mul_add(t35, t28.neg_mul_add(t25, t36));
+        let t47 = N::ONE / t43;
+        let t48 = t47 * t44;
+        let t49 = t47 * t45;
+        let t50 = t33.mul_add(t40, t14.mul_add(t29, n(p.r_squared_over_C)));
+        let t51 = t44.mul_add(t48, t50);
+        let t52 = t44.neg_mul_add(t49, t33 * t41);
+        let t53 = t48.mul_add(t46, t40.mul_add(t35, t29.mul_add(t25, t38)));
+        let t54 = t45.mul_add(t49, sin_heading * t41);
+        let t55 = N::ONE / t51;
+        let t56 = t55 * t52;
+        let t57 = t49.mul_add(t46, t41.neg_mul_add(t35, heading_dot * t30));
+        let t58 = t52.neg_mul_add(t56, t54);
+        let lambda2 = t56.mul_add(t53, t57) / t58;
+        let lambda1 = t56.mul_add(lambda2, t55 * t53);
+        let sound = PIVOTS.hold(t16, t9)
+            & PIVOTS.hold(t31, n(p.m))
+            & PIVOTS.hold(t43, n(p.m))
+            & PIVOTS.hold(t51, t51)
+            & PIVOTS.hold(t58, t54)
             & lambda1.is_finite();
         if !sound {
             let pivots = [
-                (2, t15, t8),
-                (0, t30, n(p.m)),
-                (1, t41, n(p.m)),
-                (5, t50, t50),
-                (6, t57, t53),
+                (2, t16, t9),
+                (0, t31, n(p.m)),
+                (1, t43, n(p.m)),
+                (5, t51, t51),
+                (6, t58, t54),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -675,7 +677,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
     let lean = q[3];
     let cos_lean = lean.cos();
-    p.k0 * cos_lean
+    p.m_r_g * cos_lean
 }
 
 ::lagrangian::emitted::implement! {
@@ -696,7 +698,10 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     ]
     inputs Inputs {} []
     outputs Outputs {} []
-    prepared Prepared { m, r, C, A, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13 }
+    prepared Prepared {
+        m, r, C, A, m_r_g, m_r, C_plus_m_r_squared, A_plus_m_r_squared, two_m_r, k0, k1, minus_m_r,
+        minus_C, minus_r, k2, inverse_C, r_over_C, r_squared_over_C,
+    }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

@@ -58,20 +58,20 @@ impl<S: ::lagrangian::emitted::Scalar> RollingCylinder<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = S::ONE / self.r;
-        let k0 = self.m * self.g;
-        let k1 = self.R - self.r;
+        let m_g = self.m * self.g;
+        let R_minus_r = self.R - self.r;
         let pivot_4 = self.r * self.r;
-        let t1 = k1 * k1;
+        let t1 = R_minus_r * R_minus_r;
         let t2 = t0 * (self.J * t0);
         let t3 = self.m + t2;
-        let t4 = k0 * (S::ONE / t3);
-        let k2 = self.m * S::from_f64(2.0);
-        let k3 = -self.m;
-        let k4 = -k0;
-        let k5 = S::ONE / self.m;
-        let k6 = pivot_4 / self.J;
-        let k7 = t0 * t4;
-        let k8 = -(t4 / k1);
+        let t4 = m_g * (S::ONE / t3);
+        let two_m = self.m * S::from_f64(2.0);
+        let minus_m = -self.m;
+        let minus_m_g = -m_g;
+        let inverse_m = S::ONE / self.m;
+        let r_squared_over_J = pivot_4 / self.J;
+        let k0 = t0 * t4;
+        let k1 = -(t4 / R_minus_r);
         let pivot_1 = t3 * t1;
         let scale_1 = self.m * t1 + t2 * t1;
         let one = S::ONE;
@@ -81,15 +81,15 @@ impl<S: ::lagrangian::emitted::Scalar> RollingCylinder<S> {
             J: self.J,
             r: self.r,
             g: self.g,
+            m_g,
+            R_minus_r,
+            two_m,
+            minus_m,
+            minus_m_g,
+            inverse_m,
+            r_squared_over_J,
             k0,
             k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -140,33 +140,30 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `m*g`
-    k0: S,
+    m_g: S,
     /// `R - r`
-    k1: S,
+    R_minus_r: S,
     /// `2*m`
-    k2: S,
+    two_m: S,
     /// `-m`
-    k3: S,
+    minus_m: S,
     /// `-m*g`
-    k4: S,
+    minus_m_g: S,
     /// `1/m`
-    k5: S,
+    inverse_m: S,
     /// `r^2/J`
-    k6: S,
+    r_squared_over_J: S,
     /// `m*g/r/(m + J/r^2)`
-    k7: S,
+    k0: S,
     /// `-m*g/(R - r)/(m + J/r^2)`
-    k8: S,
+    k1: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 3,
-    tolerance: 4.440892098500626e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(3, 5);
 
 /// Mass matrix `M`.
 ///
@@ -193,8 +190,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[
     let s_dot = v[0];
     let phi_dot = v[1];
     let t0 = phi_dot * s;
-    let h_s = t0 * (phi_dot * p.k3);
-    let h_phi = t0 * (p.k2 * s_dot);
+    let h_s = t0 * (phi_dot * p.minus_m);
+    let h_phi = t0 * (p.two_m * s_dot);
     let zero = S::ZERO;
     [h_s, h_phi, zero]
 }
@@ -209,8 +206,8 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     let s = q[0];
     let phi = q[1];
     let (sin_phi, cos_phi) = phi.sin_cos();
-    let q_s = p.k0 * cos_phi;
-    let q_phi = sin_phi * (p.k4 * s);
+    let q_s = p.m_g * cos_phi;
+    let q_phi = sin_phi * (p.minus_m_g * s);
     let zero = S::ZERO;
     [q_s, q_phi, zero]
 }
@@ -223,8 +220,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let phi_dot = v[1];
     let (sin_phi, cos_phi) = phi.sin_cos();
     let t0 = phi_dot * s;
-    let f_s = t0 * (phi_dot * p.m) + p.k0 * cos_phi;
-    let f_phi = -(t0 * (p.k2 * s_dot) + sin_phi * (s * p.k0));
+    let f_s = t0 * (phi_dot * p.m) + p.m_g * cos_phi;
+    let f_phi = -(t0 * (p.two_m * s_dot) + sin_phi * (s * p.m_g));
     let zero = S::ZERO;
     [f_s, f_phi, zero]
 }
@@ -239,7 +236,7 @@ pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
     q: &[S; 3],
 ) -> [S; 2] {
     let s = q[0];
-    let g1 = p.k1 - s;
+    let g1 = p.R_minus_r - s;
     let zero = S::ZERO;
     [g1, zero]
 }
@@ -322,8 +319,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let phi = n(q[1]);
         let sin_phi = phi.sin();
         let zero = N::ZERO;
-        let phi_ddot = sin_phi * n(p.k8);
-        let theta_ddot = sin_phi * n(p.k7);
+        let phi_ddot = sin_phi * n(p.k1);
+        let theta_ddot = sin_phi * n(p.k0);
         let accelerations = [zero.store(), phi_ddot.store(), theta_ddot.store()];
         Ok(accelerations)
     }
@@ -370,7 +367,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t2 = t0 * N::from_f64(2.0);
         let t3 = phi_dot * (phi_dot * s);
         let t4 = s * (n(p.m) * s);
-        let t5 = t1.mul_add(n(p.k5) / t1, n(p.k6));
+        let t5 = t1.mul_add(n(p.inverse_m) / t1, n(p.r_squared_over_J));
         let t6 = sin_phi.mul_sub(t3, t2 * cos_phi);
         let t7 = t2.mul_add(sin_phi, cos_phi * t3) + n(p.g);
         let lambda1 = n(p.m) * cos_phi.mul_add(t7, sin_phi * t6);
@@ -378,7 +375,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let sound = PIVOTS.hold(n(p.J), n(p.J))
             & PIVOTS.hold(n(p.m), n(p.m))
             & PIVOTS.hold(t4, t4)
-            & PIVOTS.hold(n(p.k5), n(p.k5))
+            & PIVOTS.hold(n(p.inverse_m), n(p.inverse_m))
             & PIVOTS.hold(t5, t5)
             & lambda2.is_finite();
         if !sound {
@@ -386,7 +383,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
                 (2, n(p.J), n(p.J)),
                 (0, n(p.m), n(p.m)),
                 (1, t4, t4),
-                (3, n(p.k5), n(p.k5)),
+                (3, n(p.inverse_m), n(p.inverse_m)),
                 (4, t5, t5),
             ];
             PIVOTS.check(pivots)?;
@@ -428,7 +425,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let s = q[0];
     let phi = q[1];
     let cos_phi = phi.cos();
-    cos_phi * (p.k4 * s)
+    cos_phi * (p.minus_m_g * s)
 }
 
 /// By how much `s > 0` holds.
@@ -453,7 +450,9 @@ pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
     ]
     inputs Inputs {} []
     outputs Outputs {} []
-    prepared Prepared { m, J, r, g, k0, k1, k2, k3, k4, k5, k6, k7, k8 }
+    prepared Prepared {
+        m, J, r, g, m_g, R_minus_r, two_m, minus_m, minus_m_g, inverse_m, r_squared_over_J, k0, k1,
+    }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q } }
     system {

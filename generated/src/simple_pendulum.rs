@@ -59,19 +59,19 @@ impl<S: ::lagrangian::emitted::Scalar> SimplePendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m * self.l;
-        let k0 = self.l * t0;
-        let k1 = k0 * S::from_f64(0.5);
-        let k2 = -(self.g * t0);
-        let k3 = -(self.g / self.l);
-        let pivots = [(0, k0, k0)];
+        let m_l_squared = self.l * t0;
+        let half_m_l_squared = m_l_squared * S::from_f64(0.5);
+        let minus_m_l_g = -(self.g * t0);
+        let minus_g_over_l = -(self.g / self.l);
+        let pivots = [(0, m_l_squared, m_l_squared)];
         Prepared {
             m: self.m,
             l: self.l,
             g: self.g,
-            k0,
-            k1,
-            k2,
-            k3,
+            m_l_squared,
+            half_m_l_squared,
+            minus_m_l_g,
+            minus_g_over_l,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -118,23 +118,20 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `m*l^2`
-    k0: S,
+    m_l_squared: S,
     /// `0.5*m*l^2`
-    k1: S,
+    half_m_l_squared: S,
     /// `-m*l*g`
-    k2: S,
+    minus_m_l_g: S,
     /// `-g/l`
-    k3: S,
+    minus_g_over_l: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 1,
-    tolerance: 8.881784197001252e-16,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(1, 1);
 
 /// Mass matrix `M`.
 ///
@@ -142,7 +139,7 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 /// M[theta, theta] = m*l^2
 /// ```
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
-    [[p.k0]]
+    [[p.m_l_squared]]
 }
 
 /// Applied generalized forces `Q`.
@@ -153,7 +150,7 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let sin_theta = theta.sin();
-    let q_theta = p.k2 * sin_theta;
+    let q_theta = p.minus_m_l_g * sin_theta;
     [q_theta]
 }
 
@@ -161,7 +158,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) ->
 pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let sin_theta = theta.sin();
-    let f_theta = p.k2 * sin_theta;
+    let f_theta = p.minus_m_l_g * sin_theta;
     [f_theta]
 }
 
@@ -195,7 +192,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         }
         let theta = n(q[0]);
         let sin_theta = theta.sin();
-        let theta_ddot = n(p.k3) * sin_theta;
+        let theta_ddot = n(p.minus_g_over_l) * sin_theta;
         let accelerations = [theta_ddot.store()];
         Ok(accelerations)
     }
@@ -208,7 +205,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
 /// ```
 pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> S {
     let theta_dot = v[0];
-    theta_dot * (theta_dot * p.k1)
+    theta_dot * (theta_dot * p.half_m_l_squared)
 }
 
 /// Potential energy `V`, in J.
@@ -219,7 +216,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> S {
     let theta = q[0];
     let cos_theta = theta.cos();
-    p.k2 * cos_theta
+    p.minus_m_l_g * cos_theta
 }
 
 /// Tension of the rod; negative where the bob presses on it. It is 3 m g at the bottom
@@ -264,7 +261,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     outputs Outputs { tension } [
         tension: "tension" "N";
     ]
-    prepared Prepared { m, l, g, k0, k1, k2, k3 }
+    prepared Prepared { m, l, g, m_l_squared, half_m_l_squared, minus_m_l_g, minus_g_over_l }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q } }
     system {

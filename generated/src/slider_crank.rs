@@ -73,28 +73,28 @@ impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.a * self.a;
         let t1 = S::from_f64(0.5) * self.g;
-        let k1 = self.m2 * self.g;
+        let m2_g = self.m2 * self.g;
         let t2 = self.b * self.m2;
         let t3 = self.m1 * t0;
         let t4 = t1 * self.m1;
-        let k5 = t2 * (self.a * S::from_f64(0.5));
-        let k9 = t1 * t2;
+        let half_a_b_m2 = t2 * (self.a * S::from_f64(0.5));
+        let half_b_m2_g = t1 * t2;
         let pivot_0 = t3 * S::from_f64(0.25) + (self.J1 + self.m2 * t0);
         let t5 = (self.m1 + self.m2 * S::from_f64(4.0)) * (t0 * S::from_f64(0.25));
-        let k8 = self.a * (k1 + t4);
-        let k0 = self.b * S::from_f64(0.5);
-        let k2 = self.a * t4;
-        let k3 = S::from_f64(0.125) * (S::from_f64(4.0) * self.J1 + t3);
-        let k4 = self.m3 * S::from_f64(0.5);
-        let k6 = self.J1 + t5;
-        let k7 = self.J2 + t2 * (self.b * S::from_f64(0.25));
-        let k10 = -self.a;
-        let k11 = -k5;
-        let k12 = -k8;
-        let k13 = -k9;
-        let k14 = -self.b;
-        let k15 = S::ONE / self.m3;
-        let k16 = S::ONE / pivot_0;
+        let k3 = self.a * (m2_g + t4);
+        let half_b = self.b * S::from_f64(0.5);
+        let half_a_m1_g = self.a * t4;
+        let k0 = S::from_f64(0.125) * (S::from_f64(4.0) * self.J1 + t3);
+        let half_m3 = self.m3 * S::from_f64(0.5);
+        let k1 = self.J1 + t5;
+        let k2 = self.J2 + t2 * (self.b * S::from_f64(0.25));
+        let minus_a = -self.a;
+        let minus_half_a_b_m2 = -half_a_b_m2;
+        let k4 = -k3;
+        let minus_half_b_m2_g = -half_b_m2_g;
+        let minus_b = -self.b;
+        let inverse_m3 = S::ONE / self.m3;
+        let k5 = S::ONE / pivot_0;
         let pivots = [(2, self.m3, self.m3), (0, pivot_0, pivot_0)];
         Prepared {
             a: self.a,
@@ -102,23 +102,23 @@ impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
             m2: self.m2,
             m3: self.m3,
             J2: self.J2,
+            half_b,
+            m2_g,
+            half_a_m1_g,
             k0,
+            half_m3,
+            half_a_b_m2,
             k1,
             k2,
             k3,
+            half_b_m2_g,
+            minus_a,
+            minus_half_a_b_m2,
             k4,
+            minus_half_b_m2_g,
+            minus_b,
+            inverse_m3,
             k5,
-            k6,
-            k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -173,49 +173,46 @@ pub struct Prepared<S = f64> {
     /// `J2`
     J2: S,
     /// `0.5*b`
-    k0: S,
+    half_b: S,
     /// `m2*g`
-    k1: S,
+    m2_g: S,
     /// `0.5*a*m1*g`
-    k2: S,
+    half_a_m1_g: S,
     /// `0.125*(a^2*m1 + 4*J1)`
-    k3: S,
+    k0: S,
     /// `0.5*m3`
-    k4: S,
+    half_m3: S,
     /// `0.5*a*b*m2`
-    k5: S,
+    half_a_b_m2: S,
     /// `J1 + 0.25*a^2*(m1 + 4*m2)`
-    k6: S,
+    k1: S,
     /// `J2 + 0.25*b^2*m2`
-    k7: S,
+    k2: S,
     /// `a*(m2*g + 0.5*m1*g)`
-    k8: S,
+    k3: S,
     /// `0.5*b*m2*g`
-    k9: S,
+    half_b_m2_g: S,
     /// `-a`
-    k10: S,
+    minus_a: S,
     /// `-0.5*a*b*m2`
-    k11: S,
+    minus_half_a_b_m2: S,
     /// `-a*(m2*g + 0.5*m1*g)`
-    k12: S,
+    k4: S,
     /// `-0.5*b*m2*g`
-    k13: S,
+    minus_half_b_m2_g: S,
     /// `-b`
-    k14: S,
+    minus_b: S,
     /// `1/m3`
-    k15: S,
+    inverse_m3: S,
     /// `1/(J1 + a^2*m2 + 0.25*a^2*m1)`
-    k16: S,
+    k5: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 3,
-    tolerance: 4.440892098500626e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(3, 5);
 
 /// Mass matrix `M`.
 ///
@@ -230,9 +227,9 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]
     let phi = q[1];
     let (sin_phi, cos_phi) = phi.sin_cos();
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let m21 = (sin_phi * sin_theta + cos_phi * cos_theta) * p.k5;
+    let m21 = (sin_phi * sin_theta + cos_phi * cos_theta) * p.half_a_b_m2;
     let zero = S::ZERO;
-    [[p.k6, m21, zero], [m21, p.k7, zero], [zero, zero, p.m3]]
+    [[p.k1, m21, zero], [m21, p.k2, zero], [zero, zero, p.m3]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -249,8 +246,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[
     let (sin_phi, cos_phi) = phi.sin_cos();
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = sin_phi * cos_theta - cos_phi * sin_theta;
-    let h_theta = t0 * (phi_dot * (p.k11 * phi_dot));
-    let h_phi = t0 * (theta_dot * (theta_dot * p.k5));
+    let h_theta = t0 * (phi_dot * (p.minus_half_a_b_m2 * phi_dot));
+    let h_phi = t0 * (theta_dot * (theta_dot * p.half_a_b_m2));
     let zero = S::ZERO;
     [h_theta, h_phi, zero]
 }
@@ -266,8 +263,8 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     let phi = q[1];
     let cos_theta = theta.cos();
     let cos_phi = phi.cos();
-    let q_theta = p.k12 * cos_theta;
-    let q_phi = p.k13 * cos_phi;
+    let q_theta = p.k4 * cos_theta;
+    let q_phi = p.minus_half_b_m2_g * cos_phi;
     let zero = S::ZERO;
     [q_theta, q_phi, zero]
 }
@@ -282,10 +279,10 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let (sin_phi, cos_phi) = phi.sin_cos();
     let t0 = phi_dot * phi_dot;
     let t1 = theta_dot * theta_dot;
-    let t2 = sin_phi * (cos_theta * p.k5);
-    let t3 = cos_phi * (sin_theta * p.k5);
-    let f_theta = t0 * t2 - (t0 * t3 + cos_theta * p.k8);
-    let f_phi = t3 * t1 - (t2 * t1 + cos_phi * p.k9);
+    let t2 = sin_phi * (cos_theta * p.half_a_b_m2);
+    let t3 = cos_phi * (sin_theta * p.half_a_b_m2);
+    let f_theta = t0 * t2 - (t0 * t3 + cos_theta * p.k3);
+    let f_phi = t3 * t1 - (t2 * t1 + cos_phi * p.half_b_m2_g);
     let zero = S::ZERO;
     [f_theta, f_phi, zero]
 }
@@ -349,8 +346,8 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let phi = q[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let (sin_phi, cos_phi) = phi.sin_cos();
-    let g1_1 = p.k10 * sin_theta;
-    let g1_2 = p.k14 * sin_phi;
+    let g1_1 = p.minus_a * sin_theta;
+    let g1_2 = p.minus_b * sin_phi;
     let g2_1 = cos_theta * p.a;
     let g2_2 = cos_phi * p.b;
     let zero = S::ZERO;
@@ -429,41 +426,44 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t5 = cos_phi * n(p.b);
         let t6 = cos_phi * sin_theta;
         let t7 = sin_phi * cos_theta;
-        let t8 = n(p.k16) * t2;
-        let t9 = n(p.k16) * t3;
-        let t10 = n(p.k5) * sin_phi.mul_add(sin_theta, cos_phi * cos_theta);
-        let t11 = (t6 - t7).mul_add(t0 * n(p.k5), cos_theta * n(p.k8));
-        let t12 = n(p.k16) * t10;
-        let t13 = t10.neg_mul_add(t9, t4);
-        let t14 = t10.neg_mul_add(t8, t5);
-        let t15 = t10.neg_mul_add(t12, n(p.k7));
-        let t16 = (t7 - t6).mul_add(n(p.k5) * t1, cos_phi * n(p.k9));
-        let t17 = t11.neg_mul_add(t12, t16);
-        let t18 = N::ONE / t15;
-        let t19 = t18 * t13;
-        let t20 = t18 * t14;
-        let t21 = t13.mul_add(t19, t3.mul_add(t9, n(p.k15)));
-        let t22 = t20.mul_add(t13, t8 * t3);
-        let t23 = t11.neg_mul_add(t9, t0.mul_add(t5, t2 * t1));
-        let t24 = t19.neg_mul_add(t17, t23);
-        let t25 = t14.mul_add(t20, t2 * t8);
-        let t26 = N::ONE / t21;
-        let t27 = t26 * t22;
-        let t28 = t20.mul_add(t17, t11.mul_add(t8, t0.mul_add(t4, t3 * t1)));
-        let t29 = t22.neg_mul_add(t27, t25);
-        let t30 = t27.mul_add(t24, t28) / t29;
-        let t31 = t27.mul_add(t30, t26 * t24);
-        let t32 = t19.mul_add(t31, t20.neg_mul_add(t30, t18 * t17));
-        let t33 = t9.neg_mul_add(t31, t8.mul_sub(t30, n(p.k16) * t11));
-        let theta_ddot = t12.mul_add(t32, t33);
-        let phi_ddot = -t32;
-        let s_ddot = -(n(p.k15) * t31);
-        let sound = PIVOTS.hold(t15, n(p.k7))
-            & PIVOTS.hold(t21, t21)
-            & PIVOTS.hold(t29, t25)
+        let t8 = n(p.k5) * t2;
+        let t9 = n(p.k5) * t3;
+        let t10 = sin_phi.mul_add(sin_theta, cos_phi * cos_theta);
+        let t11 = n(p.half_a_b_m2) * t10;
+        let t12 = t0 * n(p.half_a_b_m2);
+        let t13 = (t6 - t7).mul_add(t12, cos_theta * n(p.k3));
+        let t14 = cos_phi * n(p.half_b_m2_g);
+        let t15 = n(p.k5) * t11;
+        let t16 = t11.neg_mul_add(t9, t4);
+        let t17 = t11.neg_mul_add(t8, t5);
+        let t18 = t11.neg_mul_add(t15, n(p.k2));
+        let t19 = (t7 - t6).mul_add(n(p.half_a_b_m2) * t1, t14);
+        let t20 = t13.neg_mul_add(t15, t19);
+        let t21 = N::ONE / t18;
+        let t22 = t21 * t16;
+        let t23 = t21 * t17;
+        let t24 = t16.mul_add(t22, t3.mul_add(t9, n(p.inverse_m3)));
+        let t25 = t23.mul_add(t16, t8 * t3);
+        let t26 = t13.neg_mul_add(t9, t0.mul_add(t5, t2 * t1));
+        let t27 = t22.neg_mul_add(t20, t26);
+        let t28 = t17.mul_add(t23, t2 * t8);
+        let t29 = N::ONE / t24;
+        let t30 = t29 * t25;
+        let t31 = t23.mul_add(t20, t13.mul_add(t8, t0.mul_add(t4, t3 * t1)));
+        let t32 = t25.neg_mul_add(t30, t28);
+        let t33 = t30.mul_add(t27, t31) / t32;
+        let t34 = t30.mul_add(t33, t29 * t27);
+        let t35 = t22.mul_add(t34, t23.neg_mul_add(t33, t21 * t20));
+        let t36 = t9.neg_mul_add(t34, t8.mul_sub(t33, n(p.k5) * t13));
+        let theta_ddot = t15.mul_add(t35, t36);
+        let phi_ddot = -t35;
+        let s_ddot = -(n(p.inverse_m3) * t34);
+        let sound = PIVOTS.hold(t18, n(p.k2))
+            & PIVOTS.hold(t24, t24)
+            & PIVOTS.hold(t32, t28)
             & s_ddot.is_finite();
         if !sound {
-            let pivots = [(1, t15, n(p.k7)), (3, t21, t21), (4, t29, t25)];
+            let pivots = [(1, t18, n(p.k2)), (3, t24, t24), (4, t32, t28)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [theta_ddot.store(), phi_ddot.store(), s_ddot.store()];
@@ -518,36 +518,39 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
         let t5 = cos_phi * n(p.b);
         let t6 = cos_phi * sin_theta;
         let t7 = sin_phi * cos_theta;
-        let t8 = n(p.k16) * t2;
-        let t9 = n(p.k16) * t3;
-        let t10 = n(p.k5) * sin_phi.mul_add(sin_theta, cos_phi * cos_theta);
-        let t11 = (t6 - t7).mul_add(n(p.k5) * t0, cos_theta * n(p.k8));
-        let t12 = n(p.k16) * t10;
-        let t13 = t10.neg_mul_add(t9, t4);
-        let t14 = t10.neg_mul_add(t8, t5);
-        let t15 = t10.neg_mul_add(t12, n(p.k7));
-        let t16 = (t7 - t6).mul_add(n(p.k5) * t1, cos_phi * n(p.k9));
-        let t17 = t12.neg_mul_add(t11, t16);
-        let t18 = N::ONE / t15;
-        let t19 = t18 * t13;
-        let t20 = t18 * t14;
-        let t21 = t13.mul_add(t19, t3.mul_add(t9, n(p.k15)));
-        let t22 = t13.mul_add(t20, t3 * t8);
-        let t23 = t9.neg_mul_add(t11, t5.mul_add(t0, t2 * t1));
-        let t24 = t19.neg_mul_add(t17, t23);
-        let t25 = t14.mul_add(t20, t2 * t8);
-        let t26 = N::ONE / t21;
-        let t27 = t26 * t22;
-        let t28 = t20.mul_add(t17, t8.mul_add(t11, t4.mul_add(t0, t3 * t1)));
-        let t29 = t22.neg_mul_add(t27, t25);
-        let lambda2 = t27.mul_add(t24, t28) / t29;
-        let lambda1 = t27.mul_add(lambda2, t26 * t24);
-        let sound = PIVOTS.hold(t15, n(p.k7))
-            & PIVOTS.hold(t21, t21)
-            & PIVOTS.hold(t29, t25)
+        let t8 = n(p.k5) * t2;
+        let t9 = n(p.k5) * t3;
+        let t10 = sin_phi.mul_add(sin_theta, cos_phi * cos_theta);
+        let t11 = n(p.half_a_b_m2) * t10;
+        let t12 = n(p.half_a_b_m2) * t0;
+        let t13 = (t6 - t7).mul_add(t12, cos_theta * n(p.k3));
+        let t14 = cos_phi * n(p.half_b_m2_g);
+        let t15 = n(p.k5) * t11;
+        let t16 = t11.neg_mul_add(t9, t4);
+        let t17 = t11.neg_mul_add(t8, t5);
+        let t18 = t11.neg_mul_add(t15, n(p.k2));
+        let t19 = (t7 - t6).mul_add(n(p.half_a_b_m2) * t1, t14);
+        let t20 = t15.neg_mul_add(t13, t19);
+        let t21 = N::ONE / t18;
+        let t22 = t21 * t16;
+        let t23 = t21 * t17;
+        let t24 = t16.mul_add(t22, t3.mul_add(t9, n(p.inverse_m3)));
+        let t25 = t16.mul_add(t23, t3 * t8);
+        let t26 = t9.neg_mul_add(t13, t5.mul_add(t0, t2 * t1));
+        let t27 = t22.neg_mul_add(t20, t26);
+        let t28 = t17.mul_add(t23, t2 * t8);
+        let t29 = N::ONE / t24;
+        let t30 = t29 * t25;
+        let t31 = t23.mul_add(t20, t8.mul_add(t13, t4.mul_add(t0, t3 * t1)));
+        let t32 = t25.neg_mul_add(t30, t28);
+        let lambda2 = t30.mul_add(t27, t31) / t32;
+        let lambda1 = t30.mul_add(lambda2, t29 * t27);
+        let sound = PIVOTS.hold(t18, n(p.k2))
+            & PIVOTS.hold(t24, t24)
+            & PIVOTS.hold(t32, t28)
             & lambda1.is_finite();
         if !sound {
-            let pivots = [(1, t15, n(p.k7)), (3, t21, t21), (4, t29, t25)];
+            let pivots = [(1, t18, n(p.k2)), (3, t24, t24), (4, t32, t28)];
             PIVOTS.check(pivots)?;
         }
         let multipliers = [lambda1.store(), lambda2.store()];
@@ -575,11 +578,11 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let (sin_theta, cos_theta) = theta.sin_cos();
     let (sin_phi, cos_phi) = phi.sin_cos();
     let t0 = theta_dot * p.a;
-    let t1 = p.k0 * phi_dot;
+    let t1 = p.half_b * phi_dot;
     let t2 = t1 * sin_phi + t0 * sin_theta;
     let t3 = t1 * cos_phi + t0 * cos_theta;
     let t4 = (t3 * t3 + t2 * t2) * p.m2 + phi_dot * (phi_dot * p.J2);
-    let t5 = s_dot * (s_dot * p.k4) + theta_dot * (theta_dot * p.k3);
+    let t5 = s_dot * (s_dot * p.half_m3) + theta_dot * (theta_dot * p.k0);
     t4 * S::from_f64(0.5) + t5
 }
 
@@ -593,7 +596,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let phi = q[1];
     let sin_theta = theta.sin();
     let sin_phi = phi.sin();
-    p.k1 * (p.k0 * sin_phi + sin_theta * p.a) + sin_theta * p.k2
+    let t0 = p.m2_g * (p.half_b * sin_phi + sin_theta * p.a);
+    t0 + sin_theta * p.half_a_m1_g
 }
 
 /// By how much `cos(phi) > 0` holds.
@@ -624,7 +628,8 @@ pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        a, b, m2, m3, J2, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16,
+        a, b, m2, m3, J2, half_b, m2_g, half_a_m1_g, k0, half_m3, half_a_b_m2, k1, k2, k3,
+        half_b_m2_g, minus_a, minus_half_a_b_m2, k4, minus_half_b_m2_g, minus_b, inverse_m3, k5,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

@@ -85,52 +85,52 @@ pub struct SmallAngleCrusher<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> SmallAngleCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.omega * self.e;
+        let e_omega = self.omega * self.e;
         let t0 = self.xc * self.xc;
         let t1 = self.yc * self.yc;
-        let k9 = self.cy * t0 + self.cx * t1;
-        let k10 = self.by * t0 + self.bx * t1;
-        let k12 = self.m0 * self.y0;
-        let k13 = self.m0 * self.x0;
-        let k11 = self.y0 * k12 + (self.J + self.x0 * k13);
-        let k14 = self.m1 + self.m2;
-        let k16 = self.omega * k0;
-        let k26 = self.y0 * k16;
-        let k27 = self.x0 * k16;
-        let k1 = self.omega * (self.omega * self.J0);
-        let k2 = S::from_f64(0.5) * self.J;
-        let k3 = S::from_f64(0.5) * self.m;
-        let k4 = S::from_f64(2.0) * self.y0;
-        let k5 = S::from_f64(2.0) * self.x0;
-        let k6 = self.y0 * self.y0;
-        let k7 = self.x0 * self.x0;
-        let k8 = self.m0 * S::from_f64(0.5);
-        let k15 = k14 + (self.m0 + self.m);
-        let k17 = self.m0 * k16;
-        let k18 = self.m0 * k26;
-        let k19 = self.m0 * k27;
-        let k20 = self.cx * S::from_f64(2.0);
-        let k21 = self.bx * S::from_f64(2.0);
-        let k22 = self.cy * S::from_f64(2.0);
-        let k23 = self.by * S::from_f64(2.0);
-        let k24 = S::from_f64(2.0) * k9;
-        let k25 = S::from_f64(2.0) * k10;
-        let k28 = S::from_f64(2.0) * k26;
-        let k29 = S::from_f64(2.0) * k27;
-        let k30 = k27 * S::from_f64(4.0);
-        let k31 = k26 * S::from_f64(4.0);
-        let k32 = self.m0 * S::from_f64(0.25);
-        let k33 = k0 * self.y0;
-        let k34 = k0 * self.x0;
-        let k35 = -k14;
-        let k36 = -self.m2;
-        let k37 = S::ONE / k11;
-        let k38 = S::ONE / k14;
+        let cx_yc2_plus_cy_xc2 = self.cy * t0 + self.cx * t1;
+        let bx_yc2_plus_by_xc2 = self.by * t0 + self.bx * t1;
+        let m0_y0 = self.m0 * self.y0;
+        let m0_x0 = self.m0 * self.x0;
+        let k0 = self.y0 * m0_y0 + (self.J + self.x0 * m0_x0);
+        let m1_plus_m2 = self.m1 + self.m2;
+        let e_omega2 = self.omega * e_omega;
+        let e_y0_omega2 = self.y0 * e_omega2;
+        let e_x0_omega2 = self.x0 * e_omega2;
+        let J0_omega2 = self.omega * (self.omega * self.J0);
+        let half_J = S::from_f64(0.5) * self.J;
+        let half_m = S::from_f64(0.5) * self.m;
+        let two_y0 = S::from_f64(2.0) * self.y0;
+        let two_x0 = S::from_f64(2.0) * self.x0;
+        let y0_squared = self.y0 * self.y0;
+        let x0_squared = self.x0 * self.x0;
+        let half_m0 = self.m0 * S::from_f64(0.5);
+        let k1 = m1_plus_m2 + (self.m0 + self.m);
+        let m0_e_omega2 = self.m0 * e_omega2;
+        let m0_e_y0_omega2 = self.m0 * e_y0_omega2;
+        let m0_e_x0_omega2 = self.m0 * e_x0_omega2;
+        let two_cx = self.cx * S::from_f64(2.0);
+        let two_bx = self.bx * S::from_f64(2.0);
+        let two_cy = self.cy * S::from_f64(2.0);
+        let two_by = self.by * S::from_f64(2.0);
+        let k2 = S::from_f64(2.0) * cx_yc2_plus_cy_xc2;
+        let k3 = S::from_f64(2.0) * bx_yc2_plus_by_xc2;
+        let two_e_y0_omega2 = S::from_f64(2.0) * e_y0_omega2;
+        let two_e_x0_omega2 = S::from_f64(2.0) * e_x0_omega2;
+        let four_e_x0_omega2 = e_x0_omega2 * S::from_f64(4.0);
+        let four_e_y0_omega2 = e_y0_omega2 * S::from_f64(4.0);
+        let quarter_m0 = self.m0 * S::from_f64(0.25);
+        let e_y0_omega = e_omega * self.y0;
+        let e_x0_omega = e_omega * self.x0;
+        let k4 = -m1_plus_m2;
+        let minus_m2 = -self.m2;
+        let k5 = S::ONE / k0;
+        let k6 = S::ONE / m1_plus_m2;
         let pivots = [
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
-            (2, k11, k11),
-            (3, k14, k14),
+            (2, k0, k0),
+            (3, m1_plus_m2, m1_plus_m2),
         ];
         Prepared {
             m0: self.m0,
@@ -143,45 +143,45 @@ impl<S: ::lagrangian::emitted::Scalar> SmallAngleCrusher<S> {
             cy: self.cy,
             bx: self.bx,
             by: self.by,
+            e_omega,
+            J0_omega2,
+            half_J,
+            half_m,
+            two_y0,
+            two_x0,
+            y0_squared,
+            x0_squared,
+            half_m0,
+            cx_yc2_plus_cy_xc2,
+            bx_yc2_plus_by_xc2,
             k0,
+            m0_y0,
+            m0_x0,
+            m1_plus_m2,
             k1,
+            e_omega2,
+            m0_e_omega2,
+            m0_e_y0_omega2,
+            m0_e_x0_omega2,
+            two_cx,
+            two_bx,
+            two_cy,
+            two_by,
             k2,
             k3,
+            e_y0_omega2,
+            e_x0_omega2,
+            two_e_y0_omega2,
+            two_e_x0_omega2,
+            four_e_x0_omega2,
+            four_e_y0_omega2,
+            quarter_m0,
+            e_y0_omega,
+            e_x0_omega,
             k4,
+            minus_m2,
             k5,
             k6,
-            k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
-            k20,
-            k21,
-            k22,
-            k23,
-            k24,
-            k25,
-            k26,
-            k27,
-            k28,
-            k29,
-            k30,
-            k31,
-            k32,
-            k33,
-            k34,
-            k35,
-            k36,
-            k37,
-            k38,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -256,93 +256,90 @@ pub struct Prepared<S = f64> {
     /// `by`
     by: S,
     /// `e*omega`
-    k0: S,
+    e_omega: S,
     /// `J0*omega^2`
-    k1: S,
+    J0_omega2: S,
     /// `0.5*J`
-    k2: S,
+    half_J: S,
     /// `0.5*m`
-    k3: S,
+    half_m: S,
     /// `2*y0`
-    k4: S,
+    two_y0: S,
     /// `2*x0`
-    k5: S,
+    two_x0: S,
     /// `y0^2`
-    k6: S,
+    y0_squared: S,
     /// `x0^2`
-    k7: S,
+    x0_squared: S,
     /// `0.5*m0`
-    k8: S,
+    half_m0: S,
     /// `cx*yc^2 + cy*xc^2`
-    k9: S,
+    cx_yc2_plus_cy_xc2: S,
     /// `bx*yc^2 + by*xc^2`
-    k10: S,
+    bx_yc2_plus_by_xc2: S,
     /// `J + m0*x0^2 + m0*y0^2`
-    k11: S,
+    k0: S,
     /// `m0*y0`
-    k12: S,
+    m0_y0: S,
     /// `m0*x0`
-    k13: S,
+    m0_x0: S,
     /// `m1 + m2`
-    k14: S,
+    m1_plus_m2: S,
     /// `m + m0 + m1 + m2`
-    k15: S,
+    k1: S,
     /// `e*omega^2`
-    k16: S,
+    e_omega2: S,
     /// `m0*e*omega^2`
-    k17: S,
+    m0_e_omega2: S,
     /// `m0*e*y0*omega^2`
-    k18: S,
+    m0_e_y0_omega2: S,
     /// `m0*e*x0*omega^2`
-    k19: S,
+    m0_e_x0_omega2: S,
     /// `2*cx`
-    k20: S,
+    two_cx: S,
     /// `2*bx`
-    k21: S,
+    two_bx: S,
     /// `2*cy`
-    k22: S,
+    two_cy: S,
     /// `2*by`
-    k23: S,
+    two_by: S,
     /// `2*(cx*yc^2 + cy*xc^2)`
-    k24: S,
+    k2: S,
     /// `2*(bx*yc^2 + by*xc^2)`
-    k25: S,
+    k3: S,
     /// `e*y0*omega^2`
-    k26: S,
+    e_y0_omega2: S,
     /// `e*x0*omega^2`
-    k27: S,
+    e_x0_omega2: S,
     /// `2*e*y0*omega^2`
-    k28: S,
+    two_e_y0_omega2: S,
     /// `2*e*x0*omega^2`
-    k29: S,
+    two_e_x0_omega2: S,
     /// `4*e*x0*omega^2`
-    k30: S,
+    four_e_x0_omega2: S,
     /// `4*e*y0*omega^2`
-    k31: S,
+    four_e_y0_omega2: S,
     /// `0.25*m0`
-    k32: S,
+    quarter_m0: S,
     /// `e*y0*omega`
-    k33: S,
+    e_y0_omega: S,
     /// `e*x0*omega`
-    k34: S,
+    e_x0_omega: S,
     /// `-(m1 + m2)`
-    k35: S,
+    k4: S,
     /// `-m2`
-    k36: S,
+    minus_m2: S,
     /// `1/(J + m0*x0^2 + m0*y0^2)`
-    k37: S,
+    k5: S,
     /// `1/(m1 + m2)`
-    k38: S,
+    k6: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 9);
 
 /// Mass matrix `M`.
 ///
@@ -380,33 +377,33 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.k14 * s1;
+    let t1 = p.m1_plus_m2 * s1;
     let t2 = p.m2 * s2;
     let t3 = cos_phi1 * sin_phi2;
     let t4 = sin_phi1 * cos_phi2;
     let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
     let zero = S::ZERO;
-    let m31 = -(theta * p.k13 + p.k12);
-    let m32 = p.k13 - theta * p.k12;
-    let m41 = p.k14 * cos_phi1;
-    let m42 = p.k14 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k35);
+    let m31 = -(theta * p.m0_x0 + p.m0_y0);
+    let m32 = p.m0_x0 - theta * p.m0_y0;
+    let m41 = p.m1_plus_m2 * cos_phi1;
+    let m42 = p.m1_plus_m2 * sin_phi1;
+    let m51 = sin_phi1 * (s1 * p.k4);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
     let m75 = (t3 - t4) * t0;
-    let m81 = sin_phi2 * (s2 * p.k36);
+    let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t4 - t3);
     let m85 = t5 * (t0 * s2);
     let m88 = s2 * t2;
     [
-        [p.k15, zero, m31, m41, m51, zero, m71, m81, zero],
-        [zero, p.k15, m32, m42, m52, zero, m72, m82, zero],
-        [m31, m32, p.k11, zero, zero, zero, zero, zero, zero],
-        [m41, m42, zero, p.k14, zero, zero, m74, m84, zero],
+        [p.k1, zero, m31, m41, m51, zero, m71, m81, zero],
+        [zero, p.k1, m32, m42, m52, zero, m72, m82, zero],
+        [m31, m32, p.k0, zero, zero, zero, zero, zero, zero],
+        [m41, m42, zero, p.m1_plus_m2, zero, zero, m74, m84, zero],
         [m51, m52, zero, zero, m55, zero, m75, m85, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
         [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
@@ -484,28 +481,30 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t29 = p.m2 * t25 + p.m1 * t21;
     let t30 = t15 + (t15 + phi2_dot * t8) + t26;
     let t31 = t17 + (t17 - phi2_dot * t12) + t27;
-    let t32 = (y_dot + t20 * p.k0) * (theta_dot * p.k12);
+    let t32 = (y_dot + t20 * p.e_omega) * (theta_dot * p.m0_y0);
     let t33 = p.m2 * t28 + p.m1 * t23;
     let t34 = t25 * (cos_phi2 * phi2_dot);
     let t35 = t28 * (sin_phi2 * phi2_dot);
     let t36 = t30 * p.m2 + t26 * p.m1;
     let t37 = p.m2 * t31 + p.m1 * t27;
-    let t38 = (x_dot - t24 * p.k0) * (theta_dot * p.k13);
+    let t38 = (x_dot - t24 * p.e_omega) * (theta_dot * p.m0_x0);
     let t39 = t29 * (cos_phi1 * phi1_dot);
     let t40 = t33 * (sin_phi1 * phi1_dot);
-    let t41 = sin_phi2 * (s2_dot * t28 + t2 * t25);
-    let t42 = t32 - t24 * (p.k18 * theta) + (t24 * p.k19 - t20 * p.k18);
-    let t43 = sin_phi1 * (s1_dot * t33 + t1 * t29);
-    let t44 = t22 * t25 + t31 * (cos_phi2 * s2) - (t28 * t16 - t30 * (sin_phi2 * s2));
-    let t45 = t19 * t29 + t37 * (cos_phi1 * s1) - (t33 * t13 - t36 * (sin_phi1 * s1));
-    let h_x = -(t36 + (t4 * p.k13 + p.k17 * t20));
-    let h_y = t37 - (t4 * p.k12 + p.k17 * t24);
-    let h_theta = t38 + t32 - (t38 - t20 * (p.k19 * theta) + t42);
+    let t41 = t24 * p.m0_e_x0_omega2 - t20 * p.m0_e_y0_omega2;
+    let t42 = sin_phi2 * (s2_dot * t28 + t2 * t25);
+    let t43 = t32 - t24 * (p.m0_e_y0_omega2 * theta) + t41;
+    let t44 = sin_phi1 * (s1_dot * t33 + t1 * t29);
+    let t45 = t22 * t25 + t31 * (cos_phi2 * s2) - (t28 * t16 - t30 * (sin_phi2 * s2));
+    let t46 = t19 * t29 + t37 * (cos_phi1 * s1) - (t33 * t13 - t36 * (sin_phi1 * s1));
+    let t47 = t34 - t35 - (t34 + sin_phi2 * t31 - (t35 + cos_phi2 * t30));
+    let h_x = -(t36 + (t4 * p.m0_x0 + p.m0_e_omega2 * t20));
+    let h_y = t37 - (t4 * p.m0_y0 + p.m0_e_omega2 * t24);
+    let h_theta = t38 + t32 - (t38 - t20 * (p.m0_e_x0_omega2 * theta) + t43);
     let h_s1 = t39 + sin_phi1 * t37 - (t40 + cos_phi1 * t36) - (t39 - t40);
-    let h_phi1 = t45 - (cos_phi1 * (s1_dot * t29 - t1 * t33) - t43);
+    let h_phi1 = t46 - (cos_phi1 * (s1_dot * t29 - t1 * t33) - t44);
     let zero = S::ZERO;
-    let h_s2 = p.k36 * (t34 - t35 - (t34 + sin_phi2 * t31 - (t35 + cos_phi2 * t30)));
-    let h_phi2 = p.k36 * (cos_phi2 * (s2_dot * t25 - t2 * t28) - t41 - t44);
+    let h_s2 = p.minus_m2 * t47;
+    let h_phi2 = p.minus_m2 * (cos_phi2 * (s2_dot * t25 - t2 * t28) - t42 - t45);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -527,9 +526,9 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
-    let q_x = -(p.k21 * x_dot + p.k20 * x);
-    let q_y = -(p.k23 * y_dot + p.k22 * y);
-    let q_theta = -(p.k25 * theta_dot + p.k24 * theta);
+    let q_x = -(p.two_bx * x_dot + p.two_cx * x);
+    let q_y = -(p.two_by * y_dot + p.two_cy * y);
+    let q_theta = -(p.k3 * theta_dot + p.k2 * theta);
     let zero = S::ZERO;
     [q_x, q_y, q_theta, zero, zero, zero, zero, zero, zero]
 }
@@ -582,37 +581,40 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t21 = y_dot + t13;
     let t22 = t8 - t11;
     let t23 = t20 + t21;
-    let t24 = (y_dot + t15 * p.k0) * (theta_dot * p.k12);
+    let t24 = (y_dot + t15 * p.e_omega) * (theta_dot * p.m0_y0);
     let t25 = t10 - t12;
     let t26 = x_dot + t22;
     let t27 = t14 + (t14 + phi1_dot * t6);
     let t28 = t18 + (t18 - phi1_dot * t11);
-    let t29 = (x_dot - t19 * p.k0) * (theta_dot * p.k13);
+    let t29 = (x_dot - t19 * p.e_omega) * (theta_dot * p.m0_x0);
     let t30 = p.m2 * t23 + p.m1 * t21;
     let t31 = t25 + t26;
     let t32 = t16 + (t16 + phi2_dot * t9) + t27;
     let t33 = t17 + (t17 - phi2_dot * t12) + t28;
-    let t34 = p.m2 * t31 + p.m1 * t26;
-    let t35 = t23 * (cos_phi2 * phi2_dot);
-    let t36 = t31 * (sin_phi2 * phi2_dot);
-    let t37 = t32 * p.m2 + t27 * p.m1;
-    let t38 = p.m2 * t33 + p.m1 * t28;
-    let t39 = t24 - t19 * (theta * p.k18) + (t19 * p.k19 - t15 * p.k18);
-    let t40 = t30 * (cos_phi1 * phi1_dot);
-    let t41 = t34 * (sin_phi1 * phi1_dot);
-    let t42 = sin_phi2 * (s2_dot * t31 + t2 * t23);
-    let t43 = t29 + t24 - (t29 - t15 * (theta * p.k19) + t39);
-    let t44 = sin_phi1 * (s1_dot * t34 + t1 * t30);
-    let t45 = t25 * t23 + t33 * (cos_phi2 * s2) - (t31 * t20 - t32 * (sin_phi2 * s2));
-    let t46 = t22 * t30 + t38 * (cos_phi1 * s1) - (t34 * t13 - t37 * (sin_phi1 * s1));
-    let f_x = t37 + (t4 * p.k13 + p.k17 * t15) - (p.k21 * x_dot + p.k20 * x);
-    let f_y = t4 * p.k12 + p.k17 * t19 - t38 - (p.k23 * y_dot + p.k22 * y);
-    let f_theta = -(theta_dot * p.k25 + theta * p.k24 + t43);
-    let f_s1 = t40 - t41 - (t40 + sin_phi1 * t38 - (t41 + cos_phi1 * t37));
-    let f_phi1 = cos_phi1 * (s1_dot * t30 - t1 * t34) - t44 - t46;
+    let t34 = t19 * p.m0_e_x0_omega2 - t15 * p.m0_e_y0_omega2;
+    let t35 = p.m2 * t31 + p.m1 * t26;
+    let t36 = t23 * (cos_phi2 * phi2_dot);
+    let t37 = t31 * (sin_phi2 * phi2_dot);
+    let t38 = t32 * p.m2 + t27 * p.m1;
+    let t39 = p.m2 * t33 + p.m1 * t28;
+    let t40 = t24 - t19 * (theta * p.m0_e_y0_omega2) + t34;
+    let t41 = t30 * (cos_phi1 * phi1_dot);
+    let t42 = t35 * (sin_phi1 * phi1_dot);
+    let t43 = sin_phi2 * (s2_dot * t31 + t2 * t23);
+    let t44 = t29 + t24 - (t29 - t15 * (theta * p.m0_e_x0_omega2) + t40);
+    let t45 = sin_phi1 * (s1_dot * t35 + t1 * t30);
+    let t46 = t25 * t23 + t33 * (cos_phi2 * s2) - (t31 * t20 - t32 * (sin_phi2 * s2));
+    let t47 = t38 + (t4 * p.m0_x0 + p.m0_e_omega2 * t15);
+    let t48 = t4 * p.m0_y0 + p.m0_e_omega2 * t19 - t39;
+    let t49 = t22 * t30 + t39 * (cos_phi1 * s1) - (t35 * t13 - t38 * (sin_phi1 * s1));
+    let f_x = t47 - (p.two_bx * x_dot + p.two_cx * x);
+    let f_y = t48 - (p.two_by * y_dot + p.two_cy * y);
+    let f_theta = -(theta_dot * p.k3 + theta * p.k2 + t44);
+    let f_s1 = t41 - t42 - (t41 + sin_phi1 * t39 - (t42 + cos_phi1 * t38));
+    let f_phi1 = cos_phi1 * (s1_dot * t30 - t1 * t35) - t45 - t49;
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (t35 - t36 - (t35 + sin_phi2 * t33 - (t36 + cos_phi2 * t32)));
-    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t23 - t2 * t31) - t42 - t45);
+    let f_s2 = p.m2 * (t36 - t37 - (t36 + sin_phi2 * t33 - (t37 + cos_phi2 * t32)));
+    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t23 - t2 * t31) - t43 - t46);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -670,34 +672,34 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let (sin_phi1, cos_phi1) = circular[0];
         let (sin_phi2, cos_phi2) = circular[1];
         let (sin_t0, cos_t0) = circular[2];
-        let t1 = n(p.k13).mul_add(theta, n(p.k12));
-        let t2 = theta.neg_mul_add(n(p.k12), n(p.k13));
-        let t3 = n(p.k14) * s1;
+        let t1 = n(p.m0_x0).mul_add(theta, n(p.m0_y0));
+        let t2 = theta.neg_mul_add(n(p.m0_y0), n(p.m0_x0));
+        let t3 = n(p.m1_plus_m2) * s1;
         let t4 = s1 * phi1_dot;
         let t5 = s2 * phi2_dot;
         let t6 = n(p.omega).product_error(n(t));
-        let t7 = n(p.k37) * t1;
-        let t8 = n(p.k37) * t2;
+        let t7 = n(p.k5) * t1;
+        let t8 = n(p.k5) * t2;
         let t9 = s1 * t3;
         let t10 = n(p.m2) * s2;
         let t11 = s1 * n(p.m2);
         let t12 = theta_dot * theta_dot;
         let t13 = s2 * t10;
-        let t14 = n(p.k14) * cos_phi1;
-        let t15 = n(p.k14) * sin_phi1;
+        let t14 = n(p.m1_plus_m2) * cos_phi1;
+        let t15 = n(p.m1_plus_m2) * sin_phi1;
         let t16 = sin_phi1 * t3;
         let t17 = sin_phi2 * s2_dot;
         let t18 = sin_phi1 * s1_dot;
         let t19 = cos_phi1 * t4;
         let t20 = cos_phi2 * s2_dot;
-        let t21 = n(p.k38) * t14;
-        let t22 = n(p.k38) * t15;
+        let t21 = n(p.k6) * t14;
+        let t22 = n(p.k6) * t15;
         let t23 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
         let t24 = cos_phi1 * s1_dot;
         let t25 = sin_phi1 * t4;
         let t26 = cos_phi2 * t5;
         let t27 = t18 + t19;
-        let t28 = t14.neg_mul_add(t21, t1.neg_mul_add(t7, n(p.k15)));
+        let t28 = t14.neg_mul_add(t21, t1.neg_mul_add(t7, n(p.k1)));
         let t29 = t14.neg_mul_add(t22, t1 * t8);
         let t30 = n(p.m2) * t23;
         let t31 = phi2_dot * t20;
@@ -708,7 +710,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t36 = phi2_dot * t17;
         let t37 = phi1_dot * t18;
         let t38 = t6.neg_mul_add(sin_t0, cos_t0);
-        let t39 = n(p.k38) * t30;
+        let t39 = n(p.k6) * t30;
         let t40 = t17 + t26;
         let t41 = y_dot + t27;
         let t42 = t20 - t32;
@@ -723,104 +725,108 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t51 = t37 + phi1_dot.mul_add(t19, t37);
         let t52 = t35 * t29;
         let t53 = t35 * t16;
-        let t54 = t38.mul_add(n(p.k0), y_dot) * (n(p.k12) * theta_dot);
-        let t55 = t15.neg_mul_add(t22, t2.neg_mul_add(t8, n(p.k15)));
-        let t56 = t29.neg_mul_add(t52, t55);
-        let t57 = t29.mul_add(t53, cos_phi1 * t3);
-        let t58 = t35 * t47;
-        let t59 = t31 + phi2_dot.neg_mul_add(t32, t31) + t49;
-        let t60 = N::ONE / t56;
-        let t61 = t36 + phi2_dot.mul_add(t26, t36) + t51;
-        let t62 = n(p.m2).mul_add(t48, n(p.m1) * t41);
-        let t63 = n(p.m2).mul_add(t50, t43 * n(p.m1));
-        let t64 = t44.neg_mul_add(n(p.k0), x_dot) * (n(p.k13) * theta_dot);
-        let t65 = t10 * (t46 - t45);
-        let t66 = t15.neg_mul_add(t39, n(p.m2) * sin_phi2);
-        let t67 = t29.neg_mul_add(t58, t66);
-        let t68 = t48 * (cos_phi2 * phi2_dot);
-        let t69 = t50 * (sin_phi2 * phi2_dot);
-        let t70 = t62 * (cos_phi1 * phi1_dot);
-        let t71 = n(p.m2).mul_add(t59, n(p.m1) * t49);
-        let t72 = t63 * (sin_phi1 * phi1_dot);
-        let t73 = n(p.m2).mul_add(t61, n(p.m1) * t51);
-        let t74 = t44.neg_mul_add(theta * n(p.k18), t54);
-        let t75 = n(p.k38) * t65;
-        let t76 = t60 * t57;
-        let t77 = t60 * t67;
-        let t78 = t57.neg_mul_add(t76, t16.neg_mul_add(t53, t9));
-        let t79 = t74 + n(p.k19).mul_sub(t44, t38 * n(p.k18));
-        let t80 = t14.mul_add(t75, sin_phi2 * t10);
-        let t81 = N::ONE / t78;
-        let t82 = t57.neg_mul_add(t77, t16.mul_add(t58, (t45 - t46) * t11));
-        let t83 = t35 * t80;
-        let t84 = t81 * t82;
-        let t85 = t47.neg_mul_add(t58, t30.neg_mul_add(t39, n(p.m2)));
-        let t86 = sin_phi2.mul_add(t59, t68) - cos_phi2.mul_add(t61, t69);
-        let t87 = sin_phi1.mul_add(t71, t70) - cos_phi1.mul_add(t73, t72);
-        let t88 = t70 - t72 - t87;
-        let t89 = t64 + t54 - (t38.neg_mul_add(theta * n(p.k19), t64) + t79);
-        let t90 = theta_dot.mul_add(n(p.k25), theta * n(p.k24)) + t89;
-        let t91 = t73 + t38.mul_add(n(p.k17), n(p.k13) * t12);
-        let t92 = t44.mul_add(n(p.k17), n(p.k12) * t12) - t71;
-        let t93 = t29.mul_add(t83, t15.neg_mul_add(t75, cos_phi2 * t10));
-        let t94 = sin_phi2 * s2_dot.mul_add(t50, t5 * t48);
-        let t95 = t61.neg_mul_add(sin_phi2 * s2, t50 * t40);
-        let t96 = t82.neg_mul_add(t84, t67.neg_mul_add(t77, t85));
-        let t97 = t91 - x_dot.mul_add(n(p.k21), n(p.k20) * x);
-        let t98 = t92 - y_dot.mul_add(n(p.k23), n(p.k22) * y);
-        let t99 = sin_phi1 * s1_dot.mul_add(t63, t4 * t62);
-        let t100 = t73.neg_mul_add(sin_phi1 * s1, t63 * t27);
-        let t101 = t60 * t93;
-        let t102 = cos_phi2.mul_sub(s2_dot.mul_sub(t48, t5 * t50), t94);
-        let t103 = N::ONE / t96;
-        let t104 = t21.neg_mul_add(t88, t7.neg_mul_add(t90, t97));
-        let t105 = cos_phi1.mul_sub(s1_dot.mul_sub(t62, t4 * t63), t99);
-        let t106 = t16.neg_mul_add(t83, t23 * (t11 * s2));
-        let t107 = t57.neg_mul_add(t101, t106);
-        let t108 = t102 - (t59.mul_add(cos_phi2 * s2, t42 * t48) - t95);
-        let t109 = t39.neg_mul_add(t88, n(p.m2) * (t68 - t69 - t86));
-        let t110 = t22.neg_mul_add(t88, t8.mul_add(t90, t98));
-        let t111 = t52.neg_mul_add(t104, t110);
-        let t112 = t105 - (t71.mul_add(cos_phi1 * s1, t34 * t62) - t100);
-        let t113 = t81 * t107;
-        let t114 = t76.neg_mul_add(t111, t53.mul_add(t104, t112));
-        let t115 = t67.mul_add(t101, t47.neg_mul_add(t83, t30 * t75));
-        let t116 = t82.mul_add(t113, t115);
-        let t117 = t83.mul_add(t104, n(p.m2).mul_sub(t108, t75 * t88));
-        let t118 = t80.neg_mul_add(t83, t65.neg_mul_add(t75, t13));
-        let t119 = t77.neg_mul_add(t111, t58.neg_mul_add(t104, t109));
-        let t120 = t84.neg_mul_add(t114, t119);
-        let t121 = t103 * t116;
-        let t122 = t113.neg_mul_add(t114, t101.neg_mul_add(t111, t117));
-        let t123 = t107.neg_mul_add(t113, t93.neg_mul_add(t101, t118));
-        let t124 = t116.neg_mul_add(t121, t123);
-        let phi2_ddot = t121.mul_add(t120, t122) / t124;
-        let s2_ddot = t121.mul_add(phi2_ddot, t103 * t120);
-        let t125 = t113.neg_mul_add(phi2_ddot, t81 * t114);
-        let phi1_ddot = t84.neg_mul_add(s2_ddot, t125);
-        let t126 = t83.mul_add(phi2_ddot, t35 * t104);
-        let t127 = t101.neg_mul_add(phi2_ddot, t60 * t111);
-        let t128 = t75.mul_sub(phi2_ddot, n(p.k38) * t88);
-        let y_ddot = t76.neg_mul_add(phi1_ddot, t77.neg_mul_add(s2_ddot, t127));
-        let t129 = t53.mul_add(phi1_ddot, t58.neg_mul_add(s2_ddot, t126));
-        let x_ddot = t52.neg_mul_add(y_ddot, t129);
-        let t130 = t22.mul_add(y_ddot, t39.mul_add(s2_ddot, t128));
-        let theta_ddot = t7.mul_sub(x_ddot, t8.mul_add(y_ddot, n(p.k37) * t90));
-        let s1_ddot = -t21.mul_add(x_ddot, t130);
+        let t54 = t38.mul_add(n(p.e_omega), y_dot);
+        let t55 = t54 * (n(p.m0_y0) * theta_dot);
+        let t56 = t15.neg_mul_add(t22, t2.neg_mul_add(t8, n(p.k1)));
+        let t57 = t29.neg_mul_add(t52, t56);
+        let t58 = t29.mul_add(t53, cos_phi1 * t3);
+        let t59 = t35 * t47;
+        let t60 = t31 + phi2_dot.neg_mul_add(t32, t31) + t49;
+        let t61 = N::ONE / t57;
+        let t62 = t36 + phi2_dot.mul_add(t26, t36) + t51;
+        let t63 = n(p.m2).mul_add(t48, n(p.m1) * t41);
+        let t64 = n(p.m2).mul_add(t50, t43 * n(p.m1));
+        let t65 = t38 * n(p.m0_e_y0_omega2);
+        let t66 = t44.neg_mul_add(n(p.e_omega), x_dot);
+        let t67 = t66 * (n(p.m0_x0) * theta_dot);
+        let t68 = t10 * (t46 - t45);
+        let t69 = t15.neg_mul_add(t39, n(p.m2) * sin_phi2);
+        let t70 = t29.neg_mul_add(t59, t69);
+        let t71 = t48 * (cos_phi2 * phi2_dot);
+        let t72 = t50 * (sin_phi2 * phi2_dot);
+        let t73 = t63 * (cos_phi1 * phi1_dot);
+        let t74 = n(p.m2).mul_add(t60, n(p.m1) * t49);
+        let t75 = t64 * (sin_phi1 * phi1_dot);
+        let t76 = n(p.m2).mul_add(t62, n(p.m1) * t51);
+        let t77 = t44.neg_mul_add(theta * n(p.m0_e_y0_omega2), t55);
+        let t78 = n(p.k6) * t68;
+        let t79 = t61 * t58;
+        let t80 = t61 * t70;
+        let t81 = t58.neg_mul_add(t79, t16.neg_mul_add(t53, t9));
+        let t82 = t38.neg_mul_add(theta * n(p.m0_e_x0_omega2), t67);
+        let t83 = t14.mul_add(t78, sin_phi2 * t10);
+        let t84 = N::ONE / t81;
+        let t85 = t58.neg_mul_add(t80, t16.mul_add(t59, (t45 - t46) * t11));
+        let t86 = t82 + (t77 + n(p.m0_e_x0_omega2).mul_sub(t44, t65));
+        let t87 = t35 * t83;
+        let t88 = t84 * t85;
+        let t89 = t47.neg_mul_add(t59, t30.neg_mul_add(t39, n(p.m2)));
+        let t90 = sin_phi2.mul_add(t60, t71) - cos_phi2.mul_add(t62, t72);
+        let t91 = sin_phi1.mul_add(t74, t73) - cos_phi1.mul_add(t76, t75);
+        let t92 = t73 - t75 - t91;
+        let t93 = theta_dot.mul_add(n(p.k3), theta * n(p.k2));
+        let t94 = t93 + (t67 + t55 - t86);
+        let t95 = t76 + t38.mul_add(n(p.m0_e_omega2), n(p.m0_x0) * t12);
+        let t96 = t44.mul_add(n(p.m0_e_omega2), n(p.m0_y0) * t12) - t74;
+        let t97 = t29.mul_add(t87, t15.neg_mul_add(t78, cos_phi2 * t10));
+        let t98 = sin_phi2 * s2_dot.mul_add(t50, t5 * t48);
+        let t99 = t62.neg_mul_add(sin_phi2 * s2, t50 * t40);
+        let t100 = t85.neg_mul_add(t88, t70.neg_mul_add(t80, t89));
+        let t101 = t95 - x_dot.mul_add(n(p.two_bx), n(p.two_cx) * x);
+        let t102 = t96 - y_dot.mul_add(n(p.two_by), n(p.two_cy) * y);
+        let t103 = sin_phi1 * s1_dot.mul_add(t64, t4 * t63);
+        let t104 = t76.neg_mul_add(sin_phi1 * s1, t64 * t27);
+        let t105 = t61 * t97;
+        let t106 = cos_phi2.mul_sub(s2_dot.mul_sub(t48, t5 * t50), t98);
+        let t107 = N::ONE / t100;
+        let t108 = t21.neg_mul_add(t92, t7.neg_mul_add(t94, t101));
+        let t109 = cos_phi1.mul_sub(s1_dot.mul_sub(t63, t4 * t64), t103);
+        let t110 = t16.neg_mul_add(t87, t23 * (t11 * s2));
+        let t111 = t58.neg_mul_add(t105, t110);
+        let t112 = t106 - (t60.mul_add(cos_phi2 * s2, t42 * t48) - t99);
+        let t113 = t39.neg_mul_add(t92, n(p.m2) * (t71 - t72 - t90));
+        let t114 = t22.neg_mul_add(t92, t8.mul_add(t94, t102));
+        let t115 = t52.neg_mul_add(t108, t114);
+        let t116 = t109 - (t74.mul_add(cos_phi1 * s1, t34 * t63) - t104);
+        let t117 = t84 * t111;
+        let t118 = t79.neg_mul_add(t115, t53.mul_add(t108, t116));
+        let t119 = t70.mul_add(t105, t47.neg_mul_add(t87, t30 * t78));
+        let t120 = t85.mul_add(t117, t119);
+        let t121 = t87.mul_add(t108, n(p.m2).mul_sub(t112, t78 * t92));
+        let t122 = t83.neg_mul_add(t87, t68.neg_mul_add(t78, t13));
+        let t123 = t80.neg_mul_add(t115, t59.neg_mul_add(t108, t113));
+        let t124 = t88.neg_mul_add(t118, t123);
+        let t125 = t107 * t120;
+        let t126 = t117.neg_mul_add(t118, t105.neg_mul_add(t115, t121));
+        let t127 = t111.neg_mul_add(t117, t97.neg_mul_add(t105, t122));
+        let t128 = t120.neg_mul_add(t125, t127);
+        let phi2_ddot = t125.mul_add(t124, t126) / t128;
+        let s2_ddot = t125.mul_add(phi2_ddot, t107 * t124);
+        let t129 = t117.neg_mul_add(phi2_ddot, t84 * t118);
+        let phi1_ddot = t88.neg_mul_add(s2_ddot, t129);
+        let t130 = t87.mul_add(phi2_ddot, t35 * t108);
+        let t131 = t105.neg_mul_add(phi2_ddot, t61 * t115);
+        let t132 = t78.mul_sub(phi2_ddot, n(p.k6) * t92);
+        let y_ddot = t79.neg_mul_add(phi1_ddot, t80.neg_mul_add(s2_ddot, t131));
+        let t133 = t53.mul_add(phi1_ddot, t59.neg_mul_add(s2_ddot, t130));
+        let x_ddot = t52.neg_mul_add(y_ddot, t133);
+        let t134 = t22.mul_add(y_ddot, t39.mul_add(s2_ddot, t132));
+        let theta_ddot = t7.mul_sub(x_ddot, t8.mul_add(y_ddot, n(p.k5) * t94));
+        let s1_ddot = -t21.mul_add(x_ddot, t134);
         let zero = N::ZERO;
-        let sound = PIVOTS.hold(t28, n(p.k15))
-            & PIVOTS.hold(t56, n(p.k15))
-            & PIVOTS.hold(t78, t9)
-            & PIVOTS.hold(t96, n(p.m2))
-            & PIVOTS.hold(t124, t13)
+        let sound = PIVOTS.hold(t28, n(p.k1))
+            & PIVOTS.hold(t57, n(p.k1))
+            & PIVOTS.hold(t81, t9)
+            & PIVOTS.hold(t100, n(p.m2))
+            & PIVOTS.hold(t128, t13)
             & s1_ddot.is_finite();
         if !sound {
             let pivots = [
-                (0, t28, n(p.k15)),
-                (1, t56, n(p.k15)),
-                (4, t78, t9),
-                (6, t96, n(p.m2)),
-                (7, t124, t13),
+                (0, t28, n(p.k1)),
+                (1, t57, n(p.k1)),
+                (4, t81, t9),
+                (6, t100, n(p.m2)),
+                (7, t128, t13),
             ];
             PIVOTS.check(pivots)?;
         }
@@ -873,19 +879,20 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t4 = theta_dot * theta;
     let t5 = theta_dot * theta_dot;
-    let t6 = y_dot + p.k0 * (cos_t0 - t2 * sin_t0);
+    let t6 = y_dot + p.e_omega * (cos_t0 - t2 * sin_t0);
     let t7 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
-    let t8 = x_dot - p.k0 * (sin_t0 + t2 * cos_t0);
+    let t8 = x_dot - p.e_omega * (sin_t0 + t2 * cos_t0);
     let t9 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
     let t10 = cos_phi2 * s2_dot - t3 * sin_phi2 + t7;
     let t11 = t3 * cos_phi2 + sin_phi2 * s2_dot + t9;
-    let t12 = p.k8 * (t5 * p.k7 - t6 * (t4 * p.k4) + (t5 * p.k6 - t8 * (t4 * p.k5)));
-    let t13 = (t9 * t9 + t7 * t7) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t14 = p.k3 * (y_dot * y_dot + x_dot * x_dot) + t5 * p.k2;
-    let t15 = t12 - p.k8 * (t8 * (theta_dot * p.k4) - t6 * (theta_dot * p.k5));
-    let t16 = (t11 * t11 + t10 * t10) * p.m2 + theta2_dot * (theta2_dot * p.J2);
-    let t17 = S::from_f64(0.5) * ((t6 * t6 + t8 * t8) * p.m0 + p.k1) + t15;
-    t17 + (S::from_f64(0.5) * t16 + (S::from_f64(0.5) * t13 + t14))
+    let t12 = t5 * p.y0_squared - t8 * (t4 * p.two_x0);
+    let t13 = p.half_m0 * (t8 * (theta_dot * p.two_y0) - t6 * (theta_dot * p.two_x0));
+    let t14 = (t9 * t9 + t7 * t7) * p.m1 + theta1_dot * (theta1_dot * p.J1);
+    let t15 = p.half_m * (y_dot * y_dot + x_dot * x_dot) + t5 * p.half_J;
+    let t16 = p.half_m0 * (t5 * p.x0_squared - t6 * (t4 * p.two_y0) + t12) - t13;
+    let t17 = (t11 * t11 + t10 * t10) * p.m2 + theta2_dot * (theta2_dot * p.J2);
+    let t18 = S::from_f64(0.5) * ((t6 * t6 + t8 * t8) * p.m0 + p.J0_omega2) + t16;
+    t18 + (S::from_f64(0.5) * t17 + (S::from_f64(0.5) * t14 + t15))
 }
 
 /// Potential energy `V`, in J.
@@ -897,7 +904,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let x = q[0];
     let y = q[1];
     let theta = q[2];
-    theta * (theta * p.k9) + (y * (y * p.cy) + x * (x * p.cx))
+    let t0 = theta * (theta * p.cx_yc2_plus_cy_xc2);
+    t0 + (y * (y * p.cy) + x * (x * p.cx))
 }
 
 /// Dissipation function `D`, in W.
@@ -910,7 +918,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     let y_dot = v[1];
     let theta_dot = v[2];
     let t0 = y_dot * (y_dot * p.by) + x_dot * (x_dot * p.bx);
-    theta_dot * (theta_dot * p.k10) + t0
+    theta_dot * (theta_dot * p.bx_yc2_plus_by_xc2) + t0
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -938,23 +946,25 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t3 = sin_t0 + t1 * cos_t0;
     let t4 = cos_t0 - t1 * sin_t0;
-    let t5 = t3 * p.k16;
-    let t6 = t3 * p.k0;
-    let t7 = t4 * p.k0;
-    let t8 = t4 * p.k16;
+    let t5 = t3 * p.e_omega2;
+    let t6 = t3 * p.e_omega;
+    let t7 = t4 * p.e_omega;
+    let t8 = t4 * p.e_omega2;
     let t9 = t3 * theta_dot;
     let t10 = t4 * theta_dot;
     let t11 = x_dot - t6;
     let t12 = t7 + y_dot;
     let t13 = theta * t9;
     let t14 = theta * t10;
-    let t15 = t3 * (theta_ddot * p.k33) + t10 * p.k26;
-    let t16 = t13 * p.k26 - (t4 * (t2 * p.k33) + t10 * (p.k33 * theta_dot));
-    let t17 = t5 * t12 - t7 * (y_ddot - t5) + (t6 * (x_ddot - t8) + t8 * t11);
-    let t18 = t16 + (t14 * p.k27 + (t3 * (t2 * p.k34) + t9 * (theta_dot * p.k34)));
-    let t19 = (t3 * t12 + t4 * t11) * p.k17 - (t10 * p.k28 - t9 * p.k29) * p.k8;
-    let t20 = (t17 - (t15 - (t9 * p.k27 - t4 * (theta_ddot * p.k34))) - t18) * p.m0;
-    t19 - p.k32 * (t13 * p.k31 + t14 * p.k30) - t20
+    let t15 = t3 * (theta_ddot * p.e_y0_omega) + t10 * p.e_y0_omega2;
+    let t16 = t4 * (t2 * p.e_y0_omega) + t10 * (p.e_y0_omega * theta_dot);
+    let t17 = t3 * (t2 * p.e_x0_omega) + t9 * (theta_dot * p.e_x0_omega);
+    let t18 = t5 * t12 - t7 * (y_ddot - t5) + (t6 * (x_ddot - t8) + t8 * t11);
+    let t19 = (t10 * p.two_e_y0_omega2 - t9 * p.two_e_x0_omega2) * p.half_m0;
+    let t20 = t18 - (t15 - (t9 * p.e_x0_omega2 - t4 * (theta_ddot * p.e_x0_omega)));
+    let t21 = p.quarter_m0 * (t13 * p.four_e_y0_omega2 + t14 * p.four_e_x0_omega2);
+    let t22 = (t20 - (t13 * p.e_y0_omega2 - t16 + (t14 * p.e_x0_omega2 + t17))) * p.m0;
+    (t3 * t12 + t4 * t11) * p.m0_e_omega2 - t19 - t21 - t22
 }
 
 /// Power `R` that dampers take out, in W.
@@ -966,8 +976,8 @@ pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
-    let t0 = y_dot * (y_dot * p.k23) + x_dot * (x_dot * p.k21);
-    theta_dot * (theta_dot * p.k25) + t0
+    let t0 = y_dot * (y_dot * p.two_by) + x_dot * (x_dot * p.two_bx);
+    theta_dot * (theta_dot * p.k3) + t0
 }
 
 /// By how much `s1 > 0` holds.
@@ -1018,9 +1028,12 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m0, m1, m2, J1, J2, omega, cx, cy, bx, by, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11,
-        k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29,
-        k30, k31, k32, k33, k34, k35, k36, k37, k38,
+        m0, m1, m2, J1, J2, omega, cx, cy, bx, by, e_omega, J0_omega2, half_J, half_m, two_y0,
+        two_x0, y0_squared, x0_squared, half_m0, cx_yc2_plus_cy_xc2, bx_yc2_plus_by_xc2, k0, m0_y0,
+        m0_x0, m1_plus_m2, k1, e_omega2, m0_e_omega2, m0_e_y0_omega2, m0_e_x0_omega2, two_cx,
+        two_bx, two_cy, two_by, k2, k3, e_y0_omega2, e_x0_omega2, two_e_y0_omega2, two_e_x0_omega2,
+        four_e_x0_omega2, four_e_y0_omega2, quarter_m0, e_y0_omega, e_x0_omega, k4, minus_m2, k5,
+        k6,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

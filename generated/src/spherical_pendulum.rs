@@ -72,29 +72,29 @@ impl<S: ::lagrangian::emitted::Scalar> SphericalPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m * self.l;
-        let k0 = self.l * t0;
-        let k2 = self.g * t0;
-        let k3 = k0 * S::from_f64(2.0);
-        let k1 = k0 * S::from_f64(0.5);
-        let k4 = -k0;
-        let k5 = -k2;
-        let k6 = -k3;
-        let k7 = -self.l;
-        let k8 = -(S::ONE / self.l);
-        let pivots = [(1, k0, k0)];
+        let m_l_squared = self.l * t0;
+        let m_l_g = self.g * t0;
+        let two_m_l_squared = m_l_squared * S::from_f64(2.0);
+        let half_m_l_squared = m_l_squared * S::from_f64(0.5);
+        let minus_m_l_squared = -m_l_squared;
+        let minus_m_l_g = -m_l_g;
+        let minus_two_m_l_squared = -two_m_l_squared;
+        let minus_l = -self.l;
+        let minus_inverse_l = -(S::ONE / self.l);
+        let pivots = [(1, m_l_squared, m_l_squared)];
         Prepared {
             m: self.m,
             l: self.l,
             g: self.g,
-            k0,
-            k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
+            m_l_squared,
+            half_m_l_squared,
+            m_l_g,
+            two_m_l_squared,
+            minus_m_l_squared,
+            minus_m_l_g,
+            minus_two_m_l_squared,
+            minus_l,
+            minus_inverse_l,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -149,33 +149,30 @@ pub struct Prepared<S = f64> {
     /// `g`
     g: S,
     /// `m*l^2`
-    k0: S,
+    m_l_squared: S,
     /// `0.5*m*l^2`
-    k1: S,
+    half_m_l_squared: S,
     /// `m*l*g`
-    k2: S,
+    m_l_g: S,
     /// `2*m*l^2`
-    k3: S,
+    two_m_l_squared: S,
     /// `-m*l^2`
-    k4: S,
+    minus_m_l_squared: S,
     /// `-m*l*g`
-    k5: S,
+    minus_m_l_g: S,
     /// `-2*m*l^2`
-    k6: S,
+    minus_two_m_l_squared: S,
     /// `-l`
-    k7: S,
+    minus_l: S,
     /// `-1/l`
-    k8: S,
+    minus_inverse_l: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -186,9 +183,9 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
     let theta = q[1];
     let sin_theta = theta.sin();
-    let m11 = sin_theta * (sin_theta * p.k0);
+    let m11 = sin_theta * (sin_theta * p.m_l_squared);
     let zero = S::ZERO;
-    [[m11, zero], [zero, p.k0]]
+    [[m11, zero], [zero, p.m_l_squared]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -203,8 +200,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[
     let theta_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = sin_theta * (cos_theta * phi_dot);
-    let h_phi = t0 * (p.k3 * theta_dot);
-    let h_theta = t0 * (phi_dot * p.k4);
+    let h_phi = t0 * (p.two_m_l_squared * theta_dot);
+    let h_theta = t0 * (phi_dot * p.minus_m_l_squared);
     [h_phi, h_theta]
 }
 
@@ -217,7 +214,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     let theta = q[1];
     let sin_theta = theta.sin();
     let zero = S::ZERO;
-    let q_theta = p.k5 * sin_theta;
+    let q_theta = p.minus_m_l_g * sin_theta;
     [zero, q_theta]
 }
 
@@ -228,8 +225,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
     let theta_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = sin_theta * (cos_theta * phi_dot);
-    let f_phi = t0 * (p.k6 * theta_dot);
-    let f_theta = t0 * (phi_dot * p.k0) - sin_theta * p.k2;
+    let f_phi = t0 * (p.minus_two_m_l_squared * theta_dot);
+    let f_theta = t0 * (phi_dot * p.m_l_squared) - sin_theta * p.m_l_g;
     [f_phi, f_theta]
 }
 
@@ -269,10 +266,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let theta_dot = n(v[1]);
         let (sin_theta, cos_theta) = theta.sin_cos();
         let t0 = cos_theta * phi_dot;
-        let t1 = sin_theta * (sin_theta * n(p.k0));
+        let t1 = sin_theta * (sin_theta * n(p.m_l_squared));
         let t2 = t0.neg_mul_add(phi_dot * n(p.l), n(p.g));
         let phi_ddot = t0 * (N::from_f64(-2.0) * theta_dot) / sin_theta;
-        let theta_ddot = t2 * (sin_theta * n(p.k8));
+        let theta_ddot = t2 * (sin_theta * n(p.minus_inverse_l));
         let sound = PIVOTS.hold(t1, t1) & phi_ddot.is_finite();
         if !sound {
             let pivots = [(0, t1, t1)];
@@ -298,7 +295,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let theta_dot = v[1];
     let sin_theta = theta.sin();
     let t0 = sin_theta * phi_dot;
-    p.k1 * (t0 * t0 + theta_dot * theta_dot)
+    p.half_m_l_squared * (t0 * t0 + theta_dot * theta_dot)
 }
 
 /// Potential energy `V`, in J.
@@ -309,7 +306,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let theta = q[1];
     let cos_theta = theta.cos();
-    p.k5 * cos_theta
+    p.minus_m_l_g * cos_theta
 }
 
 /// Angular momentum about the vertical: conserved. Unit: `J*s`.
@@ -325,7 +322,7 @@ pub fn output_vertical_momentum<S: ::lagrangian::emitted::Scalar>(
     let theta = q[1];
     let phi_dot = v[0];
     let sin_theta = theta.sin();
-    sin_theta * (sin_theta * (p.k0 * phi_dot))
+    sin_theta * (sin_theta * (p.m_l_squared * phi_dot))
 }
 
 /// Height of the bob above the fixed point. Unit: `m`.
@@ -336,7 +333,7 @@ pub fn output_vertical_momentum<S: ::lagrangian::emitted::Scalar>(
 pub fn output_height<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let theta = q[1];
     let cos_theta = theta.cos();
-    p.k7 * cos_theta
+    p.minus_l * cos_theta
 }
 
 /// Tension of the rod. Unit: `N`.
@@ -394,7 +391,10 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         height: "height" "m";
         tension: "tension" "N";
     ]
-    prepared Prepared { m, l, g, k0, k1, k2, k3, k4, k5, k6, k7, k8 }
+    prepared Prepared {
+        m, l, g, m_l_squared, half_m_l_squared, m_l_g, two_m_l_squared, minus_m_l_squared,
+        minus_m_l_g, minus_two_m_l_squared, minus_l, minus_inverse_l,
+    }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

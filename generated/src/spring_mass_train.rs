@@ -67,12 +67,12 @@ pub struct SpringMassTrain<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> SpringMassTrain<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k3 = S::ONE / self.m;
-        let k4 = self.k * k3;
-        let k0 = self.k * S::from_f64(0.5);
-        let k1 = self.m * S::from_f64(0.5);
-        let k2 = -self.k;
-        let k5 = -k4;
+        let inverse_m = S::ONE / self.m;
+        let k_over_m = self.k * inverse_m;
+        let half_k = self.k * S::from_f64(0.5);
+        let half_m = self.m * S::from_f64(0.5);
+        let minus_k = -self.k;
+        let minus_k_over_m = -k_over_m;
         let pivots = [
             (7, self.m, self.m),
             (6, self.m, self.m),
@@ -87,12 +87,12 @@ impl<S: ::lagrangian::emitted::Scalar> SpringMassTrain<S> {
             m: self.m,
             k: self.k,
             d: self.d,
-            k0,
-            k1,
-            k2,
-            k3,
-            k4,
-            k5,
+            half_k,
+            half_m,
+            minus_k,
+            inverse_m,
+            k_over_m,
+            minus_k_over_m,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -141,27 +141,24 @@ pub struct Prepared<S = f64> {
     /// `d`
     d: S,
     /// `0.5*k`
-    k0: S,
+    half_k: S,
     /// `0.5*m`
-    k1: S,
+    half_m: S,
     /// `-k`
-    k2: S,
+    minus_k: S,
     /// `1/m`
-    k3: S,
+    inverse_m: S,
     /// `k/m`
-    k4: S,
+    k_over_m: S,
     /// `-k/m`
-    k5: S,
+    minus_k_over_m: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 8,
-    tolerance: 7.105427357601002e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(8, 8);
 
 /// Mass matrix `M`.
 ///
@@ -221,7 +218,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let t4 = u_5 - u_6;
     let t5 = u_6 - u_7;
     let t6 = u_7 - u_8;
-    let q_u_1 = p.k2 * t0;
+    let q_u_1 = p.minus_k * t0;
     let q_u_2 = p.k * (t0 - t1);
     let q_u_3 = p.k * (t1 - t2);
     let q_u_4 = p.k * (t2 - t3);
@@ -253,7 +250,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t4 = u_5 - u_6;
     let t5 = u_6 - u_7;
     let t6 = u_7 - u_8;
-    let f_u_1 = p.k2 * t0;
+    let f_u_1 = p.minus_k * t0;
     let f_u_2 = p.k * (t0 - t1);
     let f_u_3 = p.k * (t1 - t2);
     let f_u_4 = p.k * (t2 - t3);
@@ -310,14 +307,14 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t4 = u_5 - u_6;
         let t5 = u_6 - u_7;
         let t6 = u_7 - u_8;
-        let u_1_ddot = n(p.k5) * t0;
-        let u_2_ddot = n(p.k4) * (t0 - t1);
-        let u_3_ddot = n(p.k4) * (t1 - t2);
-        let u_4_ddot = n(p.k4) * (t2 - t3);
-        let u_5_ddot = n(p.k4) * (t3 - t4);
-        let u_6_ddot = n(p.k4) * (t4 - t5);
-        let u_7_ddot = n(p.k4) * (t5 - t6);
-        let u_8_ddot = n(p.k3) * t6.mul_add(n(p.k), n(u.pull));
+        let u_1_ddot = n(p.minus_k_over_m) * t0;
+        let u_2_ddot = n(p.k_over_m) * (t0 - t1);
+        let u_3_ddot = n(p.k_over_m) * (t1 - t2);
+        let u_4_ddot = n(p.k_over_m) * (t2 - t3);
+        let u_5_ddot = n(p.k_over_m) * (t3 - t4);
+        let u_6_ddot = n(p.k_over_m) * (t4 - t5);
+        let u_7_ddot = n(p.k_over_m) * (t5 - t6);
+        let u_8_ddot = n(p.inverse_m) * t6.mul_add(n(p.k), n(u.pull));
         let accelerations = [
             u_1_ddot.store(),
             u_2_ddot.store(),
@@ -350,7 +347,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
     let t0 = u_4_dot * u_4_dot + u_3_dot * u_3_dot;
     let t1 = u_8_dot * u_8_dot + u_7_dot * u_7_dot;
     let t2 = u_6_dot * u_6_dot + u_5_dot * u_5_dot + t1;
-    (u_2_dot * u_2_dot + u_1_dot * u_1_dot + t0 + t2) * p.k1
+    (u_2_dot * u_2_dot + u_1_dot * u_1_dot + t0 + t2) * p.half_m
 }
 
 /// Potential energy `V`, in J.
@@ -377,7 +374,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t5 = u_2 - u_3;
     let t6 = u_7 - u_8;
     let t7 = t3 * t3 + t0 * t0 + (t4 * t4 + t1 * t1);
-    (t6 * t6 + (t5 * t5 + t2 * t2) + t7) * p.k0
+    (t6 * t6 + (t5 * t5 + t2 * t2) + t7) * p.half_k
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -398,7 +395,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 8], u: &Inputs<S>) ->
 pub fn output_drawbar<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_7 = q[6];
     let u_8 = q[7];
-    p.k2 * (u_7 - u_8)
+    p.minus_k * (u_7 - u_8)
 }
 
 /// By how much `d + u[2] - u[1] > 0` holds.
@@ -480,7 +477,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
     outputs Outputs { drawbar } [
         drawbar: "drawbar" "N";
     ]
-    prepared Prepared { m, k, d, k0, k1, k2, k3, k4, k5 }
+    prepared Prepared { m, k, d, half_k, half_m, minus_k, inverse_m, k_over_m, minus_k_over_m }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, u } }
     system {

@@ -51,23 +51,23 @@ pub struct StickSlip<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> StickSlip<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.m * S::from_f64(0.5);
-        let k1 = self.k * S::from_f64(0.5);
-        let k2 = -self.k;
-        let k3 = self.m * self.g;
-        let k4 = S::ONE / self.m;
+        let half_m = self.m * S::from_f64(0.5);
+        let half_k = self.k * S::from_f64(0.5);
+        let minus_k = -self.k;
+        let m_g = self.m * self.g;
+        let inverse_m = S::ONE / self.m;
         let pivots = [(0, self.m, self.m)];
         Prepared {
             m: self.m,
             k: self.k,
             v_b: self.v_b,
-            k0,
-            k1,
-            k2,
+            half_m,
+            half_k,
+            minus_k,
             mu: self.mu,
             mu0: self.mu0,
-            k3,
-            k4,
+            m_g,
+            inverse_m,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -110,29 +110,26 @@ pub struct Prepared<S = f64> {
     /// `v_b`
     v_b: S,
     /// `0.5*m`
-    k0: S,
+    half_m: S,
     /// `0.5*k`
-    k1: S,
+    half_k: S,
     /// `-k`
-    k2: S,
+    minus_k: S,
     /// `mu`
     mu: S,
     /// `mu0`
     mu0: S,
     /// `m*g`
-    k3: S,
+    m_g: S,
     /// `1/m`
-    k4: S,
+    inverse_m: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 1,
-    tolerance: 8.881784197001252e-16,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(1, 1);
 
 /// Mass matrix `M`.
 ///
@@ -150,14 +147,14 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]
 /// ```
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let x = q[0];
-    let q_x = p.k2 * x;
+    let q_x = p.minus_k * x;
     [q_x]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
 pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let x = q[0];
-    let f_x = p.k2 * x;
+    let f_x = p.minus_k * x;
     [f_x]
 }
 
@@ -214,14 +211,14 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
             return Err(singular);
         }
         let x = n(q[0]);
-        let r0 = -(n(p.k4) * (x * n(p.k)));
+        let r0 = -(n(p.inverse_m) * (x * n(p.k)));
         let zero = N::ZERO;
         let friction = [
             r0.store(),
             r0.store(),
-            n(p.k3).store(),
-            n(p.k4).store(),
-            n(p.k4).store(),
+            n(p.m_g).store(),
+            n(p.inverse_m).store(),
+            n(p.inverse_m).store(),
             zero.store(),
             n(p.mu).store(),
             n(p.mu0).store(),
@@ -237,7 +234,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
 /// ```
 pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> S {
     let x_dot = v[0];
-    x_dot * (x_dot * p.k0)
+    x_dot * (x_dot * p.half_m)
 }
 
 /// Potential energy `V`, in J.
@@ -247,7 +244,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 /// ```
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> S {
     let x = q[0];
-    x * (x * p.k1)
+    x * (x * p.half_k)
 }
 
 ::lagrangian::emitted::implement! {
@@ -265,7 +262,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     ]
     inputs Inputs {} []
     outputs Outputs {} []
-    prepared Prepared { m, k, v_b, k0, k1, k2, mu, mu0, k3, k4 }
+    prepared Prepared { m, k, v_b, half_m, half_k, minus_k, mu, mu0, m_g, inverse_m }
     singular singular
     accelerations friction
     system {

@@ -69,34 +69,34 @@ impl<S: ::lagrangian::emitted::Scalar> TwoBodyOrbit<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m2 + self.m1;
-        let k9 = S::ONE / t0;
-        let k1 = self.G * (self.m2 * self.m1);
-        let t1 = self.m1 * k9;
-        let k2 = self.m2 * t1;
-        let t2 = t1 * k2;
-        let k5 = k2 * S::from_f64(2.0);
-        let t3 = k9 * (self.m2 * k2);
-        let k3 = t3 + t2;
-        let k0 = k9 / self.G;
-        let k4 = t2 * S::from_f64(0.5) + t3 * S::from_f64(0.5);
-        let k6 = -k2;
-        let k7 = -k1;
-        let k8 = -k5;
-        let k10 = -t0;
-        let pivots = [(0, k2, k3)];
+        let k7 = S::ONE / t0;
+        let m1_m2_G = self.G * (self.m2 * self.m1);
+        let t1 = self.m1 * k7;
+        let k1 = self.m2 * t1;
+        let t2 = t1 * k1;
+        let k4 = k1 * S::from_f64(2.0);
+        let t3 = k7 * (self.m2 * k1);
+        let k2 = t3 + t2;
+        let k0 = k7 / self.G;
+        let k3 = t2 * S::from_f64(0.5) + t3 * S::from_f64(0.5);
+        let k5 = -k1;
+        let minus_m1_m2_G = -m1_m2_G;
+        let k6 = -k4;
+        let k8 = -t0;
+        let pivots = [(0, k1, k2)];
         Prepared {
             G: self.G,
             k0,
+            m1_m2_G,
             k1,
             k2,
             k3,
             k4,
             k5,
+            minus_m1_m2_G,
             k6,
             k7,
             k8,
-            k9,
-            k10,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -148,35 +148,32 @@ pub struct Prepared<S = f64> {
     /// `1/G/(m1 + m2)`
     k0: S,
     /// `m1*m2*G`
-    k1: S,
+    m1_m2_G: S,
     /// `m1*m2/(m1 + m2)`
-    k2: S,
+    k1: S,
     /// `m1^2*m2/(m1 + m2)^2 + m1*m2^2/(m1 + m2)^2`
-    k3: S,
+    k2: S,
     /// `0.5*m1*m2^2/(m1 + m2)^2 + 0.5*m1^2*m2/(m1 + m2)^2`
-    k4: S,
+    k3: S,
     /// `2*m1*m2/(m1 + m2)`
-    k5: S,
+    k4: S,
     /// `-m1*m2/(m1 + m2)`
-    k6: S,
+    k5: S,
     /// `-m1*m2*G`
-    k7: S,
+    minus_m1_m2_G: S,
     /// `-2*m1*m2/(m1 + m2)`
-    k8: S,
+    k6: S,
     /// `1/(m1 + m2)`
-    k9: S,
+    k7: S,
     /// `-(m1 + m2)`
-    k10: S,
+    k8: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -187,8 +184,8 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
     let r = q[0];
     let zero = S::ZERO;
-    let m22 = r * (r * p.k2);
-    [[p.k3, zero], [zero, m22]]
+    let m22 = r * (r * p.k1);
+    [[p.k2, zero], [zero, m22]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -202,8 +199,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[
     let r_dot = v[0];
     let phi_dot = v[1];
     let t0 = phi_dot * r;
-    let h_r = t0 * (phi_dot * p.k6);
-    let h_phi = t0 * (p.k5 * r_dot);
+    let h_r = t0 * (phi_dot * p.k5);
+    let h_phi = t0 * (p.k4 * r_dot);
     [h_r, h_phi]
 }
 
@@ -214,7 +211,7 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[
 /// ```
 pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
     let r = q[0];
-    let q_r = p.k7 / (r * r);
+    let q_r = p.minus_m1_m2_G / (r * r);
     let zero = S::ZERO;
     [q_r, zero]
 }
@@ -225,8 +222,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
     let r_dot = v[0];
     let phi_dot = v[1];
     let t0 = phi_dot * r;
-    let f_r = t0 * (phi_dot * p.k2) - p.k1 / (r * r);
-    let f_phi = t0 * (p.k8 * r_dot);
+    let f_r = t0 * (phi_dot * p.k1) - p.m1_m2_G / (r * r);
+    let f_phi = t0 * (p.k6 * r_dot);
     [f_r, f_phi]
 }
 
@@ -265,9 +262,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let r_dot = n(v[0]);
         let phi_dot = n(v[1]);
         let t0 = N::ONE / r;
-        let t1 = r * (r * n(p.k2));
-        let t2 = t0.mul_sub(t0 * n(p.G), r * n(p.k9) * (phi_dot * phi_dot));
-        let r_ddot = n(p.k10) * t2;
+        let t1 = r * (r * n(p.k1));
+        let t2 = t0.mul_sub(t0 * n(p.G), r * n(p.k7) * (phi_dot * phi_dot));
+        let r_ddot = n(p.k8) * t2;
         let phi_ddot = t0 * (phi_dot * (N::from_f64(-2.0) * r_dot));
         let sound = PIVOTS.hold(t1, t1) & r_ddot.is_finite();
         if !sound {
@@ -293,7 +290,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let r_dot = v[0];
     let phi_dot = v[1];
     let t0 = phi_dot * r;
-    p.k4 * (t0 * t0 + r_dot * r_dot)
+    p.k3 * (t0 * t0 + r_dot * r_dot)
 }
 
 /// Potential energy `V`, in J.
@@ -303,7 +300,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
 /// ```
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let r = q[0];
-    p.k7 / r
+    p.minus_m1_m2_G / r
 }
 
 /// Angular momentum about the mass centre: conserved. Unit: `J*s`.
@@ -318,7 +315,7 @@ pub fn output_momentum<S: ::lagrangian::emitted::Scalar>(
 ) -> S {
     let r = q[0];
     let phi_dot = v[1];
-    r * p.k2 * (r * phi_dot)
+    r * p.k1 * (r * phi_dot)
 }
 
 /// The eccentricity vector in ground axes: conserved. Unit: `1`.
@@ -399,7 +396,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         eccentricity_x: "eccentricity_x" "1";
         eccentricity_y: "eccentricity_y" "1";
     ]
-    prepared Prepared { G, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10 }
+    prepared Prepared { G, k0, m1_m2_G, k1, k2, k3, k4, k5, minus_m1_m2_G, k6, k7, k8 }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

@@ -105,40 +105,40 @@ impl<S: ::lagrangian::emitted::Scalar> TwoDebalanceCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m0 * S::from_f64(2.0);
-        let k8 = self.m0 * self.x0;
-        let k0 = self.omega * self.e;
-        let k7 = self.m1 + self.m2;
+        let m0_x0 = self.m0 * self.x0;
+        let e_omega = self.omega * self.e;
+        let m1_plus_m2 = self.m1 + self.m2;
         let pivot_1 = self.m + t0;
-        let k9 = k8 * S::from_f64(2.0);
-        let k6 = self.omega * k0;
-        let k20 = S::ONE / pivot_1;
-        let k10 = k7 + pivot_1;
-        let k13 = self.J + (t0 * (self.y0 * self.y0) + self.x0 * k9);
-        let pivot_2 = k13 - k20 * (k8 * (k8 * S::from_f64(4.0)));
+        let two_m0_x0 = m0_x0 * S::from_f64(2.0);
+        let e_omega2 = self.omega * e_omega;
+        let k5 = S::ONE / pivot_1;
+        let k0 = m1_plus_m2 + pivot_1;
+        let k1 = self.J + (t0 * (self.y0 * self.y0) + self.x0 * two_m0_x0);
+        let pivot_2 = k1 - k5 * (m0_x0 * (m0_x0 * S::from_f64(4.0)));
         let t1 = S::ONE / pivot_2;
-        let k1 = self.omega * (self.omega * self.J0);
-        let k2 = self.cx * S::from_f64(0.5);
-        let k3 = self.cy * S::from_f64(0.5);
-        let k4 = self.bx * S::from_f64(0.5);
-        let k5 = self.by * S::from_f64(0.5);
-        let k11 = self.m0 * self.y0;
-        let k12 = self.m0 * k0;
-        let k14 = -k9;
-        let k15 = -k7;
-        let k16 = -self.m2;
-        let k17 = k6 * t0;
-        let k18 = k9 * k20;
-        let k19 = k9 * t1;
-        let k21 = -k20;
-        let k22 = -t1;
+        let J0_omega2 = self.omega * (self.omega * self.J0);
+        let half_cx = self.cx * S::from_f64(0.5);
+        let half_cy = self.cy * S::from_f64(0.5);
+        let half_bx = self.bx * S::from_f64(0.5);
+        let half_by = self.by * S::from_f64(0.5);
+        let m0_y0 = self.m0 * self.y0;
+        let m0_e_omega = self.m0 * e_omega;
+        let minus_two_m0_x0 = -two_m0_x0;
+        let k2 = -m1_plus_m2;
+        let minus_m2 = -self.m2;
+        let two_m0_e_omega2 = e_omega2 * t0;
+        let k3 = two_m0_x0 * k5;
+        let k4 = two_m0_x0 * t1;
+        let k6 = -k5;
+        let k7 = -t1;
         let pivots = [
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
             (6, self.m2, self.m2),
-            (3, self.m1, k7),
-            (1, pivot_1, k10),
-            (0, pivot_1, k10),
-            (2, pivot_2, k13),
+            (3, self.m1, m1_plus_m2),
+            (1, pivot_1, k0),
+            (0, pivot_1, k0),
+            (2, pivot_2, k1),
         ];
         Prepared {
             m: self.m,
@@ -157,29 +157,29 @@ impl<S: ::lagrangian::emitted::Scalar> TwoDebalanceCrusher<S> {
             by: self.by,
             xc: self.xc,
             yc: self.yc,
+            e_omega,
+            J0_omega2,
+            half_cx,
+            half_cy,
+            half_bx,
+            half_by,
+            e_omega2,
+            m1_plus_m2,
+            m0_x0,
+            two_m0_x0,
             k0,
+            m0_y0,
+            m0_e_omega,
             k1,
+            minus_two_m0_x0,
             k2,
+            minus_m2,
+            two_m0_e_omega2,
             k3,
             k4,
             k5,
             k6,
             k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
-            k20,
-            k21,
-            k22,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -266,61 +266,58 @@ pub struct Prepared<S = f64> {
     /// `yc`
     yc: S,
     /// `e*omega`
-    k0: S,
+    e_omega: S,
     /// `J0*omega^2`
-    k1: S,
+    J0_omega2: S,
     /// `0.5*cx`
-    k2: S,
+    half_cx: S,
     /// `0.5*cy`
-    k3: S,
+    half_cy: S,
     /// `0.5*bx`
-    k4: S,
+    half_bx: S,
     /// `0.5*by`
-    k5: S,
+    half_by: S,
     /// `e*omega^2`
-    k6: S,
+    e_omega2: S,
     /// `m1 + m2`
-    k7: S,
+    m1_plus_m2: S,
     /// `m0*x0`
-    k8: S,
+    m0_x0: S,
     /// `2*m0*x0`
-    k9: S,
+    two_m0_x0: S,
     /// `m + m1 + m2 + 2*m0`
-    k10: S,
+    k0: S,
     /// `m0*y0`
-    k11: S,
+    m0_y0: S,
     /// `m0*e*omega`
-    k12: S,
+    m0_e_omega: S,
     /// `J + 2*m0*x0^2 + 2*m0*y0^2`
-    k13: S,
+    k1: S,
     /// `-2*m0*x0`
-    k14: S,
+    minus_two_m0_x0: S,
     /// `-(m1 + m2)`
-    k15: S,
+    k2: S,
     /// `-m2`
-    k16: S,
+    minus_m2: S,
     /// `2*m0*e*omega^2`
-    k17: S,
+    two_m0_e_omega2: S,
     /// `2*m0*x0/(m + 2*m0)`
-    k18: S,
+    k3: S,
     /// `2*m0*x0/(J + 2*m0*x0^2 + 2*m0*y0^2 - 4*m0^2*x0^2/(m + 2*m0))`
-    k19: S,
+    k4: S,
     /// `1/(m + 2*m0)`
-    k20: S,
+    k5: S,
     /// `-1/(m + 2*m0)`
-    k21: S,
+    k6: S,
     /// `-1/(J + 2*m0*x0^2 + 2*m0*y0^2 - 4*m0^2*x0^2/(m + 2*m0))`
-    k22: S,
+    k7: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 9);
 
 /// Mass matrix `M`.
 ///
@@ -359,33 +356,33 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.k7 * s1;
+    let t1 = p.m1_plus_m2 * s1;
     let t2 = p.m2 * s2;
     let t3 = cos_phi1 * sin_phi2;
     let t4 = sin_phi1 * cos_phi2;
     let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
     let zero = S::ZERO;
-    let m31 = p.k14 * sin_theta;
-    let m32 = cos_theta * p.k9;
-    let m41 = p.k7 * cos_phi1;
-    let m42 = p.k7 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k15);
+    let m31 = p.minus_two_m0_x0 * sin_theta;
+    let m32 = cos_theta * p.two_m0_x0;
+    let m41 = p.m1_plus_m2 * cos_phi1;
+    let m42 = p.m1_plus_m2 * sin_phi1;
+    let m51 = sin_phi1 * (s1 * p.k2);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
     let m75 = (t3 - t4) * t0;
-    let m81 = sin_phi2 * (s2 * p.k16);
+    let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t4 - t3);
     let m85 = t5 * (t0 * s2);
     let m88 = s2 * t2;
     [
-        [p.k10, zero, m31, m41, m51, zero, m71, m81, zero],
-        [zero, p.k10, m32, m42, m52, zero, m72, m82, zero],
-        [m31, m32, p.k13, zero, zero, zero, zero, zero, zero],
-        [m41, m42, zero, p.k7, zero, zero, m74, m84, zero],
+        [p.k0, zero, m31, m41, m51, zero, m71, m81, zero],
+        [zero, p.k0, m32, m42, m52, zero, m72, m82, zero],
+        [m31, m32, p.k1, zero, zero, zero, zero, zero, zero],
+        [m41, m42, zero, p.m1_plus_m2, zero, zero, m74, m84, zero],
         [m51, m52, zero, zero, m55, zero, m75, m85, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
         [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
@@ -446,9 +443,9 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t10 = cos_theta * t7;
     let t11 = sin_theta * t7;
     let t12 = t6 * cos_theta;
-    let t13 = p.k6 * (cos_t0 - t3 * sin_t0);
+    let t13 = p.e_omega2 * (cos_t0 - t3 * sin_t0);
     let t14 = phi1_dot * (t5 * sin_phi1 + cos_phi1 * t2);
-    let t15 = p.k6 * (sin_t0 + t3 * cos_t0);
+    let t15 = p.e_omega2 * (sin_t0 + t3 * cos_t0);
     let t16 = phi1_dot * (sin_phi1 * t2 - t5 * cos_phi1);
     let t17 = t13 + (t9 + t10);
     let t18 = t13 + (t10 - t9);
@@ -460,15 +457,15 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t24 = t19 * p.m2 + t14 * p.m1;
     let t25 = t20 - t21;
     let t26 = p.m2 * t22 + p.m1 * t16;
-    let t27 = cos_theta * (t25 * p.k8 - p.k11 * (t18 - t17));
+    let t27 = cos_theta * (t25 * p.m0_x0 - p.m0_y0 * (t18 - t17));
     let h_x = -(p.m0 * t23 + t24);
     let h_y = -(p.m0 * t25 + t26);
-    let h_theta = sin_theta * (t23 * p.k8 + p.k11 * (t21 + t20)) - t27;
+    let h_theta = sin_theta * (t23 * p.m0_x0 + p.m0_y0 * (t21 + t20)) - t27;
     let h_s1 = -(cos_phi1 * t24 + sin_phi1 * t26);
     let h_phi1 = -(s1 * (cos_phi1 * t26 - sin_phi1 * t24));
     let zero = S::ZERO;
-    let h_s2 = p.k16 * (cos_phi2 * t19 + sin_phi2 * t22);
-    let h_phi2 = (cos_phi2 * t22 - sin_phi2 * t19) * (s2 * p.k16);
+    let h_s2 = p.minus_m2 * (cos_phi2 * t19 + sin_phi2 * t22);
+    let h_phi2 = (cos_phi2 * t22 - sin_phi2 * t19) * (s2 * p.minus_m2);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -551,8 +548,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t18 = sin_theta * t7;
     let t19 = cos_theta * t7;
     let t20 = t6 * cos_theta;
-    let t21 = p.k6 * (cos_t0 - t2 * sin_t0);
-    let t22 = p.k6 * (sin_t0 + t2 * cos_t0);
+    let t21 = p.e_omega2 * (cos_t0 - t2 * sin_t0);
+    let t22 = p.e_omega2 * (sin_t0 + t2 * cos_t0);
     let t23 = phi1_dot * (t8 * sin_phi1 + cos_phi1 * t3);
     let t24 = t21 + (t17 + t19);
     let t25 = t21 + (t19 - t17);
@@ -565,11 +562,11 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t32 = t28 * p.m2 + t23 * p.m1;
     let t33 = phi2_dot * (sin_phi2 * t5 - t11 * cos_phi2) + t29;
     let t34 = p.m2 * t33 + p.m1 * t29;
-    let t35 = cos_theta * (t31 * p.k8 - p.k11 * (t25 - t24));
-    let t36 = t35 - (p.yc * (t16 - t15) + p.xc * (t14 - t13));
+    let t35 = cos_theta * (t31 * p.m0_x0 - p.m0_y0 * (t25 - t24));
+    let t36 = sin_theta * (t30 * p.m0_x0 + p.m0_y0 * (t27 + t26));
     let f_x = p.m0 * t30 + (t32 - (t15 + t16));
     let f_y = p.m0 * t31 + (t34 - (t13 + t14));
-    let f_theta = t36 - sin_theta * (t30 * p.k8 + p.k11 * (t27 + t26));
+    let f_theta = t35 - (p.yc * (t16 - t15) + p.xc * (t14 - t13)) - t36;
     let f_s1 = cos_phi1 * t32 + sin_phi1 * t34;
     let f_phi1 = s1 * (cos_phi1 * t34 - sin_phi1 * t32);
     let zero = S::ZERO;
@@ -652,39 +649,40 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t19 = cos_theta * n(p.y0);
         let t20 = t6.neg_mul_add(sin_t0, cos_t0);
         let t21 = n(p.x0) * t16;
-        let t22 = n(p.k9).neg_mul_add(t16, t8 + t7);
-        let t23 = t6.mul_add(cos_t0, sin_t0).mul_add(n(p.k6), t14 * n(p.y0));
-        let t24 = t16 * n(p.y0);
-        let t25 = t20.mul_add(n(p.k6), t14 * n(p.x0));
-        let t26 = n(p.yc).mul_add(t9, n(p.xc) * t7) - t13;
-        let t27 = t14.neg_mul_add(n(p.k9), t10 + t9);
-        let t28 = t20.neg_mul_add(n(p.k17), t27);
-        let t29 = t22.neg_mul_add(n(p.k18) * cos_theta, t26);
-        let t30 = n(p.k20) * sin_phi1;
-        let t31 = n(p.k20) * cos_phi1;
-        let t32 = (t23 - t21) * (n(p.m0) * (t17 + t15));
-        let t33 = (t23 + t21) * (n(p.m0) * (t15 - t17));
-        let t34 = (t25 - t24).mul_add(n(p.m0) * (t18 + t19), t32);
-        let t35 = (t25 + t24).mul_add(n(p.m0) * (t19 - t18), t33);
-        let t36 = t28.mul_add(n(p.k18) * sin_theta, t29) + t34 - t35;
-        let t37 = n(p.k19) * t36;
-        let t38 = sin_theta.mul_add(t37, t28);
-        let t39 = cos_theta.neg_mul_add(t37, t22);
-        let t40 = t38.mul_add(t30, phi1_dot * (N::from_f64(2.0) * s1_dot));
-        let t41 = t38.mul_add(t31, phi1_dot * (phi1_dot * s1));
-        let x_ddot = n(p.k21) * t38;
-        let y_ddot = n(p.k21) * t39;
-        let theta_ddot = t36 * n(p.k22);
-        let s1_ddot = t39.mul_add(t30, t41);
-        let phi1_ddot = -(t39.neg_mul_add(t31, t40) / s1);
+        let t22 = n(p.two_m0_x0).neg_mul_add(t16, t8 + t7);
+        let t23 = t6.mul_add(cos_t0, sin_t0);
+        let t24 = t23.mul_add(n(p.e_omega2), t14 * n(p.y0));
+        let t25 = t16 * n(p.y0);
+        let t26 = t20.mul_add(n(p.e_omega2), t14 * n(p.x0));
+        let t27 = n(p.yc).mul_add(t9, n(p.xc) * t7) - t13;
+        let t28 = t14.neg_mul_add(n(p.two_m0_x0), t10 + t9);
+        let t29 = t20.neg_mul_add(n(p.two_m0_e_omega2), t28);
+        let t30 = t22.neg_mul_add(n(p.k3) * cos_theta, t27);
+        let t31 = n(p.k5) * sin_phi1;
+        let t32 = n(p.k5) * cos_phi1;
+        let t33 = (t24 - t21) * (n(p.m0) * (t17 + t15));
+        let t34 = (t24 + t21) * (n(p.m0) * (t15 - t17));
+        let t35 = (t26 - t25).mul_add(n(p.m0) * (t18 + t19), t33);
+        let t36 = (t26 + t25).mul_add(n(p.m0) * (t19 - t18), t34);
+        let t37 = t29.mul_add(n(p.k3) * sin_theta, t30) + t35 - t36;
+        let t38 = n(p.k4) * t37;
+        let t39 = sin_theta.mul_add(t38, t29);
+        let t40 = cos_theta.neg_mul_add(t38, t22);
+        let t41 = t39.mul_add(t31, phi1_dot * (N::from_f64(2.0) * s1_dot));
+        let t42 = t39.mul_add(t32, phi1_dot * (phi1_dot * s1));
+        let x_ddot = n(p.k6) * t39;
+        let y_ddot = n(p.k6) * t40;
+        let theta_ddot = t37 * n(p.k7);
+        let s1_ddot = t40.mul_add(t31, t42);
+        let phi1_ddot = -(t40.neg_mul_add(t32, t41) / s1);
         let zero = N::ZERO;
         let s2_ddot = phi2_dot * (phi2_dot * s2);
         let phi2_ddot = phi2_dot * (N::from_f64(-2.0) * s2_dot) / s2;
-        let t42 = t11 * n(p.m1);
-        let t43 = t11 * n(p.k7);
-        let sound = PIVOTS.hold(t12, t12) & PIVOTS.hold(t42, t43) & phi1_ddot.is_finite();
+        let t43 = t11 * n(p.m1);
+        let t44 = t11 * n(p.m1_plus_m2);
+        let sound = PIVOTS.hold(t12, t12) & PIVOTS.hold(t43, t44) & phi1_ddot.is_finite();
         if !sound {
-            let pivots = [(7, t12, t12), (4, t42, t43)];
+            let pivots = [(7, t12, t12), (4, t43, t44)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [
@@ -741,9 +739,9 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t7 = cos_theta * t4;
     let t8 = t3 * cos_theta + y_dot;
     let t9 = sin_theta * t4;
-    let t10 = p.k0 * (sin_t0 + t2 * cos_t0);
+    let t10 = p.e_omega * (sin_t0 + t2 * cos_t0);
     let t11 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
-    let t12 = p.k0 * (cos_t0 - t2 * sin_t0);
+    let t12 = p.e_omega * (cos_t0 - t2 * sin_t0);
     let t13 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
     let t14 = t10 - (t6 + t7);
     let t15 = t6 - t7 - t10;
@@ -752,10 +750,11 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t18 = t12 + (t8 - t9);
     let t19 = t5 * cos_phi2 + sin_phi2 * s2_dot + t13;
     let t20 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t21 = p.k1 + p.m0 * (t18 * t18 + t15 * t15);
+    let t21 = p.J0_omega2 + p.m0 * (t18 * t18 + t15 * t15);
     let t22 = (t13 * t13 + t11 * t11) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t20;
     let t23 = (t19 * t19 + t16 * t16) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t22;
-    (t23 + (p.k1 + p.m0 * (t17 * t17 + t14 * t14) + t21)) * S::from_f64(0.5)
+    let t24 = t23 + (p.J0_omega2 + p.m0 * (t17 * t17 + t14 * t14) + t21);
+    t24 * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -773,7 +772,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t3 = y - t1;
     let t4 = t0 + x;
     let t5 = t1 + y;
-    (t5 * t5 + t3 * t3) * p.k3 + (t4 * t4 + t2 * t2) * p.k2
+    (t5 * t5 + t3 * t3) * p.half_cy + (t4 * t4 + t2 * t2) * p.half_cx
 }
 
 /// Dissipation function `D`, in W.
@@ -791,7 +790,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     let t3 = y_dot - t1;
     let t4 = t0 + x_dot;
     let t5 = t1 + y_dot;
-    (t5 * t5 + t3 * t3) * p.k5 + (t4 * t4 + t2 * t2) * p.k4
+    (t5 * t5 + t3 * t3) * p.half_by + (t4 * t4 + t2 * t2) * p.half_bx
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -824,10 +823,10 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let t8 = t3 * p.y0;
     let t9 = x_ddot - t3 * p.x0;
     let t10 = t4 * p.y0;
-    let t11 = t5 * p.k6;
-    let t12 = t6 * p.k6;
+    let t11 = t5 * p.e_omega2;
+    let t12 = t6 * p.e_omega2;
     let t13 = t5 * (t12 - (t9 - t10) + (t12 - (t9 + t10)));
-    (t13 - t6 * (t11 + (t7 + t8) + (t11 - (t7 - t8)))) * p.k12
+    (t13 - t6 * (t11 + (t7 + t8) + (t11 - (t7 - t8)))) * p.m0_e_omega
 }
 
 /// Power `R` that dampers take out, in W.
@@ -902,8 +901,9 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, k0, k1, k2, k3, k4, k5, k6,
-        k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22,
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, e_omega, J0_omega2,
+        half_cx, half_cy, half_bx, half_by, e_omega2, m1_plus_m2, m0_x0, two_m0_x0, k0, m0_y0,
+        m0_e_omega, k1, minus_two_m0_x0, k2, minus_m2, two_m0_e_omega2, k3, k4, k5, k6, k7,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

@@ -81,32 +81,32 @@ impl<S: ::lagrangian::emitted::Scalar> TwoJointArm<S> {
         let t1 = self.c2 * self.m2;
         let t2 = self.l1 * self.m2;
         let t3 = self.c1 * t0 + self.J1;
-        let k1 = t0 * self.g;
-        let k4 = self.J2 + self.c2 * t1;
-        let k7 = self.c2 * t2;
-        let k0 = self.l1 * self.l2;
-        let k2 = self.m2 * self.g;
-        let k3 = S::from_f64(0.5) * t3;
-        let k5 = self.g * t1;
-        let k6 = k1 + self.g * t2;
-        let k8 = k7 * S::from_f64(2.0);
-        let k9 = k4 + (t3 + self.l1 * t2);
+        let c1_m1_g = t0 * self.g;
+        let J2_plus_c2_squared_m2 = self.J2 + self.c2 * t1;
+        let l1_c2_m2 = self.c2 * t2;
+        let l1_l2 = self.l1 * self.l2;
+        let m2_g = self.m2 * self.g;
+        let k0 = S::from_f64(0.5) * t3;
+        let c2_m2_g = self.g * t1;
+        let c1_m1_g_plus_l1_m2_g = c1_m1_g + self.g * t2;
+        let two_l1_c2_m2 = l1_c2_m2 * S::from_f64(2.0);
+        let k1 = J2_plus_c2_squared_m2 + (t3 + self.l1 * t2);
         Prepared {
             l1: self.l1,
             l2: self.l2,
             c2: self.c2,
             m2: self.m2,
             J2: self.J2,
+            l1_l2,
+            c1_m1_g,
+            m2_g,
             k0,
+            J2_plus_c2_squared_m2,
+            c2_m2_g,
+            c1_m1_g_plus_l1_m2_g,
+            l1_c2_m2,
+            two_l1_c2_m2,
             k1,
-            k2,
-            k3,
-            k4,
-            k5,
-            k6,
-            k7,
-            k8,
-            k9,
         }
     }
 
@@ -168,33 +168,30 @@ pub struct Prepared<S = f64> {
     /// `J2`
     J2: S,
     /// `l1*l2`
-    k0: S,
+    l1_l2: S,
     /// `c1*m1*g`
-    k1: S,
+    c1_m1_g: S,
     /// `m2*g`
-    k2: S,
+    m2_g: S,
     /// `0.5*(J1 + c1^2*m1)`
-    k3: S,
+    k0: S,
     /// `J2 + c2^2*m2`
-    k4: S,
+    J2_plus_c2_squared_m2: S,
     /// `c2*m2*g`
-    k5: S,
+    c2_m2_g: S,
     /// `c1*m1*g + l1*m2*g`
-    k6: S,
+    c1_m1_g_plus_l1_m2_g: S,
     /// `l1*c2*m2`
-    k7: S,
+    l1_c2_m2: S,
     /// `2*l1*c2*m2`
-    k8: S,
+    two_l1_c2_m2: S,
     /// `J1 + J2 + c1^2*m1 + c2^2*m2 + l1^2*m2`
-    k9: S,
+    k1: S,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -206,9 +203,9 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
     let q2 = q[1];
     let cos_q2 = q2.cos();
-    let m11 = cos_q2 * p.k8 + p.k9;
-    let m21 = cos_q2 * p.k7 + p.k4;
-    [[m11, m21], [m21, p.k4]]
+    let m11 = cos_q2 * p.two_l1_c2_m2 + p.k1;
+    let m21 = cos_q2 * p.l1_c2_m2 + p.J2_plus_c2_squared_m2;
+    [[m11, m21], [m21, p.J2_plus_c2_squared_m2]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -222,8 +219,8 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[
     let q1_dot = v[0];
     let q2_dot = v[1];
     let sin_q2 = q2.sin();
-    let h_q1 = -(sin_q2 * (q2_dot * (q2_dot * p.k7 + q1_dot * p.k8)));
-    let h_q2 = sin_q2 * (q1_dot * (p.k7 * q1_dot));
+    let h_q1 = -(sin_q2 * (q2_dot * (q2_dot * p.l1_c2_m2 + q1_dot * p.two_l1_c2_m2)));
+    let h_q2 = sin_q2 * (q1_dot * (p.l1_c2_m2 * q1_dot));
     [h_q1, h_q2]
 }
 
@@ -243,8 +240,8 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let cos_q1 = q1.cos();
     let t0 = q2 + q1;
     let cos_t0 = t0.cos();
-    let t1 = p.k5 * cos_t0;
-    let q_q1 = u.tau1 - (t1 + p.k6 * cos_q1);
+    let t1 = p.c2_m2_g * cos_t0;
+    let q_q1 = u.tau1 - (t1 + p.c1_m1_g_plus_l1_m2_g * cos_q1);
     let q_q2 = u.tau2 - t1;
     [q_q1, q_q2]
 }
@@ -264,10 +261,10 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let sin_q2 = q2.sin();
     let t0 = q2 + q1;
     let cos_t0 = t0.cos();
-    let t1 = p.k5 * cos_t0;
-    let t2 = sin_q2 * (q2_dot * (q2_dot * p.k7 + q1_dot * p.k8));
-    let f_q1 = t2 + (u.tau1 - (t1 + p.k6 * cos_q1));
-    let f_q2 = u.tau2 - t1 - sin_q2 * (q1_dot * (p.k7 * q1_dot));
+    let t1 = p.c2_m2_g * cos_t0;
+    let t2 = sin_q2 * (q2_dot * (q2_dot * p.l1_c2_m2 + q1_dot * p.two_l1_c2_m2));
+    let f_q1 = t2 + (u.tau1 - (t1 + p.c1_m1_g_plus_l1_m2_g * cos_q1));
+    let f_q2 = u.tau2 - t1 - sin_q2 * (q1_dot * (p.l1_c2_m2 * q1_dot));
     [f_q1, f_q2]
 }
 
@@ -312,22 +309,24 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let (sin_q2, cos_q2) = circular[0];
         let (_, cos_q1) = circular[1];
         let (_, cos_t0) = circular[2];
-        let t1 = cos_q2.mul_add(n(p.k8), n(p.k9));
-        let t2 = cos_q2.mul_add(n(p.k7), n(p.k4));
-        let t3 = N::ONE / t1;
-        let t4 = n(p.k5) * cos_t0;
-        let t5 = q1_dot * (n(p.k7) * q1_dot);
-        let t6 = q2_dot * n(p.k7).mul_add(q2_dot, n(p.k8) * q1_dot);
-        let t7 = n(u.tau1) - n(p.k6).mul_add(cos_q1, t4);
-        let t8 = sin_q2.mul_add(t6, t7);
-        let t9 = t3 * t2;
-        let t10 = t2.neg_mul_add(t9, n(p.k4));
-        let t11 = t9.neg_mul_add(t8, sin_q2.neg_mul_add(t5, n(u.tau2) - t4));
+        let t1 = n(p.l1_c2_m2).mul_add(q2_dot, n(p.two_l1_c2_m2) * q1_dot);
+        let t2 = cos_q2.mul_add(n(p.two_l1_c2_m2), n(p.k1));
+        let t3 = cos_q2.mul_add(n(p.l1_c2_m2), n(p.J2_plus_c2_squared_m2));
+        let t4 = N::ONE / t2;
+        let t5 = n(p.c2_m2_g) * cos_t0;
+        let t6 = q1_dot * (n(p.l1_c2_m2) * q1_dot);
+        let t7 = n(u.tau1) - n(p.c1_m1_g_plus_l1_m2_g).mul_add(cos_q1, t5);
+        let t8 = sin_q2.mul_add(q2_dot * t1, t7);
+        let t9 = t4 * t3;
+        let t10 = t3.neg_mul_add(t9, n(p.J2_plus_c2_squared_m2));
+        let t11 = t9.neg_mul_add(t8, sin_q2.neg_mul_add(t6, n(u.tau2) - t5));
         let q2_ddot = t11 / t10;
-        let q1_ddot = t9.neg_mul_add(q2_ddot, t3 * t8);
-        let sound = PIVOTS.hold(t1, t1) & PIVOTS.hold(t10, n(p.k4)) & q1_ddot.is_finite();
+        let q1_ddot = t9.neg_mul_add(q2_ddot, t4 * t8);
+        let sound = PIVOTS.hold(t2, t2)
+            & PIVOTS.hold(t10, n(p.J2_plus_c2_squared_m2))
+            & q1_ddot.is_finite();
         if !sound {
-            let pivots = [(0, t1, t1), (1, t10, n(p.k4))];
+            let pivots = [(0, t2, t2), (1, t10, n(p.J2_plus_c2_squared_m2))];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [q1_ddot.store(), q2_ddot.store()];
@@ -360,7 +359,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t4 = t3 * sin_t0 + t2 * sin_q1;
     let t5 = t3 * cos_t0 + t2 * cos_q1;
     let t6 = S::from_f64(0.5) * ((t5 * t5 + t4 * t4) * p.m2 + t1 * (t1 * p.J2));
-    t6 + q1_dot * (q1_dot * p.k3)
+    t6 + q1_dot * (q1_dot * p.k0)
 }
 
 /// Potential energy `V`, in J.
@@ -374,7 +373,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let sin_q1 = q1.sin();
     let t0 = q2 + q1;
     let sin_t0 = t0.sin();
-    p.k2 * (sin_t0 * p.c2 + sin_q1 * p.l1) + sin_q1 * p.k1
+    p.m2_g * (sin_t0 * p.c2 + sin_q1 * p.l1) + sin_q1 * p.c1_m1_g
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -425,7 +424,7 @@ pub fn output_y<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -
 pub fn output_manipulability<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q2 = q[1];
     let sin_q2 = q2.sin();
-    p.k0 * sin_q2.abs()
+    p.l1_l2 * sin_q2.abs()
 }
 
 /// Everything that the description asks to observe.
@@ -463,7 +462,10 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
         y: "y" "m";
         manipulability: "manipulability" "m^2";
     ]
-    prepared Prepared { l1, l2, c2, m2, J2, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9 }
+    prepared Prepared {
+        l1, l2, c2, m2, J2, l1_l2, c1_m1_g, m2_g, k0, J2_plus_c2_squared_m2, c2_m2_g,
+        c1_m1_g_plus_l1_m2_g, l1_c2_m2, two_l1_c2_m2, k1,
+    }
     accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }
     system {
         matrix mass_matrix(p, t, q) = mass_matrix(p, q);

@@ -80,42 +80,42 @@ impl<S: ::lagrangian::emitted::Scalar> UprightTop<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.l * self.m;
         let t1 = self.l * t0;
-        let k5 = t0 * self.g;
-        let k0 = t1 + self.A;
+        let m_l_g = t0 * self.g;
+        let A_plus_m_l_squared = t1 + self.A;
         let t2 = t1 * S::from_f64(2.0) + (self.C + self.A * S::from_f64(2.0));
         let t3 = S::from_ratio(4, 3);
-        let k1 = k0 - self.C;
-        let k2 = self.A * S::from_f64(4.0);
-        let k3 = self.C * S::from_f64(4.0);
-        let k4 = t1 * S::from_f64(4.0);
-        let k6 = k0 * S::from_f64(4.0);
-        let k7 = S::from_f64(4.0) * (self.C - k0);
-        let k8 = k5 * S::from_f64(2.0);
-        let k9 = t3 * (t2 - self.C * S::from_f64(3.0));
-        let k10 = self.C * S::from_f64(8.0);
-        let k11 = t2 * S::from_ratio(2, 3);
-        let k12 = S::from_f64(4.0) * k5;
-        let k13 = t3 * t2;
-        let k14 = t3 * (t2 - k0 * S::from_f64(3.0));
-        let k15 = S::from_f64(0.5) / k0;
+        let k0 = A_plus_m_l_squared - self.C;
+        let four_A = self.A * S::from_f64(4.0);
+        let four_C = self.C * S::from_f64(4.0);
+        let four_m_l_squared = t1 * S::from_f64(4.0);
+        let k1 = A_plus_m_l_squared * S::from_f64(4.0);
+        let k2 = S::from_f64(4.0) * (self.C - A_plus_m_l_squared);
+        let two_m_l_g = m_l_g * S::from_f64(2.0);
+        let k3 = t3 * (t2 - self.C * S::from_f64(3.0));
+        let k4 = self.C * S::from_f64(8.0);
+        let k5 = t2 * S::from_ratio(2, 3);
+        let four_m_l_g = S::from_f64(4.0) * m_l_g;
+        let k6 = t3 * t2;
+        let k7 = t3 * (t2 - A_plus_m_l_squared * S::from_f64(3.0));
+        let k8 = S::from_f64(0.5) / A_plus_m_l_squared;
         Prepared {
             C: self.C,
+            A_plus_m_l_squared,
             k0,
+            four_A,
+            four_C,
+            four_m_l_squared,
+            m_l_g,
             k1,
             k2,
+            two_m_l_g,
             k3,
             k4,
             k5,
+            four_m_l_g,
             k6,
             k7,
             k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
         }
     }
 
@@ -164,45 +164,42 @@ pub struct Prepared<S = f64> {
     /// `C`
     C: S,
     /// `A + m*l^2`
-    k0: S,
+    A_plus_m_l_squared: S,
     /// `A - C + m*l^2`
-    k1: S,
+    k0: S,
     /// `4*A`
-    k2: S,
+    four_A: S,
     /// `4*C`
-    k3: S,
+    four_C: S,
     /// `4*m*l^2`
-    k4: S,
+    four_m_l_squared: S,
     /// `m*l*g`
-    k5: S,
+    m_l_g: S,
     /// `4*(A + m*l^2)`
-    k6: S,
+    k1: S,
     /// `4*(C - (A + m*l^2))`
-    k7: S,
+    k2: S,
     /// `2*m*l*g`
-    k8: S,
+    two_m_l_g: S,
     /// `(4/3)*(C + 2*A + 2*m*l^2 - 3*C)`
-    k9: S,
+    k3: S,
     /// `8*C`
-    k10: S,
+    k4: S,
     /// `(2/3)*(C + 2*A + 2*m*l^2)`
-    k11: S,
+    k5: S,
     /// `4*m*l*g`
-    k12: S,
+    four_m_l_g: S,
     /// `(4/3)*(C + 2*A + 2*m*l^2)`
-    k13: S,
+    k6: S,
     /// `(4/3)*(C + 2*A + 2*m*l^2 - 3*(A + m*l^2))`
-    k14: S,
+    k7: S,
     /// `0.5/(A + m*l^2)`
-    k15: S,
+    k8: S,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 4,
-    tolerance: 3.552713678800501e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(4, 4);
 
 /// Mass matrix `M`.
 ///
@@ -249,20 +246,20 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4]
     let t7 = e_2 * e_0;
     let t8 = t0 + t1 + (t2 + t3);
     let t9 = S::ONE / (t8 * t8);
-    let t10 = t9 * p.k6;
-    let t11 = t9 * p.k9;
+    let t10 = t9 * p.k1;
+    let t11 = t9 * p.k3;
     let t12 = t0 * t10 + t3 * t10;
     let t13 = t2 * t10 + t1 * t10;
-    let m11 = t12 + t9 * (t2 * p.k3 + t1 * p.k13);
-    let m21 = -(t9 * (t5 * p.k7 - t4 * p.k14));
-    let m22 = t13 + t9 * (t0 * p.k13 + t3 * p.k3);
-    let m31 = t9 * (p.k14 * t7 + p.k7 * t6);
+    let m11 = t12 + t9 * (t2 * p.four_C + t1 * p.k6);
+    let m21 = -(t9 * (t5 * p.k2 - t4 * p.k7));
+    let m22 = t13 + t9 * (t0 * p.k6 + t3 * p.four_C);
+    let m31 = t9 * (p.k7 * t7 + p.k2 * t6);
     let m32 = t11 * (e_2 * e_1);
-    let m33 = t13 + t9 * (t0 * p.k3 + t3 * p.k13);
+    let m33 = t13 + t9 * (t0 * p.four_C + t3 * p.k6);
     let m41 = t11 * (e_3 * e_0);
-    let m42 = t9 * (p.k7 * t7 + p.k14 * t6);
-    let m43 = t9 * (p.k14 * t5 - t4 * p.k7);
-    let m44 = t12 + t9 * (t2 * p.k13 + t1 * p.k3);
+    let m42 = t9 * (p.k2 * t7 + p.k7 * t6);
+    let m43 = t9 * (p.k7 * t5 - t4 * p.k2);
+    let m44 = t12 + t9 * (t2 * p.k6 + t1 * p.four_C);
     [
         [m11, m21, m31, m41],
         [m21, m22, m32, m42],
@@ -291,17 +288,17 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4], v: &[
     let t0 = e_1 * e_1_dot + e_0 * e_0_dot + (e_3 * e_3_dot + e_2 * e_2_dot);
     let t1 = e_2 * e_1_dot + e_0 * e_3_dot - (e_1 * e_2_dot + e_3 * e_0_dot);
     let t2 = S::ONE / (e_1 * e_1 + e_0 * e_0 + (e_3 * e_3 + e_2 * e_2));
-    let t3 = t0 * p.k6;
+    let t3 = t0 * p.k1;
     let t4 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
-    let t5 = p.k7 * t1;
+    let t5 = p.k2 * t1;
     let t6 = e_3 * e_2_dot + e_0 * e_1_dot - (e_2 * e_3_dot + e_1 * e_0_dot);
     let t7 = e_3_dot * e_3_dot + e_2_dot * e_2_dot;
     let t8 = t2 * t2;
     let t9 = S::from_f64(2.0) * (e_1_dot * e_1_dot + e_0_dot * e_0_dot + t7);
     let t10 = t8 * (t3 * t6 - t5 * t4);
     let t11 = t8 * (t5 * t6 + t4 * t3);
-    let t12 = (t9 - t2 * (t0 * (t0 * S::from_f64(4.0)))) * (t2 * p.k11);
-    let t13 = t8 * p.k10 * (t0 * t1);
+    let t12 = (t9 - t2 * (t0 * (t0 * S::from_f64(4.0)))) * (t2 * p.k5);
+    let t13 = t8 * p.k4 * (t0 * t1);
     let t14 = S::from_f64(2.0) * (e_0 * t10 - e_3 * t11) + e_2 * t13 - e_1 * t12;
     let t15 = S::from_f64(2.0) * (e_1 * t11 - e_2 * t10) + e_0 * t13 - e_3 * t12;
     let t16 = e_0 * t12 + (S::from_f64(2.0) * (e_1 * t10 + e_2 * t11) + e_3 * t13);
@@ -363,11 +360,11 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(
     let t6 = t4 * (e_3 * e_1 - e_2 * e_0);
     let t7 = t4 * (e_1 * e_0 + e_3 * e_2);
     let t8 = (S::ONE - t0) * t5 / (t0 + S::ONE) - t2 * (t3 * S::from_f64(2.0));
-    let t9 = t2 * p.k13 * t8;
-    let q_e_0 = p.k12 * (e_2 * t6 - e_1 * t7) + e_0 * t9;
-    let q_e_1 = p.k12 * (e_0 * t7 + e_3 * t6) + e_1 * t9;
-    let q_e_2 = e_2 * t9 - p.k12 * (e_0 * t6 - e_3 * t7);
-    let q_e_3 = e_3 * t9 - p.k12 * (e_2 * t7 + e_1 * t6);
+    let t9 = t2 * p.k6 * t8;
+    let q_e_0 = p.four_m_l_g * (e_2 * t6 - e_1 * t7) + e_0 * t9;
+    let q_e_1 = p.four_m_l_g * (e_0 * t7 + e_3 * t6) + e_1 * t9;
+    let q_e_2 = e_2 * t9 - p.four_m_l_g * (e_0 * t6 - e_3 * t7);
+    let q_e_3 = e_3 * t9 - p.four_m_l_g * (e_2 * t7 + e_1 * t6);
     [q_e_0, q_e_1, q_e_2, q_e_3]
 }
 
@@ -387,17 +384,17 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4], v: 
     let t3 = S::ONE / t0;
     let t4 = e_3_dot * e_3_dot + e_2_dot * e_2_dot;
     let t5 = e_1_dot * e_1_dot + e_0_dot * e_0_dot + t4;
-    let t6 = p.k6 * t1;
-    let t7 = p.k7 * t2;
+    let t6 = p.k1 * t1;
+    let t7 = p.k2 * t2;
     let t8 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
     let t9 = e_3 * e_2_dot + e_0 * e_1_dot - (e_2 * e_3_dot + e_1 * e_0_dot);
     let t10 = t3 * t1;
-    let t11 = t3 * (p.k8 * (e_1 * e_0 + e_3 * e_2) + t3 * (t6 * t9 - t7 * t8));
-    let t12 = t3 * (t3 * (t7 * t9 + t8 * t6) - p.k8 * (e_3 * e_1 - e_2 * e_0));
-    let t13 = t10 * (t2 * (t3 * p.k10));
+    let t11 = t3 * (p.two_m_l_g * (e_1 * e_0 + e_3 * e_2) + t3 * (t6 * t9 - t7 * t8));
+    let t12 = t3 * (t3 * (t7 * t9 + t8 * t6) - p.two_m_l_g * (e_3 * e_1 - e_2 * e_0));
+    let t13 = t10 * (t2 * (t3 * p.k4));
     let t14 = (S::ONE - t0) * (S::ONE + t3 * t5) / (t0 + S::ONE);
-    let t15 = (S::from_f64(2.0) * t5 - t10 * (t1 * S::from_f64(4.0))) * (t3 * p.k11);
-    let t16 = p.k13 * (t14 - S::from_f64(2.0) * t10) - t15;
+    let t15 = (S::from_f64(2.0) * t5 - t10 * (t1 * S::from_f64(4.0))) * (t3 * p.k5);
+    let t16 = p.k6 * (t14 - S::from_f64(2.0) * t10) - t15;
     let t17 = e_0 * t16 - (S::from_f64(2.0) * (e_1 * t11 + e_2 * t12) + e_3 * t13);
     let t18 = S::from_f64(2.0) * (e_0 * t11 - e_3 * t12) + e_2 * t13 + e_1 * t16;
     let t19 = e_2 * t16 - (e_1 * t13 - S::from_f64(2.0) * (e_3 * t11 + e_0 * t12));
@@ -453,20 +450,20 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t5 = e_3.mul_add(e_3_dot, e_2 * e_2_dot);
         let t6 = e_1.mul_add(e_1_dot, e_0 * e_0_dot) + t5;
         let t7 = N::ONE / t0;
-        let t8 = n(p.k7) * t4;
-        let t9 = n(p.k6) * t6;
+        let t8 = n(p.k2) * t4;
+        let t9 = n(p.k1) * t6;
         let t10 = e_3.mul_add(e_1_dot, e_2 * e_0_dot);
         let t11 = e_1.mul_add(e_3_dot, e_0 * e_2_dot) - t10;
         let t12 = e_2.mul_add(e_3_dot, e_1 * e_0_dot);
         let t13 = e_3.mul_add(e_2_dot, e_0 * e_1_dot) - t12;
         let t14 = t7 * t6;
-        let t15 = t7 * n(p.k6);
-        let t16 = t7 * n(p.k3);
-        let t17 = n(p.k8) * e_3.mul_sub(e_1, e_2 * e_0);
-        let t18 = n(p.k8) * e_1.mul_add(e_0, e_3 * e_2);
+        let t15 = t7 * n(p.k1);
+        let t16 = t7 * n(p.four_C);
+        let t17 = n(p.two_m_l_g) * e_3.mul_sub(e_1, e_2 * e_0);
+        let t18 = n(p.two_m_l_g) * e_1.mul_add(e_0, e_3 * e_2);
         let t19 = t14 * N::from_f64(2.0);
         let t20 = N::from_f64(2.0) * t2;
-        let t21 = t7 * n(p.k13);
+        let t21 = t7 * n(p.k6);
         let t22 = t7 * t7.mul_sub(t8.mul_add(t13, t9 * t11), t17);
         let t23 = t7 * t7.mul_add(t13.mul_sub(t9, t8 * t11), t18);
         let t24 = t19 * (t7 * t4);
@@ -475,10 +472,10 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t27 = t25 * (t7 * N::from_ratio(2, 3));
         let t28 = N::from_ratio(4, 3).mul_sub(t26 - t19, t27);
         let t29 = N::from_f64(0.75) * t28;
-        let t30 = n(p.k15).mul_add(e_2.mul_add(t22, e_1 * t23), e_3 * t24);
-        let t31 = n(p.k15).mul_add(e_0.mul_sub(t23, e_3 * t22), e_2 * t24);
-        let t32 = n(p.k15).mul_sub(e_3.mul_add(t23, e_0 * t22), e_1 * t24);
-        let t33 = n(p.k15).mul_add(e_1.mul_sub(t22, e_2 * t23), e_0 * t24);
+        let t30 = n(p.k8).mul_add(e_2.mul_add(t22, e_1 * t23), e_3 * t24);
+        let t31 = n(p.k8).mul_add(e_0.mul_sub(t23, e_3 * t22), e_2 * t24);
+        let t32 = n(p.k8).mul_sub(e_3.mul_add(t23, e_0 * t22), e_1 * t24);
+        let t33 = n(p.k8).mul_add(e_1.mul_sub(t22, e_2 * t23), e_0 * t24);
         let e_0_ddot = e_0.mul_sub(t29, t30);
         let e_1_ddot = e_1.mul_add(t29, t31);
         let e_2_ddot = e_2.mul_add(t29, t32);
@@ -532,8 +529,8 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t3 = e_1 * e_3_dot + e_0 * e_2_dot - (e_3 * e_1_dot + e_2 * e_0_dot);
     let t4 = S::ONE / (t0 * t0);
     let t5 = t3 * t3 + t1 * t1;
-    let t6 = t4 * (p.k4 * t5) + t4 * (t5 * p.k2 + t2 * (t2 * p.k3));
-    S::from_f64(0.5) * t6
+    let t6 = t4 * (t5 * p.four_A + t2 * (t2 * p.four_C));
+    S::from_f64(0.5) * (t4 * (p.four_m_l_squared * t5) + t6)
 }
 
 /// Potential energy `V`, in J.
@@ -547,7 +544,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let e_2 = q[2];
     let e_3 = q[3];
     let t0 = e_2 * e_2 + e_1 * e_1;
-    p.k5 * (S::ONE - t0 * S::from_f64(2.0) / (t0 + (e_3 * e_3 + e_0 * e_0)))
+    let t1 = S::ONE - t0 * S::from_f64(2.0) / (t0 + (e_3 * e_3 + e_0 * e_0));
+    p.m_l_g * t1
 }
 
 /// Angular momentum about the vertical: conserved. Unit: `J*s`.
@@ -593,7 +591,7 @@ pub fn output_vertical_momentum<S: ::lagrangian::emitted::Scalar>(
     let t22 = t12 * (t20 + t18 * (S::from_f64(2.0) * t13));
     let t23 = (t16 * (t13 * t14 + t11 * (t5 - t4)) + t19) * (t12 * t14);
     let t24 = t17 * ((t16 * (t15 * t13 + t10 * (t4 + t5)) + t21) * (t12 * t15) + t23);
-    t22 * p.k0 - (t24 + t18 * t22) * (t18 * p.k1)
+    t22 * p.A_plus_m_l_squared - (t24 + t18 * t22) * (t18 * p.k0)
 }
 
 /// Angular momentum about the top's axis: conserved. Unit: `J*s`.
@@ -691,7 +689,10 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         axial_momentum: "axial_momentum" "J*s";
         upright: "upright" "1";
     ]
-    prepared Prepared { C, k0, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15 }
+    prepared Prepared {
+        C, A_plus_m_l_squared, k0, four_A, four_C, four_m_l_squared, m_l_g, k1, k2, two_m_l_g, k3,
+        k4, k5, four_m_l_g, k6, k7, k8,
+    }
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {
         matrix mass_matrix(p, t, q) = mass_matrix(p, q);

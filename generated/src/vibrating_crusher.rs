@@ -80,36 +80,36 @@ impl<S: ::lagrangian::emitted::Scalar> VibratingCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let pivot_1 = self.m + self.m0;
-        let k9 = self.m0 * self.x0;
-        let k8 = self.m0 * self.y0;
-        let k0 = self.omega * self.e;
-        let k7 = self.m1 + self.m2;
-        let k17 = S::ONE / pivot_1;
-        let k10 = k7 + pivot_1;
-        let k12 = self.J + (self.y0 * k8 + self.x0 * k9);
-        let pivot_2 = k12 - k17 * (k8 * k8) - k17 * (k9 * k9);
+        let m0_x0 = self.m0 * self.x0;
+        let m0_y0 = self.m0 * self.y0;
+        let e_omega = self.omega * self.e;
+        let m1_plus_m2 = self.m1 + self.m2;
+        let k5 = S::ONE / pivot_1;
+        let k0 = m1_plus_m2 + pivot_1;
+        let k1 = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
+        let pivot_2 = k1 - k5 * (m0_y0 * m0_y0) - k5 * (m0_x0 * m0_x0);
         let t0 = S::ONE / pivot_2;
-        let k1 = self.omega * (self.omega * self.J0);
-        let k2 = self.cx * S::from_f64(0.5);
-        let k3 = self.cy * S::from_f64(0.5);
-        let k4 = self.bx * S::from_f64(0.5);
-        let k5 = self.by * S::from_f64(0.5);
-        let k6 = self.omega * k0;
-        let k11 = self.m0 * k0;
-        let k13 = -k7;
-        let k14 = -self.m2;
-        let k15 = self.m0 * k17;
-        let k16 = self.m0 * t0;
-        let k18 = -k17;
-        let k19 = -t0;
+        let J0_omega2 = self.omega * (self.omega * self.J0);
+        let half_cx = self.cx * S::from_f64(0.5);
+        let half_cy = self.cy * S::from_f64(0.5);
+        let half_bx = self.bx * S::from_f64(0.5);
+        let half_by = self.by * S::from_f64(0.5);
+        let e_omega2 = self.omega * e_omega;
+        let m0_e_omega = self.m0 * e_omega;
+        let k2 = -m1_plus_m2;
+        let minus_m2 = -self.m2;
+        let k3 = self.m0 * k5;
+        let k4 = self.m0 * t0;
+        let k6 = -k5;
+        let k7 = -t0;
         let pivots = [
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
             (6, self.m2, self.m2),
-            (3, self.m1, k7),
-            (1, pivot_1, k10),
-            (0, pivot_1, k10),
-            (2, pivot_2, k12),
+            (3, self.m1, m1_plus_m2),
+            (1, pivot_1, k0),
+            (0, pivot_1, k0),
+            (2, pivot_2, k1),
         ];
         Prepared {
             m: self.m,
@@ -128,26 +128,26 @@ impl<S: ::lagrangian::emitted::Scalar> VibratingCrusher<S> {
             by: self.by,
             xc: self.xc,
             yc: self.yc,
+            e_omega,
+            J0_omega2,
+            half_cx,
+            half_cy,
+            half_bx,
+            half_by,
+            e_omega2,
+            m1_plus_m2,
+            m0_y0,
+            m0_x0,
             k0,
+            m0_e_omega,
             k1,
             k2,
+            minus_m2,
             k3,
             k4,
             k5,
             k6,
             k7,
-            k8,
-            k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            k18,
-            k19,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -234,55 +234,52 @@ pub struct Prepared<S = f64> {
     /// `yc`
     yc: S,
     /// `e*omega`
-    k0: S,
+    e_omega: S,
     /// `J0*omega^2`
-    k1: S,
+    J0_omega2: S,
     /// `0.5*cx`
-    k2: S,
+    half_cx: S,
     /// `0.5*cy`
-    k3: S,
+    half_cy: S,
     /// `0.5*bx`
-    k4: S,
+    half_bx: S,
     /// `0.5*by`
-    k5: S,
+    half_by: S,
     /// `e*omega^2`
-    k6: S,
+    e_omega2: S,
     /// `m1 + m2`
-    k7: S,
+    m1_plus_m2: S,
     /// `m0*y0`
-    k8: S,
+    m0_y0: S,
     /// `m0*x0`
-    k9: S,
+    m0_x0: S,
     /// `m + m0 + m1 + m2`
-    k10: S,
+    k0: S,
     /// `m0*e*omega`
-    k11: S,
+    m0_e_omega: S,
     /// `J + m0*x0^2 + m0*y0^2`
-    k12: S,
+    k1: S,
     /// `-(m1 + m2)`
-    k13: S,
+    k2: S,
     /// `-m2`
-    k14: S,
+    minus_m2: S,
     /// `m0/(m + m0)`
-    k15: S,
+    k3: S,
     /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k16: S,
+    k4: S,
     /// `1/(m + m0)`
-    k17: S,
+    k5: S,
     /// `-1/(m + m0)`
-    k18: S,
+    k6: S,
     /// `-1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k19: S,
+    k7: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 9,
-    tolerance: 7.993605777301127e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(9, 9);
 
 /// Mass matrix `M`.
 ///
@@ -321,33 +318,33 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.k7 * s1;
+    let t1 = p.m1_plus_m2 * s1;
     let t2 = p.m2 * s2;
     let t3 = sin_phi1 * cos_phi2;
     let t4 = cos_phi1 * sin_phi2;
     let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
     let zero = S::ZERO;
-    let m31 = -(p.k9 * sin_theta + cos_theta * p.k8);
-    let m32 = p.k9 * cos_theta - sin_theta * p.k8;
-    let m41 = p.k7 * cos_phi1;
-    let m42 = p.k7 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k13);
+    let m31 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
+    let m32 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
+    let m41 = p.m1_plus_m2 * cos_phi1;
+    let m42 = p.m1_plus_m2 * sin_phi1;
+    let m51 = sin_phi1 * (s1 * p.k2);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
     let m75 = (t4 - t3) * t0;
-    let m81 = sin_phi2 * (s2 * p.k14);
+    let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t3 - t4);
     let m85 = t5 * (t0 * s2);
     let m88 = s2 * t2;
     [
-        [p.k10, zero, m31, m41, m51, zero, m71, m81, zero],
-        [zero, p.k10, m32, m42, m52, zero, m72, m82, zero],
-        [m31, m32, p.k12, zero, zero, zero, zero, zero, zero],
-        [m41, m42, zero, p.k7, zero, zero, m74, m84, zero],
+        [p.k0, zero, m31, m41, m51, zero, m71, m81, zero],
+        [zero, p.k0, m32, m42, m52, zero, m72, m82, zero],
+        [m31, m32, p.k1, zero, zero, zero, zero, zero, zero],
+        [m41, m42, zero, p.m1_plus_m2, zero, zero, m74, m84, zero],
         [m51, m52, zero, zero, m55, zero, m75, m85, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
         [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
@@ -410,21 +407,21 @@ pub fn bias<S: ::lagrangian::emitted::Scalar>(
     let t12 = cos_phi1 * s1;
     let t13 = t6 * t10 - t8 * cos_phi1;
     let t14 = t8 * sin_phi1 + t6 * t12;
-    let t15 = p.k6 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
+    let t15 = p.e_omega2 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
     let t16 = t3 * t9 - t7 * cos_phi2 + t13;
-    let t17 = p.k6 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
+    let t17 = p.e_omega2 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
     let t18 = t7 * sin_phi2 + t3 * t11 + t14;
     let t19 = p.m2 * t16 + p.m1 * t13;
     let t20 = t18 * p.m2 + t14 * p.m1;
-    let t21 = cos_theta * (t17 * p.k8 - t15 * p.k9);
+    let t21 = cos_theta * (t17 * p.m0_y0 - t15 * p.m0_x0);
     let h_x = -(t17 * p.m0 + t20);
     let h_y = -(p.m0 * t15 + t19);
-    let h_theta = sin_theta * (t15 * p.k8 + t17 * p.k9) + t21;
+    let h_theta = sin_theta * (t15 * p.m0_y0 + t17 * p.m0_x0) + t21;
     let h_s1 = -(cos_phi1 * t20 + sin_phi1 * t19);
     let h_phi1 = t20 * t10 - t12 * t19;
     let zero = S::ZERO;
-    let h_s2 = p.k14 * (cos_phi2 * t18 + sin_phi2 * t16);
-    let h_phi2 = p.k14 * (t11 * t16 - t18 * t9);
+    let h_s2 = p.minus_m2 * (cos_phi2 * t18 + sin_phi2 * t16);
+    let h_phi2 = p.minus_m2 * (t11 * t16 - t18 * t9);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -507,19 +504,19 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t18 = cos_phi1 * s1;
     let t19 = sin_phi2 * s2;
     let t20 = sin_phi1 * s1;
-    let t21 = p.k6 * (sin_t0 + t7 * cos_t0) + (sin_theta * t8 + t5 * cos_theta);
+    let t21 = p.e_omega2 * (sin_t0 + t7 * cos_t0) + (sin_theta * t8 + t5 * cos_theta);
     let t22 = t10 * sin_phi1 + t14 * t18;
-    let t23 = p.k6 * (cos_t0 - t7 * sin_t0) + (cos_theta * t8 - t5 * sin_theta);
+    let t23 = p.e_omega2 * (cos_t0 - t7 * sin_t0) + (cos_theta * t8 - t5 * sin_theta);
     let t24 = t14 * t20 - t10 * cos_phi1;
     let t25 = t9 * sin_phi2 + t11 * t17 + t22;
     let t26 = t11 * t19 - t9 * cos_phi2 + t24;
     let t27 = t25 * p.m2 + t22 * p.m1;
     let t28 = p.m2 * t26 + p.m1 * t24;
-    let t29 = p.yc * (t16 - t15) + p.xc * (t13 - t12);
-    let t30 = cos_theta * (t23 * p.k8 - t21 * p.k9) + t29;
+    let t29 = cos_theta * (t23 * p.m0_y0 - t21 * p.m0_x0);
+    let t30 = t29 + (p.yc * (t16 - t15) + p.xc * (t13 - t12));
     let f_x = t23 * p.m0 + (t27 - (t15 + t16));
     let f_y = p.m0 * t21 + (t28 - (t12 + t13));
-    let f_theta = -(sin_theta * (t21 * p.k8 + t23 * p.k9) + t30);
+    let f_theta = -(sin_theta * (t21 * p.m0_y0 + t23 * p.m0_x0) + t30);
     let f_s1 = cos_phi1 * t27 + sin_phi1 * t28;
     let f_phi1 = t18 * t28 - t27 * t20;
     let zero = S::ZERO;
@@ -598,37 +595,39 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> 
         let t15 = cos_theta * n(p.y0);
         let t16 = cos_theta * n(p.x0);
         let t17 = sin_theta * n(p.x0);
-        let t18 = n(p.k17) * sin_phi1;
-        let t19 = n(p.k17) * cos_phi1;
+        let t18 = n(p.k5) * sin_phi1;
+        let t19 = n(p.k5) * cos_phi1;
         let t20 = t17 + t15;
         let t21 = t16 - t14;
         let t22 = t6.neg_mul_add(sin_t0, cos_t0);
         let t23 = t6.mul_add(cos_t0, sin_t0);
-        let t24 = n(p.k6).mul_add(t22, t5.mul_sub(t16, t14 * t5)) * n(p.m0);
-        let t25 = n(p.m0) * n(p.k6).mul_add(t23, t17.mul_add(t5, t15 * t5));
-        let t26 = t8 + t7 - t25;
-        let t27 = t10 + t9 - t24;
-        let t28 = t20.mul_add(t24, n(p.yc).mul_add(t9, n(p.xc) * t7) - t13);
-        let t29 = t27.mul_sub(n(p.k15) * t20, t21 * t25);
-        let t30 = t29 + t26.neg_mul_add(n(p.k15) * t21, t28);
-        let t31 = n(p.k16) * t30;
-        let t32 = t20.mul_add(t31, t27);
-        let t33 = t21.neg_mul_add(t31, t26);
-        let t34 = t32.mul_add(t18, phi1_dot * (N::from_f64(2.0) * s1_dot));
-        let t35 = t32.mul_add(t19, phi1_dot * (phi1_dot * s1));
-        let x_ddot = n(p.k18) * t32;
-        let y_ddot = n(p.k18) * t33;
-        let theta_ddot = t30 * n(p.k19);
-        let s1_ddot = t33.mul_add(t18, t35);
-        let phi1_ddot = -(t33.neg_mul_add(t19, t34) / s1);
+        let t24 = n(p.e_omega2).mul_add(t22, t5.mul_sub(t16, t14 * t5));
+        let t25 = t24 * n(p.m0);
+        let t26 = n(p.e_omega2).mul_add(t23, t17.mul_add(t5, t15 * t5));
+        let t27 = n(p.m0) * t26;
+        let t28 = t8 + t7 - t27;
+        let t29 = t10 + t9 - t25;
+        let t30 = t20.mul_add(t25, n(p.yc).mul_add(t9, n(p.xc) * t7) - t13);
+        let t31 = t29.mul_sub(n(p.k3) * t20, t21 * t27);
+        let t32 = t31 + t28.neg_mul_add(n(p.k3) * t21, t30);
+        let t33 = n(p.k4) * t32;
+        let t34 = t20.mul_add(t33, t29);
+        let t35 = t21.neg_mul_add(t33, t28);
+        let t36 = t34.mul_add(t18, phi1_dot * (N::from_f64(2.0) * s1_dot));
+        let t37 = t34.mul_add(t19, phi1_dot * (phi1_dot * s1));
+        let x_ddot = n(p.k6) * t34;
+        let y_ddot = n(p.k6) * t35;
+        let theta_ddot = t32 * n(p.k7);
+        let s1_ddot = t35.mul_add(t18, t37);
+        let phi1_ddot = -(t35.neg_mul_add(t19, t36) / s1);
         let zero = N::ZERO;
         let s2_ddot = phi2_dot * (phi2_dot * s2);
         let phi2_ddot = phi2_dot * (N::from_f64(-2.0) * s2_dot) / s2;
-        let t36 = t11 * n(p.m1);
-        let t37 = t11 * n(p.k7);
-        let sound = PIVOTS.hold(t12, t12) & PIVOTS.hold(t36, t37) & phi1_ddot.is_finite();
+        let t38 = t11 * n(p.m1);
+        let t39 = t11 * n(p.m1_plus_m2);
+        let sound = PIVOTS.hold(t12, t12) & PIVOTS.hold(t38, t39) & phi1_ddot.is_finite();
         if !sound {
-            let pivots = [(7, t12, t12), (4, t36, t37)];
+            let pivots = [(7, t12, t12), (4, t38, t39)];
             PIVOTS.check(pivots)?;
         }
         let accelerations = [
@@ -690,15 +689,16 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t5 = theta_dot * p.y0;
     let t6 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t7 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t8 = x_dot - t3 * sin_theta - cos_theta * t5 - p.k0 * (sin_t0 + t4 * cos_t0);
-    let t9 = y_dot + t3 * cos_theta - sin_theta * t5;
-    let t10 = p.k0 * (cos_t0 - t4 * sin_t0) + t9;
-    let t11 = cos_phi2 * s2_dot - t2 * sin_phi2 + t6;
-    let t12 = t2 * cos_phi2 + sin_phi2 * s2_dot + t7;
-    let t13 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t14 = (t7 * t7 + t6 * t6) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t13;
-    let t15 = (t12 * t12 + t11 * t11) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
-    ((t10 * t10 + t8 * t8) * p.m0 + p.k1 + t15) * S::from_f64(0.5)
+    let t8 = x_dot - t3 * sin_theta - cos_theta * t5;
+    let t9 = t8 - p.e_omega * (sin_t0 + t4 * cos_t0);
+    let t10 = y_dot + t3 * cos_theta - sin_theta * t5;
+    let t11 = p.e_omega * (cos_t0 - t4 * sin_t0) + t10;
+    let t12 = cos_phi2 * s2_dot - t2 * sin_phi2 + t6;
+    let t13 = t2 * cos_phi2 + sin_phi2 * s2_dot + t7;
+    let t14 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t15 = (t7 * t7 + t6 * t6) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t14;
+    let t16 = (t13 * t13 + t12 * t12) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t15;
+    ((t11 * t11 + t9 * t9) * p.m0 + p.J0_omega2 + t16) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -716,7 +716,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t3 = y - t1;
     let t4 = t0 + x;
     let t5 = t1 + y;
-    (t5 * t5 + t3 * t3) * p.k3 + (t4 * t4 + t2 * t2) * p.k2
+    (t5 * t5 + t3 * t3) * p.half_cy + (t4 * t4 + t2 * t2) * p.half_cx
 }
 
 /// Dissipation function `D`, in W.
@@ -734,7 +734,7 @@ pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]
     let t3 = y_dot - t1;
     let t4 = t0 + x_dot;
     let t5 = t1 + y_dot;
-    (t5 * t5 + t3 * t3) * p.k5 + (t4 * t4 + t2 * t2) * p.k4
+    (t5 * t5 + t3 * t3) * p.half_by + (t4 * t4 + t2 * t2) * p.half_bx
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -767,8 +767,9 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let t4 = sin_theta * t1 - cos_theta * theta_ddot;
     let t5 = sin_t0 + t2 * cos_t0;
     let t6 = cos_t0 - t2 * sin_t0;
-    let t7 = t6 * (t5 * p.k6 - (y_ddot - t3 * p.y0 - t4 * p.x0));
-    (t5 * (t6 * p.k6 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7) * p.k11
+    let t7 = t6 * (t5 * p.e_omega2 - (y_ddot - t3 * p.y0 - t4 * p.x0));
+    let t8 = t5 * (t6 * p.e_omega2 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7;
+    t8 * p.m0_e_omega
 }
 
 /// Power `R` that dampers take out, in W.
@@ -837,8 +838,9 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, k0, k1, k2, k3, k4, k5, k6,
-        k7, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17, k18, k19,
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, e_omega, J0_omega2,
+        half_cx, half_cy, half_bx, half_by, e_omega2, m1_plus_m2, m0_y0, m0_x0, k0, m0_e_omega, k1,
+        k2, minus_m2, k3, k4, k5, k6, k7,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

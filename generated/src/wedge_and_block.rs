@@ -48,44 +48,47 @@ impl<S: ::lagrangian::emitted::Scalar> WedgeAndBlock<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let (sin_self_alpha, cos_self_alpha) = self.alpha.sin_cos();
-        let k6 = self.m + self.M;
-        let t0 = S::ONE / k6;
-        let k5 = self.m * cos_self_alpha;
+        let M_plus_m = self.m + self.M;
+        let t0 = S::ONE / M_plus_m;
+        let k3 = self.m * cos_self_alpha;
         let t1 = self.m * sin_self_alpha;
-        let t2 = k5 * t0;
+        let t2 = k3 * t0;
         let k2 = t1 * self.g;
-        let pivot_1 = self.m - k5 * t2;
-        let k9 = S::ONE / pivot_1;
-        let t3 = t1 * k9;
-        let t4 = t2 * k9;
-        let k8 = self.g * t3;
-        let k12 = t0 + t2 * t4;
-        let k13 = t2 * t3;
-        let t5 = t1 * k8;
+        let pivot_1 = self.m - k3 * t2;
+        let k6 = S::ONE / pivot_1;
+        let t3 = t1 * k6;
+        let t4 = t2 * k6;
+        let k5 = self.g * t3;
+        let k9 = t0 + t2 * t4;
+        let k10 = t2 * t3;
+        let t5 = t1 * k5;
         let k1 = sin_self_alpha * sin_self_alpha;
-        let k3 = S::from_f64(0.5) * self.M;
-        let k4 = self.m * S::from_f64(0.5);
-        let k7 = -k2;
-        let k10 = self.m * self.g + self.g * self.M - t5;
-        let k11 = self.g * k5 - t2 * t5;
-        let k14 = t1 * k12;
-        let k15 = -(t2 * k8);
-        let k16 = -t4;
-        let k17 = -t3;
-        let k18 = -k13;
-        let pivots = [(0, k6, k6), (1, pivot_1, self.m)];
+        let half_M = S::from_f64(0.5) * self.M;
+        let half_m = self.m * S::from_f64(0.5);
+        let k4 = -k2;
+        let k7 = self.m * self.g + self.g * self.M - t5;
+        let k8 = self.g * k3 - t2 * t5;
+        let k11 = t1 * k9;
+        let k12 = -(t2 * k5);
+        let k13 = -t4;
+        let k14 = -t3;
+        let k15 = -k10;
+        let pivots = [(0, M_plus_m, M_plus_m), (1, pivot_1, self.m)];
         Prepared {
             m: self.m,
             k0: cos_self_alpha,
             k1,
             k2,
+            half_M,
+            half_m,
             k3,
+            M_plus_m,
             k4,
+            mu2: self.mu2,
+            mu1: self.mu1,
             k5,
             k6,
             k7,
-            mu2: self.mu2,
-            mu1: self.mu1,
             k8,
             k9,
             k10,
@@ -94,9 +97,6 @@ impl<S: ::lagrangian::emitted::Scalar> WedgeAndBlock<S> {
             k13,
             k14,
             k15,
-            k16,
-            k17,
-            k18,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -143,51 +143,48 @@ pub struct Prepared<S = f64> {
     /// `m*g*sin(alpha)`
     k2: S,
     /// `0.5*M`
-    k3: S,
+    half_M: S,
     /// `0.5*m`
-    k4: S,
+    half_m: S,
     /// `m*cos(alpha)`
-    k5: S,
+    k3: S,
     /// `M + m`
-    k6: S,
+    M_plus_m: S,
     /// `-m*g*sin(alpha)`
-    k7: S,
+    k4: S,
     /// `mu2`
     mu2: S,
     /// `mu1`
     mu1: S,
     /// `m*g*sin(alpha)/(m - m^2*cos(alpha)^2/(M + m))`
-    k8: S,
+    k5: S,
     /// `1/(m - m^2*cos(alpha)^2/(M + m))`
-    k9: S,
+    k6: S,
     /// `M*g + m*g - m^2*g*sin(alpha)^2/(m - m^2*cos(alpha)^2/(M + m))`
-    k10: S,
+    k7: S,
     /// `m*g*cos(alpha) - m^3*g*cos(alpha)*sin(alpha)^2/(M + m)/(m - m^2*cos(alpha)^2/(M + m))`
-    k11: S,
+    k8: S,
     /// `1/(M + m) + m^2*cos(alpha)^2/(M + m)^2/(m - m^2*cos(alpha)^2/(M + m))`
-    k12: S,
+    k9: S,
     /// `m^2*cos(alpha)*sin(alpha)/(M + m)/(m - m^2*cos(alpha)^2/(M + m))`
-    k13: S,
+    k10: S,
     /// `m*sin(alpha)*(1/(M + m) + m^2*cos(alpha)^2/(M + m)^2/(m - m^2*cos(alpha)^2/(M + m)))`
-    k14: S,
+    k11: S,
     /// `-m^2*g*cos(alpha)*sin(alpha)/(M + m)/(m - m^2*cos(alpha)^2/(M + m))`
-    k15: S,
+    k12: S,
     /// `-m*cos(alpha)/(M + m)/(m - m^2*cos(alpha)^2/(M + m))`
-    k16: S,
+    k13: S,
     /// `-m*sin(alpha)/(m - m^2*cos(alpha)^2/(M + m))`
-    k17: S,
+    k14: S,
     /// `-m^2*cos(alpha)*sin(alpha)/(M + m)/(m - m^2*cos(alpha)^2/(M + m))`
-    k18: S,
+    k15: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
 /// errors alone.
-const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
-    coordinates: 2,
-    tolerance: 1.7763568394002505e-15,
-};
+const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots::new(2, 2);
 
 /// Mass matrix `M`.
 ///
@@ -197,7 +194,7 @@ const PIVOTS: ::lagrangian::emitted::Pivots = ::lagrangian::emitted::Pivots {
 /// M[s, s] = m
 /// ```
 pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 2]; 2] {
-    [[p.k6, p.k5], [p.k5, p.m]]
+    [[p.M_plus_m, p.k3], [p.k3, p.m]]
 }
 
 /// Applied generalized forces `Q`.
@@ -269,24 +266,24 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
             return Err(singular);
         }
         let friction = [
-            n(p.k15).store(),
+            n(p.k12).store(),
+            n(p.k5).store(),
+            n(p.k12).store(),
+            n(p.k5).store(),
+            n(p.k7).store(),
             n(p.k8).store(),
-            n(p.k15).store(),
-            n(p.k8).store(),
+            n(p.k9).store(),
+            n(p.k13).store(),
+            n(p.k9).store(),
+            n(p.k13).store(),
             n(p.k10).store(),
             n(p.k11).store(),
-            n(p.k12).store(),
-            n(p.k16).store(),
-            n(p.k12).store(),
-            n(p.k16).store(),
             n(p.k13).store(),
+            n(p.k6).store(),
+            n(p.k13).store(),
+            n(p.k6).store(),
             n(p.k14).store(),
-            n(p.k16).store(),
-            n(p.k9).store(),
-            n(p.k16).store(),
-            n(p.k9).store(),
-            n(p.k17).store(),
-            n(p.k18).store(),
+            n(p.k15).store(),
             n(p.mu2).store(),
             n(p.mu1).store(),
             n(p.mu2).store(),
@@ -305,7 +302,8 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
     let x_dot = v[0];
     let s_dot = v[1];
     let t0 = s_dot * p.k0 + x_dot;
-    p.k4 * (s_dot * (s_dot * p.k1) + t0 * t0) + x_dot * (x_dot * p.k3)
+    let t1 = p.half_m * (s_dot * (s_dot * p.k1) + t0 * t0);
+    t1 + x_dot * (x_dot * p.half_M)
 }
 
 /// Potential energy `V`, in J.
@@ -315,7 +313,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 /// ```
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let s = q[1];
-    p.k7 * s
+    p.k4 * s
 }
 
 ::lagrangian::emitted::implement! {
@@ -335,8 +333,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} []
     outputs Outputs {} []
     prepared Prepared {
-        m, k0, k1, k2, k3, k4, k5, k6, k7, mu2, mu1, k8, k9, k10, k11, k12, k13, k14, k15, k16, k17,
-        k18,
+        m, k0, k1, k2, half_M, half_m, k3, M_plus_m, k4, mu2, mu1, k5, k6, k7, k8, k9, k10, k11,
+        k12, k13, k14, k15,
     }
     singular singular
     accelerations friction
