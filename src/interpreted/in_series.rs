@@ -28,6 +28,9 @@ const FOR_EACH_FACTOR: f64 = 0.55;
 /// The length of the next try after a step that was rejected, relative to it.
 const SHORTER: f64 = 0.1;
 
+/// The least order of a step, where coefficients beyond it are not finite.
+const LEAST_ORDER: usize = 6;
+
 /// The series through the end of a step, beside the series of the step.
 enum Expansion {
     /// The motion is that of the series of the step, and the expander holds its series from there on.
@@ -80,8 +83,10 @@ pub struct SeriesStepper<N: Real> {
     t: N,
     q: Vec<N>,
     v: Vec<N>,
-    /// Coefficients of all coordinates, order by order.
+    /// Coefficients of all coordinates, order by order; 0 beyond `last`.
     coefficients: Vec<Vec<N>>,
+    /// The last order of the coefficients in use.
+    last: usize,
     /// Whether the expander holds the series through the present state.
     is_expanded: bool,
     work: Work,
@@ -131,6 +136,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
             q: numbers(q),
             v: numbers(v),
             coefficients: vec![vec![N::ZERO; n]; order + 2],
+            last: order + 1,
             is_expanded: false,
             work: Work::default(),
             max_steps: MAX_STEPS,
@@ -354,8 +360,9 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
                 row[i] = *c;
             }
         }
+        self.truncate()?;
         let left = (end - self.t).to_f64();
-        let length = self.tolerable_length()?;
+        let length = self.tolerable_length();
         let is_last = 1.01 * length >= left.abs();
         let h = if is_last {
             end - self.t
@@ -372,9 +379,35 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         Ok((h, is_last))
     }
 
+    /// Leaves out the coefficients of the orders from the first that is not finite. Next to a zero of a distance or a speed, at δ from it,
+    /// rounding errors of coefficients grow as δ⁻ʲ, and overflow; the steps are as short there, so that few terms are enough.
+    fn truncate(&mut self) -> Result<(), StepError> {
+        let is_finite = |row: &Vec<N>| row.iter().all(|c| lagrangian_scalar::Scalar::is_finite(*c));
+        let finite = self
+            .coefficients
+            .iter()
+            .take_while(|row| is_finite(row))
+            .count();
+        if finite <= LEAST_ORDER {
+            let rows = &self.coefficients[finite];
+            let coordinate = rows
+                .iter()
+                .position(|c| !lagrangian_scalar::Scalar::is_finite(*c));
+            return Err(StepError::NotFinite {
+                coordinate: coordinate.unwrap_or(0),
+                t: self.t.to_f64(),
+            });
+        }
+        self.last = finite - 1;
+        for row in &mut self.coefficients[finite..] {
+            row.fill(N::ZERO);
+        }
+        Ok(())
+    }
+
     /// The length of a step whose last two terms are tolerable.
-    fn tolerable_length(&self) -> Result<f64, StepError> {
-        let last = self.coefficients.len() - 1;
+    fn tolerable_length(&self) -> f64 {
+        let last = self.last;
         let powers = [last - 1, last];
         let mut worst = [0.0_f64; 2];
         for i in 0..self.q.len() {
@@ -382,16 +415,12 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
             let over = 1.0 / bound(size, self.tolerance, self.tolerance);
             for (worst, j) in worst.iter_mut().zip(powers) {
                 let c = self.coefficients[j][i].to_f64();
-                if c.is_nan() {
-                    let t = self.t.to_f64();
-                    return Err(StepError::NotFinite { coordinate: i, t });
-                }
                 *worst = larger_ratio(*worst, c, j as f64, over);
             }
         }
         let by_rates = length(worst, powers);
         if !is_slow(by_rates, last) {
-            return Ok(by_rates);
+            return by_rates;
         }
         let of = |i: usize| {
             let of_power = |j: usize| self.coefficients[j][i].to_f64();
@@ -399,6 +428,6 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
             [q, v, of_power(last - 1), of_power(last), self.tolerance]
         };
         let all = (0..self.q.len()).map(of);
-        Ok(length_in_slow_motion(by_rates, last, all, self.tolerance))
+        length_in_slow_motion(by_rates, last, all, self.tolerance)
     }
 }

@@ -86,6 +86,11 @@ pub struct Pivots {
 }
 
 impl Pivots {
+    /// The pivots of eliminations with this number of rows.
+    pub const fn new(coordinates: usize, rows: usize) -> Pivots {
+        Pivots { coordinates, tolerance: 4.0 * rows as f64 * f64::EPSILON }
+    }
+
     /// Whether a pivot exceeds its tolerance times the diagonal element in all lanes; NaN does not.
     #[inline(always)]
     pub fn hold<N: Scalar>(self, pivot: N, diagonal: N) -> bool {
