@@ -127,11 +127,11 @@ fn errors_of_energy(method: &'static Method, setting: f64, times: &[f64]) -> Vec
     squares.into_iter().map(f64::sqrt).collect()
 }
 
-/// Truncation errors of series at the limit of rounding are below rounding: what a step leaves, on average over ten pendulums and 16 000 s, is less than a
-/// random walk of one unit in the last place of the energy for each step.
+/// Truncation errors of series at the limit of rounding are below rounding, and rounding errors have no preferred sign: the energy takes a random walk,
+/// of less than one unit in the last place for each step on average over ten pendulums.
 #[test]
-fn the_energy_of_series_keeps_below_a_random_walk_of_rounding() {
-    let times = [1e3, 16e3];
+fn the_energy_of_series_takes_a_random_walk() {
+    let times = [250.0, 4000.0];
     let errors = errors_of_energy(&TAYLOR, 1e-15, &times);
     for (error, t) in errors.iter().zip(times) {
         println!("energy error of taylor at 1e-15: {error:.1e} at {t} s");
@@ -139,6 +139,11 @@ fn the_energy_of_series_keeps_below_a_random_walk_of_rounding() {
         let walk = f64::EPSILON * f64::sqrt(t / 0.07);
         assert!(*error <= walk, "{error:e}, {walk:e} at {t} s");
     }
+    // It grows with the square root of the time, 4 times, and not with the time, 16 times. The root mean square of ten has a standard error of
+    // 1/√20, and the quotient of two one of √2 times that: three of these are allowed.
+    let growth = errors[1] / errors[0];
+    let limit = 4.0 * (1.0 + 3.0 * f64::sqrt(2.0 / 20.0));
+    assert!(growth < limit, "{growth}");
 }
 
 /// The energy of symplectic methods oscillates and does not drift, however long the run.
@@ -146,7 +151,7 @@ fn the_energy_of_series_keeps_below_a_random_walk_of_rounding() {
 fn the_energy_of_symplectic_methods_stays_bounded() {
     for (name, h) in [("gauss8", 0.2), ("rattle", 0.05)] {
         let method = Method::named(name).expect("a method");
-        let times: Vec<f64> = (1..=20).map(|i| 200.0 * f64::from(i)).collect();
+        let times: Vec<f64> = (1..=20).map(|i| 50.0 * f64::from(i)).collect();
         let errors = errors_of_energy(method, h, &times);
         let greatest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
         let (early, late) = (greatest(&errors[..10]), greatest(&errors[10..]));
