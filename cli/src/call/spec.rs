@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use lagrangian_spec::token::normalized;
 use lagrangian_symbolic::Rational;
 
-use super::{Assignment, assignment, constant};
+use super::{Assignment, assignment, constant, interval, positive, steps, tolerance};
 
 /// Which machine, of which size.
 #[derive(Debug, Args)]
@@ -84,4 +84,37 @@ fn kept(text: &str) -> Result<String, String> {
         "" => Err("expected the name of a coordinate, or der(NAME)".into()),
         name => Ok(normalized(name).into_owned()),
     }
+}
+
+/// How a spec is run that stands where a table may.
+#[derive(Debug, Args)]
+pub struct Runs {
+    /// Print the result as one JSON document on standard output, and nothing else there.
+    #[arg(long)]
+    pub json: bool,
+    /// Derive a spec with another value of a constant, as in `--const N=8`.
+    #[arg(long = "const", value_name = "NAME=VALUE", value_parser = constant)]
+    pub constants: Vec<(String, Rational)>,
+    /// Run a spec to this time, in s; if it is compared with a table, by default to the end of the table.
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub until: Option<f64>,
+    /// Record a spec's motion at this interval, in s; without it, 1000 times, or at the rows of the table it is compared with.
+    #[arg(long, value_name = "SECONDS", value_parser = interval, allow_hyphen_values = true)]
+    pub every: Option<f64>,
+    /// Relative and absolute tolerance of each step of a spec's run; by default 1e-9.
+    #[arg(long, value_name = "TOLERANCE", value_parser = tolerance, allow_hyphen_values = true)]
+    pub tolerance: Option<f64>,
+    /// The integration method of a spec's run: dop853, the default, dopri5, bs32, or radau5 for stiff machines.
+    #[arg(long, value_name = "NAME")]
+    pub method: Option<String>,
+    /// The maximum number of steps of a spec's run; by default ten million.
+    #[arg(long, value_name = "N", value_parser = steps, allow_hyphen_values = true)]
+    pub max_steps: Option<usize>,
+    /// Drive an input while a spec runs, as in `simulate`.
+    #[arg(long = "input", value_name = "NAME=FORMULA|FILE", value_parser = assignment, allow_hyphen_values = true)]
+    pub inputs: Vec<Assignment>,
+    #[command(flatten)]
+    pub start: Start,
+    #[command(flatten)]
+    pub keep: Keep,
 }
