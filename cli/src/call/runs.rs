@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::arguments::{Arguments, SetName, names_in};
-use super::{Assignment, Runs, assignment, number, positive};
+use super::{Assignment, Runs, assignment, number, positive, tolerance};
 
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
