@@ -183,7 +183,6 @@ impl Call {
 
 #[cfg(test)]
 mod tests {
-    use super::export::names;
     use super::*;
 
     #[test]
