@@ -1203,10 +1203,6 @@ struct PolygonPair<'d, R> {
     turning: Varied<R>,
 }
 
-#[expect(
-    clippy::needless_range_loop,
-    reason = "several lists are read at the same index"
-)]
 impl<'d, R: Scalar> PolygonPair<'d, R> {
     fn new(model: &Model<'d>, corner: &Corner<'d>, x: &Values<'_, Varied<R>>) -> Self {
         let [first, other] = [&corner.polygon, &corner.other_polygon];
