@@ -28,8 +28,11 @@ const FOR_EACH_FACTOR: f64 = 0.55;
 /// The length of the next try after a step that was rejected, relative to it.
 const SHORTER: f64 = 0.1;
 
-/// The least order of a step, where coefficients beyond it are not finite.
+/// The least number of coefficients of a step, where further ones are too large.
 const LEAST_ORDER: usize = 6;
+
+/// Coefficients above this are not used: what they are multiplied by may exceed all numbers.
+const GREATEST_COEFFICIENT: f64 = 1e200;
 
 /// The series through the end of a step, beside the series of the step.
 enum Expansion {
@@ -379,20 +382,23 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         Ok((h, is_last))
     }
 
-    /// Leaves out the coefficients of the orders from the first that is not finite. Next to a zero of a distance or a speed, at δ from it,
-    /// rounding errors of coefficients grow as δ⁻ʲ, and overflow; the steps are as short there, so that few terms are enough.
+    /// Leaves out the coefficients of the orders from the first that is too large. Next to a zero of a distance or a speed, at δ from it,
+    /// rounding errors of coefficients grow as δ⁻ʲ; the steps are as short there, so that few terms are enough.
     fn truncate(&mut self) -> Result<(), StepError> {
-        let is_finite = |row: &Vec<N>| row.iter().all(|c| lagrangian_scalar::Scalar::is_finite(*c));
-        let finite = self
-            .coefficients
-            .iter()
-            .take_while(|row| is_finite(row))
-            .count();
-        if finite <= LEAST_ORDER {
-            let rows = &self.coefficients[finite];
-            let coordinate = rows
-                .iter()
-                .position(|c| !lagrangian_scalar::Scalar::is_finite(*c));
+        let is_below = |bound: f64| move |c: &N| c.to_f64().abs() < bound;
+        let rows = self.coefficients.iter().enumerate();
+        let usable = rows.take_while(|(j, row)| {
+            let bound = if *j < LEAST_ORDER {
+                f64::INFINITY
+            } else {
+                GREATEST_COEFFICIENT
+            };
+            row.iter().all(is_below(bound))
+        });
+        let finite = usable.count();
+        if finite < LEAST_ORDER {
+            let row = &self.coefficients[finite];
+            let coordinate = row.iter().position(|c| !is_below(f64::INFINITY)(c));
             return Err(StepError::NotFinite {
                 coordinate: coordinate.unwrap_or(0),
                 t: self.t.to_f64(),
