@@ -35,6 +35,12 @@ const TURN_BETWEEN_SAMPLES: f64 = 0.5;
 /// Between two looks a gap falls no faster than this many times the greatest of its rates at looks.
 const MOST_RATE_GROWTH: f64 = 2.0;
 
+/// A gap that falls below zero for less than this part of the time between two looks is taken not to.
+const NARROWEST_DIP: f64 = 1e-8;
+
+/// The most values of a gap between two looks that tell whether it falls below zero.
+const MOST_VALUES_OF_GAP: usize = 2000;
+
 /// What opens at a look is looked at from this part of the way to the next one on.
 const OPENED: f64 = 1e-3;
 
@@ -661,8 +667,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                         let (t, q, v) = event::interpolated_at(stepper, theta);
                         Ok(touching.clearances(system, (t, &q, &v))[k].value)
                     };
-                    if let Some(least) = find_penetration(between, gap)? {
-                        (between, closes) = (least, true);
+                    let fall_of_step = MOST_RATE_GROWTH * falls[k] * stepper.last_step().abs();
+                    if let Some(fallen) = find_penetration(between, fall_of_step, gap)? {
+                        (between, closes) = (fallen, true);
                     }
                 }
                 if !closes {
@@ -817,22 +824,57 @@ fn beginning_slip(
     Ok(pull(to)?.unwrap_or_default())
 }
 
-/// Where a gap with kinks that is open at two looks falls below zero between them: from where it is open to where it is least.
+/// Where a gap with kinks that is open at two looks first falls below zero between them: from where it is open to where it is below zero. It falls no
+/// faster than by `fall` in a step.
+///
+/// The bound tells where between two values there can be none below zero, so that none is missed between the kinks (S. A. Piyavskii, USSR Comput. Math. Math.
+/// Phys. 12 (1972) 57–67; B. O. Shubert, SIAM J. Numer. Anal. 9 (1972) 379–388).
 fn find_penetration(
     [from, to]: [f64; 2],
+    fall: f64,
     mut gap: impl FnMut(f64) -> Result<f64, Error>,
 ) -> Result<Option<[f64; 2]>, Error> {
-    let mut from = from;
-    if gap(from)? <= 0.0 {
-        from += OPENED * (to - from);
-        if gap(from)? <= 0.0 {
+    let mut first = (from, gap(from)?);
+    if first.1 <= 0.0 {
+        let opened = from + OPENED * (to - from);
+        first = (opened, gap(opened)?);
+        if first.1 <= 0.0 {
             return Ok(None);
         }
     }
+    let narrowest = NARROWEST_DIP * (to - from);
+    // The ends of intervals that follow the first one, the next one last.
+    let mut ends = vec![(to, gap(to)?)];
+    let mut left = MOST_VALUES_OF_GAP;
+    while let Some(&(end, value)) = ends.last() {
+        let (start, before) = first;
+        let width = end - start;
+        let least = 0.5 * (before + value - fall * width);
+        if least >= 0.0 || width <= narrowest {
+            first = (end, value);
+            ends.pop();
+            continue;
+        }
+        if left == 0 {
+            break;
+        }
+        left -= 1;
+        // Where the gap could be least.
+        let place = 0.5 * (start + end + (before - value) / fall);
+        let value = gap(place)?;
+        if value < 0.0 {
+            return Ok(Some([start, place]));
+        }
+        ends.push((place, value));
+    }
+    if ends.is_empty() {
+        return Ok(None);
+    }
+    // The gap is next to zero over much of the step.
     let mut extent = [None; 2];
-    roots::extremes(gap, [from, to], &mut extent, [true, false])?;
+    roots::extremes(gap, [first.0, to], &mut extent, [true, false])?;
     let least = extent[0].filter(|(least, _)| *least < 0.0);
-    Ok(least.map(|(_, place)| [from, place]))
+    Ok(least.map(|(_, place)| [first.0, place]))
 }
 
 /// Into how many parts the looks at contacts divide the last step: four, and more where something turns far that a gap depends on.
