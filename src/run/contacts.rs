@@ -38,6 +38,9 @@ const MOST_RATE_GROWTH: f64 = 2.0;
 /// A gap that falls below zero for less than this part of the time between two looks is taken not to.
 const NARROWEST_DIP: f64 = 1e-8;
 
+/// Where a gap is found below zero, it is open this part of the time between two looks before that, or less.
+const SHORT_FALL: f64 = 1.0 / 64.0;
+
 /// The most values of a gap between two looks that tell whether it falls below zero.
 const MOST_VALUES_OF_GAP: usize = 2000;
 
@@ -662,7 +665,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     && from.value <= may_fall(to.rate.max(-from.rate));
                 let mut closes = to.value < 0.0 || comes_back;
                 let fall = may_fall(falls[k]);
-                if fall > 0.0 && to.value >= 0.0 && from.value.min(to.value) < fall {
+                if fall > 0.0 && from.value.min(to.value) < fall {
                     let gap = |theta: f64| {
                         let (t, q, v) = event::interpolated_at(stepper, theta);
                         Ok(touching.clearances(system, (t, &q, &v))[k].value)
@@ -824,8 +827,8 @@ fn beginning_slip(
     Ok(pull(to)?.unwrap_or_default())
 }
 
-/// Where a gap with kinks that is open at two looks first falls below zero between them: from where it is open to where it is below zero. It falls no
-/// faster than by `fall` in a step.
+/// Where a gap with kinks that is open at a look first falls below zero before another one: from where it is open to where it is below zero. It falls
+/// no faster than by `fall` in a step.
 ///
 /// The bound tells where between two values there can be none below zero, so that none is missed between the kinks (S. A. Piyavskii, USSR Comput. Math. Math.
 /// Phys. 12 (1972) 57–67; B. O. Shubert, SIAM J. Numer. Anal. 9 (1972) 379–388).
@@ -849,8 +852,12 @@ fn find_penetration(
     while let Some(&(end, value)) = ends.last() {
         let (start, before) = first;
         let width = end - start;
+        let is_fallen = value < 0.0;
+        if is_fallen && width <= SHORT_FALL * (to - from) {
+            return Ok(Some([start, end]));
+        }
         let least = 0.5 * (before + value - fall * width);
-        if least >= 0.0 || width <= narrowest {
+        if !is_fallen && (least >= 0.0 || width <= narrowest) {
             first = (end, value);
             ends.pop();
             continue;
@@ -859,16 +866,19 @@ fn find_penetration(
             break;
         }
         left -= 1;
-        // Where the gap could be least.
-        let place = 0.5 * (start + end + (before - value) / fall);
-        let value = gap(place)?;
-        if value < 0.0 {
-            return Ok(Some([start, place]));
-        }
-        ends.push((place, value));
+        let middle = 0.5 * (start + end);
+        let place = if is_fallen {
+            middle
+        } else {
+            // Where the gap could be least.
+            middle + 0.5 * (before - value) / fall
+        };
+        ends.push((place, gap(place)?));
     }
-    if ends.is_empty() {
-        return Ok(None);
+    match ends.last() {
+        None => return Ok(None),
+        Some(&(end, value)) if value < 0.0 => return Ok(Some([first.0, end])),
+        Some(_) => {}
     }
     // The gap is next to zero over much of the step.
     let mut extent = [None; 2];

@@ -380,6 +380,32 @@ fn overlap(polygons: [&[[f64; 2]]; 2]) -> f64 {
     least
 }
 
+/// The tip of a triangle dips into a needle by 0.3 mm and leaves it on the same side, while other corners fall below zero later in the step. A spring between
+/// the centres leaves both to turn uniformly and their centres to oscillate about each other with ω² = 9/2 s⁻²; the tip reaches the needle at the first zero of the
+/// greatest of its distances from the needle's three lines, in 53 bits.
+#[test]
+fn the_first_of_several_falls_in_a_step_is_found() {
+    let spec = Scratch::new(
+        "thrown.machine",
+        "machine Thrown in plane {
+         coordinates { x: m = -1, y: m = 0.10970265936426771, a: rad = 2.0324208183343817, X: m = 1, Y: m, A: rad, der(x): m/s = 2, der(a): rad/s = -8.240913680361134, der(A): rad/s = 2.7098944244458423, }
+         frames { one = ground.shift(x, y).turn(a), two = ground.shift(X, Y).turn(A) }
+         bodies {
+          one { mass: 1, inertia: 0.02, frame: one, outline: ((-0.1585473716233326, 0.2540917859392168), (0.11126599276809389, -0.1825273836426701), (-0.06009168353498481, 0.1016432534485761)) },
+          two { mass: 2, inertia: 0.05, frame: two, outline: ((-0.28510114107549867, 0.07012915312204879), (0.14461775715493963, -0.20922019275367076), (0.011497526277954178, 0.19923043575615831)) },
+         }
+         springs { pull { stiffness: 3, from: one.at, to: two.at } }
+         contacts { hit { corners: outline, on: one, against: outline, of: two, restitution: 1.0, friction: 0.0 } }
+        }",
+    );
+    let run = simulate(spec.path(), 3.0, &[]);
+    is_good(&run);
+    let impacts = events(&run, "impact");
+    assert_eq!(impacts[0]["contact"], "hit[6]");
+    close(number(&impacts[0]["t"]), 0.48367506646294106, 1e-9);
+    close(number(&run["dissipated"]), 0.0, 1e-9);
+}
+
 /// Random polygons, some as thin as needles, that a spring pulls against each other again and again: they never overlap, elastic ones
 /// conserve their energy, and momenta are conserved in all contacts.
 #[test]
