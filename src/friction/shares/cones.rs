@@ -630,7 +630,7 @@ impl<'w> Programme<'w> {
 
     /// Takes the step; false if nothing is left of it.
     fn go(&mut self, way: f64) -> bool {
-        if !(way > 0.0) || self.change.iter().any(|x| !x.is_finite()) {
+        if way.is_nan() || way <= 0.0 || self.change.iter().any(|x| !x.is_finite()) {
             return false;
         }
         for (x, by) in self.x.iter_mut().zip(&*self.change) {
