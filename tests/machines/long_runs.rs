@@ -219,7 +219,7 @@ fn a_short_rod_below_a_long_one_swings_as_on_a_rail() {
 fn folded_chains_accelerate_exactly_and_keep_their_energy() {
     let program = library::program("chain", &[]);
     let chain = Chain::default();
-    let fold = |i: usize, by: f64| by + if i % 2 == 0 { 0.0 } else { PI };
+    let fold = |i: usize, by: f64| by + if i.is_multiple_of(2) { 0.0 } else { PI };
     for near in [0.0, 1e-12, 1e-6] {
         accurate(&chain, &program, 50, |at| {
             for (i, q) in at.q.iter_mut().enumerate() {

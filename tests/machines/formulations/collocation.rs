@@ -323,12 +323,8 @@ impl<'s, S: System> Problem<'s, S> {
             let by_own = self.by_unknowns(t, &state[0]);
             for row in 0..width {
                 for (j, weight) in radau.a[i].iter().enumerate() {
-                    for k in 0..2 * n {
-                        matrix.add(
-                            i * width + row,
-                            j * width + k,
-                            h * weight * by_state[k][row],
-                        );
+                    for (k, by) in by_state.iter().take(2 * n).enumerate() {
+                        matrix.add(i * width + row, j * width + k, h * weight * by[row]);
                     }
                 }
                 for k in 0..width {
