@@ -86,7 +86,7 @@ pub struct Pivots {
 }
 
 impl Pivots {
-    /// The pivots of eliminations with this number of rows.
+    /// The pivots of eliminations with this number of rows; the factor is `PIVOT_MARGIN` of `lagrangian-program`.
     pub const fn new(coordinates: usize, rows: usize) -> Pivots {
         Pivots { coordinates, tolerance: 4.0 * rows as f64 * f64::EPSILON }
     }

@@ -57,7 +57,7 @@ const TOLERABLE: f64 = 1e-8;
 /// A friction force above this, relative to the greatest force, is more than rounding.
 const MORE_THAN_ROUNDING: f64 = 1e-10;
 
-/// How often what rounding leaves of the conditions of the multipliers is solved for again.
+/// How often the solution is refined with the residual of the conditions of the multipliers.
 const REFINEMENTS: usize = 2;
 
 /// What counts as zero among coefficients about as large as 1.
@@ -251,7 +251,7 @@ impl<'w> Programme<'w> {
         (&mut self.rows[..width], self.units)
     }
 
-    /// Solves the equation for one of its forces, or returns what is left of it if it depends on none.
+    /// Solves the equation for one of its forces; if it depends on none, the answer is its residual.
     fn take_equation(&mut self) -> f64 {
         let (n, width) = (self.n, self.n + 1);
         let row = &mut self.rows[..width];
@@ -511,7 +511,7 @@ impl<'w> Programme<'w> {
     }
 
     /// The changes with which scaled slacks and multipliers change by the right side together, and with which `Aᵀz = −c`. The matrix is
-    /// ill-conditioned near the solution, so that what is left of that is solved for again.
+    /// ill-conditioned near the solution, so that the solution is refined with the residual of this condition.
     fn solve_step(&mut self) {
         let n = self.n;
         self.change.fill(0.0);
@@ -628,7 +628,7 @@ impl<'w> Programme<'w> {
         }
     }
 
-    /// Takes the step; false if nothing is left of it.
+    /// Takes the step; false if its length is zero or not a number, or the change is not finite.
     fn go(&mut self, way: f64) -> bool {
         if way.is_nan() || way <= 0.0 || self.change.iter().any(|x| !x.is_finite()) {
             return false;

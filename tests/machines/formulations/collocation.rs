@@ -107,7 +107,7 @@ pub struct End {
 }
 
 /// Newton's method ends with a change below this, relative to the largest number of its kind: it converges at least by a factor of 1000 at the step
-/// lengths used, so that what is left is below the rounding of a step.
+/// lengths used, so that the remaining change is below the rounding of a step.
 const ENOUGH: f64 = 1e-11;
 
 /// Newton's method gives up after so many iterations.
