@@ -240,8 +240,11 @@ impl PartialEq for Interval {
     }
 }
 
+// The operations have many branches: they are called, not copied into each recurrence of a series, which would take longer to compile
+// than all methods of integration together.
 impl Add for Interval {
     type Output = Self;
+    #[inline(never)]
     fn add(self, other: Self) -> Self {
         Interval::new(
             rounded_down(two_sum(self.lo, other.lo)),
@@ -269,6 +272,7 @@ impl Sub for Interval {
 
 impl Mul for Interval {
     type Output = Self;
+    #[inline(never)]
     fn mul(self, other: Self) -> Self {
         self.corners(other, product)
     }
@@ -276,6 +280,7 @@ impl Mul for Interval {
 
 impl Div for Interval {
     type Output = Self;
+    #[inline(never)]
     fn div(self, other: Self) -> Self {
         if other.contains_zero() {
             Interval::UNKNOWN

@@ -33,8 +33,10 @@ pub struct Expander<T> {
     scaled: Vec<bool>,
     /// Where these multiples begin for each row, if sums need them.
     weighted_places: Vec<Option<usize>>,
-    /// For each row its sums over orders.
+    /// For each row its sums over orders, at most three.
     sums: Vec<Vec<Sum>>,
+    /// The sums of the row that is computed.
+    sums_of_row: [T; 3],
     coefficients: Vec<T>,
     /// `j cⱼ` for some rows.
     weighted: Vec<T>,
@@ -188,6 +190,7 @@ impl<T: Scalar<Stored = T>> Expander<T> {
             changed_by_newest: plan.changed_by_newest,
             scaled: plan.scaled,
             sums: plan.sums,
+            sums_of_row: [T::ZERO; 3],
             parameters: parameters.to_vec(),
             order,
             width,
@@ -279,53 +282,74 @@ impl<T: Copy> Expander<T> {
             self.motion[i * width + 1] = v[i];
             self.rates[i * width] = v[i];
         }
-        for at in 0..self.by_level[0].len() {
-            let row = RowId(self.by_level[0][at]);
-            if let Row::Time = series.rows[row.index()] {
-                self.low[row.index()] = t[1];
+        // All that a round does is in one place: the recurrences are copied in where they are called, once for each kind of processor.
+        for round in 0..=self.order {
+            // Positions are two orders ahead of rates and forces, and begin with two orders.
+            let ahead = if round == 0 { 0..2 } else { round + 1..round + 2 };
+            let positions = ahead.map(|m| (0, m));
+            let others = round.checked_sub(1).into_iter();
+            for (level, m) in positions.chain(others.flat_map(|m| [(1, m), (2, m)])) {
+                self.advance::<N>(&series, level, m, t);
             }
-            let value = series.value(row, &mut self.at::<N>(0, 0, N::load(t[0])));
-            self.coefficients[row.index() * width] = value.store();
-        }
-        self.advance::<N>(&series, 0, 1);
-        self.store_weighted::<N>(0, 1);
-        for round in 0..self.order {
-            self.advance::<N>(&series, 0, round + 2);
-            for level in 1..3 {
-                self.advance::<N>(&series, level, round);
+            if let Some(order) = round.checked_sub(1) {
+                if order == 0 {
+                    self.differentiate::<N>(&series);
+                    self.factor::<N>(&series)?;
+                }
+                self.solve::<N>(&series, order);
+                for level in 1..3 {
+                    self.store_weighted::<N>(level, order);
+                }
             }
-            if round == 0 {
-                self.differentiate::<N>(&series);
-                self.factor::<N>(&series)?;
-            }
-            self.solve::<N>(&series, round);
-            self.store_weighted::<N>(0, round + 2);
-            for level in 1..3 {
-                self.store_weighted::<N>(level, round);
-            }
+            self.store_weighted::<N>(0, round + 1);
         }
         Ok(())
     }
 
-    /// Computes the coefficients of one order for all rows of a level.
+    /// Computes the coefficients of one order for all rows of a level. The time is the sum of the two given numbers.
     #[inline(always)]
-    fn advance<N: Scalar<Stored = T>>(&mut self, series: &Series, level: usize, m: usize) {
+    fn advance<N: Scalar<Stored = T>>(
+        &mut self,
+        series: &Series,
+        level: usize,
+        m: usize,
+        t: [T; 2],
+    ) {
+        let order = if m == 1 { Order::First } else { Order::Later };
         for at in 0..self.by_level[level].len() {
             let row = RowId(self.by_level[level][at]);
-            let mut arithmetic = self.at::<N>(level, m, N::ZERO);
-            let Coefficient { plain, weighted } = match m {
-                0 => Coefficient {
-                    plain: series.value(row, &mut arithmetic),
+            let Coefficient { plain, weighted } = if m == 0 {
+                if let Row::Time = series.rows[row.index()] {
+                    self.low[row.index()] = t[1];
+                }
+                Coefficient {
+                    plain: series.value(row, &mut self.at::<N>(level, 0, N::load(t[0]))),
                     weighted: Some(N::ZERO),
-                },
-                1 => series.coefficient(row, Order::First, &mut arithmetic),
-                _ => series.coefficient(row, Order::Later, &mut arithmetic),
+                }
+            } else {
+                self.sum_over_orders::<N>(row, m);
+                series.coefficient(row, order, &mut self.at::<N>(level, m, N::ZERO))
             };
             self.coefficients[row.index() * self.width + m] = plain.store();
             if self.scaled[row.index()] {
                 let weighted = weighted.unwrap_or_else(|| self.number::<N>(m) * plain);
                 self.newest[row.index()] = weighted.store();
             }
+        }
+    }
+
+    /// Computes the sums over orders of a row, all of them here, since recurrences of most operations have one.
+    #[inline(always)]
+    fn sum_over_orders<N: Scalar<Stored = T>>(&mut self, row: RowId, m: usize) {
+        for (sum, place) in self.sums[row.index()].iter().zip(&mut self.sums_of_row) {
+            let [a, b] = sum.factors.map(|(place, weighted)| {
+                if weighted {
+                    &self.weighted[place..place + self.width]
+                } else {
+                    &self.coefficients[place..place + self.width]
+                }
+            });
+            *place = convolve::<T, N>(a, b, m, sum.along).store();
         }
     }
 
@@ -615,16 +639,8 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for OrderArithmetic<'_, T, N> {
         }
     }
     #[inline(always)]
-    fn convolution(&mut self, row: RowId, number: usize) -> N {
-        let Sum { factors, along } = self.expander.sums[row.index()][number];
-        let [a, b] = factors.map(|(place, weighted)| {
-            if weighted {
-                &self.expander.weighted[place..place + self.expander.width]
-            } else {
-                &self.expander.coefficients[place..place + self.expander.width]
-            }
-        });
-        convolve(a, b, self.m, along)
+    fn convolution(&mut self, _row: RowId, number: usize) -> N {
+        N::load(self.expander.sums_of_row[number])
     }
     #[inline(always)]
     fn sin_cos(&mut self, row: RowId) -> [N; 2] {
