@@ -285,7 +285,11 @@ impl<T: Copy> Expander<T> {
         // All that a round does is in one place: the recurrences are copied in where they are called, once for each kind of processor.
         for round in 0..=self.order {
             // Positions are two orders ahead of rates and forces, and begin with two orders.
-            let ahead = if round == 0 { 0..2 } else { round + 1..round + 2 };
+            let ahead = if round == 0 {
+                0..2
+            } else {
+                round + 1..round + 2
+            };
             let positions = ahead.map(|m| (0, m));
             let others = round.checked_sub(1).into_iter();
             for (level, m) in positions.chain(others.flat_map(|m| [(1, m), (2, m)])) {
