@@ -41,6 +41,7 @@ pub(crate) use law::{Mode, Motion};
 #[cfg(feature = "std")]
 use shares::Limit;
 
+use crate::scalar::friction::FrictionLayout;
 use crate::system::MOST_CONTACTS;
 use crate::{Pivot, Singular, StepError, System, Vector};
 
@@ -68,12 +69,11 @@ pub const fn contact_workspace_in_space(
 }
 
 const fn workspace(coordinates: usize, constraints: usize, contacts: usize, axes: usize) -> usize {
-    let of_friction = Layout {
-        n: coordinates,
-        m: constraints,
-        k: contacts,
+    let of_friction = FrictionLayout {
+        coordinates,
+        constraints,
+        contacts,
         axes,
-        seconds: 0,
     }
     .len()
         + contacts * (coordinates + 1);
@@ -232,19 +232,27 @@ fn with_parts<S: System, R>(
     u: &S::Inputs,
     work: impl FnOnce(&Parts<'_>, &mut [f64]) -> Result<R, Singular>,
 ) -> Result<R, Singular> {
-    let layout = Layout {
-        n: q.as_slice().len(),
-        m: system.constraints().len(),
-        k: system.contacts().len(),
+    let response = FrictionLayout {
+        coordinates: q.as_slice().len(),
+        constraints: system.constraints().len(),
+        contacts: system.contacts().len(),
         axes: system.reaction_axes(),
+    };
+    let layout = Layout {
+        response,
         seconds: system.second_tangents(),
     };
-    let length = workspace(layout.n, layout.m, layout.k, layout.axes);
+    let length = workspace(
+        response.coordinates,
+        response.constraints,
+        response.contacts,
+        response.axes,
+    );
     system.with_workspace(length, |workspace| {
         // Without an allocator, a machine without a workspace, or with one that is too small, returns an error.
         let workspace = workspace.filter(|workspace| workspace.len() >= length);
         let Some((values, rest)) =
-            workspace.and_then(|workspace| workspace.split_at_mut_checked(layout.len()))
+            workspace.and_then(|workspace| workspace.split_at_mut_checked(response.len()))
         else {
             return Err(Singular {
                 at: Pivot::NoWorkspace,
@@ -285,7 +293,7 @@ fn results(parts: &Parts<'_>, friction_forces: &Each, a: &mut [f64], multipliers
         *a = parts.sum(i, friction_forces)[0];
     }
     for (i, multiplier) in multipliers.iter_mut().enumerate() {
-        *multiplier = parts.sum(parts.layout.n + i, friction_forces)[0];
+        *multiplier = parts.sum(parts.layout.response.multiplier(i), friction_forces)[0];
     }
 }
 
@@ -297,7 +305,7 @@ fn contact_forces_of_mode(
     slips: &Each,
     forces: &mut [ContactForce],
 ) {
-    for (k, force) in forces.iter_mut().enumerate().take(parts.layout.k) {
+    for (k, force) in forces.iter_mut().enumerate().take(parts.layout.contacts()) {
         let sticks = mode.motion[k] == Motion::Sticks;
         *force = ContactForce {
             slip: if sticks { 0.0 } else { slips[k] },
@@ -464,7 +472,7 @@ impl Contacts {
         let slips = slips(system, t, q, v);
         let power = with_parts(system, t, q, v, u, |parts, workspace| {
             let friction_forces = friction_forces(parts, &self.mode_of(&slips))?;
-            let n = parts.layout.n;
+            let n = parts.layout.response.coordinates;
             let rows = &mut workspace[..self.count * n];
             system.slip_matrix(t, q, rows);
             let mut power = [0.0; 2];
@@ -527,7 +535,7 @@ impl Contacts {
                             value: sign * slips[k],
                             rounding: 0.0,
                         },
-                        match parts.layout.axes {
+                        match parts.layout.axes() {
                             1 => Margin {
                                 value: self.mode.press[k] * normal,
                                 rounding: ROUNDING * terms,
@@ -807,7 +815,7 @@ impl Contacts {
             return Ok(());
         }
         let stopped = with_parts(system, t, q, &before, u, |parts, workspace| {
-            let (n, count) = (parts.layout.n, self.count);
+            let (n, count) = (parts.layout.response.coordinates, self.count);
             // dw = W Λ for impulses Λ along the contacts, with dw = −w for those that rest.
             let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
             for (k, row) in rows[..count].iter_mut().enumerate() {

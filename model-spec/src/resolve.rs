@@ -136,7 +136,8 @@ pub(crate) fn resolve<'d>(
     resolver.tables = Some(&tables);
     let mut model = resolver.resolve(&layers.specs)?;
     if !model.sliding().is_empty() {
-        // Errors of the same spec were already reported the first time.
+        // Once more, with displacements; `relaxation` says why this is not the only time. Errors of the same spec were already
+        // reported the first time.
         let mut unread = Report::new();
         let mut resolver = Resolver::new(&layers, language, dag, constants, &mut unread);
         resolver.tables = Some(&tables);

@@ -3,6 +3,7 @@
 use super::MOST_CONTACTS;
 use super::shares::{self, Limit, PARTS, Sharer};
 use crate::scalar::Scalar;
+use crate::scalar::friction::{FrictionLayout, FrictionResponse};
 use crate::{Pivot, Singular};
 
 /// One number for each contact.
@@ -80,15 +81,10 @@ impl Paradox {
     }
 }
 
-/// The layout of the results of [`System::friction`](crate::System::friction): `1 + k` parts of `n` accelerations, `m`
-/// multipliers, `k` slip rates and `k` normal reactions of `axes` components each, then `k` coefficients of sliding and `k` of
-/// sticking; in space then the directions of the guides.
+/// The arrangement of the results of [`System::friction`](crate::System::friction), with what else distinguishes contacts.
 #[derive(Clone, Copy)]
 pub(super) struct Layout {
-    pub n: usize,
-    pub m: usize,
-    pub k: usize,
-    pub axes: usize,
+    pub response: FrictionLayout,
     /// The contacts that are second tangents of surfaces ([`System::second_tangents`](crate::System::second_tangents)),
     /// as a bit mask.
     pub seconds: usize,
@@ -105,22 +101,14 @@ impl Layout {
         self.is_second(contact + 1)
     }
 
-    pub const fn part(self) -> usize {
-        self.n + self.m + (1 + self.axes) * self.k
+    /// The number of contacts.
+    pub const fn contacts(self) -> usize {
+        self.response.contacts
     }
 
-    pub const fn len(self) -> usize {
-        let of_directions = if self.axes == 1 {
-            0
-        } else {
-            self.axes * self.k
-        };
-        self.directions() + of_directions
-    }
-
-    /// Offset of the directions of the guides, in space.
-    const fn directions(self) -> usize {
-        (1 + self.k) * self.part() + 2 * self.k
+    /// The number of components of a reaction.
+    pub const fn axes(self) -> usize {
+        self.response.axes
     }
 }
 
@@ -131,16 +119,24 @@ pub(super) struct Parts<'p> {
 }
 
 impl Parts<'_> {
+    /// The response, whose entries have names.
+    const fn response(&self) -> FrictionResponse<'_, f64> {
+        FrictionResponse {
+            layout: self.layout.response,
+            values: self.values,
+        }
+    }
+
     /// Entry `i` of a part: without friction (part 0), or per unit of the friction of a contact.
     pub fn at(&self, part: usize, i: usize) -> f64 {
-        self.values[part * self.layout.part() + i]
+        self.response().at(part, i)
     }
 
     /// Entry `i` with all friction forces, and the size of its terms.
     pub fn sum(&self, i: usize, friction_forces: &Each) -> [f64; 2] {
         let alone = self.at(0, i);
         let mut sum = [alone, alone.abs()];
-        for (k, friction) in friction_forces[..self.layout.k].iter().enumerate() {
+        for (k, friction) in friction_forces[..self.layout.contacts()].iter().enumerate() {
             let term = self.at(1 + k, i) * friction;
             sum = [sum[0] + term, sum[1] + term.abs()];
         }
@@ -149,20 +145,19 @@ impl Parts<'_> {
 
     /// Index of the slip rate of a contact in a part.
     pub fn slip_rate(&self, contact: usize) -> usize {
-        self.layout.n + self.layout.m + contact
+        self.layout.response.slip_rate(contact)
     }
 
     /// Indices of the components of its normal reaction.
     fn components(&self, contact: usize) -> core::ops::Range<usize> {
-        let first = self.layout.n + self.layout.m + self.layout.k + self.layout.axes * contact;
-        first..first + self.layout.axes
+        self.layout.response.normal(contact)
     }
 
     /// Its normal reaction with all friction forces, and the size of its terms: in the plane the force along the normal, in space
     /// the length of the vector.
     pub fn reaction(&self, contact: usize, friction_forces: &Each) -> [f64; 2] {
         let components = self.components(contact);
-        if self.layout.axes == 1 {
+        if self.layout.axes() == 1 {
             return self.sum(components.start, friction_forces);
         }
         let terms = components.map(|i| self.sum(i, friction_forces)[1]);
@@ -185,14 +180,14 @@ impl Parts<'_> {
         let (mut vector, mut size) = ([0.0; 3], 0.0_f64);
         for (x, i) in vector.iter_mut().zip(self.components(contact)) {
             let mut terms = 0.0;
-            for (j, force) in of_unit[..self.layout.k].iter().enumerate() {
+            for (j, force) in of_unit[..self.layout.contacts()].iter().enumerate() {
                 let term = self.at(1 + j, i) * force;
                 *x += term;
                 terms += term.abs();
             }
             size = size.max(terms);
         }
-        if self.layout.axes != 1 {
+        if self.layout.axes() != 1 {
             vector = self.across(contact, vector);
         }
         vector.map(|x| beyond(x, SAME * size))
@@ -200,8 +195,8 @@ impl Parts<'_> {
 
     /// The direction of a guide in space: along a curve, and across a surface.
     fn direction(&self, contact: usize) -> [f64; 3] {
-        let first = self.layout.directions() + 3 * contact;
-        [0, 1, 2].map(|i| self.values[first + i])
+        let direction = self.response().direction(contact);
+        [0, 1, 2].map(|i| direction[i])
     }
 
     /// The pressing part of a reaction in space: everything except the component along a curve, or the component along the normal
@@ -229,18 +224,18 @@ impl Parts<'_> {
             }
             self.across(contact, vector)
         };
-        let all = || 0..self.layout.k;
+        let all = || 0..self.layout.contacts();
         let is_none = |x: f64| x.abs() <= SINGULAR;
-        self.layout.axes == 3
+        self.layout.axes() == 3
             && all().all(|k| all().all(|part| by_friction(k, part).into_iter().all(is_none)))
     }
 
     pub fn friction(&self, contact: usize) -> f64 {
-        self.values[(1 + self.layout.k) * self.layout.part() + contact]
+        self.response().friction(contact)
     }
 
     pub fn static_friction(&self, contact: usize) -> f64 {
-        self.values[(1 + self.layout.k) * self.layout.part() + self.layout.k + contact]
+        self.response().static_friction(contact)
     }
 
     /// The friction forces of contacts in given states.
@@ -266,7 +261,7 @@ impl Parts<'_> {
 
     /// The friction forces of contacts in given states, with those of them 0 that the equations leave undetermined.
     fn only_solution(&self, mode: &Mode) -> Result<(Each, Undetermined), Paradox> {
-        if self.layout.axes == 1 {
+        if self.layout.axes() == 1 {
             return self.along_normals(mode).ok_or(NO_MOTION);
         }
         let (mut found, mut several) = (None, false);
@@ -275,7 +270,7 @@ impl Parts<'_> {
             found = Some((friction_forces, *undetermined));
         });
         let sliding = |k: &usize| mode.motion[*k] != Motion::Sticks;
-        let contact = (0..self.layout.k).find(sliding).unwrap_or(0);
+        let contact = (0..self.layout.contacts()).find(sliding).unwrap_or(0);
         match found {
             Some(found) if known && !several => Ok(found),
             _ => Err(Paradox {
@@ -287,7 +282,7 @@ impl Parts<'_> {
 
     /// Calls `look` with all friction forces that contacts in given states may have; returns false if there may be others.
     fn each_solution(&self, mode: &Mode, look: &mut dyn FnMut(Each)) -> bool {
-        match self.layout.axes {
+        match self.layout.axes() {
             1 => {
                 if let Some((forces, undetermined)) = self.along_normals(mode) {
                     look(self.share(mode, forces, &undetermined).0);
@@ -302,7 +297,7 @@ impl Parts<'_> {
 
     /// In the plane the side to which each contact presses is given, and the equations are linear.
     fn along_normals(&self, mode: &Mode) -> Option<(Each, Undetermined)> {
-        let count = self.layout.k;
+        let count = self.layout.contacts();
         let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
         for (k, row) in rows[..count].iter_mut().enumerate() {
             let (entry, factor, own) = match mode.motion[k] {
@@ -328,12 +323,12 @@ impl Parts<'_> {
 
     /// Replaces forces that the equations leave undetermined, which are 0 in `forces`, by those that sticking guides allow best.
     fn share(&self, mode: &Mode, mut forces: Each, undetermined: &Undetermined) -> (Each, Shared) {
-        let (free, count) = (undetermined.number, self.layout.k);
+        let (free, count) = (undetermined.number, self.layout.contacts());
         // Where friction of what slides is undetermined, so is the motion, and nothing is shared.
         let slides = |k: &usize| mode.motion[*k] != Motion::Sticks;
         let moves = |of_unit: &Each| {
             (0..count).filter(slides).any(|k| {
-                let in_space = self.layout.axes != 1 && self.presses_by(k, of_unit) != [0.0; 3];
+                let in_space = self.layout.axes() != 1 && self.presses_by(k, of_unit) != [0.0; 3];
                 of_unit[k] != 0.0 || in_space
             })
         };
@@ -367,7 +362,7 @@ impl Parts<'_> {
         undetermined: &Undetermined,
         shared: &mut Shared,
     ) {
-        let (free, count) = (undetermined.number, self.layout.k);
+        let (free, count) = (undetermined.number, self.layout.contacts());
         let of_unit = &undetermined.of_unit[..free];
         // What each undetermined force adds to the forces of each contact.
         let mut by = [0.0; PARTS * MOST_CONTACTS * MOST_CONTACTS];
@@ -386,7 +381,7 @@ impl Parts<'_> {
             *sharer = Sharer {
                 static_friction: Some(self.static_friction(k)),
                 presses: false,
-                normal: match self.layout.axes {
+                normal: match self.layout.axes() {
                     1 => self.reaction(k, forces)[0],
                     _ => dot(&self.pressing(k, forces), &sides[k]),
                 },
@@ -416,10 +411,10 @@ impl Parts<'_> {
     /// across it, where its reaction is without undetermined forces.
     fn sides(&self, mode: &Mode, forces: &Each, undetermined: &Undetermined) -> Sides {
         let mut sides = [[1.0, 0.0, 0.0]; MOST_CONTACTS];
-        if self.layout.axes == 1 {
+        if self.layout.axes() == 1 {
             return sides;
         }
-        for (k, side) in sides[..self.layout.k].iter_mut().enumerate() {
+        for (k, side) in sides[..self.layout.contacts()].iter_mut().enumerate() {
             if mode.motion[k] != Motion::Sticks {
                 continue;
             }
@@ -448,10 +443,10 @@ impl Parts<'_> {
         let mut turned = false;
         let on_curve = |k: &usize| !self.layout.is_second(*k) && !self.layout.has_second(*k);
         let sticks = |k: &usize| mode.motion[*k] == Motion::Sticks;
-        let all = 0..if self.layout.axes == 1 {
+        let all = 0..if self.layout.axes() == 1 {
             0
         } else {
-            self.layout.k
+            self.layout.contacts()
         };
         for k in all.filter(on_curve).filter(sticks) {
             let mut vector = self.pressing(k, forces);
@@ -486,7 +481,7 @@ impl Parts<'_> {
             };
             self.reaction(k, forces)[1] + by_friction
         };
-        let all = (0..self.layout.k).filter(shares).map(terms);
+        let all = (0..self.layout.contacts()).filter(shares).map(terms);
         let rounding = ROUNDING * all.fold(0.0, f64::max);
         rounding.max(shared.residual[contact])
     }
@@ -497,7 +492,7 @@ impl Parts<'_> {
     ///
     /// Calls `look` with the forces, of which undetermined ones are 0.
     fn by_sizes(&self, mode: &Mode, look: &mut dyn FnMut(Each, &Undetermined)) -> bool {
-        let count = self.layout.k;
+        let count = self.layout.contacts();
         let mut sliding = [0; MOST_CONTACTS];
         let mut number = 0;
         for (k, motion) in mode.motion[..count].iter().enumerate() {
@@ -570,7 +565,7 @@ impl Parts<'_> {
     /// and sliding ones press to the given side. The side is not checked for the state that a contact enters when its reaction is
     /// zero, since rounding would decide.
     fn admits(&self, mode: &Mode, friction_forces: &Each, turned: Option<Turned>) -> bool {
-        (0..self.layout.k).all(|k| {
+        (0..self.layout.contacts()).all(|k| {
             if turned == Some((k, mode.motion[k], mode.press[k])) {
                 return true;
             }
@@ -742,7 +737,7 @@ impl Parts<'_> {
     /// Whether two solutions give the same accelerations.
     fn same(&self, one: &Each, other: &Each) -> bool {
         let (mut most, mut apart) = (0.0_f64, 0.0_f64);
-        for i in 0..self.layout.n {
+        for i in 0..self.layout.response.coordinates {
             let ([x, of_x], [y, of_y]) = (self.sum(i, one), self.sum(i, other));
             most = most.max(of_x.max(of_y));
             apart = apart.max((x - y).abs());
@@ -924,7 +919,7 @@ impl OpenStates {
             excluded: None,
             turned: None,
         };
-        for k in (0..layout.k).filter(|k| layout.has_second(*k)) {
+        for k in (0..layout.contacts()).filter(|k| layout.has_second(*k)) {
             let speed = length([slips[k], slips[k + 1]]);
             for k in [k, k + 1] {
                 open_states.motion[k] = (speed != 0.0).then_some(Motion::SlidesAlong);
@@ -938,7 +933,7 @@ impl OpenStates {
     ///
     /// If static friction exceeds sliding friction, both may be possible; then the contact sticks.
     pub fn answer(&self, parts: &Parts<'_>) -> Result<(Mode, Each), Paradox> {
-        let count = parts.layout.k;
+        let count = parts.layout.contacts();
         let holds_more = (0..count)
             .any(|k| self.motion[k].is_none() && parts.static_friction(k) > parts.friction(k));
         let sticking = |mode: &Mode| {
@@ -1032,8 +1027,8 @@ impl OpenStates {
         // In space a guide has no sides.
         const IN_SPACE: [(Motion, f64); 3] = [IN_PLANE[0], IN_PLANE[1], IN_PLANE[3]];
         const ON_SURFACE: [(Motion, f64); 2] = [IN_PLANE[0], (Motion::SlidesAlong, 1.0)];
-        let count = layout.k;
-        let states = |k: usize| match layout.axes {
+        let count = layout.contacts();
+        let states = |k: usize| match layout.axes() {
             1 => &IN_PLANE[..],
             _ if layout.has_second(k) => &ON_SURFACE[..],
             // The second tangent follows the first.

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 
 use lagrangian_emit as emit;
 use lagrangian_mechanics::Proved;
-use lagrangian_program::{FrictionLayout, Role};
+use lagrangian_program::{FrictionLayout, FrictionResponse, Role};
 use lagrangian_scalar::{DoubleDouble, Scalar};
 use nalgebra::{Complex, DMatrix};
 use serde_json::{Value, json};
@@ -439,12 +439,7 @@ fn hold_printed(printed: &str, list: &[(Machine, Proved, Expected)], what: &str)
 
 /// The layout of the quantities that depend on friction, if there are any.
 fn friction_layout(program: &Proved) -> Option<FrictionLayout> {
-    let layout = FrictionLayout {
-        coordinates: program.dimension(),
-        constraints: program.constraints.len(),
-        contacts: program.contacts.len(),
-        axes: program.reaction_axes,
-    };
+    let layout = program.sizes().friction_layout();
     (layout.contacts > 0).then_some(layout)
 }
 
@@ -467,14 +462,20 @@ fn friction_failures(
     let Some(contacts) = contacts else {
         return vec!["a contact has another name".to_owned()];
     };
-    let (n, m, part) = (layout.coordinates, layout.constraints, layout.part());
+    let response = FrictionResponse {
+        layout,
+        values: parts,
+    };
     let mut wanted: Vec<(String, usize, f64)> = Vec::new();
     for (i, a) in expected.accelerations.iter().enumerate() {
         wanted.push((format!("acceleration {i}"), i, a.hi()));
     }
     for (name, value) in &expected.multipliers {
         match program.constraints.iter().position(|one| one.name == *name) {
-            Some(k) => wanted.push((format!("multiplier of {name}"), n + k, value.hi())),
+            Some(k) => {
+                let place = layout.multiplier(k);
+                wanted.push((format!("multiplier of {name}"), place, value.hi()));
+            }
             None => return vec![format!("there is no constraint {name}")],
         }
     }
@@ -482,15 +483,15 @@ fn friction_failures(
         let name = &program.contacts[k];
         wanted.push((
             format!("normal reaction of {name}"),
-            n + m + layout.contacts + k,
+            layout.normal(k).start,
             *normal,
         ));
     }
     let mut failures = Vec::new();
     for (what, place, value) in wanted {
         let terms = contacts.iter().enumerate();
-        let terms = terms.map(|(k, [.., friction])| friction * parts[(1 + k) * part + place]);
-        let terms: Vec<f64> = [parts[place]].into_iter().chain(terms).collect();
+        let terms = terms.map(|(k, [.., friction])| friction * response.at(1 + k, place));
+        let terms: Vec<f64> = [response.at(0, place)].into_iter().chain(terms).collect();
         // Terms may be larger than their sum, so they determine the round-off.
         let size = terms
             .iter()
@@ -504,12 +505,16 @@ fn friction_failures(
             ));
         }
     }
-    let coefficients = &parts[(1 + layout.contacts) * part..];
     for (k, [slip, normal, friction]) in contacts.iter().enumerate() {
         // A slip within round-off counts as rest; static friction is the force that maintains it, at most μ₀ times
         // the normal reaction.
         let slides = slip.abs() >= 1e-12;
-        let most = normal.abs() * coefficients[if slides { k } else { layout.contacts + k }];
+        let coefficient = if slides {
+            response.friction(k)
+        } else {
+            response.static_friction(k)
+        };
+        let most = normal.abs() * coefficient;
         let bound = f64::EPSILON * 4096.0 * expected.size * expected.size / expected.pivot;
         let error = if slides {
             (friction + slip.signum() * most).abs()

@@ -536,50 +536,11 @@ impl<'m> Passing<'_, 'm> {
         if change.hits.is_empty() {
             return self.cross_without_impact(change, state, here);
         }
-        let before = |k: usize| change.before.modes[k];
-        let mut closing: Vec<usize> = (change.hits.iter())
-            .filter(|(k, hit)| {
-                let is_own = !change.before.rolls[*k];
-                is_own && before(*k) == ContactMode::Open && hit.gap_rate[0] < 0.0
-            })
-            .map(|(k, _)| *k)
-            .collect();
-        closing.dedup();
-        let is_sequence = self.laws[change.hits[0].0].1 == ImpactOrder::Sequence;
-        let first = match closing.as_slice() {
-            [] => {
-                return Err(self.broken(
-                    change.t,
-                    change.hits[0].0,
-                    "has an impact without a gap that closes",
-                ));
-            }
-            [first] => *first,
-            [first, ..] if is_sequence => *first,
-            [first, second, ..] => {
-                let apart = (change.hits.len() == closing.len() && change.ended.is_empty())
-                    .then(|| self.are_uncoupled(&closing, state, change.before))
-                    .flatten();
-                if apart != Some(true) {
-                    return Err(self.broken(
-                        change.t,
-                        *second,
-                        "has an impact at the same instant as another, and it matters which of the two comes first",
-                    ));
-                }
-                *first
-            }
-        };
-        // Impacts of uncoupled contacts may be evaluated one after the other, in any order.
-        let apart: &[usize] = if is_sequence || closing.len() == 1 {
-            &[first]
-        } else {
-            &closing
-        };
+        let one_after_the_other = self.closing_contacts(&change, state)?;
         let mut phase = change.before.clone();
-        for (round, &contact) in apart.iter().enumerate() {
-            let is_last = round + 1 == apart.len();
-            let hits: Vec<ReportedImpact> = match apart.len() {
+        for (round, &contact) in one_after_the_other.iter().enumerate() {
+            let is_last = round + 1 == one_after_the_other.len();
+            let hits: Vec<ReportedImpact> = match one_after_the_other.len() {
                 1 => change.hits.to_vec(),
                 _ => (change.hits.iter())
                     .filter(|(k, _)| *k == contact)
@@ -602,27 +563,61 @@ impl<'m> Passing<'_, 'm> {
             )?;
             phase = next;
         }
+        let (t, hits) = (change.t, change.hits);
         *change.after = phase;
-        // The law of impact over dual numbers must give the same rates as the run.
-        let jump: f64 = (change.hits.iter())
-            .map(|(_, hit)| hit.gap_rate[0].abs() + hit.gap_rate[1].abs())
-            .fold(0.0, f64::max);
-        for (i, v) in here.v.values.iter().enumerate() {
-            let size = here
-                .v
-                .values
-                .iter()
-                .fold(0.0_f64, |most, v| most.max(v.abs()));
-            if (state.v[i] - v).abs() > 1e-3 * size.max(jump) {
-                return Err(self.broken(
-                    change.t,
-                    first,
-                    "takes part in several rounds of impacts at one instant",
-                ));
-            }
+        if !has_rates(state, here, hits) {
+            return Err(self.broken(
+                t,
+                one_after_the_other[0],
+                "takes part in several rounds of impacts at one instant",
+            ));
         }
         self.put_values(state, here);
         Ok(())
+    }
+
+    /// The contacts whose gaps close in an impact and whose impacts are evaluated one after the other: one, or several that are
+    /// uncoupled, in any order.
+    ///
+    /// # Errors
+    /// If it matters which comes first, or if there are none.
+    fn closing_contacts(
+        &self,
+        change: &Change<'_>,
+        state: &State<Vec<f64>>,
+    ) -> Result<Vec<usize>, NoDerivatives> {
+        let before = |k: usize| change.before.modes[k];
+        let mut closing: Vec<usize> = (change.hits.iter())
+            .filter(|(k, hit)| {
+                let is_own = !change.before.rolls[*k];
+                is_own && before(*k) == ContactMode::Open && hit.gap_rate[0] < 0.0
+            })
+            .map(|(k, _)| *k)
+            .collect();
+        closing.dedup();
+        let is_sequence = self.laws[change.hits[0].0].1 == ImpactOrder::Sequence;
+        match closing[..] {
+            [] => Err(self.broken(
+                change.t,
+                change.hits[0].0,
+                "has an impact without a gap that closes",
+            )),
+            [first, ..] if is_sequence => Ok(vec![first]),
+            [_] => Ok(closing),
+            [_, second, ..] => {
+                let apart = (change.hits.len() == closing.len() && change.ended.is_empty())
+                    .then(|| self.are_uncoupled(&closing, state, change.before))
+                    .flatten();
+                if apart != Some(true) {
+                    return Err(self.broken(
+                        change.t,
+                        second,
+                        "has an impact at the same instant as another, and it matters which of the two comes first",
+                    ));
+                }
+                Ok(closing)
+            }
+        }
     }
 
     /// Whether the impulses of these contacts leave each other's rates unchanged.
@@ -800,75 +795,45 @@ impl<'m> Passing<'_, 'm> {
             most.max(hit.impulse[0].abs()).max(hit.impulse[1].abs())
         });
         let one = Dual::constant(1.0);
-        let impulse_of = |k: usize| hits.iter().find(|(other, _)| *other == k);
-        // Which contacts press, including those at rest that receive no impulse but stay closed.
-        let presses = |k: usize, hit: &ContactImpact| {
-            hit.impulse[0] > 1e-12 * greatest || before.is_closed(k) && after.is_closed(k)
-        };
         let mut sought = Vec::new();
         let mut idle = Vec::new();
         for (k, hit) in hits.iter().filter(|(k, _)| !after.rolls[*k]) {
-            if !presses(*k, hit) {
+            let is_idle = hit.impulse[0] <= 1e-12 * greatest;
+            // Contacts at rest that receive no impulse press as well, but only if they stay closed.
+            let stays_closed = before.is_closed(*k) && after.is_closed(*k);
+            if !(hit.impulse[0] > 1e-12 * greatest || stays_closed) {
                 continue;
             }
-            if hit.impulse[0] <= 1e-12 * greatest {
+            if is_idle {
                 idle.push((sought.len(), *k));
             }
-            let [restitution, ..] = place.coefficients(*k);
-            let (law, _) = self.laws[*k];
             let mut along = place.row(2 * k).to_vec();
             let mut tangents = Vec::new();
-            for j in [*k, k + 1] {
-                let Some((_, own)) = impulse_of(j) else {
-                    continue;
-                };
+            for (j, own) in [*k, k + 1].into_iter().filter_map(|j| impact_of(hits, j)) {
                 if after.presses(j) != *k || !after.has_friction[j] {
                     continue;
                 }
-                if law != ImpactLaw::Newton {
+                if self.laws[*k].0 != ImpactLaw::Newton {
                     return Err((
                         *k,
                         "has impacts with friction by a law other than `newton`, for which there are no derivatives",
                     ));
                 }
-                let [_, tangential, friction, _] = place.coefficients(j);
-                let most = friction.value * hit.impulse[0];
-                let row = place.row(2 * j + 1).to_vec();
-                let is_idle = hit.impulse[0] <= 1e-12 * greatest;
-                let left = own.slip[1] + tangential.value * own.slip[0];
-                let size = own.slip[0].abs() + own.slip[1].abs();
-                let sticks = if is_idle {
-                    after.modes[j] == ContactMode::Sticks
-                } else {
-                    // The friction of an impact that is far weaker than its slip is fast is known only to the round-off of that slip, and so
-                    // whether it is saturated. What still slips has not stuck.
-                    let terms = row.iter().zip(&place.v);
-                    let terms: f64 = terms.map(|(w, v)| (w.value * v.value).abs()).sum();
-                    let goes_on = left.abs() > (ROUNDING * size).max(ROUND_OFF_OF_SLIP * terms);
-                    !goes_on && own.impulse[1].abs() < most * (1.0 - SATURATED)
+                let tangent = Tangent {
+                    contact: j,
+                    own,
+                    is_idle,
+                    most: place.coefficients(j)[2].value * hit.impulse[0],
                 };
-                if sticks {
-                    let change = zero() - (one + tangential) * place.rates[2 * j + 1];
-                    tangents.push(Sought {
-                        along: row.clone(),
-                        row,
-                        change,
-                    });
-                } else {
-                    let sign = match after.modes[j] {
-                        ContactMode::Slides(sign) if is_idle => -sign,
-                        _ => own.impulse[1].signum(),
-                    };
-                    if !is_idle && most > 0.0 && left.abs() <= ROUNDING * size {
-                        return Err((
-                            *k,
-                            "is on the boundary between slipping and sticking in its impact",
-                        ));
+                let friction = tangent.friction(place, after);
+                match friction.map_err(|why| (*k, why))? {
+                    ImpactFriction::Sticks(tangent) => tangents.push(tangent),
+                    ImpactFriction::Slips { friction, row } => {
+                        crate::varied::add(&mut along, friction, &row);
                     }
-                    crate::varied::add(&mut along, Dual::constant(sign) * friction, &row);
                 }
             }
-            if law != ImpactLaw::Newton && hits.len() > 1 && !self.is_alone(hits, *k) {
+            if self.laws[*k].0 != ImpactLaw::Newton && hits.len() > 1 && !self.is_alone(hits, *k) {
                 return Err((
                     *k,
                     "has an impact together with others by a law other than `newton`, for which there are no derivatives",
@@ -876,10 +841,10 @@ impl<'m> Passing<'_, 'm> {
             }
             // The gap of a contact that stays closed without an impulse does not open before the impact, nor does it in any variation: what round-off
             // leaves of its rate would count where the impact itself is as weak.
-            let is_idle = idle.last().is_some_and(|(_, contact)| contact == k);
             let change = if is_idle {
                 zero()
             } else {
+                let [restitution, ..] = place.coefficients(*k);
                 zero() - (one + restitution) * place.rates[2 * k]
             };
             sought.push(Sought {
@@ -893,19 +858,7 @@ impl<'m> Passing<'_, 'm> {
             hits[0].0,
             "shares its impact with others, and the shares are not unique",
         ))?;
-        let size = impulses
-            .iter()
-            .fold(0.0_f64, |most, x| most.max(x.derivative.abs()));
-        for (index, contact) in idle {
-            // A variation of one sign would press the contact, one of the other sign would open it.
-            if impulses[index].derivative.abs() > ROUNDING * size {
-                return Err((
-                    contact,
-                    "touches without an impulse while others have impacts, and would have one, or open, under the variation",
-                ));
-            }
-        }
-        Ok(())
+        check_idle(&impulses, &idle)
     }
 
     /// Whether a contact is the only one with an impulse.
@@ -921,6 +874,10 @@ impl<'m> Passing<'_, 'm> {
         state: &mut State<Vec<f64>>,
         here: &State<Named>,
     ) -> Result<(), NoDerivatives> {
+        let Some(contact) = self.changing_contact(&change)? else {
+            self.put_values(state, here);
+            return Ok(());
+        };
         let Change {
             t,
             before,
@@ -928,36 +885,9 @@ impl<'m> Passing<'_, 'm> {
             cause,
             ..
         } = change;
-        let broken = |contact: usize, why| self.broken(t, contact, why);
-        let first = (0..before.modes.len()).find(|k| before.modes[*k] != after.modes[*k]);
-        let contact = match cause {
-            PhaseCause::Lifts(k)
-            | PhaseCause::Stops(k)
-            | PhaseCause::Breaks(k)
-            | PhaseCause::Presses(k)
-            | PhaseCause::Turns(k) => k,
-            PhaseCause::Stepped => {
-                return Err(broken(
-                    first.unwrap_or(0),
-                    "was continued by time stepping, which does not locate instants",
-                ));
-            }
-            _ => match first {
-                Some(k) => k,
-                None => {
-                    self.put_values(state, here);
-                    return Ok(());
-                }
-            },
-        };
-        let grazes = before.modes[contact] == ContactMode::Open
-            && after.is_closed(contact)
-            && after.compliances[after.presses(contact)].is_none();
-        if grazes {
-            return Err(broken(contact, "closes with zero speed"));
-        }
         let shared = || {
-            broken(
+            self.broken(
+                t,
                 contact,
                 "shares its load with others, and the shares are not unique",
             )
@@ -976,22 +906,77 @@ impl<'m> Passing<'_, 'm> {
         if jump <= GOES_ON * size {
             return Ok(());
         }
+        let instant = Instant {
+            t,
+            cause,
+            contact,
+            before,
+            a_before: &a_before,
+        };
+        let shifts = self.shifts(&instant, after, state)?;
+        for (direction, by) in shifts.into_iter().enumerate() {
+            let part = (direction + 1) * self.n;
+            for i in 0..self.n {
+                state.v[part + i] += (a_before[i] - a_after[i]) * by;
+            }
+        }
+        Ok(())
+    }
+
+    /// The contact whose change this is; `None` if nothing changes.
+    ///
+    /// # Errors
+    /// If the instant of the change has no derivative.
+    fn changing_contact(&self, change: &Change<'_>) -> Result<Option<usize>, NoDerivatives> {
+        let (before, after) = (change.before, &*change.after);
+        let first = (0..before.modes.len()).find(|k| before.modes[*k] != after.modes[*k]);
+        let contact = match change.cause {
+            PhaseCause::Lifts(k)
+            | PhaseCause::Stops(k)
+            | PhaseCause::Breaks(k)
+            | PhaseCause::Presses(k)
+            | PhaseCause::Turns(k) => k,
+            PhaseCause::Stepped => {
+                return Err(self.broken(
+                    change.t,
+                    first.unwrap_or(0),
+                    "was continued by time stepping, which does not locate instants",
+                ));
+            }
+            _ => match first {
+                Some(k) => k,
+                None => return Ok(None),
+            },
+        };
+        let grazes = before.modes[contact] == ContactMode::Open
+            && after.is_closed(contact)
+            && after.compliances[after.presses(contact)].is_none();
+        if grazes {
+            return Err(self.broken(change.t, contact, "closes with zero speed"));
+        }
+        Ok(Some(contact))
+    }
+
+    /// The derivative in each direction of the instant at which forces jump.
+    fn shifts(
+        &self,
+        instant: &Instant<'_>,
+        after: &Phase,
+        state: &State<Vec<f64>>,
+    ) -> Result<Vec<f64>, NoDerivatives> {
+        let &Instant {
+            cause,
+            contact,
+            before,
+            ..
+        } = instant;
+        let broken = |contact: usize, why| self.broken(instant.t, contact, why);
         if cause == PhaseCause::Asked {
             return Err(broken(
                 contact,
                 "changes where forces jump, from an unknown cause",
             ));
         }
-        // Several slips that stop at the same instant count as one event only if they always stop together.
-        let stops = |k: &usize| match (before.modes[*k], after.modes[*k]) {
-            (ContactMode::Slides(from), ContactMode::Sticks) => from != 0.0,
-            (ContactMode::Slides(from), ContactMode::Slides(to)) => from != to && from != 0.0,
-            _ => false,
-        };
-        let others: Vec<usize> = (0..before.modes.len())
-            .filter(stops)
-            .filter(|k| *k != contact)
-            .collect();
         if matches!(cause, PhaseCause::Breaks(_) | PhaseCause::Lifts(_))
             && !self.wanted.signals.is_empty()
         {
@@ -1000,28 +985,25 @@ impl<'m> Passing<'_, 'm> {
                 "changes where forces jump, by a force that depends on a driven input",
             ));
         }
+        // Several slips that stop at the same instant count as one event only if they always stop together.
+        let stops = |k: &usize| match (before.modes[*k], after.modes[*k]) {
+            (ContactMode::Slides(from), ContactMode::Sticks) => from != 0.0,
+            (ContactMode::Slides(from), ContactMode::Slides(to)) => from != to && from != 0.0,
+            _ => false,
+        };
+        let others = (0..before.modes.len()).filter(stops);
+        let others: Vec<usize> = others.filter(|k| *k != contact).collect();
         let mut shifts = Vec::new();
         for direction in 0..self.directions {
-            let along = |by: f64| self.moved(state, direction, by, &a_before);
-            let of = |list: Vec<Number>, contact: usize, interpreter: usize| {
-                self.place(list, interpreter, before, |place| {
-                    self.margin(place, (before, cause), contact, interpreter)
-                })
-            };
-            // The derivative along the motion, ḣ, is the change of the margin with a shift of the instant.
-            let moves = |contact: usize| -> Option<f64> {
-                let changes = of(along(0.0), contact, direction)?.derivative;
-                let with_time = of(along(1.0), contact, direction)?.derivative;
-                Some(-changes / (with_time - changes))
-            };
-            let by = moves(contact).filter(|by| by.is_finite()).ok_or_else(|| {
+            let shift = |contact| self.shift(instant, contact, state, direction);
+            let by = shift(contact).filter(|by| by.is_finite()).ok_or_else(|| {
                 broken(
                     contact,
                     "changes at an instant whose derivative is infinite",
                 )
             })?;
             for &other in &others {
-                let together = moves(other).is_some_and(|of_other| {
+                let together = shift(other).is_some_and(|of_other| {
                     (of_other - by).abs() <= 1e-6 * (by.abs() + of_other.abs())
                 });
                 if !together {
@@ -1033,13 +1015,27 @@ impl<'m> Passing<'_, 'm> {
             }
             shifts.push(by);
         }
-        for (direction, by) in shifts.into_iter().enumerate() {
-            let part = (direction + 1) * self.n;
-            for i in 0..self.n {
-                state.v[part + i] += (a_before[i] - a_after[i]) * by;
-            }
-        }
-        Ok(())
+        Ok(shifts)
+    }
+
+    /// δt in a direction, eq. (E66), if this contact triggers the change.
+    fn shift(
+        &self,
+        instant: &Instant<'_>,
+        contact: usize,
+        state: &State<Vec<f64>>,
+        direction: usize,
+    ) -> Option<f64> {
+        let margin = |by: f64| {
+            let there = self.moved(state, direction, by, instant.a_before);
+            self.place(there, direction, instant.before, |place| {
+                self.margin(place, (instant.before, instant.cause), contact, direction)
+            })
+        };
+        // The derivative along the motion, ḣ, is the change of the margin with a shift of the instant.
+        let changes = margin(0.0)?.derivative;
+        let with_time = margin(1.0)?.derivative;
+        Some(-changes / (with_time - changes))
     }
 
     /// The function whose zero triggers a change of a contact.
@@ -1092,6 +1088,114 @@ impl<'m> Passing<'_, 'm> {
             }
         }
     }
+}
+
+/// An instant at which accelerations jump without an impact.
+struct Instant<'i> {
+    t: f64,
+    cause: PhaseCause,
+    /// The contact that changes.
+    contact: usize,
+    before: &'i Phase,
+    a_before: &'i [f64],
+}
+
+/// A tangent of a contact in an impact.
+struct Tangent<'t> {
+    /// The contact whose slip is along it.
+    contact: usize,
+    own: &'t ContactImpact,
+    /// Whether the contact presses without an impulse.
+    is_idle: bool,
+    /// The greatest impulse of friction.
+    most: f64,
+}
+
+/// The friction along a tangent in an impact.
+enum ImpactFriction {
+    /// The slip changes to what is left of it.
+    Sticks(Sought),
+    /// Friction is this multiple of the normal impulse.
+    Slips { friction: Number, row: Vec<Number> },
+}
+
+impl Tangent<'_> {
+    /// Whether it sticks or slips, as the run found it.
+    fn friction(&self, place: &Place<'_>, after: &Phase) -> Result<ImpactFriction, &'static str> {
+        let &Tangent {
+            contact: j,
+            own,
+            is_idle,
+            most,
+        } = self;
+        let [_, tangential, friction, _] = place.coefficients(j);
+        let row = place.row(2 * j + 1).to_vec();
+        let left = own.slip[1] + tangential.value * own.slip[0];
+        let size = own.slip[0].abs() + own.slip[1].abs();
+        let sticks = if is_idle {
+            after.modes[j] == ContactMode::Sticks
+        } else {
+            // The friction of an impact that is far weaker than its slip is fast is known only to the round-off of that slip, and so
+            // whether it is saturated. What still slips has not stuck.
+            let terms = row.iter().zip(&place.v);
+            let terms: f64 = terms.map(|(w, v)| (w.value * v.value).abs()).sum();
+            let goes_on = left.abs() > (ROUNDING * size).max(ROUND_OFF_OF_SLIP * terms);
+            !goes_on && own.impulse[1].abs() < most * (1.0 - SATURATED)
+        };
+        if sticks {
+            let one = Dual::constant(1.0);
+            return Ok(ImpactFriction::Sticks(Sought {
+                along: row.clone(),
+                change: zero() - (one + tangential) * place.rates[2 * j + 1],
+                row,
+            }));
+        }
+        let sign = match after.modes[j] {
+            ContactMode::Slides(sign) if is_idle => -sign,
+            _ => own.impulse[1].signum(),
+        };
+        if !is_idle && most > 0.0 && left.abs() <= ROUNDING * size {
+            return Err("is on the boundary between slipping and sticking in its impact");
+        }
+        Ok(ImpactFriction::Slips {
+            friction: Dual::constant(sign) * friction,
+            row,
+        })
+    }
+}
+
+/// A contact's part in an impact, if it takes part.
+fn impact_of(hits: &[ReportedImpact], contact: usize) -> Option<(usize, &ContactImpact)> {
+    let found = hits.iter().find(|(other, _)| *other == contact);
+    found.map(|(k, hit)| (*k, hit))
+}
+
+/// Checks that contacts without an impulse, given by the indices of their impulses, have none under the variation: one of one
+/// sign would press such a contact, one of the other sign would open it.
+fn check_idle(impulses: &[Number], idle: &[(usize, usize)]) -> Result<(), (usize, &'static str)> {
+    let size = impulses
+        .iter()
+        .fold(0.0_f64, |most, x| most.max(x.derivative.abs()));
+    for &(index, contact) in idle {
+        if impulses[index].derivative.abs() > ROUNDING * size {
+            return Err((
+                contact,
+                "touches without an impulse while others have impacts, and would have one, or open, under the variation",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Whether the law of impact over dual numbers has given the same rates as the run.
+fn has_rates(state: &State<Vec<f64>>, run: &State<Named>, hits: &[ReportedImpact]) -> bool {
+    let jump: f64 = (hits.iter())
+        .map(|(_, hit)| hit.gap_rate[0].abs() + hit.gap_rate[1].abs())
+        .fold(0.0, f64::max);
+    let rates = &run.v.values;
+    let size = rates.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+    let is_other = |(found, v): (&f64, &f64)| (found - v).abs() > 1e-3 * size.max(jump);
+    !state.v.iter().zip(rates).any(is_other)
 }
 
 fn zero() -> Number {

@@ -408,83 +408,35 @@ struct Split {
 impl Split {
     fn of(linear: &Linear) -> Option<Split> {
         let (n, moving) = linear.len();
-        let (k, c) = (&linear.k, &linear.c);
         let by_places = linear.by_places();
         let (free, bound): (Vec<_>, Vec<_>) =
             rank::directions_beyond(&by_places, &linear.k_bounds)?
                 .into_iter()
                 .partition(rank::Direction::is_free);
-        let bound: Vec<DVector<f64>> = if free.is_empty() {
-            // This is exact.
-            (0..n)
-                .map(|i| DVector::from_fn(n, |j, _| f64::from(u8::from(i == j))))
-                .collect()
+        let bound = if free.is_empty() {
+            DMatrix::identity(n, n) // this is exact
         } else {
-            bound.into_iter().map(|direction| direction.right).collect()
+            let rights: Vec<DVector<f64>> = bound.into_iter().map(|one| one.right).collect();
+            linear.without_driven(columns(n, &rights))?
         };
-        let rights: Vec<DVector<f64>> = free.iter().map(|d| d.right.clone()).collect();
-        let lefts: Vec<DVector<f64>> = free.iter().map(|d| d.left.clone()).collect();
-        let along = linear.along();
-        let mut bound = columns(n, &bound);
-        let is_driven = linear.p.iter().any(|x| *x != 0.0);
-        while is_driven && !free.is_empty() && bound.ncols() > 0 {
-            let mut left = DMatrix::zeros(bound.ncols() + moving, bound.ncols());
-            let own = bound.transpose() * linear.driven() * &bound;
-            left.rows_mut(0, bound.ncols()).copy_from(&own);
-            left.rows_mut(bound.ncols(), moving)
-                .copy_from(&(k * &bound));
-            let [nothing, rest] = null_space(&left, rank::tolerance(n) * left.norm())?;
-            if nothing.is_empty() {
-                break;
-            }
-            bound = &bound * columns(bound.ncols(), &rest);
-        }
-        let count = n - bound.ncols();
         // The directions, in moving coordinates, along which the machine may move.
+        let along = linear.along();
         let may: Vec<DVector<f64>> = if moving == n {
-            rights.clone()
+            free.iter()
+                .map(|direction| direction.right.clone())
+                .collect()
         } else {
             let across = bound.transpose() * &along;
             null_space(&across, rank::tolerance(n) * along.norm())?[0].clone()
         };
-        let z = columns(moving, &may);
-        let drifts = if is_driven {
-            // Constant rates s that some displacement w balances: P w + B s = 0, K w + C s = 0. Only the part outside the
-            // range of w restricts s.
-            let m = bound.ncols();
-            let mut by_place = DMatrix::zeros(m + moving, m);
-            by_place
-                .rows_mut(0, m)
-                .copy_from(&(bound.transpose() * linear.driven() * &bound));
-            by_place.rows_mut(m, moving).copy_from(&(k * &bound));
-            let mut by_rate = DMatrix::zeros(m + moving, moving);
-            by_rate
-                .rows_mut(0, m)
-                .copy_from(&(bound.transpose() * &along));
-            by_rate.rows_mut(m, moving).copy_from(c);
-            let [across, _] =
-                null_space(&by_place.transpose(), rank::tolerance(n) * by_place.norm())?;
-            let across = columns(m + moving, &across);
-            let projected = across.tr_mul(&by_rate);
-            let terms = across.abs().tr_mul(&by_rate.abs());
-            null_space(&projected, rank::tolerance(n) * terms.norm())?[0].len()
+        let drifts = if linear.is_driven() {
+            linear.balanced_rates(&bound)?
         } else {
-            // The damping along free directions, and the size of its terms.
-            let y = columns(n, &lefts).rows(0, moving).into_owned();
-            let brakes = y.tr_mul(&(c * &z));
-            let terms = y.abs().tr_mul(&(c.abs() * z.abs()));
-            let limit = rank::tolerance(n) * terms.norm();
-            let braked = if brakes.is_empty() {
-                0
-            } else {
-                brakes
-                    .try_svd(false, false, f64::EPSILON, 10_000)?
-                    .rank(limit)
-            };
-            z.ncols() - braked
+            let lefts: Vec<DVector<f64>> = free.iter().map(|one| one.left.clone()).collect();
+            linear.unbraked(&columns(n, &lefts), &columns(moving, &may))?
         };
         let slowest = |z: &DVector<f64>| {
-            if (k.abs() * z.abs()).iter().all(|x| *x == 0.0) {
+            if (linear.k.abs() * z.abs()).iter().all(|x| *x == 0.0) {
                 return 0.0;
             }
             let overlaps = |d: &&rank::Direction| d.part.iter().any(|&i| z[i] != 0.0);
@@ -500,11 +452,71 @@ impl Split {
         });
         Some(Split {
             free: free.collect(),
-            count,
+            count: n - bound.ncols(),
             bound,
             drifts,
         })
     }
+}
+
+impl Linear {
+    /// Whether coordinates follow others, at rates that depend on these.
+    fn is_driven(&self) -> bool {
+        self.p.iter().any(|x| *x != 0.0)
+    }
+
+    /// A basis without the directions that P maps into the complement of the basis and K to zero, repeated until there are none.
+    fn without_driven(&self, mut bound: DMatrix<f64>) -> Option<DMatrix<f64>> {
+        let (n, _) = self.len();
+        while self.is_driven() && bound.ncols() > 0 {
+            let rates = bound.transpose() * self.driven() * &bound;
+            let left = stacked(&rates, &(&self.k * &bound));
+            let [nothing, rest] = null_space(&left, rank::tolerance(n) * left.norm())?;
+            if nothing.is_empty() {
+                break;
+            }
+            bound = &bound * columns(bound.ncols(), &rest);
+        }
+        Some(bound)
+    }
+
+    /// The number of independent constant rates `s` that some displacement `w` balances, `P w + B s = 0`, `K w + C s = 0`. Only the
+    /// part outside the range of `w` restricts `s`.
+    fn balanced_rates(&self, bound: &DMatrix<f64>) -> Option<usize> {
+        let (n, _) = self.len();
+        let driven = bound.transpose() * self.driven() * bound;
+        let by_place = stacked(&driven, &(&self.k * bound));
+        let by_rate = stacked(&(bound.transpose() * self.along()), &self.c);
+        let [across, _] = null_space(&by_place.transpose(), rank::tolerance(n) * by_place.norm())?;
+        let across = columns(by_place.nrows(), &across);
+        let projected = across.tr_mul(&by_rate);
+        let terms = across.abs().tr_mul(&by_rate.abs());
+        Some(null_space(&projected, rank::tolerance(n) * terms.norm())?[0].len())
+    }
+
+    /// The number of independent motions along the directions `right` that damping does not brake, of a machine without followers.
+    fn unbraked(&self, left: &DMatrix<f64>, right: &DMatrix<f64>) -> Option<usize> {
+        let (n, moving) = self.len();
+        let left = left.rows(0, moving);
+        let brakes = left.tr_mul(&(&self.c * right));
+        // The size of the terms of the damping.
+        let terms = left.abs().tr_mul(&(self.c.abs() * right.abs()));
+        let limit = rank::tolerance(n) * terms.norm();
+        if brakes.is_empty() {
+            return Some(right.ncols());
+        }
+        let braked = brakes.try_svd(false, false, f64::EPSILON, 10_000)?;
+        Some(right.ncols() - braked.rank(limit))
+    }
+}
+
+/// One matrix above another.
+fn stacked(above: &DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
+    let (rows, further) = (above.nrows(), below.nrows());
+    let mut both = DMatrix::zeros(rows + further, above.ncols());
+    both.rows_mut(0, rows).copy_from(above);
+    both.rows_mut(rows, further).copy_from(below);
+    both
 }
 
 fn columns(rows: usize, vectors: &[DVector<f64>]) -> DMatrix<f64> {

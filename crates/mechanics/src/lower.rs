@@ -12,6 +12,7 @@ mod turned;
 use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, nearest, reachable};
 use rustc_hash::FxHashMap;
 
+use crate::equations::UnilateralEquation;
 use crate::{ConstraintEquation, Equations, Reduction, SlidingEquation, Unprojected};
 use articulated::Order;
 use lagrangian_program::Rounding;
@@ -73,39 +74,27 @@ pub fn lower_by<'d>(
     });
     let multipliers = equations.constraints.iter().map(|c| c.multiplier);
     let multipliers: Vec<Expr<'d>> = multipliers.collect();
+    let [unprojected, cut_open] = by_loops(equations.unprojected.as_ref(), is_open(equations));
     let source = LoweringInput {
         quantities: &quantities(model, equations),
         expanded: &expanded.map_or_else(Vec::new, |expanded| matrix_and_forces(model, expanded)),
-        // Elimination along the machine would not close the loops of a closed-loop mechanism.
-        unprojected: equations
-            .unprojected
-            .as_ref()
-            .filter(|_| is_open(equations)),
-        cut_open: equations
-            .unprojected
-            .as_ref()
-            .filter(|_| !is_open(equations)),
+        unprojected,
+        cut_open,
         slopes: &slopes,
         sliding: &equations.sliding,
         multipliers: &multipliers,
-        reduced: reduced
-            .as_ref()
-            .map(|(reduction, quantities, expanded)| EquationSet {
+        reduced: reduced.as_ref().map(|(reduction, quantities, expanded)| {
+            let unprojected = reduction.equations.unprojected.as_ref();
+            let [unprojected, cut_open] = by_loops(unprojected, reduction.constraints.is_empty());
+            EquationSet {
                 model: &reduction.machine.0,
                 quantities,
                 expanded,
-                unprojected: reduction
-                    .equations
-                    .unprojected
-                    .as_ref()
-                    .filter(|_| reduction.constraints.is_empty()),
-                cut_open: reduction
-                    .equations
-                    .unprojected
-                    .as_ref()
-                    .filter(|_| !reduction.constraints.is_empty()),
+                unprojected,
+                cut_open,
                 reduction: Some(reduction),
-            }),
+            }
+        }),
     };
     let mut program = build(
         model,
@@ -118,20 +107,34 @@ pub fn lower_by<'d>(
     let seconds = equations.sliding.iter().enumerate();
     let seconds = seconds.filter(|(_, sliding)| sliding.is_second());
     program.second_tangents = seconds.fold(0, |all, (k, _)| all | 1 << k);
-    let unilateral = equations.unilateral.iter().map(|u| Unilateral {
-        name: u.name.clone(),
-        law: u.law,
-        order: u.order,
-        painleve: u.painleve,
-        compliance: u.compliance,
-        has_friction: u.has_friction,
-        is_rolling_resistance: u.is_rolling_resistance,
-        is_second_tangent: u.is_second_tangent,
-        has_face: u.face.is_some(),
-    });
-    program.unilateral = unilateral.collect();
+    program.unilateral = equations.unilateral.iter().map(unilateral).collect();
     debug_assert_eq!(program.verify(), Ok(()));
     program
+}
+
+/// Equations before projection, of an open machine and of a closed-loop mechanism: elimination along the machine would not close
+/// the loops of the second.
+fn by_loops<T>(unprojected: Option<T>, is_open: bool) -> [Option<T>; 2] {
+    if is_open {
+        [unprojected, None]
+    } else {
+        [None, unprojected]
+    }
+}
+
+/// What a program states of a unilateral contact.
+fn unilateral(equation: &UnilateralEquation<'_>) -> Unilateral {
+    Unilateral {
+        name: equation.name.clone(),
+        law: equation.law,
+        order: equation.order,
+        painleve: equation.painleve,
+        compliance: equation.compliance,
+        has_friction: equation.has_friction,
+        is_rolling_resistance: equation.is_rolling_resistance,
+        is_second_tangent: equation.is_second_tangent,
+        has_face: equation.face.is_some(),
+    }
 }
 
 /// The program that computes the quantities.
@@ -151,6 +154,7 @@ pub fn of_quantities<'d>(model: &Model<'d>, quantities: &[Quantity<'d>]) -> Prog
     build(model, source, Vec::new(), &best)
 }
 
+/// The program of these equations, without the names of contacts.
 fn build<'d>(
     model: &Model<'d>,
     source: LoweringInput<'_, 'd>,
@@ -165,52 +169,12 @@ fn build<'d>(
         quantities: &quantities,
         ..source
     };
-    let mut starts: Vec<Expr<'d>> = model.coordinates.iter().map(|c| c.start).collect();
-    if model.coordinates.iter().any(|c| !c.start_rate.is_zero()) {
-        starts.extend(model.coordinates.iter().map(|c| c.start_rate));
-    }
+    let starts = start_values(model);
     let mut lowering = Lowering::new(model, constraints.len());
     lowering.lower(&all_values(source.quantities));
     lowering.lower(&starts);
     lowering.lower(&all_values(source.expanded));
-    let mut default = |constant| default(&mut lowering, constant);
-    let parameters = model
-        .parameters
-        .iter()
-        .map(|p| {
-            slot(
-                &p.name,
-                &p.docs,
-                p.unit,
-                &p.unit_text,
-                p.default.map(&mut default),
-            )
-        })
-        .collect();
-    let inputs = model
-        .inputs
-        .iter()
-        .map(|i| {
-            slot(
-                &i.name,
-                &i.docs,
-                i.unit,
-                &i.unit_text,
-                Some(default(i.default)),
-            )
-        })
-        .collect();
-    let coordinates = model
-        .coordinates
-        .iter()
-        .map(|c| slot(&c.name, &c.docs, c.unit, &c.unit_text, None))
-        .collect();
-    let outputs = model
-        .outputs
-        .iter()
-        .map(|o| slot(&o.name, &o.docs, o.unit, &o.unit_text, None))
-        .collect();
-
+    let slots = Slots::of(&mut lowering);
     let start = PlannedFunction {
         role: Role::Start,
         shape: Shape::Vector(starts.len()),
@@ -219,94 +183,37 @@ fn build<'d>(
         rows: 0,
     };
     let start = start.only(&mut lowering.graph).function;
-    let mut choices = Vec::new();
-    let mut drafts: Vec<Draft> = Vec::new();
-    let states = states::around_start(model, 1, rounding::STATES);
-    let mut take = |candidates: Vec<Draft>, graph: &Graph| {
-        let (draft, choice) = chosen_draft(candidates, graph, &states, choose);
-        choices.extend(choice);
-        drafts.extend(draft);
-    };
+
+    let mut chosen = ChosenFunctions::new(model, choose);
     for quantity in source.quantities {
         let drafts = of_quantity(&mut lowering, quantity, source.expanded);
-        take(drafts, &lowering.graph);
+        chosen.take(drafts, &lowering.graph);
     }
-    let mut ways = if source.sliding.is_empty() {
-        accelerations(&mut lowering, source.all_coordinates(model))
-    } else {
-        friction::friction(&mut lowering, source)
-    };
-    if let Some(reduced) = source.reduced {
-        let offsets = reduced.reduction.into_iter().flat_map(|r| &r.dependents);
-        let offsets = offsets.filter_map(|d| d.offset.map(|[name, meaning]| (name, meaning)));
-        lowering.name(&offsets.collect::<Vec<_>>());
-        lowering.lower(&all_values(reduced.quantities));
-        lowering.lower(&all_values(reduced.expanded));
-        ways.extend(accelerations(&mut lowering, reduced));
-    }
-    take(ways, &lowering.graph);
-    let (staged, staged_choice) = match drafts.last() {
-        Some(last) if last.form.role == Role::Accelerations && !model.stages.is_empty() => {
-            stages::staged(&mut lowering, source, last, &states, choose)
-        }
-        _ => (Vec::new(), None),
-    };
-    let stages = if staged.is_empty() {
-        Stages::default()
-    } else {
-        model.stages
-    };
-    let derivatives = match drafts.last() {
-        Some(last) if last.form.role == Role::Accelerations => {
-            derivatives(&mut lowering, source, last)
-        }
-        _ => None,
-    };
-    let multipliers = match drafts.last() {
-        Some(last) if last.form.role == Role::Accelerations && !constraints.is_empty() => {
-            multipliers(&mut lowering, source, last)
-        }
-        _ => Vec::new(),
-    };
-    let (multipliers, multipliers_choice) =
-        chosen_draft(multipliers, &lowering.graph, &states, choose);
-    drafts.extend(multipliers);
-    choices.extend(multipliers_choice);
-    let has_derivatives = derivatives.is_some();
-    drafts.extend(derivatives);
-    drafts.extend(staged);
-    choices.extend(staged_choice);
-    drafts.sort_by_key(|draft| draft.function.role);
-    choices.sort_by_key(Choice::role);
+    let ways = ways_to_accelerations(&mut lowering, source);
+    chosen.take(ways, &lowering.graph);
+    let granted = chosen.add_functions_of_accelerations(&mut lowering, source);
+    let (drafts, choices) = chosen.in_order();
     let (prepare, prepared, functions) =
         prepare(&mut lowering.graph, drafts, model, constraints.len());
+    let quaternions = model.quaternions.iter();
+    let kept = model.kept.iter();
     let program = Program {
         name: model.name.clone(),
         docs: model.docs.clone(),
-        parameters,
-        coordinates,
-        quaternions: (model.quaternions.iter())
-            .map(|four| four.coordinates(model))
-            .collect(),
-        inputs,
-        outputs,
+        parameters: slots.parameters,
+        coordinates: slots.coordinates,
+        quaternions: quaternions.map(|four| four.coordinates(model)).collect(),
+        inputs: slots.inputs,
+        outputs: slots.outputs,
         assumptions: facts(model),
         constraints,
         contacts: Vec::new(),
         reaction_axes: 1,
         second_tangents: 0,
         unilateral: Vec::new(),
-        kept: model
-            .kept
-            .iter()
-            .map(|kept| start_name(model, *kept))
-            .collect(),
-        derivatives: if has_derivatives {
-            model.derivatives.clone()
-        } else {
-            Vec::new()
-        },
-        stages,
+        kept: kept.map(|kept| start_name(model, *kept)).collect(),
+        derivatives: granted.derivatives,
+        stages: granted.stages,
         prepare,
         prepared,
         start,
@@ -318,6 +225,151 @@ fn build<'d>(
         debug_assert_eq!(program.verify(), Ok(()));
     }
     program
+}
+
+/// The coordinates at the start, and behind them their rates if any of these is not 0.
+fn start_values<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
+    let mut starts: Vec<Expr<'d>> = model.coordinates.iter().map(|c| c.start).collect();
+    if model.coordinates.iter().any(|c| !c.start_rate.is_zero()) {
+        starts.extend(model.coordinates.iter().map(|c| c.start_rate));
+    }
+    starts
+}
+
+/// The drafts of the accelerations, or of the response to friction, from which these follow.
+fn ways_to_accelerations<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: LoweringInput<'_, 'd>,
+) -> Vec<Draft> {
+    let mut ways = if source.sliding.is_empty() {
+        accelerations(lowering, source.all_coordinates(lowering.model))
+    } else {
+        friction::friction(lowering, source)
+    };
+    if let Some(reduced) = source.reduced {
+        let offsets = reduced.reduction.into_iter().flat_map(|r| &r.dependents);
+        let offsets = offsets.filter_map(|d| d.offset.map(|[name, meaning]| (name, meaning)));
+        lowering.name(&offsets.collect::<Vec<_>>());
+        lowering.lower(&all_values(reduced.quantities));
+        lowering.lower(&all_values(reduced.expanded));
+        ways.extend(accelerations(lowering, reduced));
+    }
+    ways
+}
+
+/// The named numbers that a program takes and gives.
+struct Slots {
+    parameters: Vec<Slot>,
+    coordinates: Vec<Slot>,
+    inputs: Vec<Slot>,
+    outputs: Vec<Slot>,
+}
+
+impl Slots {
+    fn of(lowering: &mut Lowering<'_, '_>) -> Slots {
+        let model = lowering.model;
+        let mut default = |constant| default(lowering, constant);
+        let (parameters, inputs) = (model.parameters.iter(), model.inputs.iter());
+        let parameters = parameters.map(|p| {
+            let default = p.default.map(&mut default);
+            slot(&p.name, &p.docs, p.unit, &p.unit_text, default)
+        });
+        let parameters = parameters.collect();
+        let inputs = inputs.map(|i| {
+            let default = Some(default(i.default));
+            slot(&i.name, &i.docs, i.unit, &i.unit_text, default)
+        });
+        let inputs = inputs.collect();
+        let (coordinates, outputs) = (model.coordinates.iter(), model.outputs.iter());
+        let coordinates = coordinates.map(|c| slot(&c.name, &c.docs, c.unit, &c.unit_text, None));
+        let outputs = outputs.map(|o| slot(&o.name, &o.docs, o.unit, &o.unit_text, None));
+        Slots {
+            parameters,
+            coordinates: coordinates.collect(),
+            inputs,
+            outputs: outputs.collect(),
+        }
+    }
+}
+
+/// The functions of a program, each in the form that was chosen.
+struct ChosenFunctions<'c> {
+    choose: &'c dyn Fn(&[Candidate]) -> usize,
+    /// The states at which the effect of round-off on candidates is estimated.
+    states: States,
+    drafts: Vec<Draft>,
+    choices: Vec<Choice>,
+}
+
+/// What a program has of what a spec requests.
+struct Granted {
+    stages: Stages,
+    derivatives: Vec<Variable>,
+}
+
+impl<'c> ChosenFunctions<'c> {
+    fn new(model: &Model<'_>, choose: &'c dyn Fn(&[Candidate]) -> usize) -> Self {
+        ChosenFunctions {
+            choose,
+            states: states::around_start(model, 1, rounding::STATES),
+            drafts: Vec::new(),
+            choices: Vec::new(),
+        }
+    }
+
+    /// Chooses one of the drafts of a function; without drafts there is no function.
+    fn take(&mut self, candidates: Vec<Draft>, graph: &Graph) {
+        let (draft, choice) = chosen_draft(candidates, graph, &self.states, self.choose);
+        self.choices.extend(choice);
+        self.drafts.extend(draft);
+    }
+
+    /// Adds the functions that are made from the accelerations, which were taken last: the accelerations in stages, their
+    /// derivatives, and the multipliers.
+    fn add_functions_of_accelerations<'d>(
+        &mut self,
+        lowering: &mut Lowering<'_, 'd>,
+        source: LoweringInput<'_, 'd>,
+    ) -> Granted {
+        let mut granted = Granted {
+            stages: Stages::default(),
+            derivatives: Vec::new(),
+        };
+        let last = self.drafts.last();
+        let Some(at_once) = last.filter(|last| last.form.role == Role::Accelerations) else {
+            return granted;
+        };
+        let model = lowering.model;
+        let (staged, staged_choice) = if model.stages.is_empty() {
+            (Vec::new(), None)
+        } else {
+            stages::staged(lowering, source, at_once, &self.states, self.choose)
+        };
+        if !staged.is_empty() {
+            granted.stages = model.stages;
+        }
+        let derivatives = derivatives(lowering, source, at_once);
+        if derivatives.is_some() {
+            granted.derivatives.clone_from(&model.derivatives);
+        }
+        let multipliers = if lowering.constraints == 0 {
+            Vec::new()
+        } else {
+            multipliers(lowering, source, at_once)
+        };
+        self.take(multipliers, &lowering.graph);
+        self.drafts.extend(derivatives);
+        self.drafts.extend(staged);
+        self.choices.extend(staged_choice);
+        granted
+    }
+
+    /// The functions and the choices in the order of roles.
+    fn in_order(mut self) -> (Vec<Draft>, Vec<Choice>) {
+        self.drafts.sort_by_key(|draft| draft.function.role);
+        self.choices.sort_by_key(Choice::role);
+        (self.drafts, self.choices)
+    }
 }
 
 /// The name of a start value: the name of its coordinate, or `der(phi)`.

@@ -50,7 +50,9 @@ use crate::proof::symbolic::{determinant, guarded_coordinates, with_guarded_valu
 use crate::{Dependent, Equations};
 use crate::{Disagreement, POINTS};
 use lagrangian_program::quantity::{Entry, Kind, Use};
-use lagrangian_program::{Arguments, FrictionLayout, Interpreter, Program, Role, Shape};
+use lagrangian_program::{
+    Arguments, FrictionLayout, FrictionResponse, Interpreter, Program, Role, Shape,
+};
 use lagrangian_spec::diagnostic::{Code, Diagnostic};
 use lagrangian_spec::model::{Model, Space, Variable};
 use number::{Number, ZeroTest};
@@ -1179,28 +1181,22 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         computed: &Computed<R>,
         signs: &[R],
     ) -> Result<(), Verdict> {
-        let (program, machine) = (self.parts.program, self.parts.machine);
-        let (n, m, count) = (at.q.len(), program.constraints.len(), signs.len());
+        let (n, count) = (at.q.len(), signs.len());
         let layout = FrictionLayout {
             coordinates: n,
-            constraints: m,
+            constraints: self.parts.program.constraints.len(),
             contacts: count,
-            axes: program.reaction_axes,
+            axes: self.parts.program.reaction_axes,
         };
-        let responses = self.call(Role::Friction, at, layout.len())?;
+        let values = self.call(Role::Friction, at, layout.len())?;
+        let response = FrictionResponse {
+            layout,
+            values: &values,
+        };
         let friction_forces = self.random_numbers(2, count);
-        let part = layout.part();
-        let values: Vec<R> = (0..part)
-            .map(|i| {
-                let own = friction_forces.iter().enumerate();
-                own.fold(responses[i], |sum, (k, &f)| {
-                    sum + f * responses[(k + 1) * part + i]
-                })
-            })
-            .collect();
-        let (a, rest) = values.split_at(n);
-        let (multipliers, rest) = rest.split_at(m);
-        let (slip_rates, normals) = rest.split_at(count);
+        let total = |place: usize| response.with(place, &friction_forces);
+        let total: Vec<R> = (0..layout.part()).map(total).collect();
+        let total = layout.split(&total);
         let rows = self.call(Role::SlipMatrix, at, count * n)?;
         let biases = self.call(Role::SlipBias, at, count)?;
         let mut forces = computed.forces.clone();
@@ -1209,42 +1205,56 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 *force = *force + tau * friction;
             }
         }
+        let (a, multipliers) = (total.accelerations, total.multipliers);
         self.check_balance(computed, a, multipliers, &forces)?;
         for (k, row) in rows.chunks(n).enumerate() {
-            let rate = Sum::products(row, a).plus(biases[k]).plus(-slip_rates[k]);
-            self.compare_difference(Role::Friction, n + m + k, rate)?;
+            let rate = Sum::products(row, a).plus(biases[k]);
+            let rate = rate.plus(-total.slip_rates[k]);
+            self.compare_difference(Role::Friction, layout.slip_rate(k), rate)?;
         }
 
         let moving = State {
             a: a.to_vec(),
             ..at.clone()
         };
-        let contacts = machine.at(&moving, &vec![R::ZERO; n]).sliding;
-        let at_coefficients = (1 + count) * part;
-        for (k, contact) in contacts.iter().enumerate() {
-            let places = [at_coefficients + k, at_coefficients + count + k];
-            for (place, expected) in places.into_iter().zip(contact.coefficients) {
-                self.compare(Role::Friction, place, responses[place], expected)?;
-            }
-        }
-        if layout.axes != 1 {
-            let directions = responses[layout.directions()..].chunks_exact(3);
-            for (k, (direction, contact)) in directions.zip(&contacts).enumerate() {
-                // Compared up to sign, because square roots in a field have none.
-                for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
-                    let place = layout.directions() + 3 * k + j;
-                    let expected = contact.reference_direction[i] * contact.reference_direction[j];
-                    self.compare(Role::Friction, place, direction[i] * direction[j], expected)?;
-                }
-            }
-        }
+        let contacts = self.parts.machine.at(&moving, &vec![R::ZERO; n]).sliding;
+        self.check_guides(response, &contacts)?;
         let pressed = GuideForces {
             multipliers,
             friction_forces: &friction_forces,
-            normals,
+            normals: total.normals,
+            axes: layout.axes,
             signs,
         };
         self.check_reactions(&moving, &contacts, &pressed)
+    }
+
+    /// Checks the coefficients of friction of the guides, and in space their directions.
+    fn check_guides(
+        &mut self,
+        response: FrictionResponse<'_, R>,
+        contacts: &[LiteralSliding<R>],
+    ) -> Result<(), Verdict> {
+        let layout = response.layout;
+        for (k, contact) in contacts.iter().enumerate() {
+            let places = [layout.friction(k), layout.static_friction(k)];
+            for (place, expected) in places.into_iter().zip(contact.coefficients) {
+                self.compare(Role::Friction, place, response.values[place], expected)?;
+            }
+        }
+        if layout.axes == 1 {
+            return Ok(());
+        }
+        for (k, contact) in contacts.iter().enumerate() {
+            let (first, direction) = (layout.direction(k).start, response.direction(k));
+            // Compared up to sign, because square roots in a field have none.
+            for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
+                let expected = contact.reference_direction[i] * contact.reference_direction[j];
+                let found = direction[i] * direction[j];
+                self.compare(Role::Friction, first + j, found, expected)?;
+            }
+        }
+        Ok(())
     }
 
     /// Checks that the normal reactions balance the forces that would open the guides: the
@@ -1255,16 +1265,9 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         contacts: &[LiteralSliding<R>],
         pressed: &GuideForces<'_, R>,
     ) -> Result<(), Verdict> {
-        let (n, point) = (at.q.len(), self.number);
         let Some(relaxed) = self.parts.relaxed else {
             return Err(Verdict::Undefined);
         };
-        let all = relaxed.model.coordinates.len();
-        let mut at = at.clone();
-        for list in [&mut at.q, &mut at.v, &mut at.a] {
-            list.resize(all, R::ZERO);
-        }
-        let dimension = relaxed.model.space.dimension();
         let guides = guides_of(relaxed.model);
         // The side of each guide on which the body is.
         let mut sides = Vec::with_capacity(contacts.len());
@@ -1275,64 +1278,30 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if !sides.iter().all(|side| side.is_finite()) {
             return Err(Verdict::Undefined);
         }
-        let axes = contacts.iter().enumerate();
-        let axes = axes.flat_map(|(k, contact)| contact.axes.iter().map(move |axis| (k, axis)));
-        let along: Vec<(usize, Literal<R>)> = axes
-            .map(|(k, axis)| {
-                let mut w = vec![R::ZERO; all];
-                for (i, &component) in axis.iter().enumerate() {
-                    w[n + dimension * guides[k] + i] = sides[k] * component;
-                }
-                (k, relaxed.at(&at, &w))
-            })
-            .collect();
+        let openings = openings(relaxed, at, contacts, (&guides, &sides));
         // The side is unknown in a field, where any combination is accepted. In space there are no sides.
         let patterns = if R::IS_ORDERED || relaxed.model.space == Space::Space {
             1
         } else {
             1u32 << contacts.len()
         };
-        let count = self.parts.program.reaction_axes;
         let mut wrong = 0;
         for pattern in 0..patterns {
-            let normal = |j: usize, axis: usize| {
-                let normal = pressed.normals[count * j + axis];
-                match pattern >> j & 1 {
-                    0 => normal,
-                    _ => -normal,
-                }
+            let normal = |(i, &normal): (usize, &R)| match pattern >> (i / pressed.axes) & 1 {
+                0 => normal,
+                _ => -normal,
             };
-            let mut first = None;
-            for (k, literal) in &along {
-                let mut open = Sum::of([literal.inertia, -literal.applied]);
-                for (constraint, &multiplier) in literal.constraints.iter().zip(pressed.multipliers)
-                {
-                    open = open.plus(-(constraint.along * multiplier));
-                }
-                for (j, contact) in literal.sliding.iter().enumerate() {
-                    let friction = pressed.signs[j] * pressed.friction_forces[j];
-                    open = open.plus(-(contact.slip_along * friction));
-                    if !occurs_in_equation(&guides, *k, j) {
-                        continue;
-                    }
-                    for (axis, &off) in contact.off_along.iter().enumerate() {
-                        open = open.plus(-(sides[j] * off * normal(j, axis)));
-                    }
-                }
-                if !open.value.is_finite() {
-                    return Err(Verdict::Undefined);
-                }
-                if !open.vanishes()? {
-                    first = Some(*k);
-                    break;
-                }
-            }
-            match first {
+            let normals: Vec<R> = pressed.normals.iter().enumerate().map(normal).collect();
+            let pressed = GuideForces {
+                normals: &normals,
+                ..*pressed
+            };
+            match pressed.first_unbalanced(&openings, &guides, &sides)? {
                 None => return Ok(()),
                 Some(contact) => wrong = wrong.max(contact),
             }
         }
-        let contact = wrong;
+        let (contact, point) = (wrong, self.number);
         Err(Disagreement::Reaction { contact, point }.into())
     }
 
@@ -1519,13 +1488,81 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     }
 }
 
+/// The equations of the relaxed machine along the displacements that open its guides, one for each component of a reaction,
+/// with the contact that it belongs to.
+fn openings<R: Number>(
+    relaxed: &Lagrange<'_, '_>,
+    at: &State<R>,
+    contacts: &[LiteralSliding<R>],
+    (guides, sides): (&[usize], &[R]),
+) -> Vec<(usize, Literal<R>)> {
+    let n = at.q.len();
+    let all = relaxed.model.coordinates.len();
+    let mut at = at.clone();
+    for list in [&mut at.q, &mut at.v, &mut at.a] {
+        list.resize(all, R::ZERO);
+    }
+    let dimension = relaxed.model.space.dimension();
+    let along = |k: usize, axis: &Vec<R>| {
+        let mut w = vec![R::ZERO; all];
+        for (i, &component) in axis.iter().enumerate() {
+            w[n + dimension * guides[k] + i] = sides[k] * component;
+        }
+        (k, relaxed.at(&at, &w))
+    };
+    let mut openings = Vec::new();
+    for (k, contact) in contacts.iter().enumerate() {
+        openings.extend(contact.axes.iter().map(|axis| along(k, axis)));
+    }
+    openings
+}
+
 /// The forces in the guides.
+#[derive(Clone, Copy)]
 struct GuideForces<'a, R> {
     multipliers: &'a [R],
     friction_forces: &'a [R],
+    /// The components of the normal reactions, contact after contact.
     normals: &'a [R],
+    /// The number of components of a reaction.
+    axes: usize,
     /// Whether the signs of the program's slips agree with the spec.
     signs: &'a [R],
+}
+
+impl<R: Number> GuideForces<'_, R> {
+    /// The first contact with an opening displacement along which these forces are not balanced.
+    fn first_unbalanced(
+        &self,
+        openings: &[(usize, Literal<R>)],
+        guides: &[usize],
+        sides: &[R],
+    ) -> Result<Option<usize>, Verdict> {
+        for (k, literal) in openings {
+            let mut open = Sum::of([literal.inertia, -literal.applied]);
+            for (constraint, &multiplier) in literal.constraints.iter().zip(self.multipliers) {
+                open = open.plus(-(constraint.along * multiplier));
+            }
+            let normals = self.normals.chunks_exact(self.axes);
+            for ((j, contact), normals) in literal.sliding.iter().enumerate().zip(normals) {
+                let friction = self.signs[j] * self.friction_forces[j];
+                open = open.plus(-(contact.slip_along * friction));
+                if !occurs_in_equation(guides, *k, j) {
+                    continue;
+                }
+                for (&off, &normal) in contact.off_along.iter().zip(normals) {
+                    open = open.plus(-(sides[j] * off * normal));
+                }
+            }
+            if !open.value.is_finite() {
+                return Err(Verdict::Undefined);
+            }
+            if !open.vanishes()? {
+                return Ok(Some(*k));
+            }
+        }
+        Ok(None)
+    }
 }
 
 /// The first index at which the found and the expected value differ.

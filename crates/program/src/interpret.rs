@@ -406,106 +406,120 @@ struct Tape {
     temporaries: usize,
 }
 
+impl Step {
+    /// The step of an operation whose operands are in registers; `None` if it takes no step, as a constant or an argument.
+    fn of(op: &Op, to: Register, at: impl Fn(Value) -> Register) -> Option<Step> {
+        let binary = |a: &Value, b: &Value| (at(*a), at(*b));
+        Some(match op {
+            Op::Constant(_) | Op::Pi | Op::Read(_) => return None,
+            Op::Add(a, b) => {
+                let (a, b) = binary(a, b);
+                Step::Add { to, a, b }
+            }
+            Op::Sub(a, b) => {
+                let (a, b) = binary(a, b);
+                Step::Sub { to, a, b }
+            }
+            Op::Mul(a, b) => {
+                let (a, b) = binary(a, b);
+                Step::Mul { to, a, b }
+            }
+            Op::Div(a, b) => {
+                let (a, b) = binary(a, b);
+                Step::Div { to, a, b }
+            }
+            Op::ProductError(a, b) => {
+                let (a, b) = binary(a, b);
+                Step::ProductError { to, a, b }
+            }
+            Op::SumError(a, b) => {
+                let (a, b) = binary(a, b);
+                Step::SumError { to, a, b }
+            }
+            &Op::Binary(call, ref a, ref b) => {
+                let (a, b) = binary(a, b);
+                Step::Binary { call, to, a, b }
+            }
+            &Op::Neg(a) => Step::Neg { to, a: at(a) },
+            &Op::Sin(a) => Step::Sin { to, a: at(a) },
+            &Op::Cos(a) => Step::Cos { to, a: at(a) },
+            &Op::Unary(call, a) => Step::Unary { call, to, a: at(a) },
+        })
+    }
+}
+
+impl Constants {
+    /// The register of a constant, until the position of the constants is known.
+    fn register(&mut self, constant: &Op) -> Register {
+        let next = self.operations.len() as u32;
+        let index = *self.index_of.entry(constant.clone()).or_insert(next);
+        if index == next {
+            self.operations.push(constant.clone());
+        }
+        index | IS_CONSTANT
+    }
+}
+
+/// Steps in their order, where the sine and the cosine of the same register are one step.
+#[derive(Default)]
+struct Steps {
+    steps: Vec<Step>,
+    /// The step that computes the sine or the cosine of each register.
+    circular: FxHashMap<Register, usize>,
+}
+
+impl Steps {
+    fn push(&mut self, step: Step) {
+        if let Step::Sin { a, .. } | Step::Cos { a, .. } = step {
+            let earlier = self.circular.get(&a).copied();
+            let destinations = match (earlier.map(|earlier| self.steps[earlier]), step) {
+                (Some(Step::Sin { to: sin, .. }), Step::Cos { to: cos, .. })
+                | (Some(Step::Cos { to: cos, .. }), Step::Sin { to: sin, .. }) => Some((sin, cos)),
+                _ => None,
+            };
+            if let (Some(earlier), Some((sin, cos))) = (earlier, destinations) {
+                self.steps[earlier] = Step::SinCos { sin, cos, a };
+                return;
+            }
+            self.circular.insert(a, self.steps.len());
+        }
+        self.steps.push(step);
+    }
+}
+
 impl Tape {
     fn new(function: &Function, layout: &Layout, constants: &mut Constants) -> Tape {
         let first = layout.temporaries;
         let mut temporaries = 0;
         let mut register: Vec<Register> = Vec::with_capacity(function.code.len());
-        let mut steps = Vec::with_capacity(function.code.len());
-        // The step that computes the sine or the cosine of each register.
-        let mut circular: FxHashMap<Register, usize> = FxHashMap::default();
+        let mut steps = Steps::default();
         let contractions = Contractions::of(function);
         for (index, op) in function.code.iter().enumerate() {
-            let at = |value: Value| register[value.index()];
-            let to = (first + temporaries) as Register;
-            if contractions.is_part(Value(index as u32)) {
+            let value = Value(index as u32);
+            if contractions.is_part(value) {
                 // The sum that uses it computes it.
                 register.push(Register::MAX);
                 continue;
             }
-            let step = match *op {
-                _ if let Some(sum) = contractions.sum(Value(index as u32)) => {
+            let at = |value: Value| register[value.index()];
+            let to = (first + temporaries) as Register;
+            let step = match contractions.sum(value) {
+                Some(sum) => {
                     let ([a, b], c) = (sum.factors.map(at), at(sum.term));
-                    Step::Contracted {
-                        kind: sum.kind,
-                        to,
-                        a,
-                        b,
-                        c,
-                    }
+                    let kind = sum.kind;
+                    Some(Step::Contracted { kind, to, a, b, c })
                 }
-                Op::Constant(_) | Op::Pi => {
-                    let next = constants.operations.len() as u32;
-                    let index = *constants.index_of.entry(op.clone()).or_insert(next);
-                    if index == next {
-                        constants.operations.push(op.clone());
-                    }
-                    register.push(index | IS_CONSTANT);
-                    continue;
-                }
-                Op::Read(source) => {
-                    register.push(layout.register(source) as Register);
-                    continue;
-                }
-                Op::Add(a, b) => Step::Add {
-                    to,
-                    a: at(a),
-                    b: at(b),
-                },
-                Op::Sub(a, b) => Step::Sub {
-                    to,
-                    a: at(a),
-                    b: at(b),
-                },
-                Op::Mul(a, b) => Step::Mul {
-                    to,
-                    a: at(a),
-                    b: at(b),
-                },
-                Op::Div(a, b) => Step::Div {
-                    to,
-                    a: at(a),
-                    b: at(b),
-                },
-                Op::Neg(a) => Step::Neg { to, a: at(a) },
-                Op::ProductError(a, b) => Step::ProductError {
-                    to,
-                    a: at(a),
-                    b: at(b),
-                },
-                Op::SumError(a, b) => Step::SumError {
-                    to,
-                    a: at(a),
-                    b: at(b),
-                },
-                Op::Sin(a) => Step::Sin { to, a: at(a) },
-                Op::Cos(a) => Step::Cos { to, a: at(a) },
-                Op::Unary(call, a) => Step::Unary { call, to, a: at(a) },
-                Op::Binary(call, a, b) => Step::Binary {
-                    call,
-                    to,
-                    a: at(a),
-                    b: at(b),
-                },
+                None => Step::of(op, to, at),
             };
-            temporaries += 1;
-            register.push(to);
-            if let Step::Sin { a, .. } | Step::Cos { a, .. } = step {
-                let earlier = circular.get(&a).copied();
-                let destinations = match (earlier.map(|earlier| steps[earlier]), step) {
-                    (Some(Step::Sin { to: sin, .. }), Step::Cos { to: cos, .. })
-                    | (Some(Step::Cos { to: cos, .. }), Step::Sin { to: sin, .. }) => {
-                        Some((sin, cos))
-                    }
-                    _ => None,
-                };
-                if let (Some(earlier), Some((sin, cos))) = (earlier, destinations) {
-                    steps[earlier] = Step::SinCos { sin, cos, a };
-                    continue;
+            register.push(match (step, op) {
+                (Some(step), _) => {
+                    temporaries += 1;
+                    steps.push(step);
+                    to
                 }
-                circular.insert(a, steps.len());
-            }
-            steps.push(step);
+                (None, Op::Read(source)) => layout.register(*source) as Register,
+                (None, constant) => constants.register(constant),
+            });
         }
         let at = |value: &Value| register[value.index()];
         let checks = function.guards.iter().map(|guard| Check {
@@ -519,7 +533,7 @@ impl Tape {
             reads: function.reads(),
             checks: checks.collect(),
             results: function.results.iter().map(at).collect(),
-            steps,
+            steps: steps.steps,
             temporaries,
         }
     }

@@ -68,6 +68,9 @@ pub use repeats::{Kind, Operand, Repeat, Step, Steps, early_angles};
 pub use rounding::Rounding;
 pub use schedule::LONGEST_SCHEDULED;
 pub use tangent::is_differentiated;
+// The results of `Role::Friction`.
+#[doc(inline)]
+pub use lagrangian_scalar::friction::{FrictionLayout, FrictionPart, FrictionResponse};
 
 /// A machine as straight-line arithmetic.
 #[derive(Clone, Debug, PartialEq)]
@@ -209,52 +212,6 @@ pub struct Unilateral {
     pub is_second_tangent: bool,
     /// Whether it is a corner on a face of a polygon, which has ends: see [`Role::ContactFaces`].
     pub has_face: bool,
-}
-
-/// How the results of [`Role::Friction`] are arranged.
-///
-/// Everything is linear in the friction forces `F`: `x = x₀ + Σ Fₖ xₖ`. The first part is `x₀`, the values without friction; one
-/// part for each friction force follows, the effect of a unit of it. A part holds the accelerations, the multipliers of
-/// constraints, `dw/dt` of each contact and the components of the normal reaction `N` of each. All parts are followed by `μ` of
-/// each contact and `μ₀` of each. In space a direction for each contact comes last, from which the pressing component of `N`
-/// follows: the tangent of a curve, along which nothing presses, or the normal of a surface, along which everything presses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FrictionLayout {
-    /// The number of coordinates.
-    pub coordinates: usize,
-    /// The number of constraints.
-    pub constraints: usize,
-    /// The number of contacts.
-    pub contacts: usize,
-    /// The number of components of a normal reaction.
-    pub axes: usize,
-}
-
-impl FrictionLayout {
-    /// The length of a part.
-    pub fn part(self) -> usize {
-        self.coordinates + self.constraints + (1 + self.axes) * self.contacts
-    }
-
-    /// The number of results.
-    pub fn len(self) -> usize {
-        self.directions()
-            + if self.axes == 1 {
-                0
-            } else {
-                self.axes * self.contacts
-            }
-    }
-
-    /// The index at which the directions begin, in space.
-    pub fn directions(self) -> usize {
-        (1 + self.contacts) * self.part() + 2 * self.contacts
-    }
-
-    /// Whether there are no results.
-    pub fn is_empty(self) -> bool {
-        self.len() == 0
-    }
 }
 
 /// How the results of a function are arranged.

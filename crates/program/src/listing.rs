@@ -137,32 +137,20 @@ impl<'a> Listing<'a> {
     }
 
     fn text(&self) -> String {
-        let Function {
-            role,
-            code,
-            results,
-            guards,
-            ..
-        } = self.function;
-        let mut text = String::new();
-        let name = self.program.title(*role);
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            text,
-            "{name}({})  // {}",
-            self.arguments(),
-            self.function.counts()
-        );
+        let name = self.program.title(self.function.role);
+        let counts = self.function.counts();
+        let mut text = format!("{name}({})  // {counts}\n", self.arguments());
         text.push_str(&self.choice());
-        let mut notes: FxHashMap<Value, Vec<String>> = FxHashMap::default();
-        for (index, result) in results.iter().enumerate() {
-            let mut note = self.program.result_name(*role, index);
-            if *role == Role::Prepare {
-                let _ = write!(note, " = {}", self.program.prepared[index]);
-            }
-            notes.entry(*result).or_default().push(note);
-        }
-        for (index, op) in code.iter().enumerate() {
+        self.write_operations(&mut text);
+        self.write_given_results(&mut text);
+        self.write_guards(&mut text);
+        text
+    }
+
+    /// Writes a line for each operation, with the results that it computes behind it.
+    fn write_operations(&self, text: &mut String) {
+        let notes = self.notes();
+        for (index, op) in self.function.code.iter().enumerate() {
             let value = Value(index as u32);
             let partner = self.partners.get(&value);
             let (mut line, mut noted) = match (op, partner) {
@@ -193,27 +181,42 @@ impl<'a> Listing<'a> {
                 .iter()
                 .flat_map(|value| notes[value].clone())
                 .collect();
+            // Writing to a String cannot fail, here and below.
             if !notes.is_empty() {
                 let _ = write!(line, "  // {}", notes.join("; "));
             }
             let _ = writeln!(text, "  {line}");
         }
-        // Results that no line computes.
-        for (index, result) in results.iter().enumerate() {
-            if matches!(
-                self.function.op(*result),
-                Op::Constant(_) | Op::Pi | Op::Read(_)
-            ) {
-                let _ = writeln!(
-                    text,
-                    "  {} = {}",
-                    self.program.result_name(*role, index),
-                    self.name(*result)
-                );
+    }
+
+    /// The names of the results of each value.
+    fn notes(&self) -> FxHashMap<Value, Vec<String>> {
+        let role = self.function.role;
+        let mut notes: FxHashMap<Value, Vec<String>> = FxHashMap::default();
+        for (index, result) in self.function.results.iter().enumerate() {
+            let mut note = self.program.result_name(role, index);
+            if role == Role::Prepare {
+                let _ = write!(note, " = {}", self.program.prepared[index]);
+            }
+            notes.entry(*result).or_default().push(note);
+        }
+        notes
+    }
+
+    /// Writes the results that no operation computes.
+    fn write_given_results(&self, text: &mut String) {
+        for (index, result) in self.function.results.iter().enumerate() {
+            let op = self.function.op(*result);
+            if matches!(op, Op::Constant(_) | Op::Pi | Op::Read(_)) {
+                let name = self.program.result_name(self.function.role, index);
+                let _ = writeln!(text, "  {name} = {}", self.name(*result));
             }
         }
-        for guard in guards {
-            let program = self.program;
+    }
+
+    fn write_guards(&self, text: &mut String) {
+        let program = self.program;
+        for guard in &self.function.guards {
             let pivot = match guard.coordinate.checked_sub(program.dimension()) {
                 None => format!("inertia of {}", program.coordinates[guard.coordinate].name),
                 Some(k) => format!("constraint {}", program.constraints[k].name),
@@ -226,7 +229,6 @@ impl<'a> Listing<'a> {
                 self.name(guard.scale),
             );
         }
-        text
     }
 
     /// The form of the function, if there were several; for the accelerations, the rejected forms too.

@@ -408,28 +408,82 @@ impl<'a> Finder<'a> {
 /// The values of a function as nodes.
 fn nodes(function: &Function) -> Vec<Node> {
     let contractions = Contractions::of(function);
-    let n = function.code.len();
-    let mut is_early = vec![false; n];
-    let mut is_early_angle = vec![false; n];
-    for angle in early_angles(function) {
-        is_early[angle.index()] = true;
-        is_early_angle[angle.index()] = true;
-    }
-    for (index, op) in function.code.iter().enumerate().rev() {
-        if is_early[index] {
-            op.operands()
-                .for_each(|operand| is_early[operand.index()] = true);
-        }
-    }
-    let mut nodes: Vec<Node> = Vec::with_capacity(n);
+    let early = EarlyValues::of(function);
+    let mut nodes: Vec<Node> = Vec::with_capacity(function.code.len());
     for (index, op) in function.code.iter().enumerate() {
         let value = Value(index as u32);
-        let mut operation = None;
-        let mut operands: Vec<Value> = op.operands().collect();
-        let mut kind = hash(Kind::Operation(op.with_operands(|_| Value(0))));
-        let sort = match op {
+        let value_kind = early.kind(value, op, &contractions);
+        let (mut operation, mut operands) = (None, Vec::new());
+        if value_kind == ValueKind::Operation {
+            let sum = contractions.sum(value);
+            operation = match (sum, op) {
+                (Some(sum), _) => Some(PackedOperation::Contraction(sum.kind)),
+                (_, Op::Add(..)) => Some(PackedOperation::Add),
+                (_, Op::Sub(..)) => Some(PackedOperation::Sub),
+                (_, Op::Mul(..)) => Some(PackedOperation::Mul),
+                (_, Op::Div(..)) => Some(PackedOperation::Div),
+                _ => None,
+            };
+            operands = match sum {
+                Some(sum) => vec![sum.factors[0], sum.factors[1], sum.term],
+                None => op.operands().collect(),
+            };
+        }
+        let kind = match value_kind {
+            ValueKind::Argument(which) => u64::from(which),
+            ValueKind::Known => 0,
+            _ => hash(Kind::Operation(op.with_operands(|_| Value(0)))),
+        };
+        let below = operands.iter().map(|operand| nodes[operand.index()].depth);
+        nodes.push(Node {
+            value_kind,
+            operation,
+            kind: hash((value_kind, operation, kind)),
+            depth: match value_kind {
+                ValueKind::Operation => 1 + below.max().unwrap_or(0),
+                _ => 0,
+            },
+            operands,
+            users: Vec::new(),
+        });
+    }
+    for index in 0..nodes.len() {
+        for operand in nodes[index].operands.clone() {
+            let users = &mut nodes[operand.index()].users;
+            if users.last() != Some(&Value(index as u32)) {
+                users.push(Value(index as u32));
+            }
+        }
+    }
+    nodes
+}
+
+/// The values that are computed before everything else: angles of arguments, and what these are made of.
+struct EarlyValues {
+    is_early: Vec<bool>,
+    is_angle: Vec<bool>,
+}
+
+impl EarlyValues {
+    fn of(function: &Function) -> EarlyValues {
+        let mut is_angle = vec![false; function.code.len()];
+        for angle in early_angles(function) {
+            is_angle[angle.index()] = true;
+        }
+        let mut is_early = is_angle.clone();
+        for (index, op) in function.code.iter().enumerate().rev() {
+            if is_early[index] {
+                op.operands()
+                    .for_each(|operand| is_early[operand.index()] = true);
+            }
+        }
+        EarlyValues { is_early, is_angle }
+    }
+
+    /// How a value comes to be known.
+    fn kind(&self, value: Value, op: &Op, contractions: &Contractions) -> ValueKind {
+        match op {
             Op::Constant(_) | Op::Pi | Op::Read(Source::Parameter(_) | Source::Prepared(_)) => {
-                kind = 0;
                 ValueKind::Known
             }
             Op::Read(source) => ValueKind::Argument(match source {
@@ -439,55 +493,14 @@ fn nodes(function: &Function) -> Vec<Node> {
                 Source::Input(_) => 3,
                 _ => 4,
             }),
-            Op::Sin(angle) if is_early_angle[angle.index()] => ValueKind::Argument(5),
-            Op::Cos(angle) if is_early_angle[angle.index()] => ValueKind::Argument(6),
+            Op::Sin(angle) if self.is_angle[angle.index()] => ValueKind::Argument(5),
+            Op::Cos(angle) if self.is_angle[angle.index()] => ValueKind::Argument(6),
             // Computed before everything else, and there are few of these.
-            _ if is_early[index] => ValueKind::Argument(7),
+            _ if self.is_early[value.index()] => ValueKind::Argument(7),
             _ if contractions.is_part(value) => ValueKind::Absent,
-            _ => {
-                operation = match (contractions.sum(value), op) {
-                    (Some(sum), _) => {
-                        let [a, b] = sum.factors;
-                        operands = vec![a, b, sum.term];
-                        Some(PackedOperation::Contraction(sum.kind))
-                    }
-                    (_, Op::Add(..)) => Some(PackedOperation::Add),
-                    (_, Op::Sub(..)) => Some(PackedOperation::Sub),
-                    (_, Op::Mul(..)) => Some(PackedOperation::Mul),
-                    (_, Op::Div(..)) => Some(PackedOperation::Div),
-                    _ => None,
-                };
-                ValueKind::Operation
-            }
-        };
-        if let ValueKind::Argument(which) = sort {
-            kind = u64::from(which);
-        }
-        if sort != ValueKind::Operation {
-            operands.clear();
-        }
-        let below = operands.iter().map(|operand| nodes[operand.index()].depth);
-        nodes.push(Node {
-            value_kind: sort,
-            operation,
-            kind: hash((sort, operation, kind)),
-            depth: match sort {
-                ValueKind::Operation => 1 + below.max().unwrap_or(0),
-                _ => 0,
-            },
-            operands,
-            users: Vec::new(),
-        });
-    }
-    for index in 0..n {
-        for operand in nodes[index].operands.clone() {
-            let users = &mut nodes[operand.index()].users;
-            if users.last() != Some(&Value(index as u32)) {
-                users.push(Value(index as u32));
-            }
+            _ => ValueKind::Operation,
         }
     }
-    nodes
 }
 
 /// Colors of the operations below and above, nearest first.

@@ -373,6 +373,16 @@ impl Role {
 }
 
 impl Sizes {
+    /// The arrangement of the response to friction forces.
+    pub fn friction_layout(self) -> FrictionLayout {
+        FrictionLayout {
+            coordinates: self.coordinates,
+            constraints: self.constraints,
+            contacts: self.contacts,
+            axes: self.reaction_axes,
+        }
+    }
+
     /// The number of items of a kind.
     pub fn of(self, kind: Kind) -> usize {
         match kind {
@@ -396,22 +406,7 @@ impl Extent {
             Symmetric(kind) => Shape::Symmetric(sizes.of(kind)),
             Rows(kind, other) => Shape::Vector(sizes.of(kind) * sizes.of(other)),
             Differentials => Shape::Matrix(sizes.coordinates, 1 + sizes.derivatives),
-            Responses => {
-                let Sizes {
-                    coordinates,
-                    constraints,
-                    contacts,
-                    reaction_axes: axes,
-                    ..
-                } = sizes;
-                let layout = FrictionLayout {
-                    coordinates,
-                    constraints,
-                    contacts,
-                    axes,
-                };
-                Shape::Vector(layout.len())
-            }
+            Responses => Shape::Vector(sizes.friction_layout().len()),
             State | Chosen => return None,
         })
     }

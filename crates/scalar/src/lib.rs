@@ -10,6 +10,8 @@ pub mod ball;
 pub mod double_double;
 pub mod dual;
 mod exact;
+#[doc(hidden)]
+pub mod friction;
 pub mod interval;
 pub mod jet;
 mod kernel;

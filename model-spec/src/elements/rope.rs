@@ -92,83 +92,61 @@ struct Segment<'d> {
     centre_line: Vec<Expr<'d>>,
 }
 
+/// A written length, if it could be resolved, and where it is written.
+type Length<'d> = (Option<Expr<'d>>, Span);
+
 fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
     let record = resolver.record(member)?;
     let path = resolver.field(member, record, "path");
-    let is_wound = is_wound(record);
-    let length = match (record.get("length"), is_wound) {
+    let length = match (record.get("length"), is_wound(record)) {
         (None, true) => None,
         _ => resolver.field(member, record, "length"),
     };
     let scope = resolver.scope(member, &LENGTH);
     let length = length.map(|written| {
         let length = resolver.scalar_in(written, Unit::METRE, "a length is in m", scope);
-        (length, written.span)
+        (length.map(|length| length.expr), written.span)
     });
     let path = path?;
-    let points = match &path.kind {
-        ExpressionKind::Error => return None,
-        ExpressionKind::Tuple(points) if points.len() > 1 => points,
-        _ => {
-            let message = "a rope goes from point to point, `(a.at, pulley, b.at)`";
-            resolver.error(Code::WrongDimension, path.span, message);
-            return None;
-        }
-    };
-    let points: Vec<_> = points
-        .iter()
-        .map(|point| resolver.point(member, point))
-        .collect();
-    let points: Vec<Vec<Expr<'d>>> = points.into_iter().collect::<Option<_>>()?;
+    let points = written_points(resolver, member, path)?;
     let stops = path_points(resolver, member, record, points)?;
     let parts: Vec<Segment<'d>> = stops
         .windows(2)
         .map(|ends| segment(resolver, &ends[0], &ends[1]))
         .collect();
-    let mut constraints = Vec::new();
+    let rope = (&stops[..], &parts[..]);
     let has_drum = stops.first().is_some_and(PathPoint::is_pulley)
         || stops.last().is_some_and(PathPoint::is_pulley);
-    if has_drum {
-        if let Some((_, span)) = length {
-            let message = "a rope on a drum keeps the length that it has at the start";
-            let diagnostic = Diagnostic::new(Code::ConflictingFields, span, message);
-            resolver.push(diagnostic.help("leave `length` out"));
-            return None;
-        }
-        let expression = length_rate(resolver, (&stops, &parts), stops.len() - 1, path.span)?;
-        constraints.push((None, expression, Unit::METRE.rate()));
+    let of_rope = if has_drum {
+        (
+            kept_length(resolver, rope, length, path.span)?,
+            Unit::METRE.rate(),
+        )
     } else {
-        let Some((length, _)) = length else {
-            let base = resolver.base_name(member);
-            let message = format!("a rope needs `length`, and `{base}` has none");
-            resolver.missing_field(member, message);
-            return None;
-        };
-        let mut lengths: Vec<Expr<'d>> = parts.iter().map(|part| part.length).collect();
-        for k in 1..stops.len() - 1 {
-            lengths.extend(arc(resolver, member, (&stops, &parts), (k, path.span)));
-        }
-        let expression = resolver.dag.sum(lengths) - length?.expr;
-        constraints.push((None, expression, Unit::METRE));
-    }
+        (
+            given_length(resolver, member, rope, (length, path.span))?,
+            Unit::METRE,
+        )
+    };
+    let mut constraints = vec![(None, of_rope)];
     for k in 1..stops.len() - 1 {
         if stops[k].turn.is_some() {
-            let expression = length_rate(resolver, (&stops, &parts), k, path.span)?;
-            constraints.push((Some(k), expression, Unit::METRE.rate()));
+            let expression = length_rate(resolver, rope, k, path.span)?;
+            constraints.push((Some(k), (expression, Unit::METRE.rate())));
         }
         if has_drum {
-            let _ = arc(resolver, member, (&stops, &parts), (k, path.span));
+            let _ = arc(resolver, member, rope, (k, path.span));
         }
     }
     let mut all = constraints.iter();
-    if all.any(|(_, expression, _)| expression.stage() < stage::POSITION) {
+    if all.any(|(_, (expression, _))| expression.stage() < stage::POSITION) {
         let message = "this rope constrains nothing: no point of its path moves";
         let diagnostic = Diagnostic::new(Code::NoCoordinates, path.span, message);
         resolver.push(diagnostic.help("one end must be a point of a body, such as `load.at`"));
         return None;
     }
     let (name, span) = (resolver.name(member), resolver.span(member));
-    let constraints = constraints.into_iter().map(|(pulley, expression, unit)| {
+    let constraints = constraints.into_iter().map(|(pulley, (expression, unit))| {
         Contribution::Constraint(Constraint {
             name: match pulley {
                 None => name.clone(),
@@ -183,6 +161,64 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         })
     });
     Some(Resolved::of(constraints))
+}
+
+/// The points of a path, which are two or more.
+fn written_points<'a, 'd>(
+    resolver: &mut Resolver<'a, 'd, '_>,
+    member: MemberId,
+    path: &'a Expression,
+) -> Option<Vec<Vec<Expr<'d>>>> {
+    let points = match &path.kind {
+        ExpressionKind::Error => return None,
+        ExpressionKind::Tuple(points) if points.len() > 1 => points,
+        _ => {
+            let message = "a rope goes from point to point, `(a.at, pulley, b.at)`";
+            resolver.error(Code::WrongDimension, path.span, message);
+            return None;
+        }
+    };
+    let points: Vec<_> = points
+        .iter()
+        .map(|point| resolver.point(member, point))
+        .collect();
+    points.into_iter().collect()
+}
+
+/// The rate of the length of a rope on a drum, which keeps the length that it has at the start.
+fn kept_length<'d>(
+    resolver: &mut Resolver<'_, 'd, '_>,
+    rope: (&[PathPoint<'d>], &[Segment<'d>]),
+    length: Option<Length<'d>>,
+    span: Span,
+) -> Option<Expr<'d>> {
+    if let Some((_, span)) = length {
+        let message = "a rope on a drum keeps the length that it has at the start";
+        let diagnostic = Diagnostic::new(Code::ConflictingFields, span, message);
+        resolver.push(diagnostic.help("leave `length` out"));
+        return None;
+    }
+    length_rate(resolver, rope, rope.0.len() - 1, span)
+}
+
+/// By how much the segments and arcs of a rope are longer than its length.
+fn given_length<'d>(
+    resolver: &mut Resolver<'_, 'd, '_>,
+    member: MemberId,
+    rope: (&[PathPoint<'d>], &[Segment<'d>]),
+    (length, span): (Option<Length<'d>>, Span),
+) -> Option<Expr<'d>> {
+    let Some((length, _)) = length else {
+        let base = resolver.base_name(member);
+        let message = format!("a rope needs `length`, and `{base}` has none");
+        resolver.missing_field(member, message);
+        return None;
+    };
+    let mut lengths: Vec<Expr<'d>> = rope.1.iter().map(|part| part.length).collect();
+    for k in 1..rope.0.len() - 1 {
+        lengths.extend(arc(resolver, member, rope, (k, span)));
+    }
+    Some(resolver.dag.sum(lengths) - length?)
 }
 
 impl PathPoint<'_> {

@@ -4,6 +4,20 @@
 //! body, with everything built on it, may move off by a displacement that is a coordinate of its
 //! own. The spec is resolved once more with these displacements, so that springs, points and outputs
 //! attached to the body depend on them. If they are zero, it is the original machine.
+//!
+//! # Why the spec is resolved twice
+//!
+//! To resolve it only once, with the displacements in it, and to substitute 0 for them afterwards, would give another machine:
+//!
+//! * Decisions of the resolver hold for the machine with its guides: a wheel whose height is identically its radius has no
+//!   constraint of its gap, a slip that vanishes identically is no constraint, a drag force is along a coordinate. With
+//!   displacements such identities do not hold, and a substitution cannot undo the decision.
+//! * Terms of sums and factors of products are in the order of their construction. With displacements between them the order
+//!   differs, and with it the last bits of the programs of all machines with guides.
+//! * The displaced frame, and whether it carries the centre of its body, is known only when bodies are resolved, and by then
+//!   the origins of frames are parts of other expressions.
+//! * The substitution would have to reach every expression of a [`Model`]; one that it misses would be a wrong answer without a
+//!   message.
 
 use lagrangian_symbolic::{Expr, Stage};
 use rustc_hash::FxHashMap;

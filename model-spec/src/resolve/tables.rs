@@ -310,7 +310,16 @@ fn end_slope([h0, h1]: [&Rational; 2], [s0, s1]: [&Rational; 2]) -> Option<Ratio
     })
 }
 
-impl<'a, 'd> Resolver<'a, 'd, '_> {
+/// What a table is called with.
+struct TableCall<'a> {
+    file: &'a Expression,
+    /// The path, with the column if there is a choice.
+    written: &'a str,
+    argument: &'a Expression,
+    hold: bool,
+}
+
+impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
     /// `table("torque.csv", x)`, with an optional `hold`.
     pub(super) fn table(
         &mut self,
@@ -318,62 +327,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         span: Span,
         scope: Scope<'a>,
     ) -> Value<'d> {
-        let (file, argument, hold) = match arguments {
-            [file, argument] => (file, argument, None),
-            [file, argument, hold] => (file, argument, Some(hold)),
-            _ => {
-                let message = format!(
-                    "`table` takes a file and a number, found {}",
-                    arguments.len()
-                );
-                let diagnostic = Diagnostic::new(Code::WrongArguments, span, message);
-                self.push(diagnostic.help(HELP));
-                return Value::Unknown;
-            }
-        };
-        let ExpressionKind::Text(written) = &file.kind else {
-            if file.kind != ExpressionKind::Error {
-                let message = "the file of a table is expected here, in quotes";
-                let diagnostic = Diagnostic::new(Code::WrongArguments, file.span, message);
-                self.push(diagnostic.help(HELP));
-            }
+        let Some(call) = self.table_call(arguments, span) else {
             return Value::Unknown;
         };
-        if let Some(hold) = hold {
-            let is_hold = matches!(&hold.kind, ExpressionKind::Name(name)
-                if name.index.is_none() && name.base.text == "hold");
-            if !is_hold {
-                let message =
-                    "only `hold` is allowed here: without it a table has no values beyond its ends";
-                let diagnostic = Diagnostic::new(Code::WrongArguments, hold.span, message);
-                self.push(diagnostic.help(HELP));
-                return Value::Unknown;
-            }
-        }
-        let (path, asked) = file_and_column(written);
-        let tables: Option<&Tables> = self.tables;
-        let found = tables.and_then(|all| all.0.get(&(file.span.source, path.to_owned())));
-        let table = match found {
-            Some(Ok(table)) => table,
-            Some(Err(message)) => {
-                let diagnostic = Diagnostic::new(Code::UnreadableFile, file.span, message.clone());
-                self.push(diagnostic.help("the path is relative to the file that contains it"));
-                return Value::Unknown;
-            }
-            None => {
-                let message = "a table is read only if a spec names it";
-                let diagnostic = Diagnostic::new(Code::UnreadableFile, file.span, message);
-                self.push(diagnostic.help("name it there: `define { characteristic = table(…) }`"));
-                return Value::Unknown;
-            }
-        };
-        let (first, column) = match table.column(asked) {
-            Ok(column) => (&table.columns[0], column),
-            Err((code, message, help)) => {
-                let diagnostic = Diagnostic::new(code, file.span, message);
-                self.push(super::names::with_help(diagnostic, help));
-                return Value::Unknown;
-            }
+        let (argument, hold) = (call.argument, call.hold);
+        let (path, asked) = file_and_column(call.written);
+        let Some([first, column]) = self.table_columns(call.file, path, asked) else {
+            return Value::Unknown;
         };
         let unit = first.unit.as_ref().map(|(measure, _)| measure.unit);
         let Some(x) = self.scalar(argument, scope.with_expected_unit(unit)) else {
@@ -388,12 +348,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 at = measure.of_si(self.dag) * at;
             }
         }
-        if hold.is_none() && !self.stays_within((first, path), at, argument, scope) {
+        if !hold && !self.stays_within((first, path), at, argument, scope) {
             return Value::Unknown;
         }
-        let Some(value) = self.interpolated([first, column], at, hold.is_some()) else {
+        let Some(value) = self.interpolated([first, column], at, hold) else {
             let message = format!("the numbers of `{path}` are too long");
-            self.error(Code::NumberOutOfRange, file.span, message);
+            self.error(Code::NumberOutOfRange, call.file.span, message);
             return Value::Unknown;
         };
         match &column.unit {
@@ -401,6 +361,81 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             Some((measure, _)) => {
                 let value = measure.in_si(self.dag) * value;
                 self.finish(value, Some(measure.unit), None, span)
+            }
+        }
+    }
+
+    /// The arguments of a table.
+    fn table_call(&mut self, arguments: &'a [Expression], span: Span) -> Option<TableCall<'a>> {
+        let (file, argument, hold) = match arguments {
+            [file, argument] => (file, argument, None),
+            [file, argument, hold] => (file, argument, Some(hold)),
+            _ => {
+                let message = format!(
+                    "`table` takes a file and a number, found {}",
+                    arguments.len()
+                );
+                let diagnostic = Diagnostic::new(Code::WrongArguments, span, message);
+                self.push(diagnostic.help(HELP));
+                return None;
+            }
+        };
+        let ExpressionKind::Text(written) = &file.kind else {
+            if file.kind != ExpressionKind::Error {
+                let message = "the file of a table is expected here, in quotes";
+                let diagnostic = Diagnostic::new(Code::WrongArguments, file.span, message);
+                self.push(diagnostic.help(HELP));
+            }
+            return None;
+        };
+        if let Some(hold) = hold {
+            let is_hold = matches!(&hold.kind, ExpressionKind::Name(name)
+                if name.index.is_none() && name.base.text == "hold");
+            if !is_hold {
+                let message =
+                    "only `hold` is allowed here: without it a table has no values beyond its ends";
+                let diagnostic = Diagnostic::new(Code::WrongArguments, hold.span, message);
+                self.push(diagnostic.help(HELP));
+                return None;
+            }
+        }
+        Some(TableCall {
+            file,
+            written,
+            argument,
+            hold: hold.is_some(),
+        })
+    }
+
+    /// The first column of a table, and the one that is asked for.
+    fn table_columns(
+        &mut self,
+        file: &Expression,
+        path: &str,
+        asked: Option<&str>,
+    ) -> Option<[&'r Column; 2]> {
+        let tables: Option<&'r Tables> = self.tables;
+        let found = tables.and_then(|all| all.0.get(&(file.span.source, path.to_owned())));
+        let table = match found {
+            Some(Ok(table)) => table,
+            Some(Err(message)) => {
+                let diagnostic = Diagnostic::new(Code::UnreadableFile, file.span, message.clone());
+                self.push(diagnostic.help("the path is relative to the file that contains it"));
+                return None;
+            }
+            None => {
+                let message = "a table is read only if a spec names it";
+                let diagnostic = Diagnostic::new(Code::UnreadableFile, file.span, message);
+                self.push(diagnostic.help("name it there: `define { characteristic = table(…) }`"));
+                return None;
+            }
+        };
+        match table.column(asked) {
+            Ok(column) => Some([&table.columns[0], column]),
+            Err((code, message, help)) => {
+                let diagnostic = Diagnostic::new(code, file.span, message);
+                self.push(super::names::with_help(diagnostic, help));
+                None
             }
         }
     }

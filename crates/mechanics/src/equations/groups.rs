@@ -33,8 +33,16 @@ pub struct Share<'d> {
 
 /// The applied forces by element: their sum is `Q`, eq. (E6).
 pub fn force_shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
-    let dag = model.dag;
     let x = Variables::of(model);
+    let mut shares = energy_shares(model, &x);
+    shares.extend(load_shares(model, &x));
+    replace_zero_forces(model, &mut shares);
+    shares
+}
+
+/// The shares of weights and springs, each energy by itself, `−∂V/∂q`, and those of dissipation functions, `−∂D/∂v`.
+fn energy_shares<'d>(model: &Model<'d>, x: &Variables<'d>) -> Vec<Share<'d>> {
+    let dag = model.dag;
     let approximations = Approximations::of(model);
     let mut shares = Vec::new();
     let elements = || model.elements.iter().enumerate();
@@ -48,24 +56,16 @@ pub fn force_shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
             forces: slopes.into_iter().map(|slope| -slope).collect(),
         }
     };
-
-    // Each energy by itself: −∂V/∂q.
     for (index, element) in elements() {
-        let all = element.contributions.iter();
-        if all
-            .clone()
-            .any(|one| matches!(one, Contribution::Gravity(_)))
-        {
+        let mut all = element.contributions.iter();
+        if all.any(|one| matches!(one, Contribution::Gravity(_))) {
             let weight = dag.sum(energy::weights(model));
             shares.push(share(index, Kind::Gravity, weight, &x.q));
         }
     }
     for (index, element) in elements() {
-        let stored = element
-            .contributions
-            .iter()
-            .filter_map(Contribution::stored);
-        let stored: Vec<&Energy<'d>> = stored.collect();
+        let all = element.contributions.iter();
+        let stored: Vec<&Energy<'d>> = all.filter_map(Contribution::stored).collect();
         if !stored.is_empty() {
             let is_deformed = stored.iter().any(|e| matches!(e, Energy::Quadratic(_)));
             let kind = if is_deformed {
@@ -77,15 +77,11 @@ pub fn force_shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
             shares.push(share(index, kind, value, &x.q));
         }
     }
-
-    // Dissipation functions: −∂D/∂v.
     let rate = &mut x.without_acceleration(model);
     let mut dissipations = Vec::new();
     for (index, element) in elements() {
-        let dissipated = element
-            .contributions
-            .iter()
-            .filter_map(Contribution::dissipated);
+        let all = element.contributions.iter();
+        let dissipated = all.filter_map(Contribution::dissipated);
         let values: Vec<_> = dissipated.map(|e| energy::dissipated(e, rate)).collect();
         if !values.is_empty() {
             dissipations.push((index, dag.sum(values)));
@@ -94,15 +90,16 @@ pub fn force_shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
     for (index, value) in dissipations {
         shares.push(share(index, Kind::Dissipation, value, &x.v));
     }
+    shares
+}
 
-    // Forces: their virtual work.
-    let projection = Projection::of(model, &x);
-    for (element, contribution) in elements() {
-        let acting: Vec<_> = contribution
-            .contributions
-            .iter()
-            .filter_map(Contribution::load)
-            .collect();
+/// The shares of forces: their virtual work.
+fn load_shares<'d>(model: &Model<'d>, x: &Variables<'d>) -> Vec<Share<'d>> {
+    let projection = Projection::of(model, x);
+    let mut shares = Vec::new();
+    for (element, contribution) in model.elements.iter().enumerate() {
+        let all = contribution.contributions.iter();
+        let acting: Vec<_> = all.filter_map(Contribution::load).collect();
         if acting.is_empty() {
             continue;
         }
@@ -115,7 +112,6 @@ pub fn force_shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
             forces: projection.project(&loads, 0..x.q.len()),
         });
     }
-    replace_zero_forces(model, &mut shares);
     shares
 }
 

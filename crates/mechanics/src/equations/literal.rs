@@ -50,7 +50,7 @@ use lagrangian_spec::model::element::{Energy, Load, Sliding};
 use lagrangian_spec::model::polygons::{Corner, Polygon};
 use lagrangian_spec::model::{
     ApproximationKind, Body, Circle, Contact, ContactGeometry, Inertia, Model, Place, PoseId,
-    Rotation, Space, Surface, Touching, quaternion,
+    Rotation, Space, Surface, quaternion,
 };
 use values::Values;
 use vector::{difference, dot, ground, point, quotient, scaled};
@@ -571,57 +571,29 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         pair: &mut Option<PolygonPair<'d, R>>,
     ) -> Vec<LiteralUnilateral<R>> {
         let model = self.model;
-        let touch = |round: &Circle<'d>, surface: Surface| match model.space {
-            Space::Plane => {
-                let [gap, slip] = on_surface(model, round, surface, x);
-                (gap, slip.value, None)
-            }
-            Space::Space => {
-                let (gap, [slip, across]) = in_space::gap_and_slip(model, round, surface, x);
-                (gap, slip, Some(across))
-            }
-        };
-        let mut of_face = None;
-        let (gap, slip, across) = match &contact.geometry {
-            ContactGeometry::Corner(corner) => {
-                let known = pair.take().filter(|pair| pair.is_of(corner));
-                let of_corner = known.unwrap_or_else(|| PolygonPair::new(model, corner, x));
-                let corner_motion = of_corner.corner(corner.corner);
-                *pair = Some(of_corner);
-                of_face = Some((corner_motion.opening, corner_motion.beyond));
-                (corner_motion.height, corner_motion.slip, None)
-            }
-            ContactGeometry::Circles(touching) => {
-                touch(&model.circles[touching.circle], touching.surface)
-            }
-            ContactGeometry::Point { point, surface } => touch(point, *surface),
-            ContactGeometry::Expressions { gap, slip, across } => (
-                x.at(*gap),
-                x.value(*slip),
-                across.map(|across| x.value(across)),
-            ),
-        };
+        let touch = self.touch(contact, x, pair);
         let here = |e: Expr<'d>| x.value(e).value.value;
         let known = |e: Option<Expr<'d>>| e.map_or(R::ZERO, here);
         let friction = contact.friction;
         let nothing = Varied::<R>::ZERO;
+        let [first, second] = contact.response.coefficients();
         let mut all = vec![LiteralUnilateral {
-            opening: of_position(of_face.map_or(gap, |(open, _)| open)),
-            gap: of_position(gap),
-            face: of_face.map(|(_, beyond)| {
+            opening: of_position(touch.face.map_or(touch.gap, |(opening, _)| opening)),
+            gap: of_position(touch.gap),
+            face: touch.face.map(|(_, beyond)| {
                 let rate = beyond.derivative.value.value;
-                [gap.value.value.value, beyond.value.value.value, rate]
+                [touch.gap.value.value.value, beyond.value.value.value, rate]
             }),
             // Without friction the slip is not used.
-            slip: of_rate(friction.map_or(nothing, |_| slip)),
+            slip: of_rate(friction.map_or(nothing, |_| touch.slip)),
             coefficients: [
-                here(contact.response.coefficients()[0]),
-                here(contact.response.coefficients()[1]),
+                here(first),
+                here(second),
                 known(friction),
                 known(contact.static_friction.or(friction)),
             ],
         }];
-        if let (Some(_), Some(across)) = (friction, across) {
+        if let (Some(_), Some(across)) = (friction, touch.across) {
             all.push(LiteralUnilateral {
                 slip: of_rate(across),
                 ..all[0]
@@ -630,22 +602,74 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         if let (ContactGeometry::Circles(touching), Some(resistance)) =
             (&contact.geometry, contact.rolling_resistance)
         {
-            let (_, own) = centre_and_angular_velocity(model, &model.circles[touching.circle], x);
+            let angular_velocity =
+                |circle: usize| centre_and_angular_velocity(model, &model.circles[circle], x).1;
+            let own = angular_velocity(touching.circle);
             let other = match touching.surface {
-                Surface::Inside(other) | Surface::Outside(other) => {
-                    centre_and_angular_velocity(model, &model.circles[other], x).1
-                }
+                Surface::Inside(other) | Surface::Outside(other) => angular_velocity(other),
                 Surface::Along(pose) => x.rate(model.poses[pose.index()].angle),
             };
             all.push(LiteralUnilateral {
-                opening: of_position(gap),
-                gap: of_position(gap),
+                opening: of_position(touch.gap),
+                gap: of_position(touch.gap),
                 face: None,
                 slip: of_rate(own - other),
                 coefficients: [R::ZERO, R::ZERO, here(resistance), here(resistance)],
             });
         }
         all
+    }
+
+    /// The relative motion of what touches in a contact.
+    fn touch<R: Scalar>(
+        &self,
+        contact: &Contact<'d>,
+        x: &Values<'_, Varied<R>>,
+        pair: &mut Option<PolygonPair<'d, R>>,
+    ) -> Touch<R> {
+        let model = self.model;
+        let of_round = |round: &Circle<'d>, surface: Surface| {
+            let (gap, slip, across) = match model.space {
+                Space::Plane => {
+                    let [gap, slip] = on_surface(model, round, surface, x);
+                    (gap, slip.value, None)
+                }
+                Space::Space => {
+                    let (gap, [slip, across]) = in_space::gap_and_slip(model, round, surface, x);
+                    (gap, slip, Some(across))
+                }
+            };
+            Touch {
+                gap,
+                slip,
+                across,
+                face: None,
+            }
+        };
+        match &contact.geometry {
+            ContactGeometry::Corner(corner) => {
+                let known = pair.take().filter(|pair| pair.is_of(corner));
+                let of_corner = known.unwrap_or_else(|| PolygonPair::new(model, corner, x));
+                let corner_motion = of_corner.corner(corner.corner);
+                *pair = Some(of_corner);
+                Touch {
+                    gap: corner_motion.height,
+                    slip: corner_motion.slip,
+                    across: None,
+                    face: Some((corner_motion.opening, corner_motion.beyond)),
+                }
+            }
+            ContactGeometry::Circles(touching) => {
+                of_round(&model.circles[touching.circle], touching.surface)
+            }
+            ContactGeometry::Point { point, surface } => of_round(point, *surface),
+            ContactGeometry::Expressions { gap, slip, across } => Touch {
+                gap: x.at(*gap),
+                slip: x.value(*slip),
+                across: across.map(|across| x.value(across)),
+                face: None,
+            },
+        }
     }
 
     fn sliding<R: Scalar>(
@@ -878,108 +902,136 @@ fn energies<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
 
 /// The expressions that forces, constraints and guides need.
 fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
-    let mut roots: Vec<Expr<'d>> = Vec::new();
-    let pose = |pose: PoseId, roots: &mut Vec<Expr<'d>>| {
-        let pose = &model.poses[pose.index()];
-        roots.extend(pose.origin.iter().chain(pose.axes.iter().flatten()));
-        roots.push(pose.angle);
-    };
-    let body = |index: usize, roots: &mut Vec<Expr<'d>>| {
-        let body = &model.bodies[index];
-        roots.extend(&body.at);
-        match body.rotation {
-            Rotation::Unspecified => {}
-            Rotation::Angle(angle) => roots.push(angle),
-            Rotation::Frame(frame) => pose(frame, roots),
-        }
-    };
-    let place = |place: Place, roots: &mut Vec<Expr<'d>>| match place {
-        Place::Frame(frame) => pose(frame, roots),
-        Place::Body(index) => body(index, roots),
+    let mut geometry = Geometry {
+        model,
+        roots: Vec::new(),
     };
     for load in model.loads() {
-        match load {
-            Load::Point { at, force } => roots.extend(at.iter().chain(force)),
-            Load::Coordinate { coordinate, value } => {
-                roots.extend([model.coordinates[*coordinate].q, *value]);
-            }
-            Load::Along { measure, force, .. } => roots.extend([*measure, *force]),
-            Load::Torque { on, torque } => {
-                roots.extend(torque);
-                place(*on, &mut roots);
-            }
-        }
+        geometry.add_load(load);
     }
     for four in &model.quaternions {
-        roots.extend(four.e);
-        roots.push(four.inertia);
+        geometry.roots.extend(four.e);
+        geometry.roots.push(four.inertia);
     }
+    let roots = &mut geometry.roots;
     roots.extend(model.coordinates.iter().filter_map(|c| c.rate));
     roots.extend(model.losses());
     roots.extend(model.constraints().into_iter().map(|c| c.expression));
     if !model.rolling().is_empty() || !model.contacts.is_empty() {
-        let points = model
-            .contacts
-            .iter()
-            .filter_map(|contact| match &contact.geometry {
-                ContactGeometry::Point { point, .. } => Some(point),
-                _ => None,
-            });
-        for circle in model.circles.iter().chain(points) {
-            roots.extend(&circle.center);
-            roots.push(circle.radius);
-            place(circle.on, &mut roots);
-        }
+        geometry.add_circles();
     }
     for contact in &model.contacts {
+        geometry.add_contact(contact);
+    }
+    for rolling in model.rolling() {
+        geometry.add_surface(rolling.circles.surface);
+    }
+    for sliding in model.sliding() {
+        geometry.add_sliding(sliding);
+    }
+    geometry.roots
+}
+
+/// A list of expressions that grows by those of items of a machine.
+struct Geometry<'m, 'd> {
+    model: &'m Model<'d>,
+    roots: Vec<Expr<'d>>,
+}
+
+impl<'d> Geometry<'_, 'd> {
+    fn add_pose(&mut self, pose: PoseId) {
+        let pose = &self.model.poses[pose.index()];
+        let axes = pose.axes.iter().flatten();
+        self.roots.extend(pose.origin.iter().chain(axes));
+        self.roots.push(pose.angle);
+    }
+
+    fn add_body(&mut self, index: usize) {
+        let body = &self.model.bodies[index];
+        self.roots.extend(&body.at);
+        match body.rotation {
+            Rotation::Unspecified => {}
+            Rotation::Angle(angle) => self.roots.push(angle),
+            Rotation::Frame(frame) => self.add_pose(frame),
+        }
+    }
+
+    fn add_place(&mut self, place: Place) {
+        match place {
+            Place::Frame(frame) => self.add_pose(frame),
+            Place::Body(index) => self.add_body(index),
+        }
+    }
+
+    fn add_load(&mut self, load: &Load<'d>) {
+        match load {
+            Load::Point { at, force } => self.roots.extend(at.iter().chain(force)),
+            Load::Coordinate { coordinate, value } => {
+                let q = self.model.coordinates[*coordinate].q;
+                self.roots.extend([q, *value]);
+            }
+            Load::Along { measure, force, .. } => self.roots.extend([*measure, *force]),
+            Load::Torque { on, torque } => {
+                self.roots.extend(torque);
+                self.add_place(*on);
+            }
+        }
+    }
+
+    /// All circles, and the points of contacts.
+    fn add_circles(&mut self) {
+        let contacts = self.model.contacts.iter();
+        let points = contacts.filter_map(|contact| match &contact.geometry {
+            ContactGeometry::Point { point, .. } => Some(point),
+            _ => None,
+        });
+        for circle in self.model.circles.iter().chain(points) {
+            self.roots.extend(&circle.center);
+            self.roots.push(circle.radius);
+            self.add_place(circle.on);
+        }
+    }
+
+    /// The frame of a line or plane; circles are added by [`add_circles`](Self::add_circles).
+    fn add_surface(&mut self, surface: Surface) {
+        if let Surface::Along(frame) = surface {
+            self.add_pose(frame);
+        }
+    }
+
+    fn add_contact(&mut self, contact: &Contact<'d>) {
         match &contact.geometry {
-            ContactGeometry::Circles(Touching {
-                surface: Surface::Along(frame),
-                ..
-            })
-            | ContactGeometry::Point {
-                surface: Surface::Along(frame),
-                ..
-            } => pose(*frame, &mut roots),
+            ContactGeometry::Circles(touching) => self.add_surface(touching.surface),
+            ContactGeometry::Point { surface, .. } => self.add_surface(*surface),
             ContactGeometry::Corner(Corner {
                 polygon: own,
                 other_polygon: other,
                 ..
             }) => {
                 for polygon in [own, other] {
-                    place(polygon.on, &mut roots);
-                    roots.extend(polygon.corners.iter().flatten());
+                    self.add_place(polygon.on);
+                    self.roots.extend(polygon.corners.iter().flatten());
                 }
             }
             ContactGeometry::Expressions { gap, slip, across } => {
-                roots.extend([*gap, *slip]);
-                roots.extend(across);
+                self.roots.extend([*gap, *slip]);
+                self.roots.extend(across);
             }
-            _ => {}
         }
-        roots.extend(contact.response.coefficients());
-        roots.extend(contact.friction);
-        roots.extend(contact.static_friction);
-        roots.extend(contact.rolling_resistance);
+        self.roots.extend(contact.response.coefficients());
+        self.roots.extend(contact.friction);
+        self.roots.extend(contact.static_friction);
+        self.roots.extend(contact.rolling_resistance);
     }
-    for rolling in model.rolling() {
-        if let Surface::Along(frame) = rolling.circles.surface {
-            pose(frame, &mut roots);
-        }
+
+    fn add_sliding(&mut self, sliding: &Sliding<'d>) {
+        self.add_body(sliding.body);
+        self.add_place(sliding.on);
+        let normal = sliding.normal.iter().flatten();
+        self.roots.extend(sliding.direction.iter().chain(normal));
+        self.roots.push(sliding.friction);
+        self.roots.extend(sliding.static_friction);
     }
-    for sliding in model.sliding() {
-        body(sliding.body, &mut roots);
-        place(sliding.on, &mut roots);
-        roots.extend(
-            sliding
-                .direction
-                .iter()
-                .chain(sliding.normal.iter().flatten()),
-        );
-        roots.push(sliding.friction);
-        roots.extend(sliding.static_friction);
-    }
-    roots
 }
 
 /// The angle of a body in the plane.
@@ -1174,6 +1226,16 @@ fn point_and_angular_velocity<R: Scalar>(
     let centre = point(x.vector(origin), axes, x.vector(coordinates));
     let turning = turned.map_or(Varied::<R>::ZERO, |angle| x.rate(angle));
     (centre, turning)
+}
+
+/// The relative motion of what touches in a contact.
+struct Touch<R> {
+    gap: Moving<R>,
+    slip: Varied<R>,
+    /// The other component of the slip, in space.
+    across: Option<Varied<R>>,
+    /// Of a corner of a polygon its distance outside the other polygon, and its distance beyond the ends of the face.
+    face: Option<(Moving<R>, Moving<R>)>,
 }
 
 /// The position of a corner of a polygon relative to another polygon.

@@ -12,8 +12,8 @@ use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::polygons::Corner;
 use lagrangian_spec::model::{
-    Circle, ContactGeometry, ImpactLaw, MOST_UNILATERAL, Model, Painleve, Place, Rotation, Space,
-    Surface, Touching, circles,
+    Circle, Contact, ContactGeometry, ImpactLaw, MOST_UNILATERAL, Model, Name, Painleve, Place,
+    Rotation, Space, Surface, Touching, circles,
 };
 use lagrangian_spec::source::Span;
 use lagrangian_spec::syntax::SectionKind;
@@ -26,97 +26,143 @@ pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool
     refuse_sliding(model, report) || refused
 }
 
+/// Reports what is refused.
+struct Refusals<'r> {
+    report: &'r mut Report,
+    /// Whether anything was refused.
+    any: bool,
+}
+
+impl<'r> Refusals<'r> {
+    fn new(report: &'r mut Report) -> Self {
+        Refusals { report, any: false }
+    }
+
+    fn refuse(
+        &mut self,
+        code: Code,
+        span: Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        let diagnostic = Diagnostic::new(code, span, message.into());
+        self.report.push(diagnostic.help(help.into()));
+        self.any = true;
+    }
+
+    /// Refuses the sections that neither unilateral contacts nor guides are derived with.
+    fn refuse_sections(&mut self, model: &Model<'_>, beside: &str, span: Span) {
+        let sections = [
+            (SectionKind::Approximations, model.approximations.is_empty()),
+            (SectionKind::Derivatives, model.derivatives.is_empty()),
+            (SectionKind::Stages, model.stages.is_empty()),
+        ];
+        for (section, _) in sections.into_iter().filter(|(_, is_empty)| !is_empty) {
+            let span = model.section(section).unwrap_or(span);
+            let message = format!("`{section}` of a machine with `{beside}` cannot be derived yet");
+            let help = format!("without `{section}`, or without `{beside}`, it can be derived");
+            self.refuse(Code::NotSupported, span, message, help);
+        }
+    }
+}
+
 /// Refuses what is not yet supported together with unilateral contacts. Returns true if anything is refused.
 fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
     let Some(first) = model.contacts.first() else {
         return false;
     };
-    let mut refused = false;
-    let mut refuse = |code, span, message: String, help: String| {
-        report.push(Diagnostic::new(code, span, message).help(help));
-        refused = true;
-    };
+    let mut refusals = Refusals::new(report);
     if let Some(sliding) = model.sliding().first() {
-        let message = "`sliding` of a machine with `contacts` cannot be derived yet".to_owned();
-        let help = "without `sliding`, or without `contacts`, it can be derived".to_owned();
-        refuse(Code::NotSupported, sliding.span, message, help);
+        let message = "`sliding` of a machine with `contacts` cannot be derived yet";
+        let help = "without `sliding`, or without `contacts`, it can be derived";
+        refusals.refuse(Code::NotSupported, sliding.span, message, help);
     }
-    let beside = [
-        (SectionKind::Approximations, model.approximations.is_empty()),
-        (SectionKind::Derivatives, model.derivatives.is_empty()),
-        (SectionKind::Stages, model.stages.is_empty()),
-    ];
-    for (section, _) in beside.into_iter().filter(|(_, is_empty)| !is_empty) {
-        let span = model.section(section).unwrap_or(first.span);
-        let message = format!("`{section}` of a machine with `contacts` cannot be derived yet");
-        let help = format!("without `{section}`, or without `contacts`, it can be derived");
-        refuse(Code::NotSupported, span, message, help);
+    refusals.refuse_sections(model, "contacts", first.span);
+    let contacts = model.contacts.iter();
+    for contact in contacts.filter(|c| c.has_two_tangents(model.space)) {
+        refuse_laws_of_two_tangents(contact, &mut refusals);
     }
-    for contact in model
-        .contacts
-        .iter()
-        .filter(|c| c.has_two_tangents(model.space))
-    {
-        let law = contact.response.impact_law();
-        if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
-            let message = format!("`law: {}` with friction is for the plane only", law.name());
-            let help = "Routh's path along two tangents has no closed form: the laws `newton` and `poisson_glocker` support them"
-                .to_owned();
-            refuse(Code::NotSupported, contact.span, message, help);
-        }
-        if contact.response.painleve() == Painleve::Impact {
-            let message =
-                "`painleve: impact` is for contacts with one direction of slip".to_owned();
-            let help =
-                "leave it out: the run then ends with an error where friction admits no motion"
-                    .to_owned();
-            refuse(Code::NotSupported, contact.span, message, help);
-        }
-    }
-    let rolling = || {
-        let all = model.contacts.iter();
-        all.filter(|contact| contact.rolling_resistance.is_some())
-    };
-    for contact in rolling() {
-        let law = contact.response.impact_law();
-        if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
-            let message = format!(
-                "`law: {}` does not support `rolling_resistance`",
-                law.name()
-            );
-            let help = "Routh's path is that of one point, which slips: the laws `newton` and `poisson_glocker` support it".to_owned();
-            refuse(Code::NotSupported, contact.span, message, help);
-        }
-        if contact.response.painleve() == Painleve::Impact {
-            let message = "`painleve: impact` does not support `rolling_resistance`".to_owned();
-            let help = "leave out one of the two".to_owned();
-            refuse(Code::NotSupported, contact.span, message, help);
-        }
+    let contacts = model.contacts.iter();
+    for contact in contacts.filter(|c| c.rolling_resistance.is_some()) {
+        refuse_laws_of_rolling_resistance(contact, &mut refusals);
         if let ContactGeometry::Circles(touching) = &contact.geometry {
-            let x = Variables::of(model);
-            let rate = circles::rolling_rate(model, touching, &mut x.without_acceleration(model));
-            if identity::is_zero(rate) == Some(true) {
-                let message = "neither of these circles turns".to_owned();
-                let help =
-                    "`rolling_resistance` resists turning: give the body an `angle`".to_owned();
-                refuse(Code::MissingRotation, contact.span, message, help);
-            }
+            refuse_circles_that_do_not_turn(model, contact.span, touching, &mut refusals);
         }
     }
-    // Rolling resistance and second tangents count as contacts.
-    let leaning = rolling().count()
-        + model
-            .contacts
-            .iter()
-            .filter(|c| c.has_two_tangents(model.space))
-            .count();
-    let most = MOST_UNILATERAL - leaning.min(MOST_UNILATERAL);
+    refuse_many_contacts(model, &mut refusals);
+    refuse_different_impacts(model, &mut refusals);
+    refusals.any
+}
+
+/// Refuses the laws that friction along two tangents does not support.
+fn refuse_laws_of_two_tangents(contact: &Contact<'_>, refusals: &mut Refusals<'_>) {
+    let law = contact.response.impact_law();
+    if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
+        let message = format!("`law: {}` with friction is for the plane only", law.name());
+        let help = "Routh's path along two tangents has no closed form: the laws `newton` and `poisson_glocker` support them";
+        refusals.refuse(Code::NotSupported, contact.span, message, help);
+    }
+    if contact.response.painleve() == Painleve::Impact {
+        let message = "`painleve: impact` is for contacts with one direction of slip";
+        let help = "leave it out: the run then ends with an error where friction admits no motion";
+        refusals.refuse(Code::NotSupported, contact.span, message, help);
+    }
+}
+
+/// Refuses the laws that rolling resistance does not support.
+fn refuse_laws_of_rolling_resistance(contact: &Contact<'_>, refusals: &mut Refusals<'_>) {
+    let law = contact.response.impact_law();
+    if let Some(law @ (ImpactLaw::Poisson | ImpactLaw::Stronge)) = law {
+        let message = format!(
+            "`law: {}` does not support `rolling_resistance`",
+            law.name()
+        );
+        let help = "Routh's path is that of one point, which slips: the laws `newton` and `poisson_glocker` support it";
+        refusals.refuse(Code::NotSupported, contact.span, message, help);
+    }
+    if contact.response.painleve() == Painleve::Impact {
+        let message = "`painleve: impact` does not support `rolling_resistance`";
+        let help = "leave out one of the two";
+        refusals.refuse(Code::NotSupported, contact.span, message, help);
+    }
+}
+
+/// Refuses rolling resistance between circles that do not turn relative to each other.
+fn refuse_circles_that_do_not_turn(
+    model: &Model<'_>,
+    span: Span,
+    touching: &Touching,
+    refusals: &mut Refusals<'_>,
+) {
+    let x = Variables::of(model);
+    let rate = circles::rolling_rate(model, touching, &mut x.without_acceleration(model));
+    if identity::is_zero(rate) == Some(true) {
+        let message = "neither of these circles turns";
+        let help = "`rolling_resistance` resists turning: give the body an `angle`";
+        refusals.refuse(Code::MissingRotation, span, message, help);
+    }
+}
+
+/// Refuses more than [`MOST_UNILATERAL`] contacts, at the first one too many. Rolling resistance and second tangents count as
+/// contacts.
+fn refuse_many_contacts(model: &Model<'_>, refusals: &mut Refusals<'_>) {
+    let has_rolling_resistance = |c: &Contact<'_>| c.rolling_resistance.is_some();
+    let further = |contact: &Contact<'_>| {
+        usize::from(has_rolling_resistance(contact))
+            + usize::from(contact.has_two_tangents(model.space))
+    };
+    let further: usize = model.contacts.iter().map(further).sum();
+    let most = MOST_UNILATERAL - further.min(MOST_UNILATERAL);
     if let Some(contact) = model.contacts.get(most) {
-        let count = model.contacts.len() + leaning;
+        let count = model.contacts.len() + further;
         let message = format!("{count} unilateral contacts are too many");
         let help = format!("a machine may have at most {MOST_UNILATERAL} of them");
-        refuse(Code::TooLarge, contact.span, message, help);
+        refusals.refuse(Code::TooLarge, contact.span, message, help);
     }
+}
+
+/// Refuses contacts that may take part in the same impact and have different laws, or different orders of impacts.
+fn refuse_different_impacts(model: &Model<'_>, refusals: &mut Refusals<'_>) {
     let mut bouncing = (model.contacts.iter())
         .filter_map(|contact| Some((contact, contact.response.impact_law()?)));
     if let Some((first, law)) = bouncing.next()
@@ -129,9 +175,8 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
             other.name,
             of_other.name()
         );
-        let help =
-            "contacts that may take part in the same impact must have the same `law`".to_owned();
-        refuse(Code::ConflictingFields, other.span, message, help);
+        let help = "contacts that may take part in the same impact must have the same `law`";
+        refusals.refuse(Code::ConflictingFields, other.span, message, help);
     }
     let mut bouncing =
         (model.contacts.iter()).filter_map(|contact| Some((contact, contact.response.order()?)));
@@ -142,11 +187,9 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
             "`{}` and `{}` take part in impacts in different orders",
             first.name, other.name
         );
-        let help =
-            "contacts that may take part in the same impact must have the same `order`".to_owned();
-        refuse(Code::ConflictingFields, other.span, message, help);
+        let help = "contacts that may take part in the same impact must have the same `order`";
+        refusals.refuse(Code::ConflictingFields, other.span, message, help);
     }
-    refused
 }
 
 /// Refuses what is not yet supported together with friction. Returns true if anything is refused.
@@ -155,32 +198,17 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     let Some(first) = sliding.first() else {
         return false;
     };
-    let mut refused = false;
-    let mut refuse = |code, span, message: String, help: String| {
-        report.push(Diagnostic::new(code, span, message).help(help));
-        refused = true;
-    };
+    let mut refusals = Refusals::new(report);
     for contact in sliding
         .iter()
         .filter(|s| model.space == Space::Space && s.normal.is_some() && s.tangent.is_none())
     {
-        let message = "in space a guide has no sides, and therefore no normal".to_owned();
+        let message = "in space a guide has no sides, and therefore no normal";
         let help = "leave `normal` out: along a curve the reaction is a vector, in any direction across; or leave `direction` out: then the body \
-             slides on a surface"
-            .to_owned();
-        refuse(Code::NotSupported, contact.span, message, help);
+             slides on a surface";
+        refusals.refuse(Code::NotSupported, contact.span, message, help);
     }
-    let beside = [
-        (SectionKind::Approximations, model.approximations.is_empty()),
-        (SectionKind::Derivatives, model.derivatives.is_empty()),
-        (SectionKind::Stages, model.stages.is_empty()),
-    ];
-    for (section, _) in beside.into_iter().filter(|(_, is_empty)| !is_empty) {
-        let span = model.section(section).unwrap_or(model.span);
-        let message = format!("`{section}` of a machine with `sliding` cannot be derived yet");
-        let help = format!("without `{section}`, or without `sliding`, it can be derived");
-        refuse(Code::NotSupported, span, message, help);
-    }
+    refusals.refuse_sections(model, "sliding", model.span);
     if let Some(contact) = sliding.get(MOST_CONTACTS) {
         let count = sliding.len();
         let message = format!("{count} contacts that stick or slide are too many");
@@ -191,19 +219,33 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
         } else {
             format!("a machine may have at most {MOST_CONTACTS} of them")
         };
-        refuse(Code::TooLarge, contact.span, message, help);
+        refusals.refuse(Code::TooLarge, contact.span, message, help);
     }
-    if model.relaxed.is_none() {
-        let message = "the equations of this machine with its guides relaxed are too large";
-        let help = "they are derived a second time, with one more coordinate for each component of a displacement";
-        refuse(
-            Code::TooLarge,
-            first.span,
-            message.to_owned(),
-            help.to_owned(),
+    match &model.relaxed {
+        Some(relaxed) => refuse_shared_loads(model, relaxed, &mut refusals),
+        None => {
+            let message = "the equations of this machine with its guides relaxed are too large";
+            let help = "they are derived a second time, with one more coordinate for each component of a displacement";
+            refusals.refuse(Code::TooLarge, first.span, message, help);
+        }
+    }
+    refusals.any
+}
+
+/// Refuses what holds a guided body exactly where its guide holds it, as a wheel that always touches the ground does. It is a
+/// constraint of the machine with its guides relaxed, but none of the machine itself, so that it has no multiplier.
+fn refuse_shared_loads(model: &Model<'_>, relaxed: &Model<'_>, refusals: &mut Refusals<'_>) {
+    let own = model.constraints();
+    let is_own = |name: &Name| own.iter().any(|constraint| constraint.name == *name);
+    let mut shared = relaxed.constraints().into_iter();
+    if let Some(constraint) = shared.find(|one| !is_own(&one.name)) {
+        let name = &constraint.name;
+        let message = format!(
+            "`{name}` holds what a guide holds already: the load of each is not determined"
         );
+        let help = "leave out one of the two";
+        refusals.refuse(Code::Untied, constraint.span, message, help);
     }
-    refused
 }
 
 /// Refuses bodies that roll or rub without a given orientation. Returns true if anything is refused.

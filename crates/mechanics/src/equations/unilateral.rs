@@ -71,9 +71,61 @@ pub struct DirectionEquation<'d> {
 /// The unilateral contacts of a machine, in their order.
 pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
     let x = Variables::of(model);
-    let of_contact = |contact: &model::Contact<'d>| -> Vec<UnilateralEquation<'d>> {
+    let contacts = model.contacts.iter();
+    contacts
+        .flat_map(|contact| of_contact(model, &x, contact))
+        .collect()
+}
+
+/// The relative motion of what touches.
+struct Touch<'d> {
+    gap: Expr<'d>,
+    slip: Expr<'d>,
+    /// The other component of the slip, in space.
+    across: Option<Expr<'d>>,
+    /// Of a corner on a face: the rate of the gap, and what [`UnilateralEquation::face`] holds.
+    face: Option<(Expr<'d>, [Expr<'d>; 3])>,
+}
+
+impl<'d> Touch<'d> {
+    fn of(model: &Model<'d>, x: &Variables<'d>, contact: &model::Contact<'d>) -> Touch<'d> {
+        match &contact.geometry {
+            ContactGeometry::Corner(corner) => {
+                let touching =
+                    polygons::relative_motion(model, corner, &mut x.without_acceleration(model));
+                let beyond_rate = x.without_acceleration(model).of(touching.beyond);
+                Touch {
+                    gap: touching.gap,
+                    slip: touching.slip,
+                    across: None,
+                    face: Some((
+                        touching.rate,
+                        [touching.height, touching.beyond, beyond_rate],
+                    )),
+                }
+            }
+            ContactGeometry::Circles(touching) => {
+                Touch::of_round(model, x, &model.circles[touching.circle], touching.surface)
+            }
+            ContactGeometry::Point { point, surface } => Touch::of_round(model, x, point, *surface),
+            &ContactGeometry::Expressions { gap, slip, across } => Touch {
+                gap,
+                slip,
+                across,
+                face: None,
+            },
+        }
+    }
+
+    /// Of a circle, or in space of a sphere.
+    fn of_round(
+        model: &Model<'d>,
+        x: &Variables<'d>,
+        round: &Circle<'d>,
+        surface: Surface,
+    ) -> Touch<'d> {
         let mut coasting = x.without_acceleration(model);
-        let mut touch = |round: &Circle<'d>, surface: Surface| match model.space {
+        let (gap, slip, across) = match model.space {
             Space::Plane => {
                 let RelativeMotion { gap, slip } =
                     circles::relative_motion(model, round, surface, &mut coasting);
@@ -85,97 +137,119 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
                 (gap, slip[0], Some(slip[1]))
             }
         };
-        let mut of_face = None;
-        let (gap, slip, across) = match &contact.geometry {
-            ContactGeometry::Corner(corner) => {
-                let touching =
-                    polygons::relative_motion(model, corner, &mut x.without_acceleration(model));
-                let beyond_rate = x.without_acceleration(model).of(touching.beyond);
-                of_face = Some((
-                    touching.rate,
-                    [touching.height, touching.beyond, beyond_rate],
-                ));
-                (touching.gap, touching.slip, None)
-            }
-            ContactGeometry::Circles(touching) => {
-                touch(&model.circles[touching.circle], touching.surface)
-            }
-            ContactGeometry::Point { point, surface } => touch(point, *surface),
-            &ContactGeometry::Expressions { gap, slip, across } => (gap, slip, across),
-        };
-        let plain = |e: Expr<'d>| match normal::expand(e, TERMS) {
-            Some(expanded) => normal::readable(expanded.to_expr(), TERMS),
-            None => e,
-        };
-        let zero = model.dag.zero();
-        let has_friction = contact.friction.is_some();
-        let (gap, rate, slip) = match of_face {
-            // These select among features, and multiplied out they would be long.
-            Some((rate, _)) => (gap, rate, if has_friction { slip } else { zero }),
-            None => {
-                let gap = plain(gap);
-                let slip = if has_friction { plain(slip) } else { zero };
-                (gap, x.without_acceleration(model).of(gap), slip)
-            }
-        };
-        let friction = contact.friction.unwrap_or(zero);
-        let [first, second] = contact.response.coefficients();
-        let own = UnilateralEquation {
-            name: contact.name.to_string(),
+        Touch {
             gap,
-            directions: [rate, slip].map(|rate| direction(model, &x, rate)),
-            coefficients: [
-                first,
-                second,
-                friction,
-                contact.static_friction.unwrap_or(friction),
-            ],
-            law: contact.response.impact_law().unwrap_or_default(),
-            order: contact.response.order().unwrap_or_default(),
-            painleve: contact.response.painleve(),
-            compliance: contact.response.compliance(),
-            has_friction,
-            is_rolling_resistance: false,
-            is_second_tangent: false,
-            face: of_face.map(|(_, face)| face),
-        };
-        if let (true, Some(across)) = (has_friction, across) {
-            // It shares the gap and the normal of the preceding contact; only the other component of the slip is its own.
-            let [normal, _] = own.directions.clone();
-            let second = UnilateralEquation {
-                name: format!("{}.across", contact.name),
-                directions: [normal, direction(model, &x, plain(across))],
-                painleve: Painleve::default(),
-                compliance: None,
-                is_second_tangent: true,
-                ..own.clone()
-            };
-            return vec![own, second];
+            slip,
+            across,
+            face: None,
         }
-        let (ContactGeometry::Circles(touching), Some(resistance)) =
-            (&contact.geometry, contact.rolling_resistance)
-        else {
-            return vec![own];
-        };
-        // It shares the gap and the normal of the preceding contact; only an angular velocity is its own.
-        let rate = plain(circles::rolling_rate(
-            model,
-            touching,
-            &mut x.without_acceleration(model),
-        ));
-        let rolling = UnilateralEquation {
-            name: format!("{}.rolling", contact.name),
-            directions: [own.directions[0].clone(), direction(model, &x, rate)],
-            coefficients: [zero, zero, resistance, resistance],
-            painleve: Painleve::default(),
-            compliance: None,
-            has_friction: true,
-            is_rolling_resistance: true,
-            ..own.clone()
-        };
-        vec![own, rolling]
+    }
+}
+
+/// The equations of a contact: its own, and those of its second tangent or its rolling resistance if it has one.
+fn of_contact<'d>(
+    model: &Model<'d>,
+    x: &Variables<'d>,
+    contact: &model::Contact<'d>,
+) -> Vec<UnilateralEquation<'d>> {
+    let touch = Touch::of(model, x, contact);
+    let zero = model.dag.zero();
+    let has_friction = contact.friction.is_some();
+    let (gap, rate, slip) = match touch.face {
+        // These select among features, and multiplied out they would be long.
+        Some((rate, _)) => (
+            touch.gap,
+            rate,
+            if has_friction { touch.slip } else { zero },
+        ),
+        None => {
+            let gap = plain(touch.gap);
+            let slip = if has_friction {
+                plain(touch.slip)
+            } else {
+                zero
+            };
+            (gap, x.without_acceleration(model).of(gap), slip)
+        }
     };
-    model.contacts.iter().flat_map(of_contact).collect()
+    let friction = contact.friction.unwrap_or(zero);
+    let [first, second] = contact.response.coefficients();
+    let own = UnilateralEquation {
+        name: contact.name.to_string(),
+        gap,
+        directions: [rate, slip].map(|rate| direction(model, x, rate)),
+        coefficients: [
+            first,
+            second,
+            friction,
+            contact.static_friction.unwrap_or(friction),
+        ],
+        law: contact.response.impact_law().unwrap_or_default(),
+        order: contact.response.order().unwrap_or_default(),
+        painleve: contact.response.painleve(),
+        compliance: contact.response.compliance(),
+        has_friction,
+        is_rolling_resistance: false,
+        is_second_tangent: false,
+        face: touch.face.map(|(_, face)| face),
+    };
+    let further = match (touch.across, &contact.geometry, contact.rolling_resistance) {
+        (Some(across), ..) if has_friction => {
+            Some(second_tangent(&own, direction(model, x, plain(across))))
+        }
+        (_, ContactGeometry::Circles(touching), Some(resistance)) => {
+            let mut coasting = x.without_acceleration(model);
+            let rate = plain(circles::rolling_rate(model, touching, &mut coasting));
+            Some(rolling(&own, direction(model, x, rate), resistance))
+        }
+        _ => None,
+    };
+    [own].into_iter().chain(further).collect()
+}
+
+/// The second tangent of a contact: it shares the gap and the normal of that contact; only the other component of the slip is its
+/// own.
+fn second_tangent<'d>(
+    first: &UnilateralEquation<'d>,
+    across: DirectionEquation<'d>,
+) -> UnilateralEquation<'d> {
+    let [normal, _] = first.directions.clone();
+    UnilateralEquation {
+        name: format!("{}.across", first.name),
+        directions: [normal, across],
+        painleve: Painleve::default(),
+        compliance: None,
+        is_second_tangent: true,
+        ..first.clone()
+    }
+}
+
+/// The rolling resistance of a contact: it shares the gap and the normal of that contact; only an angular velocity is its own.
+fn rolling<'d>(
+    contact: &UnilateralEquation<'d>,
+    turning: DirectionEquation<'d>,
+    resistance: Expr<'d>,
+) -> UnilateralEquation<'d> {
+    let zero = resistance.dag().zero();
+    let [normal, _] = contact.directions.clone();
+    UnilateralEquation {
+        name: format!("{}.rolling", contact.name),
+        directions: [normal, turning],
+        coefficients: [zero, zero, resistance, resistance],
+        painleve: Painleve::default(),
+        compliance: None,
+        has_friction: true,
+        is_rolling_resistance: true,
+        ..contact.clone()
+    }
+}
+
+/// The expression multiplied out, if that is short.
+fn plain(e: Expr<'_>) -> Expr<'_> {
+    match normal::expand(e, TERMS) {
+        Some(expanded) => normal::readable(expanded.to_expr(), TERMS),
+        None => e,
+    }
 }
 
 fn direction<'d>(model: &Model<'d>, x: &Variables<'d>, rate: Expr<'d>) -> DirectionEquation<'d> {

@@ -230,6 +230,16 @@ struct Update<'d> {
     pivot: Expr<'d>,
 }
 
+/// The rows of a group of velocities.
+struct TakenRows<'d> {
+    /// By place in the group the entries within it.
+    inner: Vec<Vec<(usize, Expr<'d>)>>,
+    /// By place in the group the entries with other velocities.
+    outer: Vec<Vec<(Id, Expr<'d>)>>,
+    /// By place in the group the loads.
+    loads: Vec<Vec<Expr<'d>>>,
+}
+
 struct Front<'d> {
     dag: &'d Dag,
     order: Order,
@@ -823,25 +833,11 @@ impl<'d> Front<'d> {
             .enumerate()
             .map(|(k, (id, _))| (*id, k))
             .collect();
-        let mut inner: Vec<Vec<(usize, Expr<'d>)>> = vec![Vec::new(); group.len()];
-        let mut outer: Vec<Vec<(Id, Expr<'d>)>> = vec![Vec::new(); group.len()];
-        let mut loads: Vec<Vec<Expr<'d>>> = Vec::with_capacity(group.len());
-        for (k, (id, _)) in group.iter().enumerate() {
-            let (own, row, load) = self.take(*id);
-            if !own.is_zero() {
-                inner[k].push((k, own));
-            }
-            for (other, value) in row {
-                match position.get(&other) {
-                    Some(&l) => {
-                        inner[k].push((l, value));
-                        inner[l].push((k, value));
-                    }
-                    None => outer[k].push((other, value)),
-                }
-            }
-            loads.push(load);
-        }
+        let TakenRows {
+            inner,
+            outer,
+            loads,
+        } = self.take_rows(&group, &position);
         if self.names_coefficients && self.is_full(&group, &inner) {
             self.name_coefficients(&mut group, &mut drifts);
         }
@@ -869,9 +865,60 @@ impl<'d> Front<'d> {
             }
         }
         self.congruence(&group, &inner);
+        self.replace_in_pending(&group, &drifts, &position);
+        let steps = group.into_iter().zip(drifts);
+        steps
+            .map(|((of, Composition { parts, .. }), alone)| Step {
+                of,
+                offset: alone,
+                parts,
+                pivot: None,
+            })
+            .collect()
+    }
+
+    /// Takes the rows of a group of velocities out of the form.
+    fn take_rows(
+        &mut self,
+        group: &[(Id, Composition<'d>)],
+        position: &BTreeMap<Id, usize>,
+    ) -> TakenRows<'d> {
+        let mut inner: Vec<Vec<(usize, Expr<'d>)>> = vec![Vec::new(); group.len()];
+        let mut outer: Vec<Vec<(Id, Expr<'d>)>> = vec![Vec::new(); group.len()];
+        let mut loads: Vec<Vec<Expr<'d>>> = Vec::with_capacity(group.len());
+        for (k, (id, _)) in group.iter().enumerate() {
+            let (own, row, load) = self.take(*id);
+            if !own.is_zero() {
+                inner[k].push((k, own));
+            }
+            for (other, value) in row {
+                match position.get(&other) {
+                    Some(&l) => {
+                        inner[k].push((l, value));
+                        inner[l].push((k, value));
+                    }
+                    None => outer[k].push((other, value)),
+                }
+            }
+            loads.push(load);
+        }
+        TakenRows {
+            inner,
+            outer,
+            loads,
+        }
+    }
+
+    /// Replaces the velocities of a group in the updates that are not yet subtracted.
+    fn replace_in_pending(
+        &mut self,
+        group: &[(Id, Composition<'d>)],
+        drifts: &[Expr<'d>],
+        position: &BTreeMap<Id, usize>,
+    ) {
         for update in &mut self.pending {
             // The drift loads every velocity outside the group that the update couples to it.
-            let drifting = group.iter().zip(&drifts).filter_map(|((id, _), drift)| {
+            let drifting = group.iter().zip(drifts).filter_map(|((id, _), drift)| {
                 let value = *update.column.get(id)?;
                 (!drift.is_zero()).then(|| value * *drift)
             });
@@ -885,7 +932,7 @@ impl<'d> Front<'d> {
                 }
             }
             let mut terms: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
-            for (id, composition) in &group {
+            for (id, composition) in group {
                 if let Some(value) = update.column.remove(id) {
                     for (x, c) in &composition.parts {
                         terms.entry(*x).or_default().push(*c * value);
@@ -897,15 +944,6 @@ impl<'d> Front<'d> {
                 update.column.insert(x, self.totals.total(terms));
             }
         }
-        let steps = group.into_iter().zip(drifts);
-        steps
-            .map(|((of, Composition { parts, .. }), alone)| Step {
-                of,
-                offset: alone,
-                parts,
-                pivot: None,
-            })
-            .collect()
     }
 
     /// Whether variable entries couple the velocities of a group: then no identity of sines and

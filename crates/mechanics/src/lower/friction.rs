@@ -11,7 +11,7 @@ use crate::lower::derivatives::{Solved, inverses, of_elimination, solve_by_steps
 use crate::lower::{Draft, Lowering, LoweringInput, PlannedFunction};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination};
-use lagrangian_program::{Basis, FrictionLayout, Role, Shape};
+use lagrangian_program::{Basis, FrictionLayout, FrictionPart, Role, Shape};
 
 /// The drafts for [`Role::Friction`], from the equations as derived and multiplied out.
 pub(super) fn friction<'d>(
@@ -121,70 +121,71 @@ fn results(
     contacts: &[Contact],
 ) -> Vec<Scaled> {
     let inverses = inverses(graph, solved);
-    let mut all = Vec::with_capacity(layout.len());
-    for part in 0..=contacts.len() {
-        let (accelerations, multipliers) = match part.checked_sub(1) {
-            None => (solved.accelerations.clone(), solved.multipliers.clone()),
-            Some(k) => {
-                let mut right = contacts[k].row.clone();
-                right.resize(layout.coordinates + layout.constraints, Scaled::ZERO);
-                let mut answers = solve_by_steps(graph, solved, &inverses, right);
-                let multipliers = answers.split_off(layout.coordinates);
-                // The system is symmetric in a and −λ.
-                let multipliers = multipliers.into_iter().map(Scaled::negated);
-                (answers, multipliers.collect())
-            }
+    let alone = (solved.accelerations.clone(), solved.multipliers.clone());
+    let starts = Starts {
+        slip_rate: &|contact| contact.bias,
+        reaction: &|component| component.load,
+    };
+    let mut parts = vec![part(graph, contacts, alone, starts)];
+    for (k, contact) in contacts.iter().enumerate() {
+        let mut right = contact.row.clone();
+        right.resize(layout.coordinates + layout.constraints, Scaled::ZERO);
+        let mut accelerations = solve_by_steps(graph, solved, &inverses, right);
+        let multipliers = accelerations.split_off(layout.coordinates);
+        // The system is symmetric in a and −λ.
+        let multipliers = multipliers.into_iter().map(Scaled::negated).collect();
+        let starts = Starts {
+            slip_rate: &|_| Scaled::ZERO,
+            reaction: &|component| component.by_friction_forces[k],
         };
-        let mut combine = |start: Scaled, pairs: [(&[Scaled], &[Scaled]); 2]| {
-            let mut terms = vec![start];
-            for (coefficients, values) in pairs {
-                let products = coefficients.iter().zip(values);
-                terms.extend(products.map(|(&c, &x)| graph.product(&[(c, 1), (x, 1)])));
-            }
-            let sum = graph.sum(&terms);
-            graph.opaque(sum)
-        };
-        let slips: Vec<Scaled> = contacts
-            .iter()
-            .map(|contact| {
-                let start = if part == 0 {
-                    contact.bias
-                } else {
-                    Scaled::ZERO
-                };
-                combine(start, [(&contact.row, &accelerations), (&[], &[])])
-            })
-            .collect();
-        let reactions = contacts.iter().flat_map(|contact| &contact.reactions);
-        let normals: Vec<Scaled> = reactions
-            .map(|reaction| {
-                let start = match part.checked_sub(1) {
-                    None => reaction.load,
-                    Some(k) => reaction.by_friction_forces[k],
-                };
-                let by = [
-                    (
-                        reaction.by_accelerations.as_slice(),
-                        accelerations.as_slice(),
-                    ),
-                    (reaction.by_multipliers.as_slice(), multipliers.as_slice()),
-                ];
-                combine(start, by)
-            })
-            .collect();
-        all.extend(accelerations);
-        all.extend(multipliers);
-        all.extend(slips);
-        all.extend(normals);
+        parts.push(part(graph, contacts, (accelerations, multipliers), starts));
     }
-    all.extend(contacts.iter().map(|contact| contact.friction));
-    all.extend(contacts.iter().map(|contact| contact.static_friction));
-    if layout.axes != 1 {
-        all.extend(
-            contacts
-                .iter()
-                .flat_map(|contact| &contact.reference_direction),
-        );
+    let each = |of: fn(&Contact) -> Scaled| contacts.iter().map(of).collect();
+    let coefficients = [each(|one| one.friction), each(|one| one.static_friction)];
+    let directions = contacts.iter().flat_map(|one| &one.reference_direction);
+    let directions = directions.copied().collect();
+    FrictionLayout::arrange(parts, coefficients, directions).collect()
+}
+
+/// The values that accelerations and multipliers of 0 leave.
+struct Starts<'s> {
+    slip_rate: &'s dyn Fn(&Contact) -> Scaled,
+    reaction: &'s dyn Fn(&Component) -> Scaled,
+}
+
+/// A part of the response: these accelerations and multipliers, and the slip rates and reactions that follow from them.
+fn part(
+    graph: &mut Graph,
+    contacts: &[Contact],
+    (accelerations, multipliers): (Vec<Scaled>, Vec<Scaled>),
+    starts: Starts<'_>,
+) -> FrictionPart<Vec<Scaled>> {
+    let mut combine = |start: Scaled, pairs: [(&[Scaled], &[Scaled]); 2]| {
+        let mut terms = vec![start];
+        for (coefficients, values) in pairs {
+            let products = coefficients.iter().zip(values);
+            terms.extend(products.map(|(&c, &x)| graph.product(&[(c, 1), (x, 1)])));
+        }
+        let sum = graph.sum(&terms);
+        graph.opaque(sum)
+    };
+    let mut slip_rates = Vec::with_capacity(contacts.len());
+    for contact in contacts {
+        let by = [(&contact.row[..], &accelerations[..]), (&[], &[])];
+        slip_rates.push(combine((starts.slip_rate)(contact), by));
     }
-    all
+    let mut normals = Vec::new();
+    for component in contacts.iter().flat_map(|contact| &contact.reactions) {
+        let by = [
+            (&component.by_accelerations[..], &accelerations[..]),
+            (&component.by_multipliers[..], &multipliers[..]),
+        ];
+        normals.push(combine((starts.reaction)(component), by));
+    }
+    FrictionPart {
+        accelerations,
+        multipliers,
+        slip_rates,
+        normals,
+    }
 }

@@ -13,10 +13,10 @@ use lagrangian_symbolic::{Expr, Symbol, evaluate, substitute};
 use rustc_hash::FxHashMap;
 
 use crate::Quantity;
-use crate::{Dependent, Oracle, dependents};
+use crate::{Dependent, Oracle, OracleReaction, OracleSliding, dependents};
 use lagrangian_program::{
-    Arguments, FrictionLayout, Function, Interpreter, Op, Program, Role, Shape, Singular, Source,
-    Value,
+    Arguments, FrictionLayout, FrictionPart, FrictionResponse, Function, Interpreter, Op, Program,
+    Role, Shape, Singular, Source, Value,
 };
 use lagrangian_spec::model::{Model, Variable};
 
@@ -451,94 +451,125 @@ impl<'a, 'd> Point<'a, 'd> {
     /// Checks that for any friction forces the accelerations, multipliers and normal reactions obey the
     /// equations of motion, of the constraints, and of the displacements that would open the guides.
     fn check_friction(&mut self, oracle: &Oracle<'d>) -> Result<(), Verdict> {
-        let (n, point) = (oracle.residual.len(), self.number);
         let layout = FrictionLayout {
-            coordinates: n,
+            coordinates: oracle.residual.len(),
             constraints: oracle.constraints.len(),
             contacts: oracle.sliding.len(),
             axes: self.program.reaction_axes,
         };
-        let (m, count, part) = (layout.constraints, layout.contacts, layout.part());
-        let responses = self.call(Role::Friction, layout.len())?;
-        let friction_forces: Vec<Residue> = (0..count as u64)
-            .map(|k| Residue::random(self.number, 1_000_000 + k))
-            .collect();
-        let values: Vec<Residue> = (0..part)
-            .map(|i| {
-                let own = friction_forces.iter().enumerate();
-                own.fold(responses[i], |sum, (k, f)| {
-                    sum + *f * responses[(k + 1) * part + i]
-                })
-            })
-            .collect();
-        let (a, rest) = values.split_at(n);
-        let (multipliers, rest) = rest.split_at(m);
-        let (slips, normals) = rest.split_at(count);
-
-        let mut left = self.evaluate(&oracle.residual, a)?;
-        for (constraint, multiplier) in oracle.constraints.iter().zip(multipliers) {
-            let row = self.evaluate(&constraint.row, a)?;
-            for (left, g) in left.iter_mut().zip(row) {
-                *left = *left - g * *multiplier;
+        let values = self.call(Role::Friction, layout.len())?;
+        let response = FrictionResponse {
+            layout,
+            values: &values,
+        };
+        let random = |k: u64| Residue::random(self.number, 1_000_000 + k);
+        let friction_forces: Vec<Residue> = (0..layout.contacts as u64).map(random).collect();
+        let total = |place: usize| response.with(place, &friction_forces);
+        let total: Vec<Residue> = (0..layout.part()).map(total).collect();
+        let total = layout.split(&total);
+        self.check_balance(oracle, total, &friction_forces)?;
+        for (k, contact) in oracle.sliding.iter().enumerate() {
+            let rate = self.evaluate(&[contact.slip_rate], total.accelerations)?[0];
+            if rate != total.slip_rates[k] {
+                return Err(self.wrong_response(layout.slip_rate(k)));
             }
+            for (place, reaction) in layout.normal(k).zip(&contact.reactions) {
+                if !self.is_balanced(reaction, total, &friction_forces)? {
+                    return Err(self.wrong_response(place));
+                }
+            }
+            self.check_guide(contact, total.accelerations, response, k)?;
+        }
+        Ok(())
+    }
+
+    /// Checks the equations of motion and of the constraints with these friction forces.
+    fn check_balance(
+        &self,
+        oracle: &Oracle<'d>,
+        total: FrictionPart<&[Residue]>,
+        friction_forces: &[Residue],
+    ) -> Result<(), Verdict> {
+        let (a, point) = (total.accelerations, self.number);
+        let mut left = self.evaluate(&oracle.residual, a)?;
+        let mut subtract = |row: &[Expr<'d>], force: Residue| {
+            let row = self.evaluate(row, a)?;
+            for (left, slope) in left.iter_mut().zip(row) {
+                *left = *left - slope * force;
+            }
+            Ok::<(), Verdict>(())
+        };
+        for (constraint, &multiplier) in oracle.constraints.iter().zip(total.multipliers) {
+            subtract(&constraint.row, multiplier)?;
+        }
+        for (contact, &friction) in oracle.sliding.iter().zip(friction_forces) {
+            subtract(&contact.row, friction)?;
         }
         let residuals: Vec<Expr<'d>> = oracle.constraints.iter().map(|c| c.residual).collect();
         let open = self.evaluate(&residuals, a)?;
         if let Some(constraint) = open.iter().position(|left| *left != Residue::ZERO) {
             return Err(Disagreement::Constraint { constraint, point }.into());
         }
-        for (contact, friction) in oracle.sliding.iter().zip(&friction_forces) {
-            let row = self.evaluate(&contact.row, a)?;
-            for (left, tau) in left.iter_mut().zip(row) {
-                *left = *left - tau * *friction;
+        match left.iter().position(|left| *left != Residue::ZERO) {
+            Some(coordinate) => Err(Disagreement::Motion { coordinate, point }.into()),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether a component of the reactions balances the forces that would open its guide.
+    fn is_balanced(
+        &self,
+        reaction: &OracleReaction<'d>,
+        total: FrictionPart<&[Residue]>,
+        friction_forces: &[Residue],
+    ) -> Result<bool, Verdict> {
+        let a = total.accelerations;
+        let terms = [
+            (&reaction.by_multipliers, total.multipliers),
+            (&reaction.by_friction_forces, friction_forces),
+            (&reaction.by_normals, total.normals),
+        ];
+        let mut open = self.evaluate(&[reaction.residual], a)?[0];
+        for (coefficients, values) in terms {
+            for (c, x) in self.evaluate(coefficients, a)?.into_iter().zip(values) {
+                open = open - c * *x;
             }
         }
-        if let Some(coordinate) = left.iter().position(|left| *left != Residue::ZERO) {
-            return Err(Disagreement::Motion { coordinate, point }.into());
+        Ok(open == Residue::ZERO)
+    }
+
+    /// Checks the coefficients of friction of a guide, and in space its direction.
+    fn check_guide(
+        &self,
+        contact: &OracleSliding<'d>,
+        a: &[Residue],
+        response: FrictionResponse<'_, Residue>,
+        k: usize,
+    ) -> Result<(), Verdict> {
+        let layout = response.layout;
+        if layout.axes != 1 {
+            let expected = self.evaluate(&contact.reference_direction, a)?;
+            let (first, found) = (layout.direction(k).start, response.direction(k));
+            for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
+                if found[i] * found[j] != expected[i] * expected[j] {
+                    return Err(self.wrong_response(first + j));
+                }
+            }
         }
-        let wrong = |index: usize| {
-            let role = Role::Friction;
-            Verdict::from(Disagreement::Result { role, index, point })
-        };
-        for (k, contact) in oracle.sliding.iter().enumerate() {
-            if self.evaluate(&[contact.slip_rate], a)?[0] != slips[k] {
-                return Err(wrong(n + m + k));
-            }
-            for (axis, reaction) in contact.reactions.iter().enumerate() {
-                let terms = [
-                    (&reaction.by_multipliers, multipliers),
-                    (&reaction.by_friction_forces, &friction_forces[..]),
-                    (&reaction.by_normals, normals),
-                ];
-                let mut open = self.evaluate(&[reaction.residual], a)?[0];
-                for (coefficients, values) in terms {
-                    for (c, x) in self.evaluate(coefficients, a)?.into_iter().zip(values) {
-                        open = open - c * *x;
-                    }
-                }
-                if open != Residue::ZERO {
-                    return Err(wrong(n + m + count + k * layout.axes + axis));
-                }
-            }
-            if layout.axes != 1 {
-                let expected = self.evaluate(&contact.reference_direction, a)?;
-                for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
-                    let place = layout.directions() + 3 * k;
-                    let found = responses[place + i] * responses[place + j];
-                    if found != expected[i] * expected[j] {
-                        return Err(wrong(place + j));
-                    }
-                }
-            }
-            let at = (1 + count) * part + k;
-            let expected = self.evaluate(&contact.coefficients, a)?;
-            for (index, expected) in [at, at + count].into_iter().zip(expected) {
-                if responses[index] != expected {
-                    return Err(wrong(index));
-                }
+        let expected = self.evaluate(&contact.coefficients, a)?;
+        let places = [layout.friction(k), layout.static_friction(k)];
+        for (place, expected) in places.into_iter().zip(expected) {
+            if response.values[place] != expected {
+                return Err(self.wrong_response(place));
             }
         }
         Ok(())
+    }
+
+    /// A number of the response to friction forces is wrong.
+    fn wrong_response(&self, index: usize) -> Verdict {
+        let (role, point) = (Role::Friction, self.number);
+        Disagreement::Result { role, index, point }.into()
     }
 
     /// The lower triangle of the matrix that is eliminated: M, followed by the rows of G.

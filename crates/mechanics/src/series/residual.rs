@@ -49,78 +49,22 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
     }
     let dag = model.dag;
     let mut rates = Rates::of(model);
-    // Loads on functions of positions: load·∂node/∂qᵢ; and of rates: load·∂node/∂vᵢ.
-    let (mut on_positions, mut on_rates) = (Vec::new(), Vec::new());
-    for body in &model.bodies {
-        for (k, &at) in body.at.iter().enumerate() {
-            let fall = model.gravity().map_or(dag.zero(), |g| g[k]);
-            on_positions.push((at, body.mass * (rates.second(at) - fall)));
-        }
-        rotation_loads(model, body, &mut rates, &mut on_positions);
-    }
-    for energy in model.stored() {
-        match energy {
-            Energy::Quadratic(deformation) => {
-                let (k, s) = (deformation.coefficient, deformation.measure);
-                on_positions.push((s, k * s));
-                on_positions.push((k, s.square() / 2));
-            }
-            Energy::Given(value) => on_positions.push((*value, dag.one())),
-        }
-    }
-    for energy in model.dissipated() {
-        match energy {
-            Energy::Quadratic(deformation) => {
-                let (b, s) = (deformation.coefficient, deformation.measure);
-                let rate = rates.first(s);
-                on_positions.push((s, b * rate));
-                on_rates.push((b, rate.square() / 2));
-            }
-            Energy::Given(value) => on_rates.push((*value, dag.one())),
-        }
-    }
-    for four in &model.quaternions {
-        let size = four.log_length();
-        let e_rates = four.e.map(|e| rates.first(e));
-        on_positions.push((
-            size,
-            four.inertia * rates.second(size) - four.load(&e_rates),
-        ));
-    }
-    let mut direct = vec![Vec::new(); model.coordinates.len()];
+    let mut loads = Loads {
+        on_positions: Vec::new(),
+        on_rates: Vec::new(),
+        on_coordinates: vec![Vec::new(); model.coordinates.len()],
+    };
+    loads.add_inertia(model, &mut rates);
+    loads.add_energies(model, &mut rates);
+    loads.add_quaternions(model, &mut rates);
     for load in model.loads() {
-        match load {
-            Load::Point { at, force } => {
-                let components = at.iter().zip(force);
-                on_positions.extend(components.map(|(&at, &force)| (at, -force)));
-            }
-            Load::Coordinate { coordinate, value } => direct[*coordinate].push(-*value),
-            Load::Along { measure, force, .. } => on_positions.push((*measure, -*force)),
-            Load::Torque { on, torque } => {
-                match (model.space, model.rotation(*on)) {
-                    (Space::Plane, rotation) => {
-                        let angle = planar_angle(model, rotation);
-                        on_positions.extend(angle.map(|angle| (angle, -torque[0])));
-                    }
-                    // The rotation is ½ Σ e × δe, in ground axes.
-                    (Space::Space, Rotation::Frame(pose)) => {
-                        for e in &model.poses[pose.index()].axes {
-                            for (k, &component) in torque.iter().enumerate() {
-                                let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-                                on_positions.push((e[last], -component * e[next] / 2));
-                                on_positions.push((e[next], component * e[last] / 2));
-                            }
-                        }
-                    }
-                    (Space::Space, _) => {}
-                }
-            }
-        }
+        loads.add_load(model, load);
     }
     for (i, coordinate) in model.coordinates.iter().enumerate() {
         if let Some(rate) = coordinate.rate {
-            on_positions.push((coordinate.q, rates.second(coordinate.q)));
-            direct[i].push(-rate);
+            let q = coordinate.q;
+            loads.on_positions.push((q, rates.second(q)));
+            loads.on_coordinates[i].push(-rate);
         }
     }
     // M a = f + Gᵀ λ, and −d²g/dt² = 0, with this sign for the matrix to be symmetric.
@@ -128,25 +72,129 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
     for (k, constraint) in constraints.iter().enumerate() {
         let multiplier = dag.symbol(&format!("multiplier {k}"), stage::ACCELERATION);
         multipliers.extend(multiplier.as_symbol());
-        on_positions.push((constraint.expression, -multiplier));
+        loads
+            .on_positions
+            .push((constraint.expression, -multiplier));
         held.push(-rates.second(constraint.expression));
     }
-    let symbols = |of: fn(&lagrangian_spec::model::Coordinate<'d>) -> Expr<'d>| -> Vec<Symbol> {
-        let coordinates = model.coordinates.iter();
-        coordinates.filter_map(|c| of(c).as_symbol()).collect()
-    };
-    let acts = |(_, load): &(Expr<'d>, Expr<'d>)| !load.is_zero();
-    on_positions.retain(acts);
-    on_rates.retain(acts);
-    let by_positions = reverse(dag, &on_positions, &symbols(|c| c.q));
-    let by_rates = reverse(dag, &on_rates, &symbols(|c| c.v));
-    let all = by_positions.into_iter().zip(by_rates).zip(direct);
-    let rows = all.map(|((q, v), direct)| dag.sum([q, v].into_iter().chain(direct)));
     Ok(Residual {
-        rows: rows.chain(held).collect(),
+        rows: loads.by_coordinate(model).into_iter().chain(held).collect(),
         derivatives: rates.derivatives,
         multipliers,
     })
+}
+
+/// What the terms of the residuals are made of: pairs of a function and the load on it.
+struct Loads<'d> {
+    /// Loads on functions of positions: `load·∂function/∂qᵢ`.
+    on_positions: Vec<(Expr<'d>, Expr<'d>)>,
+    /// Loads on functions of rates: `load·∂function/∂vᵢ`.
+    on_rates: Vec<(Expr<'d>, Expr<'d>)>,
+    /// Loads on each coordinate itself.
+    on_coordinates: Vec<Vec<Expr<'d>>>,
+}
+
+impl<'d> Loads<'d> {
+    /// Inertia and weight of the bodies.
+    fn add_inertia(&mut self, model: &Model<'d>, rates: &mut Rates<'_, 'd>) {
+        for body in &model.bodies {
+            for (k, &at) in body.at.iter().enumerate() {
+                let fall = model.gravity().map_or(model.dag.zero(), |g| g[k]);
+                let load = body.mass * (rates.second(at) - fall);
+                self.on_positions.push((at, load));
+            }
+            rotation_loads(model, body, rates, &mut self.on_positions);
+        }
+    }
+
+    /// Springs and dampers.
+    fn add_energies(&mut self, model: &Model<'d>, rates: &mut Rates<'_, 'd>) {
+        let one = model.dag.one();
+        for energy in model.stored() {
+            match energy {
+                Energy::Quadratic(deformation) => {
+                    let (k, s) = (deformation.coefficient, deformation.measure);
+                    self.on_positions.push((s, k * s));
+                    self.on_positions.push((k, s.square() / 2));
+                }
+                Energy::Given(value) => self.on_positions.push((*value, one)),
+            }
+        }
+        for energy in model.dissipated() {
+            match energy {
+                Energy::Quadratic(deformation) => {
+                    let (b, s) = (deformation.coefficient, deformation.measure);
+                    let rate = rates.first(s);
+                    self.on_positions.push((s, b * rate));
+                    self.on_rates.push((b, rate.square() / 2));
+                }
+                Energy::Given(value) => self.on_rates.push((*value, one)),
+            }
+        }
+    }
+
+    /// The inertia of the lengths of quaternions, eq. (E74), and the load on them, eq. (E75).
+    fn add_quaternions(&mut self, model: &Model<'d>, rates: &mut Rates<'_, 'd>) {
+        for four in &model.quaternions {
+            let size = four.log_length();
+            let e_rates = four.e.map(|e| rates.first(e));
+            let load = four.inertia * rates.second(size) - four.load(&e_rates);
+            self.on_positions.push((size, load));
+        }
+    }
+
+    /// An applied force or torque.
+    fn add_load(&mut self, model: &Model<'d>, load: &Load<'d>) {
+        match load {
+            Load::Point { at, force } => {
+                let components = at.iter().zip(force);
+                self.on_positions
+                    .extend(components.map(|(&at, &force)| (at, -force)));
+            }
+            Load::Coordinate { coordinate, value } => {
+                self.on_coordinates[*coordinate].push(-*value);
+            }
+            Load::Along { measure, force, .. } => self.on_positions.push((*measure, -*force)),
+            Load::Torque { on, torque } => match (model.space, model.rotation(*on)) {
+                (Space::Plane, rotation) => {
+                    let angle = planar_angle(model, rotation);
+                    self.on_positions
+                        .extend(angle.map(|angle| (angle, -torque[0])));
+                }
+                // The rotation is ½ Σ e × δe, in ground axes.
+                (Space::Space, Rotation::Frame(pose)) => {
+                    for e in &model.poses[pose.index()].axes {
+                        for (k, &component) in torque.iter().enumerate() {
+                            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+                            self.on_positions.push((e[last], -component * e[next] / 2));
+                            self.on_positions.push((e[next], component * e[last] / 2));
+                        }
+                    }
+                }
+                (Space::Space, _) => {}
+            },
+        }
+    }
+
+    /// The residual of each coordinate.
+    fn by_coordinate(mut self, model: &Model<'d>) -> Vec<Expr<'d>> {
+        let dag = model.dag;
+        let symbols = |of: fn(&lagrangian_spec::model::Coordinate<'d>) -> Expr<'d>| {
+            let coordinates = model.coordinates.iter();
+            coordinates
+                .filter_map(|c| of(c).as_symbol())
+                .collect::<Vec<Symbol>>()
+        };
+        let acts = |(_, load): &(Expr<'d>, Expr<'d>)| !load.is_zero();
+        self.on_positions.retain(acts);
+        self.on_rates.retain(acts);
+        let by_positions = reverse(dag, &self.on_positions, &symbols(|c| c.q));
+        let by_rates = reverse(dag, &self.on_rates, &symbols(|c| c.v));
+        let all = by_positions.into_iter().zip(by_rates);
+        let all = all.zip(self.on_coordinates);
+        all.map(|((q, v), direct)| dag.sum([q, v].into_iter().chain(direct)))
+            .collect()
+    }
 }
 
 /// The inertia loads on the rotation of a body.

@@ -668,6 +668,38 @@ fn in_space_a_guide_carries_the_weight_and_the_inertia_across_it() {
     });
 }
 
+/// A disk that always touches the ground on which it rolls: its weight is the sum of what the ground and the guide of its centre
+/// carry, and nothing else says how much of it is whose.
+#[test]
+fn a_wheel_on_the_ground_whose_centre_is_guided_is_refused() {
+    let machine = |coordinates: &str, disk: &str, guided: &str| {
+        format!(
+            "machine Disk in space {{
+                parameters {{ m: kg = 2, R: m = 0.3, J: kg*m^2 = 0.1, mu: 1 = 0.2, g: m/s^2 = 9.81 }}
+                coordinates {{ {coordinates} }}
+                frames {{ disk = {disk}.turn(y, phi), cart = ground.shift(s, 0, 0) }}
+                bodies {{ disk {{ mass: m, inertia: (J, J, J), frame: disk }}, cart {{ mass: m, frame: cart }} }}
+                gravity (0, 0, -g);
+                wheels {{ roll {{ wheel: disk, on: ground, radius: R, axis: y }} }}
+                sliding {{ rail {{ body: {guided}, on: ground, direction: (1, 0, 0), friction: mu }} }}
+            }}"
+        )
+    };
+    // The disk rolls by a constraint, and by its coordinates.
+    let constrained = ("x: m, phi: rad, s: m", "ground.shift(x, 1, R)");
+    let embedded = ("phi: rad, s: m", "ground.shift(R*phi, 1, R)");
+    for (coordinates, disk) in [constrained, embedded] {
+        let found = codes(&machine(coordinates, disk, "disk"));
+        match &found[..] {
+            [(Code::Untied, message)] => assert!(message.contains("`roll.gap`"), "{message}"),
+            _ => panic!("{disk}: {found:?}"),
+        }
+        // What does not touch the ground may be guided.
+        let found = codes(&machine(coordinates, disk, "cart"));
+        assert!(found.is_empty(), "{disk}: {found:?}");
+    }
+}
+
 #[test]
 fn in_space_too_what_a_guide_carries_is_said_or_asked_for() {
     // Loads that are built on the bead; that contain its coordinate, without a description of what holds

@@ -109,6 +109,17 @@ pub struct Coefficient<X> {
     pub weighted: Option<X>,
 }
 
+/// 1/m of a sum or of its negative, together with that itself, its multiple by m.
+#[inline(always)]
+fn over_order<A: Arithmetic>(sum: A::X, is_negative: bool, to: &mut A) -> Coefficient<A::X> {
+    let sum = if is_negative { to.negate(sum) } else { sum };
+    let over = to.over_order();
+    Coefficient {
+        plain: to.multiply(over, sum),
+        weighted: Some(sum),
+    }
+}
+
 impl Series {
     /// The sums that a coefficient of a row needs.
     pub fn convolutions(&self, row: RowId) -> Vec<Convolution> {
@@ -339,34 +350,6 @@ impl Series {
             plain,
             weighted: None,
         };
-        // The sum over all orders of a product of two rows with factors `a` and `b`.
-        macro_rules! product {
-            ($a:expr, $b:expr) => {{
-                let sum = to.convolution(row, 0);
-                let (b_0, a_m) = (to.first($b), to.newest($a));
-                if self.is_force(row) {
-                    to.multiply_add(a_m, b_0, sum)
-                } else {
-                    let (a_0, b_m) = (to.first($a), to.newest($b));
-                    let sum = to.multiply_add(a_m, b_0, sum);
-                    to.multiply_add(a_0, b_m, sum)
-                }
-            }};
-        }
-        // 1/m times a sum whose last term is m a_m b_0, together with its multiple by m.
-        macro_rules! integral {
-            ($a:expr, $b:expr, $negative:expr) => {{
-                let sum = to.convolution(row, 0);
-                let (a_m, b_0) = (to.weighted($a), to.first($b));
-                let sum = to.multiply_add(a_m, b_0, sum);
-                let sum = if $negative { to.negate(sum) } else { sum };
-                let over = to.over_order();
-                Coefficient {
-                    plain: to.multiply(over, sum),
-                    weighted: Some(sum),
-                }
-            }};
-        }
         match self.rows[row.index()] {
             Row::Number(_)
             | Row::Pi
@@ -383,97 +366,23 @@ impl Series {
             Row::First(p) => plain(to.derivative(p)),
             Row::Second(p) => plain(to.second_derivative(p)),
             Row::Sum(ref terms) => plain(self.sum_of_newest(terms, to)),
-            Row::Product(a, b) => plain(match [self.varies(a), self.varies(b)] {
-                [true, true] if self.is_force(row) && self.level(a) < self.level(b) => {
-                    product!(b, a)
-                }
-                [true, true] => product!(a, b),
-                [false, _] => {
-                    let (a, b) = (to.first(a), to.newest(b));
-                    to.multiply(a, b)
-                }
-                [_, false] => {
-                    let (a, b) = (to.newest(a), to.first(b));
-                    to.multiply(a, b)
-                }
-            }),
+            Row::Product(a, b) => plain(self.product(row, [a, b], to)),
             Row::Square(a) => plain(self.square(row, a, to)),
             Row::TanhSlope(a) => {
                 let square = self.square(row, a, to);
                 plain(to.negate(square))
             }
-            Row::Quotient(a, b) if !self.varies(b) => {
-                let (a, b) = (to.newest(a), to.first(b));
-                plain(to.divide(a, b))
+            Row::Quotient(a, b) => plain(self.quotient(row, [a, b], to)),
+            Row::Sqrt(a) => plain(self.root(row, a, to)),
+            Row::Sin(a, cosine) => self.circular(row, a, (cosine, false), to),
+            Row::Cos(a, sine) => self.circular(row, a, (sine, true), to),
+            Row::Sinh(a, slope) | Row::Cosh(a, slope) | Row::Tanh(a, slope) => {
+                self.integral(row, a, (slope, false), to)
             }
-            Row::Quotient(a, b) => {
-                let sum = to.convolution(row, 0);
-                let a = to.newest(a);
-                let left = to.subtract(a, sum);
-                let (b_m, c_0, b_0) = (to.newest(b), to.first(row), to.first(b));
-                let known = to.multiply(b_m, c_0);
-                let left = to.subtract(left, known);
-                plain(to.divide(left, b_0))
-            }
-            Row::Sqrt(a) => {
-                let sum = to.convolution(row, 0);
-                let (a, root) = (to.newest(a), to.first(row));
-                let (left, twice) = (to.subtract(a, sum), to.add(root, root));
-                plain(to.divide(left, twice))
-            }
-            Row::Sin(a, other) | Row::Cos(a, other) => {
-                let is_cos = matches!(self.rows[row.index()], Row::Cos(..));
-                let Some(rate) = self.phase(a) else {
-                    return integral!(a, other, is_cos);
-                };
-                let before = to.before(other);
-                let sum = match rate {
-                    None => before,
-                    Some(rate) => {
-                        let rate = to.first(rate);
-                        to.multiply(rate, before)
-                    }
-                };
-                let sum = if is_cos { to.negate(sum) } else { sum };
-                let over = to.over_order();
-                Coefficient {
-                    plain: to.multiply(over, sum),
-                    weighted: Some(sum),
-                }
-            }
-            Row::Sinh(a, other) | Row::Cosh(a, other) | Row::Tanh(a, other) => {
-                integral!(a, other, false)
-            }
-            Row::Exp(a) => integral!(a, row, false),
-            Row::Power(a, r) => {
-                let sums = [to.convolution(row, 0), to.convolution(row, 1)];
-                let (a_m, p_0, r) = (to.weighted(a), to.first(row), to.first(r));
-                let rising = to.multiply_add(a_m, p_0, sums[0]);
-                let rising = to.multiply(r, rising);
-                let left = to.subtract(rising, sums[1]);
-                let (over, a_0) = (to.over_order(), to.first(a));
-                let left = to.multiply(over, left);
-                plain(to.divide(left, a_0))
-            }
-            Row::Primitive(_, a, slope) => {
-                let known = to.convolution(row, 0);
-                let (over, a, slope) = (to.over_order(), to.newest(a), to.first(slope));
-                let known = to.multiply(over, known);
-                let left = to.subtract(a, known);
-                plain(to.divide(left, slope))
-            }
-            Row::Atan2(y, x, slope) => {
-                let sums = [0, 1, 2].map(|number| to.convolution(row, number));
-                let [y_m, x_m] = [y, x].map(|row| to.weighted(row));
-                let [y_0, x_0, slope] = [y, x, slope].map(|row| to.first(row));
-                let rising = to.multiply_add(y_m, x_0, sums[0]);
-                let falling = to.multiply_add(x_m, y_0, sums[1]);
-                let area = to.subtract(rising, falling);
-                let left = to.subtract(area, sums[2]);
-                let over = to.over_order();
-                let left = to.multiply(over, left);
-                plain(to.divide(left, slope))
-            }
+            Row::Exp(a) => self.integral(row, a, (row, false), to),
+            Row::Power(a, r) => plain(self.power(row, [a, r], to)),
+            Row::Primitive(_, a, slope) => plain(self.primitive(row, a, slope, to)),
+            Row::Atan2(y, x, slope) => plain(self.angle(row, [y, x], slope, to)),
         }
     }
 
@@ -489,12 +398,153 @@ impl Series {
         }
     }
 
+    /// `p = a b`: `pₘ = aₘ b₀ + a₀ bₘ + Σ aⱼ bₘ₋ⱼ`.
+    #[inline(always)]
+    fn product<A: Arithmetic>(&self, row: RowId, [a, b]: [RowId; 2], to: &mut A) -> A::X {
+        match [self.varies(a), self.varies(b)] {
+            [true, true] if self.is_force(row) && self.level(a) < self.level(b) => {
+                self.convolved(row, [b, a], to)
+            }
+            [true, true] => self.convolved(row, [a, b], to),
+            [false, _] => {
+                let (a, b) = (to.first(a), to.newest(b));
+                to.multiply(a, b)
+            }
+            [_, false] => {
+                let (a, b) = (to.newest(a), to.first(b));
+                to.multiply(a, b)
+            }
+        }
+    }
+
+    /// The sum over all orders of a product of two rows that vary. The sum of a [force](TermOrder::Force) includes the term of order 0.
+    #[inline(always)]
+    fn convolved<A: Arithmetic>(&self, row: RowId, [a, b]: [RowId; 2], to: &mut A) -> A::X {
+        let sum = to.convolution(row, 0);
+        let (b_0, a_m) = (to.first(b), to.newest(a));
+        if self.is_force(row) {
+            to.multiply_add(a_m, b_0, sum)
+        } else {
+            let (a_0, b_m) = (to.first(a), to.newest(b));
+            let sum = to.multiply_add(a_m, b_0, sum);
+            to.multiply_add(a_0, b_m, sum)
+        }
+    }
+
+    /// `p = a²`: `pₘ = aₘ a₀ + a₀ aₘ + Σ aⱼ aₘ₋ⱼ`.
     #[inline(always)]
     fn square<A: Arithmetic>(&self, row: RowId, a: RowId, to: &mut A) -> A::X {
         let sum = to.convolution(row, 0);
         let (a_0, a_m) = (to.first(a), to.newest(a));
         let sum = to.multiply_add(a_m, a_0, sum);
         to.multiply_add(a_0, a_m, sum)
+    }
+
+    /// `p = a/b`, so `b p = a`: `pₘ = (aₘ − Σ bⱼ pₘ₋ⱼ − bₘ p₀)/b₀`.
+    #[inline(always)]
+    fn quotient<A: Arithmetic>(&self, row: RowId, [a, b]: [RowId; 2], to: &mut A) -> A::X {
+        if !self.varies(b) {
+            let (a, b) = (to.newest(a), to.first(b));
+            return to.divide(a, b);
+        }
+        let sum = to.convolution(row, 0);
+        let a = to.newest(a);
+        let left = to.subtract(a, sum);
+        let (b_m, p_0, b_0) = (to.newest(b), to.first(row), to.first(b));
+        let known = to.multiply(b_m, p_0);
+        let left = to.subtract(left, known);
+        to.divide(left, b_0)
+    }
+
+    /// `p = √a`, so `p² = a`: `pₘ = (aₘ − Σ pⱼ pₘ₋ⱼ)/(2 p₀)`.
+    #[inline(always)]
+    fn root<A: Arithmetic>(&self, row: RowId, a: RowId, to: &mut A) -> A::X {
+        let sum = to.convolution(row, 0);
+        let (a, root) = (to.newest(a), to.first(row));
+        let (left, twice) = (to.subtract(a, sum), to.add(root, root));
+        to.divide(left, twice)
+    }
+
+    /// `p = ∫ s da`, with the slope `s = dp/da` or its negative: `m pₘ = Σ j aⱼ sₘ₋ⱼ`, whose last term is `m aₘ s₀`.
+    #[inline(always)]
+    fn integral<A: Arithmetic>(
+        &self,
+        row: RowId,
+        a: RowId,
+        (slope, is_negative): (RowId, bool),
+        to: &mut A,
+    ) -> Coefficient<A::X> {
+        let sum = to.convolution(row, 0);
+        let (a_m, s_0) = (to.weighted(a), to.first(slope));
+        let sum = to.multiply_add(a_m, s_0, sum);
+        over_order(sum, is_negative, to)
+    }
+
+    /// Sine or cosine, of which the other one is the slope or its negative; of `a = ω t + φ` it is `m pₘ = ω sₘ₋₁`.
+    #[inline(always)]
+    fn circular<A: Arithmetic>(
+        &self,
+        row: RowId,
+        a: RowId,
+        (slope, is_negative): (RowId, bool),
+        to: &mut A,
+    ) -> Coefficient<A::X> {
+        let Some(rate) = self.phase(a) else {
+            return self.integral(row, a, (slope, is_negative), to);
+        };
+        let before = to.before(slope);
+        let sum = match rate {
+            None => before,
+            Some(rate) => {
+                let rate = to.first(rate);
+                to.multiply(rate, before)
+            }
+        };
+        over_order(sum, is_negative, to)
+    }
+
+    /// `p = aʳ`, so `a dp = r p da`: `m a₀ pₘ = r Σ j aⱼ pₘ₋ⱼ − Σ j pⱼ aₘ₋ⱼ`.
+    #[inline(always)]
+    fn power<A: Arithmetic>(&self, row: RowId, [a, r]: [RowId; 2], to: &mut A) -> A::X {
+        let sums = [to.convolution(row, 0), to.convolution(row, 1)];
+        let (a_m, p_0, r) = (to.weighted(a), to.first(row), to.first(r));
+        let rising = to.multiply_add(a_m, p_0, sums[0]);
+        let rising = to.multiply(r, rising);
+        let left = to.subtract(rising, sums[1]);
+        let (over, a_0) = (to.over_order(), to.first(a));
+        let left = to.multiply(over, left);
+        to.divide(left, a_0)
+    }
+
+    /// `p` of `s dp = da` with `s` given: `s₀ pₘ = aₘ − Σ j pⱼ sₘ₋ⱼ/m`.
+    #[inline(always)]
+    fn primitive<A: Arithmetic>(&self, row: RowId, a: RowId, slope: RowId, to: &mut A) -> A::X {
+        let known = to.convolution(row, 0);
+        let (over, a, slope) = (to.over_order(), to.newest(a), to.first(slope));
+        let known = to.multiply(over, known);
+        let left = to.subtract(a, known);
+        to.divide(left, slope)
+    }
+
+    /// `p = atan2(y, x)`, so `s dp = x dy − y dx` with `s = x² + y²`: `m s₀ pₘ = Σ j yⱼ xₘ₋ⱼ − Σ j xⱼ yₘ₋ⱼ − Σ j pⱼ sₘ₋ⱼ`.
+    #[inline(always)]
+    fn angle<A: Arithmetic>(
+        &self,
+        row: RowId,
+        [y, x]: [RowId; 2],
+        slope: RowId,
+        to: &mut A,
+    ) -> A::X {
+        let sums = [0, 1, 2].map(|number| to.convolution(row, number));
+        let [y_m, x_m] = [y, x].map(|row| to.weighted(row));
+        let [y_0, x_0, slope] = [y, x, slope].map(|row| to.first(row));
+        let rising = to.multiply_add(y_m, x_0, sums[0]);
+        let falling = to.multiply_add(x_m, y_0, sums[1]);
+        let area = to.subtract(rising, falling);
+        let left = to.subtract(area, sums[2]);
+        let over = to.over_order();
+        let left = to.multiply(over, left);
+        to.divide(left, slope)
     }
 
     /// The operands of a row at its own level, with its derivatives by these at the start. Sums are excluded: their
