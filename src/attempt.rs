@@ -39,16 +39,15 @@ pub(crate) fn arrive<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     now.set_time(before, h, to);
 }
 
-/// The errors of a step of length `h` relative to the tolerance, as root mean square over coordinates and rates.
-///
-/// For the combination with a coarser estimate see *Solving Ordinary Differential Equations I*, eq. (II.10.17).
+/// The errors of a step of length `h` relative to the tolerance, as root mean square over coordinates and rates: see
+/// [`control::error_norm`].
 #[inline(always)]
 pub(crate) fn errors<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     method: &Method,
     h: N,
     ends: [&Point<V, N>; 2],
     k: &[V; MAX_STAGES],
-    tolerance: &Tolerance<V>,
+    (tolerance, is_first): (&Tolerance<V>, &N::Each<bool>),
 ) -> N::Each<f64> {
     let scheme = &method.scheme;
     let of = (tolerance.relative, &tolerance.absolute);
@@ -65,8 +64,9 @@ pub(crate) fn errors<R: Scalar<Stored = N>, N: StepNumber, V: Vector<N>>(
     let numbers = 2 * N::PARTS * ends[0].q.as_slice().len();
     // A loop and not a closure for each trajectory: a closure would not be compiled into its caller for wide registers.
     let mut errors = fine;
-    for (error, coarse) in errors.as_mut().iter_mut().zip(coarse.as_ref()) {
-        *error = control::error_norm(*error, *coarse, numbers);
+    let with = coarse.as_ref().iter().zip(is_first.as_ref());
+    for (error, (coarse, is_first)) in errors.as_mut().iter_mut().zip(with) {
+        *error = control::error_norm(*error, *coarse, *is_first, numbers);
     }
     errors
 }

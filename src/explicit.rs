@@ -243,7 +243,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         evaluate(machine, at, &mut k[newest], &mut trying, &mut failed);
         let control = self.control_mut();
         control.work.evaluations += 1;
-        control.forget_error();
+        control.begin_anew();
         failed.as_ref()[0].map_or(Ok(()), Err)
     }
 
@@ -292,8 +292,10 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let h = h.rounded();
         // For all at once, whatever their outcome, and in a loop instead of a closure: in wide registers all cost as much as one.
         let mut growth = N::each(|lane| self.lanes.as_ref()[lane].control.error_before);
-        for (growth, error) in growth.as_mut().iter_mut().zip(errors.as_ref()) {
-            *growth = control::growth(self.method, *error, *growth);
+        let are_first = N::each(|lane| self.lanes.as_ref()[lane].control.is_first);
+        let of_steps = errors.as_ref().iter().zip(are_first.as_ref());
+        for (growth, (error, is_first)) in growth.as_mut().iter_mut().zip(of_steps) {
+            *growth = control::growth(self.method, *error, *growth, *is_first);
         }
         for (lane, outcome) in outcomes.as_mut().iter_mut().enumerate() {
             if self.lanes.as_ref()[lane].is_running {
@@ -377,6 +379,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let lanes = lanes.as_mut();
         let (scheme, stages) = (&method.scheme, method.tableau.stages);
         let mut trying = N::each(|lane| lanes[lane].is_running);
+        let are_first = N::each(|lane| lanes[lane].control.is_first);
         let mut evaluations = N::each(|_| 0);
         let mut count = |evaluations: N::Each<usize>| {
             for (lane, evaluations) in lanes.iter_mut().zip(evaluations.as_ref()) {
@@ -418,7 +421,8 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
                 failed,
             );
         }
-        let estimates = attempt::errors::<R, N, V>(method, h, [before, now], k, tolerance);
+        let ends = [&*before, &*now];
+        let estimates = attempt::errors::<R, N, V>(method, h, ends, k, (tolerance, &are_first));
         // If the state has overflowed, the error estimate is meaningless.
         let are_numbers = attempt::are_finite(&now.q, &now.v);
         let errors = N::each(|lane| {
@@ -476,7 +480,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
                 *is_running = !is_done;
                 return Outcome::Taken;
             }
-            None => h * control::reduction(self.method, error),
+            None => h * control::reduction(self.method, error, control.is_first),
             // A stage may have left the set of states in which the machine can be.
             Some(_) => 0.1 * h,
         };

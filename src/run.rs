@@ -1,6 +1,7 @@
 //! Makes a run: takes step after step, and after each one looks for events, samples, changes of contacts, and ends of assumptions.
 
 mod choosing;
+mod comparing;
 pub(crate) mod contacts;
 mod explained;
 mod handing_over;
@@ -44,7 +45,7 @@ use crate::{
     ContactTrouble, Coordinates, Error, Inputs, Machine, Pivot, Singular, State, StepMotion,
     System, Vector, Warning,
 };
-use choosing::{CANDIDATES, Choosing};
+use choosing::{Beginning, CANDIDATES, Choosing};
 use contacts::PendingChange;
 use explained::ExplainedResidual;
 use handing_over::ContactActivity;
@@ -79,7 +80,7 @@ pub(crate) struct Prepared<'a, 'l, M: Machine> {
     until: f64,
     tolerance: Tolerance<VectorOf<M>>,
     piece: Piece,
-    chosen: Option<(&'static Method, MethodReason)>,
+    chosen: Option<Beginning>,
     /// Whether it resumes another run, and the event that ended that run there.
     is_resumed: bool,
     ended: Option<String>,
@@ -153,10 +154,10 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let ended = ended.and_then(|resumed| resumed.event);
         let inputs_stay = law.is_constant() && callbacks.sampled.is_none();
         let at = (start.t, &q, &v);
-        let chosen =
-            (settings.automatic).then(|| choosing::first(&system, at, &tolerance, inputs_stay));
-        if let Some((method, _)) = chosen {
-            settings.method = method;
+        let ahead = (until - start.t, inputs_stay);
+        let chosen = (settings.automatic).then(|| choosing::first(&system, at, &tolerance, ahead));
+        if let Some(beginning) = chosen {
+            settings.method = beginning.method;
         }
         let forward = until >= start.t;
         let order = settings.method.tableau.order;
@@ -234,7 +235,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         };
         let mut begun_by = begun(settings.method);
         if begun_by.is_err() && chosen.is_some() && settings.method.kind == Kind::Series {
-            *chosen = Some((Method::DOP853, MethodReason::NoSeries));
+            *chosen = Some(Beginning::with(Method::DOP853, MethodReason::NoSeries));
             settings.method = Method::DOP853;
             begun_by = begun(settings.method);
         }
@@ -245,6 +246,9 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         stepper.set_longest_step(settings.longest_step);
         if let Some(step) = settings.first_step {
             stepper.set_first_step(step);
+        }
+        if let Some(beginning) = *chosen {
+            stepper.count_evaluations(beginning.evaluations);
         }
         for watch in &mut callbacks.watches {
             let observe = || model.observed_system.observe::<M, _>(&stepper, start);

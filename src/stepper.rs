@@ -468,7 +468,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         );
         self.end = end;
         self.control.step = step;
-        self.control.forget_error();
+        self.control.begin_anew();
         if let Some(implicit) = &mut self.implicit {
             implicit.forget();
         }
@@ -648,7 +648,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
         model.accelerations(at.0, at.1, at.2, &mut k[*newest], &mut control.work)?;
         model.take_rates(quadratures, 0, (at.0, at.1, at.2, &k[*newest]));
-        control.forget_error();
+        control.begin_anew();
         #[cfg(feature = "std")]
         if let Some(implicit) = &mut self.implicit {
             implicit.forget();
@@ -1001,7 +1001,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             return self.error_along(constraints, h);
         }
         let ends = [&self.before, &self.now];
-        let of = &self.tolerance;
+        let of = (&self.tolerance, &[self.control.is_first]);
         let [error] = attempt::errors::<R, _, _>(self.method, h, ends, &self.k, of);
         error
     }
@@ -1045,8 +1045,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 }
             }
         }
-        let [fine, coarse] = sums;
-        control::error_norm(fine, coarse, 2 * self.now.q.as_slice().len())
+        let ([fine, coarse], is_first) = (sums, self.control.is_first);
+        control::error_norm(fine, coarse, is_first, 2 * self.now.q.as_slice().len())
     }
 
     /// The distance by which the step just tried was moved onto the constraints, in the norm of its [`error`](Self::error), without the
@@ -1074,24 +1074,27 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// The factor by which the next step may be longer after this good one of length `h`.
     #[inline(always)]
     fn growth(&mut self, _h: f64, error: f64) -> f64 {
+        let is_first = self.control.is_first;
         #[cfg(feature = "std")]
         {
             if let Some(implicit) = &mut self.implicit {
-                let exponent = control::error_exponent(self.method);
+                let exponent = control::error_exponent(self.method, is_first);
                 return implicit.accept(_h, error, exponent, self.method.tableau.step_change);
             }
         }
-        control::growth(self.method, error, self.control.error_before)
+        control::growth(self.method, error, self.control.error_before, is_first)
     }
 
     /// The factor for the length of the next try after this one was rejected.
     fn reduction(&mut self, error: f64) -> f64 {
+        let is_first = self.control.is_first;
         #[cfg(feature = "std")]
         if let Some(implicit) = &mut self.implicit {
             let (shrink, _) = self.method.tableau.step_change;
-            return implicit.reject(error, control::error_exponent(self.method), shrink);
+            let exponent = control::error_exponent(self.method, is_first);
+            return implicit.reject(error, exponent, shrink);
         }
-        control::reduction(self.method, error)
+        control::reduction(self.method, error, is_first)
     }
 
     /// Chooses the length of the first step.

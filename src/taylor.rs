@@ -71,6 +71,16 @@ impl<V: Vector> Taylor<V> {
         }
     }
 
+    /// The series with these coefficients, before a step.
+    pub fn of(coefficients: &[V]) -> Self {
+        Self {
+            coefficients: [(); 2].map(|()| coefficients.to_vec()),
+            beginning: 0,
+            is_taken: false,
+            length: None,
+        }
+    }
+
     /// The coefficients of the last step; before the first step, those of the start.
     pub fn of_step(&self) -> &[V] {
         &self.coefficients[self.beginning]

@@ -3,7 +3,8 @@
 //! All decisions follow from counts of operations, steps and evaluations and from the state, never from a clock. So the same call gives
 //! the same bits.
 //!
-//! * At the start the costs decide: of a step by Taylor series, and of the steps of `dop853` that cover it.
+//! * At the start the costs decide: of a step by Taylor series, and of the steps of `dop853` that cover it. Their number is known within a factor
+//!   of [`SPREAD`]; if that does not decide, it is measured at the start.
 //! * If stability limits explicit steps, the run changes to a Radau method. The test of DOP853 detects this, and in series the fastest
 //!   rate of the machine does.
 //! * It changes from a Radau method back to `dop853` if its steps have cost more than explicit ones would: evaluations, and the solution of
@@ -11,6 +12,7 @@
 //!   than there, or else what stable ones cost that are no longer than the implicit ones.
 
 use super::Run;
+use super::comparing::{Comparison, compare};
 use crate::balance::Quadratures;
 use crate::control::Work;
 use crate::inputs::InputLaw;
@@ -35,6 +37,15 @@ const EVALUATIONS: f64 = 12.0;
 /// The search for the end of assumptions that are not linear, in a step by series, takes about as long as this many evaluations: what a step of
 /// the spherical pendulum takes (`docs/benchmarks.md`) beyond its estimate, with 12 coefficients as well as with 20.
 const SEARCH: f64 = 5.0;
+
+/// The number of steps of `dop853` that do as one step by series, measured in runs of many machines, is at most so many times larger or smaller
+/// than what is [assumed](steps_for_one) for all (`docs/benchmarks.md`).
+const SPREAD: f64 = 1.5;
+
+/// The number of steps of `dop853` that end a run with the error of one step by series, as a multiple of that with the same error in a single step, with
+/// 12 and with 20 coefficients: geometric means over the machines of `docs/benchmarks.md`. The errors of `dop853` have the same sign in many
+/// consecutive steps, those of series, which contain high derivatives of the motion, change theirs often.
+const ACCUMULATION: [f64; 2] = [1.48, 1.2];
 
 /// Number of explicit steps between stiffness tests: so small that the work until a stiff machine is detected is a small part of the work
 /// of an implicit method for the whole motion.
@@ -123,11 +134,8 @@ impl Choosing {
     }
 
     /// For a run that begins with a method of its own choice.
-    pub fn begun(
-        t: f64,
-        (method, reason): (&'static Method, MethodReason),
-        may_change: bool,
-    ) -> Self {
+    pub fn begun(t: f64, beginning: Beginning, may_change: bool) -> Self {
+        let Beginning { method, reason, .. } = beginning;
         Self {
             is_free: may_change,
             choices: [MethodChoice { t, method, reason }].into(),
@@ -156,30 +164,66 @@ fn steps_for_one(tolerance: f64) -> f64 {
     size * crate::math::power(at / tolerance, power)
 }
 
-/// The method to begin with at this state, and the reason.
+/// The method that a run begins with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beginning {
+    pub method: &'static Method,
+    pub reason: MethodReason,
+    /// The evaluations that the choice took.
+    pub evaluations: usize,
+}
+
+impl Beginning {
+    /// A choice without measurements.
+    pub fn with(method: &'static Method, reason: MethodReason) -> Self {
+        Self {
+            method,
+            reason,
+            evaluations: 0,
+        }
+    }
+}
+
+/// The method to begin with at this state, at the signed distance `left` from the end.
 pub(super) fn first<S: System>(
     system: &S,
     (t, q, v): (f64, &S::Vector, &S::Vector),
     tolerance: &Tolerance<S::Vector>,
-    inputs_stay: bool,
-) -> (&'static Method, MethodReason) {
-    let explicit = (Method::DOP853, MethodReason::Explicit);
+    (left, inputs_stay): (f64, bool),
+) -> Beginning {
+    let explicit = Beginning::with(Method::DOP853, MethodReason::Explicit);
     let is_possible = inputs_stay && system.check_series().is_ok();
     let costs = is_possible.then(|| system.series_cost()).flatten();
     let Some(costs) = costs else {
         return explicit;
     };
-    let tolerance = finest_tolerance(tolerance);
+    let finest = finest_tolerance(tolerance);
+    let order = usize::from(finest <= taylor::FINE);
     let inputs = system.default_inputs();
     let is_searched =
         !system.has_linear_assumptions() && system.assumptions(t, q, v, &inputs).len() != 0;
     let search = if is_searched { SEARCH } else { 0.0 };
-    let cost = costs[usize::from(tolerance <= taylor::FINE)] + search;
-    let saved = EVALUATIONS * steps_for_one(tolerance);
-    if cost < saved {
+    let cost = costs[order] + search;
+    let assumed = steps_for_one(finest);
+    let mut saved = EVALUATIONS * assumed;
+    let mut evaluations = 0;
+    if (saved / SPREAD..saved * SPREAD).contains(&cost) {
+        let at = (t, q, v);
+        if let Some(found) = compare(system, at, tolerance, (finest, left, assumed)) {
+            let Comparison { steps, .. } = found;
+            saved = EVALUATIONS * ACCUMULATION[order] * steps;
+            evaluations = found.evaluations;
+        }
+    }
+    let (method, reason) = if cost < saved {
         (Method::TAYLOR, MethodReason::SeriesPays { cost, saved })
     } else {
         (Method::DOP853, MethodReason::SeriesCosts { cost, saved })
+    };
+    Beginning {
+        method,
+        reason,
+        evaluations,
     }
 }
 

@@ -26,6 +26,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.switch_method(method, self.longest)
     }
 
+    /// Counts evaluations that were made for the choice of the method.
+    pub(crate) fn count_evaluations(&mut self, evaluations: usize) {
+        self.control.work.evaluations += evaluations;
+    }
+
     /// Sets the number of steps between two stiffness tests.
     pub(crate) fn test_stiffness_every(&mut self, steps: usize) {
         self.between_tests = steps;

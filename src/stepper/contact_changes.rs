@@ -267,7 +267,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             Some(flight) if flight > 0.0 => step.min(STEP_TO_FLIGHT_RATIO * flight),
             _ => step,
         };
-        self.control.forget_error();
+        self.control.begin_anew();
         if let Some(implicit) = &mut self.implicit {
             implicit.forget();
         }

@@ -60,6 +60,7 @@ pub(crate) struct Tries {
     h: Wide,
     end: Wide,
     is_last: [bool; WIDTH],
+    are_first: [bool; WIDTH],
     errors: [f64; WIDTH],
     /// Whether the machines have constraints: then a try in lanes ends at the new point, which each stepper projects.
     have_constraints: bool,
@@ -140,6 +141,7 @@ impl Tries {
             h: Lanes::splat(0.0),
             end: Lanes::splat(of.now.t),
             is_last: [false; WIDTH],
+            are_first: [true; WIDTH],
             errors: [0.0; WIDTH],
             have_constraints: has_constraints(of),
             succeeded: 0,
@@ -175,6 +177,7 @@ impl Tries {
         put(&mut self.tolerance.absolute, lane, &of.tolerance.absolute);
         (self.h[lane], self.end[lane]) = (next.h, of.end);
         self.is_last[lane] = next.last;
+        self.are_first[lane] = of.control.is_first;
     }
 
     /// Leaves the next try of every step to its own stepper.
@@ -235,6 +238,7 @@ impl Tries {
             h,
             end,
             is_last,
+            are_first,
             errors,
             have_constraints,
             succeeded,
@@ -264,7 +268,8 @@ impl Tries {
                 &mut k[stages],
             );
         }
-        *errors = attempt::errors::<R, _, _>(method, *h, [before, now], k, tolerance);
+        let of = (&*tolerance, &*are_first);
+        *errors = attempt::errors::<R, _, _>(method, *h, [before, now], k, of);
         *succeeded &= bits(&attempt::are_finite(&now.q, &now.v));
         let mut good = 0;
         for (lane, error) in errors.iter().enumerate() {

@@ -5,7 +5,10 @@ use crate::support::known_ends::{CHAOTIC_AT_10, CRUSHER_AT_5, REGULAR_AT_100};
 use crate::support::known_runs::KnownRun;
 use crate::support::library;
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{METHODS, Machine, Method, Simulation, State, System, Vector};
+use lagrangian::{
+    DefaultInputs, METHODS, Machine, Method, NoBalance, RADAU_OF_HIGH_ORDER, Simulation, State,
+    Stepper, System, Tolerance, Vector,
+};
 use lagrangian_machines::{Crusher9, DoublePendulum};
 use lagrangian_scalar::DoubleDouble;
 
@@ -115,6 +118,90 @@ fn runs_of_the_library_end_at_the_references() {
     ends_there("double_pendulum_chaotic", &METHODS[0], 1e-14, 1e-4);
 }
 
+/// The error of the first step of a run with each method, as root mean square in units of the tolerance, for tolerances from 1e-4 to 1e-10.
+fn errors_of_first_step(name: &str, method: &'static Method) -> Vec<f64> {
+    let known = KnownRun::named(name);
+    let machine = machine(&known);
+    let system = machine.prepare();
+    let to_vector = |numbers: &[f64]| {
+        let mut vector =
+            <<InterpretedMachine as Machine>::System as System>::Vector::zeros(numbers.len());
+        vector.as_mut_slice().copy_from_slice(numbers);
+        vector
+    };
+    let (q, v) = known.start.split_at(known.start.len() / 2);
+    let begin = |method, tolerance: f64| {
+        let mut absolute = to_vector(q);
+        absolute.as_mut_slice().fill(tolerance);
+        let tolerance = Tolerance {
+            relative: tolerance,
+            absolute,
+        };
+        let start = (0.0, to_vector(q), to_vector(v));
+        let until = known.until;
+        Stepper::new(
+            &system,
+            DefaultInputs,
+            NoBalance,
+            method,
+            tolerance,
+            start,
+            until,
+        )
+        .unwrap()
+    };
+    // The truth comes from a method of another kind, at a thousandth of the finest of these tolerances.
+    let other = match method.tableau.spectrum {
+        None => &RADAU_OF_HIGH_ORDER[1],
+        Some(_) => Method::DOP853,
+    };
+    let tolerances = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
+    let errors = tolerances.map(|tolerance| {
+        let mut stepper = begin(method, tolerance);
+        stepper.step().unwrap();
+        let mut exact = begin(other, 1e-13);
+        exact.set_end(stepper.t());
+        while !exact.is_done() {
+            exact.step().unwrap();
+        }
+        let levels = [[stepper.q(), exact.q()], [stepper.v(), exact.v()]];
+        let sums = levels.map(|[y, exact]| -> f64 {
+            let pairs = y.as_slice().iter().zip(exact.as_slice());
+            let ratios = pairs.map(|(y, exact)| (y - exact) / (tolerance * (1.0 + exact.abs())));
+            ratios.map(|ratio| ratio * ratio).sum()
+        });
+        ((sums[0] + sums[1]) / known.start.len() as f64).sqrt()
+    });
+    errors.to_vec()
+}
+
+/// The error of a step is meant to be within a factor of 10 of the tolerance. That of the first one was up to 70 tolerances on chains that start straight
+/// and at rest, where the combination of both estimates of `dop853` is far too small; nothing about it is special in other methods.
+#[test]
+fn the_first_step_of_a_run_is_as_accurate_as_the_others() {
+    for method in METHODS.iter().chain(&RADAU_OF_HIGH_ORDER) {
+        for name in [
+            "chain_16",
+            "chain_8",
+            "closed_pendulum",
+            "crusher",
+            "double_pendulum_regular",
+            "elastic_pendulum",
+            "flyball_governor",
+            "heavy_top",
+            "six_joint_arm",
+        ] {
+            let errors = errors_of_first_step(name, method);
+            println!("{name}, {}: {errors:.2?}", method.tableau.name);
+            assert!(
+                errors.iter().all(|error| *error <= 10.0),
+                "{name}, {}: {errors:?}",
+                method.tableau.name
+            );
+        }
+    }
+}
+
 /// On springs of 2e9 N/m the crusher's steps are limited by stability now and then, but those of a Radau method are limited by accuracy and are more. A run
 /// that chooses its method tries it for 16 steps after no less than 115 explicit ones, and less and less often: a tenth of the work.
 #[test]
@@ -135,12 +222,19 @@ fn a_run_that_chooses_its_method_leaves_one_that_costs_more() {
         let count = chosen.statistics().evaluations as f64;
         let limit = 1.1 * explicit.unwrap().statistics().evaluations as f64;
         let choices = chosen.choices();
-        assert!(count <= limit, "{tolerance}: {count}, {choices:?}");
+        let described = choices
+            .iter()
+            .map(|choice| (choice.t, choice.method.tableau.name));
+        let described: Vec<_> = described.collect();
+        assert!(
+            count <= limit,
+            "{tolerance}: {count} of {limit}, {described:?}"
+        );
         let ends = choices.iter().skip(1).map(|next| next.t);
         let pieces = choices.iter().zip(ends.chain([known.until]));
         let by_radau = pieces.filter(|(choice, _)| choice.method.tableau.name == "radau5");
         let share: f64 = by_radau.map(|(choice, end)| end - choice.t).sum();
-        assert!(share < 0.1 * known.until, "{tolerance}: {choices:?}");
+        assert!(share < 0.1 * known.until, "{tolerance}: {described:?}");
     }
 }
 
@@ -190,6 +284,7 @@ fn costs_hardly_more<M: Machine>(name: &str, machine: &M) {
     };
     let chosen = points(None);
     let others = [Method::DOP853, Method::TAYLOR].map(|method| points(Some(method)));
+    println!("{name}: chosen {chosen:.2e?}, dop853 and taylor {others:.2e?}");
     for error in [1e-3, 1e-5, 1e-7, 1e-9, 1e-11] {
         let least = |points: &[(f64, f64)]| {
             let reached = points.iter().filter(|(_, other)| *other <= error);

@@ -25,6 +25,7 @@ class Integrator {
     const slopes = Array.from({ length: stages + 1 }, () => new Float64Array(y.length));
     let t = times[0];
     let h = 0;
+    let isFirst = true;
     tell(y, 0);
     f(t, y, slopes[0]);
     const next = new Float64Array(y.length);
@@ -57,14 +58,17 @@ class Integrator {
         // Some pairs also use the slope at the new point.
         if (error.length > stages) f(t + step, next, slopes[stages]);
         let off = this.norm(sum(error, error.length), y, next);
-        if (coarse && off > 0) {
+        // The combination with the coarser estimate may be far too small in the first step: see `error_norm` of the library.
+        const combines = coarse && !isFirst;
+        if (combines && off > 0) {
           const other = this.norm(sum(coarse, coarse.length), y, next);
           off = (off * off) / Math.sqrt(off * off + 0.01 * other * other);
         }
         off *= Math.abs(step);
         if (++this.steps > this.mostSteps) throw new Error(`more than ${this.mostSteps} steps, at t = ${t} s`);
-        const factor = off > 0 ? 0.9 * off ** (-1 / power) : most;
+        const factor = off > 0 ? 0.9 * off ** (-1 / (coarse && isFirst ? power - 2 : power)) : most;
         if (off <= 1) {
+          isFirst = false;
           t = last ? until : t + step;
           y.set(next);
           hold(t, y);
