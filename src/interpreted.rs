@@ -25,6 +25,7 @@ mod engine;
 mod in_lanes;
 mod in_numbers;
 mod in_series;
+mod precise;
 mod reading;
 mod recording;
 mod runs;
@@ -41,6 +42,7 @@ pub use enclosure::{Enclosure, NotEnclosed};
 pub use engine::Engine;
 pub use in_numbers::InterpretedSystemIn;
 pub use in_series::SeriesStepper;
+pub use precise::{PreciseEnd, PreciseRun};
 pub use reading::Reading;
 pub use recording::{Column, Kind, Recording};
 pub use signals::{Signal, SignalError, SignalFunction, Signals};
@@ -424,7 +426,7 @@ impl Kernel<f64> for Expand<'_> {
     #[inline(always)]
     fn run<N: Scalar<Stored = f64>>(self) -> Self::Output {
         let (t, q, v, u) = self.at;
-        self.expander.expand::<N>(t, q, v, u)
+        self.expander.expand_in::<N>(t, q, v, u)
     }
 }
 

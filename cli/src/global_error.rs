@@ -7,7 +7,7 @@
 
 use std::iter;
 
-use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::interpreted::{InterpretedMachine, Named, PreciseRun};
 use lagrangian::{LEAST_RELATIVE_TOLERANCE, State};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_program::series::NoSeries;
@@ -15,7 +15,7 @@ use lagrangian_units::state_of;
 use serde_json::{Map, Value, json};
 
 use crate::numbers::shortest;
-use crate::precise::{self, PreciseRun, worst};
+use crate::precise::{self, worst};
 
 /// The tolerance of runs in double-doubles.
 const WIDE_TOLERANCE: f64 = 1e-26;

@@ -1,8 +1,8 @@
 //! `lagrangian simulate --precision dd` and `--validated`: runs with more digits, and proved bounds.
 
-mod run;
-
-use lagrangian::interpreted::{Enclosure, InterpretedMachine, Named, SeriesStepper};
+use lagrangian::interpreted::{
+    Enclosure, InterpretedMachine, Named, PreciseEnd, PreciseRun, SeriesStepper,
+};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::scalar::{DoubleDouble, Interval, Scalar};
 use lagrangian::{Error, Machine, State, Work};
@@ -20,7 +20,6 @@ use crate::numbers::shortest;
 use crate::output;
 use crate::progress;
 use crate::reading::{self, Reading};
-pub use run::{PreciseEnd, PreciseRun};
 
 /// The number of printed digits.
 const DIGITS: usize = 30;

@@ -322,9 +322,7 @@ impl Enclosure {
         let n = states.len() / 2;
         let (q, v) = states.split_at(n);
         let time = [t, Interval::ZERO];
-        self.of_states
-            .expand::<Interval>(time, q, v, &self.inputs)
-            .ok()?;
+        self.of_states.expand(time, q, v, &self.inputs).ok()?;
         let rows: Vec<Vec<Interval>> = (0..n)
             .map(|i| self.of_states.coordinate(i).to_vec())
             .collect();
@@ -488,9 +486,7 @@ impl Enclosure {
             states[column].derivative = Interval::ONE;
             let (q, v) = states.split_at(n);
             let expander = &mut self.of_derivatives;
-            expander
-                .expand::<Dual<Interval>>(time, q, v, &inputs)
-                .ok()?;
+            expander.expand(time, q, v, &inputs).ok()?;
             for i in 0..n {
                 let row = expander.coordinate(i);
                 let (mut q, mut v) = (Interval::ZERO, Interval::ZERO);

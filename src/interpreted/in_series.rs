@@ -303,7 +303,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
     fn accelerations_at(&mut self, t: N, q: &[N], v: &[N]) -> Option<Vec<N>> {
         self.work.evaluations += 1;
         (self.expander)
-            .expand::<N>([t, N::ZERO], q, v, &self.inputs)
+            .expand([t, N::ZERO], q, v, &self.inputs)
             .ok()?;
         let second = |i: usize| self.expander.coordinate(i)[2];
         Some((0..q.len()).map(|i| second(i) + second(i)).collect())
@@ -351,7 +351,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         if !std::mem::take(&mut self.is_expanded) {
             self.work.evaluations += 1;
             let expanded =
-                (self.expander).expand::<N>([self.t, N::ZERO], &self.q, &self.v, &self.inputs);
+                (self.expander).expand([self.t, N::ZERO], &self.q, &self.v, &self.inputs);
             expanded.map_err(|singular| StepError::Singular {
                 singular: singular_row(&self.system.program, singular),
                 t: at,

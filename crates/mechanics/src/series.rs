@@ -115,7 +115,7 @@ fn holds<R: Number>(
 ) -> Option<bool> {
     let mut expander = Expander::new(series.clone(), &at.parameters, ORDERS);
     let t = [at.t, R::ZERO];
-    expander.expand::<R>(t, &at.q, &at.v, &at.u).ok()?;
+    expander.expand(t, &at.q, &at.v, &at.u).ok()?;
     let number = |j: usize| R::from_ratio(j as i64, 1);
     let jets = |derivative: usize| -> Vec<Jet<R, ORDERS>> {
         let of = |i: usize| {

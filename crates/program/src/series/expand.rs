@@ -215,6 +215,12 @@ impl<T: Scalar<Stored = T>> Expander<T> {
         expander
     }
 
+    /// [`expand_in`](Self::expand_in) its own numbers; compiled once, however often it is called.
+    #[inline(never)]
+    pub fn expand(&mut self, t: [T; 2], q: &[T], v: &[T], u: &[T]) -> Result<(), Singular> {
+        self.expand_in::<T>(t, q, v, u)
+    }
+
     /// Computes the rows that depend on parameters alone.
     fn prepare(&mut self) {
         let series = self.series.clone();
@@ -265,7 +271,7 @@ impl<T: Copy> Expander<T> {
     ///
     /// An error if the mass matrix cannot be inverted.
     #[inline(always)]
-    pub fn expand<N: Scalar<Stored = T>>(
+    pub fn expand_in<N: Scalar<Stored = T>>(
         &mut self,
         t: [T; 2],
         q: &[T],

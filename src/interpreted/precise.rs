@@ -1,14 +1,17 @@
 //! The end of a run in double-double arithmetic.
 
-use lagrangian::interpreted::{InterpretedMachine, Named, SeriesStepper};
-use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::scalar::{DoubleDouble, Scalar};
-use lagrangian::{Error, ExplicitStepper, Machine, State, Work};
+use std::vec::Vec;
+
+use lagrangian_scalar::{DoubleDouble, Scalar};
+
+use super::{InterpretedMachine, Named, SeriesStepper};
+use crate::methods::{Method, TAYLOR};
+use crate::{Error, ExplicitStepper, Machine, State, Work};
 
 /// Settings of a run in double-double arithmetic, of which only the end is kept: a reference for runs in `f64`.
 ///
-/// The steppers are generic, and compiled here for these numbers: optimized with the runtime they would take as long to compile as
-/// all the rest of it.
+/// An [`ExplicitStepper`] or a [`SeriesStepper`] in double-doubles takes the same steps. Those are generic, so that each crate that
+/// uses them compiles a copy of its own; this one is compiled with the runtime.
 #[derive(Clone, Copy, Debug)]
 pub struct PreciseRun {
     /// `taylor`, or an explicit method.
@@ -43,7 +46,7 @@ impl PreciseRun {
     ) -> Result<PreciseEnd, Error> {
         let until = DoubleDouble::from_f64(until);
         let (q, v) = (&start.q.values, &start.v.values);
-        if std::ptr::eq(self.method, &TAYLOR) {
+        if core::ptr::eq(self.method, &TAYLOR) {
             let from = (start.t, q.as_slice(), v.as_slice());
             let mut stepper = SeriesStepper::from_state(machine, self.tolerance, from)?;
             stepper.set_max_steps(self.max_steps);
