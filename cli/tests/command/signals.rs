@@ -243,6 +243,34 @@ fn a_sampled_formula_holds_until_the_next() {
     near(found, state, 1e-10);
 }
 
+/// The table shows at each sample what is set there, however its time is rounded, also at a sample that ends the run; with a
+/// delay of one period, what was set one sample earlier.
+#[test]
+fn the_value_of_a_sample_holds_at_its_row() {
+    let spec = Scratch::new("driven.machine", DRIVEN);
+    let out = spec.0.with_file_name("run.csv");
+    let out = out.to_str().expect("text");
+    for late in [0_i32, 1] {
+        let push = format!("push=1*N/s*t,every=0.1,delay={}", f64::from(late) / 10.0);
+        let call = ["--until", "1", "--every", "0.02", "--input", &push];
+        let said = simulate(spec.path(), &[&call[..], &["--out", out]].concat());
+        assert_eq!(said.status, 0, "{}", said.error);
+        let rows = std::fs::read_to_string(out).expect("a table");
+        let mut lines = rows.lines();
+        let header: Vec<&str> = lines.next().expect("a head").split(',').collect();
+        let place = header.iter().position(|head| *head == "push [N]");
+        let place = place.expect("a column");
+        let cells = lines.map(|line| line.split(',').nth(place).expect("a cell"));
+        let found: Vec<f64> = cells.map(|cell| cell.parse().expect("a number")).collect();
+        assert_eq!(found.len(), 51);
+        for (row, found) in (0..).zip(found) {
+            let known = f64::from((row / 5 - late).max(0)) / 10.0;
+            // The time of the sample is rounded once more.
+            assert!((found - known).abs() <= f64::EPSILON, "{row}: {found}");
+        }
+    }
+}
+
 #[test]
 fn what_cannot_drive_an_input_is_refused() {
     let spec = Scratch::new("driven.machine", DRIVEN);
