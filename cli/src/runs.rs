@@ -393,9 +393,10 @@ fn run_spec(
         .energy_balance(true);
     simulation = reading::keep(simulation, &runs.keep);
     let interval = runs.every.unwrap_or(options.until / SAMPLES);
+    let width = simulate::width(&machine, output_count);
     match looks {
         SampleInstants::Even => {
-            simulate::check_samples("--every", interval, options.until)?;
+            simulate::check_samples("--every", interval, options.until, width)?;
             simulation = simulation.every(interval).forget_steps();
         }
         SampleInstants::At(_) => {}
@@ -427,7 +428,7 @@ fn run_spec(
                 )));
             }
             let period = period_of(&machine, &start, quantity_count, "--every-period", formula)?;
-            simulate::check_samples("--every-period", period, options.until)?;
+            simulate::check_samples("--every-period", period, options.until, width)?;
             Some(period)
         }
         _ => None,

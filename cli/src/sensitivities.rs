@@ -464,7 +464,9 @@ fn run_with_derivatives(
         }
     }
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
-    check_samples("--every", interval, call.until)?;
+    let of_each = observed.len() + 2 * start.q.values.len();
+    let width = 1 + of_each * (1 + variations.len());
+    check_samples("--every", interval, call.until, width)?;
     progress::run(call.until);
     if collides {
         return across_impacts(call, machine, method, &from, variations, observed);

@@ -770,6 +770,21 @@ fn what_cannot_be_is_said() {
             2,
             &["--every", "instants"],
         ),
+        // As many instants as are allowed, with the rates and angles of 24 links at each.
+        (
+            &[
+                "spectrum",
+                "machines/chain.machine",
+                "--const",
+                "N=24",
+                "--until",
+                "1",
+                "--every",
+                "2.1e-7",
+            ],
+            2,
+            &["--every", "numbers"],
+        ),
         (
             &[
                 "sensitivities",

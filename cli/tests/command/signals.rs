@@ -403,6 +403,13 @@ fn what_cannot_drive_an_input_is_refused() {
         "{}",
         said.error
     );
+    let warnings = &summary(spec.path(), &call)["warnings"];
+    let first = warnings[0].as_str().expect("a warning");
+    assert!(
+        first.starts_with("no Taylor series: input `push` changes continuously")
+            && first.ends_with("dop853 is used"),
+        "{first}"
+    );
 }
 
 /// The required friction of a rolling contact follows the input, not its default: |T|/N of a disc that is pulled at its centre
