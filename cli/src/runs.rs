@@ -30,7 +30,7 @@ const SAMPLES: f64 = 1000.0;
 const STEPS: usize = 10_000_000;
 
 /// The default tolerance of a run.
-const TOLERANCE: f64 = 1e-9;
+pub const TOLERANCE: f64 = 1e-9;
 
 /// A column of a run.
 #[derive(Clone, Debug)]
@@ -167,6 +167,24 @@ impl Columns {
             }
         }
         self
+    }
+
+    /// Warns if a quantity oscillates more than once in two rows, so that it seems to have other frequencies.
+    pub fn warn_if_undersampled(&self, quantity: &Quantity) {
+        let rates = self.rates(&quantity.name);
+        let curve = self.curve(quantity, rates.as_deref(), call::Interpolation::Cubic);
+        // Below this runs are not accurate.
+        if curve.is_undersampled(TOLERANCE) {
+            output::print_error(format_args!(
+                "warning: `{}` oscillates more than once in two rows, as its rates show, so what is found here is not its motion: {}",
+                quantity.name,
+                if self.is_spec {
+                    "record it with a smaller --every"
+                } else {
+                    "record a table with more rows"
+                }
+            ));
+        }
     }
 
     /// A column as a function of time, with its rates if available.

@@ -301,6 +301,21 @@ fn what_cannot_drive_an_input_is_refused() {
         ("short.csv", "t,a,push\n0,1\n", "short.csv, line 2"),
         ("long.csv", "t,push\n0,1,2\n", "more cells than the header"),
         ("name.csv", "t,pusch\n0,1\n", "did you mean `pusch`?"),
+        (
+            "slash.csv",
+            "t/s,push\n0,1\n",
+            "in brackets, after a space: `t [s]`",
+        ),
+        (
+            "round.csv",
+            "t,push (kN)\n0,1\n",
+            "in brackets, after a space: `push [kN]`",
+        ),
+        (
+            "close.csv",
+            "t,push[kN]\n0,1\n",
+            "in brackets, after a space: `push [kN]`",
+        ),
         ("none.csv", "", "it is empty"),
         ("head.csv", "t,push\n", "no rows"),
         (
@@ -322,6 +337,13 @@ fn what_cannot_drive_an_input_is_refused() {
         assert_eq!(said.status, 2, "{name}: {}", said.error);
         assert!(said.error.contains(why), "{name}: {}", said.error);
     }
+    // Also where the column is named as it stands there: the number would be taken in the unit of the input.
+    let slash = folder.join("slash.csv");
+    std::fs::write(&slash, "t,push/kN\n0,1\n").expect("a file");
+    let input = format!("push={}:push/kN", slash.display());
+    let said = simulate(spec.path(), &["--until", "1", "--input", &input]);
+    assert_eq!(said.status, 2, "{}", said.error);
+    assert!(said.error.contains("`push [kN]`"), "{}", said.error);
     std::fs::write(folder.join("latin.csv"), b"t,push\n0,1 # \xe9\n").expect("a file");
     let latin = format!("push={}", folder.join("latin.csv").display());
     std::fs::write(folder.join("good.csv"), "t,push\n0,1\n1,2\n").expect("a file");
