@@ -349,7 +349,11 @@ fn rows_too_far_apart_for_an_oscillation_are_told() {
         assert!(output.status.success());
         let said = String::from_utf8(output.stderr).expect("text");
         assert!(said.contains(words), "{command} {every}: {said}");
-        assert_eq!(said.is_empty(), words.is_empty(), "{command} {every}: {said}");
+        assert_eq!(
+            said.is_empty(),
+            words.is_empty(),
+            "{command} {every}: {said}"
+        );
     }
 }
 

@@ -136,7 +136,12 @@ impl<'a> Curve<'a> {
 
     /// The greatest difference between two values.
     pub fn range(&self) -> f64 {
-        let finite = || self.values.iter().copied().filter(|value| value.is_finite());
+        let finite = || {
+            self.values
+                .iter()
+                .copied()
+                .filter(|value| value.is_finite())
+        };
         let greatest = finite().fold(f64::NEG_INFINITY, f64::max);
         (greatest - finite().fold(f64::INFINITY, f64::min)).max(0.0)
     }
@@ -308,21 +313,34 @@ mod tests {
     /// A sine is undersampled below two rows in a period, at whatever phases the rows are.
     #[test]
     fn rates_show_that_a_sine_is_undersampled() {
-        for (rows_in_a_period, is_undersampled) in
-            [(20.0, false), (2.2, false), (1.9, true), (1.3, true), (1.0, true)]
-        {
+        for (rows_in_a_period, is_undersampled) in [
+            (20.0, false),
+            (2.2, false),
+            (1.9, true),
+            (1.3, true),
+            (1.0, true),
+        ] {
             let h = std::f64::consts::TAU / rows_in_a_period;
             let phases: Vec<f64> = (0..500).map(|k| 0.4 + h * f64::from(k)).collect();
             let values: Vec<f64> = phases.iter().map(|phase| phase.sin()).collect();
             let rates: Vec<f64> = phases.iter().map(|phase| phase.cos()).collect();
             let curve = Curve::new(&phases, &values, Some(&rates), Interpolation::Hermite);
-            assert_eq!(curve.is_undersampled(1e-9), is_undersampled, "{rows_in_a_period}");
+            assert_eq!(
+                curve.is_undersampled(1e-9),
+                is_undersampled,
+                "{rows_in_a_period}"
+            );
             let curve = Curve::new(&phases, &values, None, Interpolation::Cubic);
             assert!(!curve.is_undersampled(1e-9));
         }
         // A shaft that turns uniformly has the rate of its changes, however far apart rows are.
         let (times, rates) = ([0.0, 1.0, 2.0], [50.0; 3]);
-        let curve = Curve::new(&times, &[0.0, 50.0, 100.0], Some(&rates), Interpolation::Hermite);
+        let curve = Curve::new(
+            &times,
+            &[0.0, 50.0, 100.0],
+            Some(&rates),
+            Interpolation::Hermite,
+        );
         assert!(!curve.is_undersampled(1e-9));
     }
 
