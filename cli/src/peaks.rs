@@ -128,7 +128,9 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
 
 /// Warns if a quantity is not known well between rows, where its extremes are.
 fn warn_of_sparse_rows(columns: &Columns, quantity: &Quantity) {
-    columns.warn_if_undersampled(quantity);
+    if columns.warn_if_undersampled(quantity) {
+        return;
+    }
     let Some(rates) = columns.rates(&quantity.name) else {
         return;
     };

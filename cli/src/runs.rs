@@ -169,12 +169,13 @@ impl Columns {
         self
     }
 
-    /// Warns if a quantity oscillates more than once in two rows, so that it seems to have other frequencies.
-    pub fn warn_if_undersampled(&self, quantity: &Quantity) {
+    /// Warns if a quantity oscillates more than once in two rows, so that it seems to have other frequencies. Returns whether it does.
+    pub fn warn_if_undersampled(&self, quantity: &Quantity) -> bool {
         let rates = self.rates(&quantity.name);
         let curve = self.curve(quantity, rates.as_deref(), call::Interpolation::Cubic);
         // Below this runs are not accurate.
-        if curve.is_undersampled(TOLERANCE) {
+        let is_undersampled = curve.is_undersampled(TOLERANCE);
+        if is_undersampled {
             output::print_error(format_args!(
                 "warning: `{}` oscillates more than once in two rows, as its rates show, so what is found here is not its motion: {}",
                 quantity.name,
@@ -185,6 +186,7 @@ impl Columns {
                 }
             ));
         }
+        is_undersampled
     }
 
     /// A column as a function of time, with its rates if available.
