@@ -379,7 +379,10 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// Ends the run: returns its results with the energy balance and the warnings.
-    pub(crate) fn end(self, ending: Result<Ending, Error>) -> Finished<M> {
+    pub(crate) fn end(mut self, ending: Result<Ending, Error>) -> Finished<M> {
+        if ending.is_ok() {
+            self.change_inputs_at_end();
+        }
         let (ending, error) = match ending {
             Ok(ending) => (ending, None),
             Err(error) => (Ending::Error, Some(error)),

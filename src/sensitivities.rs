@@ -35,7 +35,9 @@ use crate::{
 /// tolerance allows. The absolute tolerance is the same number for all; [`absolute_of`](crate::Simulation::absolute_of) sets
 /// it for one of them, `"theta by l"`.
 ///
-/// Machines with unilateral contacts are refused, since derivatives jump where contacts open and close.
+/// Machines with unilateral contacts are refused, since derivatives jump where contacts open and close. They also jump where a force does,
+/// as friction by `sign(der(x))` does where `der(x)` passes 0, and this is *not* found here: from there on the derivatives are wrong. Make
+/// such a force smooth, or take differences of runs; `lagrangian sensitivities` compares its derivatives with them.
 ///
 /// Machines with constraints are refused unless the caller provides the derivatives of their start
 /// ([`with_start_on_constraints`](Self::with_start_on_constraints)): the start satisfies the constraints, and changes with

@@ -196,6 +196,9 @@ pub(crate) struct Sampled<'a, M: Machine> {
     pub period: f64,
     /// Delay from a sample until the inputs that it set take effect, in s.
     pub delay: f64,
+    /// Whether it also reads the state at a sample that is due exactly at the end of the run, where its inputs move nothing. Only a
+    /// controller without a state of its own may: a run that continues from there begins with the same sample.
+    pub reads_end: bool,
     pub controller: Box<dyn Controller<'a, M> + 'a>,
 }
 

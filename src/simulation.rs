@@ -593,6 +593,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self.callbacks.sampled = Some(Sampled {
             period,
             delay: 0.0,
+            reads_end: false,
             controller: Box::new(controller),
         });
         self
@@ -611,6 +612,15 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
             sampled.delay = delay;
         }
         simulation
+    }
+
+    /// States that the sampled controller, if there is one, has no state of its own.
+    #[cfg(feature = "interpreter")]
+    pub(crate) fn sampled_without_memory(mut self) -> Self {
+        if let Some(sampled) = &mut self.callbacks.sampled {
+            sampled.reads_end = true;
+        }
+        self
     }
 
     /// Calls `callback` after every step.

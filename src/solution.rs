@@ -268,9 +268,11 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     }
 
     fn inputs(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> Inputs<M> {
+        // With contacts the change is exactly at its instant, as that of the contacts is.
+        let is_from = |since: f64| since <= t || (!self.has_contacts() && is_near(since, t));
         let after = self
             .sampled_inputs
-            .partition_point(|(since, _)| *since <= t);
+            .partition_point(|(since, _)| is_from(*since));
         let held = after
             .checked_sub(1)
             .and_then(|at| self.sampled_inputs.get(at));
@@ -284,14 +286,18 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         inputs
     }
 
+    /// Whether states of contacts are known, which change at exact instants.
+    fn has_contacts(&self) -> bool {
+        !self.contacts.is_empty() || !self.unilateral.phases.is_empty()
+    }
+
     /// The piece that contains a time. At the end of the run it is the one that follows there, so that the values after a jump hold as at every
     /// other instant; but forces of contacts are those of the state in which the run leaves them, with the inputs before the jump.
     fn piece_from(&self, t: f64) -> Piece {
         let piece = self.piece_at(t);
         let forward = self.end.t >= self.start.t;
         let end = piece.end(forward);
-        let has_contacts = !self.contacts.is_empty() || !self.unilateral.phases.is_empty();
-        if t != self.end.t || has_contacts || !end.is_finite() || !is_near(end, t) {
+        if t != self.end.t || self.has_contacts() || !end.is_finite() || !is_near(end, t) {
             return piece;
         }
         let order = self.method.tableau.order;

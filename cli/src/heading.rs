@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::text_table::TextTable;
+
 /// The name in a header, and its unit if there is one: `theta [rad]`.
 pub fn name_and_unit(header: &str) -> (&str, Option<&str>) {
     let header = header.trim();
@@ -21,6 +23,6 @@ pub fn names_in(path: &Path) -> Vec<String> {
         return headers.iter().map(|header| name(header)).collect();
     }
     let text = std::fs::read_to_string(path).unwrap_or_default();
-    let header = text.lines().next().unwrap_or_default();
-    header.split(',').map(name).collect()
+    let headers = TextTable::new(&text).headers;
+    headers.iter().map(|header| name(header)).collect()
 }

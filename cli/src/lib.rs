@@ -49,6 +49,7 @@ mod simulate;
 mod spectrum;
 mod sweep;
 mod table;
+mod text_table;
 
 use std::ffi::OsString;
 use std::io;

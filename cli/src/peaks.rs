@@ -12,11 +12,14 @@ use crate::exactness::Exactness;
 use crate::failure::Failure;
 use crate::modes::number;
 use crate::output::{self, Destination, TABLE};
-use crate::runs::{self, Quantity};
+use crate::runs::{self, Columns, Quantity, TOLERANCE};
 use crate::table;
 
 /// The number of extremes that are printed.
 const SHOWN: usize = 10;
+
+/// Errors of the curve between rows above this fraction of its range are reported.
+const LEAST_ERROR: f64 = 1e-3;
 
 /// A quantity with its extremes.
 struct Found<'a> {
@@ -82,6 +85,9 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
         warn_of_impacts(exactness, call.part.after);
     }
     let chosen = columns.chosen(&call.part.of, &call.part.run)?;
+    for quantity in &chosen {
+        warn_of_sparse_rows(&columns, quantity);
+    }
     let errors = match (&exactness, call.ripple) {
         (Some(exactness), None) => {
             exactness.of_columns(chosen.iter().map(|quantity| quantity.name.as_str()))
@@ -118,6 +124,27 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
         output::text(&text(&peaks))
     }
     Ok(())
+}
+
+/// Warns if a quantity is not known well between rows, where its extremes are.
+fn warn_of_sparse_rows(columns: &Columns, quantity: &Quantity) {
+    if columns.warn_if_undersampled(quantity) {
+        return;
+    }
+    let Some(rates) = columns.rates(&quantity.name) else {
+        return;
+    };
+    let curve = columns.curve(quantity, Some(&rates), call::Interpolation::Cubic);
+    let error = curve.interpolation_error();
+    if error > (LEAST_ERROR * curve.range()).max(TOLERANCE) {
+        let unit = quantity.unit.as_deref().filter(|unit| *unit != "1");
+        output::print_error(format_args!(
+            "warning: between rows `{}` is known to some {error:.1e}{}{}, and so are its extremes; with rows half as far apart the error is a sixteenth",
+            quantity.name,
+            if unit.is_some() { " " } else { "" },
+            unit.unwrap_or_default()
+        ));
+    }
 }
 
 /// Warns if rates jump in the part of the run that is examined: the curve through the rows is smooth there, unlike the motion.

@@ -30,7 +30,7 @@ const SAMPLES: f64 = 1000.0;
 const STEPS: usize = 10_000_000;
 
 /// The default tolerance of a run.
-const TOLERANCE: f64 = 1e-9;
+pub const TOLERANCE: f64 = 1e-9;
 
 /// A column of a run.
 #[derive(Clone, Debug)]
@@ -167,6 +167,26 @@ impl Columns {
             }
         }
         self
+    }
+
+    /// Warns if a quantity oscillates more than once in two rows, so that it seems to have other frequencies. Returns whether it does.
+    pub fn warn_if_undersampled(&self, quantity: &Quantity) -> bool {
+        let rates = self.rates(&quantity.name);
+        let curve = self.curve(quantity, rates.as_deref(), call::Interpolation::Cubic);
+        // Below this runs are not accurate.
+        let is_undersampled = curve.is_undersampled(TOLERANCE);
+        if is_undersampled {
+            output::print_error(format_args!(
+                "warning: `{}` oscillates more than once in two rows, as its rates show, so what is found here is not its motion: {}",
+                quantity.name,
+                if self.is_spec {
+                    "record it with a smaller --every"
+                } else {
+                    "record a table with more rows"
+                }
+            ));
+        }
+        is_undersampled
     }
 
     /// A column as a function of time, with its rates if available.
@@ -393,9 +413,10 @@ fn run_spec(
         .energy_balance(true);
     simulation = reading::keep(simulation, &runs.keep);
     let interval = runs.every.unwrap_or(options.until / SAMPLES);
+    let width = simulate::width(&machine, output_count);
     match looks {
         SampleInstants::Even => {
-            simulate::check_samples("--every", interval, options.until)?;
+            simulate::check_samples("--every", interval, options.until, width)?;
             simulation = simulation.every(interval).forget_steps();
         }
         SampleInstants::At(_) => {}
@@ -427,7 +448,7 @@ fn run_spec(
                 )));
             }
             let period = period_of(&machine, &start, quantity_count, "--every-period", formula)?;
-            simulate::check_samples("--every-period", period, options.until)?;
+            simulate::check_samples("--every-period", period, options.until, width)?;
             Some(period)
         }
         _ => None,

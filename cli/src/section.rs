@@ -132,7 +132,8 @@ fn periods(columns: &Columns, period: &str) -> Result<Vec<f64>, Failure> {
         return Err(wrong("expected a time greater than 0".into()));
     }
     let [from, to] = [columns.times.first(), columns.times.last()].map(|t| t.map_or(0.0, |t| *t));
-    simulate::check_samples("--every-period", period, to - from)?;
+    let width = 1 + columns.columns.len();
+    simulate::check_samples("--every-period", period, to - from, width)?;
     let count = ((to - from) / period * (1.0 + 1e-12)).floor() as usize;
     Ok((0..=count)
         .map(|k| (from + k as f64 * period).min(to))

@@ -9,10 +9,10 @@ use lagrangian_linear::varied::Direction;
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
 use lagrangian_spec::diagnostic::most_similar;
-use lagrangian_spec::model::Variable;
+use lagrangian_spec::model::{Model, Variable};
 use lagrangian_spec::unit::{self, integral_name, state_of};
 use lagrangian_sweep::verdict;
-use lagrangian_symbolic::Dag;
+use lagrangian_symbolic::{Dag, Expr};
 use serde_json::{Value, json};
 
 use crate::call;
@@ -118,7 +118,7 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
     reading::check_kept(&start, &call.keep)?;
-    let variations = variations(&machine, &start, &wanted)?;
+    let variations = variations((&compiled.model, &machine), &start, &wanted)?;
     let observed = observed(&machine, &start, &call.of)?;
     let (times, columns) = run_with_derivatives(call, &machine, &start, &variations, &observed)?;
     if let Some(file) = &files[0] {
@@ -164,9 +164,22 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     Ok(())
 }
 
+/// The parameters on which one depends that the spec computes from others, if `name` is one.
+fn followed(model: &Model<'_>, name: &str) -> Option<Vec<String>> {
+    let mut derived = model.derived_parameters.iter();
+    let derived = derived.find(|of| of.name.to_string() == name)?;
+    let parameters = model.parameters.iter();
+    let is_followed = |symbol: Expr<'_>| {
+        let symbol = symbol.as_symbol();
+        symbol.is_some_and(|symbol| derived.value.depends_on(symbol))
+    };
+    let followed = parameters.filter(|parameter| is_followed(parameter.symbol));
+    Some(followed.map(|of| format!("`{}`", of.name)).collect())
+}
+
 /// The variables that `--by` names.
 fn variations(
-    machine: &InterpretedMachine,
+    (model, machine): (&Model<'_>, &InterpretedMachine),
     start: &State<Named>,
     wanted: &[String],
 ) -> Result<Vec<Variation>, Failure> {
@@ -230,6 +243,14 @@ fn variations(
             };
             all.extend(of_list(&parameters, By::Parameter));
             all.extend(of_list(&inputs, By::Input));
+        }
+        if all.len() == before
+            && let Some(others) = followed(model, name)
+        {
+            return Err(Failure::Call(format!(
+                "--by {name}: the spec computes it from {}: ask by these, or replace its formula by a value, --set {name}=…",
+                others.join(", ")
+            )));
         }
         if all.len() == before {
             let known: Vec<String> = parameters
@@ -464,7 +485,9 @@ fn run_with_derivatives(
         }
     }
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
-    check_samples("--every", interval, call.until)?;
+    let of_each = observed.len() + 2 * start.q.values.len();
+    let width = 1 + of_each * (1 + variations.len());
+    check_samples("--every", interval, call.until, width)?;
     progress::run(call.until);
     if collides {
         return across_impacts(call, machine, method, &from, variations, observed);

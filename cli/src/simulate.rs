@@ -43,17 +43,50 @@ const MOST_SAMPLES: f64 = 5e6;
 /// The default tolerance.
 const TOLERANCE: f64 = 1e-9;
 
-/// Refuses an interval, given by an option, at which a run of this length has too many instants.
+/// More numbers than this in all rows are assumed to be a mistake: they fill 1.6 GB, and are stored twice for a moment.
+const MOST_NUMBERS: f64 = 2e8;
+
+/// Refuses an interval, given by an option, at which a run of this length has too many instants, or too many numbers if each
+/// instant has a row of this width.
 ///
 /// # Errors
-/// If there are more than [`MOST_SAMPLES`].
-pub fn check_samples(option: &str, interval: f64, length: f64) -> Result<(), Failure> {
-    if (length / interval).abs() > MOST_SAMPLES {
+/// If there are more than [`MOST_SAMPLES`] instants or [`MOST_NUMBERS`] numbers.
+pub fn check_samples(
+    option: &str,
+    interval: f64,
+    length: f64,
+    width: usize,
+) -> Result<(), Failure> {
+    let instants = (length / interval).abs();
+    if instants > MOST_SAMPLES {
         return Err(Failure::Call(format!(
             "{option} {interval:e} would record more than {MOST_SAMPLES:e} instants"
         )));
     }
+    if instants * width as f64 > MOST_NUMBERS {
+        return Err(Failure::Call(format!(
+            "{option} {interval:e} would record more than {MOST_NUMBERS:e} numbers: {instants:.0} instants with {width} numbers each"
+        )));
+    }
     Ok(())
+}
+
+/// The number of numbers that are recorded of a machine with this many outputs at each instant, at most.
+pub fn width(machine: &InterpretedMachine, outputs: usize) -> usize {
+    /// The time, three energies, and the residual of their balance.
+    const ALWAYS: usize = 5;
+    /// Normal reaction, friction and slip of a guided contact.
+    const OF_GUIDE: usize = 3;
+    /// Gap, normal reaction, friction, slip, crushing work and loss of a unilateral contact.
+    const OF_CONTACT: usize = 6;
+    let system = machine.prepare();
+    ALWAYS
+        + 2 * system.coordinates().count()
+        + outputs
+        + system.default_inputs().values.len()
+        + system.constraints().len()
+        + OF_GUIDE * system.contacts().len()
+        + OF_CONTACT * system.unilateral_contacts().len()
 }
 
 /// The files that a call requests.
@@ -205,6 +238,8 @@ struct Prepared<'d> {
     machine: InterpretedMachine,
     signals: Signals,
     method: &'static Method,
+    /// Why the method is not the one of the call, if it is not.
+    other_method: Option<String>,
     tolerance: f64,
     start: State<Named>,
 }
@@ -228,6 +263,7 @@ impl<'d> Prepared<'d> {
         let mut numbers = output_count..;
         let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(output_count));
         let signals = signals.map_err(Failure::Call)?;
+        let mut other_method = None;
         if std::ptr::eq(method, &TAYLOR) {
             progress::now("deriving the series");
             let series = ProvedSeries::derive(&compiled.model);
@@ -235,10 +271,10 @@ impl<'d> Prepared<'d> {
             let reason = reason.or_else(|| signals::without_series(&signals, &machine));
             if let Some(reason) = reason {
                 method = <&Method>::default();
-                output::print_error(format_args!(
-                    "warning: no Taylor series: {reason}; {} is used",
-                    method.tableau.name
-                ));
+                let name = method.tableau.name;
+                let warning = format!("no Taylor series: {reason}; {name} is used");
+                output::print_error(format_args!("warning: {warning}"));
+                other_method = Some(warning);
             }
             machine = machine.with_series(series);
         }
@@ -261,6 +297,7 @@ impl<'d> Prepared<'d> {
             machine,
             signals,
             method,
+            other_method,
             tolerance,
             start,
         })
@@ -336,7 +373,8 @@ impl<'d> Prepared<'d> {
             }
         } else if call.until != 0.0 {
             let interval = interval(call);
-            check_samples("--every", interval, call.until)?;
+            let width = width(&self.machine, self.compiled.model.outputs.len());
+            check_samples("--every", interval, call.until, width)?;
             simulation = simulation.every(interval / f64::from(self.refinement(call, files)));
         }
         contacts
@@ -426,7 +464,8 @@ fn print(
     let interruption = trouble.interruption(run, call.until);
     let errors = trouble.errors();
     if call.spec.json {
-        let mut document = document(call, run, contacts, &interruption, &errors);
+        let other_method = prepared.other_method.as_deref();
+        let mut document = document(call, other_method, run, contacts, &interruption, &errors);
         if let (Some(estimate), Value::Object(fields)) = (global_error, &mut document) {
             fields.insert("global_error".into(), estimate.json(run.end()));
         }
@@ -529,6 +568,7 @@ pub fn record(run: &Run) -> Recording {
 
 fn document(
     call: &call::Simulate,
+    other_method: Option<&str>,
     run: &Run,
     contacts: &[Found],
     interruption: &Option<String>,
@@ -539,7 +579,8 @@ fn document(
     let events: Vec<Value> = contacts::other_events(run.events(), contacts)
         .map(|event| json!({ "t": event.state.t, "name": event.name }))
         .collect();
-    let warnings = run.warnings().iter().map(ToString::to_string);
+    let warnings = other_method.into_iter().map(str::to_owned);
+    let warnings = warnings.chain(run.warnings().iter().map(ToString::to_string));
     let warnings = warnings.chain(contacts.iter().flat_map(Found::warnings));
     let warnings = warnings.chain(interruption.iter().cloned());
     let warnings: Vec<String> = warnings.collect();

@@ -34,6 +34,9 @@ pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
     let columns = runs::one(&call.part, &all)?;
     let chosen = columns.chosen(&call.part.of, &call.part.run)?;
     let samples = Samples::of(&columns)?;
+    for quantity in &chosen {
+        columns.warn_if_undersampled(quantity);
+    }
     let window = match call.window {
         call::Windows::Hann => Window::Hann,
         call::Windows::None => Window::None,

@@ -32,6 +32,7 @@ use crate::output::{self, Destination, TABLE, ending_is_one_of, keep_apart};
 use crate::progress;
 use crate::reading;
 use crate::table;
+use crate::text_table::TextTable;
 use reporter::Reporter;
 
 /// The destination of rows.
@@ -490,8 +491,8 @@ fn numbers(path: &Path) -> Result<(Vec<Heading>, Vec<Vec<f64>>), Failure> {
         return Ok((headers.iter().map(|header| split(header)).collect(), rows));
     }
     let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
-    let header = text.lines().next().unwrap_or_default();
-    let headings: Vec<Heading> = header.split(',').map(split).collect();
+    let headers = TextTable::new(&text).headers;
+    let headings: Vec<Heading> = headers.iter().map(|header| split(header)).collect();
     let names: Vec<String> = headings.iter().map(|(name, _)| name.clone()).collect();
     let rows = table::rows(&text, &names).map_err(wrong)?;
     Ok((headings, rows))

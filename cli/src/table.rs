@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::heading::name_and_unit;
 use crate::output::Destination;
 use crate::recording::Recording;
+use crate::text_table::TextTable;
 
 /// Writes a recording in the format of the file's extension.
 ///
@@ -101,17 +102,14 @@ fn parquet(_: &[(String, &[f64])], _: &mut (dyn Write + Send)) -> io::Result<()>
     ))
 }
 
-/// The rows of comma-separated text, each with the values of the columns with these names; units and other columns are ignored.
+/// The rows of a table as text, each with the values of the columns with these names; units and other columns are ignored.
 ///
 /// # Errors
-/// If a column is missing, or an entry is not a finite number: which one.
+/// If a column is missing, a row has more cells than the header, or an entry is not a finite number: which one.
 pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
-    let mut lines = text.lines().enumerate();
-    let header = lines.next().map_or("", |(_, line)| line);
-    let columns: Vec<&str> = header
-        .split(',')
-        .map(|cell| name_and_unit(cell).0)
-        .collect();
+    let table = TextTable::new(text);
+    let headers = table.headers.iter();
+    let columns: Vec<&str> = headers.map(|header| name_and_unit(header).0).collect();
     let place = |name: &String| {
         let mut found = (0..columns.len()).filter(|i| columns[*i] == name);
         match (found.next(), found.next()) {
@@ -121,24 +119,21 @@ pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
         }
     };
     let places: Vec<usize> = names.iter().map(place).collect::<Result<_, _>>()?;
-    let lines = lines.filter(|(_, line)| !line.trim().is_empty());
-    lines
-        .map(|(number, line)| {
-            let cells: Vec<&str> = line.split(',').map(str::trim).collect();
-            let value = |place: &usize| {
-                let cell = cells.get(*place).copied().unwrap_or_default();
-                let value = cell.parse().ok().filter(|x: &f64| x.is_finite());
-                let row = number + 1;
-                value.ok_or_else(|| {
-                    format!(
-                        "line {row}: `{cell}` in column `{}` is not a finite number",
-                        columns[*place]
-                    )
-                })
-            };
-            places.iter().map(value).collect()
-        })
-        .collect()
+    let rows = table.rows().map(|row| {
+        let (number, cells) = row?;
+        let value = |place: &usize| {
+            let cell = cells.get(*place).copied().unwrap_or_default();
+            let value = cell.parse().ok().filter(|x: &f64| x.is_finite());
+            value.ok_or_else(|| {
+                format!(
+                    "line {number}: `{cell}` in column `{}` is not a finite number",
+                    columns[*place]
+                )
+            })
+        };
+        places.iter().map(value).collect()
+    });
+    rows.collect()
 }
 
 #[cfg(test)]
@@ -186,8 +181,20 @@ mod tests {
             rows("q[1], q[2] [m] \n1,2\n\n3 ,4\n", &family),
             Ok(vec![vec![2.0, 1.0], vec![4.0, 3.0]])
         );
+        // As spreadsheets and other programs write it.
+        assert_eq!(
+            rows(
+                "\u{feff}# measured\r\n\"q[1]\"; q[2] [m]\r\n1;2 # first\r\n\r\n3 ;4;\r\n",
+                &family
+            ),
+            Ok(vec![vec![2.0, 1.0], vec![4.0, 3.0]])
+        );
         for (text, why) in [
             ("", "no column is named `s1`"),
+            (
+                "s1\n1,5\n",
+                "line 2: the row has more cells than the header, which has 1; the decimal mark is a point",
+            ),
             ("s1 [m],s1\n1,2\n", "more than one column is named `s1`"),
             (
                 "t,s1\n0\n",

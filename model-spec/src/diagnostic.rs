@@ -200,6 +200,8 @@ codes! {
     NoGravity => "no-gravity",
     /// A spring that pushes away, or a damper that drives.
     NegativeCoefficient => "negative-coefficient",
+    /// A tensor of inertia that no body has.
+    ImpossibleInertia => "impossible-inertia",
     /// Constraints that contradict each other at the start.
     Contradiction => "contradiction",
 }
@@ -231,6 +233,7 @@ impl Code {
             | Code::LooksLikeDegrees
             | Code::NoGravity
             | Code::NegativeCoefficient
+            | Code::ImpossibleInertia
             | Code::Contradiction => Severity::Warning,
             _ => Severity::Error,
         }

@@ -25,6 +25,7 @@ pub mod polygons;
 mod published;
 pub mod quaternion;
 pub mod spheres;
+mod tensor;
 
 pub use published::*;
 

@@ -260,15 +260,23 @@ impl Signals {
         };
         let (law, system) = (self.clone(), machine.prepare());
         let [period, delay] = [sampled.period, sampled.delay];
-        simulation.sampled_with_delay(period, delay, move |state, inputs: &mut Named| {
-            let (t, q, v) = (state.t, &state.q.values, &state.v.values);
-            let mut set_inputs = inputs.clone();
-            law.set(&system, t, q, v, &mut set_inputs);
-            for rule in &*sampled.rules {
-                inputs.values[rule.input] =
-                    value(rule, Piece::ALL, &system, (t, q, v), &set_inputs.values);
-            }
-        })
+        let is_function = |rule: &Rule| matches!(rule.signal, Signal::Function(_));
+        let has_memory = sampled.rules.iter().any(is_function);
+        let controlled =
+            simulation.sampled_with_delay(period, delay, move |state, inputs: &mut Named| {
+                let (t, q, v) = (state.t, &state.q.values, &state.v.values);
+                let mut set_inputs = inputs.clone();
+                law.set(&system, t, q, v, &mut set_inputs);
+                for rule in &*sampled.rules {
+                    inputs.values[rule.input] =
+                        value(rule, Piece::ALL, &system, (t, q, v), &set_inputs.values);
+                }
+            });
+        if has_memory {
+            controlled
+        } else {
+            controlled.sampled_without_memory()
+        }
     }
 }
 

@@ -273,7 +273,16 @@ impl TableFile {
                 })?;
                 Ok((place, factor))
             }
-            _ => Ok((place, 1.0)),
+            Some(_) => Ok((place, 1.0)),
+            None => {
+                match without_brackets(name) {
+                    Some(meant) => {
+                        let at = self.header.get(place).map(|cell| cell.place);
+                        Err(self.wrong(at, format!("the unit of `{name}` is written in brackets, after a space: `{meant}`")))
+                    }
+                    None => Ok((place, 1.0)),
+                }
+            }
         }
     }
 
@@ -283,9 +292,15 @@ impl TableFile {
         let mut found = (0..columns.len()).filter(|place| columns[*place] == name);
         let Some(place) = found.next() else {
             let names = || columns.iter().map(String::as_str);
-            let help = match most_similar(name, names()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => {
+            let mut meant = names().filter_map(without_brackets);
+            let meant =
+                meant.find(|meant| meant.rsplit_once(" [").is_some_and(|(own, _)| own == name));
+            let help = match (meant, most_similar(name, names())) {
+                (Some(meant), _) => {
+                    format!("units are written in brackets, after a space: `{meant}`")
+                }
+                (None, Some(near)) => format!("did you mean `{near}`?"),
+                (None, None) => {
                     let shown: Vec<&str> = names().take(MOST_LISTED).collect();
                     let more = if names().count() > MOST_LISTED {
                         ", …"
@@ -352,6 +367,19 @@ fn split(cell: &Cell) -> (String, Option<String>) {
         Some((name, unit)) => (name.trim_end().to_string(), Some(unit.trim().to_string())),
         None => (text.to_string(), None),
     }
+}
+
+/// How a header is written whose unit is not in brackets after a space: `t [s]` for `t/s`, `t (s)` and `t[s]`; `None` for any other.
+fn without_brackets(name: &str) -> Option<String> {
+    let in_parentheses = || name.strip_suffix(')')?.split_once(" (");
+    let in_brackets = || name.strip_suffix(']')?.split_once('[');
+    let (own, unit) = in_parentheses()
+        .or_else(in_brackets)
+        .or_else(|| name.split_once('/'))?;
+    let [own, unit] = [own, unit].map(str::trim);
+    // The index of a member, `q[1]`, is not a unit.
+    let is_unit = unit.contains(char::is_alphabetic) && factor(unit, unit).is_ok();
+    (is_unit && !own.is_empty()).then(|| format!("{own} [{unit}]"))
 }
 
 /// The factor from one unit to another.

@@ -23,6 +23,13 @@ pub(super) struct Sampling<I> {
     pending: VecDeque<(f64, I)>,
 }
 
+impl<I> Sampling<I> {
+    /// The time of the next sample of a run from `start`.
+    fn next(&self, start: f64, period: f64) -> f64 {
+        start + self.taken as f64 * period
+    }
+}
+
 impl<M: Machine> Sampled<'_, M> {
     /// Its state at the start of a run.
     pub(super) fn begin(&self, system: &M::System) -> Sampling<Inputs<M>> {
@@ -44,32 +51,17 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if stop.is_infinite() && self.sampling.is_none() {
             return Ok(None);
         }
-        let t = self.stepper.t();
         let entered = self.enter_piece(forward)?;
         if let Some(piece) = entered {
             stop = piece.end(forward);
         }
-        let mut acting = None;
-        if let (Some(sampled), Some(sampling)) = (&mut self.callbacks.sampled, &mut self.sampling) {
-            let next = |taken: u64| self.start + taken as f64 * sampled.period;
-            while is_beyond(t, next(sampling.taken), 1.0) {
-                let now = (t, self.stepper.q().clone(), self.stepper.v().clone());
-                let now = state(self.model.system, now);
-                (sampled.controller)(&now, &mut sampling.latest);
-                let acts = next(sampling.taken) + sampled.delay;
-                sampling.pending.push_back((acts, sampling.latest.clone()));
-                sampling.taken += 1;
-            }
-            while let Some((_, inputs)) = sampling
-                .pending
-                .pop_front_if(|(acts, _)| is_beyond(t, *acts, 1.0))
-            {
-                acting = Some(inputs);
-            }
+        self.read_samples();
+        let acting = self.acting_inputs();
+        if let (Some(sampled), Some(sampling)) = (&self.callbacks.sampled, &self.sampling) {
             let later = sampling.pending.front().map(|(acts, _)| *acts);
             stop = stop
                 .min(later.unwrap_or(f64::INFINITY))
-                .min(next(sampling.taken));
+                .min(sampling.next(self.start, sampled.period));
         }
         let direction = if forward { 1.0 } else { -1.0 };
         self.stop = if stop.is_infinite() || is_beyond(stop, self.until, direction) {
@@ -87,6 +79,57 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 Ok(None)
             }
             (acting, entered) => self.jump_inputs(acting, entered),
+        }
+    }
+
+    /// Lets a sampled controller read the state if a sample is due.
+    fn read_samples(&mut self) {
+        let (Some(sampled), Some(sampling)) = (&mut self.callbacks.sampled, &mut self.sampling)
+        else {
+            return;
+        };
+        let t = self.stepper.t();
+        loop {
+            let due = sampling.next(self.start, sampled.period);
+            if !is_beyond(t, due, 1.0) {
+                return;
+            }
+            let now = (t, self.stepper.q().clone(), self.stepper.v().clone());
+            let now = state(self.model.system, now);
+            (sampled.controller)(&now, &mut sampling.latest);
+            let acts = due + sampled.delay;
+            sampling.pending.push_back((acts, sampling.latest.clone()));
+            sampling.taken += 1;
+        }
+    }
+
+    /// The inputs of a sampled controller that take effect now, if there are any.
+    fn acting_inputs(&mut self) -> Option<Inputs<M>> {
+        let t = self.stepper.t();
+        let sampling = self.sampling.as_mut()?;
+        let mut acting = None;
+        while let Some((_, inputs)) = sampling
+            .pending
+            .pop_front_if(|(acts, _)| is_beyond(t, *acts, 1.0))
+        {
+            acting = Some(inputs);
+        }
+        acting
+    }
+
+    /// Records the inputs that take effect exactly at the end of the run, so that the values after a jump hold there as at every
+    /// other instant. Forces of contacts are those of the state in which the run leaves them, with the inputs before the jump.
+    pub(super) fn change_inputs_at_end(&mut self) {
+        if self.stepper.contacts().is_some() || self.stepper.touching().is_some() {
+            return;
+        }
+        if let Some(sampled) = &self.callbacks.sampled
+            && sampled.reads_end
+        {
+            self.read_samples();
+        }
+        if let Some(inputs) = self.acting_inputs() {
+            self.record.sampled_inputs.push((self.stepper.t(), inputs));
         }
     }
 

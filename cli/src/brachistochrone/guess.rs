@@ -5,6 +5,7 @@ use std::path::Path;
 use lagrangian_program::Slot;
 
 use crate::failure::Failure;
+use crate::text_table::TextTable;
 use crate::{heading, runs, table};
 
 /// The positions in a table, one for each row, from the columns named after coordinates, in the units that the spec declares for them.
@@ -20,8 +21,8 @@ pub fn read(path: &Path, coordinates: &[Slot]) -> Result<Vec<Vec<f64>>, Failure>
         .map(|slot| slot.name.to_string())
         .collect();
     let mut places = table::rows(&text, &names).map_err(wrong)?;
-    let header = text.lines().next().unwrap_or_default();
-    let headings: Vec<_> = header.split(',').map(heading::name_and_unit).collect();
+    let headers = TextTable::new(&text).headers.into_iter();
+    let headings: Vec<_> = headers.map(heading::name_and_unit).collect();
     for (column, (name, slot)) in names.iter().zip(coordinates).enumerate() {
         let found = headings.iter().find(|(heading, _)| heading == name);
         let Some((_, Some(written))) = found else {

@@ -6,8 +6,8 @@ use clap::Args;
 
 use super::arguments::{Arguments, SetName, names_in, with_spec};
 use super::{
-    Assignment, Keep, Spec, Start, Vary, assignment, interval, names_of, number, positive, steps,
-    tolerance, vary,
+    Assignment, Keep, Spec, Start, Vary, assignment, interval, number, positive, steps, tolerance,
+    vary,
 };
 
 /// Arguments of `orbit`.
@@ -115,9 +115,5 @@ impl Arguments for Sensitivities {
 
     fn own_names(&self) -> Vec<SetName<'_>> {
         self.start.names()
-    }
-
-    fn varied(&self) -> Result<Vec<String>, String> {
-        names_of(&self.by)
     }
 }

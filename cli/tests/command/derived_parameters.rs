@@ -217,5 +217,8 @@ fn what_cannot_be_is_told() {
     // A sensitivity by J itself needs a value of J.
     let call = ["sensitivities", spec.path(), "--by", "J", "--until", "1"];
     let said = refused(&call);
-    assert!(said.contains("--set J="), "{said}");
+    assert!(
+        said.contains("--set J=") && said.contains("from `m`, `r`"),
+        "{said}"
+    );
 }

@@ -323,6 +323,40 @@ fn extremes_next_to_impacts_are_said_to_be_those_of_a_smooth_curve() {
     }
 }
 
+/// cos 2πt: with rows 0.7 s apart it seems to have a period of 2.3 s, and with rows h = 0.6π apart in phase the cubics over
+/// two intervals are off by 1 − cos h − h/2 sin h = 0.41 at a maximum; a sixteenth of this is the estimate for one interval.
+#[test]
+fn rows_too_far_apart_for_an_oscillation_are_told() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    for (command, every, words) in [
+        ("peaks", "0.7", "oscillates more than once in two rows"),
+        ("spectrum", "0.7", "oscillates more than once in two rows"),
+        ("peaks", "0.3", "between rows `x` is known to some 2.6e-2 m"),
+        ("spectrum", "0.3", ""),
+        ("peaks", "0.02", ""),
+    ] {
+        let call = [
+            command,
+            spec.path(),
+            "--set",
+            "d=0",
+            "--until",
+            "60",
+            "--every",
+            every,
+        ];
+        let output = lagrangian(&call);
+        assert!(output.status.success());
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert!(said.contains(words), "{command} {every}: {said}");
+        assert_eq!(
+            said.is_empty(),
+            words.is_empty(),
+            "{command} {every}: {said}"
+        );
+    }
+}
+
 /// A wheel that rotates uniformly allows long steps, and is upright many times in one: also if its coordinate is a pure number, or
 /// the distance rolled.
 #[test]
@@ -769,6 +803,21 @@ fn what_cannot_be_is_said() {
             &["spectrum", spec, "--until", "1", "--every", "1e-9"],
             2,
             &["--every", "instants"],
+        ),
+        // As many instants as are allowed, with the rates and angles of 24 links at each.
+        (
+            &[
+                "spectrum",
+                "machines/chain.machine",
+                "--const",
+                "N=24",
+                "--until",
+                "1",
+                "--every",
+                "2.1e-7",
+            ],
+            2,
+            &["--every", "numbers"],
         ),
         (
             &[

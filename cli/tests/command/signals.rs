@@ -243,6 +243,34 @@ fn a_sampled_formula_holds_until_the_next() {
     near(found, state, 1e-10);
 }
 
+/// The table shows at each sample what is set there, however its time is rounded, also at a sample that ends the run; with a
+/// delay of one period, what was set one sample earlier.
+#[test]
+fn the_value_of_a_sample_holds_at_its_row() {
+    let spec = Scratch::new("driven.machine", DRIVEN);
+    let out = spec.0.with_file_name("run.csv");
+    let out = out.to_str().expect("text");
+    for late in [0_i32, 1] {
+        let push = format!("push=1*N/s*t,every=0.1,delay={}", f64::from(late) / 10.0);
+        let call = ["--until", "1", "--every", "0.02", "--input", &push];
+        let said = simulate(spec.path(), &[&call[..], &["--out", out]].concat());
+        assert_eq!(said.status, 0, "{}", said.error);
+        let rows = std::fs::read_to_string(out).expect("a table");
+        let mut lines = rows.lines();
+        let header: Vec<&str> = lines.next().expect("a head").split(',').collect();
+        let place = header.iter().position(|head| *head == "push [N]");
+        let place = place.expect("a column");
+        let cells = lines.map(|line| line.split(',').nth(place).expect("a cell"));
+        let found: Vec<f64> = cells.map(|cell| cell.parse().expect("a number")).collect();
+        assert_eq!(found.len(), 51);
+        for (row, found) in (0..).zip(found) {
+            let known = f64::from((row / 5 - late).max(0)) / 10.0;
+            // The time of the sample is rounded once more.
+            assert!((found - known).abs() <= f64::EPSILON, "{row}: {found}");
+        }
+    }
+}
+
 #[test]
 fn what_cannot_drive_an_input_is_refused() {
     let spec = Scratch::new("driven.machine", DRIVEN);
@@ -273,6 +301,21 @@ fn what_cannot_drive_an_input_is_refused() {
         ("short.csv", "t,a,push\n0,1\n", "short.csv, line 2"),
         ("long.csv", "t,push\n0,1,2\n", "more cells than the header"),
         ("name.csv", "t,pusch\n0,1\n", "did you mean `pusch`?"),
+        (
+            "slash.csv",
+            "t/s,push\n0,1\n",
+            "in brackets, after a space: `t [s]`",
+        ),
+        (
+            "round.csv",
+            "t,push (kN)\n0,1\n",
+            "in brackets, after a space: `push [kN]`",
+        ),
+        (
+            "close.csv",
+            "t,push[kN]\n0,1\n",
+            "in brackets, after a space: `push [kN]`",
+        ),
         ("none.csv", "", "it is empty"),
         ("head.csv", "t,push\n", "no rows"),
         (
@@ -294,6 +337,13 @@ fn what_cannot_drive_an_input_is_refused() {
         assert_eq!(said.status, 2, "{name}: {}", said.error);
         assert!(said.error.contains(why), "{name}: {}", said.error);
     }
+    // Also where the column is named as it stands there: the number would be taken in the unit of the input.
+    let slash = folder.join("slash.csv");
+    std::fs::write(&slash, "t,push/kN\n0,1\n").expect("a file");
+    let input = format!("push={}:push/kN", slash.display());
+    let said = simulate(spec.path(), &["--until", "1", "--input", &input]);
+    assert_eq!(said.status, 2, "{}", said.error);
+    assert!(said.error.contains("`push [kN]`"), "{}", said.error);
     std::fs::write(folder.join("latin.csv"), b"t,push\n0,1 # \xe9\n").expect("a file");
     let latin = format!("push={}", folder.join("latin.csv").display());
     std::fs::write(folder.join("good.csv"), "t,push\n0,1\n1,2\n").expect("a file");
@@ -374,6 +424,13 @@ fn what_cannot_drive_an_input_is_refused() {
             .contains("no Taylor series: input `push` changes continuously"),
         "{}",
         said.error
+    );
+    let warnings = &summary(spec.path(), &call)["warnings"];
+    let first = warnings[0].as_str().expect("a warning");
+    assert!(
+        first.starts_with("no Taylor series: input `push` changes continuously")
+            && first.ends_with("dop853 is used"),
+        "{first}"
     );
 }
 

@@ -134,6 +134,39 @@ impl<'a> Curve<'a> {
         off.fold(0.0, f64::max)
     }
 
+    /// The greatest difference between two values.
+    pub fn range(&self) -> f64 {
+        let finite = || {
+            self.values
+                .iter()
+                .copied()
+                .filter(|value| value.is_finite())
+        };
+        let greatest = finite().fold(f64::NEG_INFINITY, f64::max);
+        (greatest - finite().fold(f64::INFINITY, f64::min)).max(0.0)
+    }
+
+    /// Whether the curve oscillates more than once in two rows, so that it seems to have other frequencies: its changes from row to row
+    /// are not those that its rates give. False without rates.
+    ///
+    /// A sine of amplitude A and angular frequency ω with rows h apart changes by up to 2 A sin(ωh/2), and the mean of the rates at both
+    /// rows gives h ω A cos(ωh/2). At two rows in a period the difference is 2 A, its root mean square is √2 A, and the range of the rows
+    /// is at most 2 A; with more rows it is less, and with fewer it grows. Differences up to `least` do not count.
+    pub fn is_undersampled(&self, least: f64) -> bool {
+        let Some(rates) = self.rates else {
+            return false;
+        };
+        let pairs = self.times.windows(2).zip(self.values.windows(2));
+        let off = pairs.zip(rates.windows(2)).map(|((t, x), v)| {
+            let by_rates = (t[1] - t[0]) * (v[0] + v[1]) / 2.0;
+            x[1] - x[0] - by_rates
+        });
+        let off: Vec<f64> = off.filter(|off| off.is_finite()).collect();
+        let squares: f64 = off.iter().map(|off| off * off).sum();
+        let off = (squares / off.len().max(1) as f64).sqrt();
+        off > (self.range() * std::f64::consts::FRAC_1_SQRT_2).max(least)
+    }
+
     /// The interpolation of a row from the rows at odd distances.
     fn without(&self, row: usize) -> f64 {
         let last = self.times.len() - 1;
@@ -275,6 +308,40 @@ mod tests {
                 "{between:?}: {estimated} {off}"
             );
         }
+    }
+
+    /// A sine is undersampled below two rows in a period, at whatever phases the rows are.
+    #[test]
+    fn rates_show_that_a_sine_is_undersampled() {
+        for (rows_in_a_period, is_undersampled) in [
+            (20.0, false),
+            (2.2, false),
+            (1.9, true),
+            (1.3, true),
+            (1.0, true),
+        ] {
+            let h = std::f64::consts::TAU / rows_in_a_period;
+            let phases: Vec<f64> = (0..500).map(|k| 0.4 + h * f64::from(k)).collect();
+            let values: Vec<f64> = phases.iter().map(|phase| phase.sin()).collect();
+            let rates: Vec<f64> = phases.iter().map(|phase| phase.cos()).collect();
+            let curve = Curve::new(&phases, &values, Some(&rates), Interpolation::Hermite);
+            assert_eq!(
+                curve.is_undersampled(1e-9),
+                is_undersampled,
+                "{rows_in_a_period}"
+            );
+            let curve = Curve::new(&phases, &values, None, Interpolation::Cubic);
+            assert!(!curve.is_undersampled(1e-9));
+        }
+        // A shaft that turns uniformly has the rate of its changes, however far apart rows are.
+        let (times, rates) = ([0.0, 1.0, 2.0], [50.0; 3]);
+        let curve = Curve::new(
+            &times,
+            &[0.0, 50.0, 100.0],
+            Some(&rates),
+            Interpolation::Hermite,
+        );
+        assert!(!curve.is_undersampled(1e-9));
     }
 
     #[test]

@@ -5,8 +5,9 @@
 
 use lagrangian_symbolic::{Dag, Expr, Symbol, evaluate};
 
-use super::{Model, stage};
+use super::{Assumption, Model, stage, tensor};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::identity;
 use crate::source::Span;
 
 /// A number of the machine with the bound that it must obey.
@@ -27,6 +28,9 @@ pub enum BoundKind<'d> {
     Mass,
     /// A moment of inertia, which is not negative.
     Moment,
+    /// The moment Ixx of a tensor of inertia, whose entries Iyy, Izz, Ixy, Ixz and Iyz follow: none of its principal moments exceeds
+    /// the sum of the other two, unless the spec allows it.
+    Tensor([Expr<'d>; 5]),
     /// A radius, which is positive.
     Radius,
     /// The distance of a corner of a polygon to the left of a face that it is not on, times the length of that face: positive
@@ -56,14 +60,39 @@ pub enum BoundKind<'d> {
     Derived,
 }
 
-impl BoundKind<'_> {
+impl<'d> BoundKind<'d> {
     /// Whether a machine may violate it, if its spec says so.
     pub(crate) fn may_be_intentional(self) -> bool {
-        matches!(self, BoundKind::Stiffness | BoundKind::Damping)
+        matches!(
+            self,
+            BoundKind::Stiffness | BoundKind::Damping | BoundKind::Tensor(_)
+        )
     }
 
-    /// The error in a value; none if the value is unknown, which is NaN.
-    fn violation(self, value: f64, other: f64) -> Option<(Code, String)> {
+    /// The help text for a violation that may be intended.
+    pub(crate) fn intentional_help(self) -> &'static str {
+        match self {
+            BoundKind::Tensor(_) => {
+                "if this is intended, name the moments and declare it: `assume { C > A + B }`"
+            }
+            _ => "if this is intended, name the coefficient and declare it: `assume { c < 0 }`",
+        }
+    }
+
+    /// Other numbers on which the bound depends.
+    fn others(&self) -> &[Expr<'d>] {
+        match self {
+            BoundKind::StaticFriction(other) | BoundKind::Unloading(other) => {
+                std::slice::from_ref(other)
+            }
+            BoundKind::Tensor(others) => others,
+            _ => &[],
+        }
+    }
+
+    /// The error in a value, which the other numbers follow; none if they are unknown, which is NaN.
+    fn violation(self, numbers: &[f64]) -> Option<(Code, String)> {
+        let value = *numbers.first()?;
         let (is_wrong, code, words) = match self {
             BoundKind::Mass => (value <= 0.0, Code::NotPositive, "a mass must be positive"),
             BoundKind::Moment => (
@@ -71,6 +100,10 @@ impl BoundKind<'_> {
                 Code::NotPositive,
                 "a moment of inertia must not be negative",
             ),
+            BoundKind::Tensor(_) => {
+                let message = tensor::flaw(numbers.try_into().ok()?)?;
+                return Some((Code::ImpossibleInertia, message));
+            }
             BoundKind::Radius => (value <= 0.0, Code::NotPositive, "a radius must be positive"),
             BoundKind::Convex => {
                 let message = "these are not the corners of a convex polygon, listed counterclockwise, so that it lies to the left of every face";
@@ -88,6 +121,7 @@ impl BoundKind<'_> {
             ),
             BoundKind::StaticFriction(_) => {
                 let words = "the coefficient of static friction must not be less than that of sliding friction";
+                let other = *numbers.get(1)?;
                 let message = format!("{words}, found {value} below {other}");
                 return (value < other).then_some((Code::OutsideDomain, message));
             }
@@ -108,6 +142,7 @@ impl BoundKind<'_> {
             ),
             BoundKind::Unloading(_) => {
                 let words = "the unloading stiffness of a layer must not be less than its loading stiffness";
+                let other = *numbers.get(1)?;
                 let message = format!("{words}, found {value} below {other}");
                 return (value < other).then_some((Code::OutsideDomain, message));
             }
@@ -150,25 +185,26 @@ pub(crate) fn violations(
         .iter()
         .map(|bound| is_unknown(bound, &mut value))
         .collect();
-    let other = |bound: &Bound<'_>| match bound.kind {
-        BoundKind::StaticFriction(other) | BoundKind::Unloading(other) => other.id(),
-        _ => bound.value.id(),
-    };
-    let pairs = bounds
-        .iter()
-        .flat_map(|bound| [bound.value.id(), other(bound)]);
-    let values: Vec<Expr<'_>> = pairs.map(|id| dag.expr(id)).collect();
+    let of_each = |bound: &Bound<'_>| 1 + bound.kind.others().len();
+    let ids = bounds.iter().flat_map(|bound| {
+        let others = bound.kind.others().iter();
+        std::iter::once(bound.value.id()).chain(others.map(|other| other.id()))
+    });
+    let values: Vec<Expr<'_>> = ids.map(|id| dag.expr(id)).collect();
     let numbers = evaluate(dag, &values, value);
-    let all = bounds.iter().zip(numbers.chunks(2)).enumerate();
-    all.filter_map(|(place, (bound, pair))| {
-        let vanishes = matches!(bound.kind, BoundKind::Mass) && pair[0] == 0.0;
+    let mut rest = &numbers[..];
+    let mut found = Vec::new();
+    for (place, bound) in bounds.iter().enumerate() {
+        let (numbers, further) = rest.split_at(of_each(bound));
+        rest = further;
+        let vanishes = matches!(bound.kind, BoundKind::Mass) && numbers[0] == 0.0;
         if unknown[place] || (vanishes && bound.value.stage() > stage::CONSTANT) {
-            return None;
+            continue;
         }
-        let (code, message) = bound.kind.violation(pair[0], pair[1])?;
-        Some((place, code, message))
-    })
-    .collect()
+        let violation = bound.kind.violation(numbers);
+        found.extend(violation.map(|(code, message)| (place, code, message)));
+    }
+    found
 }
 
 impl<'d> Model<'d> {
@@ -184,9 +220,10 @@ impl<'d> Model<'d> {
         let found = violations(self.dag, &self.bounds, value).into_iter();
         found
             .map(|(place, code, message)| {
-                let diagnostic = Diagnostic::new(code, self.bounds[place].span, message);
-                if self.bounds[place].kind.may_be_intentional() {
-                    diagnostic.help(INTENTIONAL_HELP)
+                let Bound { kind, span, .. } = self.bounds[place];
+                let diagnostic = Diagnostic::new(code, span, message);
+                if kind.may_be_intentional() {
+                    diagnostic.help(kind.intentional_help())
                 } else {
                     diagnostic
                 }
@@ -195,17 +232,25 @@ impl<'d> Model<'d> {
     }
 }
 
-/// The help text for a negative coefficient that is intended.
-pub(crate) const INTENTIONAL_HELP: &str =
-    "if this is intended, name the coefficient and declare it: `assume { c < 0 }`";
+impl<'d> Bound<'d> {
+    /// Whether the spec assumes that it is violated.
+    pub(crate) fn is_intentional(&self, assumptions: &[Assumption<'d>]) -> bool {
+        let mut facts = assumptions.iter().map(|fact| fact.excess);
+        let a = self.value;
+        match self.kind {
+            BoundKind::Tensor([b, c, ..]) => facts.any(|fact| {
+                let mut excesses = [a - (b + c), b - (a + c), c - (a + b)].into_iter();
+                fact.stage() <= stage::PARAMETER
+                    && excesses.any(|excess| identity::equal(fact, excess) == Some(true))
+            }),
+            kind => kind.may_be_intentional() && facts.any(|fact| fact == -a),
+        }
+    }
 
-impl Bound<'_> {
     /// Whether it depends on parameters alone.
     pub(crate) fn is_of_parameters(&self) -> bool {
-        let other = match self.kind {
-            BoundKind::StaticFriction(friction) => friction.stage(),
-            _ => stage::CONSTANT,
-        };
-        self.value.stage().max(other) <= stage::PARAMETER
+        let others = self.kind.others().iter();
+        let stages = others.map(|other| other.stage());
+        stages.fold(self.value.stage(), Ord::max) <= stage::PARAMETER
     }
 }

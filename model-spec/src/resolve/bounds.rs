@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 use super::Resolver;
 use super::value::MemberId;
 use crate::diagnostic::Diagnostic;
-use crate::model::bounds::{Bound, BoundKind, INTENTIONAL_HELP, violations};
+use crate::model::bounds::{Bound, BoundKind, violations};
 use crate::model::{Assumption, Parameter, stage};
 use crate::source::Span;
 
@@ -26,9 +26,7 @@ impl<'d> Resolver<'_, 'd, '_> {
         parameters: &[(MemberId, Parameter<'d>)],
     ) -> Vec<Bound<'d>> {
         let mut bounds = std::mem::take(&mut self.bounds);
-        // A negative stiffness is allowed if the spec assumes it.
-        let is_intentional = |value: Expr<'d>| assumptions.iter().any(|fact| fact.excess == -value);
-        bounds.retain(|bound| !bound.kind.may_be_intentional() || !is_intentional(bound.value));
+        bounds.retain(|bound| !bound.is_intentional(assumptions));
         let mut values = FxHashMap::default();
         for (_, parameter) in parameters {
             let default = parameter.default;
@@ -40,7 +38,8 @@ impl<'d> Resolver<'_, 'd, '_> {
             let Bound { kind, value, span } = bounds[place];
             // The message is about the default if the number is that parameter alone, and not a formula of several.
             let mut parameters = parameters.iter();
-            let alone = parameters.find(|(_, parameter)| parameter.symbol == value);
+            let is_one = !matches!(kind, BoundKind::Tensor(_));
+            let alone = parameters.find(|(_, parameter)| is_one && parameter.symbol == value);
             let default =
                 alone.and_then(|(parameter, _)| self.quantity(*parameter)?.value.as_ref());
             let diagnostic = match default {
@@ -49,7 +48,7 @@ impl<'d> Resolver<'_, 'd, '_> {
                 None => Diagnostic::new(code, span, message),
             };
             self.push(match (kind.may_be_intentional(), default) {
-                (true, _) => diagnostic.help(INTENTIONAL_HELP),
+                (true, _) => diagnostic.help(kind.intentional_help()),
                 (false, None) if value.stage() > stage::CONSTANT => {
                     diagnostic.help("this is its value for the defaults of the parameters")
                 }

@@ -426,6 +426,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                             self.bound(BoundKind::Moment, moment, inertia.span);
                         }
                         let zero = self.dag.zero();
+                        let others = [b, c, zero, zero, zero];
+                        self.bound(BoundKind::Tensor(others), a, inertia.span);
                         Some(Inertia::Tensor([a, b, c, zero, zero, zero]))
                     }
                     Value::Scalar(_) => {
@@ -484,7 +486,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         entries.resize(6, Some(self.dag.zero()));
         let entries: Option<Vec<Expr<'d>>> = entries.into_iter().collect();
-        Some(Inertia::Tensor(entries?.try_into().ok()?))
+        let entries: [Expr<'d>; 6] = entries?.try_into().ok()?;
+        let [first, others @ ..] = entries;
+        self.bound(BoundKind::Tensor(others), first, span);
+        Some(Inertia::Tensor(entries))
     }
 
     pub(super) fn rotation(

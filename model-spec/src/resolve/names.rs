@@ -831,6 +831,15 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                     (Some(_), None) => Some(format!(
                         "`{word}` is a unit: it is written after a number, `2*{word}`"
                     )),
+                    // A single letter is more often a name than a unit.
+                    (None, None) if is_value && Measure::named(word).is_some() => {
+                        let as_unit =
+                            format!("the unit `{word}` is written after a number, `2*{word}`");
+                        Some(match suggestion(word, candidates) {
+                            Some(names) => format!("{names}; {as_unit}"),
+                            None => as_unit,
+                        })
+                    }
                     (None, _) if is_value => with_unit(word, suggestion(word, candidates)),
                     (None, _) => suggestion(word, candidates),
                 }

@@ -199,6 +199,13 @@ impl Column {
                 "line {line}: `{header}` names no column, as `torque [N*m]` does"
             ));
         }
+        if unit.is_none()
+            && let Some((name, unit)) = without_brackets(name)
+        {
+            return Err(format!(
+                "line {line}: the unit of `{header}` is written in brackets, as in `{name} [{unit}]`"
+            ));
+        }
         Ok(Column {
             name: name.to_owned(),
             unit,
@@ -213,6 +220,15 @@ impl Column {
             _ => value.to_f64().to_string(),
         }
     }
+}
+
+/// Name and unit of a header whose unit is not in brackets: `angle/deg`, `angle (deg)`.
+fn without_brackets(header: &str) -> Option<(&str, &str)> {
+    let in_parentheses = || header.strip_suffix(')')?.split_once('(');
+    let (name, unit) = in_parentheses().or_else(|| header.split_once('/'))?;
+    let [name, unit] = [name, unit].map(str::trim);
+    let is_unit = unit.contains(char::is_alphabetic) && measure(unit).is_some();
+    (is_unit && !name.is_empty()).then_some((name, unit))
 }
 
 /// A number in the format of tables: `-1.5e-3`, `.5`, `+2`.

@@ -31,6 +31,8 @@ fn files() -> InMemory {
             "speed [rpm], torque [N*m], current [A], force [N]\n0, 2, 1, 0\n1500, 0, 3, 1\n",
         )
         .with("broken.csv", "x, y\n1, 2\n2, two\n")
+        .with("slash.csv", "angle/deg, torque [N*m]\n0, 2\n90, 0\n")
+        .with("round.csv", "angle [deg], torque (N*m)\n0, 2\n90, 0\n")
         .with("self.machine", variant("Itself", "self.machine"))
         .with("there.machine", variant("There", "back.machine"))
         .with("back.machine", variant("Back", "there.machine"));
