@@ -2,8 +2,8 @@
 
 use lagrangian::interpreted::{InterpretedSystem, Named};
 use lagrangian::{
-    Compliance, ContactEnergies, ContactEvent, ContactEventKind, Event, System, UnilateralContact,
-    UnilateralForce,
+    Compliance, ContactEnergies, ContactEvent, ContactEventKind, Event, State, System,
+    UnilateralContact, UnilateralForce,
 };
 use serde_json::{Value, json};
 
@@ -176,8 +176,11 @@ pub fn lines(run: &Run) -> Vec<String> {
     accounts(run).into_iter().map(line).collect()
 }
 
-/// The fields of the contacts in a JSON document; empty if there are none.
-pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
+/// The fields of the contacts in a JSON document; empty if there are none. `shown` gives the coordinates in which a state is shown.
+pub fn fields(
+    run: &Run,
+    shown: &dyn Fn(&State<Named>) -> State<Named>,
+) -> Vec<(&'static str, Value)> {
     if run.system().unilateral_contacts().len() == 0 {
         return Vec::new();
     }
@@ -223,8 +226,10 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
             .any(|known| known.is_second_tangent && known.name == second)
     };
     let events = run.contact_events().iter();
-    let events =
-        events.map(|contact_event| event(contact_event, slips_across(&contact_event.contact)));
+    let events = events.map(|contact_event| {
+        let state = shown(&contact_event.state);
+        event(contact_event, &state, slips_across(&contact_event.contact))
+    });
     let mut fields = vec![
         ("contact_events", events.collect()),
         ("unilateral_contacts", accounts.into()),
@@ -251,19 +256,19 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
     fields
 }
 
-/// The report on an event of a contact, which has one or two tangents.
-fn event(event: &ContactEvent<Named>, slips_across: bool) -> Value {
+/// The report on an event of a contact, which has one or two tangents, with its state as it is shown.
+fn event(event: &ContactEvent<Named>, state: &State<Named>, slips_across: bool) -> Value {
     let mut document = json!({
         "t": event.state.t,
         "contact": event.contact,
         "kind": event.kind.word(),
-        "q": by_name(&event.state.q),
-        "v": by_name(&event.state.v),
+        "q": by_name(&state.q),
+        "v": by_name(&state.v),
     });
     let Value::Object(fields) = &mut document else {
         return document;
     };
-    if let Some(states) = states(&event.state.v) {
+    if let Some(states) = states(&state.v) {
         fields.insert("states".into(), states);
     }
     if let Some(impact) = event.impact {

@@ -8,6 +8,7 @@
 
 mod brachistochrone;
 mod call;
+mod charts;
 mod check;
 mod collisions;
 mod compare;

@@ -187,6 +187,38 @@ impl Reading {
         compiled.ok_or_else(|| self.failure())
     }
 
+    /// Compiles for a run: the machine, and if the spec names other charts, the machine in these too.
+    ///
+    /// # Errors
+    /// As [`compile_beside`](Self::compile_beside).
+    pub fn compile_in_charts<'d, 'a>(
+        mut self,
+        dag: &'d Dag,
+        destinations: impl IntoIterator<Item = &'a Destination>,
+    ) -> Result<(Compiled<'d>, Option<Compiled<'d>>), Failure> {
+        let model = self.model(dag);
+        self.keep_from(destinations)?;
+        let Some(mut model) = model else {
+            return Err(self.failure());
+        };
+        let cartesian = model.cartesian.take();
+        let Some(compiled) = Compiled::new(model, &mut self.report) else {
+            return Err(self.failure());
+        };
+        self.warn();
+        let Some(cartesian) = cartesian else {
+            return Ok((compiled, None));
+        };
+        // Its warnings would be those of the spec, which are printed.
+        let mut report = Report::new();
+        let cartesian = Compiled::new(*cartesian, &mut report);
+        if cartesian.is_none() {
+            self.report = report;
+            return Err(self.failure());
+        }
+        Ok((compiled, cartesian))
+    }
+
     /// Prints the warnings of a valid spec.
     pub fn warn(&mut self) {
         if !std::mem::replace(&mut self.is_warned, true) {

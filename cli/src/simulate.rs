@@ -17,6 +17,7 @@ use lagrangian_units::state_of;
 use serde_json::{Value, json};
 
 use crate::call;
+use crate::charts::Charts;
 use crate::collisions;
 use crate::contacts::{self, Contacts, Found};
 use crate::evaluate::set_start;
@@ -183,9 +184,17 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         progress::now("writing");
         let recording = record(&run);
         let stride = prepared.refinement(call, &files) as usize;
-        let written = write(&files, prepared.machine.name(), &recording.each(stride));
+        let charts = prepared.charts.as_ref();
+        let states = recorded_states(&run);
+        let table = charts.map(|charts| charts.in_polar(&recording, states));
+        let table = table.as_ref().unwrap_or(&recording).each(stride);
+        let written = write(&files, prepared.machine.name(), &table);
         trouble.other.extend(written);
         if let Some(file) = &files.report {
+            let recording = match charts {
+                Some(charts) => charts.with_polar(&recording, states),
+                None => recording,
+            };
             let report = Report {
                 asked: &call_settings(call, tolerance),
                 compiled: &prepared.compiled,
@@ -232,7 +241,7 @@ fn method(call: &call::Simulate) -> Result<&'static Method, Failure> {
     methods::named_or(&call.method, &[AUTO])
 }
 
-/// A machine that is ready to run, with the settings of its run.
+/// A machine that is ready to run, with the settings of its run. If the spec names another chart, all of it is in that chart.
 struct Prepared<'d> {
     compiled: Compiled<'d>,
     machine: InterpretedMachine,
@@ -242,6 +251,8 @@ struct Prepared<'d> {
     other_method: Option<String>,
     tolerance: f64,
     start: State<Named>,
+    /// How the run is shown in the coordinates of the spec, if it is in others.
+    charts: Option<Charts>,
 }
 
 impl<'d> Prepared<'d> {
@@ -254,9 +265,32 @@ impl<'d> Prepared<'d> {
         let mut reading = Reading::open(&call.spec)?;
         let laws = reading.drive(&call.spec, written)?;
         let formulas = reading.formulas();
-        let compiled = reading.compile_beside(dag, files.all());
-        let mut compiled = compiled.map_err(inputs::as_call_failure)?;
+        let compiled = reading.compile_in_charts(dag, files.all());
+        let (mut compiled, cartesian) = compiled.map_err(inputs::as_call_failure)?;
         let mut machine = reading::machine(&compiled, &call.start)?;
+        reading::check_parameters(&machine)?;
+        let mut start = machine.start();
+        set_start(&mut start, &call.start)?;
+        reading::check_kept(&start, &call.keep)?;
+        let mut charts = None;
+        if let Some(cartesian) = cartesian {
+            if call.live {
+                return Err(Failure::Call(
+                    "--live: the page cannot run a machine with `charts`; leave out --live, or leave `charts` out of the spec"
+                        .into(),
+                ));
+            }
+            let parameters_alone = call::Start {
+                parameters: call.start.parameters.clone(),
+                coordinates: Vec::new(),
+                rates: Vec::new(),
+                running: call.start.running,
+            };
+            machine = reading::machine(&cartesian, &parameters_alone)?;
+            let (made, begun) = Charts::new(&compiled.model, &machine, &start, &call.keep)?;
+            (start, charts) = (begun, Some(made));
+            compiled = cartesian;
+        }
         // Formulas of inputs are not outputs of the machine.
         let output_count = compiled.model.outputs.len() - formulas;
         compiled.model.outputs.truncate(output_count);
@@ -288,10 +322,6 @@ impl<'d> Prepared<'d> {
         {
             return Err(Failure::Call(objection));
         }
-        reading::check_parameters(&machine)?;
-        let mut start = machine.start();
-        set_start(&mut start, &call.start)?;
-        reading::check_kept(&start, &call.keep)?;
         Ok(Prepared {
             compiled,
             machine,
@@ -300,7 +330,16 @@ impl<'d> Prepared<'d> {
             other_method,
             tolerance,
             start,
+            charts,
         })
+    }
+
+    /// A state of the run in the coordinates of the spec.
+    fn shown(&self, state: &State<Named>) -> State<Named> {
+        match &self.charts {
+            Some(charts) => charts.shown(state),
+            None => state.clone(),
+        }
     }
 
     /// By which factor the run is recorded more densely than requested, as the page of the run needs it.
@@ -365,6 +404,7 @@ impl<'d> Prepared<'d> {
                     ));
                 }
             });
+        let mut marked_every = f64::INFINITY;
         if files.all().next().is_none() {
             // Only the end is reported, and events if they are asked for.
             simulation = simulation.forget_energies().forget_contact_phases();
@@ -375,7 +415,15 @@ impl<'d> Prepared<'d> {
             let interval = interval(call);
             let width = width(&self.machine, self.compiled.model.outputs.len());
             check_samples("--every", interval, call.until, width)?;
-            simulation = simulation.every(interval / f64::from(self.refinement(call, files)));
+            marked_every = interval / f64::from(self.refinement(call, files));
+            simulation = simulation.every(marked_every);
+        }
+        if call.spec.json && !self.compiled.model.contacts.is_empty() {
+            // States are also shown at the events of contacts.
+            marked_every = 0.0;
+        }
+        if let Some(charts) = &self.charts {
+            simulation = simulation.each_step(move |step| charts.follow(step, marked_every));
         }
         contacts
             .watch(simulation, !self.signals.is_empty())
@@ -464,14 +512,13 @@ fn print(
     let interruption = trouble.interruption(run, call.until);
     let errors = trouble.errors();
     if call.spec.json {
-        let other_method = prepared.other_method.as_deref();
-        let mut document = document(call, other_method, run, contacts, &interruption, &errors);
+        let mut document = document(call, prepared, run, contacts, (&interruption, &errors));
         if let (Some(estimate), Value::Object(fields)) = (global_error, &mut document) {
             fields.insert("global_error".into(), estimate.json(run.end()));
         }
         output::line(format_args!("{document:#}"));
     } else {
-        print_summary(call, &prepared.machine, prepared.method, run, contacts);
+        print_summary(call, prepared, run, contacts);
         for line in global_error
             .into_iter()
             .flat_map(|estimate| estimate.lines(run.end()))
@@ -559,27 +606,30 @@ fn write(files: &Files, name: &str, recording: &Recording) -> Vec<String> {
 
 /// The samples of a run, with all observable quantities at each.
 pub fn record(run: &Run) -> Recording {
-    // A run of length zero has no samples.
+    Recording::of(run, recorded_states(run))
+}
+
+/// The samples of a run; a run of length zero has only its start.
+fn recorded_states(run: &Run) -> &[State<Named>] {
     match run.samples() {
-        [] => Recording::of(run, std::slice::from_ref(run.start())),
-        states => Recording::of(run, states),
+        [] => std::slice::from_ref(run.start()),
+        states => states,
     }
 }
 
 fn document(
     call: &call::Simulate,
-    other_method: Option<&str>,
+    prepared: &Prepared<'_>,
     run: &Run,
     contacts: &[Found],
-    interruption: &Option<String>,
-    errors: &[String],
+    (interruption, errors): (&Option<String>, &[String]),
 ) -> Value {
     let statistics = run.statistics();
-    let end = run.end();
+    let end = prepared.shown(run.end());
     let events: Vec<Value> = contacts::other_events(run.events(), contacts)
         .map(|event| json!({ "t": event.state.t, "name": event.name }))
         .collect();
-    let warnings = other_method.into_iter().map(str::to_owned);
+    let warnings = prepared.other_method.clone().into_iter();
     let warnings = warnings.chain(run.warnings().iter().map(ToString::to_string));
     let warnings = warnings.chain(contacts.iter().flat_map(Found::warnings));
     let warnings = warnings.chain(interruption.iter().cloned());
@@ -621,7 +671,7 @@ fn document(
             let methods = run.choices().iter().map(choice);
             fields.insert("methods".into(), methods.collect());
         }
-        for (name, value) in collisions::fields(run) {
+        for (name, value) in collisions::fields(run, &|state| prepared.shown(state)) {
             fields.insert(name.into(), value);
         }
         if interruption.is_some() {
@@ -634,21 +684,15 @@ fn document(
     document
 }
 
-fn print_summary(
-    call: &call::Simulate,
-    machine: &InterpretedMachine,
-    method: &Method,
-    run: &Run,
-    contacts: &[Found],
-) {
+fn print_summary(call: &call::Simulate, prepared: &Prepared<'_>, run: &Run, contacts: &[Found]) {
     let statistics = run.statistics();
-    let (start, end) = (run.start(), run.end());
+    let (start, end) = (run.start(), prepared.shown(run.end()));
     output::line(format_args!(
         "{}: t = {} s to {} s, {}",
-        machine.name(),
+        prepared.machine.name(),
         shortest(start.t),
         shortest(end.t),
-        method.tableau.title
+        prepared.method.tableau.title
     ));
     output::line(format_args!(
         "  {} steps, {} rejected, {} evaluations, {:.3} s",

@@ -19,6 +19,7 @@ use crate::unit::Unit;
 pub use crate::unit::{Compliance, ImpactLaw, ImpactOrder, Name, Painleve, Stages, Variable};
 
 pub mod bounds;
+pub mod charts;
 pub mod circles;
 pub mod element;
 pub mod polygons;
@@ -30,6 +31,7 @@ mod tensor;
 pub use published::*;
 
 use bounds::Bound;
+use charts::Charts;
 use element::Element;
 use polygons::Corner;
 use quaternion::Quaternion;
@@ -112,6 +114,11 @@ pub struct Model<'d> {
     pub stages: Stages,
     /// Where the spec asks for emitted code with the Taylor series of the motion, if it does.
     pub taylor: Option<Span>,
+    /// Points for which the spec names a second chart.
+    pub charts: Vec<Charts>,
+    /// This machine in the other charts, with the same coordinates in the same order except for the replaced ones; `None` if the spec
+    /// names no other chart.
+    pub cartesian: Option<Box<Model<'d>>>,
     /// The start values, coordinates and rates, that are kept when a start that violates the
     /// constraints is corrected; each once.
     pub kept: Vec<Variable>,

@@ -26,6 +26,7 @@
 //! | [`derivatives`] | the variables by which accelerations are to be differentiated |
 //! | [`stages`] | the stages of the accelerations that are to be computed separately |
 //! | [`methods`] | the integration methods for which emitted code needs more functions |
+//! | [`charts`] | coordinates of a second chart |
 //! | [`keep`] | the start values that a correction of the start keeps |
 //! | [`brachistochrone`] | the end of the fastest motion |
 //! | [`outside`] | values supplied by the caller |
@@ -34,6 +35,7 @@
 
 mod bounds;
 mod brachistochrone;
+mod charts;
 mod contacts;
 mod derivatives;
 mod derived;
@@ -72,6 +74,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::{Code, Diagnostic, Report, most_similar};
 use crate::model::bounds::Bound;
+use crate::model::charts::in_cartesian;
 use crate::model::{Assumption, Body, Model, Pose, PoseId, Space, Variable, quaternion, stage};
 use crate::source::{Files, Sources, Span};
 use crate::syntax::{self, Item, Quantity, SectionKind, Spec};
@@ -145,6 +148,9 @@ pub(crate) fn resolve<'d>(
         resolver.time = model.time;
         resolver.symbols = relaxation::symbols(&model);
         model.relaxed = resolver.resolve(&layers.specs).map(Box::new);
+    }
+    if !model.charts.is_empty() {
+        model.cartesian = Some(Box::new(in_cartesian(&model, report)?));
     }
     Some(model)
 }
@@ -304,6 +310,8 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let derivatives = self.variables(Derivatives, Self::differentiated_by);
         let methods = self.resolve_each(Methods, Self::method);
         let stages = self.resolve_each(Stages, |resolver, member| Some(resolver.stage(member)));
+        let charts = self.resolve_each(SectionKind::Charts, Self::charts);
+        self.check_charts(&charts);
         let kept = self.variables(Keep, Self::kept);
         let destination = self.destination(layers, &coordinates);
         let published = self.published(layers);
@@ -351,6 +359,8 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 coordinates: stages.iter().any(|stages| stages.coordinates),
             },
             taylor: methods.into_iter().next(),
+            charts,
+            cartesian: None,
             kept,
             destination,
             published,

@@ -11,7 +11,7 @@
 //! source      = machine
 //! machine     = "machine" NAME {"in" ("plane" | "space") | "extends" TEXT} "{" {entry} "}"
 //! entry       = quantities | values | records | constraints | assume | approximations
-//!             | derivatives | stages | methods | keep | brachistochrone | gravity | published | remove
+//!             | derivatives | stages | methods | charts | keep | brachistochrone | gravity | published | remove
 //!
 //! quantities  = ("parameters" | "constants" | "coordinates" | "inputs" | "outputs")
 //!               "{" list(declared [":" unit] ["=" expression]) "}"
@@ -31,6 +31,8 @@
 //! derivatives = "derivatives" "{" list(declared) "}"
 //! stages      = "stages" "{" list(declared) "}"
 //! methods     = "methods" "{" list(declared) "}"
+//! charts      = "charts" "{" list(declared ":" "polar" pair "|" "cartesian" pair) "}"
+//! pair        = "(" NAME "," NAME ")"
 //! keep        = "keep" "{" list(start) "}"
 //! start       = declared | "der" "(" declared ")"
 //! brachistochrone = "brachistochrone" "{" list(declared "=" expression) "}"

@@ -8,9 +8,10 @@ use std::path::PathBuf;
 use super::support::{Scratch, lagrangian, root};
 
 /// The machines, and their names in the table.
-const KINDS: [(&str, &str); 10] = [
+const KINDS: [(&str, &str); 11] = [
     ("plain", "plain"),
     ("states", "`states`"),
+    ("charts", "`charts`"),
     ("constrained", "constraints"),
     ("redundant", "that others imply"),
     ("nonholonomic", "of rates"),

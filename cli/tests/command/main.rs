@@ -5,6 +5,7 @@ mod books;
 mod borderline;
 mod brachistochrone;
 mod browser;
+mod charts;
 mod choosing;
 mod collisions;
 mod command_line;

@@ -12,8 +12,8 @@ use crate::diagnostic::{Code, Diagnostic, most_similar};
 use crate::model::{Name, stage};
 use crate::source::Span;
 use crate::syntax::{
-    Approximation, Declared, ElementContent, Equation, Expression, Form, Ident, Index, Item,
-    Quantity, Range, Record, Reference, Remove, SectionKind, Spanned, Spec,
+    Approximation, Charts, Declared, ElementContent, Equation, Expression, Form, Ident, Index,
+    Item, Quantity, Range, Record, Reference, Remove, SectionKind, Spanned, Spec,
 };
 use crate::unit::{Measure, Unit, rate_name};
 
@@ -87,6 +87,7 @@ pub(super) enum Content<'a> {
     Record(&'a Record),
     Equation(&'a Equation),
     Approximation(&'a Spanned<Approximation>),
+    Charts(&'a Charts),
     /// A name alone.
     Nothing,
 }
@@ -187,6 +188,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.declare_section(layer, Derivatives, &spec.derivatives, |()| Content::Nothing);
         self.declare_section(layer, Stages, &spec.stages, |()| Content::Nothing);
         self.declare_section(layer, Methods, &spec.methods, |()| Content::Nothing);
+        self.declare_section(layer, SectionKind::Charts, &spec.charts, Content::Charts);
         self.declare_section(layer, Keep, &spec.keep, |()| Content::Nothing);
     }
 

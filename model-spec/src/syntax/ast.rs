@@ -69,6 +69,8 @@ pub struct Spec {
     pub stages: Vec<Item<()>>,
     /// The integration methods for which emitted code needs more than accelerations.
     pub methods: Vec<Item<()>>,
+    /// `name: polar(s, phi) | cartesian(x, y)`
+    pub charts: Vec<Item<Charts>>,
     /// `theta`, or `der(theta)`, which is the name of a rate here
     pub keep: Vec<Item<()>>,
     /// `coordinate = expression`
@@ -212,6 +214,7 @@ sections! {
     Derivatives => "derivatives",
     Stages => "stages",
     Methods => "methods",
+    Charts => "charts",
     Keep => "keep",
     Brachistochrone => "brachistochrone",
     Published => "published",
@@ -294,6 +297,7 @@ impl SectionKind {
             SectionKind::Derivatives => "a derivative",
             SectionKind::Stages => "a stage",
             SectionKind::Methods => "a method of integration",
+            SectionKind::Charts => "a pair of charts",
             SectionKind::Keep => "a start value that is kept",
             SectionKind::Brachistochrone => "the end of a coordinate",
             SectionKind::Published => "a published equation",
@@ -446,6 +450,15 @@ pub struct Equation {
     pub left: Expression,
     /// The right side.
     pub right: Expression,
+}
+
+/// `polar(s, phi) | cartesian(x, y)` in `charts`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Charts {
+    /// The names of two coordinates, a distance from a point and the angle of the direction.
+    pub polar: [Ident; 2],
+    /// New names, for the components of the distance along the directions 0 and π/2 of the angle.
+    pub cartesian: [Ident; 2],
 }
 
 /// `coordinate: …` in `approximations`.

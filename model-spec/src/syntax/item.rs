@@ -460,6 +460,44 @@ impl Parser<'_> {
         self.items(kind, items, |_, _| Some(()));
     }
 
+    /// Items `name: polar(s, phi) | cartesian(x, y)`.
+    pub(super) fn charts(&mut self, items: &mut Vec<Item<Charts>>) {
+        self.items(SectionKind::Charts, items, |parser, _| {
+            parser.expect_mark(':');
+            let polar = parser.chart("polar")?;
+            if !parser.eat_mark('|') {
+                let help = "write `name: polar(s, phi) | cartesian(x, y)`";
+                parser.unexpected_because("`|`", Some(help.to_owned()));
+                return None;
+            }
+            let cartesian = parser.chart("cartesian")?;
+            Some(Charts { polar, cartesian })
+        });
+    }
+
+    /// `polar(s, phi)`, or another word with two names.
+    fn chart(&mut self, word: &str) -> Option<[Ident; 2]> {
+        if self.failed {
+            return None;
+        }
+        if !self.eat_word(word) {
+            let help = "write `name: polar(s, phi) | cartesian(x, y)`";
+            self.unexpected_because(&format!("`{word}(`"), Some(help.to_owned()));
+            return None;
+        }
+        let group = self.enter(Delimiter::Parenthesis)?;
+        let first = self.ident("the name of a coordinate");
+        if first.is_some() {
+            self.expect_mark(',');
+        }
+        let second = match self.failed {
+            false => self.ident("the name of a coordinate"),
+            true => None,
+        };
+        self.leave(group, "`)`");
+        Some([first?, second?])
+    }
+
     /// Items `theta`, `der(theta)`, `q[1..N]`.
     pub(super) fn kept(&mut self, items: &mut Vec<Item<()>>) {
         self.each_item(SectionKind::Keep, |parser, docs| {

@@ -266,6 +266,7 @@ impl Parser<'_> {
             SectionKind::Derivatives => self.words(kind, &mut spec.derivatives),
             SectionKind::Stages => self.words(kind, &mut spec.stages),
             SectionKind::Methods => self.words(kind, &mut spec.methods),
+            SectionKind::Charts => self.charts(&mut spec.charts),
             SectionKind::Keep => self.kept(&mut spec.keep),
             SectionKind::Brachistochrone => self.values(kind, &mut spec.brachistochrone, '='),
             SectionKind::Assume => self.assume(&mut spec.assume),

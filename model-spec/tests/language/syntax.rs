@@ -237,13 +237,14 @@ fn every_section_of_the_language_reaches_the_tree() {
         spec.derivatives.len(),
         spec.stages.len(),
         spec.methods.len(),
+        spec.charts.len(),
         spec.keep.len(),
         spec.brachistochrone.len(),
         spec.remove.len(),
     ];
     assert_eq!(
         sizes,
-        [1, 1, 1, 1, 1, 2, 1, 2, 1, 2, 1, 3, 2, 3, 2, 1, 4, 1, 4]
+        [1, 1, 1, 1, 1, 2, 1, 2, 1, 2, 1, 3, 2, 3, 2, 1, 1, 4, 1, 4]
     );
     assert!(spec.remove[2].name.is_none() && spec.remove[3].name.is_none());
     let printed = &spec.published[0];

@@ -1,0 +1,417 @@
+//! Runs of machines with a second chart, against closed forms and the same machines written in Cartesian coordinates.
+
+use std::f64::consts::{PI, TAU};
+use std::fs;
+
+use crate::support::{Scratch, lagrangian};
+use serde_json::Value;
+
+/// A particle of 2 kg on springs of 8 N/m and 18 N/m: x = cos 2t, and y is a multiple of sin 3t.
+const PARTICLE: &str = "machine Particle in plane {
+    parameters { m: kg = 2, kx: N/m = 8, ky: N/m = 18 }
+    coordinates { s: m = 1, phi: rad, der(phi): rad/s = 3e-9 }
+    bodies { particle { mass: m, at: polar(s, phi) } }
+    gravity none;
+    springs { along { stiffness: kx, stretch: s*cos(phi) }, across { stiffness: ky, stretch: s*sin(phi) } }
+    charts { particle: polar(s, phi) | cartesian(x, y) }
+    outputs { height: m = s*sin(phi), momentum: kg*m^2/s = m*s^2*der(phi) }
+}";
+
+fn particle() -> Scratch {
+    Scratch::new("particle.machine", PARTICLE)
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = lagrangian(arguments);
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let (out, said) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}{out}");
+    serde_json::from_str(&out).unwrap_or_else(|_| panic!("{arguments:?}: {out}{said}"))
+}
+
+fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("{value} is a number"))
+}
+
+fn close(found: f64, expected: f64, by: f64, what: &str) {
+    if found.is_nan() && expected.is_nan() {
+        return;
+    }
+    let size = expected.abs().max(1.0);
+    assert!(
+        (found - expected).abs() <= by * size,
+        "{what}: {found} and not {expected}"
+    );
+}
+
+/// The columns of a table by name, without units.
+fn columns(path: &str) -> Vec<(String, Vec<f64>)> {
+    let text = fs::read_to_string(path).expect("a table");
+    let mut lines = text.lines();
+    let headers = lines.next().expect("headers").split(',');
+    let mut columns: Vec<(String, Vec<f64>)> = headers
+        .map(|header| {
+            let name = header.split(" [").next().unwrap_or(header);
+            (name.trim_matches('"').to_owned(), Vec::new())
+        })
+        .collect();
+    for line in lines {
+        for ((_, values), cell) in columns.iter_mut().zip(line.split(',')) {
+            values.push(cell.parse().unwrap_or(f64::NAN));
+        }
+    }
+    columns
+}
+
+fn column<'c>(columns: &'c [(String, Vec<f64>)], name: &str) -> &'c [f64] {
+    let found = columns.iter().find(|(of, _)| of == name);
+    &found.unwrap_or_else(|| panic!("no column {name}")).1
+}
+
+/// The closed form of the particle, for `y = width sin 3t`: distance, angle with its turns, and their rates.
+fn closed_form(width: f64, t: f64) -> [f64; 4] {
+    let (x, y) = ((2.0 * t).cos(), width * (3.0 * t).sin());
+    let (vx, vy) = (-2.0 * (2.0 * t).sin(), 3.0 * width * (3.0 * t).cos());
+    // The path crosses x = 0 at odd multiples of π/4, on the side of the sign of y there. From one crossing to the next the angle
+    // is that of the direction, on the branch that is reached by going over that side.
+    let mut turned = 0.0;
+    for k in 0.. {
+        let crossing = PI / 4.0 * f64::from(2 * k + 1);
+        if crossing > t {
+            break;
+        }
+        let is_above = width * (3.0 * crossing).sin() > 0.0;
+        let goes_left = k % 2 == 0;
+        turned += if is_above == goes_left { PI } else { -PI };
+    }
+    // The direction is within a quarter turn of ±x on either side of a crossing.
+    let sign = x.signum();
+    let angle = turned + (sign * y).atan2(sign * x);
+    let s = x.hypot(y);
+    [s, angle, (x * vx + y * vy) / s, (x * vy - y * vx) / (s * s)]
+}
+
+#[test]
+fn a_particle_passes_the_centre_in_closed_form() {
+    let (spec, table) = (particle(), Scratch::new("run.csv", ""));
+    let (spec, table) = (spec.path(), table.path());
+    for width in [1e-9, 1e-4, 0.5] {
+        let rate = format!("phi={:e}", 3.0 * width);
+        let run = json(&[
+            "simulate",
+            spec,
+            "--until",
+            "7",
+            "--every",
+            "0.013",
+            "--tolerance",
+            "1e-13",
+            "--rate",
+            &rate,
+            "--out",
+            table,
+            "--json",
+        ]);
+        // Two oscillators, with as many steps however near they pass.
+        assert!(number(&run["steps"]) < 300.0, "{}", run["steps"]);
+        let columns = columns(table);
+        let of = |name| column(&columns, name);
+        assert_eq!(of("s")[0], 1.0);
+        for (row, t) in of("t").iter().enumerate() {
+            let [s, angle, rate, turning] = closed_form(width, *t);
+            // Errors of 1e-12 in the components, which an angle sees from its distance.
+            let what = format!("width {width}, t = {t}");
+            close(of("s")[row], s, 1e-11, &what);
+            close(of("phi")[row], angle, 1e-11 / s, &what);
+            close(of("der(s)")[row], rate, 1e-10 / s, &what);
+            close(of("der(phi)")[row], turning, 1e-10 / (s * s), &what);
+            close(of("height")[row], width * (3.0 * t).sin(), 1e-11, &what);
+        }
+        let [s, angle, ..] = closed_form(width, 7.0);
+        close(number(&run["q"]["s"]), s, 1e-11, "at the end");
+        close(number(&run["q"]["phi"]), angle, 1e-11 / s, "at the end");
+        // ½ m (vx² + vy²) + ½ kx x² + ½ ky y² stays.
+        assert!(number(&run["energy_residual"]).abs() < 1e-11);
+    }
+}
+
+#[test]
+fn a_particle_goes_exactly_through_the_centre_and_rests_there() {
+    let spec = particle();
+    let at = |until: &str, more: &[&str]| {
+        let own = [
+            "simulate",
+            spec.path(),
+            "--until",
+            until,
+            "--tolerance",
+            "1e-13",
+            "--json",
+        ];
+        json(&[&own[..], more].concat())
+    };
+    // On the line y = 0 it turns by half a turn at each passage.
+    let run = at("2", &["--rate", "phi=0"]);
+    close(number(&run["q"]["s"]), 4_f64.cos().abs(), 1e-11, "s");
+    close(number(&run["q"]["phi"]).abs() % TAU, PI, 1e-11, "phi");
+    // From the centre along φ = 0.7 rad with 1 m/s: x = cos 0.7 sin(2t)/2, y = sin 0.7 sin(3t)/3.
+    let start = [
+        "--start", "s=0", "--start", "phi=0.7", "--rate", "s=1", "--rate", "phi=0",
+    ];
+    let run = at("0.4", &start);
+    let (x, y) = (
+        0.7_f64.cos() * 0.8_f64.sin() / 2.0,
+        0.7_f64.sin() * 1.2_f64.sin() / 3.0,
+    );
+    close(number(&run["q"]["s"]), x.hypot(y), 1e-11, "s");
+    close(number(&run["q"]["phi"]), y.atan2(x), 1e-11, "phi");
+    // A negative distance is the point opposite.
+    let run = at("0", &["--start", "s=-2", "--start", "phi=0.5"]);
+    close(number(&run["q"]["s"]), 2.0, 1e-15, "s");
+    close(number(&run["q"]["phi"]), 0.5 + PI, 1e-15, "phi");
+    // At rest at the centre it stays there.
+    let run = at("1", &["--start", "s=0", "--rate", "phi=0"]);
+    assert_eq!(number(&run["q"]["s"]), 0.0);
+    assert_eq!(number(&run["v"]["phi"]), 0.0);
+}
+
+#[test]
+fn turns_are_counted_forward_and_backward_however_rarely_they_are_recorded() {
+    // A particle that nothing holds but a rail around the centre turns uniformly; here, equal springs on a circle: s = 1, φ̇ = 2 rad/s.
+    let (spec, table) = (particle(), Scratch::new("run.csv", ""));
+    let (spec, table) = (spec.path(), table.path());
+    for (until, every, method) in [
+        ("100", "9", "dop853"),
+        ("-100", "9", "dop853"),
+        ("100", "0.37", "taylor"),
+        ("20", "7", "radau5"),
+    ] {
+        let run = json(&[
+            "simulate",
+            spec,
+            "--until",
+            until,
+            "--every",
+            every,
+            "--set",
+            "ky=8",
+            "--rate",
+            "phi=2",
+            "--tolerance",
+            "1e-11",
+            "--method",
+            method,
+            "--out",
+            table,
+            "--json",
+        ]);
+        let end: f64 = until.parse().expect("a number");
+        close(number(&run["q"]["phi"]), 2.0 * end, 1e-6, method);
+        let columns = columns(table);
+        let (times, angles) = (column(&columns, "t"), column(&columns, "phi"));
+        for (t, angle) in times.iter().zip(angles) {
+            close(*angle, 2.0 * t, 1e-6, method);
+        }
+    }
+}
+
+/// The same crusher in polar coordinates with a second chart, and in relative Cartesian coordinates, from the same state: the mortar
+/// crosses the axis of the cylinder, both collide and slip.
+#[test]
+fn a_crusher_in_two_charts_is_that_in_cartesian_coordinates() {
+    let tables = ["polar.csv", "relative.csv"].map(|name| Scratch::new(name, ""));
+    let run = |spec: &str, table: &str, more: &[&str]| {
+        let own = [
+            "simulate",
+            spec,
+            "--until",
+            "0.1",
+            "--every",
+            "1e-3",
+            "--tolerance",
+            "1e-12",
+            "--out",
+            table,
+            "--json",
+        ];
+        json(&[&own[..], more].concat())
+    };
+    // ξ₁ = −4 mm, towards the axis with 0.4 m/s along it.
+    let polar = run(
+        "machines/contacts/polar_crusher.machine",
+        tables[0].path(),
+        &[
+            "--start", "s1=0.004", "--start", "phi1=pi", "--rate", "s1=-0.4",
+        ],
+    );
+    let relative = run(
+        "machines/contacts/relative_crusher.machine",
+        tables[1].path(),
+        &["--start", "xi1=-0.004", "--rate", "xi1=0.4"],
+    );
+    let events = |run: &Value| run["contact_events"].as_array().expect("events").clone();
+    let (own, other) = (events(&polar), events(&relative));
+    assert!(own.len() > 4, "{}", own.len());
+    assert_eq!(own.len(), other.len());
+    for (own, other) in own.iter().zip(&other) {
+        assert_eq!(own["kind"], other["kind"]);
+        close(number(&own["t"]), number(&other["t"]), 1e-10, "an event");
+        let (own, other) = (&own["q"], &other["q"]);
+        for [s, phi, xi, eta] in [["s1", "phi1", "xi1", "eta1"], ["s2", "phi2", "xi2", "eta2"]] {
+            let (s, phi) = (number(&own[s]), number(&own[phi]));
+            close(s * phi.cos(), number(&other[xi]), 1e-9, "at an event");
+            close(s * phi.sin(), number(&other[eta]), 1e-9, "at an event");
+        }
+    }
+    let [own, other] = tables.map(|table| columns(table.path()));
+    let mut last: Option<f64> = None;
+    for row in 0..column(&own, "t").len() {
+        let own = |name| column(&own, name)[row];
+        let other = |name| column(&other, name)[row];
+        for [s, phi, xi, eta] in [["s1", "phi1", "xi1", "eta1"], ["s2", "phi2", "xi2", "eta2"]] {
+            close(own(s) * own(phi).cos(), other(xi), 1e-9, s);
+            close(own(s) * own(phi).sin(), other(eta), 1e-9, s);
+            let [ds, dphi, dxi] = [s, phi, xi].map(|name| format!("der({name})"));
+            let rate = own(&ds) * own(phi).cos() - own(s) * own(&dphi) * own(phi).sin();
+            close(rate, other(&dxi), 1e-7, &ds);
+        }
+        for same in [
+            "theta",
+            "theta1",
+            "total energy",
+            "normal(outer)",
+            "gap(outer)",
+            "gap(inner)",
+        ] {
+            close(own(same), other(same), 1e-6, same);
+        }
+        // Its direction does not jump by a whole turn.
+        let angle = own("phi1");
+        assert!(
+            last.is_none_or(|last: f64| (angle - last).abs() < 4.0),
+            "{row}"
+        );
+        last = Some(angle);
+    }
+}
+
+#[test]
+fn sums_of_angles_loads_and_constraints_are_the_same_in_both_charts() {
+    // Masses whose places contain φ + θ and 2φ + θ, a force on each polar coordinate, and a constraint.
+    let polar = "machine Polar in plane {
+        parameters {
+            m: kg = 1.5, k: N/m = 30, b: N*s/m = 0.3, g: m/s^2 = 9.81, F: N = 0.7, w: rad/s = 3, T: N*m = 0.2,
+        }
+        constants { l: m = 1 }
+        coordinates {
+            s: m = 0.4, phi: rad = 0.3, theta: rad = 0.2, y: m = 0.2*sin(0.3),
+            der(phi): rad/s = 2, der(y): m/s = 0.4*cos(0.3),
+        }
+        bodies {
+            bob { mass: m, inertia: 0.02, at: polar(s, phi), angle: theta },
+            arm { mass: m/2, at: s*direction(phi + theta) + (1, 0) },
+            late { mass: m/3, at: (y, s^2*cos(2*phi + theta)/l) },
+        }
+        gravity (0, -g);
+        springs { hanger { stiffness: k, from: bob.at, to: (0.3, 0.4) }, y { stiffness: k, stretch: y } }
+        dampers { s { damping: b, stretch: s } }
+        forces { radial { on: s, value: F*sin(w*t)*s/l }, turning { on: phi, value: T*s^2/l^2 } }
+        constraints { tied: y = s*sin(phi)/2 }
+        outputs { rate: m^2/s = s^2*der(phi), out: m/s^2 = der(der(s*cos(phi))) }
+        CHARTS
+    }";
+    let with = "charts { bob: polar(s, phi) | cartesian(u, w) }";
+    // Where nothing comes near the centre, the run in polar coordinates is right as well.
+    let [plain, charted] = ["", with].map(|charts| {
+        let spec = Scratch::new("polar.machine", &polar.replace("CHARTS", charts));
+        let table = Scratch::new("run.csv", "");
+        let run = json(&[
+            "simulate",
+            spec.path(),
+            "--until",
+            "0.3",
+            "--every",
+            "0.01",
+            "--tolerance",
+            "1e-12",
+            "--out",
+            table.path(),
+            "--json",
+        ]);
+        assert!(number(&run["energy_residual"]).abs() < 1e-9);
+        columns(table.path())
+    });
+    assert!(
+        column(&plain, "s").iter().all(|s| *s > 0.05),
+        "{:?}",
+        column(&plain, "s")
+    );
+    for name in [
+        "s",
+        "phi",
+        "theta",
+        "y",
+        "der(s)",
+        "der(phi)",
+        "der(theta)",
+        "rate",
+        "out",
+        "multiplier(tied)",
+        "total energy",
+    ] {
+        for (one, other) in column(&plain, name).iter().zip(column(&charted, name)) {
+            close(*one, *other, 1e-8, name);
+        }
+    }
+}
+
+#[test]
+fn what_the_other_chart_cannot_say_is_refused() {
+    let spec = particle();
+    let folder = spec.0.parent().expect("a folder");
+    let said = |arguments: &[&str]| {
+        let output = lagrangian(arguments);
+        assert_ne!(output.status.code(), Some(0), "{arguments:?}");
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let words = said(&["simulate", spec.path(), "--until", "1", "--keep", "s"]);
+    assert!(
+        words.contains("--keep s: the run is in the Cartesian coordinates"),
+        "{words}"
+    );
+    for (part, words) in [
+        (
+            "potentials { twist: kx*l^2*phi^2/2 }",
+            "`twist` contains the angle `phi`",
+        ),
+        (
+            "outputs { turned: rad = phi }",
+            "the output `turned` contains the angle `phi`",
+        ),
+        (
+            "frames { turned = ground.turn(phi) } bodies { b { mass: m, frame: turned } }",
+            "the frame `turned` contains the angle `phi`",
+        ),
+        (
+            "constraints { half: sin(phi/2) = 0.1 }",
+            "`half` contains the angle `phi`",
+        ),
+        ("approximations { phi: small }", "`phi` is approximated"),
+        ("keep { der(s) }", "a start value of `s` is kept"),
+        (
+            "charts { again: polar(s, phi) | cartesian(a, b) }",
+            "share a coordinate",
+        ),
+        ("outputs { x: m = s }", "`x` has another meaning already"),
+    ] {
+        let text = format!(
+            "machine Refused extends \"particle.machine\" {{ constants {{ l: m = 1 }} {part} }}"
+        );
+        let variant = folder.join("refused.machine");
+        fs::write(&variant, text).expect("a file");
+        let found = said(&["check", variant.to_str().expect("text")]);
+        assert!(found.contains(words), "{part}: {found}");
+    }
+}
