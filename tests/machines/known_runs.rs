@@ -284,7 +284,7 @@ fn costs_hardly_more<M: Machine>(name: &str, machine: &M) {
     };
     let chosen = points(None);
     let others = [Method::DOP853, Method::TAYLOR].map(|method| points(Some(method)));
-    println!("{name}: chosen {chosen:.2e?}, dop853 and taylor {others:.2e?}");
+    println!("{name}: chosen {chosen:?}, dop853 and taylor {others:?}");
     for error in [1e-3, 1e-5, 1e-7, 1e-9, 1e-11] {
         let least = |points: &[(f64, f64)]| {
             let reached = points.iter().filter(|(_, other)| *other <= error);
