@@ -104,9 +104,10 @@ impl Charts {
             start.v.values[*i] = v[*i] * cos - s * v[*j] * sin;
             start.v.values[*j] = v[*i] * sin + s * v[*j] * cos;
             // A negative distance is a positive one in the opposite direction.
-            let (sign, angle) = match s < 0.0 {
-                true => (-1.0, phi + std::f64::consts::PI),
-                false => (1.0, phi),
+            let (sign, angle) = if s < 0.0 {
+                (-1.0, phi + std::f64::consts::PI)
+            } else {
+                (1.0, phi)
             };
             turned.push(Turned {
                 direction: [sign * cos, sign * sin],
@@ -139,9 +140,10 @@ impl Charts {
         let n = self.start.q.values.len();
         let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
         let mut turned = self.turned();
-        let parts = match step.is_series() {
-            true => PARTS_OF_SERIES,
-            false => PARTS,
+        let parts = if step.is_series() {
+            PARTS_OF_SERIES
+        } else {
+            PARTS
         };
         let mut at = 0.0;
         // The next one is last.
@@ -189,16 +191,16 @@ impl Charts {
                 point.components(&state.v.values),
             );
             let s = x.hypot(y);
-            let polar = match s > 0.0 {
-                true => [
-                    (s, (x / s) * vx + (y / s) * vy),
-                    (
-                        turned.angle_of([x, y], state.t),
-                        // The sum with 0 makes -0 an ordinary 0.
-                        ((x / s) * vy - (y / s) * vx) / s + 0.0,
-                    ),
-                ],
-                false => [(s, vx.hypot(vy)), (turned.last_mark(state.t), 0.0)],
+            let polar = if s > 0.0 {
+                let (cos, sin) = (x / s, y / s);
+                let angle = turned.angle_of([x, y], state.t);
+                // The sum with 0 makes -0 an ordinary 0.
+                [
+                    (s, cos * vx + sin * vy),
+                    (angle, (cos * vy - sin * vx) / s + 0.0),
+                ]
+            } else {
+                [(s, vx.hypot(vy)), (turned.last_mark(state.t), 0.0)]
             };
             for (place, (q, v)) in [i, j].into_iter().zip(polar) {
                 shown.q.values[place] = q;
