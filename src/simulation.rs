@@ -195,9 +195,10 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// let mass = Toy::new(([0.0], [0.0]), |_, _, _, u, _| [u]);
     /// let run = |is_pushed: bool| {
     ///     let simulation = Simulation::new(&mass).until(2.0);
-    ///     let simulation = match is_pushed {
-    ///         true => simulation.inputs(|_, _, _, force| *force = 1.0).any_inputs(),
-    ///         false => simulation.any_inputs(),
+    ///     let simulation = if is_pushed {
+    ///         simulation.inputs(|_, _, _, force| *force = 1.0).any_inputs()
+    ///     } else {
+    ///         simulation.any_inputs()
     ///     };
     ///     simulation.run(mass.start())
     /// };

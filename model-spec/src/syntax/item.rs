@@ -490,9 +490,10 @@ impl Parser<'_> {
         if first.is_some() {
             self.expect_mark(',');
         }
-        let second = match self.failed {
-            false => self.ident("the name of a coordinate"),
-            true => None,
+        let second = if self.failed {
+            None
+        } else {
+            self.ident("the name of a coordinate")
         };
         self.leave(group, "`)`");
         Some([first?, second?])
