@@ -1445,64 +1445,14 @@ where
         }
         Ok(find(&machine, &from))
     };
-    // Where to start a search at a value: at the extrapolation of the known orbits.
-    let beside = |known: &[(f64, Orbit)], value: f64| -> Sought {
-        let mut from = sought.clone();
-        let Some((at, last)) = known.last() else {
-            return from;
-        };
-        from.start = last.start.clone();
-        let mut period = last.period;
-        if let [.., (before, older), _] = known
-            && before != at
-        {
-            let share = (value - at) / (at - before);
-            let ahead = |to: &mut Vec<f64>, older: &[f64]| {
-                for (x, older) in to.iter_mut().zip(older) {
-                    *x += share * (*x - older);
-                }
-            };
-            ahead(&mut from.start.q.values, &older.start.q.values);
-            ahead(&mut from.start.v.values, &older.start.v.values);
-            let ahead = period + share * (period - older.period);
-            period = if ahead > 0.5 * period { ahead } else { period };
-        }
-        from.period = match from.period {
-            Period::Given(given) => Period::Given(given),
-            _ => Period::Near(period),
-        };
-        from
-    };
     let mut known: Vec<(f64, Orbit)> = Vec::new();
     let (mut points, mut changes) = (Vec::new(), Vec::new());
     for (k, &value) in values.iter().enumerate() {
-        let mut solution = solve(value, &beside(&known, value))?;
-        if let (Err(_), Some((at, _))) = (&solution, known.last()) {
-            // Shorter steps, starting from the last orbit.
-            let (mut at, mut step) = (*at, 0.5 * (value - *at));
-            let mut halved = 1;
-            let mut orbits = known.clone();
-            while halved <= MOST_BETWEEN {
-                let next = if ((value - at) / step) < 1.5 {
-                    value
-                } else {
-                    at + step
-                };
-                match solve(next, &beside(&orbits, next))? {
-                    Ok(orbit) if next == value => {
-                        solution = Ok(orbit);
-                        break;
-                    }
-                    Ok(orbit) => {
-                        orbits.push((next, orbit));
-                        at = next;
-                    }
-                    Err(_) => {
-                        step *= 0.5;
-                        halved += 1;
-                    }
-                }
-            }
+        let mut solution = solve(value, &extrapolated(sought, &known, value))?;
+        if solution.is_err()
+            && let Some(orbit) = in_shorter_steps(&solve, sought, &known, value)?
+        {
+            solution = Ok(orbit);
         }
         if let (Err(none), 0) = (&solution, k) {
             return Err(none.clone().into());
@@ -1525,6 +1475,70 @@ where
         });
     }
     Ok(Trace { points, changes })
+}
+
+/// What to search for at a value: an orbit near the extrapolation of the known ones.
+fn extrapolated(sought: &Sought, known: &[(f64, Orbit)], value: f64) -> Sought {
+    let mut from = sought.clone();
+    let Some((at, last)) = known.last() else {
+        return from;
+    };
+    from.start = last.start.clone();
+    let mut period = last.period;
+    if let [.., (before, older), _] = known
+        && before != at
+    {
+        let share = (value - at) / (at - before);
+        let ahead = |to: &mut Vec<f64>, older: &[f64]| {
+            for (x, older) in to.iter_mut().zip(older) {
+                *x += share * (*x - older);
+            }
+        };
+        ahead(&mut from.start.q.values, &older.start.q.values);
+        ahead(&mut from.start.v.values, &older.start.v.values);
+        let ahead = period + share * (period - older.period);
+        period = if ahead > 0.5 * period { ahead } else { period };
+    }
+    from.period = match from.period {
+        Period::Given(given) => Period::Given(given),
+        _ => Period::Near(period),
+    };
+    from
+}
+
+/// The orbit at a value, by shorter steps that begin at the last known orbit; `None` if there is none, or if even short steps do
+/// not lead to it.
+fn in_shorter_steps<E>(
+    solve: &impl Fn(f64, &Sought) -> Result<Result<Orbit, NoOrbit>, E>,
+    sought: &Sought,
+    known: &[(f64, Orbit)],
+    value: f64,
+) -> Result<Option<Orbit>, E> {
+    let Some(&(mut at, _)) = known.last() else {
+        return Ok(None);
+    };
+    let mut step = 0.5 * (value - at);
+    let mut orbits = known.to_vec();
+    let mut halved = 1;
+    while halved <= MOST_BETWEEN {
+        let next = if ((value - at) / step) < 1.5 {
+            value
+        } else {
+            at + step
+        };
+        match solve(next, &extrapolated(sought, &orbits, next))? {
+            Ok(orbit) if next == value => return Ok(Some(orbit)),
+            Ok(orbit) => {
+                orbits.push((next, orbit));
+                at = next;
+            }
+            Err(_) => {
+                step *= 0.5;
+                halved += 1;
+            }
+        }
+    }
+    Ok(None)
 }
 
 impl Orbit {

@@ -229,6 +229,85 @@ struct Point {
     matrix_of_rates: DMatrix<f64>,
 }
 
+/// The coordinates that are not displaced: those that are given, and those on which nothing depends.
+fn stays([here, bounds]: [&Linearized; 2], choice: &Choice, wanted: &Wanted) -> Vec<bool> {
+    let count = choice.independent.len();
+    let depends = here.dependence(choice);
+    let rough = along_displacements([here, bounds], choice, |one| &one.as_balanced);
+    let stays = |c: usize| {
+        wanted.steady[choice.independent[c]]
+            || (0..count).all(|i| depends[(i, c)].abs() <= rough[(i, c)])
+    };
+    (0..count).map(stays).collect()
+}
+
+/// A bound on the effect of rounding on the derivative of forces by displacements, from that of their derivative by positions.
+fn along_displacements(
+    [here, bounds]: [&Linearized; 2],
+    choice: &Choice,
+    by_places: impl Fn(&Linearized) -> &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let (displaced, off) = (here.displaced(choice).abs(), bounds.displaced(choice));
+    by_places(bounds) * displaced + by_places(here).abs() * off
+}
+
+/// A matrix without its components along the forces that rates balance.
+fn without_balanced(mut matrix: DMatrix<f64>, by_rates: &[Direction]) -> DMatrix<f64> {
+    for direction in by_rates.iter().filter(|d| !d.is_free()) {
+        let share = direction.left.transpose() * &matrix;
+        matrix -= &direction.left * share;
+    }
+    matrix
+}
+
+/// Cholesky factors of the inertia `Tᵀ M T`.
+struct Factors {
+    lower: DMatrix<f64>,
+    /// The same with coordinates that stay decoupled from the others.
+    apart: DMatrix<f64>,
+    /// The absolute values of `L⁻¹` and `L̃⁻ᵀ`, through which bounds propagate.
+    size_left: DMatrix<f64>,
+    size_right: DMatrix<f64>,
+}
+
+impl Factors {
+    /// The factors, or the index of a coordinate whose remaining inertia is round-off.
+    fn of(mass: &DMatrix<f64>, bounds: &DMatrix<f64>, stays: &[bool]) -> Result<Factors, usize> {
+        let count = stays.len();
+        let lower = factor(mass, bounds)?;
+        let decoupled = DMatrix::from_fn(count, count, |i, j| {
+            if i != j && (stays[i] || stays[j]) {
+                0.0
+            } else {
+                mass[(i, j)]
+            }
+        });
+        let apart = factor(&decoupled, bounds)?;
+        let size = |l: &DMatrix<f64>| {
+            let one = DMatrix::identity(count, count);
+            l.solve_lower_triangular(&one).unwrap_or(one).abs()
+        };
+        Ok(Factors {
+            size_left: size(&lower),
+            size_right: size(&apart).transpose(),
+            lower,
+            apart,
+        })
+    }
+
+    /// `L⁻¹ m`.
+    fn left(&self, m: &DMatrix<f64>) -> DMatrix<f64> {
+        let solved = self.lower.solve_lower_triangular(m);
+        solved.unwrap_or_else(|| m.clone())
+    }
+
+    /// `m L̃⁻ᵀ`.
+    fn right(&self, m: &DMatrix<f64>) -> DMatrix<f64> {
+        let solved = self.apart.solve_lower_triangular(&m.transpose());
+        solved.map_or_else(|| m.clone(), |m| m.transpose())
+    }
+}
+
 impl Point {
     fn new(
         reduced: &mut Reduced<'_>,
@@ -242,49 +321,18 @@ impl Point {
         let place = Place { q, s };
         let (here, bounds) = reduced.linearized(&choice, &place)?;
         let count = choice.independent.len();
-        let lower =
-            factor(&here.mass, &bounds.mass).map_err(|k| Fault::Singular(choice.independent[k]))?;
-        // A coordinate that is given, or on which nothing depends, stays.
-        let displaced = here.displaced(&choice);
-        let of = |here: &DMatrix<f64>, rough: &DMatrix<f64>| {
-            let (displaced, off) = (displaced.abs(), bounds.displaced(&choice));
-            rough * displaced + here.abs() * off
-        };
-        let depends = here.dependence(&choice);
-        let rough = of(&here.as_balanced, &bounds.as_balanced);
-        let stays = |c: usize| {
-            wanted.steady[choice.independent[c]]
-                || (0..count).all(|i| depends[(i, c)].abs() <= rough[(i, c)])
-        };
-        let stays: Vec<bool> = (0..count).map(stays).collect();
-        let mass = DMatrix::from_fn(count, count, |i, j| {
-            if i != j && (stays[i] || stays[j]) {
-                0.0
-            } else {
-                here.mass[(i, j)]
-            }
-        });
-        let apart =
-            factor(&mass, &bounds.mass).map_err(|k| Fault::Singular(choice.independent[k]))?;
-        let left = |m: &DMatrix<f64>| lower.solve_lower_triangular(m).unwrap_or_else(|| m.clone());
-        let right = |m: &DMatrix<f64>| {
-            let solved = apart.solve_lower_triangular(&m.transpose());
-            solved.map_or_else(|| m.clone(), |m| m.transpose())
-        };
-        // Bounds propagate through the absolute values of the same factors.
-        let inverse = |l: &DMatrix<f64>| {
-            let one = DMatrix::identity(count, count);
-            l.solve_lower_triangular(&one).unwrap_or(one).abs()
-        };
-        let (size_left, size_right) = (inverse(&lower), inverse(&apart).transpose());
+        let stays = stays([&here, &bounds], &choice, wanted);
+        let factors = Factors::of(&here.mass, &bounds.mass, &stays)
+            .map_err(|k| Fault::Singular(choice.independent[k]))?;
+        // A coordinate that stays has no displacement.
         let kept = |m: &DMatrix<f64>| {
             DMatrix::from_fn(count, count, |i, c| if stays[c] { 0.0 } else { m[(i, c)] })
         };
         let stiffness = here.stiffness(&choice);
-        let rough = of(&here.covariant, &bounds.covariant);
+        let rough = along_displacements([&here, &bounds], &choice, |one| &one.covariant);
         let (stiffness, rough) = (kept(&without_roundoff(&stiffness, &rough)), kept(&rough));
-        let mut matrix = right(&left(&stiffness));
-        let mut rough = &size_left * rough * &size_right;
+        let original = factors.right(&factors.left(&stiffness));
+        let mut rough = &factors.size_left * rough * &factors.size_right;
 
         let solved: Vec<usize> = (0..count)
             .filter(|c| wanted.solved[choice.independent[*c]])
@@ -292,32 +340,36 @@ impl Point {
         let columns = |m: &DMatrix<f64>| {
             DMatrix::from_fn(count, count, |i, c| {
                 // Padded to a square matrix, which the rank computation requires.
-                solved.get(c).map_or(0.0, |j| m[(i, *j)] / lower[(*j, *j)])
+                solved
+                    .get(c)
+                    .map_or(0.0, |j| m[(i, *j)] / factors.lower[(*j, *j)])
             })
         };
         let (by_rates, rough_rates) = (columns(&here.by_rates), columns(&bounds.by_rates));
-        let matrix_of_rates = left(&without_roundoff(&by_rates, &rough_rates));
+        let matrix_of_rates = factors.left(&without_roundoff(&by_rates, &rough_rates));
         let not_finite = || {
             Lost::Fault(Fault::NotFinite(
                 choice.independent.first().copied().unwrap_or(0),
             ))
         };
-        let by_rates = rank::directions_beyond(&matrix_of_rates, &(&size_left * rough_rates));
+        let rough_rates = &factors.size_left * rough_rates;
+        let by_rates = rank::directions_beyond(&matrix_of_rates, &rough_rates);
         let by_rates = by_rates.ok_or_else(not_finite)?;
-        let original = matrix.clone();
-        for direction in by_rates.iter().filter(|d| !d.is_free()) {
-            let share = direction.left.transpose() * &matrix;
-            matrix -= &direction.left * share;
-        }
+        let mut matrix = without_balanced(original.clone(), &by_rates);
         if !solved.is_empty() {
             // Projecting out the components that the rates balance leaves round-off of the size of the whole matrix.
             let size = rank::tolerance(count) * original.norm();
-            let size = DMatrix::from_element(count, count, size);
-            rough += size;
+            rough += DMatrix::from_element(count, count, size);
             matrix = without_roundoff(&matrix, &rough);
         }
         let stiffness = rank::directions_beyond(&matrix, &rough).ok_or_else(not_finite)?;
         let forces = here.forces.column(0).into_owned();
+        let Factors {
+            lower,
+            apart,
+            size_left,
+            ..
+        } = factors;
         Ok(Point {
             scaled: lower.solve_lower_triangular(&forces).unwrap_or(forces),
             rounding: &size_left * bounds.forces.column(0),
