@@ -268,8 +268,8 @@ fn a_crusher_in_two_charts_is_that_in_cartesian_coordinates() {
     let [own, other] = tables.map(|table| columns(table.path()));
     let mut last: Option<f64> = None;
     for row in 0..column(&own, "t").len() {
-        let own = |name| column(&own, name)[row];
-        let other = |name| column(&other, name)[row];
+        let own = |name: &str| column(&own, name)[row];
+        let other = |name: &str| column(&other, name)[row];
         for [s, phi, xi, eta] in [["s1", "phi1", "xi1", "eta1"], ["s2", "phi2", "xi2", "eta2"]] {
             close(own(s) * own(phi).cos(), other(xi), 1e-9, s);
             close(own(s) * own(phi).sin(), other(eta), 1e-9, s);
