@@ -280,16 +280,24 @@ impl OnFeet {
     }
 
     /// The accelerations with which it begins to slide, in the direction of which every foot slips. `None` if they are not found, or if a foot hardly slips.
+    ///
+    /// For given normal forces `M a − F + ∂D/∂a` vanishes, with the power D of friction, where a convex function is least: small enough steps down lead there.
     fn beginning(&self, t: f64) -> Option<[f64; 3]> {
-        let mut a = [self.push[0], self.push[1], 0.01];
-        for _ in 0..3000 {
+        let (mut a, mut part, mut before) =
+            ([self.push[0], self.push[1], 0.01], 0.5, f64::INFINITY);
+        for _ in 0..20_000 {
             let next = self.accelerations(t, 0.0, a)?;
             let change = [0, 1, 2].map(|i| next[i] - a[i]);
-            if change.iter().all(|x| x.abs() < 1e-14) {
+            let size = change.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            if size < 1e-13 {
                 let slips = |[x, y]: &[f64; 2]| (a[0] - a[2] * y).hypot(a[1] + a[2] * x) > 0.05;
                 return self.feet.iter().all(slips).then_some(a);
             }
-            a = [0, 1, 2].map(|i| a[i] + 0.2 * change[i]);
+            if size > before {
+                part *= 0.7;
+            }
+            before = size;
+            a = [0, 1, 2].map(|i| a[i] + part * change[i]);
         }
         None
     }
