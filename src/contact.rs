@@ -31,6 +31,7 @@ mod problem;
 mod routh;
 mod stepping;
 mod touching;
+mod undetermined;
 
 pub use event::{ContactEvent, ContactEventKind, ContactImpact, ContactTally, ImpactAcross};
 pub use force::{UnilateralForce, penetrations, unilateral_forces};

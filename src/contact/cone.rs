@@ -61,14 +61,12 @@ pub(super) struct Problem {
     pub parts: Vec<Part>,
 }
 
-/// Forces that solve the problem, and by how much they miss a condition.
-pub(super) fn solve(problem: &Problem) -> Result<(Vec<f64>, f64), Unsolved> {
-    let n = problem.b.len();
+/// Forces that solve the problem, and by how much they miss a condition. The search begins with the forces `z`.
+pub(super) fn solve(problem: &Problem, mut z: Vec<f64>) -> Result<(Vec<f64>, f64), Unsolved> {
     let is_finite = |values: &[f64]| values.iter().all(|x| x.is_finite());
     if !is_finite(&problem.b) || !is_finite(&problem.matrix) {
         return Err(Unsolved);
     }
-    let mut z = vec![0.0; n];
     let mut best = (problem.relative_residual(&z), z.clone());
     for round in 0..ROUNDS {
         for _ in 0..FIRST_SWEEPS << round {
@@ -535,7 +533,7 @@ mod tests {
             let rank = 3 + case % (3 * count);
             // With little friction there is a solution whatever the directions are.
             let problem = random(&mut seed, count, rank, 0.2);
-            let found = solve(&problem);
+            let found = solve(&problem, vec![0.0; problem.n()]);
             let Ok((z, missed)) = found else {
                 panic!("case {case} of {count} contacts and rank {rank} was not solved");
             };
@@ -565,7 +563,7 @@ mod tests {
                 b: vec![-presses, slip[0], slip[1]],
                 parts: vec![Part::Normal(0), disc],
             };
-            let (z, _) = solve(&problem).expect("there is one solution");
+            let (z, _) = solve(&problem, vec![0.0; problem.n()]).expect("there is one solution");
             let speed = norm(&slip);
             let taken = speed.min(0.5 * presses);
             assert!((z[0] - presses).abs() < 1e-14);
@@ -582,6 +580,6 @@ mod tests {
             b: vec![-1.0],
             parts: vec![Part::Normal(0)],
         };
-        assert!(solve(&problem).is_err());
+        assert!(solve(&problem, vec![0.0; problem.n()]).is_err());
     }
 }

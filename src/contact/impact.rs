@@ -5,10 +5,11 @@ use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives};
-use super::kinematics::{ContactKinematics, ROUNDING};
-use super::problem::{self, Answer, ContactUnknowns};
+use super::kinematics::ContactKinematics;
+use super::problem::{Answer, ContactUnknowns};
 use super::routh::{self, Expansion, SingleImpact};
 use super::touching::UnilateralState;
+use super::undetermined;
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Mode, Painleve};
 use crate::{Singular, StepError, System, Vector};
 
@@ -24,6 +25,9 @@ const LEAST_BOUNCE: f64 = 1e-9;
 
 /// A bounce is no higher than so many roundings of its gap.
 const LEAST_HEIGHT: f64 = 64.0;
+
+/// A gap is known up to so many of its roundings: less than a bounce that goes on.
+const KNOWN_HEIGHT: f64 = 16.0;
 
 /// A slip in space that is no more than so many of its roundings has stopped.
 const STOPPED: f64 = 10.0;
@@ -117,6 +121,16 @@ impl UnilateralState {
             |k: usize| self.carrier(k).is_some() || self.is_compliant(k) && !self.is_layer(k);
         let is_deep = |k: usize| here.gaps[k] < 0.0 && here.gaps[k] < -here.gap_rounding(k);
         (0..here.gaps.len()).find(|&k| !is_free(k) && is_deep(k))
+    }
+
+    /// Within which the sign of a gap is round-off.
+    pub fn gap_rounding<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        contact: usize,
+    ) -> f64 {
+        KNOWN_HEIGHT * ContactKinematics::of(system, t, q, v).gap_roundoff(contact)
     }
 
     /// Which of the contacts that touch take part in the next impact: all, or the one that closes fastest.
@@ -326,7 +340,7 @@ impl UnilateralState {
             let unknowns: Vec<ContactUnknowns> = (colliding.iter().enumerate())
                 .map(|(place, &k)| self.unknowns_of_impact(here, (place, k), known_normal))
                 .collect();
-            let answer = problem::solve(&unknowns, g, b).map_err(|_| unsolved())?;
+            let answer = undetermined::solve(&unknowns, g, b).map_err(|_| unsolved())?;
             if answer.residual > 1e-8 {
                 Err(unsolved())
             } else {
@@ -425,7 +439,7 @@ impl UnilateralState {
         if opening <= 0.0 || gap_acceleration >= 0.0 || last <= 0.0 || share >= 1.0 {
             return None;
         }
-        let rounding = here.gap_rounding(contact) * (f64::EPSILON / ROUNDING);
+        let rounding = here.gap_roundoff(contact);
         let least = (2.0 * -gap_acceleration * LEAST_HEIGHT * rounding).sqrt();
         let limit = least.max(LEAST_BOUNCE * self.speed);
         (opening <= limit).then(|| 2.0 * opening / -gap_acceleration / (1.0 - share))

@@ -89,6 +89,11 @@ impl ContactKinematics {
         ROUNDING * terms + 8.0 * f64::EPSILON * (t * self.rates[direction]).abs()
     }
 
+    /// What round-off makes of the gap of a contact: of each of its terms a unit.
+    pub fn gap_roundoff(&self, contact: usize) -> f64 {
+        self.gap_rounding(contact) * (f64::EPSILON / ROUNDING)
+    }
+
     /// How large the terms of a rate are together.
     pub fn rate_terms(&self, direction: usize) -> f64 {
         let (_, _, v) = &self.at;

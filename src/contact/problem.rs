@@ -47,18 +47,19 @@ pub(super) enum ContactUnknowns {
     SecondTangent,
 }
 
-/// Solves for normal and tangential forces or impulses of each contact. `g` has two rows and columns for each, its
-/// normal and its tangent, and so has `b`.
+/// Solves for normal and tangential forces or impulses of each contact: finds one solution where there are several. `g` has two rows and columns
+/// for each, its normal and its tangent, and so has `b`. Where a solution is searched for, the search begins `near` these forces.
 pub(super) fn solve(
     contacts: &[ContactUnknowns],
     g: &[f64],
     b: &[f64],
+    near: Option<&[[f64; 2]]>,
 ) -> Result<Answer, Unsolved> {
     if contacts
         .iter()
         .any(|contacts| matches!(contacts, ContactUnknowns::SecondTangent))
     {
-        return in_space(contacts, g, b);
+        return in_space(contacts, g, b, near);
     }
     let m = contacts.len();
     let entry = |i: usize, j: usize| g[i * 2 * m + j];
@@ -198,7 +199,12 @@ pub(super) fn solve(
 }
 
 /// As [`solve`], where some contacts have a second tangent.
-fn in_space(contacts: &[ContactUnknowns], g: &[f64], b: &[f64]) -> Result<Answer, Unsolved> {
+fn in_space(
+    contacts: &[ContactUnknowns],
+    g: &[f64],
+    b: &[f64],
+    near: Option<&[[f64; 2]]>,
+) -> Result<Answer, Unsolved> {
     let (m, all_contacts) = (contacts.len(), contacts);
     let entry = |i: usize, j: usize| g[i * 2 * m + j];
     let rate = b.iter().fold(0.0_f64, |size, b| size.max(b.abs()));
@@ -317,7 +323,13 @@ fn in_space(contacts: &[ContactUnknowns], g: &[f64], b: &[f64]) -> Result<Answer
             *known_normal /= pressing * rate;
         }
     }
-    let (z, residual) = cone::solve(&problem)?;
+    let start = match near {
+        Some(near) => (unknowns.iter().zip(&units))
+            .map(|(unknown, unit)| near[unknown[0].0 / 2][unknown[0].0 % 2] / (unit * rate))
+            .collect(),
+        None => vec![0.0; n],
+    };
+    let (z, residual) = cone::solve(&problem, start)?;
     let mut forces = vec![[0.0; 2]; m];
     for ((unknown, z), unit) in unknowns.iter().zip(&z).zip(&units) {
         for (direction, share) in unknown {
@@ -386,7 +398,7 @@ mod tests {
                 2 => ContactUnknowns::Normal { share: 0.2 },
                 _ => both,
             };
-            let plane = solve(&[first, both], &g, &b).expect("solved by pivoting");
+            let plane = solve(&[first, both], &g, &b, None).expect("solved by pivoting");
             // Behind each stands its second tangent, which nothing moves; that of one whose slip is known has no friction.
             let second = match first {
                 ContactUnknowns::Normal { .. } => {
@@ -405,7 +417,7 @@ mod tests {
             let mut rates = vec![0.0; 8];
             places.iter().zip(&b).for_each(|(i, b)| rates[*i] = *b);
             let contacts = [first, second, both, ContactUnknowns::SecondTangent];
-            let space = solve(&contacts, &wide, &rates).expect("solved on cones");
+            let space = solve(&contacts, &wide, &rates, None).expect("solved on cones");
             for (k, place) in [0, 2].into_iter().enumerate() {
                 for (plane, space) in plane.forces[k].iter().zip(&space.forces[place]) {
                     assert!(

@@ -17,8 +17,9 @@ use std::vec::Vec;
 use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives};
 use super::kinematics::ContactKinematics;
-use super::problem::{self, ContactUnknowns};
+use super::problem::ContactUnknowns;
 use super::touching::{At, Reaction, SATURATED};
+use super::undetermined;
 use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, UnilateralState};
 use crate::{Singular, StepError, System, Vector};
 
@@ -136,7 +137,7 @@ impl UnilateralState {
             trouble: ContactTrouble::Unsettled,
             t,
         };
-        let answer = problem::solve(&unknowns, &g, &b).map_err(|_| unsolved())?;
+        let answer = undetermined::solve(&unknowns, &g, &b).map_err(|_| unsolved())?;
         if answer.residual > 1e-8 {
             return Err(unsolved());
         }
@@ -292,7 +293,8 @@ impl UnilateralState {
                 trouble: ContactTrouble::Unsettled,
                 t,
             };
-            let answer = problem::solve(&unknowns, &matrix(&images), &gaps).map_err(unsolved)?;
+            let answer =
+                undetermined::solve(&unknowns, &matrix(&images), &gaps).map_err(unsolved)?;
             let by = inertia.response(&images, answer.forces.iter().flatten().copied());
             for (q, by) in q.as_mut_slice().iter_mut().zip(by) {
                 *q += by;

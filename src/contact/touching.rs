@@ -10,7 +10,8 @@ use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives};
 use super::kinematics::{ContactKinematics, ROUNDING};
 use super::lcp;
-use super::problem::{self, ContactUnknowns};
+use super::problem::ContactUnknowns;
+use super::undetermined::{self, OpenForces};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
 use crate::balance::ContactShare;
 use crate::{Pivot, Singular, StepError, System, Vector};
@@ -104,35 +105,20 @@ pub(crate) struct Reaction {
     slip_terms: Vec<f64>,
     /// Whether the forces are the only ones that go with the accelerations.
     pub is_only: bool,
-    /// The equations of the forces, if they leave some of them undetermined.
+    /// What they leave undetermined without a change of the accelerations, if anything.
     open_equations: Option<OpenEquations>,
+    /// Which contacts press nothing because others that they depend on carry the whole load, (E79).
+    unloaded: Vec<bool>,
 }
 
-/// Equations of forces that depend on each other.
+/// Forces that the motion leaves undetermined.
 struct OpenEquations {
     /// The closed contacts.
     closed: Vec<usize>,
     /// The contact of each unknown force, as its position in `closed`, and the direction: normal (0) or tangent (1).
     unknowns: Vec<(usize, usize)>,
-    /// The matrix after elimination.
-    matrix: Vec<f64>,
-    order: lcp::Order,
-}
-
-impl OpenEquations {
-    /// The change of all unknowns for a unit of each undetermined one.
-    fn null_space(&self) -> Vec<Vec<f64>> {
-        let mut of_unit = self.order.null_space(&self.matrix);
-        for of_unit in &mut of_unit {
-            let most = of_unit.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let is_rounding = |x: &&mut f64| x.abs() <= SATURATED * most;
-            of_unit
-                .iter_mut()
-                .filter(is_rounding)
-                .for_each(|x| *x = 0.0);
-        }
-        of_unit
-    }
+    /// The change of all unknowns for a unit of each undetermined one, none of which changes the accelerations.
+    of_unit: Vec<Vec<f64>>,
 }
 
 /// The distribution of forces among contacts at which the least margin is greatest.
@@ -161,6 +147,7 @@ impl Reaction {
             a,
             sizes: vec![0.0; forces.len()],
             slip_terms: vec![0.0; forces.len()],
+            unloaded: vec![false; forces.len()],
             forces,
             is_only: true,
             open_equations: None,
@@ -545,6 +532,7 @@ impl UnilateralState {
             slip_terms: vec![0.0; self.modes.len()],
             is_only: true,
             open_equations: None,
+            unloaded: vec![false; self.modes.len()],
             a,
         };
         let Some(here) = here.filter(|_| !self.is_free()) else {
@@ -641,18 +629,49 @@ impl UnilateralState {
                 *known = known.max(terms / own);
             }
         }
-        let (values, order) = lcp::eliminate(&mut left, &mut right);
+        let (mut values, order) = lcp::eliminate(&mut left, &mut right);
         reaction.is_only = order.rank == size;
-        let mut found = vec![[0.0; 2]; closed.len()];
-        for (&(place, part), value) in unknowns.iter().zip(&values) {
-            found[place][part] += value;
-            if part == 0 {
-                found[place][1] += share(closed[place]) * value;
-                if let Some((leaning, share)) = carried(place) {
-                    found[leaning][1] += share * value;
+        let along_directions = |values: &[f64]| {
+            let mut found = vec![[0.0; 2]; closed.len()];
+            for (&(place, part), value) in unknowns.iter().zip(values) {
+                found[place][part] += value;
+                if part == 0 {
+                    found[place][1] += share(closed[place]) * value;
+                    if let Some((leaning, share)) = carried(place) {
+                        found[leaning][1] += share * value;
+                    }
                 }
             }
+            found
+        };
+        let mut of_unit = Vec::new();
+        if !reaction.is_only {
+            of_unit = order.null_space(&left);
+            of_unit
+                .iter_mut()
+                .for_each(|own| undetermined::without_rounding(own));
+            let directions = unknowns.iter().map(|(place, part)| 2 * place + part);
+            let directions: Vec<usize> = directions.collect();
+            let rows = directions.iter().map(|row| &g[row * width..][..width]);
+            let among: Vec<f64> = rows
+                .flat_map(|row| directions.iter().map(|column| row[*column]))
+                .collect();
+            let is_normal: Vec<bool> = unknowns.iter().map(|(_, part)| *part == 0).collect();
+            let open_forces = OpenForces {
+                by: &of_unit,
+                g: &among,
+                is_normal: &is_normal,
+            };
+            let unloaded = open_forces.distribute(&mut values);
+            for ((place, _), unloaded) in unknowns.iter().zip(unloaded) {
+                reaction.unloaded[closed[*place]] |= unloaded;
+            }
+            let effects: Vec<(Vec<f64>, f64)> = (of_unit.iter())
+                .map(|own| undetermined::effect(&images, along_directions(own).as_flattened()))
+                .collect();
+            of_unit = undetermined::without_effect(of_unit, &effects);
         }
+        let found = along_directions(&values);
         for (&k, found) in closed.iter().zip(&found) {
             let [normal, tangential] = &mut reaction.forces[k];
             *normal += found[0];
@@ -662,12 +681,11 @@ impl UnilateralState {
         for (a, by) in reaction.a.iter_mut().zip(response) {
             *a += by;
         }
-        if !reaction.is_only {
+        if !of_unit.is_empty() {
             reaction.open_equations = Some(OpenEquations {
                 closed,
                 unknowns,
-                matrix: left,
-                order,
+                of_unit,
             });
         }
         Ok(reaction)
@@ -688,7 +706,7 @@ impl UnilateralState {
         let Some(equations) = &reaction.open_equations else {
             return shares;
         };
-        let of_unit = equations.null_space();
+        let of_unit = &equations.of_unit;
         for (unknown, (place, _)) in equations.unknowns.iter().enumerate() {
             shares[equations.closed[*place]] |= of_unit.iter().any(|own| own[unknown] != 0.0);
         }
@@ -713,9 +731,8 @@ impl UnilateralState {
             return Ok(None);
         };
         let closed = &equations.closed;
-        let of_unit = equations.null_space();
-        let free = of_unit.len();
-        let (sharers, by) = self.sharers(here, reaction, equations, &of_unit);
+        let free = equations.of_unit.len();
+        let (sharers, by) = self.sharers(here, reaction, equations);
         let mut groups = vec![0; free];
         shares::group(&by, &mut groups);
         let mut load = SharedLoad {
@@ -794,9 +811,10 @@ impl UnilateralState {
         here: &ContactKinematics,
         reaction: &Reaction,
         OpenEquations {
-            closed, unknowns, ..
+            closed,
+            unknowns,
+            of_unit,
         }: &OpenEquations,
-        of_unit: &[Vec<f64>],
     ) -> (Vec<Sharer>, Vec<f64>) {
         let free = of_unit.len();
         let mut by = vec![0.0; PARTS * free * closed.len()];
@@ -1146,6 +1164,12 @@ impl UnilateralState {
             };
         }
         let shares = self.sharing(&reaction);
+        // A contact whose load others carry lifts when these do: its force is 0 until then, and says nothing.
+        for (k, margin) in margins.iter_mut().enumerate() {
+            if reaction.unloaded[k] && !shares[k] {
+                margin[0] = Margin::ENDLESS;
+            }
+        }
         let is_doubtful = |(k, margin): (usize, &[Margin; 4])| {
             let shared = match (shares[k], self.is_compliant(k)) {
                 (false, _) => 0..0,
@@ -1373,7 +1397,7 @@ impl UnilateralState {
                     by.fold(*value, |sum, (g, force)| sum + g * force)
                 })
                 .collect();
-            let answer = problem::solve(&unknowns, &g, &b)
+            let answer = undetermined::solve(&unknowns, &g, &b)
                 .map_err(|_| self.unsolved(&solved_contacts, t))?;
             if answer.residual > 1e-8 {
                 return Err(self.unsolved(&solved_contacts, t));

@@ -671,7 +671,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                         Ok(touching.clearances(system, (t, &q, &v))[k].value)
                     };
                     let fall_of_step = MOST_RATE_GROWTH * falls[k] * stepper.last_step().abs();
-                    if let Some(fallen) = find_penetration(between, fall_of_step, gap)? {
+                    let (t, q, v) = &beginning;
+                    let rounding = touching.gap_rounding(system, (*t, q, v), k);
+                    let fallen = find_penetration(between, (fall_of_step, rounding), gap)?;
+                    if let Some(fallen) = fallen {
                         (between, closes) = (fallen, true);
                     }
                 }
@@ -828,13 +831,13 @@ fn beginning_slip(
 }
 
 /// Where a gap with kinks that is open at a look first falls below zero before another one: from where it is open to where it is below zero. It falls
-/// no faster than by `fall` in a step.
+/// no faster than by `fall` in a step. Values within `rounding` of zero say nothing: where a gap begins to open, they are negative and positive in turn.
 ///
 /// The bound tells where between two values there can be none below zero, so that none is missed between the kinks (S. A. Piyavskii, USSR Comput. Math. Math.
 /// Phys. 12 (1972) 57–67; B. O. Shubert, SIAM J. Numer. Anal. 9 (1972) 379–388).
 fn find_penetration(
     [from, to]: [f64; 2],
-    fall: f64,
+    (fall, rounding): (f64, f64),
     mut gap: impl FnMut(f64) -> Result<f64, Error>,
 ) -> Result<Option<[f64; 2]>, Error> {
     let mut first = (from, gap(from)?);
@@ -852,12 +855,12 @@ fn find_penetration(
     while let Some(&(end, value)) = ends.last() {
         let (start, before) = first;
         let width = end - start;
-        let is_fallen = value < 0.0;
+        let is_fallen = value < -rounding;
         if is_fallen && width <= SHORT_FALL * (to - from) {
             return Ok(Some([start, end]));
         }
         let least = 0.5 * (before + value - fall * width);
-        if !is_fallen && (least >= 0.0 || width <= narrowest) {
+        if !is_fallen && (least >= -rounding || width <= narrowest) {
             first = (end, value);
             ends.pop();
             continue;
@@ -877,13 +880,13 @@ fn find_penetration(
     }
     match ends.last() {
         None => return Ok(None),
-        Some(&(end, value)) if value < 0.0 => return Ok(Some([first.0, end])),
+        Some(&(end, value)) if value < -rounding => return Ok(Some([first.0, end])),
         Some(_) => {}
     }
     // The gap is next to zero over much of the step.
     let mut extent = [None; 2];
     roots::extremes(gap, [first.0, to], &mut extent, [true, false])?;
-    let least = extent[0].filter(|(least, _)| *least < 0.0);
+    let least = extent[0].filter(|(least, _)| *least < -rounding);
     Ok(least.map(|(_, place)| [first.0, place]))
 }
 

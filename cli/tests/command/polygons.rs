@@ -602,3 +602,48 @@ fn derivatives_across_polygons_are_refused() {
         "{said}"
     );
 }
+
+/// A box that falls on a plate from next to nothing, one corner after the other: the same bounces as on a line, until they end.
+#[test]
+fn corners_that_bounce_one_after_the_other_come_to_rest() {
+    let floor = |contacts: &str| {
+        let spec = format!(
+            "machine Falls in plane {{
+                parameters {{ drop: m = 0, e: 1 = 0 }}
+                coordinates {{ x: m = 0.3, y: m = 0.1 + drop, theta: rad }}
+                frames {{ held = ground.shift(x, y).turn(theta) }}
+                bodies {{ box {{ mass: 2, inertia: 0.04, frame: held, outline: ((-0.2, -0.1), (0.2, -0.1), (0.2, 0.1), (-0.2, 0.1)) }} }}
+                gravity (0, -{G});
+                contacts {{ floor {{ corners: outline, on: box, {contacts}, restitution: e, friction: 0.2, order: sequence }} }}
+            }}"
+        );
+        Scratch::new("bounces.machine", &spec)
+    };
+    let line = floor("along: ground");
+    let plate = floor("against: ((-1, -0.3), (1, -0.3), (1, 0), (-1, 0)), of: ground");
+    for drop in [1e-13_f64, 1e-10, 1e-6] {
+        for e in [0.0, 0.3, 0.8] {
+            let settings = [format!("drop={drop}"), format!("e={e}")];
+            let settings = [settings[0].as_str(), settings[1].as_str()];
+            let [on_line, on_plate] =
+                [line.path(), plate.path()].map(|spec| simulate(spec, 0.1, &settings));
+            for run in [&on_line, &on_plate] {
+                is_good(run);
+                close(number(&run["q"]["y"]), 0.1, 1e-12);
+                // Friction moves it no faster than it fell, while it bounces for (1 + e)/(1 − e) times as long.
+                let way = 2.0 * drop * (1.0 + e) / (1.0 - e);
+                close(number(&run["q"]["x"]), 0.3, way + 1e-12);
+                close(number(&run["q"]["theta"]), 0.0, 1e-12);
+                for name in ["x", "y", "theta"] {
+                    close(number(&run["v"][name]), 0.0, 1e-12);
+                }
+                let first = events(run, "impact")
+                    .first()
+                    .map(|event| number(&event["t"]));
+                // The height of the start is known to its rounding.
+                let fall = (2.0 * drop / G).sqrt();
+                close(first.expect("it falls"), fall, fall * 2e-17 / drop + 1e-15);
+            }
+        }
+    }
+}

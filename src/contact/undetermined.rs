@@ -1,0 +1,363 @@
+//! Normal forces that rigid bodies leave undetermined, (E79).
+//!
+//! If contacts depend on each other, as the four feet of a table do, there are forces that keep each other in equilibrium: with the rows wₙ
+//! of gaps and wₜ of slips that are held at 0, `Σ wₙᵀ κₙ + Σ wₜᵀ κₜ = 0`. They may be added to any solution of the equations of motion. Where
+//! contacts slip, their friction follows their normal forces, so that the motion itself depends on what is added. The rule is that of bodies
+//! whose contacts yield alike, however little: a normal force is proportional to a penetration that a small motion of the bodies makes, and
+//! nothing where that motion opens the contact,
+//!
+//! ```text
+//! λₙᵢ = max(0, cᵢ),      κₙ·c = 0  for all κ
+//! ```
+//!
+//! Where all contacts press, these are the normal forces with the least sum of squares of all that are in equilibrium with the same forces.
+//! They depend neither on the coordinates nor on the order in which contacts are listed.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::lcp::{self, Unsolved};
+use super::problem::{self, Answer, ContactUnknowns};
+use crate::friction::shares::{self, PARTS};
+
+/// What counts as zero in forces that keep each other in equilibrium, relative to the greatest of them.
+const ZERO: f64 = 1e-10;
+
+/// Forces below this, relative to the greatest one, press nothing.
+const PRESSES: f64 = 1e-12;
+
+/// Forces whose effect on accelerations is below this, relative to the sum of the effects of each, are in equilibrium.
+const EQUILIBRIUM: f64 = 1e-9;
+
+/// The compliance of contacts, relative to the least inverse mass that they act on: the first one, the share of it with which the next problem is
+/// solved, and the last one. Soft contacts are easily solved for and tell near which forces the solution of stiffer ones is. Each time the rates that are
+/// left fall by about the compliance; rounding of the normal forces is that of the rates divided by it.
+const COMPLIANCE: [f64; 3] = [1.0, 0.2, 1e-4];
+
+/// How often a problem is solved with a compliance.
+const ROUNDS: usize = 40;
+
+/// Rates that a compliance leaves, relative to the greatest rate: no more than rounding.
+const RIGID: f64 = 1e-14;
+
+/// With rates up to this a distribution is still one.
+const TOLERABLE: f64 = 1e-11;
+
+/// The forces that keep each other in equilibrium: a basis of the null space of `G = Wᵀ M⁻¹ W` for some directions of contacts.
+pub(super) fn in_equilibrium(g: &[f64], n: usize) -> Vec<Vec<f64>> {
+    // Of bodies with very different masses each contact is compared with its own terms.
+    let scale: Vec<f64> = (0..n)
+        .map(|i| g[i * n + i])
+        .map(|own| if own > 0.0 { 1.0 / own.sqrt() } else { 0.0 })
+        .collect();
+    let mut scaled: Vec<f64> = (0..n * n)
+        .map(|k| scale[k / n] * g[k] * scale[k % n])
+        .collect();
+    let (_, order) = lcp::eliminate(&mut scaled, &mut vec![0.0; n]);
+    let mut basis = order.null_space(&scaled);
+    for vector in &mut basis {
+        for (x, scale) in vector.iter_mut().zip(&scale) {
+            *x *= scale;
+        }
+        without_rounding(vector);
+    }
+    basis
+}
+
+/// Sets what is rounding beside the greatest entry to 0.
+pub(super) fn without_rounding(vector: &mut [f64]) {
+    let most = greatest(vector);
+    for x in vector.iter_mut().filter(|x| x.abs() <= ZERO * most) {
+        *x = 0.0;
+    }
+}
+
+fn greatest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The equations of forces of contacts whose states are known, which leave some of them undetermined.
+pub(super) struct OpenForces<'a> {
+    /// The change of all forces for each undetermined one.
+    pub by: &'a [Vec<f64>],
+    /// `Wᵀ M⁻¹ W` for the directions of the forces, whatever friction follows them.
+    pub g: &'a [f64],
+    /// Which of them are normal forces.
+    pub is_normal: &'a [bool],
+}
+
+impl OpenForces<'_> {
+    /// Adds what the rule adds to the forces; the answer is which of them are normal forces that it sets to 0.
+    pub fn distribute(&self, forces: &mut [f64]) -> Vec<bool> {
+        let n = forces.len();
+        let mut opens = vec![false; n];
+        let all = self.pressing(&opens);
+        if all.is_empty() {
+            return opens;
+        }
+        let given = forces.to_vec();
+        // Each contact opens or presses; as in principal pivoting one state at a time is corrected, the worst one.
+        for _ in 0..4 * n + 8 {
+            let pressing = self.pressing(&opens);
+            forces.copy_from_slice(&given);
+            self.put(forces, &pressing, &opens);
+            let size = greatest(forces);
+            let is_shared = |i: &usize| pressing.iter().any(|kappa| kappa[*i] != 0.0);
+            let pulling = (0..n)
+                .filter(|i| self.is_normal[*i] && !opens[*i])
+                .filter(is_shared)
+                .min_by(|a, b| forces[*a].total_cmp(&forces[*b]));
+            if let Some(i) = pulling.filter(|i| forces[*i] < -PRESSES * size) {
+                opens[i] = true;
+                continue;
+            }
+            // What the small motion of the others makes of the penetration of an open one.
+            let penetration = |i: usize| {
+                let mut others = opens.clone();
+                others[i] = false;
+                let pressing = self.pressing(&others);
+                let kappa = pressing.iter().find(|kappa| kappa[i] != 0.0)?;
+                let rest: f64 = (0..n)
+                    .filter(|j| *j != i && self.is_normal[*j] && !opens[*j])
+                    .map(|j| kappa[j] * forces[j])
+                    .sum();
+                Some(-rest / kappa[i])
+            };
+            let pressed = (0..n)
+                .filter(|i| opens[*i])
+                .filter_map(|i| Some((penetration(i)?, i)))
+                .max_by(|a, b| a.0.total_cmp(&b.0));
+            match pressed {
+                Some((depth, i)) if depth > PRESSES * size => opens[i] = false,
+                _ => break,
+            }
+        }
+        opens
+    }
+
+    /// Forces in equilibrium in which normal forces take part, without those of some contacts.
+    fn pressing(&self, opens: &[bool]) -> Vec<Vec<f64>> {
+        let n = opens.len();
+        let kept: Vec<usize> = (0..n).filter(|i| !opens[*i]).collect();
+        let g: Vec<f64> = kept
+            .iter()
+            .flat_map(|i| kept.iter().map(move |j| self.g[i * n + j]))
+            .collect();
+        let basis = in_equilibrium(&g, kept.len()).into_iter().map(|vector| {
+            let mut whole = vec![0.0; n];
+            for (i, x) in kept.iter().zip(vector) {
+                whole[*i] = if self.is_normal[*i] { x } else { 0.0 };
+            }
+            whole
+        });
+        basis
+            .filter(|vector| vector.iter().any(|x| *x != 0.0))
+            .collect()
+    }
+
+    /// Adds to the forces what makes them fulfil the conditions: `κₙ·λ = 0`, and none of those that open.
+    fn put(&self, forces: &mut [f64], pressing: &[Vec<f64>], opens: &[bool]) {
+        let conditions =
+            pressing
+                .iter()
+                .cloned()
+                .chain((0..opens.len()).filter(|i| opens[*i]).map(|i| {
+                    (0..opens.len())
+                        .map(|j| f64::from(u8::from(i == j)))
+                        .collect()
+                }));
+        let d = self.by.len();
+        let (mut left, mut right) = (vec![0.0; d * d], vec![0.0; d]);
+        for condition in conditions {
+            let scale = 1.0 / greatest(&condition);
+            let row: Vec<f64> = (self.by.iter())
+                .map(|by| scale * dot(&condition, by) / greatest(by))
+                .collect();
+            let missed = scale * dot(&condition, forces);
+            for (i, x) in row.iter().enumerate() {
+                right[i] -= x * missed;
+                for (j, y) in row.iter().enumerate() {
+                    left[i * d + j] += x * y;
+                }
+            }
+        }
+        let (added, _) = lcp::solve(&mut left, &mut right);
+        for (added, by) in added.iter().zip(self.by) {
+            let size = greatest(by);
+            for (force, by) in forces.iter_mut().zip(by) {
+                *force += added * by / size;
+            }
+        }
+    }
+}
+
+/// The effect of forces along images, in axes in which the square of its length is twice the power that goes into it, and the sum of the sizes of its terms.
+pub(super) fn effect(images: &[Vec<f64>], forces: &[f64]) -> (Vec<f64>, f64) {
+    let mut sum = vec![0.0; images.first().map_or(0, Vec::len)];
+    let mut size = 0.0;
+    for (image, force) in images.iter().zip(forces) {
+        for (sum, y) in sum.iter_mut().zip(image) {
+            *sum += force * y;
+        }
+        size += force.abs() * dot(image, image).sqrt();
+    }
+    (sum, size)
+}
+
+/// Of undetermined forces those combinations that change no acceleration; `effects` holds the [`effect`] of each.
+pub(super) fn without_effect(by: Vec<Vec<f64>>, effects: &[(Vec<f64>, f64)]) -> Vec<Vec<f64>> {
+    let scaled: Vec<Vec<f64>> = (effects.iter())
+        .map(|(effect, size)| {
+            let scale = if *size > 0.0 { 1.0 / size } else { 0.0 };
+            effect.iter().map(|x| scale * x).collect()
+        })
+        .collect();
+    if scaled
+        .iter()
+        .all(|effect| dot(effect, effect).sqrt() <= EQUILIBRIUM)
+    {
+        return by;
+    }
+    let d = by.len();
+    let mut products: Vec<f64> = (0..d * d)
+        .map(|k| dot(&scaled[k / d], &scaled[k % d]))
+        .collect();
+    let (_, order) = lcp::eliminate(&mut products, &mut vec![0.0; d]);
+    let combinations = order.null_space(&products).into_iter();
+    combinations
+        .map(|combination| {
+            let mut sum = vec![0.0; by[0].len()];
+            for ((share, by), (_, size)) in combination.iter().zip(&by).zip(effects) {
+                let share = if *size > 0.0 { share / size } else { *share };
+                for (sum, by) in sum.iter_mut().zip(by) {
+                    *sum += share * by;
+                }
+            }
+            without_rounding(&mut sum);
+            sum
+        })
+        .collect()
+}
+
+/// The least inverse mass on which the contacts act that depend on each other, for each contact of a problem whose normal force does, and 0 for the rest; none if no normal force does.
+fn inverse_masses(contacts: &[ContactUnknowns], g: &[f64]) -> Option<Vec<f64>> {
+    let m = contacts.len();
+    let mut directions = Vec::new();
+    for (k, unknowns) in contacts.iter().enumerate() {
+        let (normal, tangent) = match unknowns {
+            ContactUnknowns::Both { friction, .. } => (true, *friction > 0.0),
+            ContactUnknowns::Normal { .. } => (true, false),
+            ContactUnknowns::Tangent { friction, normal } => (false, friction * normal > 0.0),
+            ContactUnknowns::OnCarrier { friction, .. } => (false, *friction > 0.0),
+            ContactUnknowns::SecondTangent => (false, directions.last() == Some(&(2 * k - 1))),
+            ContactUnknowns::Nothing | ContactUnknowns::ShareOfCarrier { .. } => (false, false),
+        };
+        directions.extend(normal.then_some(2 * k));
+        directions.extend(tangent.then_some(2 * k + 1));
+    }
+    let part: Vec<f64> = directions
+        .iter()
+        .flat_map(|i| directions.iter().map(move |j| g[i * 2 * m + j]))
+        .collect();
+    let basis: Vec<Vec<f64>> = in_equilibrium(&part, directions.len())
+        .into_iter()
+        .filter(|vector| {
+            let mut entries = directions.iter().zip(vector);
+            entries.any(|(direction, x)| direction % 2 == 0 && *x != 0.0)
+        })
+        .collect();
+    let free = basis.len();
+    if free == 0 {
+        return None;
+    }
+    let mut by = vec![0.0; PARTS * free * m];
+    for (column, vector) in basis.iter().enumerate() {
+        for (direction, x) in directions.iter().zip(vector) {
+            by[PARTS * free * (direction / 2) + free * (direction % 2) + column] = *x;
+        }
+    }
+    let mut groups = vec![0; free];
+    shares::group(&by, &mut groups);
+    let mut inverse_masses = vec![0.0; m];
+    for group in (0..free).filter(|group| groups[*group] == *group) {
+        let is_member = |k: &usize| {
+            let own = &by[PARTS * free * k..][..PARTS * free];
+            shares::is_in(own, &groups, group) && own[..free].iter().any(|x| *x != 0.0)
+        };
+        let members: Vec<usize> = (0..m).filter(is_member).collect();
+        let own = members.iter().map(|k| g[2 * k * 2 * m + 2 * k]);
+        let least = own.fold(f64::INFINITY, f64::min);
+        members.iter().for_each(|k| inverse_masses[*k] = least);
+    }
+    Some(inverse_masses)
+}
+
+/// Solves for normal and tangential forces or impulses of each contact, as [`problem::solve`]; if normal forces depend on each other, with the
+/// distribution of the rule.
+///
+/// With the compliance ε a contact presses with `λ = max(0, c − γ/ε)`. That is the solution of a problem with ε added to the diagonal, and of
+/// rigid contacts where γ is 0: c is followed until it is. Where rounding prevents that, the answer is any solution.
+pub(super) fn solve(
+    contacts: &[ContactUnknowns],
+    g: &[f64],
+    b: &[f64],
+) -> Result<Answer, Unsolved> {
+    let some = problem::solve(contacts, g, b, None);
+    let rate = greatest(b);
+    match inverse_masses(contacts, g) {
+        Some(inverse_masses) if rate > 0.0 => {
+            let start = some.as_ref().ok().map(|answer| answer.forces.clone());
+            distributed(contacts, (g, b), &inverse_masses, start).map_or(some, Ok)
+        }
+        _ => some,
+    }
+}
+
+/// The solution with the distribution of the rule, if rounding permits it.
+fn distributed(
+    contacts: &[ContactUnknowns],
+    (g, b): (&[f64], &[f64]),
+    inverse_masses: &[f64],
+    start: Option<Vec<[f64; 2]>>,
+) -> Option<Answer> {
+    let (m, width, rate) = (contacts.len(), b.len(), greatest(b));
+    let yields = || (0..m).filter(|k| inverse_masses[*k] > 0.0);
+    let [mut part, share, last_part] = COMPLIANCE;
+    let mut c = vec![0.0; m];
+    let mut forces = start;
+    let mut best: Option<Answer> = None;
+    for _ in 0..ROUNDS {
+        let compliance = |k: usize| part * inverse_masses[k];
+        let (mut yielding, mut shifted) = (g.to_vec(), b.to_vec());
+        for k in yields() {
+            yielding[2 * k * width + 2 * k] += compliance(k);
+            shifted[2 * k] -= compliance(k) * c[k];
+        }
+        let mut answer = problem::solve(contacts, &yielding, &shifted, forces.as_deref()).ok()?;
+        let mut left = 0.0_f64;
+        for k in yields() {
+            let row = &g[2 * k * width..][..width];
+            let opens = b[2 * k] + dot(row, answer.forces.as_flattened());
+            c[k] -= opens / compliance(k);
+            // One that does not press may open at any rate.
+            let presses = answer.forces[k][0] > 0.0;
+            left = left.max(if presses { opens.abs() } else { -opens });
+        }
+        answer.residual = answer.residual.max(left / rate);
+        forces = Some(answer.forces.clone());
+        let known = best.as_ref().map_or(f64::INFINITY, |best| best.residual);
+        let is_last = left <= RIGID * rate || (part == last_part && answer.residual > 0.5 * known);
+        part = (share * part).max(last_part);
+        if answer.residual < known {
+            best = Some(answer);
+        }
+        if is_last {
+            break;
+        }
+    }
+    best.filter(|answer| answer.residual <= TOLERABLE)
+}
