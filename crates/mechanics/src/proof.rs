@@ -489,6 +489,8 @@ struct Prover<'a, 'd, R> {
     comparisons: u64,
     /// For each output whether it has had a value.
     has_had_value: Vec<bool>,
+    /// Whether each output has lacked a value where the equations give it one.
+    has_lacked_value: Vec<bool>,
     /// The functions that were compared.
     compared: BTreeSet<Role>,
     /// Whether accelerations existed at any point.
@@ -513,6 +515,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             number: 0,
             comparisons: 0,
             has_had_value: vec![false; program.outputs.len()],
+            has_lacked_value: vec![false; program.outputs.len()],
             compared: BTreeSet::new(),
             has_had_accelerations: false,
             sides: if R::IS_ORDERED {
@@ -555,7 +558,15 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
 
     /// Whether every function of the program was compared: a quantity that the proof does not know is not
     /// proved. If there are no accelerations, functions that are compared with them are exempt.
+    ///
+    /// An output that has no value at any point, although the equations give it one, was not compared either: √(y² − x²) in place
+    /// of √(y² + x²) has none at half of all points.
     fn covered(&self) -> ComparisonResult {
+        let mut values = self.has_had_value.iter().zip(&self.has_lacked_value);
+        if let Some(output) = values.position(|(had, lacked)| *lacked && !had) {
+            let role = Role::Output(output);
+            return ComparisonResult::Wrong(Disagreement::NotCompared { role });
+        }
         let is_covered = |role: Role| {
             self.compared.contains(&role)
                 || (role.row().called != Use::Seldom && !self.has_had_accelerations)
@@ -996,6 +1007,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             let found = Self::try_call(&mut self.interpreter, role, at, 1)[0];
             self.compared.insert(role);
             if !found.is_finite() || !expected.is_finite() {
+                self.has_lacked_value[i] |= expected.is_finite();
                 continue;
             }
             match Sum::of([found, -expected]).vanishes() {

@@ -90,6 +90,35 @@ fn damaged_programs_of_every_kind_of_machine_are_stopped() {
     }
 }
 
+/// In a field half of all numbers have no root. √(y² − x²) in place of √(y² + x²) may lack a value at every point that is tried, and is not
+/// proved then.
+#[test]
+fn an_output_that_lacks_its_value_is_stopped() {
+    for name in ["motor_crusher", "cushioned_crusher"] {
+        machine(name, &[], |machine| {
+            let Compiled {
+                model,
+                equations,
+                program,
+                ..
+            } = machine;
+            let outputs: Vec<Role> = (0..model.outputs.len()).map(Role::Output).collect();
+            let program = program.restricted(&outputs);
+            let stopped = mutants(&program, 1).filter(|mutant| {
+                let is_stopped = Proved::new(mutant.program.clone(), model, equations).is_err();
+                let is_equal = || same_values(model, &program, &mutant.program);
+                assert!(
+                    is_stopped || is_equal(),
+                    "{name}: let through: {}",
+                    mutant.change
+                );
+                is_stopped
+            });
+            assert!(stopped.count() > 0, "{name}");
+        });
+    }
+}
+
 /// A quantity that is added to programs but not to the proof is unproved, and the
 /// gate stops a program with it.
 #[test]
