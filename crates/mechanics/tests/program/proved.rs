@@ -103,7 +103,7 @@ fn an_output_that_lacks_its_value_is_stopped() {
                 ..
             } = machine;
             let outputs: Vec<Role> = (0..model.outputs.len()).map(Role::Output).collect();
-            let program = program.restricted(&outputs);
+            let program = Program::restricted(program, &outputs);
             let stopped = mutants(&program, 1).filter(|mutant| {
                 let is_stopped = Proved::new(mutant.program.clone(), model, equations).is_err();
                 let is_equal = || same_values(model, &program, &mutant.program);
