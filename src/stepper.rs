@@ -147,6 +147,8 @@ struct Model<'s, S: System, L> {
 struct Stiffness {
     signs: u32,
     none_since: u32,
+    /// The length of the longest step among those with positive tests, in s.
+    longest: f64,
     since: Option<f64>,
 }
 
@@ -986,7 +988,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             let due = steps.is_multiple_of(self.between_tests);
             if due || self.stiffness.signs > 0 {
                 let stiff = self.stiffness_of_step(h) > stability;
-                self.stiffness.take(stiff, self.before.t);
+                self.stiffness.take(stiff, h.abs(), self.before.t);
             }
         }
     }
@@ -1305,10 +1307,17 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
 }
 
 impl Stiffness {
-    /// Stiffness is reported after fifteen positive tests without six negative ones in a row among them, as in DOP853.
-    fn take(&mut self, stiff: bool, t: f64) {
+    /// Stiffness is reported after fifteen positive tests without six negative ones in a row among them, as in DOP853, if steps are
+    /// not halved meanwhile. Towards an instant where accelerations are singular, such as that at which friction in two directions
+    /// brings a body to rest, the step shrinks as fast as the accelerations change, and `h |λ|` stays as it is; but such steps are few,
+    /// however close they come, and an implicit method needs as many.
+    fn take(&mut self, stiff: bool, h: f64, t: f64) {
         if stiff {
             self.none_since = 0;
+            if h < 0.5 * self.longest {
+                (self.signs, self.longest) = (0, 0.0);
+            }
+            self.longest = self.longest.max(h);
             self.signs += 1;
             if self.signs == 15 && self.since.is_none() {
                 self.since = Some(t);
@@ -1316,7 +1325,7 @@ impl Stiffness {
         } else {
             self.none_since += 1;
             if self.none_since == 6 {
-                self.signs = 0;
+                (self.signs, self.longest) = (0, 0.0);
             }
         }
     }

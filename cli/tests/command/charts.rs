@@ -322,7 +322,7 @@ fn sums_of_angles_loads_and_constraints_are_the_same_in_both_charts() {
         outputs { rate: m^2/s = s^2*der(phi), out: m/s^2 = der(der(s*cos(phi))) }
         CHARTS
     }";
-    let with = "charts { bob: polar(s, phi) | cartesian(u, w) }";
+    let with = "charts { bob: polar(s, phi) | cartesian(xi, eta) }";
     // Where nothing comes near the centre, the run in polar coordinates is right as well.
     let [plain, charted] = ["", with].map(|charts| {
         let spec = Scratch::new("polar.machine", &polar.replace("CHARTS", charts));
