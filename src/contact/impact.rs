@@ -480,14 +480,24 @@ impl UnilateralState {
     /// Takes note of how fast what is closed slips: slips that are rounding of it are rest, and several that stop at one instant stop
     /// together.
     pub fn record_slips<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
-        let slides = |mode: &Mode| matches!(mode, Mode::Slides(sign) if *sign != 0.0);
+        let slides = |mode: &Mode| match mode {
+            Mode::Slides(sign) => *sign != 0.0,
+            Mode::SlidesAlong(_) => true,
+            _ => false,
+        };
         if !self.modes().iter().any(slides) {
             return;
         }
         let here = ContactKinematics::of(system, t, q, v);
         let own = self.modes().iter().enumerate();
         let own = own.filter(|(k, mode)| slides(mode) && self.carrier(*k).is_none());
-        let slips = own.map(|(k, _)| here.rates[2 * k + 1].abs());
+        let slips = own.map(|(k, mode)| match mode {
+            Mode::SlidesAlong(_) => {
+                let [slip, _] = self.slip(&here, k);
+                slip[0].hypot(slip[1])
+            }
+            _ => here.rates[2 * k + 1].abs(),
+        });
         self.slip = slips.fold(self.slip, f64::max);
     }
 
@@ -503,7 +513,9 @@ impl UnilateralState {
         }
         let here = ContactKinematics::of(system, t, q, v);
         let [slip, rounding] = self.slip(&here, contact);
-        let least = rounding[0].hypot(rounding[1]).max(1e-12 * self.speed);
+        let least = rounding[0]
+            .hypot(rounding[1])
+            .max(1e-12 * self.greatest_rate());
         slip[0].hypot(slip[1]) <= STOPPED * least
     }
 

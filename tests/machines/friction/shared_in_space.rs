@@ -207,11 +207,12 @@ impl OnFeet {
             .collect();
         machine(&format!(
             "machine Feet in space {{
+                parameters {{ rate: N/s = 4 }}
                 coordinates {{ x: m, y: m, z: m = {h}, yaw: rad, theta: rad, phi: rad }}
                 frames {{ held = ground.shift(x, y, z).turn(z, yaw).turn(y, theta).turn(x, phi) }}
                 bodies {{ body {{ mass: {MASS}, inertia: (0.03, 0.02, {INERTIA}), frame: held }} }}
                 gravity (0, 0, -{G});
-                forces {{ push {{ at: held.point({px}, {py}, {pz}), force: 4*t*ground.vector({fx}, {fy}, {fz}) }} }}
+                forces {{ push {{ at: held.point({px}, {py}, {pz}), force: rate*t*ground.vector({fx}, {fy}, {fz}) }} }}
                 contacts {{ {} }}
             }}",
             feet.join(", ")
@@ -302,7 +303,8 @@ impl OnFeet {
         None
     }
 
-    /// Where it is after it has slid from rest for a time, by the classical method of Runge and Kutta.
+    /// Where it is after it has slid from rest for a time, by the classical method of Runge and Kutta. The direction of a slip that begins
+    /// settles at a rate of the order of 1/t after the beginning, so the steps are graded: the first is 10⁻¹² of the time.
     fn slides(&self, from: f64, time: f64) -> Option<Planar> {
         let a = self.beginning(from)?;
         let rates = |t: f64, state: &Planar| -> Option<Planar> {
@@ -312,10 +314,10 @@ impl OnFeet {
             Some([moves[0], moves[1], moves[2], x, y, turn])
         };
         const STEPS: usize = 1000;
-        let h = time / STEPS as f64;
+        let after = |step: usize| time * (step as f64 / STEPS as f64).powi(4);
         let mut state = [0.0; 6];
         for step in 0..STEPS {
-            let t = from + h * step as f64;
+            let (t, h) = (from + after(step), after(step + 1) - after(step));
             let moved =
                 |by: &Planar, part: f64| [0, 1, 2, 3, 4, 5].map(|i| state[i] + part * h * by[i]);
             let first = rates(t, &state)?;
