@@ -129,8 +129,9 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         )
     };
     let mut constraints = vec![(None, of_rope)];
-    for k in 1..stops.len() - 1 {
-        if stops[k].turn.is_some() {
+    let last = stops.len() - 1;
+    for (k, stop) in stops.iter().enumerate().take(last).skip(1) {
+        if stop.turn.is_some() {
             let expression = length_rate(resolver, rope, k, path.span)?;
             constraints.push((Some(k), (expression, Unit::METRE.rate())));
         }
