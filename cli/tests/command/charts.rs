@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::fs;
 
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, json, lagrangian, number};
 use serde_json::Value;
 
 /// A particle of 2 kg on springs of 8 N/m and 18 N/m: x = cos 2t, and y is a multiple of sin 3t.
@@ -19,20 +19,6 @@ const PARTICLE: &str = "machine Particle in plane {
 
 fn particle() -> Scratch {
     Scratch::new("particle.machine", PARTICLE)
-}
-
-fn json(arguments: &[&str]) -> Value {
-    let output = lagrangian(arguments);
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let (out, said) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}{out}");
-    serde_json::from_str(&out).unwrap_or_else(|_| panic!("{arguments:?}: {out}{said}"))
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("{value} is a number"))
 }
 
 fn close(found: f64, expected: f64, by: f64, what: &str) {

@@ -2,15 +2,11 @@
 
 use serde_json::Value;
 
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, json, lagrangian};
 
 /// Runs a command that must succeed; returns its JSON.
 fn answer(arguments: &[&str]) -> Value {
-    let output = lagrangian(&[&["simulate"], arguments, &["--json"]].concat());
-    let text = String::from_utf8(output.stdout).expect("text");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?}: {text}{errors}");
-    serde_json::from_str(&text).expect("JSON")
+    json(&[&["simulate"], arguments, &["--json"]].concat())
 }
 
 /// The methods of a run.

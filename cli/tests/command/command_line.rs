@@ -7,7 +7,7 @@ mod told;
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-use crate::support::{Scratch, lagrangian, root};
+use crate::support::{Scratch, lagrangian, number, root};
 use serde_json::Value;
 
 fn with_input(arguments: &[&str], input: &str) -> Output {
@@ -41,12 +41,6 @@ fn err(output: &Output) -> String {
 
 fn json(output: &Output) -> Value {
     serde_json::from_str(&out(output)).unwrap_or_else(|error| panic!("{error}: {}", out(output)))
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
 #[test]

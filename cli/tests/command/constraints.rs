@@ -1,6 +1,6 @@
 //! Runs of machines with constraints, as a user sees them.
 
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, lagrangian, number};
 use serde_json::Value;
 
 /// A pendulum of 1 kg and 1 m as a particle, released from the horizontal, with these constraints.
@@ -27,10 +27,6 @@ fn document(spec: &Scratch, arguments: &[&str]) -> Value {
     let arguments = [arguments, &["--tolerance", "1e-12", "--json"]].concat();
     let (_, out, error) = simulate(spec, &arguments);
     serde_json::from_str(&out).unwrap_or_else(|_| panic!("{out}{error}"))
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
 }
 
 /// The position at 10 s: IFToMM library of benchmarks A01, by Jacobi's functions.

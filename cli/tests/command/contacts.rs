@@ -1,19 +1,13 @@
 //! The results of runs about rolling contacts: whether the normal force is compressive, and how much
 //! friction they need.
 
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, lagrangian, number};
 use serde_json::Value;
 
 fn json(arguments: &[&str]) -> Value {
     let output = lagrangian(arguments);
     let text = String::from_utf8(output.stdout).expect("text");
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
 fn warnings(run: &Value) -> String {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, json, lagrangian, number};
 use serde_json::Value;
 
 /// A disc on a torsion spring: φ = φ₀ cos ωt, ω² = c/J, J = m r²/2.
@@ -32,11 +32,7 @@ fn phi(m: f64, r: f64, t: f64) -> f64 {
 }
 
 fn answer(arguments: &[&str]) -> Value {
-    let output = lagrangian(&[arguments, &["--json"]].concat());
-    let text = String::from_utf8(output.stdout).expect("text");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?}: {text}{errors}");
-    serde_json::from_str(&text).expect("JSON")
+    json(&[arguments, &["--json"]].concat())
 }
 
 fn refused(arguments: &[&str]) -> String {
@@ -44,12 +40,6 @@ fn refused(arguments: &[&str]) -> String {
     let said = String::from_utf8(output.stderr).expect("text");
     assert!(!output.status.success(), "{arguments:?}: {said}");
     said
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
 /// The angle of the disc after a second, by `simulate`; a tolerance of 1e-12 over about forty steps.

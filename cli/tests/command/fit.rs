@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::support::{Scratch, lagrangian, root};
+use crate::support::{Scratch, json, lagrangian, number, root};
 use serde_json::Value;
 
 const OSCILLATOR: &str = "machine Oscillator in plane {
@@ -17,11 +17,7 @@ const OSCILLATOR: &str = "machine Oscillator in plane {
 
 /// The result of a fit that succeeds.
 fn fit(arguments: &[&str]) -> Value {
-    let output = lagrangian(&[&["fit"], arguments, &["--json"]].concat());
-    let text = String::from_utf8(output.stdout).expect("text");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{text}{errors}");
-    serde_json::from_str(&text).expect("JSON")
+    json(&[&["fit"], arguments, &["--json"]].concat())
 }
 
 /// The message of a call that fails, and its exit status.
@@ -29,12 +25,6 @@ fn refused(arguments: &[&str]) -> (i32, String) {
     let output = lagrangian(&[&["fit"], arguments].concat());
     let said = String::from_utf8(output.stderr).expect("text");
     (output.status.code().expect("no signal"), said)
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
 fn list(value: &Value) -> &[Value] {

@@ -3,18 +3,14 @@
 
 use std::f64::consts::TAU;
 
-use crate::support::{Scratch, lagrangian, root};
+use crate::support::{Scratch, json, lagrangian, number, root};
 use serde_json::Value;
 
 /// Derivatives are exact, and the equilibrium is known to 20 digits, so errors are some roundings of the numbers typed here.
 const CLOSE: f64 = 1e-14;
 
 fn linearize(arguments: &[&str]) -> Value {
-    let output = lagrangian(&[&["linearize"], arguments, &["--json"]].concat());
-    let text = String::from_utf8(output.stdout).expect("text");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{text}{errors}");
-    serde_json::from_str(&text).expect("JSON")
+    json(&[&["linearize"], arguments, &["--json"]].concat())
 }
 
 /// The message of a call that fails, and its exit status.
@@ -22,12 +18,6 @@ fn refused(arguments: &[&str]) -> (i32, String) {
     let output = lagrangian(&[&["linearize"], arguments].concat());
     let said = String::from_utf8(output.stderr).expect("text");
     (output.status.code().expect("no signal"), said)
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
 fn rows(value: &Value) -> Vec<Vec<f64>> {

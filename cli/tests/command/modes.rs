@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, lagrangian, number};
 use serde_json::Value;
 
 /// Newton's method ends within 1e-10 of the equilibrium and takes one more step; frequencies of well-conditioned machines then
@@ -31,12 +31,6 @@ fn said(arguments: &[&str]) -> (bool, String, String) {
         text(output.stdout),
         text(output.stderr),
     )
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
 fn close(found: f64, exact: f64) {

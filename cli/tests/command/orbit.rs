@@ -3,15 +3,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::support::{Scratch, lagrangian, root};
+use crate::support::{Scratch, json, lagrangian, number, root};
 use serde_json::Value;
 
 fn orbit(arguments: &[&str]) -> Value {
-    let output = lagrangian(&[&["orbit"], arguments, &["--json"]].concat());
-    let text = String::from_utf8(output.stdout).expect("text");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{text}{errors}");
-    serde_json::from_str(&text).expect("JSON")
+    json(&[&["orbit"], arguments, &["--json"]].concat())
 }
 
 /// The message of a call that fails, and its exit status.
@@ -19,12 +15,6 @@ fn refused(arguments: &[&str]) -> (i32, String) {
     let output = lagrangian(&[&["orbit"], arguments].concat());
     let said = String::from_utf8(output.stderr).expect("text");
     (output.status.code().expect("no signal"), said)
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
 /// Multipliers, each with its error and whether it is trivial.

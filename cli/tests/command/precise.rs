@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, json, lagrangian};
 
 /// A known end state: the call of the command, and the names with their numbers.
 struct Known {
@@ -113,11 +113,7 @@ const CRUSHER: Known = Known {
 };
 
 fn answer(arguments: &[&str]) -> Value {
-    let output = lagrangian(&[&["simulate"], arguments, &["--json"]].concat());
-    let text = String::from_utf8(output.stdout).expect("text");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?}: {text}{errors}");
-    serde_json::from_str(&text).expect("JSON")
+    json(&[&["simulate"], arguments, &["--json"]].concat())
 }
 
 fn refused(arguments: &[&str]) -> (i32, String) {

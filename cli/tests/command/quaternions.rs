@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use serde_json::Value;
 
-use crate::support::{Scratch, lagrangian, root};
+use crate::support::{Scratch, lagrangian, number, root};
 
 /// A body with three different moments of inertia, spinning about the middle axis: the machine `asymmetric_top` with a quaternion, with the
 /// same start and outputs. At the start yaw and pitch are 0, and the quaternion has the norm `long`.
@@ -66,12 +66,6 @@ fn simulate(spec: &str, options: &[&str]) -> (Value, Vec<HashMap<String, f64>>) 
         names.iter().cloned().zip(numbers).collect()
     });
     (run, rows.collect())
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
 #[track_caller]

@@ -1,6 +1,6 @@
 //! The page of a run: its contents, the things that it must not contain, and which parts of a machine are drawn as joined.
 
-use crate::support::{Page, Scratch, floats, lagrangian};
+use crate::support::{Page, Scratch, floats, lagrangian, number};
 use serde_json::Value;
 
 /// The page of a library machine.
@@ -28,12 +28,6 @@ fn place(value: &Value) -> u64 {
     value
         .as_u64()
         .unwrap_or_else(|| panic!("no place: {value}"))
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
 #[track_caller]

@@ -3,16 +3,12 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, json, lagrangian, number};
 use serde_json::Value;
 
 /// Runs a command that must succeed; returns its JSON.
 fn answer(arguments: &[&str]) -> Value {
-    let output = lagrangian(&[arguments, &["--json"]].concat());
-    let text = String::from_utf8(output.stdout).expect("text");
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?}: {text}{errors}");
-    serde_json::from_str(&text).expect("JSON")
+    json(&[arguments, &["--json"]].concat())
 }
 
 /// The message of a call that fails, and its exit status.
@@ -20,12 +16,6 @@ fn refused(arguments: &[&str]) -> (i32, String) {
     let output = lagrangian(arguments);
     let said = String::from_utf8(output.stderr).expect("text");
     (output.status.code().expect("no signal"), said)
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
 fn list(value: &Value) -> Vec<f64> {

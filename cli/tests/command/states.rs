@@ -1,22 +1,7 @@
 //! First-order states: motors, filters, controllers and heat, against closed forms and equivalent specs.
 
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, json, lagrangian, number};
 use serde_json::Value;
-
-/// The JSON that `lagrangian` prints.
-fn json(arguments: &[&str]) -> Value {
-    let output = lagrangian(arguments);
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let (out, said) = (text(&output.stdout), text(&output.stderr));
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}{out}");
-    serde_json::from_str(&out).unwrap_or_else(|_| panic!("{arguments:?}: {out}{said}"))
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("{value} is a number"))
-}
 
 /// A run with a tolerance of 1e-11.
 fn run(spec: &str, until: &str, more: &[&str]) -> Value {

@@ -5,7 +5,7 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, lagrangian, number};
 use serde_json::Value;
 
 const G: f64 = 9.81;
@@ -35,10 +35,6 @@ fn json(arguments: &[&str], what: &str) -> Value {
     let (out, said) = (text(&output.stdout), text(&output.stderr));
     assert_eq!(output.status.code(), Some(0), "{what}: {said}{out}");
     serde_json::from_str(&out).unwrap_or_else(|_| panic!("{what}: {out}{said}"))
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().expect("a number")
 }
 
 /// Starts for a sweep, as a list.

@@ -22,6 +22,27 @@ pub fn lagrangian(arguments: &[&str]) -> Output {
     command.output().expect("the command runs")
 }
 
+/// What the command prints if it succeeds, as JSON.
+#[track_caller]
+pub fn json(arguments: &[&str]) -> Value {
+    let output = lagrangian(arguments);
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let (out, errors) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{arguments:?}: {errors}{out}"
+    );
+    serde_json::from_str(&out).unwrap_or_else(|_| panic!("{arguments:?}: {out}{errors}"))
+}
+
+#[track_caller]
+pub fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("no number: {value}"))
+}
+
 /// A file in its own folder, which is removed when the test ends.
 pub struct Scratch(pub PathBuf);
 

@@ -439,10 +439,20 @@ impl Vector for One {
         mul_add(b, c),
         mul_sub(b, c),
         neg_mul_add(b, c),
-        sqrt(),
         and(b),
         xor(b),
     );
+
+    /// Not that of `libm`, which is written in instructions without the VEX prefix: among others with it, each of them waits until the
+    /// upper halves of a register have been merged, some 150 ns.
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: as above.
+        One(unsafe {
+            let x = _mm_set_sd(self.0);
+            _mm_cvtsd_f64(_mm_sqrt_sd(x, x))
+        })
+    }
 
     in_one_register!(
         add_each(a, b),
