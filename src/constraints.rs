@@ -132,7 +132,7 @@ pub(crate) struct Constraints<V> {
 }
 
 /// A state to be projected onto the constraints, with the low parts of its compensated sums.
-pub(crate) struct Place<'p, V> {
+pub(crate) struct Unprojected<'p, V> {
     pub t: f64,
     pub q: [&'p mut V; 2],
     pub v: [&'p mut V; 2],
@@ -195,7 +195,7 @@ impl<V: Vector> Constraints<V> {
         let [q_low, v_low] = &mut low;
         own.project(
             system,
-            &mut Place {
+            &mut Unprojected {
                 t,
                 q: [q, q_low],
                 v: [v, v_low],
@@ -235,7 +235,7 @@ impl<V: Vector> Constraints<V> {
     pub fn project<S: System<Vector = V>>(
         &mut self,
         system: &S,
-        place: &mut Place<'_, V>,
+        place: &mut Unprojected<'_, V>,
     ) -> Result<bool, StepError> {
         in_workspace(system, place.t, place.q[0].as_slice().len(), |workspace| {
             let moved =
@@ -250,7 +250,7 @@ impl<V: Vector> Constraints<V> {
         &mut self,
         system: &S,
         workspace: &mut Workspace<'_, S::Matrix>,
-        place: &mut Place<'_, V>,
+        place: &mut Unprojected<'_, V>,
         levels: &[Level],
     ) -> Result<bool, StepError> {
         let t = place.t;
@@ -318,7 +318,7 @@ impl<V: Vector> Constraints<V> {
         &mut self,
         system: &S,
         workspace: &mut Workspace<'_, S::Matrix>,
-        place: &mut Place<'_, V>,
+        place: &mut Unprojected<'_, V>,
         level: Level,
         (mut left, mut worst): (f64, usize),
     ) -> Result<(), StepError> {
@@ -407,7 +407,7 @@ impl<V: Vector> Constraints<V> {
         &self,
         system: &S,
         workspace: &mut Workspace<'_, S::Matrix>,
-        place: &mut Place<'_, V>,
+        place: &mut Unprojected<'_, V>,
         level: Level,
         k: usize,
     ) -> bool {
@@ -452,7 +452,7 @@ impl<V: Vector> Constraints<V> {
         &self,
         system: &S,
         workspace: &mut Workspace<'_, S::Matrix>,
-        place: &Place<'_, V>,
+        place: &Unprojected<'_, V>,
     ) -> [(f64, usize); 2] {
         let (q, v) = (&*place.q[0], &*place.v[0]);
         system.constraint_positions(place.t, q, workspace.positions);
@@ -479,7 +479,7 @@ impl<V: Vector> Constraints<V> {
     fn guaranteed_residual<M>(
         &self,
         workspace: &Workspace<'_, M>,
-        place: &Place<'_, V>,
+        place: &Unprojected<'_, V>,
         level: Level,
     ) -> (f64, usize) {
         let mut most = (0.0, 0);
@@ -510,7 +510,7 @@ impl<V: Vector> Constraints<V> {
         &mut self,
         system: &S,
         workspace: &Workspace<'_, S::Matrix>,
-        place: &Place<'_, V>,
+        place: &Unprojected<'_, V>,
     ) -> Result<(), StepError> {
         let (q, v) = (&*place.q[0], &*place.v[0]);
         let mut most = (0.0, 0);
@@ -843,7 +843,7 @@ enum Level {
     Rates = 1,
 }
 
-impl<V> Place<'_, V> {
+impl<V> Unprojected<'_, V> {
     fn level(&mut self, level: Level) -> [&mut V; 2] {
         let [high, low] = match level {
             Level::Positions => &mut self.q,

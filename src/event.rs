@@ -179,7 +179,7 @@ pub(crate) struct KnownState<'x, V> {
 }
 
 /// A change of sign within the last step.
-struct Found {
+struct SignChange {
     watch: usize,
     theta: f64,
     side_before: f64,
@@ -606,7 +606,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
             } else {
                 root([from, to], roundoff, &mut |theta| exact(watch, theta))?
             };
-            found.push(Found {
+            found.push(SignChange {
                 watch: index,
                 theta,
                 side_before,
@@ -617,7 +617,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     found.sort_by(|one, other| one.theta.total_cmp(&other.theta));
 
     let forward = stepper.t() > stepper.t_before();
-    for Found {
+    for SignChange {
         watch: index,
         theta,
         side_before,

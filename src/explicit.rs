@@ -15,7 +15,7 @@ pub use stepper::{ExplicitStepper, ExplicitStepperBuilder};
 use crate::attempt::{self, not_finite};
 use crate::control::{self, Control, Work};
 use crate::interpolant::{Ends, Interpolant, hermite};
-use crate::methods::{Kind, MAX_STAGES, Method};
+use crate::methods::{MAX_STAGES, Method, MethodKind};
 use crate::scalar::{Kernel, Scalar};
 use crate::stages::{Point, are_all_finite};
 use crate::step_error::StepError;
@@ -71,7 +71,7 @@ pub(crate) struct Track<N: StepNumber, V> {
 
 /// Checks that a method can be used in these numbers.
 fn check<N: StepNumber>(method: &Method, t: f64) -> Result<(), StepError> {
-    if method.tableau.spectrum.is_some() || method.kind != Kind::RungeKutta {
+    if method.tableau.spectrum.is_some() || method.kind != MethodKind::RungeKutta {
         return Err(StepError::NotExplicit { t });
     }
     if N::IS_WIDE && !method.scheme.is_wide {

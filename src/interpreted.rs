@@ -44,7 +44,7 @@ pub use in_numbers::InterpretedSystemIn;
 pub use in_series::SeriesStepper;
 pub use precise::{PreciseEnd, PreciseRun};
 pub use reading::Reading;
-pub use recording::{Column, Kind, Recording};
+pub use recording::{Column, ColumnKind, Recording};
 pub use signals::{Signal, SignalError, SignalFunction, Signals};
 pub use table_file::{TableFile, TableFileError};
 

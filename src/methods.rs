@@ -49,7 +49,7 @@ pub static RADAU_OF_HIGH_ORDER: [Method; 2] = [
 ///
 /// It is not a Runge–Kutta method, so it is not among [`METHODS`]; its [`Tableau`] holds the nodes and weights by which work and
 /// dissipation are integrated along the motion.
-pub static TAYLOR: Method = Method::of_kind(taylor::TABLEAU, Kind::Series);
+pub static TAYLOR: Method = Method::of_kind(taylor::TABLEAU, MethodKind::Series);
 
 /// Moreau's time stepping, for machines with many contacts that open and close
 /// ([`System::unilateral_contacts`](crate::System::unilateral_contacts)), such as piles and mechanisms that chatter.
@@ -57,7 +57,7 @@ pub static TAYLOR: Method = Method::of_kind(taylor::TABLEAU, Kind::Series);
 /// Steps have the fixed length [`longest_step`](crate::Simulation::longest_step); tolerances have no effect. Each step solves once for the
 /// impulses of the contacts, by the law `newton` with rates at the middle of the step; instants of impacts are not located. The error is of
 /// order 1 in the step length after an impact, and of order 2 where nothing touches. It is a method of [`Simulation`](crate::Simulation)s.
-pub static MOREAU: Method = Method::of_kind(moreau::TABLEAU, Kind::Impulses);
+pub static MOREAU: Method = Method::of_kind(moreau::TABLEAU, MethodKind::Impulses);
 
 /// Methods whose steps have the fixed length [`longest_step`](crate::Simulation::longest_step); tolerances have no effect. Nothing bounds
 /// the error of their steps: halve the length to see it.
@@ -68,18 +68,18 @@ pub static MOREAU: Method = Method::of_kind(moreau::TABLEAU, Kind::Impulses);
 ///   symplectic and symmetric, so that the energy of a conservative machine does not drift, however long the run.
 /// * `generalized-alpha`, of order 2: the implicit method of structural dynamics, which damps motions that are too fast for the step.
 pub static FIXED_STEP_METHODS: [Method; 7] = [
-    Method::of_kind(rk4::TABLEAU, Kind::Fixed(Rule::Explicit)),
+    Method::of_kind(rk4::TABLEAU, MethodKind::Fixed(Rule::Explicit)),
     Method::of_kind(
         semi_implicit_euler::TABLEAU,
-        Kind::Fixed(Rule::SemiImplicitEuler),
+        MethodKind::Fixed(Rule::SemiImplicitEuler),
     ),
     gauss::FOURTH,
     gauss::SIXTH,
     gauss::EIGHTH,
-    Method::of_kind(rattle::TABLEAU, Kind::Fixed(Rule::Rattle)),
+    Method::of_kind(rattle::TABLEAU, MethodKind::Fixed(Rule::Rattle)),
     Method::of_kind(
         generalized_alpha::TABLEAU,
-        Kind::Fixed(Rule::GeneralizedAlpha),
+        MethodKind::Fixed(Rule::GeneralizedAlpha),
     ),
 ];
 
@@ -116,7 +116,7 @@ pub(crate) enum Rule {
 
 /// The kind of steps of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum MethodKind {
     /// Stages of an explicit or an implicit method.
     RungeKutta,
     /// The Taylor series of the motion.
@@ -133,7 +133,7 @@ pub struct Method {
     /// Its published coefficients.
     pub tableau: Tableau,
     pub(crate) scheme: Scheme,
-    pub(crate) kind: Kind,
+    pub(crate) kind: MethodKind,
 }
 
 impl Method {
@@ -222,12 +222,12 @@ impl Method {
         Self {
             tableau,
             scheme,
-            kind: Kind::RungeKutta,
+            kind: MethodKind::RungeKutta,
         }
     }
 
     /// Prepares the tableau of a method that is not a Runge–Kutta method.
-    const fn of_kind(tableau: Tableau, kind: Kind) -> Self {
+    const fn of_kind(tableau: Tableau, kind: MethodKind) -> Self {
         Self {
             kind,
             ..Self::new(tableau)
@@ -254,25 +254,25 @@ impl Method {
 
     /// Whether its steps have a fixed length, which does not depend on a tolerance.
     pub fn has_fixed_steps(&self) -> bool {
-        matches!(self.kind, Kind::Impulses | Kind::Fixed(_))
+        matches!(self.kind, MethodKind::Impulses | MethodKind::Fixed(_))
     }
 
     /// Whether its steps need no memory beyond that of every stepper.
     #[cfg(not(feature = "std"))]
     pub(crate) fn needs_no_allocator(&self) -> bool {
-        let plain = [Rule::Explicit, Rule::SemiImplicitEuler].map(Kind::Fixed);
-        self.kind == Kind::RungeKutta || plain.contains(&self.kind)
+        let plain = [Rule::Explicit, Rule::SemiImplicitEuler].map(MethodKind::Fixed);
+        self.kind == MethodKind::RungeKutta || plain.contains(&self.kind)
     }
 
     /// Whether the motion within a step is the quintic through both ends, and not the cubic with corrections from the stages.
     pub(crate) fn is_quintic(&self) -> bool {
-        matches!(self.kind, Kind::Fixed(_)) && self.tableau.dense_order > 3
+        matches!(self.kind, MethodKind::Fixed(_)) && self.tableau.dense_order > 3
     }
 
     /// Whether its steps solve for impulses of contacts, so that instants of impacts are not located.
     #[cfg(feature = "std")]
     pub(crate) fn is_time_stepping(&self) -> bool {
-        self.kind == Kind::Impulses
+        self.kind == MethodKind::Impulses
     }
 
     /// The method with this short name: `dop853`, `dopri5`, `bs32`, `radau5`, `taylor`, `moreau`, `rk4`, `semi-implicit-euler`, `gauss4`,

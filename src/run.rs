@@ -26,7 +26,7 @@ use crate::event::{
 use crate::friction::{Cause, Change, Contacts, Motion};
 use crate::inputs::{InputLaw, Law, LawInPiece};
 use crate::interpolant::Interpolant;
-use crate::methods::{Kind, Method};
+use crate::methods::{Method, MethodKind};
 use crate::names::rate_name;
 use crate::observation::{ConstraintState, ObservedSystem};
 use crate::phases::UnilateralRecord;
@@ -234,7 +234,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             )
         };
         let mut begun_by = begun(settings.method);
-        if begun_by.is_err() && chosen.is_some() && settings.method.kind == Kind::Series {
+        if begun_by.is_err() && chosen.is_some() && settings.method.kind == MethodKind::Series {
             *chosen = Some(Beginning::with(Method::DOP853, MethodReason::NoSeries));
             settings.method = Method::DOP853;
             begun_by = begun(settings.method);
@@ -259,7 +259,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         }
 
         let activity = ContactActivity::new(
-            settings.hands_over && settings.method.kind == Kind::RungeKutta,
+            settings.hands_over && settings.method.kind == MethodKind::RungeKutta,
             system.unilateral_contacts().len(),
         );
         let choosing = match *chosen {

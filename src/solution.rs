@@ -18,7 +18,7 @@ use crate::event::{Event, state};
 use crate::friction::Contacts;
 use crate::inputs::{DefaultInputs, InputLaw};
 use crate::interpolant::Interpolant;
-use crate::methods::{Kind, Method};
+use crate::methods::{Method, MethodKind};
 use crate::observation::{ConstraintState, Observation};
 use crate::phases::{Phase, UnilateralRecord};
 use crate::piece::Piece;
@@ -637,7 +637,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             ..*before
         };
         // The motion within a step of a series has a higher degree, so the integral is taken in parts.
-        let is_series = |of: &Steps<_>| of.method(*index).kind == Kind::Series;
+        let is_series = |of: &Steps<_>| of.method(*index).kind == MethodKind::Series;
         let parts = if run.steps.as_ref().is_some_and(is_series) {
             4
         } else {

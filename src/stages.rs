@@ -5,7 +5,7 @@
 
 use crate::Vector;
 use crate::compensated::{Sum, two_sum};
-use crate::constraints::Place;
+use crate::constraints::Unprojected;
 use crate::methods::{MAX_STAGES, Row};
 use crate::scalar::Scalar;
 use crate::step_number::StepNumber;
@@ -72,8 +72,8 @@ impl<V: Vector> Point<V> {
     }
 
     /// The state as one that can be projected.
-    pub fn place(&mut self) -> Place<'_, V> {
-        Place {
+    pub fn place(&mut self) -> Unprojected<'_, V> {
+        Unprojected {
             t: self.t,
             q: [&mut self.q, &mut self.q_low],
             v: [&mut self.v, &mut self.v_low],

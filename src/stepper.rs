@@ -47,7 +47,7 @@ use crate::interpolant::{Ends, Interpolant, hermite};
 use crate::math::sqrt;
 #[cfg(doc)]
 use crate::methods::Tableau;
-use crate::methods::{Kind, MAX_STAGES, Method};
+use crate::methods::{MAX_STAGES, Method, MethodKind};
 use crate::scalar::Scalar;
 use crate::stages::{Point, in_blocks, weigh};
 use crate::step_error::StepError;
@@ -205,7 +205,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             return Err(StepError::NoWorkspace { t });
         }
         #[cfg(feature = "std")]
-        if method.kind == Kind::Series {
+        if method.kind == MethodKind::Series {
             let inputs = !law.is_constant();
             if inputs || system.check_series().is_err() {
                 return Err(StepError::NoSeries { inputs, t });
@@ -256,16 +256,16 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             fixed: None,
         };
         #[cfg(feature = "std")]
-        if let Kind::Fixed(rule) = method.kind {
+        if let MethodKind::Fixed(rule) = method.kind {
             stepper.begin_fixed(rule)?;
         }
         #[cfg(feature = "std")]
-        if method.kind == Kind::Impulses {
+        if method.kind == MethodKind::Impulses {
             let Point { q, v, .. } = &stepper.now;
             stepper.impulses = Some(Box::new(InImpulses::new(q, v)));
         }
         #[cfg(feature = "std")]
-        if method.kind == Kind::Series {
+        if method.kind == MethodKind::Series {
             stepper.taylor = Some(Box::new(Taylor::new(&stepper.tolerance)));
             stepper.expand()?;
         }
@@ -679,7 +679,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if self.impulses.is_some() {
             return self.step_in_impulses();
         }
-        if let Kind::Fixed(rule) = self.method.kind {
+        if let MethodKind::Fixed(rule) = self.method.kind {
             return self.step_of_fixed_length(rule);
         }
         #[cfg(feature = "std")]

@@ -23,7 +23,7 @@ use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart, keep_docume
 use crate::progress;
 use crate::reading::{self, Reading};
 use crate::table;
-use found::{Found, Motion};
+use found::{FastestResult, Motion};
 use problem::Form;
 
 /// Runs the command.
@@ -96,7 +96,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     let seconds = clock.elapsed().as_secs_f64();
     let system = machine.prepare();
     let units = system.coordinates().map(|q| q.unit.to_owned()).collect();
-    let mut found = Found::new(motion, names, units, seconds);
+    let mut found = FastestResult::new(motion, names, units, seconds);
     found.because = because;
     found.arrival = forward::arrival(call, &compiled.model.coordinates, &found);
     write(&files, &compiled, &machine, &found)?;
@@ -117,7 +117,7 @@ fn write(
     [out, plot, report]: &[Option<Destination>; 3],
     compiled: &Compiled<'_>,
     machine: &InterpretedMachine,
-    found: &Found<'_>,
+    found: &FastestResult<'_>,
 ) -> Result<(), Failure> {
     if let Some(file) = out {
         table::write(&found.recording(), file)?;

@@ -6,7 +6,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use lagrangian::interpreted::{Column, InterpretedMachine, Kind, Named, Recording};
+use lagrangian::interpreted::{Column, ColumnKind, InterpretedMachine, Named, Recording};
 use lagrangian::{Error, Machine, State, StepMotion};
 use lagrangian_spec::model::Model;
 use lagrangian_spec::unit::{rate_name, rate_unit};
@@ -223,18 +223,18 @@ impl Charts {
                         let values = polar.iter().map(|state| numbers(state).values[place]);
                         values.collect()
                     };
-                    if column.kind == Kind::Coordinate && column.name == *of {
+                    if column.kind == ColumnKind::Coordinate && column.name == *of {
                         *column = Column {
                             name: name.clone(),
                             unit: unit.clone(),
-                            kind: Kind::Coordinate,
+                            kind: ColumnKind::Coordinate,
                             values: values(|state| &state.q),
                         };
-                    } else if column.kind == Kind::Rate && column.name == rate_name(of, "") {
+                    } else if column.kind == ColumnKind::Rate && column.name == rate_name(of, "") {
                         *column = Column {
                             name: rate_name(name, ""),
                             unit: rate_unit(name, unit),
-                            kind: Kind::Rate,
+                            kind: ColumnKind::Rate,
                             values: values(|state| &state.v),
                         };
                     }
@@ -248,9 +248,9 @@ impl Charts {
     /// coordinates of the run.
     pub fn with_polar(&self, recording: &Recording, states: &[State<Named>]) -> Recording {
         let mut shown = recording.clone();
-        let outputs = |column: &Column| column.kind == Kind::Output;
+        let outputs = |column: &Column| column.kind == ColumnKind::Output;
         let after = shown.columns.iter().rposition(outputs);
-        let rates = |column: &Column| column.kind == Kind::Rate;
+        let rates = |column: &Column| column.kind == ColumnKind::Rate;
         let after = after.or(shown.columns.iter().rposition(rates));
         let mut place = after.map_or(0, |place| place + 1);
         let polar: Vec<State<Named>> = states.iter().map(|state| self.shown(state)).collect();
@@ -259,7 +259,7 @@ impl Charts {
                 let column = Column {
                     name: name.clone(),
                     unit: unit.clone(),
-                    kind: Kind::Output,
+                    kind: ColumnKind::Output,
                     values: polar.iter().map(|state| state.q.values[index]).collect(),
                 };
                 shown.columns.insert(place, column);

@@ -57,7 +57,7 @@ struct Track {
 }
 
 /// What a run has shown of a contact.
-pub struct Found {
+pub struct ContactSummary {
     /// Its name.
     pub name: String,
     /// The available coefficient of friction.
@@ -218,7 +218,7 @@ impl Contacts {
     }
 
     /// The results for a run that was observed.
-    pub fn results(&self, run: &Run) -> Vec<Found> {
+    pub fn results(&self, run: &Run) -> Vec<ContactSummary> {
         let first = |name: &str| {
             let mut events = run.events().iter();
             events.find(|e| e.name == name).map(|e| e.state.t)
@@ -231,7 +231,7 @@ impl Contacts {
                 start.map(|(t, _)| t)
             };
             let exceeds = |[n, t]: [f64; 2]| contact.friction.is_some_and(|mu| t.abs() > mu * n);
-            Found {
+            ContactSummary {
                 name: contact.name.clone(),
                 friction: contact.friction,
                 pulls: at_start(&|[n, _]| n < 0.0).or_else(|| first(&pulling(&contact.name))),
@@ -256,7 +256,7 @@ fn slipping(contact: &str) -> String {
 /// The events of a run that do not belong to rolling contacts.
 pub fn other_events<'r>(
     events: &'r [Event<Named>],
-    contacts: &'r [Found],
+    contacts: &'r [ContactSummary],
 ) -> impl Iterator<Item = &'r Event<Named>> {
     events.iter().filter(|event| {
         let mut names = contacts.iter().map(|contact| &contact.name);
@@ -329,10 +329,10 @@ fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> (f64, f64) {
     }
 }
 
-impl Found {
+impl ContactSummary {
     /// The violations of a contact, in words.
     pub fn warnings(&self) -> Vec<String> {
-        let Found { name, .. } = self;
+        let ContactSummary { name, .. } = self;
         let mut warnings = Vec::new();
         if let Some(t) = self.pulls {
             warnings.push(format!(

@@ -12,7 +12,7 @@ use lagrangian::Machine;
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
 use lagrangian_fit::least_squares::Trouble;
 use lagrangian_fit::motion::{
-    ConstraintFindings, Experiment, Fit, Found, Quantity, Running, Sought, Subject,
+    ConstraintFindings, Experiment, Fit, FitResult, Quantity, Running, Sought, Subject,
 };
 use lagrangian_fit::searches::{Failed, Search, Sigmas, search};
 use lagrangian_mechanics::Compiled;
@@ -81,7 +81,7 @@ struct Fitted<'a, 'f> {
     classes: &'a [Class],
     fit: &'a mut Fit<'f>,
     sigmas: Sigmas,
-    found: Found,
+    found: FitResult,
     searches: Vec<Search>,
     /// The index of the search that found the best minimum.
     best: usize,

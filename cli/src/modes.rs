@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, Simulation, System};
-use lagrangian_linear::motion::Motion;
+use lagrangian_linear::motion::SteadyMotion;
 use lagrangian_linear::search::{self, Wanted};
 use lagrangian_linear::spectrum::{Mode, Modes, damping};
 use lagrangian_linear::steady::{self, Options};
@@ -110,7 +110,7 @@ pub struct Reached {
     /// The coordinates at the start.
     pub q: Vec<f64>,
     pub wanted: Wanted,
-    pub motion: Motion,
+    pub motion: SteadyMotion,
 }
 
 /// The steady motion that the search reaches from the start of a call.
@@ -157,7 +157,11 @@ fn on_constraints(
 }
 
 /// The steady motion that the search reaches from `q`, and the small motions about it.
-pub fn motion(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<Motion, Failure> {
+pub fn motion(
+    machine: &InterpretedMachine,
+    q: &[f64],
+    wanted: &Wanted,
+) -> Result<SteadyMotion, Failure> {
     let motion = steady::motion(machine, q, wanted);
     let motion =
         motion.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), wanted, OPTIONS)))?;
@@ -298,7 +302,7 @@ fn refuse_drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Re
 }
 
 /// Whether a coordinate moves.
-fn is_moving(names: &[&str], motion: &Motion) -> bool {
+fn is_moving(names: &[&str], motion: &SteadyMotion) -> bool {
     let mut rates = names.iter().zip(&motion.v);
     rates.any(|(name, v)| *v != 0.0 && state_of(name).is_none())
 }
@@ -308,7 +312,7 @@ fn shown_name(name: &str) -> String {
     state_of(name).unwrap_or_else(|| name.to_owned())
 }
 
-fn as_json(names: &[&str], motion: &Motion) -> Value {
+fn as_json(names: &[&str], motion: &SteadyMotion) -> Value {
     let by_name = |values: &[f64]| -> Map<String, Value> {
         let pairs = names.iter().zip(values);
         let pairs = pairs.filter(|(name, _)| state_of(name).is_none());
@@ -579,7 +583,7 @@ pub fn text_of_place(
     units: &[&str],
     start: &[f64],
     wanted: &Wanted,
-    motion: &Motion,
+    motion: &SteadyMotion,
 ) -> String {
     let mut text = String::new();
     let width = names
@@ -634,7 +638,13 @@ pub fn text_of_place(
     text
 }
 
-fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: &Motion) -> String {
+fn text(
+    names: &[&str],
+    units: &[&str],
+    start: &[f64],
+    wanted: &Wanted,
+    motion: &SteadyMotion,
+) -> String {
     let mut text = String::new();
     let width = names
         .iter()

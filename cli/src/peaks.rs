@@ -22,7 +22,7 @@ const SHOWN: usize = 10;
 const LEAST_ERROR: f64 = 1e-3;
 
 /// A quantity with its extremes.
-struct Found<'a> {
+struct PeaksOf<'a> {
     quantity: &'a Quantity,
     extremes: Vec<Extreme>,
     /// Extremes up to this height are ripples, in the unit of the quantity.
@@ -31,7 +31,7 @@ struct Found<'a> {
     left_out: usize,
 }
 
-impl Found<'_> {
+impl PeaksOf<'_> {
     /// The mean time between successive maxima, and between successive minima.
     fn period(&self) -> Option<f64> {
         let count = self.extremes.len();
@@ -95,7 +95,7 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
         _ => vec![0.0; chosen.len()],
     };
     let chosen = chosen.into_iter().zip(errors);
-    let peaks: Vec<Found> = chosen
+    let peaks: Vec<PeaksOf> = chosen
         .map(|(quantity, error)| {
             let rates = columns.rates(&quantity.name);
             let curve = columns.curve(quantity, rates.as_deref(), call::Interpolation::Cubic);
@@ -106,7 +106,7 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
             let ripple = call.ripple.unwrap_or(least);
             let all = extremes(&curve, rates.as_deref(), 0.0).len();
             let extremes = extremes(&curve, rates.as_deref(), ripple);
-            Found {
+            PeaksOf {
                 quantity,
                 left_out: all - extremes.len(),
                 extremes,
@@ -165,7 +165,7 @@ fn warn_of_impacts(exactness: &Exactness, after: Option<f64>) {
 }
 
 /// One row for each extreme: the index of the quantity, the time, the value, and 1 for a maximum or −1 for a minimum.
-fn write(found: &[Found], file: &Destination) -> Result<(), Failure> {
+fn write(found: &[PeaksOf], file: &Destination) -> Result<(), Failure> {
     let rows: Vec<(usize, &Extreme)> = found
         .iter()
         .enumerate()
@@ -186,7 +186,7 @@ fn write(found: &[Found], file: &Destination) -> Result<(), Failure> {
     table::write_columns(&columns, file)
 }
 
-fn text(found: &[Found]) -> String {
+fn text(found: &[PeaksOf]) -> String {
     let mut text = String::new();
     for one in found {
         let unit = one.quantity.unit.as_deref().filter(|unit| *unit != "1");
@@ -242,7 +242,7 @@ fn text(found: &[Found]) -> String {
     text
 }
 
-fn as_json(one: &Found) -> Value {
+fn as_json(one: &PeaksOf) -> Value {
     let extremes = one.extremes.iter().map(|extreme| {
         let kind = if extreme.is_maximum {
             "maximum"

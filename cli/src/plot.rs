@@ -4,7 +4,7 @@ use plotters::prelude::*;
 use plotters::style::FontFamily;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::recording::{Kind, Panel, Recording, extent, panels, thin};
+use crate::recording::{ColumnKind, Panel, Recording, extent, panels, thin};
 
 /// Drawing units per 1/96 inch: the library rounds to whole units, and rounding to 1/96 inch would be visible as steps.
 pub const UNIT: u32 = 8;
@@ -64,14 +64,14 @@ macro_rules! curve {
 pub(crate) use curve;
 
 /// The quantities that are drawn, from top to bottom.
-const KINDS: [Kind; 7] = [
-    Kind::Coordinate,
-    Kind::Output,
-    Kind::Input,
-    Kind::Multiplier,
-    Kind::Contact,
-    Kind::Energy,
-    Kind::Residual,
+const KINDS: [ColumnKind; 7] = [
+    ColumnKind::Coordinate,
+    ColumnKind::Output,
+    ColumnKind::Input,
+    ColumnKind::Multiplier,
+    ColumnKind::Contact,
+    ColumnKind::Energy,
+    ColumnKind::Residual,
 ];
 
 /// The drawing as SVG text, titled with the machine's name.
@@ -287,7 +287,7 @@ mod tests {
             columns: vec![Column {
                 name: "x".into(),
                 unit: "m".into(),
-                kind: Kind::Output,
+                kind: ColumnKind::Output,
                 values: vec![0.0, 1.0, f64::NAN, 1.0, 0.0],
             }],
         };
@@ -302,7 +302,7 @@ mod tests {
         let column = |values| Column {
             name: "x".into(),
             unit: "m".into(),
-            kind: Kind::Coordinate,
+            kind: ColumnKind::Coordinate,
             values,
         };
         for values in [

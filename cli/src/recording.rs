@@ -1,7 +1,7 @@
 //! The quantities of a recording that are drawn.
 
 use lagrangian::Solution;
-pub use lagrangian::interpreted::{Column, Kind, Recording};
+pub use lagrangian::interpreted::{Column, ColumnKind, Recording};
 use lagrangian::interpreted::{InterpretedMachine, Signals};
 
 /// A run of a machine read from a spec.
@@ -9,7 +9,7 @@ pub type Run = Solution<InterpretedMachine, Signals>;
 
 /// The groups that are drawn together: coordinates, rates, outputs and multipliers by unit, energies, the residual; of the
 /// requested kinds, without empty groups.
-pub fn panels<'a>(recording: &'a Recording, kinds: &[Kind]) -> Vec<Panel<'a>> {
+pub fn panels<'a>(recording: &'a Recording, kinds: &[ColumnKind]) -> Vec<Panel<'a>> {
     let mut panels: Vec<Panel> = Vec::new();
     for &kind in kinds {
         for column in recording.of_kind(kind) {
@@ -31,7 +31,7 @@ pub fn panels<'a>(recording: &'a Recording, kinds: &[Kind]) -> Vec<Panel<'a>> {
 /// Quantities with a common axis.
 pub struct Panel<'a> {
     /// The kind of quantity.
-    pub kind: Kind,
+    pub kind: ColumnKind,
     /// Their unit.
     pub unit: &'a str,
     /// The quantities.
@@ -59,9 +59,13 @@ impl Panel<'_> {
         let sizes = values.map(|value| value.abs());
         let largest = extent(sizes).map_or(0.0, |[_, largest]| largest);
         match self.kind {
-            Kind::Residual => 0.0,
-            Kind::Coordinate | Kind::Rate => ROUNDING * largest.max(1.0),
-            Kind::Output | Kind::Input | Kind::Contact | Kind::Multiplier | Kind::Energy => {
+            ColumnKind::Residual => 0.0,
+            ColumnKind::Coordinate | ColumnKind::Rate => ROUNDING * largest.max(1.0),
+            ColumnKind::Output
+            | ColumnKind::Input
+            | ColumnKind::Contact
+            | ColumnKind::Multiplier
+            | ColumnKind::Energy => {
                 // These values may be small relative to their unit, and result from a few hundred operations.
                 1e3 * f64::EPSILON * largest
             }
@@ -71,14 +75,14 @@ impl Panel<'_> {
     /// The label of the axis: `coordinates [rad]`.
     pub fn label(&self) -> String {
         let plural = match self.kind {
-            Kind::Coordinate => "coordinates",
-            Kind::Rate => "rates",
-            Kind::Output => "outputs",
-            Kind::Input => "inputs",
-            Kind::Multiplier => "multipliers",
-            Kind::Contact => "contacts",
-            Kind::Energy => "energy",
-            Kind::Residual => "energy balance",
+            ColumnKind::Coordinate => "coordinates",
+            ColumnKind::Rate => "rates",
+            ColumnKind::Output => "outputs",
+            ColumnKind::Input => "inputs",
+            ColumnKind::Multiplier => "multipliers",
+            ColumnKind::Contact => "contacts",
+            ColumnKind::Energy => "energy",
+            ColumnKind::Residual => "energy balance",
         };
         format!("{plural} [{}]", self.unit)
     }
@@ -202,11 +206,11 @@ mod tests {
             panel.rounding()
         };
         // A coordinate at rest at 0 within round-off, and one that moves by a nanometre.
-        assert!(rounding(Kind::Coordinate, &[1e-16, -3e-17]) > 1e-15);
-        assert!(rounding(Kind::Coordinate, &[1.0, 1.0 + 1e-9]) < 1e-10);
-        assert!(rounding(Kind::Energy, &[9.81, 9.81 + 2e-15]) > 2e-15);
-        assert!(rounding(Kind::Multiplier, &[1e-9, -1e-9]) < 1e-12);
-        assert_eq!(rounding(Kind::Residual, &[1e-16, f64::NAN]), 0.0);
+        assert!(rounding(ColumnKind::Coordinate, &[1e-16, -3e-17]) > 1e-15);
+        assert!(rounding(ColumnKind::Coordinate, &[1.0, 1.0 + 1e-9]) < 1e-10);
+        assert!(rounding(ColumnKind::Energy, &[9.81, 9.81 + 2e-15]) > 2e-15);
+        assert!(rounding(ColumnKind::Multiplier, &[1e-9, -1e-9]) < 1e-12);
+        assert_eq!(rounding(ColumnKind::Residual, &[1e-16, f64::NAN]), 0.0);
         assert_eq!(extent([f64::NAN].into_iter()), None);
     }
 
@@ -218,7 +222,7 @@ mod tests {
             columns: vec![Column {
                 name: "x".into(),
                 unit: "m".into(),
-                kind: Kind::Coordinate,
+                kind: ColumnKind::Coordinate,
                 values,
             }],
         };

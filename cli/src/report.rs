@@ -23,8 +23,8 @@ use lagrangian_units::state_of;
 use serde_json::{Value, json};
 
 use crate::collisions;
-use crate::contacts::Found;
-use crate::recording::{Column, Kind, Recording, panels, steady, thin};
+use crate::contacts::ContactSummary;
+use crate::recording::{Column, ColumnKind, Recording, panels, steady, thin};
 
 pub(crate) use live::Live;
 pub(crate) use page::{DRAWING, STYLE};
@@ -54,7 +54,7 @@ pub struct Report<'a, 'd> {
     /// The run, recorded as densely as [`recording_refinement`] requires.
     pub recording: &'a Recording,
     /// The results on rolling contacts.
-    pub contacts: &'a [Found],
+    pub contacts: &'a [ContactSummary],
     /// The error that ended it early.
     pub error: Option<String>,
     /// Whether the user interrupted it.
@@ -129,19 +129,19 @@ impl Report<'_, '_> {
     /// The data that the scripts read.
     fn data(&self, scene: &Scene<'_>, samples: &Samples, is_live: bool) -> Value {
         let kinds = [
-            Kind::Coordinate,
-            Kind::Rate,
-            Kind::Output,
-            Kind::Input,
-            Kind::Multiplier,
-            Kind::Contact,
-            Kind::Energy,
-            Kind::Residual,
+            ColumnKind::Coordinate,
+            ColumnKind::Rate,
+            ColumnKind::Output,
+            ColumnKind::Input,
+            ColumnKind::Multiplier,
+            ColumnKind::Contact,
+            ColumnKind::Energy,
+            ColumnKind::Residual,
         ];
         let panels = panels(self.recording, &kinds);
         let stored = panels
             .iter()
-            .filter(|panel| !matches!(panel.kind, Kind::Coordinate | Kind::Rate))
+            .filter(|panel| !matches!(panel.kind, ColumnKind::Coordinate | ColumnKind::Rate))
             .map(|panel| panel.columns.len())
             .sum::<usize>();
         let points = (CURVE_BYTES / 8 / stored.max(1)).clamp(16, CURVE_POINTS);
@@ -201,12 +201,12 @@ impl Report<'_, '_> {
         let of_kind = || self.recording.of_kind(column.kind);
         let index = of_kind().position(|other| std::ptr::eq(other, column));
         match column.kind {
-            Kind::Coordinate => json!({ "name": column.name, "coordinate": index }),
-            Kind::Rate => json!({ "name": column.name, "rate": index }),
+            ColumnKind::Coordinate => json!({ "name": column.name, "coordinate": index }),
+            ColumnKind::Rate => json!({ "name": column.name, "rate": index }),
             kind => {
                 let points = match kind {
                     // Most contacts are open most of the time, so constant stretches are thinned.
-                    Kind::Contact => {
+                    ColumnKind::Contact => {
                         let (times, values) = steady(&self.recording.times, &column.values);
                         thin(&times, &values, points)
                     }
@@ -226,12 +226,14 @@ impl Report<'_, '_> {
                     let states = slots.filter(|slot| state_of(&slot.name.to_string()).is_some());
                     let states = states.count();
                     curve["live"] = match kind {
-                        Kind::Output if index.is_some_and(|index| index < states) => {
+                        ColumnKind::Output if index.is_some_and(|index| index < states) => {
                             json!({ "state": index })
                         }
-                        Kind::Output => json!({ "output": index.map(|index| index - states) }),
-                        Kind::Multiplier => json!({ "multiplier": index }),
-                        Kind::Energy => json!({ "energy": column.name.split(' ').next() }),
+                        ColumnKind::Output => {
+                            json!({ "output": index.map(|index| index - states) })
+                        }
+                        ColumnKind::Multiplier => json!({ "multiplier": index }),
+                        ColumnKind::Energy => json!({ "energy": column.name.split(' ').next() }),
                         _ => Value::Null,
                     };
                 }
@@ -281,7 +283,7 @@ pub(crate) fn motion(
         },
         "to": times.last(),
         "count": samples.count,
-        "coordinates": recording.of_kind(Kind::Coordinate).count(),
+        "coordinates": recording.of_kind(ColumnKind::Coordinate).count(),
         "states": samples.states,
         "parameters": machine.parameter_values(),
         "values": scene.values.len(),

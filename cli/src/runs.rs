@@ -20,7 +20,7 @@ use crate::exactness::Exactness;
 use crate::failure::Failure;
 use crate::output::{self, Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
 use crate::reading::{self, Reading};
-use crate::recording::{Kind, ROUNDING, Recording, Run};
+use crate::recording::{ColumnKind, ROUNDING, Recording, Run};
 use crate::{inputs, methods, simulate};
 
 /// The default number of recorded samples of a run.
@@ -42,7 +42,7 @@ pub struct Quantity {
     /// Its values.
     pub values: Vec<f64>,
     /// Its kind, for the run of a spec.
-    pub kind: Option<Kind>,
+    pub kind: Option<ColumnKind>,
 }
 
 impl Quantity {
@@ -132,7 +132,7 @@ impl Columns {
         let wanted = call::names_of(lists).map_err(Failure::Call)?;
         if wanted.is_empty() {
             let has_rates = |column: &&Quantity| match column.kind {
-                Some(kind) => kind == Kind::Coordinate,
+                Some(kind) => kind == ColumnKind::Coordinate,
                 None => self.get(&format!("der({})", column.name)).is_some(),
             };
             let moving: Vec<&Quantity> = self.columns.iter().filter(has_rates).collect();

@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 use crate::call;
 use crate::charts::Charts;
 use crate::collisions;
-use crate::contacts::{self, Contacts, Found};
+use crate::contacts::{self, ContactSummary, Contacts};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::global_error::{self, Estimate};
@@ -505,7 +505,7 @@ fn print(
     call: &call::Simulate,
     prepared: &Prepared<'_>,
     run: &Run,
-    contacts: &[Found],
+    contacts: &[ContactSummary],
     global_error: Option<&Estimate>,
     trouble: &Trouble<'_>,
 ) -> Result<(), Failure> {
@@ -621,7 +621,7 @@ fn document(
     call: &call::Simulate,
     prepared: &Prepared<'_>,
     run: &Run,
-    contacts: &[Found],
+    contacts: &[ContactSummary],
     (interruption, errors): (&Option<String>, &[String]),
 ) -> Value {
     let statistics = run.statistics();
@@ -631,7 +631,7 @@ fn document(
         .collect();
     let warnings = prepared.other_method.clone().into_iter();
     let warnings = warnings.chain(run.warnings().iter().map(ToString::to_string));
-    let warnings = warnings.chain(contacts.iter().flat_map(Found::warnings));
+    let warnings = warnings.chain(contacts.iter().flat_map(ContactSummary::warnings));
     let warnings = warnings.chain(interruption.iter().cloned());
     let warnings: Vec<String> = warnings.collect();
     let mut document = json!({
@@ -657,7 +657,7 @@ fn document(
             fields.insert("inputs".into(), Value::Object(inputs.collect()));
         }
         if !contacts.is_empty() {
-            let contacts = contacts.iter().map(Found::json);
+            let contacts = contacts.iter().map(ContactSummary::json);
             fields.insert("contacts".into(), contacts.collect());
         }
         if !run.choices().is_empty() {
@@ -684,7 +684,12 @@ fn document(
     document
 }
 
-fn print_summary(call: &call::Simulate, prepared: &Prepared<'_>, run: &Run, contacts: &[Found]) {
+fn print_summary(
+    call: &call::Simulate,
+    prepared: &Prepared<'_>,
+    run: &Run,
+    contacts: &[ContactSummary],
+) {
     let statistics = run.statistics();
     let (start, end) = (run.start(), prepared.shown(run.end()));
     output::line(format_args!(
@@ -780,7 +785,7 @@ fn print_summary(call: &call::Simulate, prepared: &Prepared<'_>, run: &Run, cont
     for warning in run.warnings() {
         output::line(format_args!("  warning: {warning}"));
     }
-    for warning in contacts.iter().flat_map(Found::warnings) {
+    for warning in contacts.iter().flat_map(ContactSummary::warnings) {
         output::line(format_args!("  warning: {warning}"));
     }
 }

@@ -14,7 +14,7 @@ use crate::runs::{self, Columns, Quantity, header};
 use crate::table;
 
 /// A quantity with its spectrum.
-struct Found<'a> {
+struct SpectrumOf<'a> {
     quantity: &'a Quantity,
     spectrum: Spectrum,
     lines: Vec<Line>,
@@ -51,7 +51,7 @@ pub fn run(call: &call::Spectrum) -> Result<(), Failure> {
                 quantity.name
             ))
         })?;
-        spectra.push(Found {
+        spectra.push(SpectrumOf {
             lines: spectrum.lines(call.lines, call.least),
             quantity,
             spectrum,
@@ -158,7 +158,7 @@ impl Samples {
     }
 }
 
-fn text(samples: &Samples, resolution: f64, window: Window, found: &[Found]) -> String {
+fn text(samples: &Samples, resolution: f64, window: Window, found: &[SpectrumOf]) -> String {
     let mut text = format!(
         "{} samples, {} s apart, window {}; frequencies are {} Hz apart, up to {} Hz\n",
         samples.count,
@@ -197,7 +197,7 @@ fn text(samples: &Samples, resolution: f64, window: Window, found: &[Found]) -> 
     text
 }
 
-fn as_json(one: &Found) -> Value {
+fn as_json(one: &SpectrumOf) -> Value {
     let lines = one.lines.iter().map(|line| {
         json!({"frequency": line.frequency, "amplitude": line.amplitude, "phase": line.phase})
     });
@@ -210,9 +210,9 @@ fn as_json(one: &Found) -> Value {
 }
 
 /// A pane for each unit, up to the highest frequency with a visible amplitude.
-fn panes(found: &[Found], frequencies: &[f64]) -> Vec<Pane> {
+fn panes(found: &[SpectrumOf], frequencies: &[f64]) -> Vec<Pane> {
     let mut panes: Vec<(Option<&str>, Pane)> = Vec::new();
-    let greatest = |one: &Found| one.spectrum.amplitudes.iter().copied().fold(0.0, f64::max);
+    let greatest = |one: &SpectrumOf| one.spectrum.amplitudes.iter().copied().fold(0.0, f64::max);
     let last = found.iter().map(|one| {
         let least = 1e-3 * greatest(one);
         one.spectrum

@@ -139,7 +139,7 @@ pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recording::{Column, Kind};
+    use crate::recording::{Column, ColumnKind};
 
     fn recording() -> Recording {
         let values = vec![0.1, -1e-300, 1.0 / 3.0];
@@ -148,7 +148,7 @@ mod tests {
             columns: vec![Column {
                 name: "s1".into(),
                 unit: "m".into(),
-                kind: Kind::Coordinate,
+                kind: ColumnKind::Coordinate,
                 values,
             }],
         }

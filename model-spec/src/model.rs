@@ -134,10 +134,10 @@ pub struct Model<'d> {
 
 impl<'d> Model<'d> {
     /// How a frame or a body is turned.
-    pub fn rotation(&self, place: Place) -> Rotation<'d> {
+    pub fn rotation(&self, place: FrameOrBody) -> Rotation<'d> {
         match place {
-            Place::Frame(pose) => Rotation::Frame(pose),
-            Place::Body(body) => self.bodies[body].rotation,
+            FrameOrBody::Frame(pose) => Rotation::Frame(pose),
+            FrameOrBody::Body(body) => self.bodies[body].rotation,
         }
     }
 }
@@ -312,7 +312,7 @@ pub struct Pose<'d> {
     /// The pose that it was made from; the ground is its own parent.
     pub parent: PoseId,
     /// The step from the parent to this pose.
-    pub step: Step<'d>,
+    pub step: PoseChange<'d>,
     /// Its origin, in ground axes.
     pub origin: Vec<Expr<'d>>,
     /// Its axes: `axes[k]` is the k-th axis as a vector in ground axes.
@@ -323,7 +323,7 @@ pub struct Pose<'d> {
 
 /// How a pose differs from its parent.
 #[derive(Clone)]
-pub enum Step<'d> {
+pub enum PoseChange<'d> {
     /// No difference: the ground.
     Ground,
     /// A shift of the origin, in the parent's axes.
@@ -413,7 +413,7 @@ pub enum Rotation<'d> {
 
 /// A frame or body: what a body slides on, what a circle is fixed to, or what a force acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum FrameOrBody {
     /// A frame of reference.
     Frame(PoseId),
     /// A body, by its index.
@@ -426,7 +426,7 @@ pub struct Circle<'d> {
     /// Its name.
     pub name: Name,
     /// What it is fixed to.
-    pub on: Place,
+    pub on: FrameOrBody,
     /// Its centre, in the axes of what it is fixed to.
     pub center: Vec<Expr<'d>>,
     /// Its radius.

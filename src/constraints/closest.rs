@@ -4,7 +4,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::algebra::{backward, cholesky, dot, forward};
-use super::{Level, Place};
+use super::{Level, Unprojected};
 use crate::{System, Vector};
 
 /// The number of iterations after which the method has converged or stagnates.
@@ -33,7 +33,7 @@ pub(crate) type Violation = (usize, usize, f64);
 /// steps `−W Gᵀ (G W Gᵀ + μ)⁻¹ g`.
 pub(crate) fn closest<S: System>(
     system: &S,
-    place: &mut Place<'_, S::Vector>,
+    place: &mut Unprojected<'_, S::Vector>,
     kept: &[S::Vector; 2],
 ) -> Vec<Violation> {
     for level in [Level::Positions, Level::Rates] {
@@ -66,7 +66,7 @@ struct Search {
 impl Search {
     fn new<S: System>(
         system: &S,
-        place: &Place<'_, S::Vector>,
+        place: &Unprojected<'_, S::Vector>,
         kept: &S::Vector,
         level: Level,
     ) -> Self {
@@ -132,7 +132,7 @@ impl Search {
     }
 
     /// Evaluates residuals and rows at a state.
-    fn evaluate<S: System>(&mut self, system: &S, place: &Place<'_, S::Vector>) {
+    fn evaluate<S: System>(&mut self, system: &S, place: &Unprojected<'_, S::Vector>) {
         let m = system.constraints().len();
         let (mut left, mut matrix) = (vec![0.0; m], vec![0.0; m * self.n]);
         let (q, v) = (&*place.q[0], &*place.v[0]);
@@ -150,7 +150,7 @@ impl Search {
         }
     }
 
-    fn minimize<S: System>(&mut self, system: &S, place: &mut Place<'_, S::Vector>) {
+    fn minimize<S: System>(&mut self, system: &S, place: &mut Unprojected<'_, S::Vector>) {
         let (n, m) = (self.n, self.rows.len());
         self.evaluate(system, place);
         let mut damping = 1e-3;

@@ -16,7 +16,7 @@
 use super::algebra::{backward, remove};
 use super::choice::Rank;
 use super::workspace::{Workspace, in_workspace};
-use super::{Constraints, Level, Place};
+use super::{Constraints, Level, Unprojected};
 use crate::{Singular, StepError, System, Vector};
 
 /// Below this strength, rows no longer move a state.
@@ -219,7 +219,7 @@ impl<V: Vector> Constraints<V> {
         own.reduces_to_roundoff = true;
         let mut low = [q.zeros_like(), v.zeros_like()];
         let [q_low, v_low] = &mut low;
-        let place = &mut Place {
+        let place = &mut Unprojected {
             t,
             q: [q, q_low],
             v: [v, v_low],

@@ -2,7 +2,7 @@
 
 use super::choice::{Choice, Rank};
 use super::workspace::{Workspace, in_workspace};
-use super::{Constraints, INDEPENDENT, Level, Place};
+use super::{Constraints, INDEPENDENT, Level, Unprojected};
 use crate::{Singular, StepError, System, Vector};
 
 /// The independence that rows must have, from afar to near: rows that are dependent where the
@@ -29,7 +29,7 @@ impl<V: Vector> Constraints<V> {
     pub fn begin<S: System<Vector = V>>(
         &mut self,
         system: &S,
-        place: &mut Place<'_, V>,
+        place: &mut Unprojected<'_, V>,
         kept: Option<[V; 2]>,
     ) -> Result<(), StepError> {
         let state_before = [place.q[0].clone(), place.v[0].clone()];
@@ -129,7 +129,7 @@ impl<V: Vector> Constraints<V> {
     fn pass<S: System<Vector = V>>(
         &mut self,
         system: &S,
-        place: &mut Place<'_, V>,
+        place: &mut Unprojected<'_, V>,
         rank: Rank,
     ) -> Result<bool, StepError> {
         let n = place.q[0].as_slice().len();
@@ -185,7 +185,7 @@ impl<V: Vector> Constraints<V> {
     }
 }
 
-fn set_state<V: Vector>(place: &mut Place<'_, V>, state: &[V; 2]) {
+fn set_state<V: Vector>(place: &mut Unprojected<'_, V>, state: &[V; 2]) {
     for (of, state) in [&mut place.q, &mut place.v].into_iter().zip(state) {
         of[0].clone_from(state);
         of[1].as_mut_slice().fill(0.0);

@@ -6,7 +6,7 @@ use lagrangian_native::Lanes;
 use super::in_series::InSeries;
 use super::{Accelerate, Attempt, Outcome, Track, check};
 use crate::control::{MAX_STEPS, Work};
-use crate::methods::{Kind, Method};
+use crate::methods::{Method, MethodKind};
 use crate::stages::Point;
 use crate::step_error::StepError;
 use crate::tolerance::Tolerance;
@@ -143,7 +143,7 @@ impl<const W: usize> Ensemble<W> {
         arrived: impl FnMut(usize, Result<Arrival<S::Coordinates>, StepError>),
     ) {
         #[cfg(feature = "std")]
-        if self.method.kind == Kind::Series {
+        if self.method.kind == MethodKind::Series {
             return self
                 .run_by::<S, InSeries<S::Vectors, S::SeriesLists, W>>(trajectories, arrived);
         }
@@ -238,7 +238,7 @@ impl<const W: usize> Ensemble<W> {
             system.to_vector(&start.v),
         );
         let machine = OneSystem(&system, &inputs);
-        let by_series = self.method.kind == Kind::Series && cfg!(feature = "std");
+        let by_series = self.method.kind == MethodKind::Series && cfg!(feature = "std");
         if by_series && system.check_series().is_err() {
             let (inputs, t) = (false, start.t);
             return Err(StepError::NoSeries { inputs, t });

@@ -12,7 +12,7 @@ use crate::{Compliance, Energies, InputLaw, Solution, State, System};
 
 /// The kind of a column, which selects the panel of the plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ColumnKind {
     /// A generalized coordinate.
     Coordinate,
     /// The rate of a coordinate.
@@ -39,7 +39,7 @@ pub struct Column {
     /// Its unit, as a spec writes it.
     pub unit: String,
     /// Its kind.
-    pub kind: Kind,
+    pub kind: ColumnKind,
     /// Its values, one for each instant.
     pub values: Vec<f64>,
 }
@@ -55,7 +55,7 @@ pub struct Recording {
 
 impl Recording {
     /// The columns of one kind.
-    pub fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Column> {
+    pub fn of_kind(&self, kind: ColumnKind) -> impl Iterator<Item = &Column> {
         self.columns
             .iter()
             .filter(move |column| column.kind == kind)
@@ -120,13 +120,17 @@ impl Recording {
             .coordinates()
             .filter(|of| state_of(of.name).is_none())
         {
-            column(quantity.name.into(), quantity.unit.into(), Kind::Coordinate);
+            column(
+                quantity.name.into(),
+                quantity.unit.into(),
+                ColumnKind::Coordinate,
+            );
         }
         for quantity in system.coordinates() {
             let unit = rate_unit(quantity.name, quantity.unit);
             let kind = match state_of(quantity.name) {
-                Some(_) => Kind::Output,
-                None => Kind::Rate,
+                Some(_) => ColumnKind::Output,
+                None => ColumnKind::Rate,
             };
             column(rate_name(quantity.name, ""), unit, kind);
         }
@@ -141,7 +145,11 @@ impl Recording {
             .collect();
         for (quantity, _) in system.output_values(&outputs) {
             if is_shown(quantity.name) {
-                column(quantity.name.into(), quantity.unit.into(), Kind::Output);
+                column(
+                    quantity.name.into(),
+                    quantity.unit.into(),
+                    ColumnKind::Output,
+                );
             }
         }
         let is_driven = run.is_driven();
@@ -155,15 +163,19 @@ impl Recording {
             } else {
                 name.into()
             };
-            column(name, quantity.unit.into(), Kind::Input);
+            column(name, quantity.unit.into(), ColumnKind::Input);
         }
         for constraint in system.constraints() {
             let name = format!("multiplier({})", constraint.name);
-            column(name, constraint.multiplier_unit.into(), Kind::Multiplier);
+            column(
+                name,
+                constraint.multiplier_unit.into(),
+                ColumnKind::Multiplier,
+            );
         }
         for name in system.contacts() {
             for (what, unit) in [("normal", "N"), ("friction", "N"), ("slip", "m/s")] {
-                column(format!("{what}({name})"), unit.into(), Kind::Contact);
+                column(format!("{what}({name})"), unit.into(), ColumnKind::Contact);
             }
         }
         let has_books = !run.contact_energies().is_empty();
@@ -180,19 +192,19 @@ impl Recording {
                 ("friction", friction),
                 ("slip", slip),
             ] {
-                column(format!("{what}({name})"), unit.into(), Kind::Contact);
+                column(format!("{what}({name})"), unit.into(), ColumnKind::Contact);
             }
             if contact.compliance == Some(Compliance::Layer) {
-                column(format!("crushing({name})"), "J".into(), Kind::Contact);
+                column(format!("crushing({name})"), "J".into(), ColumnKind::Contact);
             }
             if has_books {
-                column(format!("lost({name})"), "J".into(), Kind::Contact);
+                column(format!("lost({name})"), "J".into(), ColumnKind::Contact);
             }
         }
         for name in ["kinetic energy", "potential energy", "total energy"] {
-            column(name.into(), "J".into(), Kind::Energy);
+            column(name.into(), "J".into(), ColumnKind::Energy);
         }
-        column("energy residual".into(), "J".into(), Kind::Residual);
+        column("energy residual".into(), "J".into(), ColumnKind::Residual);
 
         let is_layer: Vec<bool> = (system.unilateral_contacts())
             .map(|contact| contact.compliance == Some(Compliance::Layer))

@@ -1,6 +1,6 @@
 //! Gauss methods of orders 4, 6 and 8, in steps of a fixed length, for long runs of conservative machines.
 
-use super::{Kind, Method, Rule, Tableau};
+use super::{Method, MethodKind, Rule, Tableau};
 
 /// Collocation at the zeros of the Legendre polynomial of degree `s`, of order `2 s`.
 ///
@@ -8,7 +8,7 @@ use super::{Kind, Method, Rule, Tableau};
 /// section VI.4 (symplectic), section V.2 (symmetric). The stages are those of the equations in momenta, for which the step is
 /// symplectic (`stepper/of_fixed_length/gauss.rs`).
 const fn of(tableau: Tableau) -> Method {
-    Method::of_kind(tableau, Kind::Fixed(Rule::Gauss))
+    Method::of_kind(tableau, MethodKind::Fixed(Rule::Gauss))
 }
 
 const COMMON: Tableau = Tableau {

@@ -9,7 +9,7 @@ use super::{Record, Run, VectorOf};
 use crate::balance::Quadratures;
 use crate::contact::Mode;
 use crate::inputs::InputLaw;
-use crate::methods::Kind;
+use crate::methods::MethodKind;
 use crate::phases::{Change, Phase};
 use crate::solution::Handover;
 use crate::stepper::ContactChanges;
@@ -192,7 +192,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Ok(false);
         };
         let at = (t, self.stepper.q(), self.stepper.v());
-        let is_possible = self.settings.method.kind == Kind::RungeKutta
+        let is_possible = self.settings.method.kind == MethodKind::RungeKutta
             && step > 16.0 * f64::EPSILON * t.abs()
             && step.is_finite()
             && touching.check_stepping(self.model.system, at).is_ok();

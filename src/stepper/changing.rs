@@ -5,7 +5,7 @@ use crate::balance::Quadratures;
 use crate::implicit::Implicit;
 use crate::implicit::jacobian::Jacobian;
 use crate::inputs::InputLaw;
-use crate::methods::{Kind, Method};
+use crate::methods::{Method, MethodKind};
 use crate::taylor::Taylor;
 use crate::tolerance::Tolerance;
 use crate::{StepError, System, Vector};
@@ -19,7 +19,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.implicit = spectrum.map(|spectrum| Box::new(Implicit::new(system, spectrum)));
         self.taylor = None;
         self.stiffness = Stiffness::default();
-        if method.kind == Kind::Series {
+        if method.kind == MethodKind::Series {
             self.taylor = Some(Box::new(Taylor::new(&self.tolerance)));
             self.expand()?;
         }

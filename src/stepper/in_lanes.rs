@@ -12,7 +12,7 @@ use super::{StepLimits, Stepper};
 use crate::attempt;
 use crate::balance::Quadratures;
 use crate::inputs::InputLaw;
-use crate::methods::{Kind, MAX_STAGES, Method};
+use crate::methods::{MAX_STAGES, Method, MethodKind};
 use crate::scalar::{Kernel, Scalar};
 use crate::stages::{Point, are_all_finite};
 use crate::step_error::StepError;
@@ -73,7 +73,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     pub(crate) fn may_run_in_lanes(&self) -> bool {
         let system = self.model.system.get();
         system.contacts().len() + system.unilateral_contacts().len() == 0
-            && self.method.kind == Kind::RungeKutta
+            && self.method.kind == MethodKind::RungeKutta
             && self.implicit.is_none()
             && self.taylor.is_none()
             && self.model.law.is_constant()

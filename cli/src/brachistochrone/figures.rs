@@ -3,7 +3,7 @@
 
 use plotters::prelude::*;
 
-use super::found::Found;
+use super::found::FastestResult;
 use crate::plot::{COLOURS, PANEL, UNIT, WIDTH, axes, font, range, tick};
 
 /// One figure.
@@ -17,7 +17,7 @@ struct Figure {
 ///
 /// # Errors
 /// An error of the drawing library, as a sentence.
-pub fn svg(title: &str, found: &Found<'_>) -> Result<String, String> {
+pub fn svg(title: &str, found: &FastestResult<'_>) -> Result<String, String> {
     let figures = figures(found);
     let height = 48 * UNIT + PANEL * figures.len() as u32;
     let mut text = String::new();
@@ -32,7 +32,7 @@ pub fn svg(title: &str, found: &Found<'_>) -> Result<String, String> {
     Ok(text.replacen(&drawn, &shown, 1))
 }
 
-fn figures(found: &Found<'_>) -> Vec<Figure> {
+fn figures(found: &FastestResult<'_>) -> Vec<Figure> {
     let moments = &found.moments;
     let mut figures = Vec::new();
     if let (Some(angles), Some(problem)) = (&found.angles, found.motion.problem()) {

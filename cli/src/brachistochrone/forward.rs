@@ -7,7 +7,7 @@ use lagrangian::{Machine, Simulation};
 use lagrangian_spec::model::Coordinate;
 use lagrangian_symbolic::Dag;
 
-use super::found::{Arrival, Found};
+use super::found::{Arrival, FastestResult};
 use crate::call;
 use crate::failure::Failure;
 use crate::reading::{self, Reading};
@@ -25,7 +25,7 @@ const POINTS: u32 = 48;
 pub fn arrival(
     call: &call::Brachistochrone,
     coordinates: &[Coordinate<'_>],
-    found: &Found<'_>,
+    found: &FastestResult<'_>,
 ) -> Result<Arrival, String> {
     let dag = Dag::new();
     let reading =

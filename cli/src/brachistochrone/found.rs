@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use super::tried;
 use crate::numbers::shortest;
 use crate::output;
-use crate::recording::{Column, Kind, Recording};
+use crate::recording::{Column, ColumnKind, Recording};
 
 /// The number of intervals in which the motion is reported: equal parts of the turn of its direction, or of the time.
 const MOMENTS: u32 = 200;
@@ -88,7 +88,7 @@ pub struct Arrival {
 }
 
 /// The result, and the coordinates in which it is reported.
-pub struct Found<'d> {
+pub struct FastestResult<'d> {
     pub motion: Motion<'d>,
     pub moments: Vec<Moment>,
     /// ε of (30), in rad, at each moment, for two normal coordinates.
@@ -104,18 +104,18 @@ pub struct Found<'d> {
     pub arrival: Result<Arrival, String>,
 }
 
-impl<'d> Found<'d> {
+impl<'d> FastestResult<'d> {
     pub fn new(
         motion: Motion<'d>,
         names: Vec<String>,
         units: Vec<String>,
         seconds: f64,
-    ) -> Found<'d> {
+    ) -> FastestResult<'d> {
         let moments = (0..=MOMENTS).map(|k| motion.after_part(f64::from(k) / f64::from(MOMENTS)));
         let moments: Vec<Moment> = moments.collect();
         let problem = motion.problem().filter(|_| names.len() == 2);
         let angles = problem.map(|problem| angles(problem, &moments));
-        Found {
+        FastestResult {
             guides: motion.guides(),
             best_among_turns: motion.best_among_turns(),
             motion,
@@ -352,9 +352,12 @@ impl<'d> Found<'d> {
         let mut columns = Vec::new();
         let named = || self.names.iter().zip(&self.units).enumerate();
         for (i, (name, unit)) in named() {
-            columns.push(column(name.clone(), unit.clone(), Kind::Coordinate, &|k| {
-                moments[k].q[i]
-            }));
+            columns.push(column(
+                name.clone(),
+                unit.clone(),
+                ColumnKind::Coordinate,
+                &|k| moments[k].q[i],
+            ));
         }
         for (i, (name, unit)) in named() {
             let unit = if unit == "1" {
@@ -362,9 +365,12 @@ impl<'d> Found<'d> {
             } else {
                 format!("{unit}/s")
             };
-            columns.push(column(format!("der({name})"), unit, Kind::Rate, &|k| {
-                moments[k].v[i]
-            }));
+            columns.push(column(
+                format!("der({name})"),
+                unit,
+                ColumnKind::Rate,
+                &|k| moments[k].v[i],
+            ));
         }
         for (i, (name, unit)) in named() {
             let unit = if unit == "m" {
@@ -375,26 +381,29 @@ impl<'d> Found<'d> {
             columns.push(column(
                 format!("control {name}"),
                 unit,
-                Kind::Output,
+                ColumnKind::Output,
                 &|k| moments[k].control[i],
             ));
         }
         for (i, guide) in self.guides.iter().enumerate() {
             let name = format!("reaction {guide}");
-            columns.push(column(name, "N".into(), Kind::Output, &|k| {
+            columns.push(column(name, "N".into(), ColumnKind::Output, &|k| {
                 moments[k].contacts[i].reaction
             }));
         }
         columns.push(column(
             "friction power".into(),
             "W".into(),
-            Kind::Output,
+            ColumnKind::Output,
             &|k| moments[k].friction_power,
         ));
         if let Some(angles) = angles {
-            columns.push(column("epsilon".into(), "rad".into(), Kind::Output, &|k| {
-                angles[k]
-            }));
+            columns.push(column(
+                "epsilon".into(),
+                "rad".into(),
+                ColumnKind::Output,
+                &|k| angles[k],
+            ));
         }
         Recording {
             times: moments.iter().map(|moment| moment.time).collect(),

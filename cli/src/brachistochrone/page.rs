@@ -6,10 +6,10 @@ use lagrangian_mechanics::Compiled;
 use serde_json::{Value, json};
 
 use super::figures;
-use super::found::Found;
+use super::found::FastestResult;
 use crate::failure::Failure;
 use crate::numbers::shortest;
-use crate::recording::{self, Column, Kind, Recording};
+use crate::recording::{self, Column, ColumnKind, Recording};
 use crate::report::html::{self, Cell, text as safe};
 use crate::report::{self, DRAWING, STYLE, Samples, encoded, script};
 use crate::simulate::record;
@@ -25,7 +25,7 @@ const INSTANTS: u32 = 1024;
 /// # Errors
 /// An error of the drawing library.
 pub fn page(
-    found: &Found<'_>,
+    found: &FastestResult<'_>,
     compiled: &Compiled<'_>,
     machine: &InterpretedMachine,
 ) -> Result<String, Failure> {
@@ -68,7 +68,7 @@ pub fn page(
 
 /// The motion from rest at the same position for the same time without control forces; and why it ended early, if it did.
 fn motion_without_control(
-    found: &Found<'_>,
+    found: &FastestResult<'_>,
     machine: &InterpretedMachine,
 ) -> (Option<Recording>, Option<String>) {
     let mut start = machine.start();
@@ -98,15 +98,15 @@ fn panels(fastest: &Recording, free: Option<&Recording>) -> Vec<Value> {
             "values": encoded(column.values.iter().copied()),
         })
     };
-    let drawn = recording::panels(fastest, &[Kind::Coordinate, Kind::Output]);
+    let drawn = recording::panels(fastest, &[ColumnKind::Coordinate, ColumnKind::Output]);
     let panel = |panel: &crate::recording::Panel<'_>| {
         let columns = panel.columns.iter();
         let mut curves: Vec<Value> = columns
             .map(|column| curve(column, column.name.clone(), &fastest.times))
             .collect();
-        if let (Kind::Coordinate, Some(free)) = (panel.kind, free) {
+        if let (ColumnKind::Coordinate, Some(free)) = (panel.kind, free) {
             let same = free
-                .of_kind(Kind::Coordinate)
+                .of_kind(ColumnKind::Coordinate)
                 .filter(|c| c.unit == panel.unit);
             let beside = |column| {
                 curve(
@@ -123,7 +123,7 @@ fn panels(fastest: &Recording, free: Option<&Recording>) -> Vec<Value> {
 }
 
 /// Ends, constants and extremes as tables.
-fn result(found: &Found<'_>) -> String {
+fn result(found: &FastestResult<'_>) -> String {
     let last = found.moments.len() - 1;
     let ends = found.names.iter().enumerate().map(|(i, name)| {
         vec![

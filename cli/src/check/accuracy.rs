@@ -20,31 +20,31 @@ const EXTREME: usize = 128;
 const SINGULAR: usize = 16;
 
 /// The result.
-pub struct Found {
+pub struct AccuracyCheck {
     quantities: Vec<Accuracy>,
-    states: Vec<(Kind, State)>,
+    states: Vec<(StateChoice, State)>,
 }
 
 /// How a state was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum StateChoice {
     Around,
     Extreme,
     Singular,
 }
 
-impl Kind {
+impl StateChoice {
     fn words(self) -> &'static str {
         match self {
-            Kind::Around => "around the start",
-            Kind::Extreme => "extreme",
-            Kind::Singular => "nearly singular",
+            StateChoice::Around => "around the start",
+            StateChoice::Extreme => "extreme",
+            StateChoice::Singular => "nearly singular",
         }
     }
 }
 
 /// Evaluates a machine around its start, at extreme and at nearly singular states.
-pub fn evaluate(compiled: &Compiled<'_>) -> Found {
+pub fn evaluate(compiled: &Compiled<'_>) -> AccuracyCheck {
     let program: &Program = &compiled.program;
     let machine = InterpretedMachine::new(compiled.program.clone());
     let drawn = around_start(&compiled.model, 3, AROUND);
@@ -66,11 +66,11 @@ pub fn evaluate(compiled: &Compiled<'_>) -> Found {
     let singular = drawn.states.iter().take(SINGULAR);
     let singular: Vec<State> = singular.map(|from| judge.towards_singular(from)).collect();
     let kinds = [
-        (Kind::Around, drawn.states),
-        (Kind::Extreme, extreme),
-        (Kind::Singular, singular),
+        (StateChoice::Around, drawn.states),
+        (StateChoice::Extreme, extreme),
+        (StateChoice::Singular, singular),
     ];
-    let states: Vec<(Kind, State)> = kinds
+    let states: Vec<(StateChoice, State)> = kinds
         .into_iter()
         .flat_map(|(kind, states)| states.into_iter().map(move |state| (kind, state)))
         .collect();
@@ -79,7 +79,7 @@ pub fn evaluate(compiled: &Compiled<'_>) -> Found {
             system.quantity(role, arguments, results).is_ok()
         });
     }
-    Found {
+    AccuracyCheck {
         quantities: judge.finish(),
         states,
     }
@@ -109,15 +109,15 @@ fn extreme_state(program: &Program, state: &State, random: &mut SplitMix) -> Sta
     stretched
 }
 
-impl Found {
+impl AccuracyCheck {
     /// Prints a table, followed by the worst state.
     pub fn print(&self, program: &Program) {
         let count = |kind| self.states.iter().filter(|(k, _)| *k == kind).count();
         output::line(format_args!(
             "accuracy at {} states around the start, {} extreme and {} nearly singular ones:",
-            count(Kind::Around),
-            count(Kind::Extreme),
-            count(Kind::Singular)
+            count(StateChoice::Around),
+            count(StateChoice::Extreme),
+            count(StateChoice::Singular)
         ));
         output::line(format_args!(
             "{:24} {:>8} {:>8} {:>10}  where it is worst",

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use lagrangian_fit::combinations::Kind;
+use lagrangian_fit::combinations::CombinationForm;
 use lagrangian_fit::motion::{Derivatives, Subject};
 use lagrangian_fit::searches::{Search, Sigmas};
 use lagrangian_fit::statistics::Standing;
@@ -318,8 +318,8 @@ fn combinations(result: &Fitted<'_, '_>) -> String {
         let (value, error) = rounded(combination.value(x), Some(error));
         let unit = combination.unit(&units).unwrap_or_default();
         let local = match combination.kind {
-            Kind::Local => "   (for small changes)",
-            Kind::Product | Kind::Sum => "",
+            CombinationForm::Local => "   (for small changes)",
+            CombinationForm::Product | CombinationForm::Sum => "",
         };
         let _ = writeln!(
             text,
@@ -468,9 +468,9 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
             json!({
                 "formula": combination.formula(&names),
                 "kind": match combination.kind {
-                    Kind::Product => "product",
-                    Kind::Sum => "sum",
-                    Kind::Local => "local",
+                    CombinationForm::Product => "product",
+                    CombinationForm::Sum => "sum",
+                    CombinationForm::Local => "local",
                 },
                 "unit": combination.unit(&units),
                 "value": combination.value(&minimum.x),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use lagrangian_program::{Function, Op, Program, Role, Source, Value};
 
 use super::Unit;
-use super::variables::{Kind, Variables};
+use super::variables::{VariableKind, Variables};
 
 /// The dependencies of the functions of a machine.
 pub struct Dependencies<'a> {
@@ -42,8 +42,8 @@ impl<'a> Dependencies<'a> {
         let kind = self.variables.all[reference].kind;
         // A rate is the derivative of its coordinate, and itself a state.
         let state = match kind {
-            Kind::Coordinate(i) => Some(1 + i),
-            Kind::Rate(i) => Some(1 + n + i),
+            VariableKind::Coordinate(i) => Some(1 + i),
+            VariableKind::Rate(i) => Some(1 + n + i),
             _ => None,
         };
         if let Some(state) = state {
@@ -51,23 +51,23 @@ impl<'a> Dependencies<'a> {
         }
         let result_of = |role| self.results(role).into_iter().next().unwrap_or_default();
         let sources = match kind {
-            Kind::Acceleration(i) => self.accelerations.get(i).cloned().unwrap_or_default(),
-            Kind::Output(i) => result_of(Role::Output(i)),
-            Kind::Multiplier(i) => {
+            VariableKind::Acceleration(i) => self.accelerations.get(i).cloned().unwrap_or_default(),
+            VariableKind::Output(i) => result_of(Role::Output(i)),
+            VariableKind::Multiplier(i) => {
                 let all = self.results(Role::Multipliers);
                 all.into_iter().nth(i).unwrap_or_default()
             }
-            Kind::KineticEnergy => result_of(Role::KineticEnergy),
-            Kind::PotentialEnergy => result_of(Role::PotentialEnergy),
-            Kind::Fact(i) => result_of(Role::Assumption(i)),
-            Kind::Event(i) => result_of(Role::Output(self.shown + i)),
+            VariableKind::KineticEnergy => result_of(Role::KineticEnergy),
+            VariableKind::PotentialEnergy => result_of(Role::PotentialEnergy),
+            VariableKind::Fact(i) => result_of(Role::Assumption(i)),
+            VariableKind::Event(i) => result_of(Role::Output(self.shown + i)),
             // A count does not change while other variables change.
-            Kind::Count(_)
-            | Kind::Time
-            | Kind::Parameter(_)
-            | Kind::Input(_)
-            | Kind::Coordinate(_)
-            | Kind::Rate(_) => BTreeSet::new(),
+            VariableKind::Count(_)
+            | VariableKind::Time
+            | VariableKind::Parameter(_)
+            | VariableKind::Input(_)
+            | VariableKind::Coordinate(_)
+            | VariableKind::Rate(_) => BTreeSet::new(),
         };
         let references = sources.into_iter().filter_map(|source| {
             let parameters = 1 + 3 * n;

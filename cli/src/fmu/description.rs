@@ -4,7 +4,7 @@ use lagrangian_units::{Unit as PhysicalUnit, state_of};
 
 use super::dependencies::Dependencies;
 use super::units::Units;
-use super::variables::{Kind, Variable};
+use super::variables::{Variable, VariableKind};
 use super::xml::Document;
 use super::{Unit, Version};
 use crate::call::{Assignment, UnitKind};
@@ -184,12 +184,12 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
         ..calculated(unit, docs)
     };
     match variable.kind {
-        Kind::Time => Row {
+        VariableKind::Time => Row {
             causality: "independent",
             initial: "",
             ..calculated(units.of(PhysicalUnit::SECOND), "Time".into())
         },
-        Kind::Coordinate(i) => {
+        VariableKind::Coordinate(i) => {
             let slot = &program.coordinates[i];
             let docs = match state_of(&slot.name.to_string()) {
                 Some(state) => format!("Integral of {state} over time, on which nothing depends"),
@@ -197,7 +197,7 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
             };
             exact(state(i), units.of(slot.unit), docs)
         }
-        Kind::Rate(i) => {
+        VariableKind::Rate(i) => {
             let slot = &program.coordinates[i];
             Row {
                 derivative: Some(1 + i),
@@ -211,14 +211,14 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
                 )
             }
         }
-        Kind::Acceleration(i) => {
+        VariableKind::Acceleration(i) => {
             let slot = &program.coordinates[i];
             Row {
                 derivative: Some(1 + n + i),
                 ..calculated(units.of(slot.unit.rate().rate()), String::new())
             }
         }
-        Kind::Parameter(i) => {
+        VariableKind::Parameter(i) => {
             let slot = &program.parameters[i];
             let value = unit.machine.parameter_values()[i];
             Row {
@@ -227,7 +227,7 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
                 ..exact(value, units.of_slot(slot), words(&slot.docs))
             }
         }
-        Kind::Input(i) => {
+        VariableKind::Input(i) => {
             let slot = &program.inputs[i];
             let value = unit.inputs[i];
             Row {
@@ -237,31 +237,33 @@ fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
                 ..exact(value, units.of_slot(slot), words(&slot.docs))
             }
         }
-        Kind::Output(i) => {
+        VariableKind::Output(i) => {
             let slot = &program.outputs[i];
             calculated(units.of_slot(slot), words(&slot.docs))
         }
-        Kind::Multiplier(i) => {
+        VariableKind::Multiplier(i) => {
             let constraint = &program.constraints[i];
             let unit = &constraint.multiplier_unit;
             let docs = format!("Lagrange multiplier of {}, in {unit}", constraint.name);
             calculated(String::new(), docs)
         }
-        Kind::KineticEnergy => calculated(units.of(PhysicalUnit::JOULE), "Kinetic energy".into()),
-        Kind::PotentialEnergy => {
+        VariableKind::KineticEnergy => {
+            calculated(units.of(PhysicalUnit::JOULE), "Kinetic energy".into())
+        }
+        VariableKind::PotentialEnergy => {
             calculated(units.of(PhysicalUnit::JOULE), "Potential energy".into())
         }
-        Kind::Fact(i) => {
+        VariableKind::Fact(i) => {
             let text = &program.assumptions[i].text;
             calculated(String::new(), format!("Positive as long as {text}"))
         }
-        Kind::Event(i) => {
+        VariableKind::Event(i) => {
             let slot = &program.outputs[program.outputs.len() - unit.events.len() + i];
             let Assignment { name, value } = &unit.events[i];
             let docs = format!("Changes sign at the event {name}: {}", words(value));
             calculated(units.of_slot(slot), docs)
         }
-        Kind::Count(i) => Row {
+        VariableKind::Count(i) => Row {
             variability: "discrete",
             ..calculated(
                 String::new(),
@@ -280,7 +282,7 @@ fn variable_of_version_3(
     let reference = reference.to_string();
     let derivative = row.derivative.map(|k| k.to_string()).unwrap_or_default();
     let of_type = match variable.kind {
-        Kind::Count(_) => "Int32",
+        VariableKind::Count(_) => "Int32",
         _ => "Float64",
     };
     document.leaf(
@@ -321,7 +323,7 @@ fn variable_of_version_2(
     let derivative = row.derivative.map(|k| (k + 1).to_string());
     let derivative = derivative.unwrap_or_default();
     let of_type = match variable.kind {
-        Kind::Count(_) => "Integer",
+        VariableKind::Count(_) => "Integer",
         _ => "Real",
     };
     document.leaf(
@@ -339,20 +341,20 @@ fn variable_of_version_2(
 fn structure(document: &mut Document, unit: &Unit<'_>) {
     let outputs: Vec<usize> = unit.variables.outputs().map(|(k, _)| k).collect();
     let of = |is_wanted| unit.variables.of(is_wanted).map(|(k, _)| k);
-    let derivatives: Vec<usize> = of(|kind| matches!(kind, Kind::Rate(_)))
-        .chain(of(|kind| matches!(kind, Kind::Acceleration(_))))
+    let derivatives: Vec<usize> = of(|kind| matches!(kind, VariableKind::Rate(_)))
+        .chain(of(|kind| matches!(kind, VariableKind::Acceleration(_))))
         .collect();
     let is_calculated = |k: &usize| {
         !matches!(
             unit.variables.all[*k].kind,
-            Kind::Coordinate(_) | Kind::Rate(_)
+            VariableKind::Coordinate(_) | VariableKind::Rate(_)
         )
     };
     let unknown = outputs.iter().chain(&derivatives).copied();
     let mut unknown: Vec<usize> = unknown.filter(is_calculated).collect();
     unknown.sort_unstable();
     unknown.dedup();
-    let indicators = of(|kind| matches!(kind, Kind::Fact(_) | Kind::Event(_)));
+    let indicators = of(|kind| matches!(kind, VariableKind::Fact(_) | VariableKind::Event(_)));
     let indicators: Vec<usize> = indicators.collect();
     let dependencies = Dependencies::new(unit);
     document.open("ModelStructure", &[]);

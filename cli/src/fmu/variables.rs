@@ -10,7 +10,7 @@ use crate::failure::Failure;
 
 /// The kind of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum VariableKind {
     Time,
     Coordinate(usize),
     Rate(usize),
@@ -31,7 +31,7 @@ pub enum Kind {
 /// A variable; its reference is its index.
 #[derive(Clone, Debug)]
 pub struct Variable {
-    pub kind: Kind,
+    pub kind: VariableKind,
     /// The name by the naming convention.
     pub name: String,
     /// Whether it is an output of the unit.
@@ -56,14 +56,14 @@ impl Variables {
         let coordinates = names(&program.coordinates);
         let shown = &program.outputs[..program.outputs.len() - events.len()];
         let has_outputs = !shown.is_empty();
-        let mut all = vec![(Kind::Time, "time".to_owned())];
-        let each = |names: &[String], kind: fn(usize) -> Kind, form: fn(&str) -> String| {
+        let mut all = vec![(VariableKind::Time, "time".to_owned())];
+        let each = |names: &[String], kind: fn(usize) -> VariableKind, form: fn(&str) -> String| {
             let names = names.iter().enumerate();
             names
                 .map(|(i, name)| (kind(i), form(name)))
                 .collect::<Vec<_>>()
         };
-        all.extend(each(&coordinates, Kind::Coordinate, str::to_owned));
+        all.extend(each(&coordinates, VariableKind::Coordinate, str::to_owned));
         // A state of first order is the rate of its integral.
         let states = program.coordinates.iter();
         let states = states.map(|slot| Some(structured(&state_of(&slot.name.to_string())?)));
@@ -71,39 +71,45 @@ impl Variables {
         let rates = coordinates.iter().zip(&states).enumerate();
         all.extend(rates.clone().map(|(i, (name, state))| {
             let rate = state.clone().unwrap_or_else(|| format!("der({name})"));
-            (Kind::Rate(i), rate)
+            (VariableKind::Rate(i), rate)
         }));
         all.extend(rates.map(|(i, (name, state))| {
             let rate = match state {
                 Some(state) => format!("der({state})"),
                 None => format!("der({name},2)"),
             };
-            (Kind::Acceleration(i), rate)
+            (VariableKind::Acceleration(i), rate)
         }));
         all.extend(each(
             &names(&program.parameters),
-            Kind::Parameter,
+            VariableKind::Parameter,
             str::to_owned,
         ));
-        all.extend(each(&names(&program.inputs), Kind::Input, str::to_owned));
-        all.extend(each(&names(shown), Kind::Output, str::to_owned));
+        all.extend(each(
+            &names(&program.inputs),
+            VariableKind::Input,
+            str::to_owned,
+        ));
+        all.extend(each(&names(shown), VariableKind::Output, str::to_owned));
         let constraints = program.constraints.iter().enumerate();
         all.extend(constraints.map(|(i, constraint)| {
             let name = constraint.name.replace(['\'', '\\', '"'], "");
-            (Kind::Multiplier(i), format!("'multiplier({name})'"))
+            (VariableKind::Multiplier(i), format!("'multiplier({name})'"))
         }));
-        all.push((Kind::KineticEnergy, "energy.kinetic".to_owned()));
-        all.push((Kind::PotentialEnergy, "energy.potential".to_owned()));
+        all.push((VariableKind::KineticEnergy, "energy.kinetic".to_owned()));
+        all.push((VariableKind::PotentialEnergy, "energy.potential".to_owned()));
         let facts = program.assumptions.iter().enumerate();
         all.extend(facts.map(|(i, fact)| {
             let text = fact.text.replace(['\'', '\\', '"'], "");
-            (Kind::Fact(i), format!("'assume({text})'"))
+            (VariableKind::Fact(i), format!("'assume({text})'"))
         }));
         let events: Vec<String> = events.iter().map(|event| event.name.clone()).collect();
-        all.extend(each(&events, Kind::Event, |name| {
+        all.extend(each(&events, VariableKind::Event, |name| {
             format!("'indicator({name})'")
         }));
-        all.extend(each(&events, Kind::Count, |name| format!("event.{name}")));
+        all.extend(each(&events, VariableKind::Count, |name| {
+            format!("event.{name}")
+        }));
         let mut taken = BTreeSet::new();
         let all: Vec<Variable> = all
             .into_iter()
@@ -111,9 +117,9 @@ impl Variables {
                 kind,
                 name: free(name, &mut taken),
                 is_output: match kind {
-                    Kind::Output(_) | Kind::Count(_) => true,
-                    Kind::Coordinate(i) => !has_outputs && states[i].is_none(),
-                    Kind::Rate(i) => !has_outputs && states[i].is_some(),
+                    VariableKind::Output(_) | VariableKind::Count(_) => true,
+                    VariableKind::Coordinate(i) => !has_outputs && states[i].is_none(),
+                    VariableKind::Rate(i) => !has_outputs && states[i].is_some(),
                     _ => false,
                 },
             })
@@ -134,7 +140,7 @@ impl Variables {
         let may_be = |variable: &Variable| {
             !matches!(
                 variable.kind,
-                Kind::Time | Kind::Parameter(_) | Kind::Input(_)
+                VariableKind::Time | VariableKind::Parameter(_) | VariableKind::Input(_)
             )
         };
         for name in names {
@@ -147,7 +153,7 @@ impl Variables {
         }
         for variable in &mut self.all {
             // The count of an event is always an output.
-            let is_count = matches!(variable.kind, Kind::Count(_));
+            let is_count = matches!(variable.kind, VariableKind::Count(_));
             variable.is_output = is_count || may_be(variable) && names.contains(&variable.name);
         }
         Ok(self)
@@ -160,7 +166,10 @@ impl Variables {
     }
 
     /// The variables of a kind, with their references.
-    pub fn of(&self, is_wanted: fn(&Kind) -> bool) -> impl Iterator<Item = (usize, &Variable)> {
+    pub fn of(
+        &self,
+        is_wanted: fn(&VariableKind) -> bool,
+    ) -> impl Iterator<Item = (usize, &Variable)> {
         let all = self.all.iter().enumerate();
         all.filter(move |(_, variable)| is_wanted(&variable.kind))
     }

@@ -5,7 +5,7 @@ use nalgebra::Matrix3;
 use super::faults::Faults;
 use super::names::{self, Names, quoted};
 use super::number::{Angle, Number};
-use super::robot::{Anchor, Drive, Inertial, Joint, Kind, Law, Robot, Start, TieKind};
+use super::robot::{Anchor, Drive, Inertial, Joint, JointKind, Law, Robot, Start, TieKind};
 use super::steps::{self, AXES, conjugated, slide, straightened, turn};
 use super::tensor;
 use super::text::{self, Text};
@@ -143,7 +143,7 @@ impl<'a> Writer<'a> {
             moves_mass[tree.first_leader(joint)] |= heavy[tree.child[joint]];
         }
         for &joint in &tree.order {
-            let is_fixed = robot.joints[joint].kind == Kind::Fixed;
+            let is_fixed = robot.joints[joint].kind == JointKind::Fixed;
             if is_fixed || moves_mass[tree.first_leader(joint)] {
                 continue;
             }
@@ -188,7 +188,7 @@ impl<'a> Writer<'a> {
         self.is_moving[self.tree.root] = self.call.base == Base::Floating;
         for (index, joint) in self.joints() {
             let is_carried = self.is_moving[self.tree.parent[index]];
-            self.is_moving[self.tree.child[index]] = is_carried || joint.kind != Kind::Fixed;
+            self.is_moving[self.tree.child[index]] = is_carried || joint.kind != JointKind::Fixed;
         }
     }
 
@@ -252,16 +252,16 @@ impl<'a> Writer<'a> {
             comment.push_str(&joint_comment(joint));
             comment.push('.');
             self.motion[index] = match joint.kind {
-                Kind::Fixed => Vec::new(),
-                Kind::Floating => {
+                JointKind::Fixed => Vec::new(),
+                JointKind::Floating => {
                     self.floating(&joint.name, comment, "joint", joint.start.as_ref())
                 }
-                Kind::Spherical => {
+                JointKind::Spherical => {
                     let ball = self.call.ball.unwrap_or(Ball::Xyz);
                     self.ball(&joint.name, comment, ball, joint.start.as_ref())
                 }
-                Kind::Planar => self.planar(joint, comment),
-                Kind::Revolute | Kind::Continuous | Kind::Prismatic => {
+                JointKind::Planar => self.planar(joint, comment),
+                JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic => {
                     self.single(index, joint, comment, faults);
                     continue;
                 }
@@ -275,7 +275,7 @@ impl<'a> Writer<'a> {
                     reference => format!("({} - {reference})", self.value_of[index]),
                 };
                 self.motion[index] = match joint.kind {
-                    Kind::Prismatic => vec![slide(&joint.axis, &value)],
+                    JointKind::Prismatic => vec![slide(&joint.axis, &value)],
                     _ => turn(&joint.axis, &value),
                 };
             }
@@ -708,7 +708,7 @@ impl<'a> Writer<'a> {
         let mut smoothing_of_slides = None;
         for (index, joint) in self.joints().filter(|(_, joint)| joint.kind.is_single()) {
             let value = self.value_of[index].clone();
-            let is_turning = joint.kind != Kind::Prismatic;
+            let is_turning = joint.kind != JointKind::Prismatic;
             let mut entries = Vec::new();
             if !joint.stiffness.is_zero() {
                 let unit = if is_turning { "N*m" } else { "N/m" };
@@ -842,7 +842,7 @@ impl<'a> Writer<'a> {
         for (end, gap) in gaps {
             // A gap is a length: for a rotation that of the arc with a radius of 1 m, which has no effect for rigid stops.
             let gap = match joint.kind {
-                Kind::Prismatic => gap,
+                JointKind::Prismatic => gap,
                 _ => format!("1*m*({gap})"),
             };
             let contact = format!("{value}_{end} {{ gap: {gap}, restitution: {restitution} }}");
@@ -866,7 +866,7 @@ impl<'a> Writer<'a> {
                 .push(format!("drive {name} is left out with its joint"));
         }
         let value = self.value_of[drive.joint].clone();
-        let is_turning = joint.kind != Kind::Prismatic;
+        let is_turning = joint.kind != JointKind::Prismatic;
         let [force, travel, rate, stiffness, damping, mass] = if is_turning {
             ["N*m", "rad", "rad/s", "N*m", "N*m*s", "kg*m^2"]
         } else {
@@ -1233,7 +1233,7 @@ fn capital(word: &str) -> String {
 /// The unit of a joint's coordinate.
 fn unit_of(joint: &Joint) -> &'static str {
     match joint.kind {
-        Kind::Prismatic => "m",
+        JointKind::Prismatic => "m",
         _ => "rad",
     }
 }
@@ -1241,7 +1241,7 @@ fn unit_of(joint: &Joint) -> &'static str {
 /// A joint value in the notation of a spec.
 fn measured(joint: &Joint, value: &Number) -> String {
     match joint.kind {
-        Kind::Prismatic => value.to_string(),
+        JointKind::Prismatic => value.to_string(),
         _ => value.in_radians(),
     }
 }
@@ -1249,7 +1249,7 @@ fn measured(joint: &Joint, value: &Number) -> String {
 /// The text of a joint's comment: its range, and limits of velocity and effort.
 fn joint_comment(joint: &Joint) -> String {
     let (angle, force) = match joint.kind {
-        Kind::Prismatic => ("m", "N"),
+        JointKind::Prismatic => ("m", "N"),
         _ => ("rad", "N*m"),
     };
     let mut remarks = String::new();

@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use super::faults::Faults;
 use super::names::quoted;
 use super::number::{Angle, Number};
-use super::robot::{Drive, Inertial, Joint, Kind, Law, Link, Robot, Start, Tie, TieKind};
+use super::robot::{Drive, Inertial, Joint, JointKind, Law, Link, Robot, Start, Tie, TieKind};
 use super::steps::{self, Turns, conjugating};
 use super::tensor;
 use scene::{Attribute, Classes, Element};
@@ -537,7 +537,13 @@ impl<'e> Reader<'_, '_, 'e> {
                         name: "world".to_owned(),
                         is_world: true,
                     };
-                    self.parts(part, &world, 0, &Pose::default(), &mut Found::default());
+                    self.parts(
+                        part,
+                        &world,
+                        0,
+                        &Pose::default(),
+                        &mut BodyContents::default(),
+                    );
                 }
                 "tendon" => part.children.iter().for_each(|tendon| self.tendon(tendon)),
                 name if WITHOUT_PART.contains(&name) => {}
@@ -1024,7 +1030,7 @@ struct Parent {
 
 /// The contents of a body.
 #[derive(Default)]
-struct Found<'e> {
+struct BodyContents<'e> {
     /// The element `inertial`, and the pose in the body of the frame that contains it.
     inertial: Option<(&'e Element, Pose)>,
     solids: Vec<Solid>,

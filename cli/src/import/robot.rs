@@ -52,7 +52,7 @@ pub struct Inertial {
 
 /// The kind of motion of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Kind {
+pub enum JointKind {
     Revolute,
     Continuous,
     Prismatic,
@@ -63,10 +63,13 @@ pub enum Kind {
     Spherical,
 }
 
-impl Kind {
+impl JointKind {
     /// Whether it has one coordinate, so that limits, damping and the like apply.
     pub fn is_single(self) -> bool {
-        matches!(self, Kind::Revolute | Kind::Continuous | Kind::Prismatic)
+        matches!(
+            self,
+            JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic
+        )
     }
 }
 
@@ -75,7 +78,7 @@ impl Kind {
 #[derive(Debug, Default)]
 pub struct Joint {
     pub name: String,
-    pub kind: Kind,
+    pub kind: JointKind,
     /// The name of its kind in the format.
     pub label: &'static str,
     pub parent: String,

@@ -7,24 +7,24 @@ use roxmltree::{Attribute, Node};
 use super::faults::Faults;
 use super::names::quoted;
 use super::number::{Angle, Number};
-use super::robot::{Drive, Inertial, Joint, Kind, Law, Link, Mimic, Robot};
+use super::robot::{Drive, Inertial, Joint, JointKind, Law, Link, Mimic, Robot};
 use super::steps::Turns;
 use super::tensor;
 use super::xml;
 
 /// The joint types by name.
-const KINDS: [(&str, Kind); 7] = [
-    ("revolute", Kind::Revolute),
-    ("continuous", Kind::Continuous),
-    ("prismatic", Kind::Prismatic),
-    ("fixed", Kind::Fixed),
-    ("floating", Kind::Floating),
-    ("planar", Kind::Planar),
-    ("spherical", Kind::Spherical),
+const KINDS: [(&str, JointKind); 7] = [
+    ("revolute", JointKind::Revolute),
+    ("continuous", JointKind::Continuous),
+    ("prismatic", JointKind::Prismatic),
+    ("fixed", JointKind::Fixed),
+    ("floating", JointKind::Floating),
+    ("planar", JointKind::Planar),
+    ("spherical", JointKind::Spherical),
 ];
 
 /// The name of a joint type.
-fn label(kind: Kind) -> &'static str {
+fn label(kind: JointKind) -> &'static str {
     let named = KINDS.iter().find(|(_, known)| *known == kind);
     named.map_or("", |(name, _)| name)
 }
@@ -275,7 +275,7 @@ impl Reader<'_, '_> {
                 Some(joint) if self.robot.joints[joint].kind.is_single() => {
                     self.robot.drives.push(Drive { joint, ..drive });
                 }
-                Some(joint) if self.robot.joints[joint].kind == Kind::Fixed => {
+                Some(joint) if self.robot.joints[joint].kind == JointKind::Fixed => {
                     self.leave_out("transmission");
                 }
                 Some(_) => {
@@ -562,7 +562,7 @@ impl Reader<'_, '_> {
         });
     }
 
-    fn kind(&mut self, node: Node<'_, '_>, owner: &str) -> Kind {
+    fn kind(&mut self, node: Node<'_, '_>, owner: &str) -> JointKind {
         let attribute = node.attribute_node("type");
         let name = attribute.map(|attribute| attribute.value().trim());
         let known = KINDS.iter().find(|(known, _)| Some(*known) == name);
@@ -575,12 +575,12 @@ impl Reader<'_, '_> {
             };
             self.faults
                 .add(at, format!("{message}: there are {}", list.join(", ")));
-            Kind::Fixed
+            JointKind::Fixed
         })
     }
 
     /// The axis as a unit vector; by default x, as in URDF.
-    fn axis(&mut self, node: Option<Node<'_, '_>>, kind: Kind, owner: &str) -> [f64; 3] {
+    fn axis(&mut self, node: Option<Node<'_, '_>>, kind: JointKind, owner: &str) -> [f64; 3] {
         const X: [f64; 3] = [1.0, 0.0, 0.0];
         let Some(node) = node else {
             return X;
@@ -592,7 +592,7 @@ impl Reader<'_, '_> {
         let axis = self.triple(node, owner, "xyz").map(|number| number.value);
         let largest = axis.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         if largest == 0.0 {
-            if kind.is_single() || kind == Kind::Planar {
+            if kind.is_single() || kind == JointKind::Planar {
                 let message =
                     format!("the axis of {owner} has no direction: it consists of three zeros");
                 self.faults.add(node.range().start, message);
@@ -609,7 +609,7 @@ impl Reader<'_, '_> {
     fn limit(
         &mut self,
         node: Option<Node<'_, '_>>,
-        kind: Kind,
+        kind: JointKind,
         owner: &str,
     ) -> (Option<[Number; 2]>, Vec<(&'static str, Number)>) {
         let Some(node) = node else {
@@ -633,7 +633,7 @@ impl Reader<'_, '_> {
             remarks.extend(self.number(node, owner, name).map(|number| (name, number)));
         }
         let bounds = ["lower", "upper"].map(|name| self.number(node, owner, name));
-        let has_range = matches!(kind, Kind::Revolute | Kind::Prismatic);
+        let has_range = matches!(kind, JointKind::Revolute | JointKind::Prismatic);
         let range = match bounds {
             [None, None] => None,
             // If a file gives only one bound, URDF defines the other as 0.
@@ -662,7 +662,12 @@ impl Reader<'_, '_> {
     }
 
     /// Damping and friction.
-    fn dynamics(&mut self, node: Option<Node<'_, '_>>, kind: Kind, owner: &str) -> [Number; 2] {
+    fn dynamics(
+        &mut self,
+        node: Option<Node<'_, '_>>,
+        kind: JointKind,
+        owner: &str,
+    ) -> [Number; 2] {
         let Some(node) = node else {
             return [(); 2].map(|()| Number::zero());
         };
@@ -676,7 +681,7 @@ impl Reader<'_, '_> {
             number
         });
         let has_any = coefficients.iter().any(|number| !number.is_zero());
-        if has_any && !kind.is_single() && kind != Kind::Fixed {
+        if has_any && !kind.is_single() && kind != JointKind::Fixed {
             let message = format!(
                 "`dynamics` of {owner}: URDF does not define damping and friction of a {} joint: remove them",
                 label(kind)
@@ -686,7 +691,7 @@ impl Reader<'_, '_> {
         coefficients
     }
 
-    fn mimic(&mut self, node: Node<'_, '_>, kind: Kind, owner: &str) -> Option<Mimic> {
+    fn mimic(&mut self, node: Node<'_, '_>, kind: JointKind, owner: &str) -> Option<Mimic> {
         self.only(node, owner, &["joint", "multiplier", "offset"]);
         let at = node.range().start;
         let Some(joint) = node.attribute("joint") else {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, System};
-use lagrangian_linear::motion::Motion;
+use lagrangian_linear::motion::SteadyMotion;
 use lagrangian_linear::spectrum::{Mode, damping};
 use lagrangian_linear::{Complex, DMatrix, DVector};
 use serde_json::json;
@@ -111,7 +111,7 @@ pub fn show(
 fn rows(machine: &InterpretedMachine, trace: &Trace) -> Vec<Row> {
     let system = machine.prepare();
     let mut rows = Vec::new();
-    let mut before: Option<(&Motion, Vec<usize>)> = None;
+    let mut before: Option<(&SteadyMotion, Vec<usize>)> = None;
     let mut next = 1;
     for point in &trace.points {
         let Ok(motion) = &point.motion else { continue };

@@ -8,7 +8,7 @@
 use lagrangian::Machine as _;
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_linear::Complex;
-use lagrangian_linear::motion::Motion;
+use lagrangian_linear::motion::SteadyMotion;
 use lagrangian_linear::search::{self, Wanted};
 use lagrangian_linear::spectrum::Modes;
 use lagrangian_mechanics::Compiled;
@@ -52,7 +52,7 @@ pub struct Point {
     /// The value.
     pub value: f64,
     /// The motion, or why there is none.
-    pub motion: Result<Motion, String>,
+    pub motion: Result<SteadyMotion, String>,
     /// Whether it continues the motion at the previous value.
     pub continues: bool,
 }
@@ -113,7 +113,7 @@ impl Kinds {
 /// A value with its motion.
 struct At {
     value: f64,
-    motion: Motion,
+    motion: SteadyMotion,
 }
 
 /// The data for continuation.
@@ -346,7 +346,7 @@ impl<'a> Tracer<'a> {
         q: &[f64],
         mut wanted: Wanted,
         value: f64,
-    ) -> Result<Motion, Failure> {
+    ) -> Result<SteadyMotion, Failure> {
         if let Subject::Rates(rates) = &self.subject {
             for j in rates {
                 wanted.rates[*j] = value;
@@ -355,7 +355,7 @@ impl<'a> Tracer<'a> {
         motion(machine, q, &wanted)
     }
 
-    fn solve_anew(&self, value: f64) -> Result<Motion, Failure> {
+    fn solve_anew(&self, value: f64) -> Result<SteadyMotion, Failure> {
         let machine = self.machine_at(value);
         let (q, mut wanted) = self.start(&machine)?;
         wanted.steps = search::MOST_STEPS;
@@ -363,7 +363,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// The motion that the search reaches from another one.
-    fn from(&self, other: &Motion, value: f64) -> Result<Motion, Failure> {
+    fn from(&self, other: &SteadyMotion, value: f64) -> Result<SteadyMotion, Failure> {
         let mut wanted = self.wanted.clone();
         for j in 0..wanted.rates.len() {
             if wanted.solved[j] {
@@ -379,7 +379,12 @@ impl<'a> Tracer<'a> {
     }
 
     /// The continuation of a motion to another value of the parameter.
-    fn continuation(&self, from: &At, value: f64, halvings: usize) -> Result<Motion, Failure> {
+    fn continuation(
+        &self,
+        from: &At,
+        value: f64,
+        halvings: usize,
+    ) -> Result<SteadyMotion, Failure> {
         let result = self.from(&from.motion, value);
         match result {
             Ok(motion) if is_near(&from.motion, &motion) => return Ok(motion),
@@ -399,14 +404,14 @@ impl<'a> Tracer<'a> {
     }
 
     /// Finds the critical values between two neighbours.
-    fn locate(&self, from: &At, to: f64, end: &Motion, critical: &mut Vec<Critical>) {
+    fn locate(&self, from: &At, to: f64, end: &SteadyMotion, critical: &mut Vec<Critical>) {
         let last = Kinds::of(&end.modes);
         let mut low = At {
             value: from.value,
             motion: from.motion.clone(),
         };
         let span = (to - from.value).abs();
-        let mut changes: Vec<(f64, Motion, f64, Motion)> = Vec::new();
+        let mut changes: Vec<(f64, SteadyMotion, f64, SteadyMotion)> = Vec::new();
         'changes: while Kinds::of(&low.motion.modes) != last && changes.len() < MOST_CRITICAL {
             let kinds = Kinds::of(&low.motion.modes);
             let mut high = At {
@@ -488,7 +493,7 @@ fn changing(modes: [&Modes; 2], [first, then]: [Kinds; 2]) -> Option<Complex<f64
     Some(Complex::new(0.0, met.im))
 }
 
-fn is_near(one: &Motion, other: &Motion) -> bool {
+fn is_near(one: &SteadyMotion, other: &SteadyMotion) -> bool {
     let (one, other) = (one.found.place.q(), other.found.place.q());
     let mut pairs = one.iter().zip(&other);
     pairs.all(|(a, b)| (a - b).abs() <= NEAR * a.abs().max(1.0))

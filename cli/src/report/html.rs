@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use lagrangian_print::document::{Run, of_docs};
+use lagrangian_print::document::{Inline, of_docs};
 use serde_json::Value;
 
 /// Escapes text for content and for quoted attributes.
@@ -25,11 +25,11 @@ pub fn text(text: &str) -> String {
 
 /// A paragraph of a doc comment as HTML, with its code and its emphasized words.
 pub fn docs(paragraph: &str) -> String {
-    let run = |run: &Run| match run {
-        Run::Text(words) => text(words),
-        Run::Code(code) => format!("<code>{}</code>", text(code)),
-        Run::Emphasis(words) => format!("<em>{}</em>", text(words)),
-        Run::Math(math) => math.mathml(),
+    let run = |run: &Inline| match run {
+        Inline::Text(words) => text(words),
+        Inline::Code(code) => format!("<code>{}</code>", text(code)),
+        Inline::Emphasis(words) => format!("<em>{}</em>", text(words)),
+        Inline::Math(math) => math.mathml(),
     };
     of_docs(paragraph).iter().map(run).collect()
 }

@@ -11,7 +11,7 @@ use super::html::{self, Cell, text as safe};
 use super::live::{self, Live};
 use super::samples::Samples;
 use super::scene::Scene;
-use crate::contacts::{Found, other_events};
+use crate::contacts::{ContactSummary, other_events};
 use crate::numbers::shortest;
 
 const PAGE: &str = include_str!("page.html");
@@ -218,7 +218,7 @@ fn alert(report: &Report<'_, '_>, samples: &Samples) -> String {
         ));
     }
     let warnings = report.run.warnings.iter().map(ToString::to_string);
-    let contacts = report.contacts.iter().flat_map(Found::warnings);
+    let contacts = report.contacts.iter().flat_map(ContactSummary::warnings);
     let warnings = warnings.chain(contacts);
     notes.extend(warnings.map(|warning| format!("<strong>Warning:</strong> {}", safe(&warning))));
     alert.push_str(&folded(&notes));

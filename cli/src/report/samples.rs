@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use crate::recording::{Column, Kind, ROUNDING, Recording, extent};
+use crate::recording::{Column, ColumnKind, ROUNDING, Recording, extent};
 
 /// The most bytes for the states, before encoding.
 const STATE_BYTES: usize = 1_050_000;
@@ -56,8 +56,8 @@ impl Samples {
     /// Selects the states.
     pub fn new(recording: &Recording) -> Samples {
         let rows = recording.times.len();
-        let q: Vec<&Column> = recording.of_kind(Kind::Coordinate).collect();
-        let v: Vec<&Column> = recording.of_kind(Kind::Rate).collect();
+        let q: Vec<&Column> = recording.of_kind(ColumnKind::Coordinate).collect();
+        let v: Vec<&Column> = recording.of_kind(ColumnKind::Rate).collect();
         let most = most(q.len());
         let count = |stride: usize| rows.saturating_sub(1).div_ceil(stride) + 1;
         let mut stride = 1;
@@ -66,14 +66,14 @@ impl Samples {
         }
         // The last instant may not be on the grid.
         let grid = rows.saturating_sub(1);
-        let motion = Motion::new(&recording.times[..grid], &q, &v);
+        let motion = RecordedMotion::new(&recording.times[..grid], &q, &v);
         while count(2 * stride) >= FEWEST && motion.finds_again(2 * stride) {
             stride *= 2;
         }
         let thinned = recording.each(stride);
         let columns = || {
             let of = |kind| thinned.of_kind(kind);
-            of(Kind::Coordinate).chain(of(Kind::Rate))
+            of(ColumnKind::Coordinate).chain(of(ColumnKind::Rate))
         };
         let mut bases: Vec<f64> = columns().map(|column| base(&column.values)).collect();
         let mut bytes = Vec::with_capacity(thinned.times.len() * columns().count() * 4);
@@ -114,7 +114,7 @@ pub fn base(values: &[f64]) -> f64 {
 }
 
 /// The recorded motion, and the range of each quantity.
-struct Motion<'a> {
+struct RecordedMotion<'a> {
     times: &'a [f64],
     quantities: Vec<Quantity<'a>>,
 }
@@ -129,8 +129,8 @@ struct Quantity<'a> {
     measure: f64,
 }
 
-impl<'a> Motion<'a> {
-    fn new(times: &'a [f64], q: &[&'a Column], v: &[&'a Column]) -> Motion<'a> {
+impl<'a> RecordedMotion<'a> {
+    fn new(times: &'a [f64], q: &[&'a Column], v: &[&'a Column]) -> RecordedMotion<'a> {
         // Over all columns with the unit of this one: the largest range, and the round-off.
         let measure = |columns: &[&'a Column], unit: &str| {
             let same = columns.iter().filter(|column| column.unit == unit);
@@ -155,7 +155,7 @@ impl<'a> Motion<'a> {
                 measure: measure_of_unit,
             }
         };
-        Motion {
+        RecordedMotion {
             times,
             quantities: q.iter().zip(v).map(quantity).collect(),
         }
@@ -300,11 +300,11 @@ mod tests {
         Recording {
             columns: vec![
                 column(
-                    Kind::Coordinate,
+                    ColumnKind::Coordinate,
                     times.iter().map(|t| (omega * t).sin()).collect(),
                 ),
                 column(
-                    Kind::Rate,
+                    ColumnKind::Rate,
                     times.iter().map(|t| omega * (omega * t).cos()).collect(),
                 ),
             ],
@@ -334,7 +334,7 @@ mod tests {
     fn rounding_is_not_followed() {
         let alone = vibration(1.0, 16_000);
         let mut recording = alone.clone();
-        for (kind, size) in [(Kind::Coordinate, 1e-16), (Kind::Rate, 1e-14)] {
+        for (kind, size) in [(ColumnKind::Coordinate, 1e-16), (ColumnKind::Rate, 1e-14)] {
             let values = (0..=16_000).map(|i| size * f64::from(i * i % 7));
             recording.columns.push(Column {
                 name: "y".into(),

@@ -19,7 +19,7 @@
 use lagrangian_spec::model::circles::{body_axes, centre_and_axes, outline};
 use lagrangian_spec::model::element::{Drawing, Element, Shape, Site};
 use lagrangian_spec::model::{
-    Body, ContactGeometry, Inertia, Model, Place, PoseId, Rotation, Step, stage,
+    Body, ContactGeometry, FrameOrBody, Inertia, Model, PoseChange, PoseId, Rotation, stage,
 };
 use lagrangian_symbolic::{Expr, Node, Symbol, Tangent, evaluate};
 use serde::Serialize;
@@ -375,11 +375,11 @@ fn drawings<'m, 'd>(
 }
 
 /// The body to which a circle is fixed, directly or through its frame.
-fn holder(model: &Model<'_>, place: Place) -> Option<usize> {
+fn holder(model: &Model<'_>, place: FrameOrBody) -> Option<usize> {
     match place {
-        Place::Body(body) => Some(body),
-        Place::Frame(PoseId::GROUND) => None,
-        Place::Frame(pose) => {
+        FrameOrBody::Body(body) => Some(body),
+        FrameOrBody::Frame(PoseId::GROUND) => None,
+        FrameOrBody::Frame(pose) => {
             let on = |body: &Body| matches!(body.rotation, Rotation::Frame(frame) if frame == pose);
             model.bodies.iter().position(on)
         }
@@ -416,7 +416,9 @@ impl<'d> Finder<'_, 'd> {
     fn links(&self) -> Vec<Link> {
         let mut links: Vec<Link> = Vec::new();
         for (index, pose) in self.model.poses.iter().enumerate() {
-            let Step::Shift(_) = pose.step else { continue };
+            let PoseChange::Shift(_) = pose.step else {
+                continue;
+            };
             let origin = |pose: PoseId| self.points.origins[pose.index()];
             let ends = [origin(pose.parent), self.points.origins[index]];
             if self.joined(ends[0], ends[1]) && !links.iter().any(|link| link.ends == ends) {
@@ -804,7 +806,7 @@ impl<'d> Finder<'_, 'd> {
             .iter()
             .enumerate()
             .find(|(_, pose)| match pose.step {
-                Step::Turn { angle, .. } => same(angle) || same(-angle),
+                PoseChange::Turn { angle, .. } => same(angle) || same(-angle),
                 _ => false,
             });
         if let Some((pose, _)) = turned {

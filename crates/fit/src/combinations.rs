@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 
 /// The form of a combination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum CombinationForm {
     /// A product of powers.
     Product,
     /// A sum of multiples.
@@ -23,7 +23,7 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Combination {
     /// Its form.
-    pub kind: Kind,
+    pub kind: CombinationForm,
     /// The numbers in it with their exponents or factors.
     pub terms: Vec<(usize, f64)>,
 }
@@ -79,7 +79,7 @@ pub fn combinations(
                 })
             });
             if moves {
-                return combinations_of_kind(Kind::Product, &rows, &involved);
+                return combinations_of_kind(CombinationForm::Product, &rows, &involved);
             }
         }
     }
@@ -108,11 +108,19 @@ pub fn combinations(
             is_same(from, &to)
         })
     });
-    let kind = if moves { Kind::Sum } else { Kind::Local };
+    let kind = if moves {
+        CombinationForm::Sum
+    } else {
+        CombinationForm::Local
+    };
     combinations_of_kind(kind, &rows, &involved)
 }
 
-fn combinations_of_kind(kind: Kind, rows: &[Vec<f64>], involved: &[usize]) -> Vec<Combination> {
+fn combinations_of_kind(
+    kind: CombinationForm,
+    rows: &[Vec<f64>],
+    involved: &[usize],
+) -> Vec<Combination> {
     let combination = |row: &Vec<f64>| Combination {
         kind,
         terms: involved
@@ -224,8 +232,8 @@ impl Combination {
     pub fn value(&self, x: &[f64]) -> f64 {
         let terms = self.terms.iter();
         match self.kind {
-            Kind::Product => terms.map(|(j, e)| x[*j].abs().powf(*e)).product(),
-            Kind::Sum | Kind::Local => terms.map(|(j, c)| c * x[*j]).sum(),
+            CombinationForm::Product => terms.map(|(j, e)| x[*j].abs().powf(*e)).product(),
+            CombinationForm::Sum | CombinationForm::Local => terms.map(|(j, c)| c * x[*j]).sum(),
         }
     }
 
@@ -235,8 +243,8 @@ impl Combination {
         let value = self.value(x);
         for (j, c) in &self.terms {
             gradient[*j] = match self.kind {
-                Kind::Product => value * c / x[*j],
-                Kind::Sum | Kind::Local => *c,
+                CombinationForm::Product => value * c / x[*j],
+                CombinationForm::Sum | CombinationForm::Local => *c,
             };
         }
         gradient
@@ -245,15 +253,15 @@ impl Combination {
     /// As a formula in names: `k/m`, `m1 + 2*m2`.
     pub fn formula(&self, names: &[String]) -> String {
         match self.kind {
-            Kind::Product => product(&self.terms, names),
-            Kind::Sum | Kind::Local => sum(&self.terms, names),
+            CombinationForm::Product => product(&self.terms, names),
+            CombinationForm::Sum | CombinationForm::Local => sum(&self.terms, names),
         }
     }
 
     /// Its unit in terms of the units of the numbers; `None` if the terms of a sum have different units.
     pub fn unit(&self, units: &[String]) -> Option<String> {
         match self.kind {
-            Kind::Product => {
+            CombinationForm::Product => {
                 let with: Vec<(usize, f64)> = self
                     .terms
                     .iter()
@@ -263,7 +271,7 @@ impl Combination {
                 let bracketed: Vec<String> = units.iter().map(|unit| bracketed(unit)).collect();
                 Some(product(&with, &bracketed))
             }
-            Kind::Sum | Kind::Local => {
+            CombinationForm::Sum | CombinationForm::Local => {
                 let first = self.terms.first().map(|(j, _)| units[*j].clone())?;
                 let alike = self.terms.iter().all(|(j, _)| units[*j] == first);
                 alike.then_some(first)

@@ -163,7 +163,7 @@ impl From<Trouble> for RunFailure {
 
 /// The result of a fit.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct FitResult {
     /// The end of the search.
     pub minimum: Minimum,
     /// The statistics there.
@@ -286,7 +286,7 @@ impl Fit<'_> {
     ///
     /// # Errors
     /// If the search was interrupted.
-    pub fn result(&mut self, minimum: Minimum, is_scaled: bool) -> Result<Found, Trouble> {
+    pub fn result(&mut self, minimum: Minimum, is_scaled: bool) -> Result<FitResult, Trouble> {
         let exact = self.exact();
         let sizes: Vec<f64> = self
             .sizes()
@@ -319,7 +319,7 @@ impl Fit<'_> {
         if is_stopped {
             Err(Trouble::Stopped)
         } else {
-            Ok(Found {
+            Ok(FitResult {
                 minimum,
                 statistics,
                 combinations,

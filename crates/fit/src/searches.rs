@@ -1,7 +1,7 @@
 //! Several searches from several starts, with standard deviations that are given or estimated on the way.
 
 use crate::least_squares::{Minimum, Trouble};
-use crate::motion::{Fit, Found, Sought};
+use crate::motion::{Fit, FitResult, Sought};
 
 /// How standard deviations of the measurements are known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub struct Search {
 #[derive(Clone, Debug)]
 pub struct SearchResults {
     /// The lowest minimum.
-    pub found: Found,
+    pub found: FitResult,
     /// All searches; their minima are those before standard deviations were estimated.
     pub searches: Vec<Search>,
     /// The index of the search that found the lowest minimum.

@@ -25,7 +25,7 @@ use lagrangian_program::Interpreter;
 use lagrangian_scalar::Dual;
 
 use crate::varied::{
-    Direction, Phase, Place, Sought, Varied, VariedInputs, VariedLaw, VariedSystem,
+    Direction, DualState, Phase, Sought, Varied, VariedInputs, VariedLaw, VariedSystem,
 };
 
 type Number = Dual<f64>;
@@ -423,12 +423,12 @@ impl<'m> Passing<'_, 'm> {
         state: Vec<Number>,
         direction: usize,
         phase: &Phase,
-        ask: impl FnOnce(&mut Place<'_>) -> Option<T>,
+        ask: impl FnOnce(&mut DualState<'_>) -> Option<T>,
     ) -> Option<T> {
         let inputs = self.inputs(&state, direction);
         let mut interpreters = self.interpreters.borrow_mut();
         let interpreter = interpreters.get_mut(direction)?;
-        let mut place = Place::new(interpreter, state, &inputs, phase).ok()?;
+        let mut place = DualState::new(interpreter, state, &inputs, phase).ok()?;
         ask(&mut place)
     }
 
@@ -724,7 +724,7 @@ impl<'m> Passing<'_, 'm> {
     /// The rates after an impact.
     fn rates_after(
         &self,
-        place: &mut Place<'_>,
+        place: &mut DualState<'_>,
         (before, after): (&Phase, &Phase),
         (hits, ended): (&[ReportedImpact], &[usize]),
     ) -> Result<Vec<Number>, (usize, &'static str)> {
@@ -766,7 +766,7 @@ impl<'m> Passing<'_, 'm> {
     /// Applies the impulses that bring about the sought changes of rates; returns these impulses.
     fn impulses_for(
         &self,
-        place: &mut Place<'_>,
+        place: &mut DualState<'_>,
         sought: &[Sought],
         modes: &[ContactMode],
     ) -> Option<Vec<Number>> {
@@ -787,7 +787,7 @@ impl<'m> Passing<'_, 'm> {
     /// as the run found them.
     fn impact(
         &self,
-        place: &mut Place<'_>,
+        place: &mut DualState<'_>,
         (before, after): (&Phase, &Phase),
         hits: &[ReportedImpact],
     ) -> Result<(), (usize, &'static str)> {
@@ -1041,7 +1041,7 @@ impl<'m> Passing<'_, 'm> {
     /// The function whose zero triggers a change of a contact.
     fn margin(
         &self,
-        place: &mut Place<'_>,
+        place: &mut DualState<'_>,
         (before, cause): (&Phase, PhaseCause),
         contact: usize,
         direction: usize,
@@ -1121,7 +1121,11 @@ enum ImpactFriction {
 
 impl Tangent<'_> {
     /// Whether it sticks or slips, as the run found it.
-    fn friction(&self, place: &Place<'_>, after: &Phase) -> Result<ImpactFriction, &'static str> {
+    fn friction(
+        &self,
+        place: &DualState<'_>,
+        after: &Phase,
+    ) -> Result<ImpactFriction, &'static str> {
         let &Tangent {
             contact: j,
             own,

@@ -6,7 +6,7 @@ use lagrangian::{Machine, System};
 use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
 use nalgebra::{DMatrix, DVector};
 
-use crate::reduced::{Choice, Fault, Number, Place, Reduced};
+use crate::reduced::{Choice, Fault, Number, Reduced, ReducedState};
 
 /// Which numbers of a state are independent; a state holds coordinates, then rates.
 #[derive(Clone, Debug)]
@@ -155,7 +155,7 @@ impl Chart {
         reduced.set_time(t);
         let mut q: Vec<DoubleDouble> = moved.as_slice()[..n].iter().map(|x| (*x).into()).collect();
         reduced.project(&mut q, &|j| choice.position_dependent.contains(&j))?;
-        let place = Place {
+        let place = ReducedState {
             s: choice
                 .independent
                 .iter()

@@ -18,8 +18,8 @@ use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
 use lagrangian_units::{rate_unit, state_of};
 use nalgebra::DMatrix;
 
-use crate::motion::{self, Motion};
-use crate::reduced::{Choice, Fault, Number, Place, Reduced, solve};
+use crate::motion::{self, SteadyMotion};
+use crate::reduced::{Choice, Fault, Number, Reduced, ReducedState, solve};
 use crate::steady::{Options, states};
 
 /// A quantity that a model may have as an output, by its index.
@@ -180,7 +180,7 @@ impl From<Fault> for NoModel {
 /// The operating point of a model.
 struct At<'a> {
     choice: &'a Choice,
-    place: &'a Place,
+    place: &'a ReducedState,
     /// Coordinates that are no states.
     records: &'a [bool],
 }
@@ -243,7 +243,7 @@ const ROUNDING: f64 = 1e-21;
 /// Why there is no model.
 pub fn along(
     machine: &InterpretedMachine,
-    motion: &Motion,
+    motion: &SteadyMotion,
     request: &Request,
 ) -> Result<Model, NoModel> {
     let system = machine.prepare();
@@ -276,7 +276,7 @@ pub fn along(
 ///
 /// # Errors
 /// If a term of the equations has a corner or a jump there.
-pub fn check_smooth(machine: &InterpretedMachine, motion: &Motion) -> Result<(), NoModel> {
+pub fn check_smooth(machine: &InterpretedMachine, motion: &SteadyMotion) -> Result<(), NoModel> {
     let system = machine.prepare();
     let inputs = system.default_inputs().values;
     let found = &motion.found;
@@ -317,7 +317,7 @@ pub fn about(
     let near: Vec<f64> = wide.iter().map(|x| x.hi()).collect();
     let n = near.len();
     let choice = reduced.choose(&near, &vec![false; n])?;
-    let place = Place {
+    let place = ReducedState {
         s: choice.independent.iter().map(|j| v[*j].into()).collect(),
         q: wide,
     };
@@ -575,7 +575,7 @@ fn matrices(
     reduced: &mut Reduced<'_>,
     named_request: &NamedRequest<'_>,
     at: &At<'_>,
-    place: &Place,
+    place: &ReducedState,
 ) -> Result<Matrices, Fault> {
     let choice = at.choice;
     let (mut q, mut s) = (constants(&place.q), constants(&place.s));

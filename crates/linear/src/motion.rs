@@ -13,8 +13,8 @@
 
 use nalgebra::{Complex, DMatrix};
 
-use crate::reduced::{Choice, Fault, Linearized, Place, Reduced, divided};
-use crate::search::{Found, without_roundoff};
+use crate::reduced::{Choice, Fault, Linearized, Reduced, ReducedState, divided};
+use crate::search::{Stationary, without_roundoff};
 use crate::spectrum::{self, Linear, Mode, Modes};
 
 /// By how much moving coordinates are shifted, in rad, m or relative to the coordinate, to test whether anything
@@ -26,9 +26,9 @@ pub(crate) const SAME: f64 = 1e-22;
 
 /// A steady motion and the small motions about it.
 #[derive(Clone)]
-pub struct Motion {
+pub struct SteadyMotion {
     /// The state.
-    pub found: Found,
+    pub found: Stationary,
     /// Rates of all coordinates, states of first order among them; set to 0 within round-off.
     pub v: Vec<f64>,
     /// The modes about the motion; their shapes have an entry for each coordinate.
@@ -55,14 +55,14 @@ pub struct State<'a> {
     /// Which coordinates follow from which constraints.
     pub choice: &'a Choice,
     /// The state.
-    pub place: &'a Place,
+    pub place: &'a ReducedState,
     /// The equations there.
     pub here: &'a Linearized,
     /// Bounds on the effect of rounding on them.
     pub bounds: &'a Linearized,
 }
 
-impl Found {
+impl Stationary {
     /// The state in the form in which it is tested for steadiness.
     pub fn state(&self) -> State<'_> {
         State {
@@ -79,9 +79,9 @@ impl Found {
 pub(crate) fn elsewhere(
     reduced: &mut Reduced<'_>,
     choice: &Choice,
-    place: &Place,
+    place: &ReducedState,
     j: usize,
-) -> Vec<Place> {
+) -> Vec<ReducedState> {
     let moved = SHIFTS.into_iter().filter_map(|shift| {
         let mut there = place.clone();
         let by = shift * there.q[j].hi().abs().max(1.0);
@@ -187,9 +187,13 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
 ///
 /// # Errors
 /// If the motion is not steady, or the eigenvalue iteration fails.
-pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<Motion, Unsteady> {
+pub fn near(
+    reduced: &mut Reduced<'_>,
+    found: Stationary,
+    steady: &[bool],
+) -> Result<SteadyMotion, Unsteady> {
     let mut records = records(reduced, &found.state())?;
-    let Found {
+    let Stationary {
         choice,
         here,
         bounds,
@@ -263,7 +267,7 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
             v
         }
     });
-    Ok(Motion {
+    Ok(SteadyMotion {
         v: v.collect(),
         modes,
         records,

@@ -94,14 +94,14 @@ pub enum Fault {
 
 /// A state: the coordinates, and the rates of I.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct ReducedState {
     /// All coordinates.
     pub q: Vec<DoubleDouble>,
     /// The rates of I.
     pub s: Vec<DoubleDouble>,
 }
 
-impl Place {
+impl ReducedState {
     /// The coordinates as `f64`.
     pub fn q(&self) -> Vec<f64> {
         self.q.iter().map(|x| x.hi()).collect()
@@ -750,7 +750,7 @@ impl<'a> Reduced<'a> {
     }
 
     /// The equations at a state, and their derivatives.
-    fn linearize(&mut self, choice: &Choice, place: &Place) -> Result<Linearized, Fault> {
+    fn linearize(&mut self, choice: &Choice, place: &ReducedState) -> Result<Linearized, Fault> {
         let constant = |list: &[DoubleDouble]| -> Vec<Number> {
             list.iter().copied().map(Dual::constant).collect()
         };
@@ -831,7 +831,7 @@ impl<'a> Reduced<'a> {
     pub fn linearized(
         &mut self,
         choice: &Choice,
-        place: &Place,
+        place: &ReducedState,
     ) -> Result<(Linearized, Linearized), Fault> {
         let here = self.linearize(choice, place)?;
         let mut bounds = here.clone();
@@ -848,7 +848,11 @@ impl<'a> Reduced<'a> {
     }
 
     /// Calls `work` several times, with state, parameters and inputs rounded differently each time.
-    pub(crate) fn rounded(&mut self, place: &Place, mut work: impl FnMut(&mut Self, &Place)) {
+    pub(crate) fn rounded(
+        &mut self,
+        place: &ReducedState,
+        mut work: impl FnMut(&mut Self, &ReducedState),
+    ) {
         let mut next = noise();
         let values = self.machine.parameter_values().to_vec();
         let inputs = self.inputs.clone();
@@ -861,7 +865,7 @@ impl<'a> Reduced<'a> {
                 let unit = DoubleDouble::from(x.hi().abs().max(1.0) * next());
                 *x + unit
             });
-            let other = Place { q: q.collect(), s };
+            let other = ReducedState { q: q.collect(), s };
             let rounded = |x: &Number| Number::from_f64(x.value.hi() * (1.0 + next()));
             self.inputs = inputs.iter().map(rounded).collect();
             self.interpreter.prepare(&parameters);
@@ -875,7 +879,11 @@ impl<'a> Reduced<'a> {
     ///
     /// # Errors
     /// If they cannot be evaluated.
-    pub fn linearized_only(&mut self, choice: &Choice, place: &Place) -> Result<Linearized, Fault> {
+    pub fn linearized_only(
+        &mut self,
+        choice: &Choice,
+        place: &ReducedState,
+    ) -> Result<Linearized, Fault> {
         self.linearize(choice, place)
     }
 }

@@ -22,7 +22,7 @@ use lagrangian_scalar::DoubleDouble;
 use nalgebra::{DMatrix, DVector};
 
 use crate::rank::{self, Direction};
-use crate::reduced::{Choice, Fault, Linearized, Place, Reduced, largest_relative_change};
+use crate::reduced::{Choice, Fault, Linearized, Reduced, ReducedState, largest_relative_change};
 
 /// The most steps; Newton's method takes about five, and a few more for each radian of displacement.
 pub const MOST_STEPS: usize = 200;
@@ -93,9 +93,9 @@ impl Wanted {
 
 /// A state in which nothing accelerates.
 #[derive(Clone)]
-pub struct Found {
+pub struct Stationary {
     /// The coordinates and rates.
-    pub place: Place,
+    pub place: ReducedState,
     /// Which coordinates follow from which constraints.
     pub choice: Choice,
     /// The equations there.
@@ -126,7 +126,7 @@ impl From<Fault> for Lost {
 ///
 /// # Errors
 /// If the search does not converge, or the equations cannot be evaluated on its way.
-pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Found, Lost> {
+pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Stationary, Lost> {
     let mut q: Vec<DoubleDouble> = q.iter().map(|x| (*x).into()).collect();
     reduced.project(&mut q, &|_| true)?;
     let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
@@ -209,7 +209,7 @@ struct Step {
 
 /// A state on the constraints with all that a step from it needs.
 struct Point {
-    place: Place,
+    place: ReducedState,
     choice: Choice,
     here: Linearized,
     bounds: Linearized,
@@ -318,7 +318,7 @@ impl Point {
     ) -> Result<Point, Lost> {
         let rate = |j: &usize| if wanted.steady[*j] { rates[*j] } else { 0.0 };
         let s = choice.independent.iter().map(|j| rate(j).into()).collect();
-        let place = Place { q, s };
+        let place = ReducedState { q, s };
         let (here, bounds) = reduced.linearized(&choice, &place)?;
         let count = choice.independent.len();
         let stays = stays([&here, &bounds], &choice, wanted);
@@ -582,7 +582,7 @@ impl Point {
     }
 
     /// The result at the end of the search, if forces are in balance there.
-    fn balanced(self, steps: usize) -> Result<Found, Lost> {
+    fn balanced(self, steps: usize) -> Result<Stationary, Lost> {
         if let Some(worst) = self.largest_irreducible_force() {
             let a = self.lower.transpose().solve_upper_triangular(&self.scaled);
             let a = a.unwrap_or_else(|| self.scaled.clone());
@@ -592,7 +592,7 @@ impl Point {
             let index = index.unwrap_or(worst);
             return Err(Lost::Accelerates(self.choice.independent[index], a[index]));
         }
-        Ok(Found {
+        Ok(Stationary {
             place: self.place,
             choice: self.choice,
             here: self.here,

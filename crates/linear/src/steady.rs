@@ -4,8 +4,8 @@ use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
 use lagrangian::{Machine, System};
 use lagrangian_program::Role;
 
-use crate::motion::{self, Motion, State, Unsteady};
-use crate::reduced::{Fault, Place, Reduced};
+use crate::motion::{self, State, SteadyMotion, Unsteady};
+use crate::reduced::{Fault, Reduced, ReducedState};
 use crate::search::{self, Lost, Wanted};
 
 /// Why there is no steady motion.
@@ -33,7 +33,7 @@ pub fn motion(
     machine: &InterpretedMachine,
     q: &[f64],
     wanted: &Wanted,
-) -> Result<Motion, NoMotion> {
+) -> Result<SteadyMotion, NoMotion> {
     let system = machine.prepare();
     let inputs = system.default_inputs().values;
     let mut reduced = Reduced::new(machine, &system, &inputs, &states(q, &wanted.given()));
@@ -63,7 +63,7 @@ fn start_is_unsteady(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> O
             0.0.into()
         }
     });
-    let place = Place {
+    let place = ReducedState {
         s: s.collect(),
         q: wide,
     };

@@ -20,8 +20,8 @@ use lagrangian::{
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
 
+pub(crate) use contacts::{DualState, Sought, add};
 pub use contacts::{Layer, Phase};
-pub(crate) use contacts::{Place, Sought, add};
 
 /// A direction of differentiation: the change of each parameter, and of each input that nothing drives.
 #[derive(Clone, Debug)]
@@ -287,7 +287,7 @@ impl System for VariedSystem {
                 let (q, v) = (self.part(q, k), self.part(v, k));
                 let u = duals(&u.own.values, &u.by[k]);
                 let state = [Dual::constant(t)].into_iter().chain(q).chain(v);
-                let mut at = Place::new(interpreter, state.collect(), &u, phase)?;
+                let mut at = DualState::new(interpreter, state.collect(), &u, phase)?;
                 let reaction = at.reaction(phase, k)?;
                 for (i, dual) in reaction.a.iter().enumerate() {
                     a[i] = dual.value;

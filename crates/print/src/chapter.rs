@@ -17,7 +17,7 @@ mod unilateral;
 
 use lagrangian_symbolic::{Expr, Math, Names, math};
 
-use super::document::{Block, Document, Row, Run, Section, Words, of_docs};
+use super::document::{Block, Document, Inline, Row, Section, Words, of_docs};
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::equations::groups::{self, Share};
 use lagrangian_mechanics::equations::integrals::EquationProperties;
@@ -84,7 +84,7 @@ fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
 
 /// Joins pieces to a line of words.
 macro_rules! words {
-    ($($run:expr),* $(,)?) => { vec![$($crate::document::Run::from($run)),*] };
+    ($($run:expr),* $(,)?) => { vec![$($crate::document::Inline::from($run)),*] };
 }
 use words;
 
@@ -152,8 +152,8 @@ fn label(name: &Name) -> Math {
     }
 }
 
-fn code(text: impl ToString) -> Run {
-    Run::Code(text.to_string())
+fn code(text: impl ToString) -> Inline {
+    Inline::Code(text.to_string())
 }
 
 /// The text of a doc comment, in paragraphs.

@@ -53,11 +53,11 @@ pub enum Block {
 }
 
 /// Text with formulas and code in it.
-pub type Words = Vec<Run>;
+pub type Words = Vec<Inline>;
 
 /// A piece of a line of text.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Run {
+pub enum Inline {
     /// Plain text, not escaped.
     Text(String),
     /// Mathematics.
@@ -79,9 +79,9 @@ pub fn of_docs(paragraph: &str) -> Words {
     let mut before = None;
     while let Some(letter) = rest.chars().next() {
         let marked = match letter {
-            '`' => between(rest, "`").map(|(code, after)| (Run::Code(code.to_owned()), after)),
+            '`' => between(rest, "`").map(|(code, after)| (Inline::Code(code.to_owned()), after)),
             '*' if !before.is_some_and(char::is_alphanumeric) => {
-                emphasized(rest).map(|(words, after)| (Run::Emphasis(words.to_owned()), after))
+                emphasized(rest).map(|(words, after)| (Inline::Emphasis(words.to_owned()), after))
             }
             _ => None,
         };
@@ -92,14 +92,14 @@ pub fn of_docs(paragraph: &str) -> Words {
             continue;
         };
         if !plain.is_empty() {
-            words.push(Run::Text(std::mem::take(&mut plain)));
+            words.push(Inline::Text(std::mem::take(&mut plain)));
         }
         words.push(run);
         before = Some(letter);
         rest = after;
     }
     if !plain.is_empty() {
-        words.push(Run::Text(plain));
+        words.push(Inline::Text(plain));
     }
     words
 }
@@ -137,21 +137,21 @@ pub struct Row {
     pub note: String,
 }
 
-impl From<&str> for Run {
-    fn from(text: &str) -> Run {
-        Run::Text(text.to_owned())
+impl From<&str> for Inline {
+    fn from(text: &str) -> Inline {
+        Inline::Text(text.to_owned())
     }
 }
 
-impl From<String> for Run {
-    fn from(text: String) -> Run {
-        Run::Text(text)
+impl From<String> for Inline {
+    fn from(text: String) -> Inline {
+        Inline::Text(text)
     }
 }
 
-impl From<Math> for Run {
-    fn from(math: Math) -> Run {
-        Run::Math(math)
+impl From<Math> for Inline {
+    fn from(math: Math) -> Inline {
+        Inline::Math(math)
     }
 }
 
@@ -221,11 +221,11 @@ const LEAST_WRAPPED: f32 = 8.0;
 /// The approximate width of text on one line, in em.
 fn width_of_words(words: &Words) -> f32 {
     // In typewriter type all letters have the same width.
-    let run = |run: &Run| match run {
-        Run::Text(text) => Math::text(text.clone()).width(),
-        Run::Math(math) => math.width(),
-        Run::Code(code) => 0.525 * code.chars().count() as f32,
-        Run::Emphasis(words) => Math::text(words.clone()).width(),
+    let run = |run: &Inline| match run {
+        Inline::Text(text) => Math::text(text.clone()).width(),
+        Inline::Math(math) => math.width(),
+        Inline::Code(code) => 0.525 * code.chars().count() as f32,
+        Inline::Emphasis(words) => Math::text(words.clone()).width(),
     };
     words.iter().map(run).sum()
 }
@@ -292,7 +292,7 @@ impl Block {
 /// Whether a column contains only decimal numbers, or dashes in their place.
 pub(super) fn is_numeric(rows: &[Vec<Words>], column: usize) -> bool {
     let is_number = |cells: &Vec<Words>| match cells.get(column).map(Vec::as_slice) {
-        Some([Run::Text(text)]) => text
+        Some([Inline::Text(text)]) => text
             .chars()
             .all(|c| c.is_ascii_digit() || matches!(c, '.' | '–')),
         _ => false,

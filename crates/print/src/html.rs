@@ -2,7 +2,7 @@
 
 use lagrangian_symbolic::markup_words;
 
-use super::document::{self, Block, Document, Row, Run, Words};
+use super::document::{self, Block, Document, Inline, Row, Words};
 
 /// The style sheet of the article: light and dark, for screen and print. All rules are within `.derivation`.
 pub const STYLE: &str = r#".derivation { --ink: #1b1f24; --faint: #5c6672; --line: #d4dae1; color: var(--ink); line-height: 1.5; }
@@ -130,11 +130,11 @@ fn formula(rows: &[Row]) -> String {
 }
 
 fn words(words: &Words) -> String {
-    let run = |run: &Run| match run {
-        Run::Text(text) => markup_words(text),
-        Run::Math(math) => math.mathml(),
-        Run::Code(code) => format!("<code>{}</code>", markup_words(code)),
-        Run::Emphasis(words) => format!("<em>{}</em>", markup_words(words)),
+    let run = |run: &Inline| match run {
+        Inline::Text(text) => markup_words(text),
+        Inline::Math(math) => math.mathml(),
+        Inline::Code(code) => format!("<code>{}</code>", markup_words(code)),
+        Inline::Emphasis(words) => format!("<em>{}</em>", markup_words(words)),
     };
     words.iter().map(run).collect()
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use lagrangian_symbolic::latex_words;
 
-use super::document::{Block, Column, Document, Row, Run, Words, columns};
+use super::document::{Block, Column, Document, Inline, Row, Words, columns};
 
 /// The document as LaTeX.
 pub fn text(document: &Document) -> String {
@@ -120,11 +120,11 @@ fn table(head: &[Words], rows: &[Vec<Words>]) -> String {
 }
 
 fn words(words: &Words) -> String {
-    let run = |run: &Run| match run {
-        Run::Text(text) => latex_words(text),
-        Run::Math(math) => format!("${}$", math.latex()),
-        Run::Code(code) => format!(r"\texttt{{{}}}", latex_words(code)),
-        Run::Emphasis(words) => format!(r"\emph{{{}}}", latex_words(words)),
+    let run = |run: &Inline| match run {
+        Inline::Text(text) => latex_words(text),
+        Inline::Math(math) => format!("${}$", math.latex()),
+        Inline::Code(code) => format!(r"\texttt{{{}}}", latex_words(code)),
+        Inline::Emphasis(words) => format!(r"\emph{{{}}}", latex_words(words)),
     };
     words.iter().map(run).collect()
 }

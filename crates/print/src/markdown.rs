@@ -1,6 +1,6 @@
 //! The derivation as Markdown, with formulas between `$` and `$$`.
 
-use super::document::{Block, Document, Row, Run, Words};
+use super::document::{Block, Document, Inline, Row, Words};
 use super::latex::indent;
 
 /// The document as Markdown.
@@ -73,13 +73,13 @@ fn row(cells: &[Words]) -> String {
 }
 
 fn words(words: &Words) -> String {
-    let run = |run: &Run| match run {
-        Run::Text(text) => escaped(text),
-        Run::Emphasis(words) => format!("*{}*", escaped(words)),
-        Run::Math(math) => format!("${}$", math.latex()),
+    let run = |run: &Inline| match run {
+        Inline::Text(text) => escaped(text),
+        Inline::Emphasis(words) => format!("*{}*", escaped(words)),
+        Inline::Math(math) => format!("${}$", math.latex()),
         // The delimiter needs more backticks than the code contains; characters that end a table cell are
         // escaped in code too.
-        Run::Code(code) => {
+        Inline::Code(code) => {
             let longest = code.split(|c| c != '`').map(str::len).max().unwrap_or(0);
             let fence = "`".repeat(longest + 1);
             let space = if longest > 0 { " " } else { "" };

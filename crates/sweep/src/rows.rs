@@ -8,12 +8,12 @@ pub struct Column {
     /// The unit, where it has one.
     pub unit: Option<String>,
     /// The kind of its values.
-    pub kind: Kind,
+    pub kind: ColumnType,
 }
 
 /// The kind of the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ColumnType {
     /// Whole numbers.
     Count,
     /// Numbers.
@@ -57,9 +57,9 @@ impl Rows {
     /// An empty set of rows.
     pub fn new(columns: Vec<Column>) -> Rows {
         let empty = |column: &Column| match column.kind {
-            Kind::Count => Values::Count(Vec::new()),
-            Kind::Number => Values::Number(Vec::new()),
-            Kind::Text => Values::Text(Vec::new()),
+            ColumnType::Count => Values::Count(Vec::new()),
+            ColumnType::Number => Values::Number(Vec::new()),
+            ColumnType::Text => Values::Text(Vec::new()),
         };
         Rows {
             values: columns.iter().map(empty).collect(),

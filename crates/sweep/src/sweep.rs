@@ -20,7 +20,7 @@ use lagrangian_symbolic::{Dag, Rational};
 use crate::design;
 use crate::plan::{Function, Plan, RecordedFiles, Reduction};
 use crate::reduce::{Formula, StateCache, StepStates, Tracker};
-use crate::rows::{Cell, Column, Kind, Rows};
+use crate::rows::{Cell, Column, ColumnType, Rows};
 use crate::signals::{self, without_series};
 use crate::sobol::MOST_VARIABLES;
 use crate::verdict;
@@ -1127,7 +1127,7 @@ fn columns(
     let number = |name: String, unit: &str| Column {
         name,
         unit: Some(unit.to_owned()),
-        kind: Kind::Number,
+        kind: ColumnType::Number,
     };
     let other = |name: &str, kind| Column {
         name: name.into(),
@@ -1145,14 +1145,14 @@ fn columns(
         });
         positions.chain(rates).collect::<Vec<_>>()
     };
-    let mut columns = vec![other("run", Kind::Count)];
+    let mut columns = vec![other("run", ColumnType::Count)];
     for name in plan.varied() {
         let unit = unit_of(model, name).unwrap_or_default();
         columns.push(number(name.to_owned(), &unit));
     }
     columns.extend([
-        other("status", Kind::Text),
-        other("error", Kind::Text),
+        other("status", ColumnType::Text),
+        other("error", ColumnType::Text),
         number("t".into(), "s"),
     ]);
     columns.extend(state(""));
@@ -1162,13 +1162,13 @@ fn columns(
     for (reduction, unit) in plan.reduce.iter().zip(units) {
         columns.push(number(reduction.name.clone(), unit));
     }
-    columns.push(other("steps", Kind::Count));
+    columns.push(other("steps", ColumnType::Count));
     columns.push(number("energy residual".into(), "J"));
     let samples = plan.has_samples().then(|| {
-        let mut columns = vec![other("run", Kind::Count), number("t".into(), "s")];
+        let mut columns = vec![other("run", ColumnType::Count), number("t".into(), "s")];
         columns.extend(state(""));
         if !plan.at_events.is_empty() {
-            columns.push(other("event", Kind::Text));
+            columns.push(other("event", ColumnType::Text));
         }
         columns
     });

@@ -227,7 +227,7 @@ mod with_parquet {
     use parquet::schema::types::Type;
 
     use super::*;
-    use crate::rows::Kind;
+    use crate::rows::ColumnType;
 
     /// A writer of a Parquet file.
     pub(crate) struct Writer<W: Write + Send>(SerializedFileWriter<W>);
@@ -237,13 +237,13 @@ mod with_parquet {
         pub fn new(to: W, rows: &Rows, entries: &[(&str, String)]) -> io::Result<Self> {
             let field = |column: &crate::rows::Column| {
                 let (physical, logical) = match column.kind {
-                    Kind::Count => (Physical::INT64, Some(LogicalType::integer(64, false))),
-                    Kind::Number => (Physical::DOUBLE, None),
-                    Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+                    ColumnType::Count => (Physical::INT64, Some(LogicalType::integer(64, false))),
+                    ColumnType::Number => (Physical::DOUBLE, None),
+                    ColumnType::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
                 };
                 let repetition = match column.kind {
-                    Kind::Count => Repetition::REQUIRED,
-                    Kind::Number | Kind::Text => Repetition::OPTIONAL,
+                    ColumnType::Count => Repetition::REQUIRED,
+                    ColumnType::Number | ColumnType::Text => Repetition::OPTIONAL,
                 };
                 Type::primitive_type_builder(&column.name, physical)
                     .with_logical_type(logical)
@@ -479,7 +479,7 @@ mod with_parquet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rows::{Cell, Column, Kind};
+    use crate::rows::{Cell, Column, ColumnType};
 
     fn rows() -> Rows {
         let column = |name: &str, kind| Column {
@@ -488,9 +488,9 @@ mod tests {
             kind,
         };
         let mut rows = Rows::new(vec![
-            column("run", Kind::Count),
-            column("x, y", Kind::Number),
-            column("error", Kind::Text),
+            column("run", ColumnType::Count),
+            column("x, y", ColumnType::Number),
+            column("error", ColumnType::Text),
         ]);
         for (run, x, error) in [
             (0, Some(0.1), None),

@@ -10,7 +10,7 @@ use super::force::FORCE;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::identity;
 use crate::model::element::{Contribution, Drawing, Load, Shape, Site};
-use crate::model::{Place, PoseId, Space, stage};
+use crate::model::{FrameOrBody, PoseId, Space, stage};
 use crate::resolve::Resolver;
 use crate::resolve::element::{Meaning, Resolved, Row};
 use crate::resolve::motion::vector_between;
@@ -132,7 +132,7 @@ fn between_frames<'a, 'd>(
     let back = torque.iter().map(|&m| -m).collect();
     let ends = [(from, back), (to, torque)].into_iter();
     // The ground does not turn.
-    let ends = ends.filter(|(on, _)| *on != Place::Frame(PoseId::GROUND));
+    let ends = ends.filter(|(on, _)| *on != FrameOrBody::Frame(PoseId::GROUND));
     let loads = ends.map(|(on, torque)| Contribution::Load(Load::Torque { on, torque }));
     Some(Resolved::of(loads))
 }

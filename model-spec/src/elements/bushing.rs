@@ -18,7 +18,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::model::bounds::BoundKind;
 use crate::model::circles::terms;
 use crate::model::element::{Contribution, Deformation, Drawing, Energy, Shape, Site};
-use crate::model::{PoseId, Space, Step, stage};
+use crate::model::{PoseChange, PoseId, Space, stage};
 use crate::resolve::Resolver;
 use crate::resolve::element::{Meaning, Resolved, Row};
 use crate::resolve::value::{Limit, MemberId, limit, limits};
@@ -268,7 +268,7 @@ fn shifts_between<'d>(
         }
         let (frame, is_back) = far;
         let pose = resolver.pose(frame);
-        if let Step::Shift(by) = &pose.step {
+        if let PoseChange::Shift(by) = &pose.step {
             let angle = resolver.pose(pose.parent).angle;
             shifts.push(Shift::new(angle, by.clone(), is_back));
         }

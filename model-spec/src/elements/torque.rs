@@ -2,7 +2,7 @@
 
 use super::force::FORCE;
 use crate::model::element::{Contribution, Load};
-use crate::model::{Place, Space};
+use crate::model::{FrameOrBody, Space};
 use crate::resolve::Resolver;
 use crate::resolve::element::{Meaning, Resolved, Row};
 use crate::resolve::value::MemberId;
@@ -40,7 +40,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         }
     });
     Some(Resolved::of([Contribution::Load(Load::Torque {
-        on: Place::Body(resolver.ordinal(body?)?),
+        on: FrameOrBody::Body(resolver.ordinal(body?)?),
         torque: torque?,
     })]))
 }

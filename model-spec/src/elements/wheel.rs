@@ -19,7 +19,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::identity;
 use crate::model::bounds::BoundKind;
 use crate::model::element::{Constraint, Contribution};
-use crate::model::{Name, Place, PoseId, Space, stage};
+use crate::model::{FrameOrBody, Name, PoseId, Space, stage};
 use crate::resolve::Resolver;
 use crate::resolve::element::{Meaning, Resolved, Row};
 use crate::resolve::motion::{rotational_velocity, vector_between};
@@ -71,7 +71,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         None => Some(None),
         Some(written) => resolver.axis(written).map(Some),
     };
-    let (Place::Frame(wheel), (on, span)) = (wheel?, on?) else {
+    let (FrameOrBody::Frame(wheel), (on, span)) = (wheel?, on?) else {
         return None; // in space whatever turns has a frame
     };
     let (radius, axis) = (radius?, axis?);

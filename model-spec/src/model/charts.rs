@@ -25,7 +25,8 @@ use lagrangian_symbolic::{Dag, Expr, Function, Id, Node, Rational, Symbol, reach
 
 use super::element::{Contribution, Element, Load};
 use super::{
-    ContactGeometry, Coordinate, Inertia, Model, Name, Response, Rotation, Stages, Step, stage,
+    ContactGeometry, Coordinate, Inertia, Model, Name, PoseChange, Response, Rotation, Stages,
+    stage,
 };
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::Span;
@@ -323,10 +324,10 @@ impl<'d> Rewriting<'_, 'd, '_> {
             places.extend(pose.axes.iter_mut().flatten());
             places.push(&mut pose.angle);
             match &mut pose.step {
-                Step::Ground => {}
-                Step::Shift(by) => places.extend(by),
-                Step::Turn { angle, .. } => places.push(angle),
-                Step::Quaternion(e) => places.extend(e),
+                PoseChange::Ground => {}
+                PoseChange::Shift(by) => places.extend(by),
+                PoseChange::Turn { angle, .. } => places.push(angle),
+                PoseChange::Quaternion(e) => places.extend(e),
             }
             self.put(places, &what, span);
         }

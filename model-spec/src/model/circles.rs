@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use lagrangian_symbolic::{Expr, Id, Node, Rational, Symbol, Tangent};
 
 use crate::identity;
-use crate::model::{Body, Circle, Model, Place, PoseId, Rotation, Surface, Touching};
+use crate::model::{Body, Circle, FrameOrBody, Model, PoseId, Rotation, Surface, Touching};
 
 /// The relative position and motion of two circles.
 pub struct RelativeMotion<'d> {
@@ -27,8 +27,8 @@ pub fn centre_and_axes<'d>(
 /// The corners of a body's outline, in ground axes.
 pub fn outline<'d>(model: &Model<'d>, body: usize) -> Vec<Vec<Expr<'d>>> {
     let place = match model.bodies[body].rotation {
-        Rotation::Frame(pose) => Place::Frame(pose),
-        _ => Place::Body(body),
+        Rotation::Frame(pose) => FrameOrBody::Frame(pose),
+        _ => FrameOrBody::Body(body),
     };
     let corners = model.bodies[body].outline.iter();
     corners
@@ -39,13 +39,13 @@ pub fn outline<'d>(model: &Model<'d>, body: usize) -> Vec<Vec<Expr<'d>>> {
 /// A point that is fixed to a frame or a body, given in its axes, and these axes; both in ground axes.
 pub(super) fn point_and_axes<'d>(
     model: &Model<'d>,
-    on: Place,
+    on: FrameOrBody,
     point: &[Expr<'d>],
 ) -> (Vec<Expr<'d>>, Vec<Vec<Expr<'d>>>) {
     let pose_of = |pose: PoseId| &model.poses[pose.index()];
     let (origin, axes) = match on {
-        Place::Frame(pose) => (&pose_of(pose).origin, pose_of(pose).axes.clone()),
-        Place::Body(body) => {
+        FrameOrBody::Frame(pose) => (&pose_of(pose).origin, pose_of(pose).axes.clone()),
+        FrameOrBody::Body(body) => {
             let body = &model.bodies[body];
             let ground = || pose_of(PoseId::GROUND).axes.clone();
             (&body.at, body_axes(model, body).unwrap_or_else(ground))
@@ -94,8 +94,8 @@ fn angular_velocity<'d>(
     rate: &mut Tangent<'d>,
 ) -> Expr<'d> {
     let angle = match circle.on {
-        Place::Frame(pose) => Some(model.poses[pose.index()].angle),
-        Place::Body(body) => planar_angle(model, &model.bodies[body]),
+        FrameOrBody::Frame(pose) => Some(model.poses[pose.index()].angle),
+        FrameOrBody::Body(body) => planar_angle(model, &model.bodies[body]),
     };
     angle.map_or(model.dag.zero(), |angle| rate.of(angle))
 }

@@ -8,7 +8,7 @@
 
 use lagrangian_symbolic::Expr;
 
-use super::{Model, Name, Place, Touching};
+use super::{FrameOrBody, Model, Name, Touching};
 use crate::source::Span;
 use crate::syntax::Section;
 use crate::unit::Unit;
@@ -103,7 +103,7 @@ pub enum Load<'d> {
     /// A torque on a body or a frame.
     Torque {
         /// Where it acts; a body has an angle or a frame.
-        on: Place,
+        on: FrameOrBody,
         /// One component in the plane, three in ground axes in space.
         torque: Vec<Expr<'d>>,
     },
@@ -144,7 +144,7 @@ pub struct Sliding<'d> {
     /// The body that slides, by its index.
     pub body: usize,
     /// The frame or body on which it slides.
-    pub on: Place,
+    pub on: FrameOrBody,
     /// The direction of sliding, as given; on a surface one of two tangents.
     pub direction: Vec<Expr<'d>>,
     /// The side on which the body is, as given; the direction turned left if none is given. For a surface its normal, as given.

@@ -22,7 +22,7 @@ use std::rc::Rc;
 use lagrangian_symbolic::{Expr, Tangent};
 
 use super::circles::{difference, point_and_axes};
-use crate::model::{Model, Place};
+use crate::model::{FrameOrBody, Model};
 
 /// The largest number of corners of a polygon that touches another: each is compared with every face, and the choices among
 /// faces are written out.
@@ -32,7 +32,7 @@ pub const MOST_CORNERS: usize = 24;
 #[derive(Clone)]
 pub struct Polygon<'d> {
     /// What it is fixed to.
-    pub on: Place,
+    pub on: FrameOrBody,
     /// Its corners, in the axes of `on`, in counterclockwise order.
     pub corners: Vec<Vec<Expr<'d>>>,
 }

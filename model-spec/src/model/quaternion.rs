@@ -22,7 +22,7 @@
 
 use lagrangian_symbolic::Expr;
 
-use super::{Inertia, Model, PoseId, Rotation, Step, stage};
+use super::{Inertia, Model, PoseChange, PoseId, Rotation, stage};
 use crate::source::Span;
 
 /// The rate at which the length of a quaternion returns to 1 if nothing turns, in 1/s.
@@ -129,7 +129,7 @@ pub fn angular_acceleration<'d>(
     [0, 1, 2].map(|k| faster[k] - 2 * growing * now[k])
 }
 
-impl<'d> Step<'d> {
+impl<'d> PoseChange<'d> {
     /// The parts of the angular velocity that this step adds, each about an axis of the resulting frame; `rate` differentiates
     /// the quantities of the step. `None` if the rate of one is unknown.
     pub fn angular_velocity_parts(
@@ -137,9 +137,9 @@ impl<'d> Step<'d> {
         mut rate: impl FnMut(Expr<'d>) -> Option<Expr<'d>>,
     ) -> Option<Vec<(usize, Expr<'d>)>> {
         match self {
-            Step::Ground | Step::Shift(_) => Some(Vec::new()),
-            Step::Turn { axis, angle } => Some(vec![(*axis, rate(*angle)?)]),
-            Step::Quaternion(e) => {
+            PoseChange::Ground | PoseChange::Shift(_) => Some(Vec::new()),
+            PoseChange::Turn { axis, angle } => Some(vec![(*axis, rate(*angle)?)]),
+            PoseChange::Quaternion(e) => {
                 let [a, b, c, d] = e.map(&mut rate);
                 let spin = angular_velocity(e, &[a?, b?, c?, d?]);
                 Some(spin.into_iter().enumerate().collect())
@@ -163,8 +163,8 @@ pub(crate) fn inertia<'d>(model: &Model<'d>, e: &[Expr<'d>; 4]) -> Expr<'d> {
     for pose in &model.poses {
         let parent = carried.get(pose.parent.index()).copied().flatten();
         carried.push(match &pose.step {
-            Step::Quaternion(quaternion) if quaternion == e => Some(dag.zero()),
-            Step::Shift(by) => parent.map(|far| far + length(by)),
+            PoseChange::Quaternion(quaternion) if quaternion == e => Some(dag.zero()),
+            PoseChange::Shift(by) => parent.map(|far| far + length(by)),
             _ => parent,
         });
     }

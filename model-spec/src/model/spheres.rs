@@ -5,7 +5,7 @@
 use lagrangian_symbolic::{Expr, Tangent};
 
 use super::circles::{centre_and_axes, difference, distance};
-use super::{Circle, Model, Place, PoseId, Rotation, Surface};
+use super::{Circle, FrameOrBody, Model, PoseId, Rotation, Surface};
 
 /// The position and motion of a sphere relative to what it touches.
 pub struct RelativeMotion<'d> {
@@ -35,11 +35,15 @@ pub fn relative_motion<'d>(
 
 /// The angular velocity of what a sphere is fixed to, in ground axes: each turn of a frame about one of its own axes,
 /// which it leaves unchanged, adds its rate along that axis.
-fn angular_velocity<'d>(model: &Model<'d>, place: Place, rate: &mut Tangent<'d>) -> Vec<Expr<'d>> {
+fn angular_velocity<'d>(
+    model: &Model<'d>,
+    place: FrameOrBody,
+    rate: &mut Tangent<'d>,
+) -> Vec<Expr<'d>> {
     let mut terms = vec![Vec::new(); 3];
     let mut at = match place {
-        Place::Frame(pose) => pose,
-        Place::Body(body) => match model.bodies[body].rotation {
+        FrameOrBody::Frame(pose) => pose,
+        FrameOrBody::Body(body) => match model.bodies[body].rotation {
             Rotation::Frame(pose) => pose,
             // The orientation is unknown; machines for which it matters are refused.
             Rotation::Unspecified | Rotation::Angle(_) => PoseId::GROUND,
@@ -82,7 +86,7 @@ fn relative_to_plane<'d>(
     let line: Vec<Expr<'d>> = pairs.map(|(&a, &b)| difference(a, b)).collect();
     let velocity: Vec<Expr<'d>> = line.iter().map(|&c| rate.of(c)).collect();
     let [spin, of_plane] =
-        [sphere.on, Place::Frame(pose)].map(|place| angular_velocity(model, place, rate));
+        [sphere.on, FrameOrBody::Frame(pose)].map(|place| angular_velocity(model, place, rate));
     let normal = &frame.axes[2];
     let arm: Vec<Expr<'d>> = normal.iter().map(|&n| sphere.radius * n).collect();
     let foot: Vec<Expr<'d>> = line.iter().zip(&arm).map(|(&c, &a)| c - a).collect();

@@ -8,8 +8,8 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::model::bounds::BoundKind;
 use crate::model::polygons::{Corner, MOST_CORNERS, Polygon};
 use crate::model::{
-    Circle, Compliance, Contact, ContactGeometry, ImpactLaw, ImpactOrder, MOST_UNILATERAL, Name,
-    Painleve, Place, Response, Space, Surface, Touching,
+    Circle, Compliance, Contact, ContactGeometry, FrameOrBody, ImpactLaw, ImpactOrder,
+    MOST_UNILATERAL, Name, Painleve, Response, Space, Surface, Touching,
 };
 use crate::syntax::{Expression, ExpressionKind, Record};
 use crate::unit::Unit;
@@ -431,7 +431,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     pub fn point_on(
         &self,
         member: MemberId,
-        on: Place,
+        on: FrameOrBody,
         center: Vec<Expr<'d>>,
         surface: Surface,
     ) -> ContactGeometry<'d> {

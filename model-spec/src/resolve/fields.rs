@@ -9,7 +9,7 @@ use super::value::{Limit, MemberId, Scope, Value, limits};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::identity;
 use crate::model::bounds::BoundKind;
-use crate::model::{Assumption, Place, Rotation, Space, Surface, Touching, circles, stage};
+use crate::model::{Assumption, FrameOrBody, Rotation, Space, Surface, Touching, circles, stage};
 use crate::source::Span;
 use crate::syntax::{self, Equation, Expression, ExpressionKind, Quantity, Record, SectionKind};
 use crate::unit::Unit;
@@ -224,31 +224,31 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// A frame, or a body with an orientation.
-    pub fn oriented_place(&mut self, member: MemberId, on: &'a Expression) -> Option<Place> {
+    pub fn oriented_place(&mut self, member: MemberId, on: &'a Expression) -> Option<FrameOrBody> {
         let place = self.place(member, on)?;
-        let Place::Body(_) = place else {
+        let FrameOrBody::Body(_) = place else {
             return Some(place);
         };
         let body = self.oriented_body(member, on)?;
         let has_frame = self.record(body)?.field("frame").is_some();
         if has_frame {
-            self.frame_of_body(body, on.span).map(Place::Frame)
+            self.frame_of_body(body, on.span).map(FrameOrBody::Frame)
         } else {
             Some(place)
         }
     }
 
     /// The angle between two places, in the plane, with common terms cancelled.
-    pub fn angle_between(&mut self, from: Place, to: Place) -> Option<Expr<'d>> {
+    pub fn angle_between(&mut self, from: FrameOrBody, to: FrameOrBody) -> Option<Expr<'d>> {
         let [from, to] = [from, to].map(|place| self.angle_of_place(place));
         vector_between(&[from?], &[to?]).pop()
     }
 
     /// The angle of a frame or of a body that has one, in the plane.
-    pub fn angle_of_place(&mut self, place: Place) -> Option<Expr<'d>> {
+    pub fn angle_of_place(&mut self, place: FrameOrBody) -> Option<Expr<'d>> {
         match place {
-            Place::Frame(pose) => Some(self.pose(pose).angle),
-            Place::Body(ordinal) => {
+            FrameOrBody::Frame(pose) => Some(self.pose(pose).angle),
+            FrameOrBody::Body(ordinal) => {
                 let bodies = self.members_of(SectionKind::Bodies);
                 let body = *bodies.get(ordinal)?;
                 match self.rotation(body, self.record(body)?)? {
@@ -276,7 +276,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// A frame or a body: the base of a sliding body, or what a circle is fixed to.
-    pub fn place(&mut self, member: MemberId, on: &'a Expression) -> Option<Place> {
+    pub fn place(&mut self, member: MemberId, on: &'a Expression) -> Option<FrameOrBody> {
         let scope = self.scope(member, &limits::POINT);
         let value = match &on.kind {
             ExpressionKind::Name(reference) => {
@@ -285,8 +285,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             _ => self.value(on, scope),
         };
         match value {
-            Value::Frame(pose) => Some(Place::Frame(pose)),
-            Value::Body(body) => Some(Place::Body(self.ordinal(body)?)),
+            Value::Frame(pose) => Some(FrameOrBody::Frame(pose)),
+            Value::Body(body) => Some(FrameOrBody::Body(self.ordinal(body)?)),
             Value::Unknown => None,
             other => {
                 self.wrong_kind("a frame or a body", &other, on);

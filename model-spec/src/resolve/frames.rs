@@ -12,7 +12,7 @@ use super::value::{MemberId, Scope, Value, Vector, limits};
 use super::work::{Need, State};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::quaternion::{self, Quaternion};
-use crate::model::{Coordinate, Pose, PoseId, Space, Step, stage};
+use crate::model::{Coordinate, Pose, PoseChange, PoseId, Space, stage};
 use crate::source::Span;
 use crate::syntax::{Chain, Expression, ExpressionKind, Link, Reference, SectionKind};
 use crate::unit::Unit;
@@ -54,7 +54,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         };
         Pose {
             parent: PoseId::GROUND,
-            step: Step::Ground,
+            step: PoseChange::Ground,
             origin: vec![self.dag.zero(); n],
             axes: (0..n)
                 .map(|k| (0..n).map(|i| unit(k, i)).collect())
@@ -98,7 +98,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             origin: resolver.point_of(parent, &by),
             axes: resolver.pose(parent).axes.clone(),
             angle: resolver.pose(parent).angle,
-            step: Step::Shift(by),
+            step: PoseChange::Shift(by),
         })
     }
 
@@ -127,7 +127,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             };
             Pose {
                 parent,
-                step: Step::Turn { axis, angle },
+                step: PoseChange::Turn { axis, angle },
                 origin: from.origin.clone(),
                 axes,
                 angle: total,
@@ -144,7 +144,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let axes = quaternion::axes(&e);
             Pose {
                 parent,
-                step: Step::Quaternion(e),
+                step: PoseChange::Quaternion(e),
                 origin: from.origin.clone(),
                 axes: (axes.iter().map(|axis| resolver.vector_of(parent, axis))).collect(),
                 angle: from.angle,

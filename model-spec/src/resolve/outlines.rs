@@ -3,7 +3,7 @@
 use super::Resolver;
 use super::value::{MemberId, limits};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Body, ContactGeometry, Place, Rotation, Space};
+use crate::model::{Body, ContactGeometry, FrameOrBody, Rotation, Space};
 use crate::source::Span;
 use crate::syntax::{ExpressionKind, Record};
 use crate::unit::Unit;
@@ -27,10 +27,10 @@ impl<'d> Outline<'d> {
     }
 
     /// Whether it is the outline of the body at this place.
-    fn is_of(&self, place: Place) -> bool {
+    fn is_of(&self, place: FrameOrBody) -> bool {
         match (place, &self.rotation) {
-            (Place::Frame(pose), Rotation::Frame(frame)) => pose == *frame,
-            (Place::Body(body), _) => body == self.body,
+            (FrameOrBody::Frame(pose), Rotation::Frame(frame)) => pose == *frame,
+            (FrameOrBody::Body(body), _) => body == self.body,
             _ => false,
         }
     }
@@ -84,7 +84,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The corners of the outline of the body at a place.
-    pub fn outline_at(&mut self, on: Place, field: &str, span: Span) -> Option<Vec<Vec<Expr<'d>>>> {
+    pub fn outline_at(
+        &mut self,
+        on: FrameOrBody,
+        field: &str,
+        span: Span,
+    ) -> Option<Vec<Vec<Expr<'d>>>> {
         let outlines = self.outlines.iter();
         let mut matching = outlines.filter(|outline| outline.is_of(on));
         let (corners, message, help) = match [matching.next(), matching.next()] {

@@ -10,7 +10,7 @@ impl<'e> Reader<'_, '_, 'e> {
         link: &Parent,
         class: usize,
         pose: &Pose,
-        found: &mut Found<'e>,
+        found: &mut BodyContents<'e>,
     ) {
         for part in &owner.children {
             match part.name.as_str() {
@@ -79,7 +79,7 @@ impl<'e> Reader<'_, '_, 'e> {
             at: element.at,
             ..Link::default()
         });
-        let mut found = Found::default();
+        let mut found = BodyContents::default();
         // Joints of a body come before those of the bodies in it, wherever they are in the file.
         let is_joint = |part: &&Element| matches!(part.name.as_str(), "joint" | "freejoint");
         let mut joints = Vec::new();
@@ -122,7 +122,7 @@ impl<'e> Reader<'_, '_, 'e> {
         for (number, item) in joints.iter().enumerate() {
             let kind = self.kind(item);
             let mut joint = self.joint(item, kind, link);
-            if kind == Kind::Floating {
+            if kind == JointKind::Floating {
                 if !parent.is_world || joints.len() > 1 {
                     let message = format!(
                         "{} lets body {} move freely: it must be the only joint of a body of the world",
@@ -136,7 +136,7 @@ impl<'e> Reader<'_, '_, 'e> {
                     axes: steps::axes(&turns),
                 });
                 turns.clear();
-            } else if kind != Kind::Prismatic {
+            } else if kind != JointKind::Prismatic {
                 let place = self.numbers::<3>(item, "pos").unwrap_or_default();
                 let is_there = last == Vector3::zeros();
                 let position = Vector3::from(place.each_ref().map(|number| number.value));
@@ -202,15 +202,15 @@ impl<'e> Reader<'_, '_, 'e> {
         }
     }
 
-    fn kind(&mut self, item: &Item<'e>) -> Kind {
+    fn kind(&mut self, item: &Item<'e>) -> JointKind {
         if item.element.name == "freejoint" {
-            return Kind::Floating;
+            return JointKind::Floating;
         }
         match self.word(item, "type").unwrap_or("hinge") {
-            "hinge" => Kind::Revolute,
-            "slide" => Kind::Prismatic,
-            "ball" => Kind::Spherical,
-            "free" => Kind::Floating,
+            "hinge" => JointKind::Revolute,
+            "slide" => JointKind::Prismatic,
+            "ball" => JointKind::Spherical,
+            "free" => JointKind::Floating,
             other => {
                 let message = format!(
                     "the type {} of {} is not known: there are hinge, slide, ball, free",
@@ -218,21 +218,21 @@ impl<'e> Reader<'_, '_, 'e> {
                     item.owner
                 );
                 self.faults.add(item.element.at, message);
-                Kind::Revolute
+                JointKind::Revolute
             }
         }
     }
 
-    fn joint(&mut self, item: &Item<'e>, kind: Kind, link: &Parent) -> Joint {
+    fn joint(&mut self, item: &Item<'e>, kind: JointKind, link: &Parent) -> Joint {
         let element = item.element;
         let name = match element.own("name") {
             Some(name) => name.value.clone(),
             None => self.name(format!("{}_joint", link.name)),
         };
         let label = match kind {
-            Kind::Prismatic => "slide",
-            Kind::Spherical => "ball",
-            Kind::Floating => "free",
+            JointKind::Prismatic => "slide",
+            JointKind::Spherical => "ball",
+            JointKind::Floating => "free",
             _ => "hinge",
         };
         let mut joint = Joint {
@@ -284,7 +284,7 @@ impl<'e> Reader<'_, '_, 'e> {
             }
             return joint;
         }
-        let is_angle = kind != Kind::Prismatic;
+        let is_angle = kind != JointKind::Prismatic;
         let value = |reader: &mut Self, name: &str| {
             let number = reader.number(item, name).unwrap_or_default();
             if is_angle {
@@ -335,7 +335,7 @@ impl<'e> Reader<'_, '_, 'e> {
         link: &Parent,
         class: usize,
         pose: &Pose,
-        found: &mut Found<'e>,
+        found: &mut BodyContents<'e>,
     ) {
         let item = self.item(element, class);
         self.only(element, &item.owner, "geom");
@@ -554,7 +554,7 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 
     /// The inertia of a body: as given, or computed from geometry.
-    fn weight(&mut self, link: &Parent, found: &Found<'e>) -> Option<Inertial> {
+    fn weight(&mut self, link: &Parent, found: &BodyContents<'e>) -> Option<Inertial> {
         let has_geometry = !found.solids.is_empty() || !found.unknown.is_empty();
         let from_geometry = match self.compiler.from_geometry {
             Some(true) => has_geometry || found.inertial.is_none(),

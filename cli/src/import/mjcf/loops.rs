@@ -33,11 +33,13 @@ fn displacement(joint: &Joint, index: usize, position: usize) -> Rest {
     let axis = Vector3::from(joint.axis);
     let [none, unturned] = [Vector3::zeros(), Vector3::zeros()];
     let (origin, turn) = match joint.kind {
-        Kind::Fixed => (none, unturned),
-        Kind::Prismatic => (axis * value(0), unturned),
-        Kind::Revolute | Kind::Continuous => (none, axis * value(0)),
-        Kind::Spherical => (none, values()),
-        Kind::Floating | Kind::Planar => (values(), Vector3::new(value(3), value(4), value(5))),
+        JointKind::Fixed => (none, unturned),
+        JointKind::Prismatic => (axis * value(0), unturned),
+        JointKind::Revolute | JointKind::Continuous => (none, axis * value(0)),
+        JointKind::Spherical => (none, values()),
+        JointKind::Floating | JointKind::Planar => {
+            (values(), Vector3::new(value(3), value(4), value(5)))
+        }
     };
     Rest {
         axes: turned(turn),
@@ -279,10 +281,10 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 
     fn home_places(&mut self, item: &Item<'e>, q: &[Number], at: usize) {
-        let length = |kind: Kind| match kind {
-            Kind::Fixed => 0,
-            Kind::Floating => 7,
-            Kind::Spherical => 4,
+        let length = |kind: JointKind| match kind {
+            JointKind::Fixed => 0,
+            JointKind::Floating => 7,
+            JointKind::Spherical => 4,
             _ => 1,
         };
         let wanted = self.robot.joints.iter().map(|joint| length(joint.kind));
@@ -300,7 +302,7 @@ impl<'e> Reader<'_, '_, 'e> {
                     joint.home = Some(value.clone());
                     continue;
                 }
-                [x, y, z, turn @ ..] if joint.kind == Kind::Floating => {
+                [x, y, z, turn @ ..] if joint.kind == JointKind::Floating => {
                     ([x, y, z].map(Clone::clone), turn)
                 }
                 turn => (<[Number; 3]>::default(), turn),
@@ -317,10 +319,10 @@ impl<'e> Reader<'_, '_, 'e> {
     }
 
     fn home_rates(&mut self, item: &Item<'e>, v: &[Number], at: usize) {
-        let length = |kind: Kind| match kind {
-            Kind::Fixed => 0,
-            Kind::Floating => 6,
-            Kind::Spherical => 3,
+        let length = |kind: JointKind| match kind {
+            JointKind::Fixed => 0,
+            JointKind::Floating => 6,
+            JointKind::Spherical => 3,
             _ => 1,
         };
         let wanted = self.robot.joints.iter().map(|joint| length(joint.kind));

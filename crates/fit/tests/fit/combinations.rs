@@ -1,7 +1,7 @@
 //! Combinations of parameters that data determine when the parameters themselves cannot be told
 //! apart, for cases known by hand.
 
-use lagrangian_fit::combinations::{Kind, combinations};
+use lagrangian_fit::combinations::{CombinationForm, combinations};
 use nalgebra::DMatrix;
 
 fn names(all: &[&str]) -> Vec<String> {
@@ -64,7 +64,7 @@ fn what_is_neither_is_local() {
     let mut is_same = |from: &[f64], to: &[f64]| (of(to)[0] - of(from)[0]).abs() <= 1e-12;
     let found = combinations(&x, &x, &null, 1e-12, &mut is_same);
     assert_eq!(found.len(), 1);
-    assert_eq!(found[0].kind, Kind::Local);
+    assert_eq!(found[0].kind, CombinationForm::Local);
     // Its gradient is that of k/(m1 + m2), up to a factor: (−k, −k, m1 + m2) ~ (1, 1, −1/2).
     assert_eq!(found[0].terms, [(0, 1.0), (1, 1.0), (2, -0.5)]);
 }

@@ -90,7 +90,7 @@ impl Phase {
 }
 
 /// A machine at a state, with a derivative of everything in one direction.
-pub(crate) struct Place<'i> {
+pub(crate) struct DualState<'i> {
     interpreter: &'i mut Interpreter<Number>,
     t: Number,
     q: Vec<Number>,
@@ -123,14 +123,14 @@ pub(crate) struct Sought {
     pub change: Number,
 }
 
-impl<'i> Place<'i> {
+impl<'i> DualState<'i> {
     /// Evaluates the machine at a state; `state` lists time, coordinates and rates.
     pub fn new(
         interpreter: &'i mut Interpreter<Number>,
         state: Vec<Number>,
         u: &'i [Number],
         phase: &Phase,
-    ) -> Result<Place<'i>, Singular> {
+    ) -> Result<DualState<'i>, Singular> {
         let (n, contacts) = ((state.len() - 1) / 2, phase.modes.len());
         let (t, q, v) = (state[0], state[1..=n].to_vec(), state[n + 1..].to_vec());
         let mut call = |role: Role, count: usize| -> Result<Vec<Number>, Singular> {
@@ -154,7 +154,7 @@ impl<'i> Place<'i> {
             mass[i * n + j] = *entry;
             mass[j * n + i] = *entry;
         }
-        Ok(Place {
+        Ok(DualState {
             gaps: call(Role::Gaps, contacts)?,
             rates: call(Role::ContactRates, 2 * contacts)?,
             rows: call(Role::ContactMatrix, 2 * contacts * n)?,

@@ -42,7 +42,7 @@ use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::rotation_angle;
 use lagrangian_spec::model::element::{Contribution, Element, Energy, Load, Sliding};
-use lagrangian_spec::model::{Inertia, Model, Place, PoseId, Rotation, Space};
+use lagrangian_spec::model::{FrameOrBody, Inertia, Model, PoseId, Rotation, Space};
 use lagrangian_spec::source::Span;
 
 /// The number of points of the prime field that are tried until all expressions have a value at one
@@ -90,8 +90,8 @@ impl Carrying {
     /// The analysis of a machine; nothing if it has no guides, or if its expressions have no values
     /// at any point tried.
     pub fn of(model: &Model<'_>) -> Option<Carrying> {
-        let motion =
-            Motion::of(model, Numbers::OfField).or_else(|| Motion::of(model, Numbers::Real));
+        let motion = PartVelocities::of(model, Numbers::OfField)
+            .or_else(|| PartVelocities::of(model, Numbers::Real));
         motion.map(|motion| motion.carrying(model))
     }
 
@@ -105,11 +105,11 @@ impl Carrying {
 /// Reports for every guide what leaves its reaction undetermined. Returns true if anything does.
 pub(super) fn refuse_undetermined_reactions(model: &Model<'_>, report: &mut Report) -> bool {
     let mut tested = Vec::new();
-    let mut errors = Motion::of(model, Numbers::OfField)
+    let mut errors = PartVelocities::of(model, Numbers::OfField)
         .map_or_else(Vec::new, |motion| motion.errors(model, &mut tested));
     // Ordinary numbers are used if the prime field has no values for the motion, or for some of the forces.
     if errors.is_empty() && (tested.is_empty() || tested.contains(&false)) {
-        errors = Motion::of(model, Numbers::Real)
+        errors = PartVelocities::of(model, Numbers::Real)
             .map_or_else(Vec::new, |motion| motion.errors(model, &mut tested));
     }
     let refused = !errors.is_empty();
@@ -245,7 +245,7 @@ enum PartKind {
 
 /// The velocities of all parts at a point: rows are components of velocities; columns are
 /// coordinates, followed by the displacements of each guide, two in the plane and three in space.
-struct Motion {
+struct PartVelocities {
     numbers: Numbers,
     parts: Vec<Part>,
     columns: Vec<Vec<Value>>,
@@ -372,7 +372,7 @@ impl Relaxed<'_, '_> {
     /// and points alone may move off by more than the displacement.
     fn guides_that_may_be_displaced(
         &self,
-        motion: &Motion,
+        motion: &PartVelocities,
         displacements: &[(usize, DisplacementAlongGuide)],
     ) -> Vec<usize> {
         let (_, places) = parts(self.model);
@@ -392,9 +392,9 @@ impl Relaxed<'_, '_> {
     }
 }
 
-impl Motion {
-    fn of(model: &Model<'_>, numbers: Numbers) -> Option<Motion> {
-        Motion::at_first_valid_point(model, numbers, 0..TRIALS)
+impl PartVelocities {
+    fn of(model: &Model<'_>, numbers: Numbers) -> Option<PartVelocities> {
+        PartVelocities::at_first_valid_point(model, numbers, 0..TRIALS)
     }
 
     /// The motion at the first of some points where everything has a value.
@@ -402,7 +402,7 @@ impl Motion {
         model: &Model<'_>,
         numbers: Numbers,
         mut points: std::ops::Range<u64>,
-    ) -> Option<Motion> {
+    ) -> Option<PartVelocities> {
         if model.sliding().is_empty() {
             return None;
         }
@@ -428,7 +428,7 @@ impl Motion {
         let columns = relaxed.derivatives(at_zero, &expressions, &relaxed.x.q);
         let entries = columns.iter().flatten();
         let size = entries.map(|x| x.size_relative_to(0.0)).fold(0.0, f64::max);
-        Some(Motion {
+        Some(PartVelocities {
             numbers,
             parts,
             columns,
@@ -704,7 +704,8 @@ impl Motion {
                 break;
             }
             let points = next..next + TRIALS;
-            let Some(motion) = Motion::at_first_valid_point(model, self.numbers, points) else {
+            let Some(motion) = PartVelocities::at_first_valid_point(model, self.numbers, points)
+            else {
                 break;
             };
             next = motion.point + 1;
@@ -731,7 +732,7 @@ impl Motion {
         let is_carried = |part: &Part, guide: usize| self.moves(part, &self.columns_of(guide));
         let base_moves = |guide: usize, i: usize| {
             let base = self.parts.iter().find(|part| match part.kind {
-                PartKind::Body(body) => sliding[guide].on == Place::Body(body),
+                PartKind::Body(body) => sliding[guide].on == FrameOrBody::Body(body),
                 PartKind::Base(of) => of == guide,
             });
             base.is_some_and(|base| self.moves(base, &[i]))
@@ -876,7 +877,7 @@ fn addends(value: Expr<'_>) -> Vec<Expr<'_>> {
 
 /// Tests what is written in coordinates against the motion along the guides.
 struct CoordinateTests<'s, 'm, 'd> {
-    motion: &'s Motion,
+    motion: &'s PartVelocities,
     relaxed: &'s Relaxed<'m, 'd>,
     model: &'m Model<'d>,
     displacements: &'s [(usize, DisplacementAlongGuide)],
@@ -1157,8 +1158,8 @@ fn is_a_base(model: &Model<'_>, body: usize) -> bool {
         _ => None,
     };
     model.sliding().iter().any(|sliding| match sliding.on {
-        Place::Body(on) => on == body,
-        Place::Frame(mut pose) => loop {
+        FrameOrBody::Body(on) => on == body,
+        FrameOrBody::Frame(mut pose) => loop {
             if Some(pose) == own {
                 return true;
             }
@@ -1188,7 +1189,7 @@ fn parts<'d>(model: &Model<'d>) -> (Vec<Part>, Vec<Expr<'d>>) {
         add(PartKind::Body(index), &body.at, turned);
     }
     for (index, sliding) in model.sliding().into_iter().enumerate() {
-        if let Place::Frame(pose) = sliding.on {
+        if let FrameOrBody::Frame(pose) = sliding.on {
             let turned = orientation_components(model, Rotation::Frame(pose));
             add(
                 PartKind::Base(index),

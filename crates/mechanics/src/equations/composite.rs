@@ -16,7 +16,7 @@ use lagrangian_symbolic::{Dag, Expr, Stage};
 use super::kinematics::{
     AccelerationMatrix, Twist, Vector, add, apply_tensor, cross, others, vector,
 };
-use lagrangian_spec::model::{Model, PoseId, Step};
+use lagrangian_spec::model::{Model, PoseChange, PoseId};
 
 /// A part's inertia about the origin of a frame, along its axes:
 /// `T = ½ m u² + u·(ω×s) + ½ ω·J ω`.
@@ -184,7 +184,7 @@ pub(super) fn composites_by_pose<'d>(
     // Children come after their parents.
     for index in (1..composites.len()).rev() {
         let pose = &model.poses[index];
-        if let Step::Shift(r) = &pose.step
+        if let PoseChange::Shift(r) = &pose.step
             && fixed(r)
         {
             let parent = pose.parent.index();
@@ -193,13 +193,13 @@ pub(super) fn composites_by_pose<'d>(
         }
     }
     for index in (1..composites.len()).rev() {
-        let Step::Turn { axis, .. } = &model.poses[index].step else {
+        let PoseChange::Turn { axis, .. } = &model.poses[index].step else {
             continue;
         };
         // Follow constant shifts up to the next turn, or to the ground.
         let mut carrier = model.poses[index].parent;
         let mut shifts: Vec<&[Expr<'d>]> = Vec::new();
-        while let Step::Shift(r) = &model.poses[carrier.index()].step
+        while let PoseChange::Shift(r) = &model.poses[carrier.index()].step
             && fixed(r)
         {
             shifts.push(r);

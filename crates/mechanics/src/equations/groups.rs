@@ -24,7 +24,7 @@ pub struct Share<'d> {
     /// The element, by its index in [`Model::elements`].
     pub element: usize,
     /// Its kind of term in an equation.
-    pub kind: Kind,
+    pub kind: TermKind,
     /// Its share of the potential energy or of the dissipation function; a force has none.
     pub energy: Option<Expr<'d>>,
     /// Its share of the applied forces `Q`, one for each coordinate.
@@ -60,7 +60,7 @@ fn energy_shares<'d>(model: &Model<'d>, x: &Variables<'d>) -> Vec<Share<'d>> {
         let mut all = element.contributions.iter();
         if all.any(|one| matches!(one, Contribution::Gravity(_))) {
             let weight = dag.sum(energy::weights(model));
-            shares.push(share(index, Kind::Gravity, weight, &x.q));
+            shares.push(share(index, TermKind::Gravity, weight, &x.q));
         }
     }
     for (index, element) in elements() {
@@ -69,9 +69,9 @@ fn energy_shares<'d>(model: &Model<'d>, x: &Variables<'d>) -> Vec<Share<'d>> {
         if !stored.is_empty() {
             let is_deformed = stored.iter().any(|e| matches!(e, Energy::Quadratic(_)));
             let kind = if is_deformed {
-                Kind::Springs
+                TermKind::Springs
             } else {
-                Kind::Potentials
+                TermKind::Potentials
             };
             let value = dag.sum(stored.into_iter().map(energy::stored));
             shares.push(share(index, kind, value, &x.q));
@@ -88,7 +88,7 @@ fn energy_shares<'d>(model: &Model<'d>, x: &Variables<'d>) -> Vec<Share<'d>> {
         }
     }
     for (index, value) in dissipations {
-        shares.push(share(index, Kind::Dissipation, value, &x.v));
+        shares.push(share(index, TermKind::Dissipation, value, &x.v));
     }
     shares
 }
@@ -107,7 +107,7 @@ fn load_shares<'d>(model: &Model<'d>, x: &Variables<'d>) -> Vec<Share<'d>> {
         projection.add_loads(acting.into_iter(), &mut loads);
         shares.push(Share {
             element,
-            kind: Kind::Applied,
+            kind: TermKind::Applied,
             energy: None,
             forces: projection.project(&loads, 0..x.q.len()),
         });
@@ -138,7 +138,7 @@ fn replace_zero_forces<'d>(model: &Model<'d>, shares: &mut [Share<'d>]) {
 
 /// The kind of the terms of a group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum TermKind {
     /// The mass matrix times the accelerations.
     Inertia,
     /// Squares of rates.
@@ -165,8 +165,8 @@ pub enum Kind {
 #[derive(Clone, Debug)]
 pub struct Group<'d> {
     /// Their kind.
-    pub kind: Kind,
-    /// The terms. Their sum stands on the left side of the equation, or on the right if they are [`Kind::Applied`].
+    pub kind: TermKind,
+    /// The terms. Their sum stands on the left side of the equation, or on the right if they are [`TermKind::Applied`].
     pub terms: Vec<Term<'d>>,
 }
 
@@ -198,7 +198,7 @@ pub fn equation<'d>(
 ) -> Vec<Group<'d>> {
     let dag = model.dag;
     let mut groups: Vec<Group<'d>> = Vec::new();
-    let mut add = |kind: Kind, term: Term<'d>| {
+    let mut add = |kind: TermKind, term: Term<'d>| {
         if term.coefficient.is_zero() {
             return;
         }
@@ -213,7 +213,7 @@ pub fn equation<'d>(
     for (j, coordinate) in model.coordinates.iter().enumerate() {
         let coefficient = compact(*equations.mass_matrix.get(i, j));
         add(
-            Kind::Inertia,
+            TermKind::Inertia,
             Term {
                 coefficient,
                 factor: coordinate.a,
@@ -225,19 +225,19 @@ pub fn equation<'d>(
     }
     let on_lengths = length_forces(model);
     for kind in [
-        Kind::Gravity,
-        Kind::Springs,
-        Kind::Potentials,
-        Kind::Dissipation,
-        Kind::Applied,
+        TermKind::Gravity,
+        TermKind::Springs,
+        TermKind::Potentials,
+        TermKind::Dissipation,
+        TermKind::Applied,
     ] {
         let of_kind = shares.iter().filter(|share| share.kind == kind);
         let sum = of_kind.map(|share| share.forces[i]);
         // The row of a state gives its rate.
         let rate = model.coordinates[i].rate;
         let others = rate.into_iter().chain([on_lengths[i]]);
-        let sum = dag.sum(sum.chain(others.filter(|_| kind == Kind::Applied)));
-        let side = if kind == Kind::Applied { sum } else { -sum };
+        let sum = dag.sum(sum.chain(others.filter(|_| kind == TermKind::Applied)));
+        let side = if kind == TermKind::Applied { sum } else { -sum };
         add(
             kind,
             Term {
@@ -252,7 +252,7 @@ pub fn equation<'d>(
 
 /// The bias, split by the rates in it. It is a quadratic polynomial in `v`; without explicit time it has only terms of
 /// second degree, like `D²p`, eq. (E13).
-fn velocity_terms<'d>(model: &Model<'d>, bias: Expr<'d>) -> Vec<(Kind, Term<'d>)> {
+fn velocity_terms<'d>(model: &Model<'d>, bias: Expr<'d>) -> Vec<(TermKind, Term<'d>)> {
     if bias.is_zero() {
         return Vec::new();
     }
@@ -267,15 +267,15 @@ fn velocity_terms<'d>(model: &Model<'d>, bias: Expr<'d>) -> Vec<(Kind, Term<'d>)
             coefficient: readable(bias),
             factor: dag.one(),
         };
-        return vec![(Kind::Velocity, term)];
+        return vec![(TermKind::Velocity, term)];
     };
     let kind = |factor: Expr<'d>| match factor.node() {
         Node::Product(factors) => match &factors[..] {
-            [(_, 2)] => Kind::Centrifugal,
-            _ => Kind::Coriolis,
+            [(_, 2)] => TermKind::Centrifugal,
+            _ => TermKind::Coriolis,
         },
         // A single rate, or none.
-        _ => Kind::Drive,
+        _ => TermKind::Drive,
     };
     let terms = collected.into_iter();
     terms

@@ -3,7 +3,7 @@
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::rotation_angle;
 use lagrangian_spec::model::element::Sliding;
-use lagrangian_spec::model::{Model, Place, PoseId, Rotation, Space};
+use lagrangian_spec::model::{FrameOrBody, Model, PoseId, Rotation, Space};
 use lagrangian_symbolic::{Expr, Tangent};
 
 use super::kinematics::cross;
@@ -89,8 +89,8 @@ pub(super) fn base<'m, 'd>(
     rate: &mut Tangent<'d>,
 ) -> (&'m [Expr<'d>], Vec<Expr<'d>>) {
     let origin = match sliding.on {
-        Place::Frame(pose) => &model.poses[pose.index()].origin,
-        Place::Body(on) => &model.bodies[on].at,
+        FrameOrBody::Frame(pose) => &model.poses[pose.index()].origin,
+        FrameOrBody::Body(on) => &model.bodies[on].at,
     };
     let rotation = model.rotation(sliding.on);
     let turning = match (model.space, rotation) {

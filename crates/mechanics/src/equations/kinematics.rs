@@ -4,7 +4,7 @@ use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent};
 
 use lagrangian_spec::model::circles::planar_angle;
 use lagrangian_spec::model::{
-    Body, Inertia, Model, Pose, PoseId, Rotation, Space, Step, quaternion,
+    Body, Inertia, Model, Pose, PoseChange, PoseId, Rotation, Space, quaternion,
 };
 
 /// The independent variables: `t`, and `q`, `v` (with `a`) in the order of the coordinates.
@@ -279,17 +279,17 @@ impl Chains {
                 },
             };
             match &pose.step {
-                Step::Shift(r) if self.needed_origin[index] => {
+                PoseChange::Shift(r) if self.needed_origin[index] => {
                     twist.linear = velocity_at(&twist, &vector(r), rate);
                 }
-                &Step::Turn { axis, angle } if self.needed[index] => {
+                &PoseChange::Turn { axis, angle } if self.needed[index] => {
                     if self.needed_origin[index] {
                         twist.linear = rotated(&twist.linear, axis, angle);
                     }
                     twist.angular = rotated(&twist.angular, axis, angle);
                     twist.angular[axis] = twist.angular[axis] + rate.of(angle);
                 }
-                Step::Quaternion(e) if self.needed[index] => {
+                PoseChange::Quaternion(e) if self.needed[index] => {
                     let axes = quaternion::axes(e);
                     if self.needed_origin[index] {
                         twist.linear = components_along(&axes, &twist.linear);
@@ -297,7 +297,10 @@ impl Chains {
                     let own = quaternion::angular_velocity(e, &e.map(|e| rate.of(e)));
                     twist.angular = add(&[&components_along(&axes, &twist.angular), &own]);
                 }
-                Step::Ground | Step::Shift(_) | Step::Turn { .. } | Step::Quaternion(_) => {}
+                PoseChange::Ground
+                | PoseChange::Shift(_)
+                | PoseChange::Turn { .. }
+                | PoseChange::Quaternion(_) => {}
             }
             twists.push(twist);
         }
@@ -332,11 +335,11 @@ impl Chains {
             };
             let omega = &velocities[index].angular;
             match &pose.step {
-                Step::Shift(r) if self.needed_origin[index] => {
+                PoseChange::Shift(r) if self.needed_origin[index] => {
                     let turning = AccelerationMatrix::of(omega, &here.angular);
                     here.linear = shifted_acceleration(&here, omega, &turning, &vector(r), rate);
                 }
-                &Step::Turn { axis, angle } if self.needed[index] => {
+                &PoseChange::Turn { axis, angle } if self.needed[index] => {
                     if self.needed_origin[index] {
                         here.linear = rotated(&here.linear, axis, angle);
                     }
@@ -348,7 +351,7 @@ impl Chains {
                     here.angular[next] = here.angular[next] + angle_rate * omega[last];
                     here.angular[last] = here.angular[last] - angle_rate * omega[next];
                 }
-                Step::Quaternion(e) if self.needed[index] => {
+                PoseChange::Quaternion(e) if self.needed[index] => {
                     let axes = quaternion::axes(e);
                     if self.needed_origin[index] {
                         here.linear = components_along(&axes, &here.linear);
@@ -361,7 +364,10 @@ impl Chains {
                     here.angular =
                         add(&[&components_along(&axes, &here.angular), &faster, &carried]);
                 }
-                Step::Ground | Step::Shift(_) | Step::Turn { .. } | Step::Quaternion(_) => {}
+                PoseChange::Ground
+                | PoseChange::Shift(_)
+                | PoseChange::Turn { .. }
+                | PoseChange::Quaternion(_) => {}
             }
             accelerations.push(here);
         }
@@ -378,8 +384,10 @@ impl Chains {
         for (index, pose) in model.poses.iter().enumerate() {
             let parent = vectors.get(pose.parent.index()).copied().unwrap_or(ground);
             vectors.push(match pose.step {
-                Step::Turn { axis, angle } if self.needed[index] => rotated(&parent, axis, angle),
-                Step::Quaternion(e) if self.needed[index] => {
+                PoseChange::Turn { axis, angle } if self.needed[index] => {
+                    rotated(&parent, axis, angle)
+                }
+                PoseChange::Quaternion(e) if self.needed[index] => {
                     components_along(&quaternion::axes(&e), &parent)
                 }
                 _ => parent,
@@ -399,8 +407,8 @@ pub(super) fn along_axes<'d>(model: &Model<'d>, pose: PoseId, ground: &[Expr<'d>
     while here != PoseId::GROUND && turns.len() <= MOST_ROTATIONS {
         let Pose { parent, step, .. } = &model.poses[here.index()];
         turns.extend(match step {
-            Step::Turn { .. } | Step::Quaternion(_) => Some(step),
-            Step::Ground | Step::Shift(_) => None,
+            PoseChange::Turn { .. } | PoseChange::Quaternion(_) => Some(step),
+            PoseChange::Ground | PoseChange::Shift(_) => None,
         });
         here = *parent;
     }
@@ -412,10 +420,10 @@ pub(super) fn along_axes<'d>(model: &Model<'d>, pose: PoseId, ground: &[Expr<'d>
                 .sum(axes[k].iter().zip(ground).map(|(&e, &g)| e * g))
         });
     }
-    let turn = |vector, step: &Step<'d>| match step {
-        &Step::Turn { axis, angle } => rotated(&vector, axis, angle),
-        Step::Quaternion(e) => components_along(&quaternion::axes(e), &vector),
-        Step::Ground | Step::Shift(_) => vector,
+    let turn = |vector, step: &PoseChange<'d>| match step {
+        &PoseChange::Turn { axis, angle } => rotated(&vector, axis, angle),
+        PoseChange::Quaternion(e) => components_along(&quaternion::axes(e), &vector),
+        PoseChange::Ground | PoseChange::Shift(_) => vector,
     };
     turns.into_iter().rev().fold(vector(ground), turn)
 }

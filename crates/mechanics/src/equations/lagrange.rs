@@ -19,7 +19,7 @@ use super::projected::with_state;
 use super::symmetric::Symmetric;
 use lagrangian_spec::model::circles::rotation_angle;
 use lagrangian_spec::model::element::Load;
-use lagrangian_spec::model::{Model, Place, Rotation, Space};
+use lagrangian_spec::model::{FrameOrBody, Model, Rotation, Space};
 
 /// The literal Lagrange equations of a machine. Slow to derive and long; never emitted.
 pub struct Oracle<'d> {
@@ -282,7 +282,7 @@ fn applied<'d>(
 /// The power of a torque on a body or frame that turns at the given rate, as terms of a sum.
 fn power<'d>(
     model: &Model<'d>,
-    on: Place,
+    on: FrameOrBody,
     torque: &[Expr<'d>],
     rate: &mut Tangent<'d>,
 ) -> Vec<Expr<'d>> {

@@ -9,7 +9,7 @@
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::element::{Contribution, Energy, Load};
-use lagrangian_spec::model::{ContactGeometry, Model, Rotation, Step, stage};
+use lagrangian_spec::model::{ContactGeometry, Model, PoseChange, Rotation, stage};
 use lagrangian_spec::source::Span;
 use lagrangian_spec::syntax::SectionKind;
 use lagrangian_symbolic::{Expr, Tangent};
@@ -82,9 +82,9 @@ impl<'d> LengthVariation<'d> {
         let mut found = Vec::new();
         for (index, pose) in model.poses.iter().enumerate() {
             let moves = match &pose.step {
-                Step::Ground | Step::Quaternion(_) => false,
-                Step::Shift(by) => by.iter().any(|&x| self.depends_on_length(x)),
-                Step::Turn { angle, .. } => self.depends_on_length(*angle),
+                PoseChange::Ground | PoseChange::Quaternion(_) => false,
+                PoseChange::Shift(by) => by.iter().any(|&x| self.depends_on_length(x)),
+                PoseChange::Turn { angle, .. } => self.depends_on_length(*angle),
             };
             if !moves {
                 continue;

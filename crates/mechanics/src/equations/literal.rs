@@ -49,7 +49,7 @@ use frozen::Frozen;
 use lagrangian_spec::model::element::{Energy, Load, Sliding};
 use lagrangian_spec::model::polygons::{Corner, Polygon};
 use lagrangian_spec::model::{
-    ApproximationKind, Body, Circle, Contact, ContactGeometry, Inertia, Model, Place, PoseId,
+    ApproximationKind, Body, Circle, Contact, ContactGeometry, FrameOrBody, Inertia, Model, PoseId,
     Rotation, Space, Surface, quaternion,
 };
 use values::Values;
@@ -696,8 +696,8 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             Rotation::Angle(_) | Rotation::Unspecified => &body.at,
         });
         let origin = x.vector::<N>(match sliding.on {
-            Place::Frame(pose) => &model.poses[pose.index()].origin,
-            Place::Body(on) => &model.bodies[on].at,
+            FrameOrBody::Frame(pose) => &model.poses[pose.index()].origin,
+            FrameOrBody::Body(on) => &model.bodies[on].at,
         });
         let arm = difference(at, origin);
         let carried = carried(model, model.rotation(sliding.on), vector::value(arm), x);
@@ -956,10 +956,10 @@ impl<'d> Geometry<'_, 'd> {
         }
     }
 
-    fn add_place(&mut self, place: Place) {
+    fn add_place(&mut self, place: FrameOrBody) {
         match place {
-            Place::Frame(frame) => self.add_pose(frame),
-            Place::Body(index) => self.add_body(index),
+            FrameOrBody::Frame(frame) => self.add_pose(frame),
+            FrameOrBody::Body(index) => self.add_body(index),
         }
     }
 
@@ -1197,7 +1197,7 @@ fn centre_and_angular_velocity<R: Scalar>(
 /// The position of a point fixed to a frame or a body, and the angular velocity of that.
 fn point_and_angular_velocity<R: Scalar>(
     model: &Model<'_>,
-    on: Place,
+    on: FrameOrBody,
     coordinates: &[Expr<'_>],
     x: &Values<'_, Varied<R>>,
 ) -> ([Moving<R>; 2], Varied<R>) {
@@ -1206,11 +1206,11 @@ fn point_and_angular_velocity<R: Scalar>(
         [x.vector::<2>(&axes[0]), x.vector::<2>(&axes[1])]
     };
     let (origin, axes, turned) = match on {
-        Place::Frame(pose) => {
+        FrameOrBody::Frame(pose) => {
             let frame = &model.poses[pose.index()];
             (&frame.origin, of_pose(pose), Some(frame.angle))
         }
-        Place::Body(body) => {
+        FrameOrBody::Body(body) => {
             let body = &model.bodies[body];
             let axes = match body.rotation {
                 Rotation::Unspecified => ground(),

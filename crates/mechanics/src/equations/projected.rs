@@ -39,7 +39,7 @@ use super::symmetric::Symmetric;
 use lagrangian_spec::model::circles::{planar_angle, rotation_angle};
 use lagrangian_spec::model::element::{Energy, Load};
 use lagrangian_spec::model::quaternion::Quaternion;
-use lagrangian_spec::model::{Body, Inertia, Model, Place, PoseId, Rotation, Space};
+use lagrangian_spec::model::{Body, FrameOrBody, Inertia, Model, PoseId, Rotation, Space};
 
 /// The nodes that carry a machine's inertia, in the form that is cheapest to differentiate.
 pub(super) struct Projection<'a, 'd> {
@@ -322,7 +322,7 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// Adds `M·∂ω/∂vᵢ` of a torque. `twists` are the velocities of all frames in space, once they have been needed.
     fn add_torque(
         &self,
-        on: Place,
+        on: FrameOrBody,
         torque: &[Expr<'d>],
         twists: &mut Option<Vec<Twist<'d>>>,
         loads: &mut Loads<'d>,

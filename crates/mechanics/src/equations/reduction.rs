@@ -21,7 +21,7 @@ use super::kinematics::Variables;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::identity;
 use lagrangian_spec::model::element::{Contribution, Load};
-use lagrangian_spec::model::{Inertia, Model, Rotation, Step, stage};
+use lagrangian_spec::model::{Inertia, Model, PoseChange, Rotation, stage};
 
 /// A machine without the coordinates that constraints determine.
 #[derive(Clone, Debug)]
@@ -208,12 +208,12 @@ fn expressions<'m, 'd>(model: &'m mut Model<'d>) -> Vec<&'m mut Expr<'d>> {
         all.extend(pose.axes.iter_mut().flatten());
         all.push(&mut pose.angle);
         match &mut pose.step {
-            Step::Ground => {}
-            Step::Shift(along) => all.extend(along),
-            Step::Turn { angle, .. } => all.push(angle),
+            PoseChange::Ground => {}
+            PoseChange::Shift(along) => all.extend(along),
+            PoseChange::Turn { angle, .. } => all.push(angle),
             // No constraint determines a component of a quaternion without knowing its length: a constraint that holds
             // for every length is not linear in one component.
-            Step::Quaternion(_) => {}
+            PoseChange::Quaternion(_) => {}
         }
     }
     for body in &mut model.bodies {

@@ -12,8 +12,8 @@ use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::polygons::Corner;
 use lagrangian_spec::model::{
-    Circle, Contact, ContactGeometry, ImpactLaw, MOST_UNILATERAL, Model, Name, Painleve, Place,
-    Rotation, Space, Surface, Touching, circles,
+    Circle, Contact, ContactGeometry, FrameOrBody, ImpactLaw, MOST_UNILATERAL, Model, Name,
+    Painleve, Rotation, Space, Surface, Touching, circles,
 };
 use lagrangian_spec::source::Span;
 use lagrangian_spec::syntax::SectionKind;
@@ -257,7 +257,7 @@ pub(super) fn refuse_unoriented(model: &Model<'_>, report: &mut Report) -> bool 
             Surface::Along(_) => None,
         };
         for circle in [Some(circle), other].into_iter().flatten() {
-            let Place::Body(body) = circle.on else {
+            let FrameOrBody::Body(body) = circle.on else {
                 continue;
             };
             let body = &model.bodies[body];
@@ -313,7 +313,7 @@ fn refuse_unoriented_polygons(model: &Model<'_>, report: &mut Report) -> bool {
             continue;
         };
         // Each polygon is checked at the contact of its own first corner.
-        let (0, Place::Body(body)) = (*corner, own.on) else {
+        let (0, FrameOrBody::Body(body)) = (*corner, own.on) else {
             continue;
         };
         let body = &model.bodies[body];

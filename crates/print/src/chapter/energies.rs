@@ -5,7 +5,7 @@ use lagrangian_symbolic::{Expr, Math};
 
 use super::{Chapter, Shown, code, label, listed, paragraph, shown, words};
 use crate::document::{Block, Row, Words};
-use lagrangian_mechanics::equations::groups::{Kind, Share};
+use lagrangian_mechanics::equations::groups::{Share, TermKind};
 use lagrangian_spec::model::element::Element;
 use lagrangian_spec::model::{Name, Space};
 
@@ -15,9 +15,13 @@ const LONGEST_SUM: u64 = 400;
 impl<'d> Chapter<'_, 'd> {
     pub(super) fn energies(&self) -> Vec<Block> {
         let mut blocks = self.kinetic_energy();
-        let is_potential =
-            |kind: Kind| matches!(kind, Kind::Gravity | Kind::Springs | Kind::Potentials);
-        let is_dissipation = |kind: Kind| kind == Kind::Dissipation;
+        let is_potential = |kind: TermKind| {
+            matches!(
+                kind,
+                TermKind::Gravity | TermKind::Springs | TermKind::Potentials
+            )
+        };
+        let is_dissipation = |kind: TermKind| kind == TermKind::Dissipation;
         let equations = &self.compiled.equations;
         blocks.extend(self.energy(
             'V',
@@ -96,7 +100,7 @@ impl<'d> Chapter<'_, 'd> {
         &self,
         letter: char,
         title: &str,
-        is_part: impl Fn(Kind) -> bool,
+        is_part: impl Fn(TermKind) -> bool,
         total: Expr<'d>,
     ) -> Vec<Block> {
         let parts = self.shares.iter().filter(|part| is_part(part.kind));

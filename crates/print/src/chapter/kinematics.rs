@@ -5,7 +5,7 @@ use lagrangian_symbolic::{Expr, Math, print::Sign};
 use super::{Chapter, Shown, code, label, listed, shown, words};
 use crate::document::{Block, Words, of_docs};
 use lagrangian_mechanics::angular_velocities;
-use lagrangian_spec::model::{Body, Frame, Inertia, PoseId, Space, Step};
+use lagrangian_spec::model::{Body, Frame, Inertia, PoseChange, PoseId, Space};
 
 impl<'d> Chapter<'_, 'd> {
     pub(super) fn kinematics(&self) -> Vec<Block> {
@@ -80,18 +80,18 @@ impl<'d> Chapter<'_, 'd> {
         let parent = loop {
             let pose = &model.poses[pose_id.index()];
             match &pose.step {
-                Step::Ground => break words!["the ground"],
-                Step::Shift(by) => {
+                PoseChange::Ground => break words!["the ground"],
+                PoseChange::Shift(by) => {
                     steps.push(words!["moved by ", self.tuple(by), " along its axes"])
                 }
-                Step::Turn { angle, .. } if model.space == Space::Plane => {
+                PoseChange::Turn { angle, .. } if model.space == Space::Plane => {
                     steps.push(words!["turned by ", self.math(*angle)]);
                 }
-                Step::Turn { axis, angle } => {
+                PoseChange::Turn { axis, angle } => {
                     let axis = Math::letter(['x', 'y', 'z'][axis % 3]);
                     steps.push(words!["turned about ", axis, " by ", self.math(*angle)]);
                 }
-                Step::Quaternion(e) => {
+                PoseChange::Quaternion(e) => {
                     steps.push(words!["turned by the quaternion ", self.tuple(e)]);
                 }
             }

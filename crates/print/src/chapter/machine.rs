@@ -4,7 +4,7 @@ use lagrangian_symbolic::print::Mark;
 use lagrangian_symbolic::{Expr, Math, math_as_built};
 
 use super::{Chapter, Shown, code, counted, head, listed, paragraph, prose, shown, unit, words};
-use crate::document::{Block, Row, Run, Words, of_docs};
+use crate::document::{Block, Inline, Row, Words, of_docs};
 use lagrangian_mechanics::{Freedom, Independent, equations::freedom};
 use lagrangian_spec::model::{ApproximationKind, Coordinate, Name, Space};
 use lagrangian_units::rate_unit;
@@ -366,7 +366,7 @@ fn of_all(count: usize) -> String {
 
 fn is_blank(words: &Words) -> bool {
     words.iter().all(|run| match run {
-        Run::Text(text) | Run::Code(text) | Run::Emphasis(text) => text.is_empty(),
-        Run::Math(math) => math.is_empty(),
+        Inline::Text(text) | Inline::Code(text) | Inline::Emphasis(text) => text.is_empty(),
+        Inline::Math(math) => math.is_empty(),
     })
 }

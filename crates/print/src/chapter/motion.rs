@@ -6,7 +6,7 @@ use lagrangian_symbolic::{Expr, Math, Node, math_as_built};
 use super::{Chapter, READABLE, Shown, code, paragraph, shown, words};
 use crate::document::{Block, LINE, Row};
 use lagrangian_mechanics::Route;
-use lagrangian_mechanics::equations::groups::{self, Group, Kind, Term};
+use lagrangian_mechanics::equations::groups::{self, Group, Term, TermKind};
 use lagrangian_spec::model::stage;
 
 /// In an equation that is too long to read, groups of a greater size get a name or are left out.
@@ -114,7 +114,7 @@ impl<'d> Chapter<'_, 'd> {
     /// Group by group, with names for long parts: entries of the mass matrix and the bias.
     fn long_rows(&self, index: usize, groups: &[Group<'d>]) -> Vec<Row> {
         let is_velocity = |group: &&Group<'d>| {
-            use Kind::{Centrifugal, Coriolis, Drive, Velocity};
+            use TermKind::{Centrifugal, Coriolis, Drive, Velocity};
             matches!(group.kind, Centrifugal | Coriolis | Drive | Velocity)
         };
         let velocity = groups.iter().filter(is_velocity);
@@ -131,7 +131,7 @@ impl<'d> Chapter<'_, 'd> {
                 continue;
             }
             let math = match group.kind {
-                Kind::Inertia => self.inertia_terms(index, group),
+                TermKind::Inertia => self.inertia_terms(index, group),
                 _ if size_of(group) > LONG_GROUP => {
                     Math::text(format!("({} symbols, not shown)", size_of(group)))
                 }
@@ -141,7 +141,7 @@ impl<'d> Chapter<'_, 'd> {
         }
         let is_applied = groups
             .last()
-            .is_some_and(|group| group.kind == Kind::Applied);
+            .is_some_and(|group| group.kind == TermKind::Applied);
         arranged(named, is_applied)
     }
 
@@ -169,7 +169,7 @@ impl<'d> Chapter<'_, 'd> {
     fn rows(&self, groups: &[Group<'d>]) -> Vec<Row> {
         let is_applied = groups
             .last()
-            .is_some_and(|group| group.kind == Kind::Applied);
+            .is_some_and(|group| group.kind == TermKind::Applied);
         let sums = groups
             .iter()
             .map(|group| (self.sum(group), self.title(group.kind)));
@@ -205,19 +205,19 @@ impl<'d> Chapter<'_, 'd> {
         }
     }
 
-    fn title(&self, kind: Kind) -> &'static str {
+    fn title(&self, kind: TermKind) -> &'static str {
         match kind {
-            Kind::Inertia => "inertia",
-            Kind::Centrifugal => "centrifugal",
-            Kind::Coriolis => "Coriolis",
-            Kind::Velocity if self.properties.autonomous => "velocity terms",
-            Kind::Velocity => "velocity terms, drive",
-            Kind::Drive => "drive",
-            Kind::Gravity => "gravity",
-            Kind::Springs => "springs",
-            Kind::Potentials => "potentials",
-            Kind::Dissipation => "damping",
-            Kind::Applied => "applied",
+            TermKind::Inertia => "inertia",
+            TermKind::Centrifugal => "centrifugal",
+            TermKind::Coriolis => "Coriolis",
+            TermKind::Velocity if self.properties.autonomous => "velocity terms",
+            TermKind::Velocity => "velocity terms, drive",
+            TermKind::Drive => "drive",
+            TermKind::Gravity => "gravity",
+            TermKind::Springs => "springs",
+            TermKind::Potentials => "potentials",
+            TermKind::Dissipation => "damping",
+            TermKind::Applied => "applied",
         }
     }
 

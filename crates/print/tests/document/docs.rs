@@ -1,12 +1,12 @@
 //! The content of doc comments as runs of words.
 
-use lagrangian_print::document::{Run, of_docs};
+use lagrangian_print::document::{Inline, of_docs};
 
 #[test]
 fn stressed_words_and_code_are_found_in_doc_comments() {
-    let text = |text: &str| Run::Text(text.into());
-    let stress = |text: &str| Run::Emphasis(text.into());
-    let code = |text: &str| Run::Code(text.into());
+    let text = |text: &str| Inline::Text(text.into());
+    let stress = |text: &str| Inline::Emphasis(text.into());
+    let code = |text: &str| Inline::Code(text.into());
     let all = [
         (
             "see *On Motion*, and `a*b*c`",

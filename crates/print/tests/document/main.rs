@@ -11,7 +11,7 @@ mod markup;
 
 use harness::{all_machines, residues, resolved};
 use lagrangian_mechanics::Compiled;
-use lagrangian_mechanics::equations::groups::{self, Kind};
+use lagrangian_mechanics::equations::groups::{self, TermKind};
 use lagrangian_print::document::{Block, Document, columns};
 use lagrangian_print::{html, latex, markdown};
 use lagrangian_scalar::{Residue, Scalar};
@@ -49,7 +49,11 @@ fn groups_add_up_to_the_equations() {
                 let whole = model.dag.sum(inertia.chain(others));
                 let groups = groups::equation(model, equations, &shares, i);
                 let terms = groups.iter().flat_map(|group| {
-                    let sign = if group.kind == Kind::Applied { -1 } else { 1 };
+                    let sign = if group.kind == TermKind::Applied {
+                        -1
+                    } else {
+                        1
+                    };
                     group.terms.iter().map(move |term| sign * term.value())
                 });
                 differences.push(model.dag.sum(terms) - whole);
@@ -73,11 +77,11 @@ fn sources_add_up_to_energies_and_forces() {
          }| {
             let shares = groups::force_shares(model);
             let dag = model.dag;
-            let energy = |is_part: &dyn Fn(Kind) -> bool| {
+            let energy = |is_part: &dyn Fn(TermKind) -> bool| {
                 let parts = shares.iter().filter(|part| is_part(part.kind));
                 dag.sum(parts.filter_map(|part| part.energy))
             };
-            let damps = |kind| kind == Kind::Dissipation;
+            let damps = |kind| kind == TermKind::Dissipation;
             // The equation of the integral of a state has its rate, which is no force.
             let is_integral = |i: usize| {
                 model.coordinates[i]
@@ -133,11 +137,13 @@ fn velocity_terms_are_what_their_notes_say() {
                         let powers = degree(term);
                         let total: usize = powers.iter().sum();
                         match group.kind {
-                            Kind::Centrifugal => {
+                            TermKind::Centrifugal => {
                                 assert!(total == 2 && powers.contains(&2), "{name}")
                             }
-                            Kind::Coriolis => assert!(total == 2 && !powers.contains(&2), "{name}"),
-                            Kind::Drive => assert!(total < 2, "{name}"),
+                            TermKind::Coriolis => {
+                                assert!(total == 2 && !powers.contains(&2), "{name}")
+                            }
+                            TermKind::Drive => assert!(total < 2, "{name}"),
                             _ => {}
                         }
                     }

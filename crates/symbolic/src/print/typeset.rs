@@ -12,7 +12,7 @@ const LONGEST_SUM_ABOVE: usize = 3;
 
 /// The position of an expression.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum Position {
     /// On its own, in braces or parentheses.
     Whole,
     /// Among other factors.
@@ -26,7 +26,7 @@ enum Place {
 /// A piece that is still to be written.
 enum Piece {
     Mark(Mark),
-    Node(Id, Place),
+    Node(Id, Position),
     /// A positive multiple.
     Multiple(Rational, Id),
     Power(Id, u32),
@@ -51,7 +51,7 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn write(mut self, id: Id) -> Math {
-        self.left.push(Piece::Node(id, Place::Whole));
+        self.left.push(Piece::Node(id, Position::Whole));
         while let Some(piece) = self.left.pop() {
             let mut next = Vec::new();
             match piece {
@@ -59,7 +59,7 @@ impl<'a> Writer<'a> {
                 Piece::Node(id, place) if self.needs_parentheses(id, place) => {
                     form(
                         Form::Parentheses,
-                        [vec![Piece::Node(id, Place::Whole)]],
+                        [vec![Piece::Node(id, Position::Whole)]],
                         &mut next,
                     );
                 }
@@ -72,15 +72,15 @@ impl<'a> Writer<'a> {
         Math { marks: self.out }
     }
 
-    fn needs_parentheses(&self, id: Id, place: Place) -> bool {
+    fn needs_parentheses(&self, id: Id, place: Position) -> bool {
         match (place, self.arena.node(id)) {
-            (Place::Whole, _) => false,
+            (Position::Whole, _) => false,
             (_, Node::Symbol(_) | Node::Pi) => false,
-            (Place::Factor, Node::Sum(_)) => true,
-            (Place::Factor, Node::Constant(value)) => value.is_negative(),
-            (Place::Factor, _) => false,
+            (Position::Factor, Node::Sum(_)) => true,
+            (Position::Factor, Node::Constant(value)) => value.is_negative(),
+            (Position::Factor, _) => false,
             (_, Node::Constant(value)) => value.is_negative() || !value.is_integer(),
-            (Place::Base, Node::Function(Function::Abs, _)) => false,
+            (Position::Base, Node::Function(Function::Abs, _)) => false,
             _ => true,
         }
     }
@@ -167,7 +167,7 @@ impl<'a> Writer<'a> {
     fn power(&self, id: Id, n: u32, next: &mut Vec<Piece>) {
         let exponent = || Math::number(i64::from(n));
         match self.arena.node(id) {
-            _ if n == 1 => next.push(Piece::Node(id, Place::Factor)),
+            _ if n == 1 => next.push(Piece::Node(id, Position::Factor)),
             Node::Function(function, arguments) if has_name(*function) && arguments.len() == 1 => {
                 self.function(*function, arguments, Some(n), next);
             }
@@ -178,7 +178,7 @@ impl<'a> Writer<'a> {
             _ => form(
                 Form::Power,
                 [
-                    vec![Piece::Node(id, Place::Base)],
+                    vec![Piece::Node(id, Position::Base)],
                     marks(exponent()).collect(),
                 ],
                 next,
@@ -193,7 +193,7 @@ impl<'a> Writer<'a> {
         power: Option<u32>,
         next: &mut Vec<Piece>,
     ) {
-        let unbracketed = |id: Id| vec![Piece::Node(id, Place::Whole)];
+        let unbracketed = |id: Id| vec![Piece::Node(id, Position::Whole)];
         let x = arguments[0];
         match function {
             Function::Sqrt => form(Form::Root, [unbracketed(x)], next),
@@ -203,7 +203,7 @@ impl<'a> Writer<'a> {
                 form(Form::Power, [base, unbracketed(x)], next);
             }
             Function::Pow => {
-                let base = vec![Piece::Node(x, Place::Base)];
+                let base = vec![Piece::Node(x, Position::Base)];
                 form(Form::Power, [base, unbracketed(arguments[1])], next);
             }
             _ => {
@@ -217,7 +217,7 @@ impl<'a> Writer<'a> {
                 }
                 next.push(sign(Sign::Apply));
                 if let [x] = arguments {
-                    next.push(Piece::Node(*x, Place::Argument));
+                    next.push(Piece::Node(*x, Position::Argument));
                 } else {
                     let mut list = Vec::new();
                     for (index, &argument) in arguments.iter().enumerate() {

@@ -9,7 +9,7 @@
 //! The angular velocity is not needed.
 
 use lagrangian_scalar::Scalar;
-use lagrangian_spec::model::{Circle, Model, Place, PoseId, Rotation, Surface};
+use lagrangian_spec::model::{Circle, FrameOrBody, Model, PoseId, Rotation, Surface};
 
 use super::vector::{difference, dot, ground, point, quotient, rate, scaled, value};
 use super::{Moving, Values, Varied};
@@ -33,7 +33,7 @@ pub(super) fn gap_and_slip<R: Scalar>(
 /// Origin and axes of a frame or a body.
 fn origin_and_axes<R: Scalar>(
     model: &Model<'_>,
-    place: Place,
+    place: FrameOrBody,
     x: &Values<'_, Varied<R>>,
 ) -> (Point<R>, [Point<R>; 3]) {
     let of_pose = |pose: PoseId| {
@@ -41,8 +41,8 @@ fn origin_and_axes<R: Scalar>(
         [x.vector(&axes[0]), x.vector(&axes[1]), x.vector(&axes[2])]
     };
     match place {
-        Place::Frame(pose) => (x.vector(&model.poses[pose.index()].origin), of_pose(pose)),
-        Place::Body(body) => {
+        FrameOrBody::Frame(pose) => (x.vector(&model.poses[pose.index()].origin), of_pose(pose)),
+        FrameOrBody::Body(body) => {
             let body = &model.bodies[body];
             let axes = match body.rotation {
                 Rotation::Frame(pose) => of_pose(pose),
@@ -84,7 +84,7 @@ fn on_plane<R: Scalar>(
     pose: PoseId,
     x: &Values<'_, Varied<R>>,
 ) -> (Moving<R>, [Varied<R>; 2]) {
-    let (origin, frame) = origin_and_axes(model, Place::Frame(pose), x);
+    let (origin, frame) = origin_and_axes(model, FrameOrBody::Frame(pose), x);
     let (centre, axes) = centre(model, sphere, x);
     let radius = x.at(sphere.radius);
     let line = difference(centre, origin);
