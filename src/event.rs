@@ -615,7 +615,26 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         })?;
     }
     found.sort_by(|one, other| one.theta.total_cmp(&other.theta));
+    report(
+        found,
+        watches,
+        observed_system,
+        stepper,
+        interpolant,
+        events,
+    )
+}
 
+/// Adds the changes of sign of the last step to `events`, in their order, up to the first that ends the run, which is the answer.
+fn report<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
+    found: Vec<SignChange>,
+    watches: &mut [Watch<'_, M>],
+    observed_system: &ObservedSystem<'_, M::System, L>,
+    stepper: &mut StepperOf<'_, M, L, A>,
+    interpolant: &Option<Interpolant<VectorOf<M>>>,
+    events: &mut Vec<Event<Coordinates<M>>>,
+) -> Result<Option<Terminal>, Error> {
+    let system = observed_system.system;
     let forward = stepper.t() > stepper.t_before();
     for SignChange {
         watch: index,

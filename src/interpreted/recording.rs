@@ -101,162 +101,10 @@ impl Recording {
         run: &Solution<InterpretedMachine, L>,
         states: &[State<Named>],
     ) -> Recording {
-        let system = run.system();
-        let mut columns: Vec<Column> = Vec::new();
-        let mut column = |name: String, unit: String, kind| {
-            columns.push(Column {
-                name,
-                unit,
-                kind,
-                values: Vec::with_capacity(states.len()),
-            })
-        };
-        // A first-order state is recorded by its value and not by the integral of it.
-        let is_integral: Vec<bool> = system
-            .coordinates()
-            .map(|quantity| state_of(quantity.name).is_some())
-            .collect();
-        for quantity in system
-            .coordinates()
-            .filter(|of| state_of(of.name).is_none())
-        {
-            column(
-                quantity.name.into(),
-                quantity.unit.into(),
-                ColumnKind::Coordinate,
-            );
-        }
-        for quantity in system.coordinates() {
-            let unit = rate_unit(quantity.name, quantity.unit);
-            let kind = match state_of(quantity.name) {
-                Some(_) => ColumnKind::Output,
-                None => ColumnKind::Rate,
-            };
-            column(rate_name(quantity.name, ""), unit, kind);
-        }
-        let start = run.start();
-        let (q, v) = (&start.q.values, &start.v.values);
-        let outputs = system.outputs(start.t, q, v, &vec![0.0; q.len()], &system.default_inputs());
-        // Added formulas have names that no spec can contain.
-        let is_shown = |name: &str| !name.contains(' ');
-        let shown: Vec<bool> = system
-            .output_values(&outputs)
-            .map(|(quantity, _)| is_shown(quantity.name))
-            .collect();
-        for (quantity, _) in system.output_values(&outputs) {
-            if is_shown(quantity.name) {
-                column(
-                    quantity.name.into(),
-                    quantity.unit.into(),
-                    ColumnKind::Output,
-                );
-            }
-        }
-        let is_driven = run.is_driven();
-        let inputs = system.default_inputs();
-        for (quantity, _) in system.input_values(&inputs).filter(|_| is_driven) {
-            let name = quantity.name;
-            let mut others = system.output_values(&outputs);
-            let is_taken = others.any(|(other, _)| other.name == name);
-            let name = if is_taken {
-                format!("input({name})")
-            } else {
-                name.into()
-            };
-            column(name, quantity.unit.into(), ColumnKind::Input);
-        }
-        for constraint in system.constraints() {
-            let name = format!("multiplier({})", constraint.name);
-            column(
-                name,
-                constraint.multiplier_unit.into(),
-                ColumnKind::Multiplier,
-            );
-        }
-        for name in system.contacts() {
-            for (what, unit) in [("normal", "N"), ("friction", "N"), ("slip", "m/s")] {
-                column(format!("{what}({name})"), unit.into(), ColumnKind::Contact);
-            }
-        }
-        let has_books = !run.contact_energies().is_empty();
-        for contact in system.unilateral_contacts() {
-            let name = contact.name;
-            let [friction, slip] = if contact.is_rolling_resistance {
-                ["N*m", "rad/s"]
-            } else {
-                ["N", "m/s"]
-            };
-            for (what, unit) in [
-                ("gap", "m"),
-                ("normal", "N"),
-                ("friction", friction),
-                ("slip", slip),
-            ] {
-                column(format!("{what}({name})"), unit.into(), ColumnKind::Contact);
-            }
-            if contact.compliance == Some(Compliance::Layer) {
-                column(format!("crushing({name})"), "J".into(), ColumnKind::Contact);
-            }
-            if has_books {
-                column(format!("lost({name})"), "J".into(), ColumnKind::Contact);
-            }
-        }
-        for name in ["kinetic energy", "potential energy", "total energy"] {
-            column(name.into(), "J".into(), ColumnKind::Energy);
-        }
-        column("energy residual".into(), "J".into(), ColumnKind::Residual);
-
-        let is_layer: Vec<bool> = (system.unilateral_contacts())
-            .map(|contact| contact.compliance == Some(Compliance::Layer))
-            .collect();
-        let unknown = |count: usize| vec![f64::NAN; count];
-        let reactions = system.constraints().len()
-            + 3 * system.contacts().len()
-            + 4 * system.unilateral_contacts().len()
-            + is_layer.iter().filter(|is_layer| **is_layer).count()
-            + if has_books { is_layer.len() } else { 0 };
+        let recorded = Recorded::of(run);
+        let mut columns = recorded.columns(run.system(), states.len());
         for state in states {
-            let books = run.contact_energies_at(state.t);
-            let lost = |k: usize| (books.as_ref()).map_or(f64::NAN, |of_each| of_each[k].lost());
-            // If a run ends early there may be no accelerations, and then nothing that is computed from them.
-            let (observation, inputs, reactions, energies) = match run.observe_state(state) {
-                Ok(seen) => {
-                    let (kinetic, potential) = (seen.kinetic_energy, seen.potential_energy);
-                    let energies = [kinetic, potential, kinetic + potential];
-                    let contacts = seen.contacts.iter();
-                    let contacts = contacts.flat_map(|c| [c.normal, c.friction, c.slip]);
-                    let unilateral = seen.unilateral.iter();
-                    let unilateral = unilateral.zip(&is_layer).enumerate();
-                    let unilateral = unilateral.flat_map(|(k, (c, is_layer))| {
-                        let crushing = is_layer.then_some(c.crushing_work);
-                        [c.gap, c.normal, c.friction, c.slip]
-                            .into_iter()
-                            .chain(crushing)
-                            .chain(has_books.then(|| lost(k)))
-                    });
-                    let reactions = seen.multipliers.iter().copied().chain(contacts);
-                    let reactions = reactions.chain(unilateral);
-                    let inputs = seen.inputs.values;
-                    (seen.outputs.values, inputs, reactions.collect(), energies)
-                }
-                Err(_) => {
-                    let outputs = unknown(outputs.values.len());
-                    let inputs = unknown(inputs.values.len());
-                    (outputs, inputs, unknown(reactions), [f64::NAN; 3])
-                }
-            };
-            let places = state.q.values.iter().zip(&is_integral);
-            let places = places.filter(|(_, is_integral)| !**is_integral);
-            let places = places.map(|(place, _)| place);
-            let moving = places.chain(&state.v.values).copied();
-            let residual = residual_at(run.energies(), state.t);
-            let outputs = observation.into_iter().zip(&shown);
-            let outputs = outputs.filter(|(_, is_shown)| **is_shown);
-            let outputs = outputs.map(|(value, _)| value);
-            let inputs = inputs.into_iter().filter(|_| is_driven);
-            let observed = outputs.chain(inputs).chain(reactions);
-            let row = moving.chain(observed).chain(energies).chain([residual]);
-            for (column, value) in columns.iter_mut().zip(row) {
+            for (column, value) in columns.iter_mut().zip(recorded.row(run, state)) {
                 column.values.push(value);
             }
         }
@@ -264,6 +112,177 @@ impl Recording {
             times: states.iter().map(|state| state.t).collect(),
             columns,
         }
+    }
+}
+
+/// Which quantities of a run are recorded.
+struct Recorded {
+    /// Of each coordinate, whether it is the integral of a state of first order, which is recorded by its value alone.
+    is_integral: Vec<bool>,
+    /// The outputs, and which of them are shown: formulas that were added have names that no spec can contain.
+    outputs: Named,
+    is_shown: Vec<bool>,
+    /// The inputs; they are recorded if they are driven.
+    inputs: Named,
+    is_driven: bool,
+    /// Of each unilateral contact, whether it is a layer that is crushed.
+    is_layer: Vec<bool>,
+    /// Whether the energies of contacts are kept.
+    has_books: bool,
+    /// The number of multipliers and quantities of contacts.
+    reactions: usize,
+}
+
+impl Recorded {
+    fn of<L: InputLaw<InterpretedSystem>>(run: &Solution<InterpretedMachine, L>) -> Recorded {
+        let system = run.system();
+        let start = run.start();
+        let (q, v) = (&start.q.values, &start.v.values);
+        let inputs = system.default_inputs();
+        let outputs = system.outputs(start.t, q, v, &vec![0.0; q.len()], &inputs);
+        let is_shown = system.output_values(&outputs);
+        let is_shown = is_shown.map(|(quantity, _)| !quantity.name.contains(' '));
+        let is_layer: Vec<bool> = (system.unilateral_contacts())
+            .map(|contact| contact.compliance == Some(Compliance::Layer))
+            .collect();
+        let has_books = !run.contact_energies().is_empty();
+        let reactions = system.constraints().len()
+            + 3 * system.contacts().len()
+            + 4 * is_layer.len()
+            + is_layer.iter().filter(|is_layer| **is_layer).count()
+            + if has_books { is_layer.len() } else { 0 };
+        let is_integral = system.coordinates();
+        Recorded {
+            is_integral: (is_integral.map(|of| state_of(of.name).is_some())).collect(),
+            is_shown: is_shown.collect(),
+            outputs,
+            inputs,
+            is_driven: run.is_driven(),
+            is_layer,
+            has_books,
+            reactions,
+        }
+    }
+
+    /// The columns, with room for so many values.
+    fn columns(&self, system: &InterpretedSystem, rows: usize) -> Vec<Column> {
+        let mut columns = Vec::new();
+        let mut column = |name: String, unit: &str, kind| {
+            columns.push(Column {
+                name,
+                unit: unit.into(),
+                kind,
+                values: Vec::with_capacity(rows),
+            });
+        };
+        for of in system.coordinates() {
+            if state_of(of.name).is_none() {
+                column(of.name.into(), of.unit, ColumnKind::Coordinate);
+            }
+        }
+        for of in system.coordinates() {
+            let kind = match state_of(of.name) {
+                Some(_) => ColumnKind::Output,
+                None => ColumnKind::Rate,
+            };
+            column(rate_name(of.name, ""), &rate_unit(of.name, of.unit), kind);
+        }
+        for ((of, _), is_shown) in system.output_values(&self.outputs).zip(&self.is_shown) {
+            if *is_shown {
+                column(of.name.into(), of.unit, ColumnKind::Output);
+            }
+        }
+        let inputs = system.input_values(&self.inputs);
+        for (of, _) in inputs.filter(|_| self.is_driven) {
+            let mut outputs = system.output_values(&self.outputs);
+            let is_taken = outputs.any(|(other, _)| other.name == of.name);
+            let name = if is_taken {
+                format!("input({})", of.name)
+            } else {
+                of.name.into()
+            };
+            column(name, of.unit, ColumnKind::Input);
+        }
+        for constraint in system.constraints() {
+            let name = format!("multiplier({})", constraint.name);
+            column(name, constraint.multiplier_unit, ColumnKind::Multiplier);
+        }
+        for name in system.contacts() {
+            for (what, unit) in [("normal", "N"), ("friction", "N"), ("slip", "m/s")] {
+                column(format!("{what}({name})"), unit, ColumnKind::Contact);
+            }
+        }
+        for contact in system.unilateral_contacts() {
+            let [friction, slip] = if contact.is_rolling_resistance {
+                ["N*m", "rad/s"]
+            } else {
+                ["N", "m/s"]
+            };
+            let is_layer = contact.compliance == Some(Compliance::Layer);
+            let always = [
+                ("gap", "m"),
+                ("normal", "N"),
+                ("friction", friction),
+                ("slip", slip),
+            ];
+            let crushing = is_layer.then_some(("crushing", "J"));
+            let lost = self.has_books.then_some(("lost", "J"));
+            for (what, unit) in always.into_iter().chain(crushing).chain(lost) {
+                let name = format!("{what}({})", contact.name);
+                column(name, unit, ColumnKind::Contact);
+            }
+        }
+        for name in ["kinetic energy", "potential energy", "total energy"] {
+            column(name.into(), "J", ColumnKind::Energy);
+        }
+        column("energy residual".into(), "J", ColumnKind::Residual);
+        columns
+    }
+
+    /// The values at a state, in the order of the columns.
+    fn row<L: InputLaw<InterpretedSystem>>(
+        &self,
+        run: &Solution<InterpretedMachine, L>,
+        state: &State<Named>,
+    ) -> Vec<f64> {
+        let coordinates = state.q.values.iter().zip(&self.is_integral);
+        let coordinates = coordinates.filter(|(_, is_integral)| !**is_integral);
+        let mut row: Vec<f64> = coordinates.map(|(value, _)| *value).collect();
+        row.extend(&state.v.values);
+        let seen = run.observe_state(state);
+        let shown = self.is_shown.iter().filter(|is_shown| **is_shown).count();
+        let inputs = if self.is_driven {
+            self.inputs.values.len()
+        } else {
+            0
+        };
+        match &seen {
+            Ok(seen) => {
+                let outputs = seen.outputs.values.iter().zip(&self.is_shown);
+                row.extend(outputs.filter(|(_, is_shown)| **is_shown).map(|(x, _)| *x));
+                row.extend(&seen.inputs.values[..inputs]);
+                row.extend(&seen.multipliers);
+                let contacts = seen.contacts.iter();
+                row.extend(contacts.flat_map(|c| [c.normal, c.friction, c.slip]));
+                let books = run.contact_energies_at(state.t);
+                for (k, (c, is_layer)) in seen.unilateral.iter().zip(&self.is_layer).enumerate() {
+                    row.extend([c.gap, c.normal, c.friction, c.slip]);
+                    row.extend(is_layer.then_some(c.crushing_work));
+                    let lost = (books.as_ref()).map_or(f64::NAN, |of_each| of_each[k].lost());
+                    row.extend(self.has_books.then_some(lost));
+                }
+                let (kinetic, potential) = (seen.kinetic_energy, seen.potential_energy);
+                row.extend([kinetic, potential, kinetic + potential]);
+            }
+            // If a run ends early there may be no accelerations, and then nothing that is computed from them.
+            Err(_) => {
+                let energies = 3;
+                let unknown = shown + inputs + self.reactions + energies;
+                row.extend(std::iter::repeat_n(f64::NAN, unknown));
+            }
+        }
+        row.push(residual_at(run.energies(), state.t));
+        row
     }
 }
 

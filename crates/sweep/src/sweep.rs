@@ -233,22 +233,7 @@ impl Sweep {
         machine
             .set_engine(engine)
             .map_err(|none| PlanError::Plan(none.to_string()))?;
-        let Some(mut method) = Method::named(&plan.method) else {
-            let names: Vec<_> = Method::all().map(|method| method.tableau.name).collect();
-            let message = format!(
-                "no method named `{}`; there are: {}",
-                plan.method,
-                names.join(", ")
-            );
-            return Err(PlanError::Plan(message));
-        };
-        if method.has_fixed_steps() {
-            let name = method.tableau.name;
-            let message = format!(
-                "the method `{name}` takes steps of a fixed length, which a plan does not have"
-            );
-            return Err(PlanError::Plan(message));
-        }
+        let mut method = method(&plan)?;
         let mut warning = None;
         if std::ptr::eq(method, &TAYLOR) {
             let series = ProvedSeries::derive(&compiled.model);
@@ -290,38 +275,7 @@ impl Sweep {
             warning = Some(format!("no Taylor series: {reason}; {name} is used"));
         }
         let events: Vec<usize> = plan.events.iter().map(|_| next().output).collect();
-        let mut units = Vec::new();
-        let mut reductions = Vec::new();
-        for reduction in &plan.reduce {
-            if !reduction.function.is_of_formula() {
-                let unit = match reduction.function {
-                    Function::Count => "1",
-                    Function::Frequency => "1/s",
-                    Function::Power => "W",
-                    _ => "s",
-                };
-                units.push(unit.to_owned());
-                reductions.push(ReductionSource::Of(
-                    reduction.function,
-                    reduction.of.clone(),
-                ));
-                continue;
-            }
-            let formula = next();
-            let (_, of_size) = subject(reduction);
-            let unit = &compiled.model.outputs[formula.output].unit_text;
-            units.push(match reduction.function {
-                Function::WhenMax | Function::WhenMin => "s".to_owned(),
-                Function::Integral if unit == "1" => "s".to_owned(),
-                Function::Integral => format!("({unit})*s"),
-                _ => unit.clone(),
-            });
-            reductions.push(ReductionSource::Along(Tracker::new(
-                reduction.function,
-                formula,
-                of_size,
-            )));
-        }
+        let (reductions, units) = reductions(&plan, &compiled.model, next);
         let (columns, sample_columns) = columns(&plan, &compiled.model, &machine, &units);
         let mut seen = std::collections::BTreeSet::new();
         if let Some(twice) = columns
@@ -938,8 +892,80 @@ fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<
     all
 }
 
+/// The method of a plan.
+fn method(plan: &Plan) -> Result<&'static Method, PlanError> {
+    let Some(method) = Method::named(&plan.method) else {
+        let names: Vec<_> = Method::all().map(|method| method.tableau.name).collect();
+        let message = format!(
+            "no method named `{}`; there are: {}",
+            plan.method,
+            names.join(", ")
+        );
+        return Err(PlanError::Plan(message));
+    };
+    if method.has_fixed_steps() {
+        let name = method.tableau.name;
+        let message = format!(
+            "the method `{name}` takes steps of a fixed length, which a plan does not have"
+        );
+        return Err(PlanError::Plan(message));
+    }
+    Ok(method)
+}
+
+/// What computes each reduction of a plan, and its unit; `next` is the formula of the next one that has one.
+fn reductions(
+    plan: &Plan,
+    model: &Model<'_>,
+    mut next: impl FnMut() -> Formula,
+) -> (Vec<ReductionSource>, Vec<String>) {
+    let mut units = Vec::new();
+    let mut reductions = Vec::new();
+    for reduction in &plan.reduce {
+        if !reduction.function.is_of_formula() {
+            let unit = match reduction.function {
+                Function::Count => "1",
+                Function::Frequency => "1/s",
+                Function::Power => "W",
+                _ => "s",
+            };
+            units.push(unit.to_owned());
+            reductions.push(ReductionSource::Of(
+                reduction.function,
+                reduction.of.clone(),
+            ));
+            continue;
+        }
+        let formula = next();
+        let (_, of_size) = subject(reduction);
+        let unit = &model.outputs[formula.output].unit_text;
+        units.push(match reduction.function {
+            Function::WhenMax | Function::WhenMin => "s".to_owned(),
+            Function::Integral if unit == "1" => "s".to_owned(),
+            Function::Integral => format!("({unit})*s"),
+            _ => unit.clone(),
+        });
+        reductions.push(ReductionSource::Along(Tracker::new(
+            reduction.function,
+            formula,
+            of_size,
+        )));
+    }
+    (reductions, units)
+}
+
 /// Checks names and numbers of a plan; returns what each varied name stands for.
 fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity>, PlanError> {
+    check_design(plan)?;
+    check_times(plan)?;
+    check_events(plan, model)?;
+    check_names(plan, model)?;
+    check_powers(plan, model)?;
+    let varied = plan.varied().into_iter();
+    Ok(varied.map(|name| VariedQuantity::of(name, model)).collect())
+}
+
+fn check_design(plan: &Plan) -> Result<(), PlanError> {
     let wrong = |message: String| Err(PlanError::Plan(message));
     if design::runs(&plan.design).is_none() {
         return wrong("there are more than 2^40 runs".into());
@@ -947,6 +973,25 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity>, PlanErro
     if plan.runs() == 0 {
         return wrong("there are no runs: a factor of the design has no values".into());
     }
+    for factor in &plan.design {
+        if let design::Factor::Sample {
+            design: design::Sampling::Sobol,
+            variables,
+            ..
+        } = factor
+            && variables.len() > MOST_VARIABLES
+        {
+            return wrong(format!(
+                "a Sobol design has at most {MOST_VARIABLES} variables; --design latin has no such limit"
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Checks how long runs last, and when they are recorded.
+fn check_times(plan: &Plan) -> Result<(), PlanError> {
+    let wrong = |message: String| Err(PlanError::Plan(message));
     if !(plan.until.is_finite() && plan.until != 0.0) {
         return wrong("a sweep needs a duration: --until must be a number other than 0".into());
     }
@@ -979,6 +1024,12 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity>, PlanErro
             "--record every and --record event: all samples must be drawn in one way".into(),
         );
     }
+    Ok(())
+}
+
+/// Checks the names of events that runs are recorded at, or that are reduced.
+fn check_events(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
+    let wrong = |message: String| Err(PlanError::Plan(message));
     let of_contacts = contact_events(model);
     let known = || {
         let own = plan.events.iter().map(|watch| watch.name.as_str());
@@ -997,6 +1048,28 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity>, PlanErro
             "--record event={name}: there is no such event; {help}"
         ));
     }
+    for reduction in plan
+        .reduce
+        .iter()
+        .filter(|reduction| reduction.function.is_of_event())
+    {
+        if !known().any(|name| name == reduction.of) {
+            let help = match most_similar(&reduction.of, known()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "name it by --event NAME=FORMULA".into(),
+            };
+            return wrong(format!(
+                "--reduce {}: no event named `{}`; {help}",
+                reduction.name, reduction.of
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Checks the names of what is varied, set and driven: each is given once.
+fn check_names(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
+    let wrong = |message: String| Err(PlanError::Plan(message));
     let varied = plan.varied();
     let mut set: Vec<&str> = plan.set.iter().map(|(name, _)| name.as_str()).collect();
     set.extend(plan.inputs.iter().map(|(name, _)| name.as_str()));
@@ -1034,36 +1107,12 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity>, PlanErro
             ));
         }
     }
-    for factor in &plan.design {
-        if let design::Factor::Sample {
-            design: design::Sampling::Sobol,
-            variables,
-            ..
-        } = factor
-            && variables.len() > MOST_VARIABLES
-        {
-            return wrong(format!(
-                "a Sobol design has at most {MOST_VARIABLES} variables; --design latin has no such limit"
-            ));
-        }
-    }
-    for reduction in plan
-        .reduce
-        .iter()
-        .filter(|reduction| reduction.function.is_of_event())
-    {
-        let names = known;
-        if !names().any(|name| name == reduction.of) {
-            let help = match most_similar(&reduction.of, names()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => "name it by --event NAME=FORMULA".into(),
-            };
-            return wrong(format!(
-                "--reduce {}: no event named `{}`; {help}",
-                reduction.name, reduction.of
-            ));
-        }
-    }
+    Ok(())
+}
+
+/// Checks the names of contacts whose powers are asked for.
+fn check_powers(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
+    let wrong = |message: String| Err(PlanError::Plan(message));
     let mut powers = plan.reduce.iter();
     if let Some(reduction) = powers.find(|reduction| {
         let is_named = |contact: &Contact<'_>| contact.name.to_string() == reduction.of;
@@ -1084,10 +1133,7 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity>, PlanErro
             reduction.name, reduction.of
         ));
     }
-    Ok(varied
-        .into_iter()
-        .map(|name| VariedQuantity::of(name, model))
-        .collect())
+    Ok(())
 }
 
 /// The events of the unilateral contacts of a machine, as runs name them: `floor impact`.
