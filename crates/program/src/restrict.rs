@@ -115,6 +115,7 @@ fn without_unused(function: Function) -> Function {
         code: left,
         results,
         guards,
+        steps: Vec::new(),
         ..function
     }
 }

@@ -78,10 +78,8 @@ impl Emitter<'_> {
             code,
         } = fast;
         self.writer.gap();
-        self.writer.open(format!(
-            "{}::fast_function! {{",
-            self.options.runtime
-        ));
+        self.writer
+            .open(format!("{}::fast_function! {{", self.options.runtime));
         self.docs(docs);
         let lifetime = lifetime(fields);
         let (head, end) = match name {
@@ -133,7 +131,9 @@ impl Emitter<'_> {
         self.writer.gap();
         self.writer.line("#[inline(always)]");
         self.writer.signature(
-            &format!("fn {code}<{scalar}: {copy}, {register}: {runtime}::Scalar<Stored = {scalar}>>"),
+            &format!(
+                "fn {code}<{scalar}: {copy}, {register}: {runtime}::Scalar<Stored = {scalar}>>"
+            ),
             &[format!("{name}: {call}<{anonymous}{scalar}>")],
             Some(result),
         );

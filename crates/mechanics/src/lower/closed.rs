@@ -74,6 +74,9 @@ pub(super) fn solve<'d>(
         with_products(graph, solved.accelerations[i], &by, &held.accelerations)
     });
     let accelerations: Vec<Scaled> = accelerations.collect();
+    let of_constraints = held.steps.into_iter();
+    let steps = of_constraints.map(|(value, step)| (value, step.with_rows(|row| n + row)));
+    let steps = solved.labels.into_iter().chain(steps).collect();
     let of_constraints = held.pivots.into_iter().map(|pivot| Pivot {
         coordinate: n + pivot.coordinate,
         ..pivot
@@ -83,6 +86,7 @@ pub(super) fn solve<'d>(
         multipliers: held.accelerations,
         pivots: solved.pivots.into_iter().chain(of_constraints).collect(),
         columns: Vec::new(),
+        steps,
     })
 }
 

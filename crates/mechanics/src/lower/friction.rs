@@ -53,6 +53,7 @@ pub(super) fn friction<'d>(
             results,
             pivots,
             rows: system.forces.len(),
+            steps: solved.labels,
         };
         for mut draft in planned.drafts(&mut lowering.graph, basis) {
             draft.known_pivots.clone_from(&known_pivots);
