@@ -199,7 +199,7 @@ fn build<'d>(
         prepare(&mut lowering.graph, drafts, model, constraints.len());
     let quaternions = model.quaternions.iter();
     let kept = model.kept.iter();
-    let program = Program {
+    let mut program = Program {
         name: model.name.clone(),
         docs: model.docs.clone(),
         parameters: slots.parameters,
@@ -222,6 +222,7 @@ fn build<'d>(
         functions,
         choices,
     };
+    program.settle_signs();
     // If there are contacts, the caller names them and verifies the program afterwards.
     if source.sliding.is_empty() && model.contacts.is_empty() {
         debug_assert_eq!(program.verify(), Ok(()));

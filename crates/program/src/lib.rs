@@ -51,6 +51,7 @@ mod restrict;
 pub mod rounding;
 pub mod schedule;
 pub mod series;
+mod signs;
 pub mod solve;
 pub mod stages;
 pub mod steps;

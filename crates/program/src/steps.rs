@@ -59,8 +59,8 @@ pub(super) fn is_labelled(op: &Op) -> bool {
 
 /// The formulas of an elimination by rows.
 const BY_ROWS: &str = "\
-Row after row is eliminated. Comments name the results, up to signs and factors that depend on parameters alone; sums are over \
-the rows `k` eliminated before, in the last line after row `i`:
+Row after row, an unknown is eliminated from the rows that follow. Comments name these numbers where they are computed, up to signs \
+and factors that depend on parameters alone; sums are over the rows `k` before, in the last line over those after:
 
 ```text
 l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
@@ -71,21 +71,46 @@ a[i] = z[i]/d[i] - sum l[k, i]*a[k]
 
 /// The formulas of an elimination along the machine.
 const ALONG: &str = "\
-The velocities are eliminated from the tips of the machine to the ground, with the inertia `G` and the loads `g` that remain on \
-them. Comments name the results for coordinate `i`, or for a velocity in its place, up to signs and factors that depend on \
-parameters alone; `k` are the velocities that remain:
+Velocities are eliminated from the tips of the machine to the ground, with the inertia `G` and the loads `g` that remain on them. \
+Comments name these numbers where they are computed, up to signs and factors that depend on parameters alone, for coordinate `i` or \
+the velocity in its place; `k` are the velocities that follow:
 
 ```text
 d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
 a[i] = z[i] - sum l[i]*a[k]
 ```";
 
+/// What the rows of constraints are.
+const CONSTRAINTS: &str = "\
+The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for two constraints, and `f` for `gamma`. \
+Their unknowns are the multipliers.";
+
+/// What follows an elimination along a machine whose loops are cut open.
+const CLOSING: &str = "\
+So far these are the accelerations `a0` without constraint forces. The multipliers follow from `C lambda = gamma - G a0`, where now \
+`G` are the rows of the constraints and `C = G M^-1 G^T`, row after row: `d`, `l` and `z` of constraints are those of `C = L D L^T`.";
+
 impl Program {
     /// The formulas of the steps of a function, as documentation; `None` if it has no elimination.
-    pub fn formulas_of_steps(&self, steps: &[(Value, Step)]) -> Option<&'static str> {
-        let is_own = |(_, step): &&(Value, Step)| !matches!(step, Step::Solution(_));
-        let (_, first) = steps.iter().find(is_own)?;
-        Some(if first.is_along() { ALONG } else { BY_ROWS })
+    pub fn formulas_of_steps(&self, steps: &[(Value, Step)]) -> Option<String> {
+        let is_by_rows =
+            |step: Step| matches!(step, Step::Pivot(_) | Step::Factor(..) | Step::Load(_));
+        let along = steps.iter().any(|(_, step)| step.is_along());
+        let by_rows = steps.iter().any(|(_, step)| is_by_rows(*step));
+        match (along, by_rows) {
+            (false, false) => None,
+            (false, true) if steps.iter().any(|(_, step)| self.is_of_constraint(*step)) => {
+                Some(format!("{BY_ROWS}\n\n{CONSTRAINTS}"))
+            }
+            (false, true) => Some(BY_ROWS.to_owned()),
+            (true, false) => Some(ALONG.to_owned()),
+            (true, true) => Some(format!("{ALONG}\n\n{CLOSING}")),
+        }
+    }
+
+    /// Whether a step eliminates the multiplier of a constraint.
+    fn is_of_constraint(&self, step: Step) -> bool {
+        matches!(step, Step::Pivot(row) if row >= self.dimension())
     }
 
     /// What a statement computes, as a comment: `Row theta2: pivot d[theta2].`
@@ -96,12 +121,12 @@ impl Program {
                 Step::Pivot(i) => format!("Row {}: pivot {name}", self.row_name(i)),
                 Step::Factor(i, j) => {
                     let (row, from) = (self.row_name(j), self.row_name(i));
-                    format!("Row {row} leaves row {from}: {name}")
+                    format!("Eliminates {row} from row {from}: {name}")
                 }
                 Step::Load(i) => format!("Row {}: right-hand side {name}", self.row_name(i)),
                 Step::Inertia(i) => format!("Eliminates {}: inertia {name}", self.row_name(i)),
                 Step::Coupling(i) => format!("Eliminates {}: coupling {name}", self.row_name(i)),
-                Step::Free(i) => format!("Eliminates {}: by itself {name}", self.row_name(i)),
+                Step::Free(i) => format!("Eliminates {}: alone {name}", self.row_name(i)),
                 Step::Solution(_) => format!("Back substitution: {name}"),
             }
         });

@@ -162,12 +162,15 @@ fn labels<'d>(
             continue;
         };
         labels.push((pivot, EliminationStep::Inertia(i)));
-        labels.push((step.offset, EliminationStep::Free(i)));
         for (_, coupling) in &step.parts {
             labels.push((*coupling, EliminationStep::Coupling(i)));
         }
+        if step.parts.is_empty() {
+            continue;
+        }
+        labels.push((step.offset, EliminationStep::Free(i)));
         // Another velocity in its place has another acceleration.
-        if velocities.contains_key(&step.of) && !step.parts.is_empty() {
+        if velocities.contains_key(&step.of) {
             labels.push((known[&step.of], EliminationStep::Solution(i)));
         }
     }
