@@ -12,6 +12,7 @@ pub use crate::friction::{
     multipliers_with_friction,
 };
 pub use crate::implement_machine as implement;
+pub use crate::native::fast_function;
 pub use crate::{
     Assumption, Batched, Compliance, Constraint, Differentiate, ImpactLaw, ImpactOrder, Lanes,
     Linearize, Machine, MachineIn, Number, Painleve, Quantity, Real, Scalar, Singular, Staged,

@@ -11,7 +11,9 @@ use std::process::{Command, Stdio};
 
 use lagrangian::Machine;
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::native::text::{CIRCULAR, LANES, PLAIN, REGISTER, SINCOS, VECTOR, X86};
+use lagrangian::native::text::{
+    CIRCULAR, FAST_FUNCTION, LANES, PLAIN, REGISTER, SINCOS, VECTOR, X86,
+};
 use lagrangian::scalar::text::{KERNEL, LIB, REAL, SERIES};
 use lagrangian_emit as emit;
 use lagrangian_linear::starts::dependent_constraint;
@@ -210,6 +212,7 @@ fn source(
             format!("pub use crate::kernel::{{Kernel, Piece}};\nuse crate::series;\n{scalar}"),
         ),
         ("kernel", KERNEL.to_owned()),
+        ("fast_function", FAST_FUNCTION.to_owned()),
         ("series", SERIES.to_owned()),
         ("real", real),
         ("lanes", lanes_of_c),

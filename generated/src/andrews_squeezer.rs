@@ -1,25 +1,25 @@
 // @generated from machines/andrews_squeezer.machine by `cargo xtask generate`; edits are lost.
 
-//! Andrews' squeezing mechanism: seven bodies in three loops, driven by a constant torque, on a
-//! spring.
-//! G. C. Andrews and M. K. Ormrod, Advent: a simulation program for constrained planar kinematic
-//! and
-//! dynamic systems, 1986; W. Schiehlen (ed.), Multibody systems handbook, 1990; letters, numbers
-//! and
+//! Andrews' squeezing mechanism: seven bodies in three loops, driven by a constant torque, on
+//! a spring.
+//! G. C. Andrews and M. K. Ormrod, Advent: a simulation program for constrained planar
+//! kinematic and
+//! dynamic systems, 1986; W. Schiehlen (ed.), Multibody systems handbook, 1990; letters,
+//! numbers and
 //! the signs of the multipliers as in the Test set for initial value problem solvers.
 //!
 //! 7 coordinates, 42 parameters. Arithmetic of one call:
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 56 | 21 | 4 | 0 | 0 | 81 |
+//! | `prepare` | 56 | 19 | 4 | 0 | 0 | 79 |
 //! | `mass_matrix` | 20 | 20 | 0 | 3 | 0 | 46 |
 //! | `bias` | 33 | 14 | 0 | 3 | 0 | 53 |
 //! | `applied` | 15 | 12 | 1 | 1 | 1 | 31 |
 //! | `forces` | 56 | 32 | 1 | 4 | 1 | 98 |
 //! | `constraint_positions` | 14 | 21 | 0 | 7 | 0 | 49 |
 //! | `constraint_rates` | 21 | 18 | 0 | 7 | 0 | 53 |
-//! | `constraint_matrix` | 16 | 9 | 0 | 7 | 0 | 39 |
+//! | `constraint_matrix` | 14 | 11 | 0 | 7 | 0 | 39 |
 //! | `constraint_bias` | 28 | 20 | 0 | 7 | 0 | 62 |
 //! | `accelerations` | 252 | 195 | 10 | 7 | 1 | 472 |
 //! | `multipliers` | 239 | 185 | 10 | 7 | 1 | 449 |
@@ -42,12 +42,12 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// Andrews' squeezing mechanism: seven bodies in three loops, driven by a constant torque, on a
-/// spring.
-/// G. C. Andrews and M. K. Ormrod, Advent: a simulation program for constrained planar kinematic
-/// and
-/// dynamic systems, 1986; W. Schiehlen (ed.), Multibody systems handbook, 1990; letters, numbers
-/// and
+/// Andrews' squeezing mechanism: seven bodies in three loops, driven by a constant torque, on
+/// a spring.
+/// G. C. Andrews and M. K. Ormrod, Advent: a simulation program for constrained planar
+/// kinematic and
+/// dynamic systems, 1986; W. Schiehlen (ed.), Multibody systems handbook, 1990; letters,
+/// numbers and
 /// the signs of the multipliers as in the Test set for initial value problem solvers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AndrewsSqueezer<S = f64> {
@@ -185,8 +185,6 @@ impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
         let k6 = S::from_f64(0.5) * t0;
         let k7 = S::from_f64(0.5) * (self.I5 + self.m5 * (t1 + t2));
         let k8 = S::from_f64(0.5) * (self.I7 + self.m7 * (t3 + t4));
-        let minus_d = -self.d;
-        let minus_zf = -self.zf;
         let k14 = k11 * k29;
         let k15 = m7_ub2_plus_m7_ua2 + (self.I7 + self.u * m6_u);
         let k16 = k12 * k27;
@@ -272,8 +270,6 @@ impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
             m7_ub2_plus_m7_ua2,
             m2_da_rr,
             k13,
-            minus_d,
-            minus_zf,
             k14,
             k15,
             k16,
@@ -338,14 +334,6 @@ pub struct Coordinates<S = f64> {
     /// `epsilon`. Unit: `rad`.
     pub epsilon: S,
 }
-
-/// What can be set while a [`AndrewsSqueezer`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`AndrewsSqueezer`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
 
 /// The parameters of a [`AndrewsSqueezer`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -476,10 +464,6 @@ pub struct Prepared<S = f64> {
     m2_da_rr: S,
     /// `I3 + m3*sb^2 + m3*sa^2`
     k13: S,
-    /// `-d`
-    minus_d: S,
-    /// `-zf`
-    minus_zf: S,
     /// `m6^2*u^2*(zf - fa)^2/(I6 + m6*(zf - fa)^2)`
     k14: S,
     /// `I7 + m7*ub^2 + m7*ua^2 + m6*u^2`
@@ -849,20 +833,22 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
     let (sin_t2, cos_t2) = t2.sin_cos();
     let (sin_delta, cos_delta) = delta.sin_cos();
     let g2_2 = cos_t0 * p.d;
-    let g3_4 = p.e * cos_t1;
-    let g4_4 = p.e * sin_t1;
+    let g3_4 = cos_t1 * p.e;
+    let g4_4 = sin_t1 * p.e;
     let g6_6 = cos_t2 * p.zf;
-    let g1_1 = p.rr * sin_beta - sin_t0 * p.d;
-    let g1_2 = sin_t0 * p.minus_d;
-    let g2_1 = g2_2 - p.rr * cos_beta;
-    let g1_3 = p.ss * cos_gamma;
+    let t3 = sin_t0 * p.d;
+    let g1_1 = sin_beta * p.rr - t3;
+    let t4 = sin_t2 * p.zf;
+    let g2_1 = g2_2 - cos_beta * p.rr;
+    let g1_2 = -t3;
+    let g1_3 = cos_gamma * p.ss;
     let zero = S::ZERO;
-    let g2_3 = p.ss * sin_gamma;
-    let g3_5 = g3_4 - p.zt * sin_delta;
-    let g4_5 = g4_4 + p.zt * cos_delta;
-    let g5_6 = sin_t2 * p.minus_zf;
-    let g5_7 = p.u * cos_epsilon - sin_t2 * p.zf;
-    let g6_7 = g6_6 + p.u * sin_epsilon;
+    let g2_3 = sin_gamma * p.ss;
+    let g3_5 = g3_4 - sin_delta * p.zt;
+    let g4_5 = g4_4 + cos_delta * p.zt;
+    let g5_6 = -t4;
+    let g5_7 = cos_epsilon * p.u - t4;
+    let g6_7 = g6_6 + sin_epsilon * p.u;
     [
         g1_1, g1_2, g1_3, zero, zero, zero, zero, g2_1, g2_2, g2_3, zero, zero, zero, zero, g1_1,
         g1_2, zero, g3_4, g3_5, zero, zero, g2_1, g2_2, zero, g4_4, g4_5, zero, zero, g1_1, g1_2,
@@ -939,559 +925,623 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     [gamma1, gamma2, gamma3, gamma4, gamma5, gamma6]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
-/// machine, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 7],
-    v: &[S; 7],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along
+    /// the machine, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    ///
+    /// So far these are the accelerations `a0` without constraint forces. The multipliers follow
+    /// from `C lambda = gamma - G a0`, where now `G` are the rows of the constraints and `C = G
+    /// M^-1 G^T`, row after row: `d`, `l` and `z` of constraints are those of `C = L D L^T`.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 7], v: &'a [S; 7] })
+        -> Result<[S; 7], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 7], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 7],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 7],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 7], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let beta = n(q[0]);
-        let Theta = n(q[1]);
-        let gamma = n(q[2]);
-        let Phi = n(q[3]);
-        let delta = n(q[4]);
-        let Omega = n(q[5]);
-        let epsilon = n(q[6]);
-        let beta_dot = n(v[0]);
-        let Theta_dot = n(v[1]);
-        let gamma_dot = n(v[2]);
-        let Phi_dot = n(v[3]);
-        let delta_dot = n(v[4]);
-        let Omega_dot = n(v[5]);
-        let epsilon_dot = n(v[6]);
-        let t0 = Theta + beta;
-        let t1 = delta + Phi;
-        let t2 = epsilon + Omega;
-        let angles = [beta, gamma, delta, t0, epsilon, t1, t2];
-        let circular = N::sin_cos_all(angles);
-        let (sin_beta, cos_beta) = circular[0];
-        let (sin_gamma, cos_gamma) = circular[1];
-        let (sin_delta, cos_delta) = circular[2];
-        let (sin_t0, cos_t0) = circular[3];
-        let (sin_epsilon, cos_epsilon) = circular[4];
-        let (sin_t1, cos_t1) = circular[5];
-        let (sin_t2, cos_t2) = circular[6];
-        let t3 = beta_dot + Theta_dot;
-        let t4 = beta_dot * beta_dot;
-        let t5 = delta_dot + Phi_dot;
-        let t6 = epsilon_dot + Omega_dot;
-        let t7 = delta_dot * delta_dot;
-        let t8 = t3 * t3;
-        let t9 = epsilon_dot * epsilon_dot;
-        let t10 = t5 * t5;
-        let t11 = gamma_dot * gamma_dot;
-        let t12 = t6 * t6;
-        let t13 = t8 * n(p.da);
-        let t14 = t10 * n(p.e_minus_ea);
-        let t15 = t12 * n(p.zf_minus_fa);
-        let t16 = cos_beta * n(p.rr);
-        let t17 = sin_beta * n(p.rr);
-        let t18 = cos_gamma * n(p.ss);
-        let t19 = sin_delta * n(p.zt);
-        let t20 = sin_gamma * n(p.ss);
-        let t21 = cos_delta * n(p.zt);
-        let t22 = sin_t0 * n(p.d);
-        let t23 = cos_t0 * n(p.d);
-        let t24 = t18 * n(p.k33);
-        let t25 = cos_t1 * n(p.e);
-        let t26 = n(p.k33) * t20;
-        let t27 = sin_t1 * n(p.e);
-        let t28 = sin_t0.mul_add(sin_beta, cos_t0 * cos_beta);
-        let t29 = t17 - t22;
-        let t30 = t16 - t23;
-        let t31 = sin_t1.mul_sub(cos_delta, cos_t1 * sin_delta);
-        let t32 = t19 - t25;
-        let t33 = t28 * n(p.k31);
-        let t34 = n(p.k30) * t31;
-        let t35 = t28.neg_mul_add(t28 * n(p.k21), n(p.k22));
-        let t36 = cos_gamma.mul_add(n(p.sd), n(p.xb));
-        let t37 = t31.neg_mul_add(t31 * n(p.k17), n(p.k18));
-        let t38 = t27 + t21;
-        let t39 = N::ONE / t35;
-        let t40 = sin_gamma.mul_add(n(p.sd), n(p.yb));
-        let t41 = n(p.xc) - sin_gamma.mul_add(n(p.sc), t36);
-        let t42 = t4 * t16;
-        let t43 = N::ONE / t37;
-        let t44 = sin_t2.mul_sub(cos_epsilon, cos_t2 * sin_epsilon);
-        let t45 = n(p.yc) - cos_gamma.neg_mul_add(n(p.sc), t40);
-        let t46 = cos_epsilon * n(p.u);
-        let t47 = sin_t2 * n(p.zf);
-        let t48 = t4 * t17;
-        let t49 = cos_t0.neg_mul_add(t13, t42);
-        let t50 = n(p.k29) * t44;
-        let t51 = sin_epsilon * n(p.u);
-        let t52 = t46 - t47;
-        let t53 = sin_t0.neg_mul_add(t13, t48);
-        let t54 = t21 * t7;
-        let t55 = t44.neg_mul_add(t44 * n(p.k14), n(p.k15));
-        let t56 = t46 * t9;
-        let t57 = t39 * t33.neg_mul_add(t22, t22 + t29);
-        let t58 = t39 * t23.neg_mul_add(t33, t23 + t30);
-        let t59 = t45.mul_add(t45, t41 * t41).sqrt();
-        let t60 = t43 * t25.mul_add(t34, t25 + t32);
-        let t61 = t43 * t34.neg_mul_add(t27, t38 - t27);
-        let t62 = N::ONE / t55;
-        let t63 = t57 + t33.neg_mul_add(t57, t22 * n(p.k32));
-        let t64 = t58 + t33.neg_mul_add(t58, t23 * n(p.k32));
-        let t65 = t60 + t34.mul_add(t60, t25 * n(p.k28));
-        let t66 = cos_beta.mul_sub(t53, sin_beta * t49);
-        let t67 = t22.mul_add(t63, t29 * t57);
-        let t68 = t23.mul_add(t63, t30 * t57);
-        let t69 = t23.mul_add(t64, t30 * t58);
-        let t70 = t22.mul_add(t64, t58 * t29);
-        let t71 = t61 - t34.neg_mul_add(t61, n(p.k28) * t27);
-        let t72 = cos_t0.mul_sub(t53, sin_t0 * t49);
-        let t73 = t18.mul_add(t24, t67);
-        let t74 = t24.neg_mul_add(t20, t68);
-        let t75 = t20.mul_add(t26, t69);
-        let t76 = t67 + t25.mul_add(t65, t32 * t60);
-        let t77 = N::ONE / t73;
-        let t78 = t19 * t7;
-        let t79 = t51 * t9;
-        let t80 = t69 + t27.neg_mul_add(t71, t38 * t61);
-        let t81 = t62 * t47.neg_mul_add(t50, t47 + t52);
-        let t82 = cos_t2 * n(p.zf);
-        let t83 = t66.mul_add(n(p.m2_rr), n(p.mom));
-        let t84 = t82 + t51;
-        let t85 = t39 * t72.neg_mul_add(t28 * n(p.k20), t83);
-        let t86 = t77 * t74;
-        let t87 = t67 * t77;
-        let t88 = t77 * t68;
-        let t89 = cos_t1 * sin_t1.mul_add(t14, t54);
-        let t90 = sin_t1.mul_add(cos_t1.neg_mul_add(t14, t78), t89);
-        let t91 = cos_t2 * sin_t2.neg_mul_add(t15, t56);
-        let t92 = sin_t2.mul_add(cos_t2.mul_add(t15, t79), t91);
-        let t93 = t74.neg_mul_add(t86, t75);
-        let t94 = t74.neg_mul_add(t87, t70);
-        let t95 = t74.neg_mul_add(t88, t69);
-        let t96 = N::ONE / t93;
-        let t97 = t81 + t50.neg_mul_add(t81, t47 * n(p.k27));
-        let t98 = cos_gamma * n(p.sc).mul_add(t41, n(p.sd) * t45);
-        let t99 = n(p.sc).mul_sub(t45, n(p.sd) * t41);
-        let t100 = t10 * sin_t1.mul_add(sin_delta, cos_t1 * cos_delta);
-        let t101 = t12 * cos_t2.mul_add(cos_epsilon, sin_t2 * sin_epsilon);
-        let t102 = n(p.k24).mul_add(t85.neg_mul_add(t28 * n(p.rr), t72), t85);
-        let t103 = t8.neg_mul_add(t23, t42);
-        let t104 = t8.neg_mul_add(t22, t48);
-        let t105 = t43 * t90.mul_add(t31 * n(p.k19), t100);
-        let t106 = t62 * t92.neg_mul_add(t44 * n(p.k16), t101);
-        let t107 = t67 + t47.mul_add(t97, t52 * t81);
-        let t108 = t22.mul_add(t102, t85 * t29);
-        let t109 = sin_gamma.mul_add(t99, t98) * (n(p.l0) - t59);
-        let t110 = N::ONE / t59 * t109;
-        let t111 = t96 * t94;
-        let t112 = t96 * t95;
-        let t113 = t23.mul_add(t102, t85 * t30);
-        let t114 = t94.mul_add(t111, t67 * t87);
-        let t115 = t112.mul_add(t94, t67 * t88);
-        let t116 = t95.mul_add(t112, t68 * t88);
-        let t117 = t76 - t114;
-        let t118 = t68 + t65.neg_mul_add(t27, t60 * t38) - t115;
-        let t119 = t67 - t114;
-        let t120 = t62 * t50.mul_add(t82, t84 - t82);
-        let t121 = N::ONE / t117;
-        let t122 = t110 * n(p.k34);
-        let t123 = t105.mul_add(t31 * n(p.k25), t90);
-        let t124 = n(p.k28).mul_add(t123, n(p.zt) * t105);
-        let t125 = t105 * n(p.k9);
-        let t126 = t106.neg_mul_add(t44 * n(p.k26), t92);
-        let t127 = n(p.k27).mul_add(t126, n(p.u) * t106);
-        let t128 = t106 * n(p.k11);
-        let t129 = t68 - t115;
-        let t130 = t108 + t20.neg_mul_add(t11, t103);
-        let t131 = cos_gamma.neg_mul_add(t122, t130);
-        let t132 = n(p.k35) * t124;
-        let t133 = n(p.k36) * t127;
-        let t134 = t120 - t50.mul_add(t120, n(p.k27) * t82);
-        let t135 = t121 * t118;
-        let t136 = t121 * t119;
-        let t137 = t121 * t129;
-        let t138 = sin_gamma.neg_mul_add(t122, t18.mul_add(t11, t104) - t113);
-        let t139 = t86.mul_add(t131, t138);
-        let t140 = t32.mul_add(t125, t103 - t27.mul_add(t10, t54));
-        let t141 = t118.neg_mul_add(t135, t80 - t116);
-        let t142 = t95.neg_mul_add(t111, t68.neg_mul_add(t87, t70));
-        let t143 = t118.neg_mul_add(t136, t142);
-        let t144 = t38.neg_mul_add(t125, t104 - t25.neg_mul_add(t10, t78));
-        let t145 = t52.mul_add(t128, t103 - t82.mul_add(t12, t79));
-        let t146 = t84.mul_add(t128, t104 + t47.neg_mul_add(t12, t56));
-        let t147 = t118.neg_mul_add(t137, t69 - t116);
-        let t148 = N::ONE / t141;
-        let t149 = t111.neg_mul_add(t139, t87 * t131);
-        let t150 = t112.neg_mul_add(t139, t88 * t131);
-        let t151 = t69 + t82.neg_mul_add(t134, t84 * t120);
-        let t152 = t68 + t97.mul_sub(t82, t81 * t84) - t115;
-        let t153 = t108 + cos_t1.mul_add(t132, t140) - t149;
-        let t154 = t150 + (sin_t1.mul_add(t132, t144) - t113);
-        let t155 = t135.mul_add(t153, t154);
-        let t156 = t108 + sin_t2.mul_add(t133, t145) - t149;
-        let t157 = t150 + (cos_t2.neg_mul_add(t133, t146) - t113);
-        let t158 = t148 * t143;
-        let t159 = t148 * t147;
-        let t160 = t119.neg_mul_add(t136, t107 - t114);
-        let t161 = t143.neg_mul_add(t158, t160);
-        let t162 = t143.neg_mul_add(t159, t119.neg_mul_add(t137, t152));
-        let t163 = t158.mul_add(t155, t136.neg_mul_add(t153, t156));
-        let t164 = t129.neg_mul_add(t137, t151 - t116);
-        let t165 = N::ONE / t161;
-        let t166 = t165 * t162;
-        let t167 = t159.neg_mul_add(t155, t137.mul_add(t153, t157));
-        let t168 = t162.neg_mul_add(t166, t147.neg_mul_add(t159, t164));
-        let t169 = t166.mul_add(t163, t167) / t168;
-        let t170 = t166.mul_add(t169, t165 * t163);
-        let t171 = t158.mul_add(t170, t159.neg_mul_add(t169, t148 * t155));
-        let t172 = t169 + t171;
-        let t173 = t136.neg_mul_add(t170, t137.mul_add(t169, t121 * t153));
-        let t174 = t135.mul_add(t171, t173);
-        let t175 = t170 + t174;
-        let t176 = t111.mul_add(t175, t112.neg_mul_add(t172, t96 * t139));
-        let t177 = t87.neg_mul_add(t175, t88.mul_add(t172, t77 * t131));
-        let t178 = t86.mul_add(t176, t177);
-        let t179 = t172 + t176;
-        let t180 = t175 + t178;
-        let beta_ddot = t57.neg_mul_add(t180, t58.mul_add(t179, t85));
-        let Theta_ddot = t63.mul_sub(t180, t64.mul_add(t179, t102));
-        let gamma_ddot = -t24.mul_add(t178, t26.mul_add(t176, t110 * n(p.k23)));
-        let Phi_ddot = t65.neg_mul_add(t174, t71.mul_add(t171, t124 * n(p.k10)));
-        let delta_ddot = t60.mul_sub(t174, t61.mul_add(t171, t125));
-        let Omega_ddot = t97.mul_add(t170, t134.mul_sub(t169, t127 * n(p.k12)));
-        let epsilon_ddot = -t81.mul_add(t170, t120.mul_sub(t169, t128));
-        let sound = PIVOTS.hold(t55, t55)
-            & PIVOTS.hold(t37, t37)
-            & PIVOTS.hold(t35, t35)
-            & PIVOTS.hold(t73, t73)
-            & PIVOTS.hold(t93, t75)
-            & PIVOTS.hold(t117, t76)
-            & PIVOTS.hold(t141, t80)
-            & PIVOTS.hold(t161, t107)
-            & PIVOTS.hold(t168, t151)
-            & gamma_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (6, t55, t55),
-                (4, t37, t37),
-                (0, t35, t35),
-                (7, t73, t73),
-                (8, t93, t75),
-                (9, t117, t76),
-                (10, t141, t80),
-                (11, t161, t107),
-                (12, t168, t151),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            beta_ddot.store(),
-            Theta_ddot.store(),
-            gamma_ddot.store(),
-            Phi_ddot.store(),
-            delta_ddot.store(),
-            Omega_ddot.store(),
-            epsilon_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let beta = n(q[0]);
+    let Theta = n(q[1]);
+    let gamma = n(q[2]);
+    let Phi = n(q[3]);
+    let delta = n(q[4]);
+    let Omega = n(q[5]);
+    let epsilon = n(q[6]);
+    let beta_dot = n(v[0]);
+    let Theta_dot = n(v[1]);
+    let gamma_dot = n(v[2]);
+    let Phi_dot = n(v[3]);
+    let delta_dot = n(v[4]);
+    let Omega_dot = n(v[5]);
+    let epsilon_dot = n(v[6]);
+    let t0 = Theta + beta;
+    let t1 = delta + Phi;
+    let t2 = epsilon + Omega;
+    let angles = [beta, gamma, delta, t0, epsilon, t1, t2];
+    let circular = N::sin_cos_all(angles);
+    let (sin_beta, cos_beta) = circular[0];
+    let (sin_gamma, cos_gamma) = circular[1];
+    let (sin_delta, cos_delta) = circular[2];
+    let (sin_t0, cos_t0) = circular[3];
+    let (sin_epsilon, cos_epsilon) = circular[4];
+    let (sin_t1, cos_t1) = circular[5];
+    let (sin_t2, cos_t2) = circular[6];
+    let t3 = beta_dot + Theta_dot;
+    let t4 = beta_dot * beta_dot;
+    let t5 = delta_dot + Phi_dot;
+    let t6 = epsilon_dot + Omega_dot;
+    let t7 = delta_dot * delta_dot;
+    let t8 = t3 * t3;
+    let t9 = epsilon_dot * epsilon_dot;
+    let t10 = t5 * t5;
+    let t11 = gamma_dot * gamma_dot;
+    let t12 = t6 * t6;
+    let t13 = t8 * n(p.da);
+    let t14 = t10 * n(p.e_minus_ea);
+    let t15 = t12 * n(p.zf_minus_fa);
+    let t16 = cos_beta * n(p.rr);
+    let t17 = sin_beta * n(p.rr);
+    let t18 = cos_gamma * n(p.ss);
+    let t19 = sin_delta * n(p.zt);
+    let t20 = sin_gamma * n(p.ss);
+    let t21 = cos_delta * n(p.zt);
+    let t22 = sin_t0 * n(p.d);
+    let t23 = cos_t0 * n(p.d);
+    let t24 = t18 * n(p.k33);
+    let t25 = cos_t1 * n(p.e);
+    let t26 = n(p.k33) * t20;
+    let t27 = sin_t1 * n(p.e);
+    // Eliminates Theta: coupling l[Theta].
+    let t28 = sin_t0.mul_add(sin_beta, cos_t0 * cos_beta);
+    let t29 = t17 - t22;
+    let t30 = t16 - t23;
+    // Eliminates Phi: coupling l[Phi].
+    let t31 = sin_t1.mul_sub(cos_delta, cos_t1 * sin_delta);
+    let t32 = t19 - t25;
+    let t33 = t28 * n(p.k31);
+    let t34 = n(p.k30) * t31;
+    // Eliminates beta: inertia d[beta].
+    let t35 = t28.neg_mul_add(t28 * n(p.k21), n(p.k22));
+    let t36 = cos_gamma.mul_add(n(p.sd), n(p.xb));
+    // Eliminates delta: inertia d[delta].
+    let t37 = t31.neg_mul_add(t31 * n(p.k17), n(p.k18));
+    let t38 = t27 + t21;
+    let t39 = N::ONE / t35;
+    let t40 = sin_gamma.mul_add(n(p.sd), n(p.yb));
+    let t41 = n(p.xc) - sin_gamma.mul_add(n(p.sc), t36);
+    let t42 = t4 * t16;
+    let t43 = N::ONE / t37;
+    // Eliminates Omega: coupling l[Omega].
+    let t44 = sin_t2.mul_sub(cos_epsilon, cos_t2 * sin_epsilon);
+    let t45 = n(p.yc) - cos_gamma.neg_mul_add(n(p.sc), t40);
+    let t46 = cos_epsilon * n(p.u);
+    let t47 = sin_t2 * n(p.zf);
+    let t48 = t4 * t17;
+    let t49 = cos_t0.neg_mul_add(t13, t42);
+    let t50 = n(p.k29) * t44;
+    let t51 = sin_epsilon * n(p.u);
+    let t52 = t46 - t47;
+    let t53 = sin_t0.neg_mul_add(t13, t48);
+    let t54 = t21 * t7;
+    // Eliminates epsilon: inertia d[epsilon].
+    let t55 = t44.neg_mul_add(t44 * n(p.k14), n(p.k15));
+    let t56 = t46 * t9;
+    let t57 = t39 * t33.neg_mul_add(t22, t22 + t29);
+    let t58 = t39 * t23.neg_mul_add(t33, t23 + t30);
+    let t59 = t45.mul_add(t45, t41 * t41).sqrt();
+    let t60 = t43 * t25.mul_add(t34, t25 + t32);
+    let t61 = t43 * t34.neg_mul_add(t27, t38 - t27);
+    let t62 = N::ONE / t55;
+    let t63 = t57 + t33.neg_mul_add(t57, t22 * n(p.k32));
+    let t64 = t58 + t33.neg_mul_add(t58, t23 * n(p.k32));
+    let t65 = t60 + t34.mul_add(t60, t25 * n(p.k28));
+    let t66 = cos_beta.mul_sub(t53, sin_beta * t49);
+    let t67 = t22.mul_add(t63, t29 * t57);
+    let t68 = t23.mul_add(t63, t30 * t57);
+    let t69 = t23.mul_add(t64, t30 * t58);
+    let t70 = t22.mul_add(t64, t58 * t29);
+    let t71 = t61 - t34.neg_mul_add(t61, n(p.k28) * t27);
+    let t72 = cos_t0.mul_sub(t53, sin_t0 * t49);
+    // Row x3: pivot d[x3].
+    let t73 = t18.mul_add(t24, t67);
+    let t74 = t24.neg_mul_add(t20, t68);
+    let t75 = t20.mul_add(t26, t69);
+    let t76 = t67 + t25.mul_add(t65, t32 * t60);
+    let t77 = N::ONE / t73;
+    let t78 = t19 * t7;
+    let t79 = t51 * t9;
+    let t80 = t69 + t27.neg_mul_add(t71, t38 * t61);
+    let t81 = t62 * t47.neg_mul_add(t50, t47 + t52);
+    let t82 = cos_t2 * n(p.zf);
+    let t83 = t66.mul_add(n(p.m2_rr), n(p.mom));
+    let t84 = t82 + t51;
+    let t85 = t39 * t72.neg_mul_add(t28 * n(p.k20), t83);
+    // Eliminates x3 from row y3: l[y3, x3].
+    let t86 = t77 * t74;
+    // Eliminates x3 from row x4: l[x4, x3]; Eliminates x3 from row x6: l[x6, x3].
+    let t87 = t67 * t77;
+    // Eliminates x3 from row y4: l[y4, x3]; Eliminates x3 from row y6: l[y6, x3].
+    let t88 = t77 * t68;
+    let t89 = cos_t1 * sin_t1.mul_add(t14, t54);
+    let t90 = sin_t1.mul_add(cos_t1.neg_mul_add(t14, t78), t89);
+    let t91 = cos_t2 * sin_t2.neg_mul_add(t15, t56);
+    let t92 = sin_t2.mul_add(cos_t2.mul_add(t15, t79), t91);
+    // Row y3: pivot d[y3].
+    let t93 = t74.neg_mul_add(t86, t75);
+    let t94 = t74.neg_mul_add(t87, t70);
+    let t95 = t74.neg_mul_add(t88, t69);
+    let t96 = N::ONE / t93;
+    let t97 = t81 + t50.neg_mul_add(t81, t47 * n(p.k27));
+    let t98 = cos_gamma * n(p.sc).mul_add(t41, n(p.sd) * t45);
+    let t99 = n(p.sc).mul_sub(t45, n(p.sd) * t41);
+    let t100 = t10 * sin_t1.mul_add(sin_delta, cos_t1 * cos_delta);
+    let t101 = t12 * cos_t2.mul_add(cos_epsilon, sin_t2 * sin_epsilon);
+    let t102 = n(p.k24).mul_add(t85.neg_mul_add(t28 * n(p.rr), t72), t85);
+    let t103 = t8.neg_mul_add(t23, t42);
+    let t104 = t8.neg_mul_add(t22, t48);
+    let t105 = t43 * t90.mul_add(t31 * n(p.k19), t100);
+    let t106 = t62 * t92.neg_mul_add(t44 * n(p.k16), t101);
+    let t107 = t67 + t47.mul_add(t97, t52 * t81);
+    let t108 = t22.mul_add(t102, t85 * t29);
+    let t109 = sin_gamma.mul_add(t99, t98) * (n(p.l0) - t59);
+    let t110 = N::ONE / t59 * t109;
+    // Eliminates y3 from row x4: l[x4, y3]; Eliminates y3 from row x6: l[x6, y3].
+    let t111 = t96 * t94;
+    // Eliminates y3 from row y4: l[y4, y3]; Eliminates y3 from row y6: l[y6, y3].
+    let t112 = t96 * t95;
+    let t113 = t23.mul_add(t102, t85 * t30);
+    let t114 = t94.mul_add(t111, t67 * t87);
+    let t115 = t112.mul_add(t94, t67 * t88);
+    let t116 = t95.mul_add(t112, t68 * t88);
+    // Row x4: pivot d[x4].
+    let t117 = t76 - t114;
+    let t118 = t68 + t65.neg_mul_add(t27, t60 * t38) - t115;
+    let t119 = t67 - t114;
+    let t120 = t62 * t50.mul_add(t82, t84 - t82);
+    let t121 = N::ONE / t117;
+    let t122 = t110 * n(p.k34);
+    let t123 = t105.mul_add(t31 * n(p.k25), t90);
+    let t124 = n(p.k28).mul_add(t123, n(p.zt) * t105);
+    let t125 = t105 * n(p.k9);
+    let t126 = t106.neg_mul_add(t44 * n(p.k26), t92);
+    let t127 = n(p.k27).mul_add(t126, n(p.u) * t106);
+    let t128 = t106 * n(p.k11);
+    let t129 = t68 - t115;
+    let t130 = t108 + t20.neg_mul_add(t11, t103);
+    let t131 = cos_gamma.neg_mul_add(t122, t130);
+    let t132 = n(p.k35) * t124;
+    let t133 = n(p.k36) * t127;
+    let t134 = t120 - t50.mul_add(t120, n(p.k27) * t82);
+    // Eliminates x4 from row y4: l[y4, x4].
+    let t135 = t121 * t118;
+    // Eliminates x4 from row x6: l[x6, x4].
+    let t136 = t121 * t119;
+    // Eliminates x4 from row y6: l[y6, x4].
+    let t137 = t121 * t129;
+    let t138 = sin_gamma.neg_mul_add(t122, t18.mul_add(t11, t104) - t113);
+    // Row y3: right-hand side z[y3].
+    let t139 = t86.mul_add(t131, t138);
+    let t140 = t32.mul_add(t125, t103 - t27.mul_add(t10, t54));
+    // Row y4: pivot d[y4].
+    let t141 = t118.neg_mul_add(t135, t80 - t116);
+    let t142 = t95.neg_mul_add(t111, t68.neg_mul_add(t87, t70));
+    let t143 = t118.neg_mul_add(t136, t142);
+    let t144 = t38.neg_mul_add(t125, t104 - t25.neg_mul_add(t10, t78));
+    let t145 = t52.mul_add(t128, t103 - t82.mul_add(t12, t79));
+    let t146 = t84.mul_add(t128, t104 + t47.neg_mul_add(t12, t56));
+    let t147 = t118.neg_mul_add(t137, t69 - t116);
+    let t148 = N::ONE / t141;
+    let t149 = t111.neg_mul_add(t139, t87 * t131);
+    let t150 = t112.neg_mul_add(t139, t88 * t131);
+    let t151 = t69 + t82.neg_mul_add(t134, t84 * t120);
+    let t152 = t68 + t97.mul_sub(t82, t81 * t84) - t115;
+    // Row x4: right-hand side z[x4].
+    let t153 = t108 + cos_t1.mul_add(t132, t140) - t149;
+    let t154 = t150 + (sin_t1.mul_add(t132, t144) - t113);
+    // Row y4: right-hand side z[y4].
+    let t155 = t135.mul_add(t153, t154);
+    let t156 = t108 + sin_t2.mul_add(t133, t145) - t149;
+    let t157 = t150 + (cos_t2.neg_mul_add(t133, t146) - t113);
+    // Eliminates y4 from row x6: l[x6, y4].
+    let t158 = t148 * t143;
+    // Eliminates y4 from row y6: l[y6, y4].
+    let t159 = t148 * t147;
+    let t160 = t119.neg_mul_add(t136, t107 - t114);
+    // Row x6: pivot d[x6].
+    let t161 = t143.neg_mul_add(t158, t160);
+    let t162 = t143.neg_mul_add(t159, t119.neg_mul_add(t137, t152));
+    // Row x6: right-hand side z[x6].
+    let t163 = t158.mul_add(t155, t136.neg_mul_add(t153, t156));
+    let t164 = t129.neg_mul_add(t137, t151 - t116);
+    let t165 = N::ONE / t161;
+    // Eliminates x6 from row y6: l[y6, x6].
+    let t166 = t165 * t162;
+    let t167 = t159.neg_mul_add(t155, t137.mul_add(t153, t157));
+    // Row y6: pivot d[y6].
+    let t168 = t162.neg_mul_add(t166, t147.neg_mul_add(t159, t164));
+    // Row y6: right-hand side z[y6].
+    let t169 = t166.mul_add(t163, t167) / t168;
+    // Back substitution: lambda[x6].
+    let t170 = t166.mul_add(t169, t165 * t163);
+    // Back substitution: lambda[y4].
+    let t171 = t158.mul_add(t170, t159.neg_mul_add(t169, t148 * t155));
+    let t172 = t169 + t171;
+    let t173 = t136.neg_mul_add(t170, t137.mul_add(t169, t121 * t153));
+    // Back substitution: lambda[x4].
+    let t174 = t135.mul_add(t171, t173);
+    let t175 = t170 + t174;
+    // Back substitution: lambda[y3].
+    let t176 = t111.mul_add(t175, t112.neg_mul_add(t172, t96 * t139));
+    let t177 = t87.neg_mul_add(t175, t88.mul_add(t172, t77 * t131));
+    // Back substitution: lambda[x3].
+    let t178 = t86.mul_add(t176, t177);
+    let t179 = t172 + t176;
+    let t180 = t175 + t178;
+    let beta_ddot = t57.neg_mul_add(t180, t58.mul_add(t179, t85));
+    let Theta_ddot = t63.mul_sub(t180, t64.mul_add(t179, t102));
+    let gamma_ddot = -t24.mul_add(t178, t26.mul_add(t176, t110 * n(p.k23)));
+    let Phi_ddot = t65.neg_mul_add(t174, t71.mul_add(t171, t124 * n(p.k10)));
+    let delta_ddot = t60.mul_sub(t174, t61.mul_add(t171, t125));
+    let Omega_ddot = t97.mul_add(t170, t134.mul_sub(t169, t127 * n(p.k12)));
+    let epsilon_ddot = -t81.mul_add(t170, t120.mul_sub(t169, t128));
+    let sound = PIVOTS.hold(t55, t55)
+        & PIVOTS.hold(t37, t37)
+        & PIVOTS.hold(t35, t35)
+        & PIVOTS.hold(t73, t73)
+        & PIVOTS.hold(t93, t75)
+        & PIVOTS.hold(t117, t76)
+        & PIVOTS.hold(t141, t80)
+        & PIVOTS.hold(t161, t107)
+        & PIVOTS.hold(t168, t151)
+        & gamma_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (6, t55, t55),
+            (4, t37, t37),
+            (0, t35, t35),
+            (7, t73, t73),
+            (8, t93, t75),
+            (9, t117, t76),
+            (10, t141, t80),
+            (11, t161, t107),
+            (12, t168, t151),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        beta_ddot.store(),
+        Theta_ddot.store(),
+        gamma_ddot.store(),
+        Phi_ddot.store(),
+        delta_ddot.store(),
+        Omega_ddot.store(),
+        epsilon_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 7],
-    v: &[S; 7],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    ///
+    /// So far these are the accelerations `a0` without constraint forces. The multipliers follow
+    /// from `C lambda = gamma - G a0`, where now `G` are the rows of the constraints and `C = G
+    /// M^-1 G^T`, row after row: `d`, `l` and `z` of constraints are those of `C = L D L^T`.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 7], v: &'a [S; 7] })
+        -> Result<[S; 6], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 6], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 7],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 7],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 6], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let beta = n(q[0]);
-        let Theta = n(q[1]);
-        let gamma = n(q[2]);
-        let Phi = n(q[3]);
-        let delta = n(q[4]);
-        let Omega = n(q[5]);
-        let epsilon = n(q[6]);
-        let beta_dot = n(v[0]);
-        let Theta_dot = n(v[1]);
-        let gamma_dot = n(v[2]);
-        let Phi_dot = n(v[3]);
-        let delta_dot = n(v[4]);
-        let Omega_dot = n(v[5]);
-        let epsilon_dot = n(v[6]);
-        let t0 = Theta + beta;
-        let t1 = delta + Phi;
-        let t2 = epsilon + Omega;
-        let angles = [beta, gamma, delta, t0, epsilon, t1, t2];
-        let circular = N::sin_cos_all(angles);
-        let (sin_beta, cos_beta) = circular[0];
-        let (sin_gamma, cos_gamma) = circular[1];
-        let (sin_delta, cos_delta) = circular[2];
-        let (sin_t0, cos_t0) = circular[3];
-        let (sin_epsilon, cos_epsilon) = circular[4];
-        let (sin_t1, cos_t1) = circular[5];
-        let (sin_t2, cos_t2) = circular[6];
-        let t3 = beta_dot + Theta_dot;
-        let t4 = beta_dot * beta_dot;
-        let t5 = delta_dot + Phi_dot;
-        let t6 = epsilon_dot + Omega_dot;
-        let t7 = delta_dot * delta_dot;
-        let t8 = t3 * t3;
-        let t9 = epsilon_dot * epsilon_dot;
-        let t10 = t5 * t5;
-        let t11 = gamma_dot * gamma_dot;
-        let t12 = t6 * t6;
-        let t13 = t8 * n(p.da);
-        let t14 = cos_beta * n(p.rr);
-        let t15 = sin_beta * n(p.rr);
-        let t16 = cos_gamma * n(p.ss);
-        let t17 = sin_delta * n(p.zt);
-        let t18 = cos_gamma * n(p.sd);
-        let t19 = sin_gamma * n(p.ss);
-        let t20 = sin_gamma * n(p.sd);
-        let t21 = sin_t0 * n(p.d);
-        let t22 = cos_t0 * n(p.d);
-        let t23 = t16 * n(p.k33);
-        let t24 = cos_t1 * n(p.e);
-        let t25 = sin_gamma * n(p.sc);
-        let t26 = sin_t0.mul_add(sin_beta, cos_t0 * cos_beta);
-        let t27 = t15 - t21;
-        let t28 = t14 - t22;
-        let t29 = sin_t1.mul_sub(cos_delta, cos_t1 * sin_delta);
-        let t30 = t17 - t24;
-        let t31 = n(p.k31) * t26;
-        let t32 = n(p.k30) * t29;
-        let t33 = t26.neg_mul_add(t26 * n(p.k21), n(p.k22));
-        let t34 = cos_gamma * n(p.sc);
-        let t35 = t29.neg_mul_add(t29 * n(p.k17), n(p.k18));
-        let t36 = N::ONE / t33;
-        let t37 = sin_t1 * n(p.e);
-        let t38 = cos_delta * n(p.zt);
-        let t39 = N::ONE / t35;
-        let t40 = n(p.xc) - (t25 + (t18 + n(p.xb)));
-        let t41 = cos_epsilon * n(p.u);
-        let t42 = n(p.yc) - (t20 + n(p.yb) - t34);
-        let t43 = sin_t2 * n(p.zf);
-        let t44 = t37 + t38;
-        let t45 = t15 * t4;
-        let t46 = sin_t2.mul_sub(cos_epsilon, cos_t2 * sin_epsilon);
-        let t47 = t14 * t4;
-        let t48 = t41 - t43;
-        let t49 = sin_epsilon * n(p.u);
-        let t50 = sin_t0.neg_mul_add(t13, t45);
-        let t51 = cos_t0.neg_mul_add(t13, t47);
-        let t52 = n(p.k29) * t46;
-        let t53 = t36 * t21.neg_mul_add(t31, t21 + t27);
-        let t54 = t36 * t31.neg_mul_add(t22, t22 + t28);
-        let t55 = t42.mul_add(t42, t40 * t40).sqrt();
-        let t56 = t39 * t24.mul_add(t32, t24 + t30);
-        let t57 = t46.neg_mul_add(t46 * n(p.k14), n(p.k15));
-        let t58 = t53 + t31.neg_mul_add(t53, t21 * n(p.k32));
-        let t59 = t39 * t32.neg_mul_add(t37, t44 - t37);
-        let t60 = t54 + t31.neg_mul_add(t54, n(p.k32) * t22);
-        let t61 = N::ONE / t57;
-        let t62 = t38 * t7;
-        let t63 = t56 + t32.mul_add(t56, t24 * n(p.k28));
-        let t64 = sin_t1 * t10;
-        let t65 = t21.mul_add(t58, t27 * t53);
-        let t66 = t58.mul_add(t22, t53 * t28);
-        let t67 = t22.mul_add(t60, t28 * t54);
-        let t68 = t21.mul_add(t60, t27 * t54);
-        let t69 = t16.mul_add(t23, t65);
-        let t70 = t23.neg_mul_add(t19, t66);
-        let t71 = t19.mul_add(n(p.k33) * t19, t67);
-        let t72 = t41 * t9;
-        let t73 = sin_t2 * t12;
-        let t74 = t65 + t24.mul_add(t63, t30 * t56);
-        let t75 = N::ONE / t55;
-        let t76 = N::ONE / t69;
-        let t77 = t50.mul_add(cos_beta * n(p.m2_rr), n(p.mom));
-        let t78 = t59 - t32.neg_mul_add(t59, n(p.k28) * t37);
-        let t79 = cos_t0.mul_sub(t50, sin_t0 * t51);
-        let t80 = t17 * t7;
-        let t81 = cos_t1 * t10;
-        let t82 = t49 * t9;
-        let t83 = cos_t2 * t12;
-        let t84 = t67 + t37.neg_mul_add(t78, t44 * t59);
-        let t85 = t61 * t43.neg_mul_add(t52, t43 + t48);
-        let t86 = cos_t2 * n(p.zf);
-        let t87 = t51.neg_mul_add(sin_beta * n(p.m2_rr), t77);
-        let t88 = t86 + t49;
-        let t89 = t76 * t70;
-        let t90 = t65 * t76;
-        let t91 = t76 * t66;
-        let t92 = t36 * t79.neg_mul_add(t26 * n(p.k20), t87);
-        let t93 = t42 * t75;
-        let t94 = t40 * t75;
-        let t95 = cos_t1 * n(p.e_minus_ea).mul_add(t64, t62);
-        let t96 = sin_t1.mul_add(t81.neg_mul_add(n(p.e_minus_ea), t80), t95);
-        let t97 = t70.neg_mul_add(t89, t71);
-        let t98 = t70.neg_mul_add(t90, t68);
-        let t99 = t70.neg_mul_add(t91, t67);
-        let t100 = N::ONE / t97;
-        let t101 = cos_t2 * n(p.zf_minus_fa).neg_mul_add(t73, t72);
-        let t102 = sin_t2.mul_add(t83.mul_add(n(p.zf_minus_fa), t82), t101);
-        let t103 = t85 + t52.neg_mul_add(t85, t43 * n(p.k27));
-        let t104 = sin_delta.mul_add(t64, cos_delta * t81);
-        let t105 = cos_epsilon.mul_add(t83, sin_epsilon * t73);
-        let t106 = n(p.k24).mul_add(t92.neg_mul_add(t26 * n(p.rr), t79), t92);
-        let t107 = t22.neg_mul_add(t8, t47);
-        let t108 = t21.neg_mul_add(t8, t45);
-        let t109 = t39 * t96.mul_add(t29 * n(p.k19), t104);
-        let t110 = t61 * t102.neg_mul_add(t46 * n(p.k16), t105);
-        let t111 = t100 * t98;
-        let t112 = t100 * t99;
-        let t113 = t65 + t43.mul_add(t103, t48 * t85);
-        let t114 = t21.mul_add(t106, t27 * t92);
-        let t115 = t98.mul_add(t111, t65 * t90);
-        let t116 = t112.mul_add(t98, t65 * t91);
-        let t117 = t99.mul_add(t112, t66 * t91);
-        let t118 = t22.mul_add(t106, t28 * t92);
-        let t119 = t74 - t115;
-        let t120 = t66 + t63.neg_mul_add(t37, t56 * t44) - t116;
-        let t121 = t65 - t115;
-        let t122 = N::ONE / t119;
-        let t123 = t61 * t52.mul_add(t86, t88 - t86);
-        let t124 = t18.mul_add(t93, t25 * t93) + t34.mul_sub(t94, t20 * t94);
-        let t125 = t124 * ((n(p.l0) - t55) * n(p.k34));
-        let t126 = t109.mul_add(t29 * n(p.k25), t96);
-        let t127 = t109 * n(p.k9);
-        let t128 = t110.neg_mul_add(t46 * n(p.k26), t102);
-        let t129 = t110 * n(p.k11);
-        let t130 = t66 - t116;
-        let t131 = t114 + t19.neg_mul_add(t11, t107);
-        let t132 = cos_gamma.neg_mul_add(t125, t131);
-        let t133 = n(p.k35) * n(p.k28).mul_add(t126, n(p.zt) * t109);
-        let t134 = t122 * t120;
-        let t135 = t122 * t121;
-        let t136 = n(p.k36) * n(p.k27).mul_add(t128, n(p.u) * t110);
-        let t137 = t122 * t130;
-        let t138 = t120.neg_mul_add(t134, t84 - t117);
-        let t139 = t99.neg_mul_add(t111, t66.neg_mul_add(t90, t68));
-        let t140 = t120.neg_mul_add(t135, t139);
-        let t141 = sin_gamma.neg_mul_add(t125, t16.mul_add(t11, t108) - t118);
-        let t142 = t89.mul_add(t132, t141);
-        let t143 = t30.mul_add(t127, t107 - t37.mul_add(t10, t62));
-        let t144 = N::ONE / t138;
-        let t145 = t44.neg_mul_add(t127, t108 - t24.neg_mul_add(t10, t80));
-        let t146 = t48.mul_add(t129, t107 - t86.mul_add(t12, t82));
-        let t147 = t88.mul_add(t129, t108 + t43.neg_mul_add(t12, t72));
-        let t148 = t123 - t52.mul_add(t123, n(p.k27) * t86);
-        let t149 = t120.neg_mul_add(t137, t67 - t117);
-        let t150 = t111.neg_mul_add(t142, t90 * t132);
-        let t151 = t112.neg_mul_add(t142, t91 * t132);
-        let t152 = t67 + t86.neg_mul_add(t148, t88 * t123);
-        let t153 = t66 + t103.mul_sub(t86, t85 * t88) - t116;
-        let t154 = t114 + cos_t1.mul_add(t133, t143) - t150;
-        let t155 = t144 * t140;
-        let t156 = t144 * t149;
-        let t157 = t151 + (sin_t1.mul_add(t133, t145) - t118);
-        let t158 = t134.mul_add(t154, t157);
-        let t159 = t114 + sin_t2.mul_add(t136, t146) - t150;
-        let t160 = t151 + (cos_t2.neg_mul_add(t136, t147) - t118);
-        let t161 = t121.neg_mul_add(t135, t113 - t115);
-        let t162 = t140.neg_mul_add(t155, t161);
-        let t163 = t140.neg_mul_add(t156, t121.neg_mul_add(t137, t153));
-        let t164 = t155.mul_add(t158, t135.neg_mul_add(t154, t159));
-        let t165 = t130.neg_mul_add(t137, t152 - t117);
-        let t166 = N::ONE / t162;
-        let t167 = t166 * t163;
-        let t168 = t156.neg_mul_add(t158, t137.mul_add(t154, t160));
-        let t169 = t163.neg_mul_add(t167, t149.neg_mul_add(t156, t165));
-        let t170 = t167.mul_add(t164, t168) / t169;
-        let t171 = t167.mul_add(t170, t166 * t164);
-        let t172 = t155.mul_add(t171, t156.neg_mul_add(t170, t144 * t158));
-        let t173 = t135.neg_mul_add(t171, t137.mul_add(t170, t122 * t154));
-        let t174 = t134.mul_add(t172, t173);
-        let t175 = t111.mul_add(t171, t112.neg_mul_add(t170, t100 * t142));
-        let t176 = t90.neg_mul_add(t171, t91.mul_add(t170, t76 * t132));
-        let t177 = t111.mul_add(t174, t112.neg_mul_add(t172, t175));
-        let t178 = t90.neg_mul_add(t174, t91.mul_add(t172, t176));
-        let lambda1 = -t89.mul_add(t177, t178);
-        let lambda2 = -t177;
-        let lambda3 = -t174;
-        let lambda4 = -t172;
-        let lambda5 = -t171;
-        let lambda6 = -t170;
-        let sound = PIVOTS.hold(t57, t57)
-            & PIVOTS.hold(t35, t35)
-            & PIVOTS.hold(t33, t33)
-            & PIVOTS.hold(t69, t69)
-            & PIVOTS.hold(t97, t71)
-            & PIVOTS.hold(t119, t74)
-            & PIVOTS.hold(t138, t84)
-            & PIVOTS.hold(t162, t113)
-            & PIVOTS.hold(t169, t152)
-            & lambda1.is_finite();
-        if !sound {
-            let pivots = [
-                (6, t57, t57),
-                (4, t35, t35),
-                (0, t33, t33),
-                (7, t69, t69),
-                (8, t97, t71),
-                (9, t119, t74),
-                (10, t138, t84),
-                (11, t162, t113),
-                (12, t169, t152),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [
-            lambda1.store(),
-            lambda2.store(),
-            lambda3.store(),
-            lambda4.store(),
-            lambda5.store(),
-            lambda6.store(),
-        ];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let beta = n(q[0]);
+    let Theta = n(q[1]);
+    let gamma = n(q[2]);
+    let Phi = n(q[3]);
+    let delta = n(q[4]);
+    let Omega = n(q[5]);
+    let epsilon = n(q[6]);
+    let beta_dot = n(v[0]);
+    let Theta_dot = n(v[1]);
+    let gamma_dot = n(v[2]);
+    let Phi_dot = n(v[3]);
+    let delta_dot = n(v[4]);
+    let Omega_dot = n(v[5]);
+    let epsilon_dot = n(v[6]);
+    let t0 = Theta + beta;
+    let t1 = delta + Phi;
+    let t2 = epsilon + Omega;
+    let angles = [beta, gamma, delta, t0, epsilon, t1, t2];
+    let circular = N::sin_cos_all(angles);
+    let (sin_beta, cos_beta) = circular[0];
+    let (sin_gamma, cos_gamma) = circular[1];
+    let (sin_delta, cos_delta) = circular[2];
+    let (sin_t0, cos_t0) = circular[3];
+    let (sin_epsilon, cos_epsilon) = circular[4];
+    let (sin_t1, cos_t1) = circular[5];
+    let (sin_t2, cos_t2) = circular[6];
+    let t3 = beta_dot + Theta_dot;
+    let t4 = beta_dot * beta_dot;
+    let t5 = delta_dot + Phi_dot;
+    let t6 = epsilon_dot + Omega_dot;
+    let t7 = delta_dot * delta_dot;
+    let t8 = t3 * t3;
+    let t9 = epsilon_dot * epsilon_dot;
+    let t10 = t5 * t5;
+    let t11 = gamma_dot * gamma_dot;
+    let t12 = t6 * t6;
+    let t13 = t8 * n(p.da);
+    let t14 = cos_beta * n(p.rr);
+    let t15 = sin_beta * n(p.rr);
+    let t16 = cos_gamma * n(p.ss);
+    let t17 = sin_delta * n(p.zt);
+    let t18 = cos_gamma * n(p.sd);
+    let t19 = sin_gamma * n(p.ss);
+    let t20 = sin_gamma * n(p.sd);
+    let t21 = sin_t0 * n(p.d);
+    let t22 = cos_t0 * n(p.d);
+    let t23 = t16 * n(p.k33);
+    let t24 = cos_t1 * n(p.e);
+    let t25 = sin_gamma * n(p.sc);
+    // Eliminates Theta: coupling l[Theta].
+    let t26 = sin_t0.mul_add(sin_beta, cos_t0 * cos_beta);
+    let t27 = t15 - t21;
+    let t28 = t14 - t22;
+    // Eliminates Phi: coupling l[Phi].
+    let t29 = sin_t1.mul_sub(cos_delta, cos_t1 * sin_delta);
+    let t30 = t17 - t24;
+    let t31 = n(p.k31) * t26;
+    let t32 = n(p.k30) * t29;
+    // Eliminates beta: inertia d[beta].
+    let t33 = t26.neg_mul_add(t26 * n(p.k21), n(p.k22));
+    let t34 = cos_gamma * n(p.sc);
+    // Eliminates delta: inertia d[delta].
+    let t35 = t29.neg_mul_add(t29 * n(p.k17), n(p.k18));
+    let t36 = N::ONE / t33;
+    let t37 = sin_t1 * n(p.e);
+    let t38 = cos_delta * n(p.zt);
+    let t39 = N::ONE / t35;
+    let t40 = n(p.xc) - (t25 + (t18 + n(p.xb)));
+    let t41 = cos_epsilon * n(p.u);
+    let t42 = n(p.yc) - (t20 + n(p.yb) - t34);
+    let t43 = sin_t2 * n(p.zf);
+    let t44 = t37 + t38;
+    let t45 = t15 * t4;
+    // Eliminates Omega: coupling l[Omega].
+    let t46 = sin_t2.mul_sub(cos_epsilon, cos_t2 * sin_epsilon);
+    let t47 = t14 * t4;
+    let t48 = t41 - t43;
+    let t49 = sin_epsilon * n(p.u);
+    let t50 = sin_t0.neg_mul_add(t13, t45);
+    let t51 = cos_t0.neg_mul_add(t13, t47);
+    let t52 = n(p.k29) * t46;
+    let t53 = t36 * t21.neg_mul_add(t31, t21 + t27);
+    let t54 = t36 * t31.neg_mul_add(t22, t22 + t28);
+    let t55 = t42.mul_add(t42, t40 * t40).sqrt();
+    let t56 = t39 * t24.mul_add(t32, t24 + t30);
+    // Eliminates epsilon: inertia d[epsilon].
+    let t57 = t46.neg_mul_add(t46 * n(p.k14), n(p.k15));
+    let t58 = t53 + t31.neg_mul_add(t53, t21 * n(p.k32));
+    let t59 = t39 * t32.neg_mul_add(t37, t44 - t37);
+    let t60 = t54 + t31.neg_mul_add(t54, n(p.k32) * t22);
+    let t61 = N::ONE / t57;
+    let t62 = t38 * t7;
+    let t63 = t56 + t32.mul_add(t56, t24 * n(p.k28));
+    let t64 = sin_t1 * t10;
+    let t65 = t21.mul_add(t58, t27 * t53);
+    let t66 = t58.mul_add(t22, t53 * t28);
+    let t67 = t22.mul_add(t60, t28 * t54);
+    let t68 = t21.mul_add(t60, t27 * t54);
+    // Row x3: pivot d[x3].
+    let t69 = t16.mul_add(t23, t65);
+    let t70 = t23.neg_mul_add(t19, t66);
+    let t71 = t19.mul_add(n(p.k33) * t19, t67);
+    let t72 = t41 * t9;
+    let t73 = sin_t2 * t12;
+    let t74 = t65 + t24.mul_add(t63, t30 * t56);
+    let t75 = N::ONE / t55;
+    let t76 = N::ONE / t69;
+    let t77 = t50.mul_add(cos_beta * n(p.m2_rr), n(p.mom));
+    let t78 = t59 - t32.neg_mul_add(t59, n(p.k28) * t37);
+    let t79 = cos_t0.mul_sub(t50, sin_t0 * t51);
+    let t80 = t17 * t7;
+    let t81 = cos_t1 * t10;
+    let t82 = t49 * t9;
+    let t83 = cos_t2 * t12;
+    let t84 = t67 + t37.neg_mul_add(t78, t44 * t59);
+    let t85 = t61 * t43.neg_mul_add(t52, t43 + t48);
+    let t86 = cos_t2 * n(p.zf);
+    let t87 = t51.neg_mul_add(sin_beta * n(p.m2_rr), t77);
+    let t88 = t86 + t49;
+    // Eliminates x3 from row y3: l[y3, x3].
+    let t89 = t76 * t70;
+    // Eliminates x3 from row x4: l[x4, x3]; Eliminates x3 from row x6: l[x6, x3].
+    let t90 = t65 * t76;
+    // Eliminates x3 from row y4: l[y4, x3]; Eliminates x3 from row y6: l[y6, x3].
+    let t91 = t76 * t66;
+    let t92 = t36 * t79.neg_mul_add(t26 * n(p.k20), t87);
+    let t93 = t42 * t75;
+    let t94 = t40 * t75;
+    let t95 = cos_t1 * n(p.e_minus_ea).mul_add(t64, t62);
+    let t96 = sin_t1.mul_add(t81.neg_mul_add(n(p.e_minus_ea), t80), t95);
+    // Row y3: pivot d[y3].
+    let t97 = t70.neg_mul_add(t89, t71);
+    let t98 = t70.neg_mul_add(t90, t68);
+    let t99 = t70.neg_mul_add(t91, t67);
+    let t100 = N::ONE / t97;
+    let t101 = cos_t2 * n(p.zf_minus_fa).neg_mul_add(t73, t72);
+    let t102 = sin_t2.mul_add(t83.mul_add(n(p.zf_minus_fa), t82), t101);
+    let t103 = t85 + t52.neg_mul_add(t85, t43 * n(p.k27));
+    let t104 = sin_delta.mul_add(t64, cos_delta * t81);
+    let t105 = cos_epsilon.mul_add(t83, sin_epsilon * t73);
+    let t106 = n(p.k24).mul_add(t92.neg_mul_add(t26 * n(p.rr), t79), t92);
+    let t107 = t22.neg_mul_add(t8, t47);
+    let t108 = t21.neg_mul_add(t8, t45);
+    let t109 = t39 * t96.mul_add(t29 * n(p.k19), t104);
+    let t110 = t61 * t102.neg_mul_add(t46 * n(p.k16), t105);
+    // Eliminates y3 from row x4: l[x4, y3]; Eliminates y3 from row x6: l[x6, y3].
+    let t111 = t100 * t98;
+    // Eliminates y3 from row y4: l[y4, y3]; Eliminates y3 from row y6: l[y6, y3].
+    let t112 = t100 * t99;
+    let t113 = t65 + t43.mul_add(t103, t48 * t85);
+    let t114 = t21.mul_add(t106, t27 * t92);
+    let t115 = t98.mul_add(t111, t65 * t90);
+    let t116 = t112.mul_add(t98, t65 * t91);
+    let t117 = t99.mul_add(t112, t66 * t91);
+    let t118 = t22.mul_add(t106, t28 * t92);
+    // Row x4: pivot d[x4].
+    let t119 = t74 - t115;
+    let t120 = t66 + t63.neg_mul_add(t37, t56 * t44) - t116;
+    let t121 = t65 - t115;
+    let t122 = N::ONE / t119;
+    let t123 = t61 * t52.mul_add(t86, t88 - t86);
+    let t124 = t18.mul_add(t93, t25 * t93) + t34.mul_sub(t94, t20 * t94);
+    let t125 = t124 * ((n(p.l0) - t55) * n(p.k34));
+    let t126 = t109.mul_add(t29 * n(p.k25), t96);
+    let t127 = t109 * n(p.k9);
+    let t128 = t110.neg_mul_add(t46 * n(p.k26), t102);
+    let t129 = t110 * n(p.k11);
+    let t130 = t66 - t116;
+    let t131 = t114 + t19.neg_mul_add(t11, t107);
+    let t132 = cos_gamma.neg_mul_add(t125, t131);
+    let t133 = n(p.k35) * n(p.k28).mul_add(t126, n(p.zt) * t109);
+    // Eliminates x4 from row y4: l[y4, x4].
+    let t134 = t122 * t120;
+    // Eliminates x4 from row x6: l[x6, x4].
+    let t135 = t122 * t121;
+    let t136 = n(p.k36) * n(p.k27).mul_add(t128, n(p.u) * t110);
+    // Eliminates x4 from row y6: l[y6, x4].
+    let t137 = t122 * t130;
+    // Row y4: pivot d[y4].
+    let t138 = t120.neg_mul_add(t134, t84 - t117);
+    let t139 = t99.neg_mul_add(t111, t66.neg_mul_add(t90, t68));
+    let t140 = t120.neg_mul_add(t135, t139);
+    let t141 = sin_gamma.neg_mul_add(t125, t16.mul_add(t11, t108) - t118);
+    // Row y3: right-hand side z[y3].
+    let t142 = t89.mul_add(t132, t141);
+    let t143 = t30.mul_add(t127, t107 - t37.mul_add(t10, t62));
+    let t144 = N::ONE / t138;
+    let t145 = t44.neg_mul_add(t127, t108 - t24.neg_mul_add(t10, t80));
+    let t146 = t48.mul_add(t129, t107 - t86.mul_add(t12, t82));
+    let t147 = t88.mul_add(t129, t108 + t43.neg_mul_add(t12, t72));
+    let t148 = t123 - t52.mul_add(t123, n(p.k27) * t86);
+    let t149 = t120.neg_mul_add(t137, t67 - t117);
+    let t150 = t111.neg_mul_add(t142, t90 * t132);
+    let t151 = t112.neg_mul_add(t142, t91 * t132);
+    let t152 = t67 + t86.neg_mul_add(t148, t88 * t123);
+    let t153 = t66 + t103.mul_sub(t86, t85 * t88) - t116;
+    // Row x4: right-hand side z[x4].
+    let t154 = t114 + cos_t1.mul_add(t133, t143) - t150;
+    // Eliminates y4 from row x6: l[x6, y4].
+    let t155 = t144 * t140;
+    // Eliminates y4 from row y6: l[y6, y4].
+    let t156 = t144 * t149;
+    let t157 = t151 + (sin_t1.mul_add(t133, t145) - t118);
+    // Row y4: right-hand side z[y4].
+    let t158 = t134.mul_add(t154, t157);
+    let t159 = t114 + sin_t2.mul_add(t136, t146) - t150;
+    let t160 = t151 + (cos_t2.neg_mul_add(t136, t147) - t118);
+    let t161 = t121.neg_mul_add(t135, t113 - t115);
+    // Row x6: pivot d[x6].
+    let t162 = t140.neg_mul_add(t155, t161);
+    let t163 = t140.neg_mul_add(t156, t121.neg_mul_add(t137, t153));
+    // Row x6: right-hand side z[x6].
+    let t164 = t155.mul_add(t158, t135.neg_mul_add(t154, t159));
+    let t165 = t130.neg_mul_add(t137, t152 - t117);
+    let t166 = N::ONE / t162;
+    // Eliminates x6 from row y6: l[y6, x6].
+    let t167 = t166 * t163;
+    let t168 = t156.neg_mul_add(t158, t137.mul_add(t154, t160));
+    // Row y6: pivot d[y6].
+    let t169 = t163.neg_mul_add(t167, t149.neg_mul_add(t156, t165));
+    // Row y6: right-hand side z[y6].
+    let t170 = t167.mul_add(t164, t168) / t169;
+    // Back substitution: lambda[x6].
+    let t171 = t167.mul_add(t170, t166 * t164);
+    // Back substitution: lambda[y4].
+    let t172 = t155.mul_add(t171, t156.neg_mul_add(t170, t144 * t158));
+    let t173 = t135.neg_mul_add(t171, t137.mul_add(t170, t122 * t154));
+    // Back substitution: lambda[x4].
+    let t174 = t134.mul_add(t172, t173);
+    let t175 = t111.mul_add(t171, t112.neg_mul_add(t170, t100 * t142));
+    let t176 = t90.neg_mul_add(t171, t91.mul_add(t170, t76 * t132));
+    // Back substitution: lambda[y3].
+    let t177 = t111.mul_add(t174, t112.neg_mul_add(t172, t175));
+    let t178 = t90.neg_mul_add(t174, t91.mul_add(t172, t176));
+    // Back substitution: lambda[x3].
+    let lambda1 = -t89.mul_add(t177, t178);
+    let lambda2 = -t177;
+    let lambda3 = -t174;
+    let lambda4 = -t172;
+    let lambda5 = -t171;
+    let lambda6 = -t170;
+    let sound = PIVOTS.hold(t57, t57)
+        & PIVOTS.hold(t35, t35)
+        & PIVOTS.hold(t33, t33)
+        & PIVOTS.hold(t69, t69)
+        & PIVOTS.hold(t97, t71)
+        & PIVOTS.hold(t119, t74)
+        & PIVOTS.hold(t138, t84)
+        & PIVOTS.hold(t162, t113)
+        & PIVOTS.hold(t169, t152)
+        & lambda1.is_finite();
+    if !sound {
+        let pivots = [
+            (6, t57, t57),
+            (4, t35, t35),
+            (0, t33, t33),
+            (7, t69, t69),
+            (8, t97, t71),
+            (9, t119, t74),
+            (10, t138, t84),
+            (11, t162, t113),
+            (12, t169, t152),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [
+        lambda1.store(),
+        lambda2.store(),
+        lambda3.store(),
+        lambda4.store(),
+        lambda5.store(),
+        lambda6.store(),
+    ];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1625,15 +1675,15 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 7]) 
         Omega: "Omega" "rad";
         epsilon: "epsilon" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         m2, m3, m4, m6, I1, I2, I3, I4, I5, I6, I7, xa, ya, xb, yb, xc, yc, d, da, e, zf, rr, ss,
         sa, sb, sc, sd, zt, u, l0, mom, e_minus_ea, zf_minus_fa, m1_ra2, half_c0, m2_da2,
         I2_plus_m2_da2, k0, k1, k2, k3, m3_sa, m3_sb, sc_c0, sd_c0, da2, k4, k5, k6, k7, k8, m2_da,
         m2_rr, k9, k10, m4_zt, m5_ta2_plus_m5_tb2, k11, k12, m6_u, m7_ub2_plus_m7_ua2, m2_da_rr,
-        k13, minus_d, minus_zf, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26,
-        k27, k28, k29, k30, k31, k32, k33, k34, k35, k36,
+        k13, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30,
+        k31, k32, k33, k34, k35, k36,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

@@ -131,10 +131,6 @@ pub struct Coordinates<S = f64> {
     pub roll: S,
 }
 
-/// What can be set while a [`AsymmetricTop`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
 /// What can be observed of a [`AsymmetricTop`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
@@ -276,85 +272,84 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     [f_yaw, f_pitch, f_roll]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 3], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 3],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let pitch = n(q[1]);
-        let roll = n(q[2]);
-        let yaw_dot = n(v[0]);
-        let pitch_dot = n(v[1]);
-        let roll_dot = n(v[2]);
-        let angles = [roll, pitch];
-        let circular = N::sin_cos_all(angles);
-        let (sin_roll, cos_roll) = circular[0];
-        let (sin_pitch, cos_pitch) = circular[1];
-        let t0 = yaw_dot * pitch_dot;
-        let t1 = sin_roll * sin_roll;
-        let t2 = cos_roll * cos_roll;
-        let t3 = sin_pitch.neg_mul_add(yaw_dot, roll_dot);
-        let t4 = sin_pitch * t0;
-        let t5 = cos_pitch * cos_roll;
-        let t6 = n(p.B) * t1;
-        let t7 = t5.neg_mul_add(yaw_dot, sin_roll * pitch_dot);
-        let t8 = cos_roll * pitch_dot;
-        let t9 = cos_pitch.mul_add(sin_roll * yaw_dot, t8);
-        let t10 = t2.mul_add(n(p.B), t1 * n(p.C));
-        let t11 = cos_pitch * cos_pitch;
-        let t12 = N::ONE / t10;
-        let t13 = sin_roll * n(p.B_minus_C);
-        let t14 = t7.mul_add(roll_dot, sin_roll * t4);
-        let t15 = n(p.B).mul_add(t14, t7 * (t3 * n(p.A_minus_C)));
-        let t16 = roll_dot.mul_add(t9, cos_roll * t4);
-        let t17 = n(p.C).mul_add(t16, t9 * (t3 * n(p.A_minus_B)));
-        let t18 = cos_pitch * (t0 * n(p.A));
-        let t19 = t5 * t12;
-        let t20 = t12 * sin_roll.mul_sub(t17, cos_roll * t15);
-        let t21 = t5.mul_add(t5 * n(p.C), sin_pitch * (sin_pitch * n(p.A)));
-        let t22 = t11 * t2.mul_add(n(p.C), t6);
-        let t23 = t19.neg_mul_add(t1 * (t5 * n(p.k2)), t22);
-        let t24 = sin_roll.mul_add(t15, cos_roll * t17);
-        let t25 = cos_pitch * t20.mul_add(cos_roll * t13, t24);
-        let yaw_ddot = N::ONE / t23 * t25;
-        let t26 = n(p.inverse_A) * t7.neg_mul_add(t9 * n(p.B_minus_C), t18);
-        let pitch_ddot = -yaw_ddot.mul_add(t19 * t13, t20);
-        let roll_ddot = sin_pitch.mul_add(yaw_ddot, t26);
-        let t27 = t11.mul_add(t6, t21);
-        let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t23, t27) & pitch_ddot.is_finite();
-        if !sound {
-            let pivots = [(1, t10, t10), (0, t23, t27)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [yaw_ddot.store(), pitch_ddot.store(), roll_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let pitch = n(q[1]);
+    let roll = n(q[2]);
+    let yaw_dot = n(v[0]);
+    let pitch_dot = n(v[1]);
+    let roll_dot = n(v[2]);
+    let angles = [roll, pitch];
+    let circular = N::sin_cos_all(angles);
+    let (sin_roll, cos_roll) = circular[0];
+    let (sin_pitch, cos_pitch) = circular[1];
+    let t0 = yaw_dot * pitch_dot;
+    let t1 = sin_roll * sin_roll;
+    let t2 = cos_roll * cos_roll;
+    let t3 = sin_pitch.neg_mul_add(yaw_dot, roll_dot);
+    let t4 = sin_pitch * t0;
+    let t5 = cos_pitch * cos_roll;
+    let t6 = n(p.B) * t1;
+    let t7 = t5.neg_mul_add(yaw_dot, sin_roll * pitch_dot);
+    let t8 = cos_roll * pitch_dot;
+    let t9 = cos_pitch.mul_add(sin_roll * yaw_dot, t8);
+    // Eliminates pitch: inertia d[pitch].
+    let t10 = t2.mul_add(n(p.B), t1 * n(p.C));
+    let t11 = cos_pitch * cos_pitch;
+    let t12 = N::ONE / t10;
+    let t13 = sin_roll * n(p.B_minus_C);
+    let t14 = t7.mul_add(roll_dot, sin_roll * t4);
+    let t15 = n(p.B).mul_add(t14, t7 * (t3 * n(p.A_minus_C)));
+    let t16 = roll_dot.mul_add(t9, cos_roll * t4);
+    let t17 = n(p.C).mul_add(t16, t9 * (t3 * n(p.A_minus_B)));
+    let t18 = cos_pitch * (t0 * n(p.A));
+    let t19 = t5 * t12;
+    // Eliminates pitch: alone z[pitch].
+    let t20 = t12 * sin_roll.mul_sub(t17, cos_roll * t15);
+    let t21 = t5.mul_add(t5 * n(p.C), sin_pitch * (sin_pitch * n(p.A)));
+    let t22 = t11 * t2.mul_add(n(p.C), t6);
+    // Eliminates yaw: inertia d[yaw].
+    let t23 = t19.neg_mul_add(t1 * (t5 * n(p.k2)), t22);
+    let t24 = sin_roll.mul_add(t15, cos_roll * t17);
+    let t25 = cos_pitch * t20.mul_add(cos_roll * t13, t24);
+    let yaw_ddot = N::ONE / t23 * t25;
+    let t26 = n(p.inverse_A) * t7.neg_mul_add(t9 * n(p.B_minus_C), t18);
+    // Back substitution: a[pitch].
+    let pitch_ddot = -yaw_ddot.mul_add(t19 * t13, t20);
+    let roll_ddot = sin_pitch.mul_add(yaw_ddot, t26);
+    let t27 = t11.mul_add(t6, t21);
+    let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t23, t27) & pitch_ddot.is_finite();
+    if !sound {
+        let pivots = [(1, t10, t10), (0, t23, t27)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [yaw_ddot.store(), pitch_ddot.store(), roll_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -520,7 +515,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         pitch: "pitch" "rad";
         roll: "roll" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { momentum_x, momentum_y, momentum_z, upright } [
         momentum_x: "momentum_x" "J*s";
         momentum_y: "momentum_y" "J*s";

@@ -1,7 +1,7 @@
 // @generated from machines/ball_in_bowl.machine by `cargo xtask generate`; edits are lost.
 
-//! A ball that rolls without slip in a spherical bowl, which turns about its vertical axis. The
-//! ball
+//! A ball that rolls without slip in a spherical bowl, which turns about its vertical axis.
+//! The ball
 //! is turned by three angles; that it touches is one constraint, that it does not slip two.
 //!
 //! 6 coordinates, 6 parameters. Arithmetic of one call:
@@ -37,8 +37,8 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A ball that rolls without slip in a spherical bowl, which turns about its vertical axis. The
-/// ball
+/// A ball that rolls without slip in a spherical bowl, which turns about its vertical axis.
+/// The ball
 /// is turned by three angles; that it touches is one constraint, that it does not slip two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallInBowl<S = f64> {
@@ -139,14 +139,6 @@ pub struct Coordinates<S = f64> {
     /// `c`. Unit: `rad`.
     pub c: S,
 }
-
-/// What can be set while a [`BallInBowl`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`BallInBowl`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
 
 /// The parameters of a [`BallInBowl`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -436,340 +428,395 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     [gamma1, gamma2, gamma3]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
-/// multiplied out.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 6],
-    v: &[S; 6],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass
+    /// matrix multiplied out.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 6], v: &'a [S; 6] })
+        -> Result<[S; 6], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 6], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 6],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 6],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 6], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let z = n(q[2]);
-        let a_ = n(q[3]);
-        let b = n(q[4]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let z_dot = n(v[2]);
-        let a_dot = n(v[3]);
-        let b_dot = n(v[4]);
-        let c_dot = n(v[5]);
-        let angles = [b, a_];
-        let circular = N::sin_cos_all(angles);
-        let (sin_b, cos_b) = circular[0];
-        let (sin_a_, cos_a_) = circular[1];
-        let t0 = x * n(p.k0);
-        let t1 = y * n(p.k0);
-        let t2 = z * x;
-        let t3 = z * n(p.k0);
-        let t4 = z * y;
-        let t5 = b_dot * a_dot;
-        let t6 = n(p.inverse_m) * t0;
-        let t7 = y.mul_add(y, x * x);
-        let t8 = n(p.inverse_m) * t1;
-        let t9 = t2 * n(p.k5);
-        let t10 = n(p.inverse_m) * t3;
-        let t11 = n(p.k3) * t2;
-        let t12 = t4 * n(p.k3);
-        let t13 = n(p.k3) * t7;
-        let t14 = n(p.inverse_J) * t9;
-        let t15 = n(p.inverse_m) * t11;
-        let t16 = n(p.inverse_m) * t12;
-        let t17 = y.mul_add(t7, z * t4);
-        let t18 = t1.mul_add(t8, t0 * t6);
-        let t19 = n(p.inverse_m) * t13;
-        let t20 = x.mul_add(t7, z * t2);
-        let t21 = n(p.k6) * t17;
-        let t22 = t3.mul_add(t10, t18);
-        let t23 = t8.mul_sub(t0, t1 * t6);
-        let t24 = n(p.inverse_J) * t21;
-        let t25 = N::ONE / t22;
-        let t26 = t19.mul_sub(t3, t16.mul_add(t1, t15 * t0));
-        let t27 = z_dot.mul_add(z_dot, y_dot.mul_add(y_dot, x_dot * x_dot));
-        let t28 = n(p.k0).mul_sub(t27, t10 * n(p.m_g));
-        let t29 = t25 * t23;
-        let t30 = t25 * t26;
-        let t31 = t24.mul_add(t9, t16.mul_sub(t0, t15 * t1));
-        let t32 = sin_b * n(p.J);
-        let t33 = cos_b * c_dot;
-        let t34 = sin_b * c_dot;
-        let t35 = sin_a_ * cos_b;
-        let t36 = n(p.inverse_J) * t32;
-        let t37 = t33 * a_dot;
-        let t38 = b_dot * t34;
-        let t39 = sin_a_.neg_mul_add(t33, cos_a_ * b_dot);
-        let t40 = t32.neg_mul_add(t36, n(p.J));
-        let t41 = cos_a_.mul_add(t33, sin_a_ * b_dot);
-        let t42 = a_dot + t34;
-        let t43 = n(p.k5) * t7.mul_sub(sin_a_, t4 * cos_a_);
-        let t44 = N::ONE / t40;
-        let t45 = t4.mul_add(t35, cos_b.mul_sub(t7 * cos_a_, t2 * sin_b));
-        let t46 = n(p.k5).mul_add(t45, t32 * t14);
-        let t47 = t33 * b_dot;
-        let t48 = cos_a_.mul_sub(t5, cos_a_.mul_add(t38, sin_a_ * t37));
-        let t49 = sin_a_.mul_add(t5, cos_a_.mul_sub(t37, sin_a_ * t38));
-        let t50 = n(p.inverse_J) * t43;
-        let t51 = y.neg_mul_add(n(p.k2), x_dot);
-        let t52 = n(p.k1).neg_mul_add(z.mul_sub(t39, y * t41), t51);
-        let t53 = cos_a_ * (t20 * n(p.k6));
-        let t54 = t44 * t46;
-        let t55 = z.neg_mul_add(t49, z_dot * t39);
-        let t56 = x.mul_add(n(p.k2), y_dot);
-        let t57 = n(p.k1).neg_mul_add(x.mul_sub(t41, z * t42), t56);
-        let t58 = t55 - y.mul_add(t48, y_dot * t41);
-        let t59 = n(p.k1).mul_add(t58, y_dot * n(p.k2));
-        let t60 = x.mul_add(t48, x_dot * t41) - z.mul_add(t47, z_dot * t42);
-        let t61 = n(p.k1).neg_mul_add(t60, x_dot * n(p.k2));
-        let t62 = t53 * n(p.inverse_J);
-        let t63 = n(p.k6).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
-        let t64 = n(p.J) * t47;
-        let t65 = t46.mul_add(t54, t18) + t43.mul_add(t50, t9 * t14);
-        let t66 = n(p.J) * t37;
-        let t67 = t23.neg_mul_add(t29, t65);
-        let t68 = t44 * t63;
-        let t69 = x.neg_mul_add(t49, x_dot * t39);
-        let t70 = n(p.k1).neg_mul_add(y.mul_sub(t42, x * t39), z_dot);
-        let t71 = N::ONE / t67;
-        let t72 = x.neg_mul_add(t59, x_dot * t52);
-        let t73 = t36.neg_mul_add(t64, cos_b * (n(p.J) * t5));
-        let t74 = t70 * (y.mul_add(y_dot, x * x_dot) * N::from_f64(2.0));
-        let t75 = y.mul_add(t47, y_dot * t42) - t69;
-        let t76 = y.mul_add(t61, y_dot * t57) + t72;
-        let t77 = t62.neg_mul_add(t66, t30.mul_add(t28, t19 * n(p.m_g)));
-        let t78 = t62.mul_add(t43, t23.neg_mul_add(t30, t31));
-        let t79 = t68.neg_mul_add(t46, t78);
-        let t80 = y.neg_mul_add(t59, y_dot * t52);
-        let t81 = t50.neg_mul_add(t66, t14.neg_mul_add(t64, t29 * t28));
-        let t82 = z.mul_add(t76, z_dot * y.mul_add(t57, x * t52));
-        let t83 = t12.mul_add(t16, t11 * t15) + t53.mul_add(t62, t13 * t19);
-        let t84 = t83 + t63.mul_add(t68, t21 * t24);
-        let t85 = x.mul_add(t61, x_dot * t57) - t80;
-        let t86 = n(p.k0).mul_add(t85, t54.mul_add(t73, t81));
-        let t87 = t71 * t79;
-        let t88 = t68.neg_mul_add(t73, t24.neg_mul_add(t64, t77));
-        let t89 = n(p.k3).mul_add(t75.mul_sub(t7 * n(p.k1), t74) + t82, t88);
-        let t90 = t79.neg_mul_add(t87, t26.neg_mul_add(t30, t84));
-        let t91 = t87.neg_mul_add(t86, t89) / t90;
-        let t92 = t87.neg_mul_add(t91, t71 * t86);
-        let t93 = t68.mul_add(t91, t44 * t73);
-        let t94 = t29.mul_add(t92, t30.mul_add(t91, t25 * t28));
-        let t95 = t54 * t92;
-        let t96 = t14.mul_add(t92, t24.mul_add(t91, n(p.inverse_J) * t64));
-        let x_ddot = -t6.mul_add(t94, t8.neg_mul_add(t92, t15 * t91));
-        let y_ddot = -t8.mul_add(t94, t6.mul_add(t92, t16 * t91));
-        let z_ddot = -t10.mul_add(t94, t19.neg_mul_add(t91, n(p.g)));
-        let a_ddot = t36.mul_sub(t93 - t95, t96);
-        let b_ddot = t50.mul_add(t92, t62.mul_add(t91, n(p.inverse_J) * t66));
-        let c_ddot = t95 - t93;
-        let sound = PIVOTS.hold(t22, t22)
-            & PIVOTS.hold(t40, n(p.J))
-            & PIVOTS.hold(t67, t65)
-            & PIVOTS.hold(t90, t84)
-            & a_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (6, t22, t22),
-                (5, t40, n(p.J)),
-                (7, t67, t65),
-                (8, t90, t84),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            z_ddot.store(),
-            a_ddot.store(),
-            b_ddot.store(),
-            c_ddot.store(),
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let z = n(q[2]);
+    let a_ = n(q[3]);
+    let b = n(q[4]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let z_dot = n(v[2]);
+    let a_dot = n(v[3]);
+    let b_dot = n(v[4]);
+    let c_dot = n(v[5]);
+    let angles = [b, a_];
+    let circular = N::sin_cos_all(angles);
+    let (sin_b, cos_b) = circular[0];
+    let (sin_a_, cos_a_) = circular[1];
+    let t0 = x * n(p.k0);
+    let t1 = y * n(p.k0);
+    let t2 = z * x;
+    let t3 = z * n(p.k0);
+    let t4 = z * y;
+    let t5 = b_dot * a_dot;
+    // Eliminates x from row touching: l[touching, x]; Eliminates y from row around: l[around, y].
+    let t6 = n(p.inverse_m) * t0;
+    let t7 = y.mul_add(y, x * x);
+    // Eliminates y from row touching: l[touching, y]; Eliminates x from row around: l[around, x].
+    let t8 = n(p.inverse_m) * t1;
+    let t9 = t2 * n(p.k5);
+    // Eliminates z from row touching: l[touching, z].
+    let t10 = n(p.inverse_m) * t3;
+    let t11 = n(p.k3) * t2;
+    let t12 = t4 * n(p.k3);
+    let t13 = n(p.k3) * t7;
+    // Eliminates a from row around: l[around, a].
+    let t14 = n(p.inverse_J) * t9;
+    // Eliminates x from row down: l[down, x].
+    let t15 = n(p.inverse_m) * t11;
+    // Eliminates y from row down: l[down, y].
+    let t16 = n(p.inverse_m) * t12;
+    let t17 = y.mul_add(t7, z * t4);
+    let t18 = t1.mul_add(t8, t0 * t6);
+    // Eliminates z from row down: l[down, z].
+    let t19 = n(p.inverse_m) * t13;
+    let t20 = x.mul_add(t7, z * t2);
+    let t21 = n(p.k6) * t17;
+    // Row touching: pivot d[touching].
+    let t22 = t3.mul_add(t10, t18);
+    let t23 = t8.mul_sub(t0, t1 * t6);
+    // Eliminates a from row down: l[down, a].
+    let t24 = n(p.inverse_J) * t21;
+    let t25 = N::ONE / t22;
+    let t26 = t19.mul_sub(t3, t16.mul_add(t1, t15 * t0));
+    let t27 = z_dot.mul_add(z_dot, y_dot.mul_add(y_dot, x_dot * x_dot));
+    // Row touching: right-hand side z[touching].
+    let t28 = n(p.k0).mul_sub(t27, t10 * n(p.m_g));
+    // Eliminates touching from row around: l[around, touching].
+    let t29 = t25 * t23;
+    // Eliminates touching from row down: l[down, touching].
+    let t30 = t25 * t26;
+    let t31 = t24.mul_add(t9, t16.mul_sub(t0, t15 * t1));
+    let t32 = sin_b * n(p.J);
+    let t33 = cos_b * c_dot;
+    let t34 = sin_b * c_dot;
+    let t35 = sin_a_ * cos_b;
+    // Eliminates a from row c: l[c, a].
+    let t36 = n(p.inverse_J) * t32;
+    let t37 = t33 * a_dot;
+    let t38 = b_dot * t34;
+    let t39 = sin_a_.neg_mul_add(t33, cos_a_ * b_dot);
+    // Row c: pivot d[c].
+    let t40 = t32.neg_mul_add(t36, n(p.J));
+    let t41 = cos_a_.mul_add(t33, sin_a_ * b_dot);
+    let t42 = a_dot + t34;
+    let t43 = n(p.k5) * t7.mul_sub(sin_a_, t4 * cos_a_);
+    let t44 = N::ONE / t40;
+    let t45 = t4.mul_add(t35, cos_b.mul_sub(t7 * cos_a_, t2 * sin_b));
+    let t46 = n(p.k5).mul_add(t45, t32 * t14);
+    let t47 = t33 * b_dot;
+    let t48 = cos_a_.mul_sub(t5, cos_a_.mul_add(t38, sin_a_ * t37));
+    let t49 = sin_a_.mul_add(t5, cos_a_.mul_sub(t37, sin_a_ * t38));
+    // Eliminates b from row around: l[around, b].
+    let t50 = n(p.inverse_J) * t43;
+    let t51 = y.neg_mul_add(n(p.k2), x_dot);
+    let t52 = n(p.k1).neg_mul_add(z.mul_sub(t39, y * t41), t51);
+    let t53 = cos_a_ * (t20 * n(p.k6));
+    // Eliminates c from row around: l[around, c].
+    let t54 = t44 * t46;
+    let t55 = z.neg_mul_add(t49, z_dot * t39);
+    let t56 = x.mul_add(n(p.k2), y_dot);
+    let t57 = n(p.k1).neg_mul_add(x.mul_sub(t41, z * t42), t56);
+    let t58 = t55 - y.mul_add(t48, y_dot * t41);
+    let t59 = n(p.k1).mul_add(t58, y_dot * n(p.k2));
+    let t60 = x.mul_add(t48, x_dot * t41) - z.mul_add(t47, z_dot * t42);
+    let t61 = n(p.k1).neg_mul_add(t60, x_dot * n(p.k2));
+    // Eliminates b from row down: l[down, b].
+    let t62 = t53 * n(p.inverse_J);
+    let t63 = n(p.k6).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
+    let t64 = n(p.J) * t47;
+    let t65 = t46.mul_add(t54, t18) + t43.mul_add(t50, t9 * t14);
+    let t66 = n(p.J) * t37;
+    // Row around: pivot d[around].
+    let t67 = t23.neg_mul_add(t29, t65);
+    // Eliminates c from row down: l[down, c].
+    let t68 = t44 * t63;
+    let t69 = x.neg_mul_add(t49, x_dot * t39);
+    let t70 = n(p.k1).neg_mul_add(y.mul_sub(t42, x * t39), z_dot);
+    let t71 = N::ONE / t67;
+    let t72 = x.neg_mul_add(t59, x_dot * t52);
+    // Row c: right-hand side z[c].
+    let t73 = t36.neg_mul_add(t64, cos_b * (n(p.J) * t5));
+    let t74 = t70 * (y.mul_add(y_dot, x * x_dot) * N::from_f64(2.0));
+    let t75 = y.mul_add(t47, y_dot * t42) - t69;
+    let t76 = y.mul_add(t61, y_dot * t57) + t72;
+    let t77 = t62.neg_mul_add(t66, t30.mul_add(t28, t19 * n(p.m_g)));
+    let t78 = t62.mul_add(t43, t23.neg_mul_add(t30, t31));
+    let t79 = t68.neg_mul_add(t46, t78);
+    let t80 = y.neg_mul_add(t59, y_dot * t52);
+    let t81 = t50.neg_mul_add(t66, t14.neg_mul_add(t64, t29 * t28));
+    let t82 = z.mul_add(t76, z_dot * y.mul_add(t57, x * t52));
+    let t83 = t12.mul_add(t16, t11 * t15) + t53.mul_add(t62, t13 * t19);
+    let t84 = t83 + t63.mul_add(t68, t21 * t24);
+    let t85 = x.mul_add(t61, x_dot * t57) - t80;
+    // Row around: right-hand side z[around].
+    let t86 = n(p.k0).mul_add(t85, t54.mul_add(t73, t81));
+    // Eliminates around from row down: l[down, around].
+    let t87 = t71 * t79;
+    let t88 = t68.neg_mul_add(t73, t24.neg_mul_add(t64, t77));
+    let t89 = n(p.k3).mul_add(t75.mul_sub(t7 * n(p.k1), t74) + t82, t88);
+    // Row down: pivot d[down].
+    let t90 = t79.neg_mul_add(t87, t26.neg_mul_add(t30, t84));
+    // Row down: right-hand side z[down].
+    let t91 = t87.neg_mul_add(t86, t89) / t90;
+    // Back substitution: lambda[around].
+    let t92 = t87.neg_mul_add(t91, t71 * t86);
+    let t93 = t68.mul_add(t91, t44 * t73);
+    // Back substitution: lambda[touching].
+    let t94 = t29.mul_add(t92, t30.mul_add(t91, t25 * t28));
+    let t95 = t54 * t92;
+    let t96 = t14.mul_add(t92, t24.mul_add(t91, n(p.inverse_J) * t64));
+    // Back substitution: a[x].
+    let x_ddot = -t6.mul_add(t94, t8.neg_mul_add(t92, t15 * t91));
+    // Back substitution: a[y].
+    let y_ddot = -t8.mul_add(t94, t6.mul_add(t92, t16 * t91));
+    // Back substitution: a[z].
+    let z_ddot = -t10.mul_add(t94, t19.neg_mul_add(t91, n(p.g)));
+    // Back substitution: a[c]; Back substitution: a[a].
+    let a_ddot = t36.mul_sub(t93 - t95, t96);
+    // Back substitution: a[b].
+    let b_ddot = t50.mul_add(t92, t62.mul_add(t91, n(p.inverse_J) * t66));
+    let c_ddot = t95 - t93;
+    let sound = PIVOTS.hold(t22, t22)
+        & PIVOTS.hold(t40, n(p.J))
+        & PIVOTS.hold(t67, t65)
+        & PIVOTS.hold(t90, t84)
+        & a_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (6, t22, t22),
+            (5, t40, n(p.J)),
+            (7, t67, t65),
+            (8, t90, t84),
         ];
-        Ok(accelerations)
+        PIVOTS.check(pivots)?;
     }
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        z_ddot.store(),
+        a_ddot.store(),
+        b_ddot.store(),
+        c_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 6],
-    v: &[S; 6],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 6], v: &'a [S; 6] })
+        -> Result<[S; 3], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 6],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 6],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let z = n(q[2]);
-        let a_ = n(q[3]);
-        let b = n(q[4]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let z_dot = n(v[2]);
-        let a_dot = n(v[3]);
-        let b_dot = n(v[4]);
-        let c_dot = n(v[5]);
-        let angles = [b, a_];
-        let circular = N::sin_cos_all(angles);
-        let (sin_b, cos_b) = circular[0];
-        let (sin_a_, cos_a_) = circular[1];
-        let t0 = x * n(p.k0);
-        let t1 = y * n(p.k0);
-        let t2 = z * x;
-        let t3 = z * n(p.k0);
-        let t4 = z * y;
-        let t5 = b_dot * a_dot;
-        let t6 = n(p.inverse_m) * t0;
-        let t7 = y.mul_add(y, x * x);
-        let t8 = n(p.inverse_m) * t1;
-        let t9 = t2 * n(p.k5);
-        let t10 = n(p.inverse_m) * t3;
-        let t11 = n(p.k3) * t2;
-        let t12 = t4 * n(p.k3);
-        let t13 = n(p.k3) * t7;
-        let t14 = n(p.inverse_J) * t9;
-        let t15 = n(p.inverse_m) * t11;
-        let t16 = n(p.inverse_m) * t12;
-        let t17 = y.mul_add(t7, z * t4);
-        let t18 = t1.mul_add(t8, t0 * t6);
-        let t19 = n(p.inverse_m) * t13;
-        let t20 = x.mul_add(t7, z * t2);
-        let t21 = n(p.k6) * t17;
-        let t22 = t3.mul_add(t10, t18);
-        let t23 = t8.mul_sub(t0, t1 * t6);
-        let t24 = n(p.inverse_J) * t21;
-        let t25 = N::ONE / t22;
-        let t26 = t19.mul_sub(t3, t16.mul_add(t1, t15 * t0));
-        let t27 = z_dot.mul_add(z_dot, y_dot.mul_add(y_dot, x_dot * x_dot));
-        let t28 = n(p.k0).mul_sub(t27, t10 * n(p.m_g));
-        let t29 = t25 * t23;
-        let t30 = t25 * t26;
-        let t31 = t24.mul_add(t9, t16.mul_sub(t0, t15 * t1));
-        let t32 = sin_b * n(p.J);
-        let t33 = cos_b * c_dot;
-        let t34 = sin_b * c_dot;
-        let t35 = sin_a_ * cos_b;
-        let t36 = n(p.inverse_J) * t32;
-        let t37 = t33 * a_dot;
-        let t38 = b_dot * t34;
-        let t39 = sin_a_.neg_mul_add(t33, cos_a_ * b_dot);
-        let t40 = t32.neg_mul_add(t36, n(p.J));
-        let t41 = cos_a_.mul_add(t33, sin_a_ * b_dot);
-        let t42 = a_dot + t34;
-        let t43 = n(p.k5) * t7.mul_sub(sin_a_, t4 * cos_a_);
-        let t44 = N::ONE / t40;
-        let t45 = t4.mul_add(t35, cos_b.mul_sub(t7 * cos_a_, t2 * sin_b));
-        let t46 = n(p.k5).mul_add(t45, t32 * t14);
-        let t47 = t33 * b_dot;
-        let t48 = cos_a_.mul_sub(t5, cos_a_.mul_add(t38, sin_a_ * t37));
-        let t49 = sin_a_.mul_add(t5, cos_a_.mul_sub(t37, sin_a_ * t38));
-        let t50 = n(p.inverse_J) * t43;
-        let t51 = y.neg_mul_add(n(p.k2), x_dot);
-        let t52 = n(p.k1).neg_mul_add(z.mul_sub(t39, y * t41), t51);
-        let t53 = cos_a_ * (t20 * n(p.k6));
-        let t54 = t44 * t46;
-        let t55 = z.neg_mul_add(t49, z_dot * t39);
-        let t56 = x.mul_add(n(p.k2), y_dot);
-        let t57 = n(p.k1).neg_mul_add(x.mul_sub(t41, z * t42), t56);
-        let t58 = t55 - y.mul_add(t48, y_dot * t41);
-        let t59 = n(p.k1).mul_add(t58, y_dot * n(p.k2));
-        let t60 = x.mul_add(t48, x_dot * t41) - z.mul_add(t47, z_dot * t42);
-        let t61 = n(p.k1).neg_mul_add(t60, x_dot * n(p.k2));
-        let t62 = t53 * n(p.inverse_J);
-        let t63 = n(p.k6).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
-        let t64 = n(p.J) * t47;
-        let t65 = t46.mul_add(t54, t18) + t43.mul_add(t50, t9 * t14);
-        let t66 = n(p.J) * t37;
-        let t67 = t23.neg_mul_add(t29, t65);
-        let t68 = t44 * t63;
-        let t69 = x.neg_mul_add(t49, x_dot * t39);
-        let t70 = n(p.k1).neg_mul_add(y.mul_sub(t42, x * t39), z_dot);
-        let t71 = N::ONE / t67;
-        let t72 = x.neg_mul_add(t59, x_dot * t52);
-        let t73 = t36.neg_mul_add(t64, cos_b * (n(p.J) * t5));
-        let t74 = t70 * (y.mul_add(y_dot, x * x_dot) * N::from_f64(2.0));
-        let t75 = y.mul_add(t47, y_dot * t42) - t69;
-        let t76 = y.mul_add(t61, y_dot * t57) + t72;
-        let t77 = t62.neg_mul_add(t66, t30.mul_add(t28, t19 * n(p.m_g)));
-        let t78 = t62.mul_add(t43, t23.neg_mul_add(t30, t31));
-        let t79 = t68.neg_mul_add(t46, t78);
-        let t80 = y.neg_mul_add(t59, y_dot * t52);
-        let t81 = t50.neg_mul_add(t66, t14.neg_mul_add(t64, t29 * t28));
-        let t82 = z.mul_add(t76, z_dot * y.mul_add(t57, x * t52));
-        let t83 = t12.mul_add(t16, t11 * t15) + t53.mul_add(t62, t13 * t19);
-        let t84 = t83 + t63.mul_add(t68, t21 * t24);
-        let t85 = x.mul_add(t61, x_dot * t57) - t80;
-        let t86 = n(p.k0).mul_add(t85, t54.mul_add(t73, t81));
-        let t87 = t71 * t79;
-        let t88 = t68.neg_mul_add(t73, t24.neg_mul_add(t64, t77));
-        let t89 = n(p.k3).mul_add(t75.mul_sub(t7 * n(p.k1), t74) + t82, t88);
-        let t90 = t79.neg_mul_add(t87, t26.neg_mul_add(t30, t84));
-        let t91 = t87.neg_mul_add(t86, t89) / t90;
-        let lambda2 = t87.neg_mul_add(t91, t71 * t86);
-        let lambda1 = t29.mul_add(lambda2, t30.mul_add(t91, t25 * t28));
-        let lambda3 = -t91;
-        let sound = PIVOTS.hold(t22, t22)
-            & PIVOTS.hold(t40, n(p.J))
-            & PIVOTS.hold(t67, t65)
-            & PIVOTS.hold(t90, t84)
-            & lambda1.is_finite();
-        if !sound {
-            let pivots = [
-                (6, t22, t22),
-                (5, t40, n(p.J)),
-                (7, t67, t65),
-                (8, t90, t84),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [lambda1.store(), lambda2.store(), lambda3.store()];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let z = n(q[2]);
+    let a_ = n(q[3]);
+    let b = n(q[4]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let z_dot = n(v[2]);
+    let a_dot = n(v[3]);
+    let b_dot = n(v[4]);
+    let c_dot = n(v[5]);
+    let angles = [b, a_];
+    let circular = N::sin_cos_all(angles);
+    let (sin_b, cos_b) = circular[0];
+    let (sin_a_, cos_a_) = circular[1];
+    let t0 = x * n(p.k0);
+    let t1 = y * n(p.k0);
+    let t2 = z * x;
+    let t3 = z * n(p.k0);
+    let t4 = z * y;
+    let t5 = b_dot * a_dot;
+    // Eliminates x from row touching: l[touching, x]; Eliminates y from row around: l[around, y].
+    let t6 = n(p.inverse_m) * t0;
+    let t7 = y.mul_add(y, x * x);
+    // Eliminates y from row touching: l[touching, y]; Eliminates x from row around: l[around, x].
+    let t8 = n(p.inverse_m) * t1;
+    let t9 = t2 * n(p.k5);
+    // Eliminates z from row touching: l[touching, z].
+    let t10 = n(p.inverse_m) * t3;
+    let t11 = n(p.k3) * t2;
+    let t12 = t4 * n(p.k3);
+    let t13 = n(p.k3) * t7;
+    // Eliminates a from row around: l[around, a].
+    let t14 = n(p.inverse_J) * t9;
+    // Eliminates x from row down: l[down, x].
+    let t15 = n(p.inverse_m) * t11;
+    // Eliminates y from row down: l[down, y].
+    let t16 = n(p.inverse_m) * t12;
+    let t17 = y.mul_add(t7, z * t4);
+    let t18 = t1.mul_add(t8, t0 * t6);
+    // Eliminates z from row down: l[down, z].
+    let t19 = n(p.inverse_m) * t13;
+    let t20 = x.mul_add(t7, z * t2);
+    let t21 = n(p.k6) * t17;
+    // Row touching: pivot d[touching].
+    let t22 = t3.mul_add(t10, t18);
+    let t23 = t8.mul_sub(t0, t1 * t6);
+    // Eliminates a from row down: l[down, a].
+    let t24 = n(p.inverse_J) * t21;
+    let t25 = N::ONE / t22;
+    let t26 = t19.mul_sub(t3, t16.mul_add(t1, t15 * t0));
+    let t27 = z_dot.mul_add(z_dot, y_dot.mul_add(y_dot, x_dot * x_dot));
+    // Row touching: right-hand side z[touching].
+    let t28 = n(p.k0).mul_sub(t27, t10 * n(p.m_g));
+    // Eliminates touching from row around: l[around, touching].
+    let t29 = t25 * t23;
+    // Eliminates touching from row down: l[down, touching].
+    let t30 = t25 * t26;
+    let t31 = t24.mul_add(t9, t16.mul_sub(t0, t15 * t1));
+    let t32 = sin_b * n(p.J);
+    let t33 = cos_b * c_dot;
+    let t34 = sin_b * c_dot;
+    let t35 = sin_a_ * cos_b;
+    // Eliminates a from row c: l[c, a].
+    let t36 = n(p.inverse_J) * t32;
+    let t37 = t33 * a_dot;
+    let t38 = b_dot * t34;
+    let t39 = sin_a_.neg_mul_add(t33, cos_a_ * b_dot);
+    // Row c: pivot d[c].
+    let t40 = t32.neg_mul_add(t36, n(p.J));
+    let t41 = cos_a_.mul_add(t33, sin_a_ * b_dot);
+    let t42 = a_dot + t34;
+    let t43 = n(p.k5) * t7.mul_sub(sin_a_, t4 * cos_a_);
+    let t44 = N::ONE / t40;
+    let t45 = t4.mul_add(t35, cos_b.mul_sub(t7 * cos_a_, t2 * sin_b));
+    let t46 = n(p.k5).mul_add(t45, t32 * t14);
+    let t47 = t33 * b_dot;
+    let t48 = cos_a_.mul_sub(t5, cos_a_.mul_add(t38, sin_a_ * t37));
+    let t49 = sin_a_.mul_add(t5, cos_a_.mul_sub(t37, sin_a_ * t38));
+    // Eliminates b from row around: l[around, b].
+    let t50 = n(p.inverse_J) * t43;
+    let t51 = y.neg_mul_add(n(p.k2), x_dot);
+    let t52 = n(p.k1).neg_mul_add(z.mul_sub(t39, y * t41), t51);
+    let t53 = cos_a_ * (t20 * n(p.k6));
+    // Eliminates c from row around: l[around, c].
+    let t54 = t44 * t46;
+    let t55 = z.neg_mul_add(t49, z_dot * t39);
+    let t56 = x.mul_add(n(p.k2), y_dot);
+    let t57 = n(p.k1).neg_mul_add(x.mul_sub(t41, z * t42), t56);
+    let t58 = t55 - y.mul_add(t48, y_dot * t41);
+    let t59 = n(p.k1).mul_add(t58, y_dot * n(p.k2));
+    let t60 = x.mul_add(t48, x_dot * t41) - z.mul_add(t47, z_dot * t42);
+    let t61 = n(p.k1).neg_mul_add(t60, x_dot * n(p.k2));
+    // Eliminates b from row down: l[down, b].
+    let t62 = t53 * n(p.inverse_J);
+    let t63 = n(p.k6).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
+    let t64 = n(p.J) * t47;
+    let t65 = t46.mul_add(t54, t18) + t43.mul_add(t50, t9 * t14);
+    let t66 = n(p.J) * t37;
+    // Row around: pivot d[around].
+    let t67 = t23.neg_mul_add(t29, t65);
+    // Eliminates c from row down: l[down, c].
+    let t68 = t44 * t63;
+    let t69 = x.neg_mul_add(t49, x_dot * t39);
+    let t70 = n(p.k1).neg_mul_add(y.mul_sub(t42, x * t39), z_dot);
+    let t71 = N::ONE / t67;
+    let t72 = x.neg_mul_add(t59, x_dot * t52);
+    // Row c: right-hand side z[c].
+    let t73 = t36.neg_mul_add(t64, cos_b * (n(p.J) * t5));
+    let t74 = t70 * (y.mul_add(y_dot, x * x_dot) * N::from_f64(2.0));
+    let t75 = y.mul_add(t47, y_dot * t42) - t69;
+    let t76 = y.mul_add(t61, y_dot * t57) + t72;
+    let t77 = t62.neg_mul_add(t66, t30.mul_add(t28, t19 * n(p.m_g)));
+    let t78 = t62.mul_add(t43, t23.neg_mul_add(t30, t31));
+    let t79 = t68.neg_mul_add(t46, t78);
+    let t80 = y.neg_mul_add(t59, y_dot * t52);
+    let t81 = t50.neg_mul_add(t66, t14.neg_mul_add(t64, t29 * t28));
+    let t82 = z.mul_add(t76, z_dot * y.mul_add(t57, x * t52));
+    let t83 = t12.mul_add(t16, t11 * t15) + t53.mul_add(t62, t13 * t19);
+    let t84 = t83 + t63.mul_add(t68, t21 * t24);
+    let t85 = x.mul_add(t61, x_dot * t57) - t80;
+    // Row around: right-hand side z[around].
+    let t86 = n(p.k0).mul_add(t85, t54.mul_add(t73, t81));
+    // Eliminates around from row down: l[down, around].
+    let t87 = t71 * t79;
+    let t88 = t68.neg_mul_add(t73, t24.neg_mul_add(t64, t77));
+    let t89 = n(p.k3).mul_add(t75.mul_sub(t7 * n(p.k1), t74) + t82, t88);
+    // Row down: pivot d[down].
+    let t90 = t79.neg_mul_add(t87, t26.neg_mul_add(t30, t84));
+    // Row down: right-hand side z[down].
+    let t91 = t87.neg_mul_add(t86, t89) / t90;
+    // Back substitution: lambda[around].
+    let lambda2 = t87.neg_mul_add(t91, t71 * t86);
+    // Back substitution: lambda[touching].
+    let lambda1 = t29.mul_add(lambda2, t30.mul_add(t91, t25 * t28));
+    let lambda3 = -t91;
+    let sound = PIVOTS.hold(t22, t22)
+        & PIVOTS.hold(t40, n(p.J))
+        & PIVOTS.hold(t67, t65)
+        & PIVOTS.hold(t90, t84)
+        & lambda1.is_finite();
+    if !sound {
+        let pivots = [
+            (6, t22, t22),
+            (5, t40, n(p.J)),
+            (7, t67, t65),
+            (8, t90, t84),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [lambda1.store(), lambda2.store(), lambda3.store()];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -862,8 +909,8 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
         b: "b" "rad";
         c: "c" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         m, J, g, k0, k1, k2, k3, k4, k5, m_g, k6, minus_J, minus_m_g, k7, k8, k9, k10, inverse_J,
         inverse_m,

@@ -120,14 +120,6 @@ pub struct Coordinates<S = f64> {
     pub theta: S,
 }
 
-/// What can be set while a [`BeadOnHelix`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`BeadOnHelix`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`BeadOnHelix`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -220,69 +212,54 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] 
     [p.k2]
 }
 
-/// What there is without friction, and what a unit of each friction force adds to it:
-/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
-/// coefficients of friction. A machine with contacts has this in place of accelerations and
-/// multipliers.
-///
-/// A pivot that vanishes is an error.
-pub fn friction<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 1],
-    v: &[S; 1],
+::lagrangian::emitted::fast_function! {
+    /// What there is without friction, and what a unit of each friction force adds to it:
+    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
+    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// and multipliers.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn friction<'a, S>(Friction { p: &'a Prepared<S>, q: &'a [S; 1], v: &'a [S; 1] })
+        -> Result<[S; 15], ::lagrangian::emitted::Singular> = friction_in;
+}
+
+#[inline(always)]
+fn friction_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Friction<'_, S>,
 ) -> Result<[S; 15], ::lagrangian::emitted::Singular> {
-    S::run(Friction { p, q, v })
-}
-
-/// A call of [`friction`], to be run with whatever instructions the processor has.
-pub struct Friction<'a, S> {
-    /// As `friction` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `friction` takes it.
-    pub q: &'a [S; 1],
-    /// As `friction` takes it.
-    pub v: &'a [S; 1],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 15], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta = n(q[0]);
-        let theta_dot = n(v[0]);
-        let (sin_theta, cos_theta) = theta.sin_cos();
-        let t0 = theta_dot * (theta_dot * n(p.m_r));
-        let r2 = -t0.mul_add(cos_theta, sin_theta * n(p.k6));
-        let r3 = cos_theta.mul_sub(n(p.k6), t0 * sin_theta);
-        let r7 = sin_theta * n(p.k10);
-        let r8 = -(cos_theta * n(p.k10));
-        let r12 = sin_theta * n(p.k12);
-        let r13 = cos_theta * n(p.k3);
-        let friction = [
-            n(p.k4).store(),
-            n(p.k5).store(),
-            r2.store(),
-            r3.store(),
-            n(p.k7).store(),
-            n(p.k8).store(),
-            n(p.k9).store(),
-            r7.store(),
-            r8.store(),
-            n(p.k11).store(),
-            n(p.mu).store(),
-            n(p.mu0).store(),
-            r12.store(),
-            r13.store(),
-            n(p.k13).store(),
-        ];
-        Ok(friction)
+    let Friction { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta = n(q[0]);
+    let theta_dot = n(v[0]);
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = theta_dot * (theta_dot * n(p.m_r));
+    let r2 = -t0.mul_add(cos_theta, sin_theta * n(p.k6));
+    let r3 = cos_theta.mul_sub(n(p.k6), t0 * sin_theta);
+    let r7 = sin_theta * n(p.k10);
+    let r8 = -(cos_theta * n(p.k10));
+    let r12 = sin_theta * n(p.k12);
+    let r13 = cos_theta * n(p.k3);
+    let friction = [
+        n(p.k4).store(),
+        n(p.k5).store(),
+        r2.store(),
+        r3.store(),
+        n(p.k7).store(),
+        n(p.k8).store(),
+        n(p.k9).store(),
+        r7.store(),
+        r8.store(),
+        n(p.k11).store(),
+        n(p.mu).store(),
+        n(p.mu0).store(),
+        r12.store(),
+        r13.store(),
+        n(p.k13).store(),
+    ];
+    Ok(friction)
 }
 
 /// Kinetic energy `T`, in J.
@@ -318,8 +295,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     coordinates 1 Coordinates { theta } [
         theta: "theta" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         k0, m_h_g, k1, k2, minus_m_h_g, k3, mu, mu0, m_r, k4, k5, k6, k7, k8, k9, k10, k11, k12,
         k13,

@@ -58,7 +58,6 @@ impl<S: ::lagrangian::emitted::Scalar> BeadOnHoop<S> {
         let t1 = self.r * self.omega;
         let m_r = self.m * self.r;
         let r_squared_omega2 = t1 * t1;
-        let m_r_g = self.g * m_r;
         let m_r_squared = self.r * m_r;
         let m_r_squared_omega2 = self.m * r_squared_omega2;
         let k1 = t0 * inverse_m;
@@ -67,7 +66,7 @@ impl<S: ::lagrangian::emitted::Scalar> BeadOnHoop<S> {
         let r_omega2 = self.omega * t1;
         let two_m_r_squared_omega2 = m_r_squared_omega2 * S::from_f64(2.0);
         let minus_m_r_squared_omega2 = -m_r_squared_omega2;
-        let minus_m_r_g = -m_r_g;
+        let minus_m_r_g = -(self.g * m_r);
         let two_r_omega = t1 * S::from_f64(2.0);
         let k0 = t0 * k1;
         let pivots = [(0, m_r_squared, m_r_squared)];
@@ -80,7 +79,6 @@ impl<S: ::lagrangian::emitted::Scalar> BeadOnHoop<S> {
             r_squared_omega2,
             r_squared,
             half_m,
-            m_r_g,
             r_omega2,
             m_r,
             m_r_squared_omega2,
@@ -116,14 +114,6 @@ pub struct Coordinates<S = f64> {
     pub theta: S,
 }
 
-/// What can be set while a [`BeadOnHoop`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`BeadOnHoop`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`BeadOnHoop`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -143,8 +133,6 @@ pub struct Prepared<S = f64> {
     r_squared: S,
     /// `0.5*m`
     half_m: S,
-    /// `m*r*g`
-    m_r_g: S,
     /// `r*omega^2`
     r_omega2: S,
     /// `m*r`
@@ -212,7 +200,8 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) ->
 pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let f_theta = cos_theta * (sin_theta * p.m_r_squared_omega2) - sin_theta * p.m_r_g;
+    let t0 = cos_theta * (sin_theta * p.m_r_squared_omega2);
+    let f_theta = sin_theta * p.minus_m_r_g + t0;
     [f_theta]
 }
 
@@ -236,89 +225,71 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 1] 
     [p.r]
 }
 
-/// What there is without friction, and what a unit of each friction force adds to it:
-/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
-/// coefficients of friction. A machine with contacts has this in place of accelerations and
-/// multipliers.
-///
-/// A pivot that vanishes is an error.
-pub fn friction<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 1],
-    v: &[S; 1],
+::lagrangian::emitted::fast_function! {
+    /// What there is without friction, and what a unit of each friction force adds to it:
+    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
+    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// and multipliers.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn friction<'a, S>(Friction { p: &'a Prepared<S>, t: S, q: &'a [S; 1], v: &'a [S; 1] })
+        -> Result<[S; 15], ::lagrangian::emitted::Singular> = friction_in;
+}
+
+#[inline(always)]
+fn friction_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Friction<'_, S>,
 ) -> Result<[S; 15], ::lagrangian::emitted::Singular> {
-    S::run(Friction { p, t, q, v })
-}
-
-/// A call of [`friction`], to be run with whatever instructions the processor has.
-pub struct Friction<'a, S> {
-    /// As `friction` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `friction` takes it.
-    pub t: S,
-    /// As `friction` takes it.
-    pub q: &'a [S; 1],
-    /// As `friction` takes it.
-    pub v: &'a [S; 1],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 15], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta = n(q[0]);
-        let theta_dot = n(v[0]);
-        let t0 = n(t) * n(p.omega);
-        let angles = [theta, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_theta, cos_theta) = circular[0];
-        let (sin_t0, cos_t0) = circular[1];
-        let t1 = n(t).product_error(n(p.omega));
-        let t2 = theta_dot * n(p.two_r_omega);
-        let t3 = theta_dot * (theta_dot * n(p.r));
-        let t4 = t3 * sin_theta;
-        let t5 = sin_theta * n(p.r_omega2);
-        let t6 = t3.mul_add(cos_theta, n(p.g));
-        let t7 = t1.neg_mul_add(sin_t0, cos_t0);
-        let t8 = t1.mul_add(cos_t0, sin_t0);
-        let r12 = cos_theta * t7;
-        let r13 = cos_theta * t8;
-        let t9 = n(p.m_r) * cos_theta.mul_sub(t4 + t5, sin_theta * t6);
-        let r0 = n(p.k0) * t9;
-        let t10 = n(p.m_r) * r0;
-        let t11 = n(p.m) * t2.mul_add(r13, t4.mul_add(t7, t5 * t7));
-        let t12 = n(p.m) * r12.neg_mul_add(t2, t4.mul_add(t8, t5 * t8));
-        let r1 = n(p.r) * r0;
-        let r2 = t10.mul_sub(r12, t11);
-        let r3 = t10.mul_sub(r13, t12);
-        let r4 = sin_theta.mul_add(t10, t6 * n(p.m));
-        let zero = N::ZERO;
-        let friction = [
-            r0.store(),
-            r1.store(),
-            r2.store(),
-            r3.store(),
-            r4.store(),
-            n(p.k1).store(),
-            n(p.inverse_m).store(),
-            zero.store(),
-            zero.store(),
-            zero.store(),
-            n(p.mu).store(),
-            n(p.mu).store(),
-            r12.store(),
-            r13.store(),
-            sin_theta.store(),
-        ];
-        Ok(friction)
+    let Friction { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta = n(q[0]);
+    let theta_dot = n(v[0]);
+    let t0 = n(t) * n(p.omega);
+    let angles = [theta, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_theta, cos_theta) = circular[0];
+    let (sin_t0, cos_t0) = circular[1];
+    let t1 = n(t).product_error(n(p.omega));
+    let t2 = theta_dot * n(p.two_r_omega);
+    let t3 = theta_dot * (theta_dot * n(p.r));
+    let t4 = t3 * sin_theta;
+    let t5 = sin_theta * n(p.r_omega2);
+    let t6 = t3.mul_add(cos_theta, n(p.g));
+    let t7 = t1.neg_mul_add(sin_t0, cos_t0);
+    let t8 = t1.mul_add(cos_t0, sin_t0);
+    let r12 = cos_theta * t7;
+    let r13 = cos_theta * t8;
+    let t9 = n(p.m_r) * cos_theta.mul_sub(t4 + t5, sin_theta * t6);
+    let r0 = n(p.k0) * t9;
+    let t10 = n(p.m_r) * r0;
+    let t11 = n(p.m) * t2.mul_add(r13, t4.mul_add(t7, t5 * t7));
+    let t12 = n(p.m) * r12.neg_mul_add(t2, t4.mul_add(t8, t5 * t8));
+    let r1 = n(p.r) * r0;
+    let r2 = t10.mul_sub(r12, t11);
+    let r3 = t10.mul_sub(r13, t12);
+    let r4 = sin_theta.mul_add(t10, t6 * n(p.m));
+    let zero = N::ZERO;
+    let friction = [
+        r0.store(),
+        r1.store(),
+        r2.store(),
+        r3.store(),
+        r4.store(),
+        n(p.k1).store(),
+        n(p.inverse_m).store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        n(p.mu).store(),
+        n(p.mu).store(),
+        r12.store(),
+        r13.store(),
+        sin_theta.store(),
+    ];
+    Ok(friction)
 }
 
 /// Kinetic energy `T`, in J.
@@ -373,10 +344,10 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1], 
     coordinates 1 Coordinates { theta } [
         theta: "theta" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
-        m, r, omega, g, m_r_squared, r_squared_omega2, r_squared, half_m, m_r_g, r_omega2, m_r,
+        m, r, omega, g, m_r_squared, r_squared_omega2, r_squared, half_m, r_omega2, m_r,
         m_r_squared_omega2, two_m_r_squared_omega2, minus_m_r_squared_omega2, minus_m_r_g, mu,
         two_r_omega, k0, k1, inverse_m,
     }

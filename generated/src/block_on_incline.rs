@@ -14,7 +14,7 @@
 //! | `friction` | 16 | 16 | 0 | 1 | 0 | 29 |
 //! | `kinetic_energy` | 12 | 13 | 0 | 1 | 0 | 22 |
 //! | `potential_energy` | 5 | 9 | 0 | 1 | 0 | 11 |
-//! | `work_rate` | 16 | 16 | 0 | 1 | 0 | 29 |
+//! | `work_rate` | 16 | 15 | 0 | 1 | 0 | 28 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
 //! function that is not here gives zeros.
@@ -54,12 +54,11 @@ impl<S: ::lagrangian::emitted::Scalar> BlockOnIncline<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let m_rate = self.m * self.rate;
         let m_g = self.m * self.g;
-        let m_rate2 = self.rate * m_rate;
         let half_m = self.m * S::from_f64(0.5);
         let rate2 = self.rate * self.rate;
         let two_rate = self.rate * S::from_f64(2.0);
         let m_rate_g = self.g * m_rate;
-        let minus_m_rate2 = -m_rate2;
+        let minus_m_rate2 = -(self.rate * m_rate);
         let minus_m_g = -m_g;
         let inverse_m = S::ONE / self.m;
         let pivots = [(0, self.m, self.m)];
@@ -74,7 +73,6 @@ impl<S: ::lagrangian::emitted::Scalar> BlockOnIncline<S> {
             two_rate,
             m_rate_g,
             m_rate,
-            m_rate2,
             minus_m_rate2,
             minus_m_g,
             mu: self.mu,
@@ -104,14 +102,6 @@ pub struct Coordinates<S = f64> {
     pub s: S,
 }
 
-/// What can be set while a [`BlockOnIncline`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`BlockOnIncline`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`BlockOnIncline`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -135,8 +125,6 @@ pub struct Prepared<S = f64> {
     m_rate_g: S,
     /// `m*rate`
     m_rate: S,
-    /// `m*rate^2`
-    m_rate2: S,
     /// `-m*rate^2`
     minus_m_rate2: S,
     /// `-m*g`
@@ -195,8 +183,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1
     let t0 = p.rate * t;
     let t1 = t0 + p.alpha;
     let (sin_t1, cos_t1) = t1.sin_cos();
-    let t2 = sin_t1 + (t0.sum_error(p.alpha) + p.rate.product_error(t)) * cos_t1;
-    let f_s = p.m_g * t2 + p.m_rate2 * s;
+    let t2 = sin_t1 + cos_t1 * (p.rate.product_error(t) + t0.sum_error(p.alpha));
+    let f_s = t2 * p.m_g - p.minus_m_rate2 * s;
     [f_s]
 }
 
@@ -220,70 +208,53 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>() -> [S; 1] {
     [one]
 }
 
-/// What there is without friction, and what a unit of each friction force adds to it:
-/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
-/// coefficients of friction. A machine with contacts has this in place of accelerations and
-/// multipliers.
-///
-/// A pivot that vanishes is an error.
-pub fn friction<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 1],
-    v: &[S; 1],
+::lagrangian::emitted::fast_function! {
+    /// What there is without friction, and what a unit of each friction force adds to it:
+    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
+    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// and multipliers.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn friction<'a, S>(Friction { p: &'a Prepared<S>, t: S, q: &'a [S; 1], v: &'a [S; 1] })
+        -> Result<[S; 8], ::lagrangian::emitted::Singular> = friction_in;
+}
+
+#[inline(always)]
+fn friction_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Friction<'_, S>,
 ) -> Result<[S; 8], ::lagrangian::emitted::Singular> {
-    S::run(Friction { p, t, q, v })
-}
-
-/// A call of [`friction`], to be run with whatever instructions the processor has.
-pub struct Friction<'a, S> {
-    /// As `friction` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `friction` takes it.
-    pub t: S,
-    /// As `friction` takes it.
-    pub q: &'a [S; 1],
-    /// As `friction` takes it.
-    pub v: &'a [S; 1],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 8], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let s = n(q[0]);
-        let s_dot = n(v[0]);
-        let t0 = n(p.rate) * n(t);
-        let t1 = s * n(p.rate2);
-        let t2 = n(p.two_rate) * s_dot;
-        let t3 = t0 + n(p.alpha);
-        let (sin_t3, cos_t3) = t3.sin_cos();
-        let t4 = t0.sum_error(n(p.alpha)) + n(p.rate).product_error(n(t));
-        let t5 = t4.mul_add(cos_t3, sin_t3);
-        let t6 = t4.neg_mul_add(sin_t3, cos_t3);
-        let r0 = n(p.inverse_m) * t5.mul_add(n(p.m_g), s * n(p.m_rate2));
-        let t7 = n(p.g) - t6.mul_sub(t2, t5 * t1);
-        let t8 = t6.neg_mul_add(t7, t5 * t6.mul_add(t1, t5 * t2)) * n(p.m);
-        let r2 = -t8;
-        let zero = N::ZERO;
-        let friction = [
-            r0.store(),
-            r0.store(),
-            r2.store(),
-            n(p.inverse_m).store(),
-            n(p.inverse_m).store(),
-            zero.store(),
-            n(p.mu).store(),
-            n(p.mu0).store(),
-        ];
-        Ok(friction)
+    let Friction { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let s = n(q[0]);
+    let s_dot = n(v[0]);
+    let t0 = n(p.rate) * n(t);
+    let t1 = s * n(p.rate2);
+    let t2 = n(p.two_rate) * s_dot;
+    let t3 = t0 + n(p.alpha);
+    let (sin_t3, cos_t3) = t3.sin_cos();
+    let t4 = n(p.rate).product_error(n(t)) + t0.sum_error(n(p.alpha));
+    let t5 = cos_t3.mul_add(t4, sin_t3);
+    let t6 = sin_t3.neg_mul_add(t4, cos_t3);
+    let t7 = t5.mul_sub(n(p.m_g), s * n(p.minus_m_rate2));
+    let r0 = t7 * n(p.inverse_m);
+    let t8 = n(p.g) - t2.mul_sub(t6, t1 * t5);
+    let t9 = t6.neg_mul_add(t8, t5 * t2.mul_add(t5, t1 * t6)) * n(p.m);
+    let r2 = -t9;
+    let zero = N::ZERO;
+    let friction = [
+        r0.store(),
+        r0.store(),
+        r2.store(),
+        n(p.inverse_m).store(),
+        n(p.inverse_m).store(),
+        zero.store(),
+        n(p.mu).store(),
+        n(p.mu0).store(),
+    ];
+    Ok(friction)
 }
 
 /// Kinetic energy `T`, in J.
@@ -341,16 +312,15 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     let s_dot = v[0];
     let s_ddot = a[0];
     let t0 = p.rate * t;
-    let t1 = s * p.rate2;
-    let t2 = p.two_rate * s_dot;
-    let t3 = t0 + p.alpha;
-    let (sin_t3, cos_t3) = t3.sin_cos();
-    let t4 = t0.sum_error(p.alpha) + p.rate.product_error(t);
-    let t5 = sin_t3 + t4 * cos_t3;
-    let t6 = cos_t3 - t4 * sin_t3;
-    let t7 = t5 * (t6 * (t1 - s_ddot) + t5 * t2);
-    let t8 = (t6 * (t5 * (s_ddot - t1) + t6 * t2) + t7) * (s * p.m_rate);
-    t8 - t6 * (s * p.m_rate_g)
+    let t1 = p.two_rate * s_dot;
+    let t2 = t0 + p.alpha;
+    let t3 = s * p.rate2 - s_ddot;
+    let (sin_t2, cos_t2) = t2.sin_cos();
+    let t4 = p.rate.product_error(t) + t0.sum_error(p.alpha);
+    let t5 = sin_t2 + cos_t2 * t4;
+    let t6 = cos_t2 - sin_t2 * t4;
+    let t7 = s * p.m_rate * (t5 * (t1 * t5 + t3 * t6) + t6 * (t1 * t6 - t3 * t5));
+    t7 - s * p.m_rate_g * t6
 }
 
 ::lagrangian::emitted::implement! {
@@ -366,11 +336,11 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     coordinates 1 Coordinates { s } [
         s: "s" "m";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
-        m, alpha, rate, g, half_m, m_g, rate2, two_rate, m_rate_g, m_rate, m_rate2, minus_m_rate2,
-        minus_m_g, mu, mu0, inverse_m,
+        m, alpha, rate, g, half_m, m_g, rate2, two_rate, m_rate_g, m_rate, minus_m_rate2, minus_m_g,
+        mu, mu0, inverse_m,
     }
     singular singular
     accelerations friction

@@ -91,14 +91,6 @@ pub struct Coordinates<S = f64> {
     pub theta: S,
 }
 
-/// What can be set while a [`BowlingBall`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`BowlingBall`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`BowlingBall`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -152,35 +144,26 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 3] {
     [zero, p.minus_m_g, zero]
 }
 
-/// Accelerations `a`, the solution of `M a = f`.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f`.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S> })
+        -> Result<[S; 3], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let zero = N::ZERO;
-        let accelerations = [zero.store(), n(p.minus_g).store(), zero.store()];
-        Ok(accelerations)
+    let Accelerations { p } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let zero = N::ZERO;
+    let accelerations = [zero.store(), n(p.minus_g).store(), zero.store()];
+    Ok(accelerations)
 }
 
 /// Gaps `g` of the unilateral contacts, in m: positive where they are open.
@@ -271,8 +254,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         y: "y" "m";
         theta: "theta" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared { m, r, mu, k0, m_g, minus_m_g, minus_g }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p } }

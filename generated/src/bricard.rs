@@ -16,11 +16,11 @@
 //! | `applied` | 23 | 11 | 0 | 4 | 0 | 42 |
 //! | `forces` | 142 | 93 | 0 | 4 | 0 | 243 |
 //! | `constraint_positions` | 32 | 25 | 0 | 5 | 0 | 67 |
-//! | `constraint_rates` | 98 | 64 | 0 | 5 | 0 | 172 |
+//! | `constraint_rates` | 98 | 63 | 0 | 5 | 0 | 171 |
 //! | `constraint_matrix` | 96 | 48 | 0 | 5 | 0 | 154 |
 //! | `constraint_bias` | 205 | 185 | 0 | 5 | 0 | 400 |
-//! | `accelerations` | 806 | 604 | 10 | 5 | 0 | 1430 |
-//! | `multipliers` | 768 | 570 | 10 | 5 | 0 | 1358 |
+//! | `accelerations` | 806 | 603 | 10 | 5 | 0 | 1429 |
+//! | `multipliers` | 768 | 569 | 10 | 5 | 0 | 1357 |
 //! | `kinetic_energy` | 86 | 48 | 0 | 4 | 0 | 142 |
 //! | `potential_energy` | 16 | 11 | 0 | 4 | 0 | 35 |
 //! | `output_x3` | 4 | 3 | 0 | 3 | 0 | 12 |
@@ -172,10 +172,6 @@ pub struct Coordinates<S = f64> {
     pub q: [S; 5],
 }
 
-/// What can be set while a [`Bricard`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
 /// What can be observed of a [`Bricard`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
@@ -243,8 +239,8 @@ pub struct Prepared<S = f64> {
     k14: S,
     /// `2.5*l*m`
     k15: S,
-    /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + l^2*m + (1/6)*w^2*m - (l^2*m + (1/12)*m*(w^2 + l^2) +
-    /// 0.25*l^2*m…`
+    /// `(1/12)*m*(w^2 + l^2) + 0.25*l^2*m + l^2*m + (1/6)*w^2*m - (l^2*m + (1/12)*m*(w^2 + l^2)
+    /// + 0.25*l^2*m…`
     k16: S,
     /// `1.5*l*m`
     k17: S,
@@ -726,47 +722,46 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
     let t0 = cos_q_2 * q_2_dot;
     let t1 = sin_q_3 * q_3_dot;
-    let t2 = sin_q_3 * sin_q_2;
-    let t3 = cos_q_3 * sin_q_2;
+    let t2 = sin_q_2 * sin_q_3;
+    let t3 = sin_q_2 * cos_q_3;
     let t4 = sin_q_1 * q_1_dot;
     let t5 = cos_q_1 * q_1_dot;
-    let t6 = cos_q_4 * sin_q_2;
+    let t6 = sin_q_2 * cos_q_4;
     let t7 = cos_q_3 * q_3_dot;
-    let t8 = t2 * cos_q_1 + cos_q_3 * sin_q_1;
-    let t9 = t3 * q_3_dot + sin_q_3 * t0;
+    let t8 = cos_q_3 * sin_q_1 + cos_q_1 * t2;
+    let t9 = sin_q_3 * t0 + q_3_dot * t3;
     let t10 = cos_q_4 * q_4_dot;
-    let t11 = sin_q_4 * cos_q_2;
-    let t12 = cos_q_4 * cos_q_2;
-    let t13 = t2 * q_3_dot;
-    let t14 = cos_q_3 * t0;
-    let t15 = t2 * q_2_dot;
-    let t16 = cos_q_3 * cos_q_1 - t2 * sin_q_1;
-    let t17 = cos_q_3 * t5 - sin_q_1 * t1 - (t2 * t4 - cos_q_1 * t9);
-    let t18 = q_4_dot * t11 + q_2_dot * t6;
-    let t19 = sin_q_1 * t9 + t2 * t5 + (cos_q_1 * t1 + cos_q_3 * t4);
-    let t20 = cos_q_5 * q_5_dot;
-    let t21 = sin_q_5 * q_5_dot;
-    let t22 = t6 + sin_q_3 * t11;
-    let t23 = t3 * q_2_dot;
-    let t24 = sin_q_4 * t16 + sin_q_1 * t12;
-    let t25 = sin_q_3 * cos_q_1 + sin_q_1 * t3;
-    let t26 = t8 * t10 + sin_q_4 * t17 + (cos_q_1 * t18 + t12 * t4);
-    let t27 = sin_q_4 * t15 - cos_q_2 * (sin_q_3 * t10 + sin_q_4 * t7);
-    let t28 = cos_q_4 * t0 - sin_q_4 * (sin_q_2 * q_4_dot) - t27;
-    let t29 = t12 * t5 - sin_q_1 * t18 - (sin_q_4 * t19 - t10 * t16);
-    let t30 = sin_q_1 * (t14 - t13) + t3 * t5 - (sin_q_3 * t4 - cos_q_1 * t7);
-    let t31 = sin_q_1 * t7 + sin_q_3 * t5 + (cos_q_1 * (t13 - t14) + t3 * t4);
-    let t32 = t21 * (cos_q_1 * t3 - sin_q_3 * sin_q_1) + cos_q_5 * t31;
-    let t33 = cos_q_2 * (cos_q_3 * t21 + cos_q_5 * t1) + cos_q_5 * t23;
-    let t34 = sin_q_5 * t26 - t20 * (cos_q_1 * t12 - sin_q_4 * t8) + t32;
-    let t35 = t15 - cos_q_2 * t7 + sin_q_2 * q_2_dot - t28;
-    let t36 = t20 * t24 + sin_q_5 * t29 + (cos_q_5 * t30 - t21 * t25);
-    let t37 = cos_q_2 * (sin_q_5 * t1 - t20 * cos_q_3) + sin_q_5 * t23;
-    let phi1 = p.minus_l * (t4 + (sin_q_2 * t4 - cos_q_1 * t0) - t17 - t26 - t34);
-    let phi2 = (t35 - (t20 * t22 + sin_q_5 * t28 + t33)) * p.l;
-    let phi3 = p.minus_l * (t19 + (t5 + (sin_q_1 * t0 + sin_q_2 * t5)) - t29 - t36);
-    let phi4 = cos_q_5 * t28 - t21 * t22 - t37;
-    let phi5 = t20 * t25 + sin_q_5 * t30 - (cos_q_5 * t29 - t21 * t24);
+    let t11 = cos_q_2 * sin_q_4;
+    let t12 = cos_q_2 * cos_q_4;
+    let t13 = q_2_dot * t2;
+    let t14 = cos_q_3 * cos_q_1 - sin_q_1 * t2;
+    let t15 = cos_q_3 * t5 - sin_q_1 * t1 - (t2 * t4 - cos_q_1 * t9);
+    let t16 = q_2_dot * t6 + q_4_dot * t11;
+    let t17 = q_3_dot * t2 - cos_q_3 * t0;
+    let t18 = t2 * t5 + sin_q_1 * t9 + (cos_q_3 * t4 + cos_q_1 * t1);
+    let t19 = cos_q_5 * q_5_dot;
+    let t20 = sin_q_5 * q_5_dot;
+    let t21 = t6 + sin_q_3 * t11;
+    let t22 = q_2_dot * t3;
+    let t23 = sin_q_1 * t12 + sin_q_4 * t14;
+    let t24 = sin_q_3 * cos_q_1 + sin_q_1 * t3;
+    let t25 = t8 * t10 + sin_q_4 * t15 + (t4 * t12 + cos_q_1 * t16);
+    let t26 = sin_q_4 * t13 - cos_q_2 * (sin_q_4 * t7 + sin_q_3 * t10);
+    let t27 = cos_q_4 * t0 - sin_q_4 * (sin_q_2 * q_4_dot) - t26;
+    let t28 = t5 * t12 - sin_q_1 * t16 - (sin_q_4 * t18 - t10 * t14);
+    let t29 = t3 * t5 - sin_q_1 * t17 - (sin_q_3 * t4 - cos_q_1 * t7);
+    let t30 = cos_q_5 * (t3 * t4 + cos_q_1 * t17 + (sin_q_3 * t5 + sin_q_1 * t7));
+    let t31 = sin_q_5 * t25 - (cos_q_1 * t12 - sin_q_4 * t8) * t19;
+    let t32 = cos_q_5 * t22 + cos_q_2 * (cos_q_5 * t1 + cos_q_3 * t20);
+    let t33 = t31 + ((cos_q_1 * t3 - sin_q_3 * sin_q_1) * t20 + t30);
+    let t34 = t13 - cos_q_2 * t7 + sin_q_2 * q_2_dot - t27;
+    let t35 = t19 * t23 + sin_q_5 * t28 + (cos_q_5 * t29 - t20 * t24);
+    let t36 = sin_q_5 * t22 + cos_q_2 * (sin_q_5 * t1 - cos_q_3 * t19);
+    let phi1 = (t4 + (sin_q_2 * t4 - cos_q_1 * t0) - t15 - t25 - t33) * p.minus_l;
+    let phi2 = (t34 - (t19 * t21 + sin_q_5 * t27 + t32)) * p.l;
+    let phi3 = (t18 + (t5 + (sin_q_2 * t5 + sin_q_1 * t0)) - t28 - t35) * p.minus_l;
+    let phi4 = cos_q_5 * t27 - t20 * t21 - t36;
+    let phi5 = t19 * t24 + sin_q_5 * t29 - (cos_q_5 * t28 - t20 * t23);
     [phi1, phi2, phi3, phi4, phi5]
 }
 
@@ -1072,1243 +1067,1376 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     [gamma1, gamma2, gamma3, gamma4, gamma5]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix,
-/// factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 5],
-    v: &[S; 5],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass
+    /// matrix, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 5], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 5], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 5],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 5],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 5], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        let q_1 = n(q[0]);
-        let q_2 = n(q[1]);
-        let q_3 = n(q[2]);
-        let q_4 = n(q[3]);
-        let q_5 = n(q[4]);
-        let q_1_dot = n(v[0]);
-        let q_2_dot = n(v[1]);
-        let q_3_dot = n(v[2]);
-        let q_4_dot = n(v[3]);
-        let q_5_dot = n(v[4]);
-        let angles = [q_2, q_4, q_3, q_5, q_1];
-        let circular = N::sin_cos_all(angles);
-        let (sin_q_2, cos_q_2) = circular[0];
-        let (sin_q_4, cos_q_4) = circular[1];
-        let (sin_q_3, cos_q_3) = circular[2];
-        let (sin_q_5, cos_q_5) = circular[3];
-        let (sin_q_1, cos_q_1) = circular[4];
-        let t0 = cos_q_2 * sin_q_4;
-        let t1 = sin_q_3.mul_add(t0, sin_q_2 * cos_q_4);
-        let t2 = cos_q_2 * cos_q_3;
-        let t3 = cos_q_5.mul_add(t1, sin_q_5 * t2);
-        let t4 = sin_q_2 * n(p.l);
-        let t5 = n(p.l) + t4;
-        let t6 = cos_q_3 * cos_q_4.mul_sub(t5, n(p.l) * t0);
-        let t7 = n(p.l).neg_mul_add(t2, t6);
-        let t8 = n(p.half_l_m).neg_mul_add(t7, t3 * n(p.k3));
-        let t9 = cos_q_4 * cos_q_5;
-        let t10 = sin_q_3 * n(p.k15);
-        let t11 = cos_q_2 * cos_q_4;
-        let t12 = sin_q_3.mul_sub(t11, sin_q_2 * sin_q_4);
-        let t13 = n(p.half_l_m) * sin_q_5;
-        let t14 = n(p.k17) + t13;
-        let t15 = t12 * t14;
-        let t16 = t5.mul_add(t10, sin_q_2 * n(p.k6));
-        let t17 = sin_q_3.mul_add(t5, t4);
-        let t18 = cos_q_3 * cos_q_5;
-        let t19 = sin_q_4.mul_add(t5, n(p.l) * t11) * t18;
-        let t20 = sin_q_5.neg_mul_add(n(p.l).neg_mul_add(t12, t17), t19);
-        let t21 = n(p.half_l_m).mul_add(t20, t12 * n(p.k1));
-        let t22 = sin_q_5 * n(p.half_l_squared_m);
-        let t23 = t12.mul_add(t22, n(p.k17).neg_mul_add(t17, t12 * n(p.k5)));
-        let t24 = t21 + t23;
-        let t25 = t9.mul_add(t8, n(p.l).neg_mul_add(t15, t16));
-        let t26 = sin_q_4.neg_mul_add(t24, t25);
-        let t27 = n(p.half_l_m).mul_add(t3, t2 * n(p.k17));
-        let t28 = n(p.half_l_m) * t12;
-        let t29 = sin_q_4 * cos_q_5;
-        let t30 = sin_q_3 * sin_q_2.neg_mul_add(n(p.k15), t15);
-        let t31 = cos_q_3.mul_add(cos_q_4.mul_sub(t27, t28 * t29), t30);
-        let t32 = t26 + sin_q_2.mul_add(n(p.k9), n(p.k20));
-        let t33 = n(p.k17).neg_mul_add(t6, t2 * n(p.k4));
-        let t34 = t3.mul_add(n(p.half_l_squared_m), t33);
-        let t35 = sin_q_5.mul_add(t8, t34);
-        let t36 = sin_q_4.mul_add(t27, t28 * t9);
-        let t37 = n(p.l).mul_add(t36, t2.mul_add(n(p.k7), t35));
-        let t38 = cos_q_4.mul_add(t24, t29 * t8);
-        let t39 = sin_q_2.neg_mul_add(n(p.k13), t31);
-        let t40 = cos_q_3.mul_add(t37, sin_q_3 * t38);
-        let t41 = cos_q_2.mul_add(t40, n(p.l).neg_mul_add(t39, n(p.k10)));
-        let t42 = sin_q_2.mul_add(n(p.l).neg_mul_add(t31, t32), t41);
-        let t43 = N::ONE / t42;
-        let t44 = cos_q_3.mul_sub(t38, n(p.l) * t2.mul_add(n(p.k15), t36));
-        let t45 = sin_q_3.neg_mul_add(t37, t44);
-        let t46 = t43 * t45;
-        let t47 = n(p.l) * sin_q_3;
-        let t48 = n(p.l) + t47;
-        let t49 = sin_q_4 * t48;
-        let t50 = sin_q_4.mul_sub(t18, sin_q_3 * sin_q_5);
-        let t51 = n(p.half_l_m).mul_sub(t47 + t49, n(p.k3) * t50);
-        let t52 = n(p.k17).mul_add(t49, sin_q_3 * n(p.k4));
-        let t53 = n(p.half_l_squared_m).neg_mul_add(t50, t52);
-        let t54 = sin_q_5.mul_add(t51, t53);
-        let t55 = n(p.half_l_m) * cos_q_4;
-        let t56 = n(p.half_l_m).neg_mul_add(t50, sin_q_3 * n(p.k17));
-        let t57 = sin_q_4.mul_sub(t56, t55 * (cos_q_4 * t18));
-        let t58 = t54 + sin_q_3.mul_add(n(p.k7), n(p.k21));
-        let t59 = cos_q_3 * sin_q_5;
-        let t60 = cos_q_3 * cos_q_4;
-        let t61 = cos_q_5.mul_sub(t48, n(p.l) * t59);
-        let t62 = t55.mul_sub(t61, n(p.k1) * t60);
-        let t63 = t60.neg_mul_add(t22 + n(p.k5), t62);
-        let t64 = n(p.l).mul_add(t10 + t57, n(p.k8));
-        let t65 = cos_q_3.neg_mul_add(cos_q_4.mul_add(t63, t29 * t51), t64);
-        let t66 = sin_q_3.mul_add(n(p.l).mul_add(t57, t58), t65);
-        let t67 = t45.neg_mul_add(t46, t66);
-        let t68 = N::ONE / t67;
-        let t69 = t26 * t43;
-        let t70 = t9.mul_add(t51, t14 * (n(p.l) * t60));
-        let t71 = t45.mul_add(t69, sin_q_4.neg_mul_add(t63, t70));
-        let t72 = t68 * t71;
-        let t73 = n(p.l) * sin_q_4;
-        let t74 = t13.mul_add(n(p.l) + t73, sin_q_4 * n(p.k1));
-        let t75 = sin_q_4.mul_add(t22, sin_q_4.mul_add(n(p.k5), n(p.k22)));
-        let t76 = t14.mul_add(t73, t9.mul_add(t9 * n(p.k3), n(p.k6)));
-        let t77 = sin_q_4.mul_add(t74 + t75, t76);
-        let t78 = t71.neg_mul_add(t72, t26.neg_mul_add(t69, t77));
-        let t79 = N::ONE / t78;
-        let t80 = t35 * t43;
-        let t81 = t45.mul_add(t80, t54);
-        let t82 = t68 * t81;
-        let t83 = sin_q_5.mul_add(n(p.k3), n(p.half_l_squared_m));
-        let t84 = t71.neg_mul_add(t82, t26.neg_mul_add(t80, t9 * t83));
-        let t85 = t79 * t84;
-        let t86 = sin_q_5.mul_add(n(p.half_l_squared_m) + t83, n(p.k4));
-        let t87 = t81.neg_mul_add(t82, t35.neg_mul_add(t80, t86));
-        let t88 = t84.neg_mul_add(t85, t87);
-        let t89 = N::ONE / t88;
-        let t90 = t21 * t43;
-        let t91 = t45.mul_add(t90, t62);
-        let t92 = t68 * t91;
-        let t93 = t71.mul_add(t92, t26.mul_add(t90, t74));
-        let t94 = t79 * t93;
-        let t95 = t84.neg_mul_add(t94, t81.mul_add(t92, t35 * t90));
-        let t96 = t89 * t95;
-        let t97 = t91.neg_mul_add(t92, t21.neg_mul_add(t90, n(p.k1)));
-        let t98 = t95.neg_mul_add(t96, t93.neg_mul_add(t94, t97));
-        let t99 = N::ONE / t98;
-        let t100 = n(p.l).mul_add(sin_q_5, n(p.l));
-        let t101 = sin_q_4.mul_add(t100, n(p.l));
-        let t102 = sin_q_3 * t101;
-        let t103 = n(p.l) * t18;
-        let t104 = t11 * t100;
-        let t105 = sin_q_2.mul_add(t102 - t103, t5 - t104);
-        let t106 = n(p.l) * cos_q_5;
-        let t107 = sin_q_3 * t106;
-        let t108 = cos_q_3.mul_add(t101, t107);
-        let t109 = sin_q_1.neg_mul_add(t105, cos_q_1 * t108);
-        let t110 = t43 * t109;
-        let t111 = cos_q_4 * t100;
-        let t112 = sin_q_2 * cos_q_1;
-        let t113 = t102 + (n(p.l) - t103);
-        let t114 = t113.mul_add(cos_q_2 * cos_q_1, t111 * t112);
-        let t115 = t45.mul_add(t110, t114);
-        let t116 = t68 * t115;
-        let t117 = sin_q_3 * sin_q_1.mul_sub(t101, t106 * t112);
-        let t118 = cos_q_3.mul_sub(t101.mul_add(t112, sin_q_1 * t106), t117);
-        let t119 = t71.neg_mul_add(t116, t26.neg_mul_add(t110, t118));
-        let t120 = t79 * t119;
-        let t121 = sin_q_3.mul_add(t112, cos_q_3 * sin_q_1);
-        let t122 = t100 * cos_q_4.mul_add(t121, t0 * cos_q_1);
-        let t123 = t81.neg_mul_add(t116, t35.neg_mul_add(t110, t122));
-        let t124 = t84.neg_mul_add(t120, t123);
-        let t125 = t89 * t124;
-        let t126 = sin_q_4.neg_mul_add(t121, t11 * cos_q_1);
-        let t127 = cos_q_3.mul_sub(t112, sin_q_3 * sin_q_1);
-        let t128 = n(p.l) * cos_q_5.mul_sub(t126, sin_q_5 * t127);
-        let t129 = t91.neg_mul_add(t116, t21.neg_mul_add(t110, t128));
-        let t130 = t95.mul_add(t125, t93.mul_add(t120, t129));
-        let t131 = t99 * t130;
-        let t132 = t119.mul_add(t120, t115.mul_add(t116, t109 * t110));
-        let t133 = t130.mul_add(t131, t124.mul_add(t125, t132));
-        let t134 = N::ONE / t133;
-        let t135 = sin_q_3 * sin_q_4;
-        let t136 = sin_q_2.neg_mul_add(t100.mul_add(t135, t48 - t103), t104);
-        let t137 = t68 * t136;
-        let t138 = t71.neg_mul_add(t137, cos_q_2.mul_add(t107, t2 * t101));
-        let t139 = t79 * t138;
-        let t140 = t84.neg_mul_add(t139, t81.neg_mul_add(t137, t12 * t100));
-        let t141 = t89 * t140;
-        let t142 = t93.neg_mul_add(t139, t91.mul_add(t137, n(p.l) * t3));
-        let t143 = t95.neg_mul_add(t141, t142);
-        let t144 = t99 * t143;
-        let t145 = t141.mul_add(t124, t139.mul_add(t119, t137 * t115));
-        let t146 = t144.neg_mul_add(t130, t145);
-        let t147 = t134 * t146;
-        let t148 = t138.mul_add(t139, t136 * t137);
-        let t149 = t143.mul_add(t144, t140 * t141) + t148;
-        let t150 = t146.neg_mul_add(t147, t149);
-        let t151 = N::ONE / t150;
-        let t152 = cos_q_1.mul_add(t105, sin_q_1 * t108);
-        let t153 = t43 * t152;
-        let t154 = sin_q_2 * sin_q_1;
-        let t155 = cos_q_2 * sin_q_1;
-        let t156 = t45.mul_add(t153, t155.mul_add(t113, t154 * t111));
-        let t157 = t68 * t156;
-        let t158 = cos_q_3 * t154.mul_sub(t101, cos_q_1 * t106);
-        let t159 = sin_q_3.mul_add(cos_q_1.mul_add(t101, t154 * t106), t158);
-        let t160 = t71.neg_mul_add(t157, t26.neg_mul_add(t153, t159));
-        let t161 = t79 * t160;
-        let t162 = sin_q_3.neg_mul_add(t154, cos_q_3 * cos_q_1);
-        let t163 = cos_q_4.mul_sub(t162, t0 * sin_q_1);
-        let t164 = t81.mul_add(t157, t35.mul_add(t153, t163 * t100));
-        let t165 = t84.mul_add(t161, t164);
-        let t166 = t89 * t165;
-        let t167 = sin_q_4.mul_add(t162, t11 * sin_q_1);
-        let t168 = cos_q_3.mul_add(t154, sin_q_3 * cos_q_1);
-        let t169 = n(p.l) * cos_q_5.mul_sub(t167, sin_q_5 * t168);
-        let t170 = t91.neg_mul_add(t157, t21.neg_mul_add(t153, t169));
-        let t171 = t95.neg_mul_add(t166, t93.mul_add(t161, t170));
-        let t172 = t99 * t171;
-        let t173 = t161.mul_add(t119, t157.mul_add(t115, t153 * t109));
-        let t174 = t172.mul_add(t130, t166.neg_mul_add(t124, t173));
-        let t175 = t134 * t174;
-        let t176 = t166.neg_mul_add(t140, t161.mul_add(t138, t157 * t136));
-        let t177 = t146.neg_mul_add(t175, t172.neg_mul_add(t143, t176));
-        let t178 = t151 * t177;
-        let t179 = t171.mul_add(t172, t156.mul_add(t157, t152 * t153));
-        let t180 = t179 + t165.mul_add(t166, t160 * t161);
-        let t181 = t177.neg_mul_add(t178, t174.neg_mul_add(t175, t180));
-        let t182 = N::ONE / t181;
-        let t183 = sin_q_3.mul_add(t29, t59);
-        let t184 = sin_q_2.neg_mul_add(t183, t11 * cos_q_5);
-        let t185 = t68 * t184;
-        let t186 = t71.neg_mul_add(t185, cos_q_2 * t50);
-        let t187 = t79 * t186;
-        let t188 = t81.neg_mul_add(t185, t12 * cos_q_5);
-        let t189 = t84.neg_mul_add(t187, t188);
-        let t190 = t89 * t189;
-        let t191 = cos_q_2 * t18;
-        let t192 = t91.mul_add(t185, sin_q_5.neg_mul_add(t1, t191));
-        let t193 = t95.neg_mul_add(t190, t93.neg_mul_add(t187, t192));
-        let t194 = t99 * t193;
-        let t195 = t190.mul_add(t124, t187.mul_add(t119, t185 * t115));
-        let t196 = t194.neg_mul_add(t130, t195);
-        let t197 = t134 * t196;
-        let t198 = t190.mul_add(t140, t187.mul_add(t138, t185 * t136));
-        let t199 = t146.neg_mul_add(t197, t194.mul_add(t143, t198));
-        let t200 = t151 * t199;
-        let t201 = t190.neg_mul_add(t165, t187.mul_add(t160, t185 * t156));
-        let t202 = t174.neg_mul_add(t197, t194.neg_mul_add(t171, t201));
-        let t203 = t177.neg_mul_add(t200, t202);
-        let t204 = t182 * t203;
-        let t205 = t186.mul_add(t187, t184 * t185);
-        let t206 = t193.mul_add(t194, t189 * t190) + t205;
-        let t207 = t199.neg_mul_add(t200, t196.neg_mul_add(t197, t206));
-        let t208 = t203.neg_mul_add(t204, t207);
-        let t209 = N::ONE / t208;
-        let t210 = cos_q_1.mul_sub(t184, t50 * sin_q_1);
-        let t211 = t43 * t210;
-        let t212 = t45.neg_mul_add(t211, t183.mul_add(t155, t9 * t154));
-        let t213 = t68 * t212;
-        let t214 = cos_q_3 * t29.mul_add(t154, sin_q_5 * cos_q_1);
-        let t215 = t29.mul_sub(cos_q_1, sin_q_5 * t154);
-        let t216 = t26.mul_add(t211, sin_q_3.mul_add(t215, t214));
-        let t217 = t213.neg_mul_add(t71, t216);
-        let t218 = t79 * t217;
-        let t219 = t213.mul_add(t81, t35.neg_mul_add(t211, cos_q_5 * t163));
-        let t220 = t84.mul_add(t218, t219);
-        let t221 = t89 * t220;
-        let t222 = sin_q_5.mul_add(t167, cos_q_5 * t168);
-        let t223 = t213.mul_add(t91, t21.neg_mul_add(t211, t222));
-        let t224 = t95.mul_add(t221, t93.neg_mul_add(t218, t223));
-        let t225 = t99 * t224;
-        let t226 = t213.neg_mul_add(t115, t211 * t109);
-        let t227 = t221.mul_add(t124, t218.neg_mul_add(t119, t226));
-        let t228 = t225.mul_add(t130, t227);
-        let t229 = t134 * t228;
-        let t230 = t221.neg_mul_add(t140, t218.mul_add(t138, t213 * t136));
-        let t231 = t146.mul_add(t229, t225.mul_add(t143, t230));
-        let t232 = t151 * t231;
-        let t233 = t213.neg_mul_add(t156, t211 * t152);
-        let t234 = t221.neg_mul_add(t165, t218.neg_mul_add(t160, t233));
-        let t235 = t174.neg_mul_add(t229, t225.mul_add(t171, t234));
-        let t236 = t177.mul_add(t232, t235);
-        let t237 = t182 * t236;
-        let t238 = t221.neg_mul_add(t189, t218.mul_add(t186, t184 * t213));
-        let t239 = t196.mul_add(t229, t225.mul_add(t193, t238));
-        let t240 = t203.mul_add(t237, t199.neg_mul_add(t232, t239));
-        let t241 = t209 * t240;
-        let t242 = sin_q_2 * q_1_dot;
-        let t243 = n(p.l) * q_1_dot;
-        let t244 = t242.mul_add(t242, q_2_dot * q_2_dot);
-        let t245 = n(p.l).mul_add(t244, t242.mul_add(t243, cos_q_2 * n(p.g)));
-        let t246 = cos_q_2 * q_2_dot;
-        let t247 = q_1_dot * t246;
-        let t248 = t247 * n(p.two_l);
-        let t249 = cos_q_3.mul_sub(t245, sin_q_3 * t248);
-        let t250 = cos_q_2 * q_1_dot;
-        let t251 = sin_q_3.neg_mul_add(t250, cos_q_3 * q_2_dot);
-        let t252 = t2.mul_add(q_1_dot, sin_q_3 * q_2_dot);
-        let t253 = t251 * t252;
-        let t254 = t247 - t253;
-        let t255 = n(p.l).neg_mul_add(t254, t249);
-        let t256 = t242 + q_3_dot;
-        let t257 = cos_q_4.mul_sub(t256, sin_q_4 * t251);
-        let t258 = q_2_dot * t242;
-        let t259 = sin_q_3.mul_sub(t258, q_3_dot * t252);
-        let t260 = cos_q_4.mul_add(t259, sin_q_4 * t247);
-        let t261 = t257.mul_add(q_4_dot, t260);
-        let t262 = q_4_dot + t252;
-        let t263 = t257 * t262;
-        let t264 = t261 + t263;
-        let t265 = t252.mul_add(t252, t256 * t256);
-        let t266 = cos_q_3.mul_add(t248, sin_q_3 * t245);
-        let t267 = n(p.l).mul_add(t265, t266);
-        let t268 = t250.neg_mul_add(t243, sin_q_2 * n(p.g));
-        let t269 = t250 * t242;
-        let t270 = n(p.l).neg_mul_add(t269, t268);
-        let t271 = cos_q_3.mul_sub(t258, t251 * q_3_dot);
-        let t272 = t251 * t256;
-        let t273 = t271 - t272;
-        let t274 = n(p.l).neg_mul_add(t273, t270);
-        let t275 = sin_q_4.mul_add(t256, cos_q_4 * t251);
-        let t276 = t275.mul_add(t275, t262 * t262);
-        let t277 = sin_q_4.mul_add(t267, cos_q_4 * t274);
-        let t278 = sin_q_5 * n(p.l).neg_mul_add(t264, t255);
-        let t279 = sin_q_5.neg_mul_add(t257, cos_q_5 * t262);
-        let t280 = cos_q_5.mul_add(t257, sin_q_5 * t262);
-        let t281 = t279 * t280;
-        let t282 = cos_q_5.mul_add(n(p.l).mul_add(t276, t277), t278);
-        let t283 = n(p.k1).mul_sub(t261, n(p.k3) * t281);
-        let t284 = n(p.half_l_m).neg_mul_add(t282, t283);
-        let t285 = t261 - t281;
-        let t286 = t275 + q_5_dot;
-        let t287 = t286.mul_add(t286, t280 * t280);
-        let t288 = sin_q_5.mul_add(t285, cos_q_5 * t287);
-        let t289 = n(p.k5).mul_add(t261, n(p.k4) * t263);
-        let t290 = n(p.k17).neg_mul_add(t255, t289);
-        let t291 = t284 + n(p.half_l_squared_m).mul_add(t288, t290);
-        let t292 = n(p.half_l_m).mul_add(t288, n(p.k17) * t264);
-        let t293 = n(p.k7).neg_mul_add(t253, n(p.k6) * t247);
-        let t294 = n(p.l).mul_add(t292, n(p.k15).neg_mul_add(t249, t293));
-        let t295 = cos_q_4.mul_sub(t267, sin_q_4 * t274);
-        let t296 = t257 * t275;
-        let t297 = t271 + t296;
-        let t298 = sin_q_4.neg_mul_add(t259, cos_q_4 * t247);
-        let t299 = q_4_dot.neg_mul_add(t275, t298);
-        let t300 = cos_q_5.mul_sub(t299, sin_q_5 * t271);
-        let t301 = t279.mul_add(q_5_dot, t300);
-        let t302 = t279 * t286;
-        let t303 = n(p.k3).mul_add(t301, n(p.k1) * t302);
-        let t304 = n(p.l).mul_add(t297, t295);
-        let t305 = n(p.half_l_m).neg_mul_add(t304, t303);
-        let t306 = t280 * (t286 * n(p.k18));
-        let t307 = sin_q_5.neg_mul_add(t306, t275 * (t262 * n(p.k16)));
-        let t308 = cos_q_5.neg_mul_add(t305, t307);
-        let t309 = cos_q_4.neg_mul_add(t308, sin_q_4.mul_add(t291, t294));
-        let t310 = sin_q_5.mul_sub(t287, cos_q_5 * t285);
-        let t311 = n(p.half_l_m).mul_add(t310, n(p.k17) * t276);
-        let t312 = t302 + t301;
-        let t313 = n(p.half_l_m).neg_mul_add(t312, n(p.k17) * t297);
-        let t314 = sin_q_4.mul_add(t311, n(p.k15) * t265);
-        let t315 = sin_q_3 * n(p.k15).mul_add(t254, t292);
-        let t316 = cos_q_3.mul_add(cos_q_4.mul_add(t313, t314), t315);
-        let t317 = sin_q_4.neg_mul_add(t308, t252 * (t256 * n(p.k14)));
-        let t318 = cos_q_4.neg_mul_add(t291, t317);
-        let t319 = n(p.k5).mul_add(t296, n(p.k4) * t271);
-        let t320 = cos_q_5.mul_add(t306, n(p.k17).mul_add(t295, t319));
-        let t321 = n(p.half_l_squared_m).neg_mul_add(t312, t320);
-        let t322 = sin_q_5.neg_mul_add(t305, t321);
-        let t323 = n(p.k7).mul_sub(t271, n(p.k6) * t272);
-        let t324 = cos_q_4.mul_sub(t311, sin_q_4 * t313);
-        let t325 = t322 + n(p.k15).neg_mul_add(t270, t323);
-        let t326 = n(p.l).neg_mul_add(t324, t325);
-        let t327 = cos_q_3.mul_add(t326, t258 * n(p.k12));
-        let t328 = n(p.l) * t247.mul_add(n(p.k23), t316);
-        let t329 = cos_q_2.mul_add(sin_q_3.mul_sub(t318, t327), t328);
-        let t330 = n(p.l).mul_add(t316, t247.mul_add(n(p.k11), t309));
-        let t331 = sin_q_2.mul_add(t330, t329);
-        let t332 = n(p.k13).mul_sub(t268, n(p.k9) * t269);
-        let t333 = n(p.l).mul_add(n(p.k15).neg_mul_add(t273, t324), t332);
-        let t334 = cos_q_3.neg_mul_add(t318, sin_q_3.neg_mul_add(t326, t333));
-        let t335 = t46.mul_add(t331, t334);
-        let t336 = t72.neg_mul_add(t335, t69.neg_mul_add(t331, t309));
-        let t337 = t82.mul_add(t335, t80.mul_add(t331, t322));
-        let t338 = t85.mul_add(t336, t337);
-        let t339 = sin_q_1 * q_1_dot;
-        let t340 = t242 * t339;
-        let t341 = sin_q_3 * t246;
-        let t342 = cos_q_1 * q_1_dot;
-        let t343 = t341 * t342;
-        let t344 = cos_q_3 * q_3_dot;
-        let t345 = cos_q_1 * t242;
-        let t346 = t344 * t345;
-        let t347 = sin_q_1 * t246;
-        let t348 = t344 * t347;
-        let t349 = sin_q_2 * q_2_dot;
-        let t350 = q_2_dot * t349;
-        let t351 = sin_q_1 * t350;
-        let t352 = sin_q_3.neg_mul_add(t351, t348 + t343);
-        let t353 = sin_q_3 * q_3_dot;
-        let t354 = q_3_dot * t353;
-        let t355 = sin_q_3.mul_sub(t340, t343) - t346 - t352;
-        let t356 = t353 * t339;
-        let t357 = q_1_dot * t342;
-        let t358 = q_3_dot * t344;
-        let t359 = cos_q_1.neg_mul_add(t358, t356);
-        let t360 = t355 - t154.neg_mul_add(t354, t348 + t346);
-        let t361 = cos_q_3.mul_sub(t357, t356) - t359 - t360;
-        let t362 = sin_q_2.mul_add(t344, t341);
-        let t363 = cos_q_1.mul_add(t353, cos_q_3 * t339);
-        let t364 = sin_q_1.mul_add(t362, sin_q_3 * t345) + t363;
-        let t365 = cos_q_4 * q_4_dot;
-        let t366 = t365 * t364;
-        let t367 = sin_q_4 * q_4_dot;
-        let t368 = q_4_dot * t367;
-        let t369 = cos_q_4 * cos_q_1;
-        let t370 = t258 * t369;
-        let t371 = cos_q_4 * sin_q_1;
-        let t372 = q_2_dot * t246;
-        let t373 = t349 * t367;
-        let t374 = sin_q_1 * t373;
-        let t375 = q_1_dot * t339;
-        let t376 = t0 * q_4_dot;
-        let t377 = t342 * t376;
-        let t378 = t371.mul_add(t372, t370) - t374;
-        let t379 = t11 * q_4_dot;
-        let t380 = q_4_dot * t379;
-        let t381 = t378 + (t377 + t11.mul_add(t375, t370));
-        let t382 = t162.mul_add(t368, t366) + sin_q_4.mul_add(t361, t366);
-        let t383 = t382 + (sin_q_1.mul_add(t380, t377 - t374) + t381);
-        let t384 = t246 * t342;
-        let t385 = cos_q_4.mul_add(t349, t376);
-        let t386 = sin_q_1.neg_mul_add(t385, t11 * t342);
-        let t387 = t386 - sin_q_4.mul_sub(t364, t162 * t365);
-        let t388 = cos_q_5 * q_5_dot;
-        let t389 = t388 * t387;
-        let t390 = sin_q_5 * q_5_dot;
-        let t391 = q_5_dot * t390;
-        let t392 = sin_q_5.neg_mul_add(t383, t389);
-        let t393 = t353 * t347;
-        let t394 = t353 * t345;
-        let t395 = cos_q_3 * t246;
-        let t396 = t342 * t395;
-        let t397 = cos_q_3.mul_add(t340, t394) - t396;
-        let t398 = cos_q_3.neg_mul_add(t351, t396 - t393);
-        let t399 = t344 * t339;
-        let t400 = cos_q_1.mul_add(t354, t399) + sin_q_3.mul_add(t357, t399);
-        let t401 = t400 + (t154.mul_add(t358, t393 + t394) + t397 - t398);
-        let t402 = sin_q_2 * t353;
-        let t403 = sin_q_1.mul_add(t395 - t402, cos_q_3 * t345);
-        let t404 = t403 - sin_q_3.mul_sub(t339, cos_q_1 * t344);
-        let t405 = t390 * t404;
-        let t406 = q_5_dot * t388;
-        let t407 = t168.mul_add(t406, t405) + cos_q_5.mul_add(t401, t405);
-        let t408 = t375 + (t340 - t384 - (t384 - t351)) - t361 - t383;
-        let t409 = t408 - (t407 - (t167.neg_mul_add(t391, t389) + t392));
-        let t410 = t157.mul_add(t335, t153.mul_add(t331, n(p.l) * t409));
-        let t411 = t92.mul_add(t335, t90.mul_add(t331, t284));
-        let t412 = t96.mul_add(t338, t94.neg_mul_add(t336, t411));
-        let t413 = t166.mul_add(t338, t161.mul_add(t336, t410));
-        let t414 = t341 * t339;
-        let t415 = cos_q_1 * t246;
-        let t416 = t344 * t415;
-        let t417 = cos_q_1 * t350;
-        let t418 = t242 * t342;
-        let t419 = sin_q_1 * t242;
-        let t420 = t344 * t419;
-        let t421 = t420 + sin_q_3.mul_add(t418, t414);
-        let t422 = sin_q_3.mul_add(t417, t414 - t416) + t421;
-        let t423 = t353 * t342;
-        let t424 = sin_q_1.mul_add(t358, t423) + cos_q_3.mul_add(t375, t423);
-        let t425 = t112.mul_add(t354, t420) - t416 + t422 + t424;
-        let t426 = cos_q_1.neg_mul_add(t362, sin_q_3 * t419);
-        let t427 = cos_q_3.mul_sub(t342, sin_q_1 * t353) - t426;
-        let t428 = t365 * t427;
-        let t429 = sin_q_4.neg_mul_add(t425, t428);
-        let t430 = t258 * t371;
-        let t431 = t376 * t339;
-        let t432 = cos_q_1 * t373;
-        let t433 = t369.neg_mul_add(t372, t432 + t430);
-        let t434 = cos_q_1.neg_mul_add(t380, t432 + t431);
-        let t435 = t11.mul_sub(t357, t430) - t431 - t433 - t434;
-        let t436 = t121.neg_mul_add(t368, t428) + t429 + t435;
-        let t437 = sin_q_4.mul_add(t427, t121 * t365);
-        let t438 = t388 * (t437 + cos_q_1.mul_add(t385, t11 * t339));
-        let t439 = t353 * t415;
-        let t440 = t339 * t395;
-        let t441 = t419 * t353;
-        let t442 = cos_q_3.mul_add(t418, t440) - t441;
-        let t443 = cos_q_3.mul_add(t417, t439 + t440) + t442;
-        let t444 = t344 * t342;
-        let t445 = sin_q_1.neg_mul_add(t354, t444);
-        let t446 = t443 - t112.neg_mul_add(t358, t441 - t439);
-        let t447 = cos_q_1.mul_add(t402 - t395, cos_q_3 * t419);
-        let t448 = t390 * (sin_q_1.mul_add(t344, sin_q_3 * t342) + t447);
-        let t449 = t446 - (sin_q_3.mul_sub(t375, t444) - t445);
-        let t450 = cos_q_5.neg_mul_add(t449, t448);
-        let t451 = t126.mul_add(t391, t438) + sin_q_5.mul_add(t436, t438);
-        let t452 = t246 * t339;
-        let t453 = t425 + (t357 + (t417 + t452 + (t418 + t452))) - t436;
-        let t454 = t127.neg_mul_add(t406, t448) + t450 - t451 + t453;
-        let t455 = t116.mul_add(t335, t110.mul_add(t331, n(p.l) * t454));
-        let t456 = t125.neg_mul_add(t338, t120.mul_add(t336, t455));
-        let t457 = t131.neg_mul_add(t412, t456);
-        let t458 = sin_q_4 * t344;
-        let t459 = t349 * t458;
-        let t460 = t344 * t379;
-        let t461 = sin_q_3 * t365;
-        let t462 = t349 * t461;
-        let t463 = t462 + t135.mul_add(t372, t459);
-        let t464 = t376.mul_add(sin_q_3 * q_4_dot, t462) - t460;
-        let t465 = t246 * t367;
-        let t466 = t365.mul_add(sin_q_2 * q_4_dot, t465);
-        let t467 = t464 + (t0.mul_add(t354, t459) - t460 + t463);
-        let t468 = t467 + (t466 + cos_q_4.mul_add(t350, t465));
-        let t469 = cos_q_2.neg_mul_add(t461 + t458, t135 * t349);
-        let t470 = cos_q_4.mul_sub(t246, sin_q_2 * t367) - t469;
-        let t471 = t388 * t470;
-        let t472 = sin_q_5.neg_mul_add(t468, t471);
-        let t473 = t353 * t349;
-        let t474 = cos_q_5 * t473;
-        let t475 = t390 * (cos_q_3 * t349);
-        let t476 = cos_q_2 * t353;
-        let t477 = t390 * t476;
-        let t478 = cos_q_2 * t358;
-        let t479 = cos_q_5.neg_mul_add(t478, t477 + t474);
-        let t480 = t191.neg_mul_add(q_5_dot * q_5_dot, t477 + t475);
-        let t481 = t18.mul_sub(t372, t474) - t475 - t479 - t480;
-        let t482 = t344 * t349;
-        let t483 = cos_q_2.mul_add(t354, t482) + sin_q_3.mul_add(t372, t482);
-        let t484 = t1.neg_mul_add(t391, t471) + t472 + t481;
-        let t485 = t137.mul_add(t335, n(p.l) * (t468 + (t372 + t483) - t484));
-        let t486 = t141.neg_mul_add(t338, t139.mul_add(t336, t485));
-        let t487 = t147.neg_mul_add(t457, t144.mul_add(t412, t486));
-        let t488 = t175.neg_mul_add(t457, t172.neg_mul_add(t412, t413));
-        let t489 = t178.neg_mul_add(t487, t488);
-        let t490 = t388 * t476;
-        let t491 = t349 * (t18 * q_5_dot);
-        let t492 = sin_q_5 * t473;
-        let t493 = t59.mul_add(t372, t491) - t492;
-        let t494 = sin_q_5.neg_mul_add(t478, t492 - t490);
-        let t495 = t390 * t470;
-        let t496 = t1.mul_add(t406, t495) + cos_q_5.mul_add(t468, t495);
-        let t497 = t2.mul_add(t391, t490 + t491) + t493 - t494 + t496;
-        let t498 = t187.mul_add(t336, t185.mul_add(t335, t497));
-        let t499 = t194.mul_add(t412, t190.neg_mul_add(t338, t498));
-        let t500 = t200.neg_mul_add(t487, t197.neg_mul_add(t457, t499));
-        let t501 = t204.neg_mul_add(t489, t500);
-        let t502 = t390 * t387;
-        let t503 = t388 * t404;
-        let t504 = sin_q_5.neg_mul_add(t401, t503);
-        let t505 = t167.mul_add(t406, t502) + cos_q_5.mul_add(t383, t502);
-        let t506 = t168.neg_mul_add(t391, t503) + t504 + t505;
-        let t507 = t213.neg_mul_add(t335, t211.mul_add(t331, t506));
-        let t508 = t221.neg_mul_add(t338, t218.neg_mul_add(t336, t507));
-        let t509 = t229.neg_mul_add(t457, t225.neg_mul_add(t412, t508));
-        let t510 = t237.neg_mul_add(t489, t232.mul_add(t487, t509));
-        let t511 = t224.mul_add(t225, t212.mul_add(t213, t210 * t211));
-        let t512 = t511 + t220.mul_add(t221, t217 * t218);
-        let t513 = t231.neg_mul_add(t232, t228.neg_mul_add(t229, t512));
-        let t514 = t240.neg_mul_add(t241, t236.neg_mul_add(t237, t513));
-        let t515 = t241.mul_add(t501, t510) / t514;
-        let t516 = t241.mul_add(t515, t209 * t501);
-        let t517 = t229.neg_mul_add(t515, t134 * t457);
-        let t518 = t237.neg_mul_add(t515, t182 * t489);
-        let t519 = t204.neg_mul_add(t516, t518);
-        let t520 = t200.neg_mul_add(t516, t232.mul_add(t515, t151 * t487));
-        let t521 = t178.neg_mul_add(t519, t520);
-        let t522 = t175.neg_mul_add(t519, t197.neg_mul_add(t516, t517));
-        let t523 = t147.neg_mul_add(t521, t522);
-        let t524 = t194.neg_mul_add(t516, t225.mul_add(t515, t99 * t412));
-        let t525 = t144.neg_mul_add(t521, t172.mul_add(t519, t524));
-        let t526 = t131.mul_add(t523, t525);
-        let t527 = t190.mul_add(t516, t221.mul_add(t515, t89 * t338));
-        let t528 = t141.mul_add(t521, t166.neg_mul_add(t519, t527));
-        let q_4_ddot = t96.mul_add(t526, t125.mul_add(t523, t528));
-        let t529 = t185.neg_mul_add(t516, t213.mul_add(t515, t68 * t335));
-        let t530 = t137.neg_mul_add(t521, t157.neg_mul_add(t519, t529));
-        let t531 = t92.mul_add(t526, t116.neg_mul_add(t523, t530));
-        let t532 = t82.mul_add(q_4_ddot, t531);
-        let t533 = t187.neg_mul_add(t516, t218.mul_add(t515, t79 * t336));
-        let t534 = t139.neg_mul_add(t521, t161.neg_mul_add(t519, t533));
-        let t535 = t94.neg_mul_add(t526, t120.neg_mul_add(t523, t534));
-        let t536 = t85.mul_add(q_4_ddot, t535);
-        let t537 = t72 * t536;
-        let t538 = t153.neg_mul_add(t519, t211.neg_mul_add(t515, t43 * t331));
-        let t539 = t90.mul_add(t526, t110.neg_mul_add(t523, t538));
-        let t540 = t69.neg_mul_add(t536, t80.mul_add(q_4_ddot, t539));
-        let q_1_ddot = -t46.mul_add(t532 - t537, t540);
-        let q_2_ddot = t537 - t532;
-        let q_3_ddot = -t536;
-        let q_5_ddot = -t526;
-        let sound = PIVOTS.hold(t42, t42)
-            & PIVOTS.hold(t67, t66)
-            & PIVOTS.hold(t78, t77)
-            & PIVOTS.hold(t88, t86)
-            & PIVOTS.hold(t98, n(p.k1))
-            & PIVOTS.hold(t133, t133)
-            & PIVOTS.hold(t150, t149)
-            & PIVOTS.hold(t181, t180)
-            & PIVOTS.hold(t208, t206)
-            & PIVOTS.hold(t514, t512)
-            & q_1_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (0, t42, t42),
-                (1, t67, t66),
-                (2, t78, t77),
-                (3, t88, t86),
-                (4, t98, n(p.k1)),
-                (5, t133, t133),
-                (6, t150, t149),
-                (7, t181, t180),
-                (8, t208, t206),
-                (9, t514, t512),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            q_1_ddot.store(),
-            q_2_ddot.store(),
-            q_3_ddot.store(),
-            q_4_ddot.store(),
-            q_5_ddot.store(),
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    let q_1 = n(q[0]);
+    let q_2 = n(q[1]);
+    let q_3 = n(q[2]);
+    let q_4 = n(q[3]);
+    let q_5 = n(q[4]);
+    let q_1_dot = n(v[0]);
+    let q_2_dot = n(v[1]);
+    let q_3_dot = n(v[2]);
+    let q_4_dot = n(v[3]);
+    let q_5_dot = n(v[4]);
+    let angles = [q_2, q_4, q_3, q_5, q_1];
+    let circular = N::sin_cos_all(angles);
+    let (sin_q_2, cos_q_2) = circular[0];
+    let (sin_q_4, cos_q_4) = circular[1];
+    let (sin_q_3, cos_q_3) = circular[2];
+    let (sin_q_5, cos_q_5) = circular[3];
+    let (sin_q_1, cos_q_1) = circular[4];
+    let t0 = cos_q_2 * sin_q_4;
+    let t1 = t0.mul_add(sin_q_3, sin_q_2 * cos_q_4);
+    let t2 = cos_q_2 * cos_q_3;
+    let t3 = t1.mul_add(cos_q_5, sin_q_5 * t2);
+    let t4 = sin_q_2 * n(p.l);
+    let t5 = n(p.l) + t4;
+    let t6 = cos_q_3 * cos_q_4.mul_sub(t5, t0 * n(p.l));
+    let t7 = t2.neg_mul_add(n(p.l), t6);
+    let t8 = t7.neg_mul_add(n(p.half_l_m), t3 * n(p.k3));
+    let t9 = cos_q_4 * cos_q_5;
+    let t10 = sin_q_3 * n(p.k15);
+    let t11 = cos_q_2 * cos_q_4;
+    let t12 = sin_q_3.mul_sub(t11, sin_q_2 * sin_q_4);
+    let t13 = sin_q_5 * n(p.half_l_m);
+    let t14 = t13 + n(p.k17);
+    let t15 = t12 * t14;
+    let t16 = t5.mul_add(t10, sin_q_2 * n(p.k6));
+    let t17 = sin_q_3.mul_add(t5, t4);
+    let t18 = cos_q_3 * cos_q_5;
+    let t19 = sin_q_4.mul_add(t5, n(p.l) * t11) * t18;
+    let t20 = sin_q_5.neg_mul_add(n(p.l).neg_mul_add(t12, t17), t19);
+    let t21 = n(p.half_l_m).mul_add(t20, t12 * n(p.k1));
+    let t22 = sin_q_5 * n(p.half_l_squared_m);
+    let t23 = t12.mul_add(t22, n(p.k17).neg_mul_add(t17, t12 * n(p.k5)));
+    let t24 = t21 + t23;
+    let t25 = t8.mul_add(t9, n(p.l).neg_mul_add(t15, t16));
+    let t26 = sin_q_4.neg_mul_add(t24, t25);
+    let t27 = t3.mul_add(n(p.half_l_m), t2 * n(p.k17));
+    let t28 = n(p.half_l_m) * t12;
+    let t29 = sin_q_4 * cos_q_5;
+    let t30 = sin_q_3 * sin_q_2.neg_mul_add(n(p.k15), t15);
+    let t31 = cos_q_3.mul_add(cos_q_4.mul_sub(t27, t28 * t29), t30);
+    let t32 = t26 + sin_q_2.mul_add(n(p.k9), n(p.k20));
+    let t33 = t6.neg_mul_add(n(p.k17), t2 * n(p.k4));
+    let t34 = t3.mul_add(n(p.half_l_squared_m), t33);
+    let t35 = sin_q_5.mul_add(t8, t34);
+    let t36 = sin_q_4.mul_add(t27, t9 * t28);
+    let t37 = n(p.l).mul_add(t36, t2.mul_add(n(p.k7), t35));
+    let t38 = cos_q_4.mul_add(t24, t8 * t29);
+    let t39 = sin_q_2.neg_mul_add(n(p.k13), t31);
+    let t40 = cos_q_3.mul_add(t37, sin_q_3 * t38);
+    let t41 = cos_q_2.mul_add(t40, n(p.l).neg_mul_add(t39, n(p.k10)));
+    // Row q[1]: pivot d[q[1]].
+    let t42 = sin_q_2.mul_add(n(p.l).neg_mul_add(t31, t32), t41);
+    let t43 = N::ONE / t42;
+    let t44 = cos_q_3.mul_sub(t38, n(p.l) * t2.mul_add(n(p.k15), t36));
+    let t45 = sin_q_3.neg_mul_add(t37, t44);
+    // Eliminates q[1] from row q[2]: l[q[2], q[1]].
+    let t46 = t43 * t45;
+    let t47 = sin_q_3 * n(p.l);
+    let t48 = n(p.l) + t47;
+    let t49 = sin_q_4 * t48;
+    let t50 = sin_q_4.mul_sub(t18, sin_q_3 * sin_q_5);
+    let t51 = n(p.half_l_m).mul_sub(t47 + t49, n(p.k3) * t50);
+    let t52 = n(p.k17).mul_add(t49, sin_q_3 * n(p.k4));
+    let t53 = n(p.half_l_squared_m).neg_mul_add(t50, t52);
+    let t54 = sin_q_5.mul_add(t51, t53);
+    let t55 = cos_q_4 * n(p.half_l_m);
+    let t56 = n(p.half_l_m).neg_mul_add(t50, sin_q_3 * n(p.k17));
+    let t57 = sin_q_4.mul_sub(t56, t55 * (cos_q_4 * t18));
+    let t58 = t54 + sin_q_3.mul_add(n(p.k7), n(p.k21));
+    let t59 = cos_q_3 * sin_q_5;
+    let t60 = cos_q_4 * cos_q_3;
+    let t61 = cos_q_5.mul_sub(t48, n(p.l) * t59);
+    let t62 = t55.mul_sub(t61, n(p.k1) * t60);
+    let t63 = t60.neg_mul_add(n(p.k5) + t22, t62);
+    let t64 = n(p.l).mul_add(t10 + t57, n(p.k8));
+    let t65 = cos_q_3.neg_mul_add(cos_q_4.mul_add(t63, t29 * t51), t64);
+    let t66 = sin_q_3.mul_add(n(p.l).mul_add(t57, t58), t65);
+    // Row q[2]: pivot d[q[2]].
+    let t67 = t45.neg_mul_add(t46, t66);
+    let t68 = N::ONE / t67;
+    // Eliminates q[1] from row q[3]: l[q[3], q[1]].
+    let t69 = t26 * t43;
+    let t70 = t9.mul_add(t51, t14 * (n(p.l) * t60));
+    let t71 = t45.mul_add(t69, sin_q_4.neg_mul_add(t63, t70));
+    // Eliminates q[2] from row q[3]: l[q[3], q[2]].
+    let t72 = t68 * t71;
+    let t73 = sin_q_4 * n(p.l);
+    let t74 = t13.mul_add(n(p.l) + t73, sin_q_4 * n(p.k1));
+    let t75 = sin_q_4.mul_add(t22, sin_q_4.mul_add(n(p.k5), n(p.k22)));
+    let t76 = t14.mul_add(t73, t9.mul_add(n(p.k3) * t9, n(p.k6)));
+    let t77 = sin_q_4.mul_add(t74 + t75, t76);
+    // Row q[3]: pivot d[q[3]].
+    let t78 = t71.neg_mul_add(t72, t26.neg_mul_add(t69, t77));
+    let t79 = N::ONE / t78;
+    // Eliminates q[1] from row q[4]: l[q[4], q[1]].
+    let t80 = t35 * t43;
+    let t81 = t45.mul_add(t80, t54);
+    // Eliminates q[2] from row q[4]: l[q[4], q[2]].
+    let t82 = t68 * t81;
+    let t83 = sin_q_5.mul_add(n(p.k3), n(p.half_l_squared_m));
+    let t84 = t71.neg_mul_add(t82, t26.neg_mul_add(t80, t9 * t83));
+    // Eliminates q[3] from row q[4]: l[q[4], q[3]].
+    let t85 = t79 * t84;
+    let t86 = sin_q_5.mul_add(n(p.half_l_squared_m) + t83, n(p.k4));
+    let t87 = t81.neg_mul_add(t82, t35.neg_mul_add(t80, t86));
+    // Row q[4]: pivot d[q[4]].
+    let t88 = t84.neg_mul_add(t85, t87);
+    let t89 = N::ONE / t88;
+    // Eliminates q[1] from row q[5]: l[q[5], q[1]].
+    let t90 = t21 * t43;
+    let t91 = t45.mul_add(t90, t62);
+    // Eliminates q[2] from row q[5]: l[q[5], q[2]].
+    let t92 = t68 * t91;
+    let t93 = t71.mul_add(t92, t26.mul_add(t90, t74));
+    // Eliminates q[3] from row q[5]: l[q[5], q[3]].
+    let t94 = t79 * t93;
+    let t95 = t84.neg_mul_add(t94, t81.mul_add(t92, t35 * t90));
+    // Eliminates q[4] from row q[5]: l[q[5], q[4]].
+    let t96 = t89 * t95;
+    let t97 = t91.neg_mul_add(t92, t21.neg_mul_add(t90, n(p.k1)));
+    // Row q[5]: pivot d[q[5]].
+    let t98 = t95.neg_mul_add(t96, t93.neg_mul_add(t94, t97));
+    let t99 = N::ONE / t98;
+    let t100 = sin_q_5.mul_add(n(p.l), n(p.l));
+    let t101 = sin_q_4.mul_add(t100, n(p.l));
+    let t102 = sin_q_3 * t101;
+    let t103 = n(p.l) * t18;
+    let t104 = t11 * t100;
+    let t105 = sin_q_2.mul_add(t102 - t103, t5 - t104);
+    let t106 = cos_q_5 * n(p.l);
+    let t107 = sin_q_3 * t106;
+    let t108 = cos_q_3.mul_add(t101, t107);
+    let t109 = t105.neg_mul_add(sin_q_1, cos_q_1 * t108);
+    // Eliminates q[1] from row along: l[along, q[1]].
+    let t110 = t43 * t109;
+    let t111 = cos_q_4 * t100;
+    let t112 = sin_q_2 * cos_q_1;
+    let t113 = t102 + (n(p.l) - t103);
+    let t114 = t113.mul_add(cos_q_2 * cos_q_1, t111 * t112);
+    let t115 = t45.mul_add(t110, t114);
+    // Eliminates q[2] from row along: l[along, q[2]].
+    let t116 = t68 * t115;
+    let t117 = sin_q_3 * t101.mul_sub(sin_q_1, t106 * t112);
+    let t118 = cos_q_3.mul_sub(t101.mul_add(t112, sin_q_1 * t106), t117);
+    let t119 = t71.neg_mul_add(t116, t26.neg_mul_add(t110, t118));
+    // Eliminates q[3] from row along: l[along, q[3]].
+    let t120 = t79 * t119;
+    let t121 = sin_q_3.mul_add(t112, cos_q_3 * sin_q_1);
+    let t122 = t100 * cos_q_4.mul_add(t121, t0 * cos_q_1);
+    let t123 = t81.neg_mul_add(t116, t35.neg_mul_add(t110, t122));
+    let t124 = t84.neg_mul_add(t120, t123);
+    // Eliminates q[4] from row along: l[along, q[4]].
+    let t125 = t89 * t124;
+    let t126 = sin_q_4.neg_mul_add(t121, t11 * cos_q_1);
+    let t127 = cos_q_3.mul_sub(t112, sin_q_3 * sin_q_1);
+    let t128 = n(p.l) * cos_q_5.mul_sub(t126, sin_q_5 * t127);
+    let t129 = t91.neg_mul_add(t116, t21.neg_mul_add(t110, t128));
+    let t130 = t95.mul_add(t125, t93.mul_add(t120, t129));
+    // Eliminates q[5] from row along: l[along, q[5]].
+    let t131 = t99 * t130;
+    let t132 = t119.mul_add(t120, t115.mul_add(t116, t109 * t110));
+    // Row along: pivot d[along].
+    let t133 = t130.mul_add(t131, t124.mul_add(t125, t132));
+    let t134 = N::ONE / t133;
+    let t135 = sin_q_4 * sin_q_3;
+    let t136 = sin_q_2.neg_mul_add(t100.mul_add(t135, t48 - t103), t104);
+    // Eliminates q[2] from row up: l[up, q[2]].
+    let t137 = t68 * t136;
+    let t138 = t71.neg_mul_add(t137, t2.mul_add(t101, cos_q_2 * t107));
+    // Eliminates q[3] from row up: l[up, q[3]].
+    let t139 = t79 * t138;
+    let t140 = t84.neg_mul_add(t139, t81.neg_mul_add(t137, t12 * t100));
+    // Eliminates q[4] from row up: l[up, q[4]].
+    let t141 = t89 * t140;
+    let t142 = t93.neg_mul_add(t139, t91.mul_add(t137, t3 * n(p.l)));
+    let t143 = t95.neg_mul_add(t141, t142);
+    // Eliminates q[5] from row up: l[up, q[5]].
+    let t144 = t99 * t143;
+    let t145 = t124.mul_add(t141, t119.mul_add(t139, t115 * t137));
+    let t146 = t130.neg_mul_add(t144, t145);
+    // Eliminates along from row up: l[up, along].
+    let t147 = t134 * t146;
+    let t148 = t138.mul_add(t139, t136 * t137);
+    let t149 = t143.mul_add(t144, t140 * t141) + t148;
+    // Row up: pivot d[up].
+    let t150 = t146.neg_mul_add(t147, t149);
+    let t151 = N::ONE / t150;
+    let t152 = t105.mul_add(cos_q_1, sin_q_1 * t108);
+    // Eliminates q[1] from row across: l[across, q[1]].
+    let t153 = t43 * t152;
+    let t154 = sin_q_2 * sin_q_1;
+    let t155 = cos_q_2 * sin_q_1;
+    let t156 = t45.mul_add(t153, t113.mul_add(t155, t111 * t154));
+    // Eliminates q[2] from row across: l[across, q[2]].
+    let t157 = t68 * t156;
+    let t158 = cos_q_3 * t101.mul_sub(t154, cos_q_1 * t106);
+    let t159 = sin_q_3.mul_add(t101.mul_add(cos_q_1, t106 * t154), t158);
+    let t160 = t71.neg_mul_add(t157, t26.neg_mul_add(t153, t159));
+    // Eliminates q[3] from row across: l[across, q[3]].
+    let t161 = t79 * t160;
+    let t162 = sin_q_3.neg_mul_add(t154, cos_q_3 * cos_q_1);
+    let t163 = cos_q_4.mul_sub(t162, t0 * sin_q_1);
+    let t164 = t81.mul_add(t157, t35.mul_add(t153, t100 * t163));
+    let t165 = t84.mul_add(t161, t164);
+    // Eliminates q[4] from row across: l[across, q[4]].
+    let t166 = t89 * t165;
+    let t167 = sin_q_4.mul_add(t162, t11 * sin_q_1);
+    let t168 = cos_q_3.mul_add(t154, sin_q_3 * cos_q_1);
+    let t169 = n(p.l) * cos_q_5.mul_sub(t167, sin_q_5 * t168);
+    let t170 = t91.neg_mul_add(t157, t21.neg_mul_add(t153, t169));
+    let t171 = t95.neg_mul_add(t166, t93.mul_add(t161, t170));
+    // Eliminates q[5] from row across: l[across, q[5]].
+    let t172 = t99 * t171;
+    let t173 = t119.mul_add(t161, t115.mul_add(t157, t109 * t153));
+    let t174 = t130.mul_add(t172, t124.neg_mul_add(t166, t173));
+    // Eliminates along from row across: l[across, along].
+    let t175 = t134 * t174;
+    let t176 = t140.neg_mul_add(t166, t138.mul_add(t161, t136 * t157));
+    let t177 = t146.neg_mul_add(t175, t143.neg_mul_add(t172, t176));
+    // Eliminates up from row across: l[across, up].
+    let t178 = t151 * t177;
+    let t179 = t171.mul_add(t172, t156.mul_add(t157, t152 * t153));
+    let t180 = t179 + t165.mul_add(t166, t160 * t161);
+    // Row across: pivot d[across].
+    let t181 = t177.neg_mul_add(t178, t174.neg_mul_add(t175, t180));
+    let t182 = N::ONE / t181;
+    let t183 = sin_q_3.mul_add(t29, t59);
+    let t184 = sin_q_2.neg_mul_add(t183, cos_q_5 * t11);
+    // Eliminates q[2] from row tips: l[tips, q[2]].
+    let t185 = t68 * t184;
+    let t186 = t71.neg_mul_add(t185, cos_q_2 * t50);
+    // Eliminates q[3] from row tips: l[tips, q[3]].
+    let t187 = t79 * t186;
+    let t188 = t81.neg_mul_add(t185, cos_q_5 * t12);
+    let t189 = t84.neg_mul_add(t187, t188);
+    // Eliminates q[4] from row tips: l[tips, q[4]].
+    let t190 = t89 * t189;
+    let t191 = cos_q_2 * t18;
+    let t192 = t91.mul_add(t185, t1.neg_mul_add(sin_q_5, t191));
+    let t193 = t95.neg_mul_add(t190, t93.neg_mul_add(t187, t192));
+    // Eliminates q[5] from row tips: l[tips, q[5]].
+    let t194 = t99 * t193;
+    let t195 = t124.mul_add(t190, t119.mul_add(t187, t115 * t185));
+    let t196 = t130.neg_mul_add(t194, t195);
+    // Eliminates along from row tips: l[tips, along].
+    let t197 = t134 * t196;
+    let t198 = t140.mul_add(t190, t138.mul_add(t187, t136 * t185));
+    let t199 = t146.neg_mul_add(t197, t143.mul_add(t194, t198));
+    // Eliminates up from row tips: l[tips, up].
+    let t200 = t151 * t199;
+    let t201 = t165.neg_mul_add(t190, t160.mul_add(t187, t156 * t185));
+    let t202 = t174.neg_mul_add(t197, t171.neg_mul_add(t194, t201));
+    let t203 = t177.neg_mul_add(t200, t202);
+    // Eliminates across from row tips: l[tips, across].
+    let t204 = t182 * t203;
+    let t205 = t186.mul_add(t187, t184 * t185);
+    let t206 = t193.mul_add(t194, t189 * t190) + t205;
+    let t207 = t199.neg_mul_add(t200, t196.neg_mul_add(t197, t206));
+    // Row tips: pivot d[tips].
+    let t208 = t203.neg_mul_add(t204, t207);
+    let t209 = N::ONE / t208;
+    let t210 = cos_q_1.mul_sub(t184, t50 * sin_q_1);
+    // Eliminates q[1] from row turns: l[turns, q[1]].
+    let t211 = t43 * t210;
+    let t212 = t45.neg_mul_add(t211, t155.mul_add(t183, t9 * t154));
+    // Eliminates q[2] from row turns: l[turns, q[2]].
+    let t213 = t68 * t212;
+    let t214 = cos_q_3 * t29.mul_add(t154, sin_q_5 * cos_q_1);
+    let t215 = t29.mul_sub(cos_q_1, sin_q_5 * t154);
+    let t216 = t26.mul_add(t211, sin_q_3.mul_add(t215, t214));
+    let t217 = t71.neg_mul_add(t213, t216);
+    // Eliminates q[3] from row turns: l[turns, q[3]].
+    let t218 = t79 * t217;
+    let t219 = t81.mul_add(t213, t35.neg_mul_add(t211, cos_q_5 * t163));
+    let t220 = t84.mul_add(t218, t219);
+    // Eliminates q[4] from row turns: l[turns, q[4]].
+    let t221 = t89 * t220;
+    let t222 = sin_q_5.mul_add(t167, cos_q_5 * t168);
+    let t223 = t91.mul_add(t213, t21.neg_mul_add(t211, t222));
+    let t224 = t95.mul_add(t221, t93.neg_mul_add(t218, t223));
+    // Eliminates q[5] from row turns: l[turns, q[5]].
+    let t225 = t99 * t224;
+    let t226 = t115.neg_mul_add(t213, t109 * t211);
+    let t227 = t124.mul_add(t221, t119.neg_mul_add(t218, t226));
+    let t228 = t130.mul_add(t225, t227);
+    // Eliminates along from row turns: l[turns, along].
+    let t229 = t134 * t228;
+    let t230 = t140.neg_mul_add(t221, t138.mul_add(t218, t136 * t213));
+    let t231 = t146.mul_add(t229, t143.mul_add(t225, t230));
+    // Eliminates up from row turns: l[turns, up].
+    let t232 = t151 * t231;
+    let t233 = t156.neg_mul_add(t213, t152 * t211);
+    let t234 = t165.neg_mul_add(t221, t160.neg_mul_add(t218, t233));
+    let t235 = t174.neg_mul_add(t229, t171.mul_add(t225, t234));
+    let t236 = t177.mul_add(t232, t235);
+    // Eliminates across from row turns: l[turns, across].
+    let t237 = t182 * t236;
+    let t238 = t189.neg_mul_add(t221, t186.mul_add(t218, t184 * t213));
+    let t239 = t196.mul_add(t229, t193.mul_add(t225, t238));
+    let t240 = t203.mul_add(t237, t199.neg_mul_add(t232, t239));
+    // Eliminates tips from row turns: l[turns, tips].
+    let t241 = t209 * t240;
+    let t242 = sin_q_2 * q_1_dot;
+    let t243 = n(p.l) * q_1_dot;
+    let t244 = t242.mul_add(t242, q_2_dot * q_2_dot);
+    let t245 = n(p.l).mul_add(t244, t242.mul_add(t243, cos_q_2 * n(p.g)));
+    let t246 = cos_q_2 * q_2_dot;
+    let t247 = q_1_dot * t246;
+    let t248 = t247 * n(p.two_l);
+    let t249 = cos_q_3.mul_sub(t245, sin_q_3 * t248);
+    let t250 = cos_q_2 * q_1_dot;
+    let t251 = sin_q_3.neg_mul_add(t250, cos_q_3 * q_2_dot);
+    let t252 = t2.mul_add(q_1_dot, sin_q_3 * q_2_dot);
+    let t253 = t251 * t252;
+    let t254 = t247 - t253;
+    let t255 = n(p.l).neg_mul_add(t254, t249);
+    let t256 = t242 + q_3_dot;
+    let t257 = cos_q_4.mul_sub(t256, sin_q_4 * t251);
+    let t258 = t242 * q_2_dot;
+    let t259 = sin_q_3.mul_sub(t258, t252 * q_3_dot);
+    let t260 = cos_q_4.mul_add(t259, sin_q_4 * t247);
+    let t261 = t257.mul_add(q_4_dot, t260);
+    let t262 = t252 + q_4_dot;
+    let t263 = t257 * t262;
+    let t264 = t261 + t263;
+    let t265 = t252.mul_add(t252, t256 * t256);
+    let t266 = sin_q_3.mul_add(t245, cos_q_3 * t248);
+    let t267 = n(p.l).mul_add(t265, t266);
+    let t268 = t243.neg_mul_add(t250, sin_q_2 * n(p.g));
+    let t269 = t242 * t250;
+    let t270 = n(p.l).neg_mul_add(t269, t268);
+    let t271 = cos_q_3.mul_sub(t258, t251 * q_3_dot);
+    let t272 = t251 * t256;
+    let t273 = t271 - t272;
+    let t274 = n(p.l).neg_mul_add(t273, t270);
+    let t275 = cos_q_4.mul_add(t251, sin_q_4 * t256);
+    let t276 = t275.mul_add(t275, t262 * t262);
+    let t277 = sin_q_4.mul_add(t267, cos_q_4 * t274);
+    let t278 = sin_q_5 * n(p.l).neg_mul_add(t264, t255);
+    let t279 = sin_q_5.neg_mul_add(t257, cos_q_5 * t262);
+    let t280 = cos_q_5.mul_add(t257, sin_q_5 * t262);
+    let t281 = t279 * t280;
+    let t282 = cos_q_5.mul_add(n(p.l).mul_add(t276, t277), t278);
+    let t283 = n(p.k1).mul_sub(t261, n(p.k3) * t281);
+    let t284 = n(p.half_l_m).neg_mul_add(t282, t283);
+    let t285 = t261 - t281;
+    let t286 = t275 + q_5_dot;
+    let t287 = t280.mul_add(t280, t286 * t286);
+    let t288 = sin_q_5.mul_add(t285, cos_q_5 * t287);
+    let t289 = n(p.k5).mul_add(t261, n(p.k4) * t263);
+    let t290 = n(p.k17).neg_mul_add(t255, t289);
+    let t291 = t284 + n(p.half_l_squared_m).mul_add(t288, t290);
+    let t292 = n(p.half_l_m).mul_add(t288, n(p.k17) * t264);
+    let t293 = n(p.k7).neg_mul_add(t253, n(p.k6) * t247);
+    let t294 = n(p.l).mul_add(t292, n(p.k15).neg_mul_add(t249, t293));
+    let t295 = cos_q_4.mul_sub(t267, sin_q_4 * t274);
+    let t296 = t257 * t275;
+    let t297 = t271 + t296;
+    let t298 = sin_q_4.neg_mul_add(t259, cos_q_4 * t247);
+    let t299 = q_4_dot.neg_mul_add(t275, t298);
+    let t300 = cos_q_5.mul_sub(t299, sin_q_5 * t271);
+    let t301 = t279.mul_add(q_5_dot, t300);
+    let t302 = t279 * t286;
+    let t303 = n(p.k3).mul_add(t301, n(p.k1) * t302);
+    let t304 = n(p.l).mul_add(t297, t295);
+    let t305 = n(p.half_l_m).neg_mul_add(t304, t303);
+    let t306 = t280 * (t286 * n(p.k18));
+    let t307 = sin_q_5.neg_mul_add(t306, t275 * (t262 * n(p.k16)));
+    let t308 = cos_q_5.neg_mul_add(t305, t307);
+    let t309 = cos_q_4.neg_mul_add(t308, sin_q_4.mul_add(t291, t294));
+    let t310 = sin_q_5.mul_sub(t287, cos_q_5 * t285);
+    let t311 = n(p.half_l_m).mul_add(t310, n(p.k17) * t276);
+    let t312 = t301 + t302;
+    let t313 = n(p.half_l_m).neg_mul_add(t312, n(p.k17) * t297);
+    let t314 = sin_q_4.mul_add(t311, n(p.k15) * t265);
+    let t315 = sin_q_3 * n(p.k15).mul_add(t254, t292);
+    let t316 = cos_q_3.mul_add(cos_q_4.mul_add(t313, t314), t315);
+    let t317 = sin_q_4.neg_mul_add(t308, t252 * (t256 * n(p.k14)));
+    let t318 = cos_q_4.neg_mul_add(t291, t317);
+    let t319 = n(p.k5).mul_add(t296, n(p.k4) * t271);
+    let t320 = cos_q_5.mul_add(t306, n(p.k17).mul_add(t295, t319));
+    let t321 = n(p.half_l_squared_m).neg_mul_add(t312, t320);
+    let t322 = sin_q_5.neg_mul_add(t305, t321);
+    let t323 = n(p.k7).mul_sub(t271, n(p.k6) * t272);
+    let t324 = cos_q_4.mul_sub(t311, sin_q_4 * t313);
+    let t325 = t322 + n(p.k15).neg_mul_add(t270, t323);
+    let t326 = n(p.l).neg_mul_add(t324, t325);
+    let t327 = cos_q_3.mul_add(t326, t258 * n(p.k12));
+    let t328 = n(p.l) * t247.mul_add(n(p.k23), t316);
+    let t329 = cos_q_2.mul_add(sin_q_3.mul_sub(t318, t327), t328);
+    let t330 = n(p.l).mul_add(t316, t247.mul_add(n(p.k11), t309));
+    let t331 = sin_q_2.mul_add(t330, t329);
+    let t332 = n(p.k13).mul_sub(t268, n(p.k9) * t269);
+    let t333 = n(p.l).mul_add(n(p.k15).neg_mul_add(t273, t324), t332);
+    let t334 = cos_q_3.neg_mul_add(t318, sin_q_3.neg_mul_add(t326, t333));
+    // Row q[2]: right-hand side z[q[2]].
+    let t335 = t46.mul_add(t331, t334);
+    // Row q[3]: right-hand side z[q[3]].
+    let t336 = t72.neg_mul_add(t335, t69.neg_mul_add(t331, t309));
+    let t337 = t82.mul_add(t335, t80.mul_add(t331, t322));
+    // Row q[4]: right-hand side z[q[4]].
+    let t338 = t85.mul_add(t336, t337);
+    let t339 = sin_q_1 * q_1_dot;
+    let t340 = t242 * t339;
+    let t341 = sin_q_3 * t246;
+    let t342 = cos_q_1 * q_1_dot;
+    let t343 = t341 * t342;
+    let t344 = cos_q_3 * q_3_dot;
+    let t345 = cos_q_1 * t242;
+    let t346 = t344 * t345;
+    let t347 = sin_q_1 * t246;
+    let t348 = t344 * t347;
+    let t349 = sin_q_2 * q_2_dot;
+    let t350 = q_2_dot * t349;
+    let t351 = sin_q_1 * t350;
+    let t352 = sin_q_3.neg_mul_add(t351, t343 + t348);
+    let t353 = sin_q_3 * q_3_dot;
+    let t354 = q_3_dot * t353;
+    let t355 = sin_q_3.mul_sub(t340, t343) - t346 - t352;
+    let t356 = t339 * t353;
+    let t357 = q_1_dot * t342;
+    let t358 = q_3_dot * t344;
+    let t359 = cos_q_1.neg_mul_add(t358, t356);
+    let t360 = t355 - t154.neg_mul_add(t354, t346 + t348);
+    let t361 = cos_q_3.mul_sub(t357, t356) - t359 - t360;
+    let t362 = sin_q_2.mul_add(t344, t341);
+    let t363 = cos_q_1.mul_add(t353, cos_q_3 * t339);
+    let t364 = sin_q_1.mul_add(t362, sin_q_3 * t345) + t363;
+    let t365 = cos_q_4 * q_4_dot;
+    let t366 = t364 * t365;
+    let t367 = sin_q_4 * q_4_dot;
+    let t368 = q_4_dot * t367;
+    let t369 = cos_q_4 * cos_q_1;
+    let t370 = t258 * t369;
+    let t371 = cos_q_4 * sin_q_1;
+    let t372 = q_2_dot * t246;
+    let t373 = t349 * t367;
+    let t374 = sin_q_1 * t373;
+    let t375 = q_1_dot * t339;
+    let t376 = t0 * q_4_dot;
+    let t377 = t342 * t376;
+    let t378 = t371.mul_add(t372, t370) - t374;
+    let t379 = t11 * q_4_dot;
+    let t380 = q_4_dot * t379;
+    let t381 = t378 + (t11.mul_add(t375, t370) + t377);
+    let t382 = sin_q_4.mul_add(t361, t366) + t162.mul_add(t368, t366);
+    let t383 = t382 + (t381 + sin_q_1.mul_add(t380, t377 - t374));
+    let t384 = t246 * t342;
+    let t385 = cos_q_4.mul_add(t349, t376);
+    let t386 = sin_q_1.neg_mul_add(t385, t11 * t342);
+    let t387 = t386 - sin_q_4.mul_sub(t364, t162 * t365);
+    let t388 = cos_q_5 * q_5_dot;
+    let t389 = t387 * t388;
+    let t390 = sin_q_5 * q_5_dot;
+    let t391 = q_5_dot * t390;
+    let t392 = sin_q_5.neg_mul_add(t383, t389);
+    let t393 = t347 * t353;
+    let t394 = t345 * t353;
+    let t395 = cos_q_3 * t246;
+    let t396 = t342 * t395;
+    let t397 = cos_q_3.mul_add(t340, t394) - t396;
+    let t398 = cos_q_3.neg_mul_add(t351, t396 - t393);
+    let t399 = t339 * t344;
+    let t400 = cos_q_1.mul_add(t354, t399) + sin_q_3.mul_add(t357, t399);
+    let t401 = t154.mul_add(t358, t393 + t394) + t397 - t398 + t400;
+    let t402 = sin_q_2.neg_mul_add(t353, t395);
+    let t403 = sin_q_3.mul_sub(t339, cos_q_1 * t344);
+    let t404 = sin_q_1.mul_add(t402, cos_q_3 * t345) - t403;
+    let t405 = t390 * t404;
+    let t406 = q_5_dot * t388;
+    let t407 = cos_q_5.mul_add(t401, t405) + t168.mul_add(t406, t405);
+    let t408 = t375 + (t340 - t384 - (t384 - t351)) - t361 - t383;
+    let t409 = t408 - (t407 - (t392 + t167.neg_mul_add(t391, t389)));
+    let t410 = t157.mul_add(t335, t153.mul_add(t331, n(p.l) * t409));
+    let t411 = t92.mul_add(t335, t90.mul_add(t331, t284));
+    // Row q[5]: right-hand side z[q[5]].
+    let t412 = t96.mul_add(t338, t94.neg_mul_add(t336, t411));
+    let t413 = t166.mul_add(t338, t161.mul_add(t336, t410));
+    let t414 = t339 * t341;
+    let t415 = cos_q_1 * t246;
+    let t416 = t344 * t415;
+    let t417 = cos_q_1 * t350;
+    let t418 = t242 * t342;
+    let t419 = sin_q_1 * t242;
+    let t420 = t344 * t419;
+    let t421 = sin_q_3.mul_add(t418, t414) + t420;
+    let t422 = sin_q_3.mul_add(t417, t414 - t416) + t421;
+    let t423 = t342 * t353;
+    let t424 = sin_q_1.mul_add(t358, t423) + cos_q_3.mul_add(t375, t423);
+    let t425 = t422 + (t112.mul_add(t354, t420) - t416) + t424;
+    let t426 = cos_q_1.neg_mul_add(t362, sin_q_3 * t419);
+    let t427 = cos_q_3.mul_sub(t342, sin_q_1 * t353) - t426;
+    let t428 = t365 * t427;
+    let t429 = sin_q_4.neg_mul_add(t425, t428);
+    let t430 = t258 * t371;
+    let t431 = t339 * t376;
+    let t432 = cos_q_1 * t373;
+    let t433 = t369.neg_mul_add(t372, t430 + t432);
+    let t434 = cos_q_1.neg_mul_add(t380, t431 + t432);
+    let t435 = t11.mul_sub(t357, t430) - t431 - t433 - t434;
+    let t436 = t429 + t121.neg_mul_add(t368, t428) + t435;
+    let t437 = sin_q_4.mul_add(t427, t121 * t365);
+    let t438 = t388 * (t437 + cos_q_1.mul_add(t385, t11 * t339));
+    let t439 = t353 * t415;
+    let t440 = t339 * t395;
+    let t441 = t353 * t419;
+    let t442 = cos_q_3.mul_add(t418, t440) - t441;
+    let t443 = cos_q_3.mul_add(t417, t439 + t440) + t442;
+    let t444 = t342 * t344;
+    let t445 = sin_q_1.neg_mul_add(t354, t444);
+    let t446 = t443 - t112.neg_mul_add(t358, t441 - t439);
+    let t447 = cos_q_1.neg_mul_add(t402, cos_q_3 * t419);
+    let t448 = t390 * (sin_q_1.mul_add(t344, sin_q_3 * t342) + t447);
+    let t449 = t446 - (sin_q_3.mul_sub(t375, t444) - t445);
+    let t450 = cos_q_5.neg_mul_add(t449, t448);
+    let t451 = sin_q_5.mul_add(t436, t438) + t126.mul_add(t391, t438);
+    let t452 = t246 * t339;
+    let t453 = t425 + (t357 + (t418 + t452 + (t417 + t452))) - t436;
+    let t454 = t450 + t127.neg_mul_add(t406, t448) - t451 + t453;
+    let t455 = t116.mul_add(t335, t110.mul_add(t331, n(p.l) * t454));
+    let t456 = t125.neg_mul_add(t338, t120.mul_add(t336, t455));
+    // Row along: right-hand side z[along].
+    let t457 = t131.neg_mul_add(t412, t456);
+    let t458 = sin_q_4 * t344;
+    let t459 = t349 * t458;
+    let t460 = t344 * t379;
+    let t461 = sin_q_3 * t365;
+    let t462 = t349 * t461;
+    let t463 = t135.mul_add(t372, t459) + t462;
+    let t464 = t376.mul_add(sin_q_3 * q_4_dot, t462) - t460;
+    let t465 = t246 * t367;
+    let t466 = t365.mul_add(sin_q_2 * q_4_dot, t465);
+    let t467 = t0.mul_add(t354, t459) - t460 + t463 + t464;
+    let t468 = t467 + (t466 + cos_q_4.mul_add(t350, t465));
+    let t469 = cos_q_2.neg_mul_add(t458 + t461, t135 * t349);
+    let t470 = cos_q_4.mul_sub(t246, sin_q_2 * t367) - t469;
+    let t471 = t388 * t470;
+    let t472 = sin_q_5.neg_mul_add(t468, t471);
+    let t473 = t349 * t353;
+    let t474 = cos_q_5 * t473;
+    let t475 = t390 * (cos_q_3 * t349);
+    let t476 = cos_q_2 * t353;
+    let t477 = t390 * t476;
+    let t478 = cos_q_2 * t358;
+    let t479 = cos_q_5.neg_mul_add(t478, t474 + t477);
+    let t480 = t191.neg_mul_add(q_5_dot * q_5_dot, t475 + t477);
+    let t481 = t18.mul_sub(t372, t474) - t475 - t479 - t480;
+    let t482 = t344 * t349;
+    let t483 = cos_q_2.mul_add(t354, t482) + sin_q_3.mul_add(t372, t482);
+    let t484 = t472 + t1.neg_mul_add(t391, t471) + t481;
+    let t485 = t137.mul_add(t335, n(p.l) * (t468 + (t372 + t483) - t484));
+    let t486 = t141.neg_mul_add(t338, t139.mul_add(t336, t485));
+    // Row up: right-hand side z[up].
+    let t487 = t147.neg_mul_add(t457, t144.mul_add(t412, t486));
+    let t488 = t175.neg_mul_add(t457, t172.neg_mul_add(t412, t413));
+    // Row across: right-hand side z[across].
+    let t489 = t178.neg_mul_add(t487, t488);
+    let t490 = t388 * t476;
+    let t491 = t349 * (t18 * q_5_dot);
+    let t492 = sin_q_5 * t473;
+    let t493 = t59.mul_add(t372, t491) - t492;
+    let t494 = sin_q_5.neg_mul_add(t478, t492 - t490);
+    let t495 = t390 * t470;
+    let t496 = cos_q_5.mul_add(t468, t495) + t1.mul_add(t406, t495);
+    let t497 = t2.mul_add(t391, t490 + t491) + t493 - t494 + t496;
+    let t498 = t187.mul_add(t336, t185.mul_add(t335, t497));
+    let t499 = t194.mul_add(t412, t190.neg_mul_add(t338, t498));
+    let t500 = t200.neg_mul_add(t487, t197.neg_mul_add(t457, t499));
+    // Row tips: right-hand side z[tips].
+    let t501 = t204.neg_mul_add(t489, t500);
+    let t502 = t387 * t390;
+    let t503 = t388 * t404;
+    let t504 = sin_q_5.neg_mul_add(t401, t503);
+    let t505 = cos_q_5.mul_add(t383, t502) + t167.mul_add(t406, t502);
+    let t506 = t505 + (t504 + t168.neg_mul_add(t391, t503));
+    let t507 = t213.neg_mul_add(t335, t211.mul_add(t331, t506));
+    let t508 = t221.neg_mul_add(t338, t218.neg_mul_add(t336, t507));
+    let t509 = t229.neg_mul_add(t457, t225.neg_mul_add(t412, t508));
+    let t510 = t237.neg_mul_add(t489, t232.mul_add(t487, t509));
+    let t511 = t224.mul_add(t225, t212.mul_add(t213, t210 * t211));
+    let t512 = t511 + t220.mul_add(t221, t217 * t218);
+    let t513 = t231.neg_mul_add(t232, t228.neg_mul_add(t229, t512));
+    // Row turns: pivot d[turns].
+    let t514 = t240.neg_mul_add(t241, t236.neg_mul_add(t237, t513));
+    // Row turns: right-hand side z[turns].
+    let t515 = t241.mul_add(t501, t510) / t514;
+    // Back substitution: lambda[tips].
+    let t516 = t241.mul_add(t515, t209 * t501);
+    let t517 = t229.neg_mul_add(t515, t134 * t457);
+    let t518 = t237.neg_mul_add(t515, t182 * t489);
+    // Back substitution: lambda[across].
+    let t519 = t204.neg_mul_add(t516, t518);
+    let t520 = t200.neg_mul_add(t516, t232.mul_add(t515, t151 * t487));
+    // Back substitution: lambda[up].
+    let t521 = t178.neg_mul_add(t519, t520);
+    let t522 = t175.neg_mul_add(t519, t197.neg_mul_add(t516, t517));
+    // Back substitution: lambda[along].
+    let t523 = t147.neg_mul_add(t521, t522);
+    let t524 = t194.neg_mul_add(t516, t225.mul_add(t515, t99 * t412));
+    let t525 = t144.neg_mul_add(t521, t172.mul_add(t519, t524));
+    // Back substitution: a[q[5]].
+    let t526 = t131.mul_add(t523, t525);
+    let t527 = t190.mul_add(t516, t221.mul_add(t515, t89 * t338));
+    let t528 = t141.mul_add(t521, t166.neg_mul_add(t519, t527));
+    // Back substitution: a[q[4]].
+    let q_4_ddot = t96.mul_add(t526, t125.mul_add(t523, t528));
+    let t529 = t185.neg_mul_add(t516, t213.mul_add(t515, t68 * t335));
+    let t530 = t137.neg_mul_add(t521, t157.neg_mul_add(t519, t529));
+    let t531 = t92.mul_add(t526, t116.neg_mul_add(t523, t530));
+    let t532 = t82.mul_add(q_4_ddot, t531);
+    let t533 = t187.neg_mul_add(t516, t218.mul_add(t515, t79 * t336));
+    let t534 = t139.neg_mul_add(t521, t161.neg_mul_add(t519, t533));
+    let t535 = t94.neg_mul_add(t526, t120.neg_mul_add(t523, t534));
+    // Back substitution: a[q[3]].
+    let t536 = t85.mul_add(q_4_ddot, t535);
+    let t537 = t72 * t536;
+    let t538 = t153.neg_mul_add(t519, t211.neg_mul_add(t515, t43 * t331));
+    let t539 = t90.mul_add(t526, t110.neg_mul_add(t523, t538));
+    let t540 = t69.neg_mul_add(t536, t80.mul_add(q_4_ddot, t539));
+    // Back substitution: a[q[2]]; Back substitution: a[q[1]].
+    let q_1_ddot = -t46.mul_add(t532 - t537, t540);
+    let q_2_ddot = t537 - t532;
+    let q_3_ddot = -t536;
+    let q_5_ddot = -t526;
+    let sound = PIVOTS.hold(t42, t42)
+        & PIVOTS.hold(t67, t66)
+        & PIVOTS.hold(t78, t77)
+        & PIVOTS.hold(t88, t86)
+        & PIVOTS.hold(t98, n(p.k1))
+        & PIVOTS.hold(t133, t133)
+        & PIVOTS.hold(t150, t149)
+        & PIVOTS.hold(t181, t180)
+        & PIVOTS.hold(t208, t206)
+        & PIVOTS.hold(t514, t512)
+        & q_1_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (0, t42, t42),
+            (1, t67, t66),
+            (2, t78, t77),
+            (3, t88, t86),
+            (4, t98, n(p.k1)),
+            (5, t133, t133),
+            (6, t150, t149),
+            (7, t181, t180),
+            (8, t208, t206),
+            (9, t514, t512),
         ];
-        Ok(accelerations)
+        PIVOTS.check(pivots)?;
     }
+    let accelerations = [
+        q_1_ddot.store(),
+        q_2_ddot.store(),
+        q_3_ddot.store(),
+        q_4_ddot.store(),
+        q_5_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 5],
-    v: &[S; 5],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 5], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 5], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 5],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 5],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 5], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        let q_1 = n(q[0]);
-        let q_2 = n(q[1]);
-        let q_3 = n(q[2]);
-        let q_4 = n(q[3]);
-        let q_5 = n(q[4]);
-        let q_1_dot = n(v[0]);
-        let q_2_dot = n(v[1]);
-        let q_3_dot = n(v[2]);
-        let q_4_dot = n(v[3]);
-        let q_5_dot = n(v[4]);
-        let angles = [q_2, q_4, q_3, q_5, q_1];
-        let circular = N::sin_cos_all(angles);
-        let (sin_q_2, cos_q_2) = circular[0];
-        let (sin_q_4, cos_q_4) = circular[1];
-        let (sin_q_3, cos_q_3) = circular[2];
-        let (sin_q_5, cos_q_5) = circular[3];
-        let (sin_q_1, cos_q_1) = circular[4];
-        let t0 = cos_q_2 * sin_q_4;
-        let t1 = sin_q_3.mul_add(t0, sin_q_2 * cos_q_4);
-        let t2 = cos_q_2 * cos_q_3;
-        let t3 = cos_q_5.mul_add(t1, sin_q_5 * t2);
-        let t4 = sin_q_2 * n(p.l);
-        let t5 = n(p.l) + t4;
-        let t6 = cos_q_3 * cos_q_4.mul_sub(t5, n(p.l) * t0);
-        let t7 = n(p.l).neg_mul_add(t2, t6);
-        let t8 = n(p.half_l_m).neg_mul_add(t7, t3 * n(p.k3));
-        let t9 = cos_q_4 * cos_q_5;
-        let t10 = sin_q_3 * n(p.k15);
-        let t11 = cos_q_2 * cos_q_4;
-        let t12 = sin_q_3.mul_sub(t11, sin_q_2 * sin_q_4);
-        let t13 = n(p.half_l_m) * sin_q_5;
-        let t14 = n(p.k17) + t13;
-        let t15 = t12 * t14;
-        let t16 = t5.mul_add(t10, sin_q_2 * n(p.k6));
-        let t17 = sin_q_3.mul_add(t5, t4);
-        let t18 = cos_q_3 * cos_q_5;
-        let t19 = sin_q_4.mul_add(t5, n(p.l) * t11) * t18;
-        let t20 = sin_q_5.neg_mul_add(n(p.l).neg_mul_add(t12, t17), t19);
-        let t21 = n(p.half_l_m).mul_add(t20, t12 * n(p.k1));
-        let t22 = sin_q_5 * n(p.half_l_squared_m);
-        let t23 = t12.mul_add(t22, n(p.k17).neg_mul_add(t17, t12 * n(p.k5)));
-        let t24 = t21 + t23;
-        let t25 = t9.mul_add(t8, n(p.l).neg_mul_add(t15, t16));
-        let t26 = sin_q_4.neg_mul_add(t24, t25);
-        let t27 = n(p.half_l_m).mul_add(t3, t2 * n(p.k17));
-        let t28 = n(p.half_l_m) * t12;
-        let t29 = sin_q_4 * cos_q_5;
-        let t30 = sin_q_3 * sin_q_2.neg_mul_add(n(p.k15), t15);
-        let t31 = cos_q_3.mul_add(cos_q_4.mul_sub(t27, t28 * t29), t30);
-        let t32 = t26 + sin_q_2.mul_add(n(p.k9), n(p.k20));
-        let t33 = n(p.k17).neg_mul_add(t6, t2 * n(p.k4));
-        let t34 = t3.mul_add(n(p.half_l_squared_m), t33);
-        let t35 = sin_q_5.mul_add(t8, t34);
-        let t36 = sin_q_4.mul_add(t27, t28 * t9);
-        let t37 = n(p.l).mul_add(t36, t2.mul_add(n(p.k7), t35));
-        let t38 = cos_q_4.mul_add(t24, t29 * t8);
-        let t39 = sin_q_2.neg_mul_add(n(p.k13), t31);
-        let t40 = cos_q_3.mul_add(t37, sin_q_3 * t38);
-        let t41 = cos_q_2.mul_add(t40, n(p.l).neg_mul_add(t39, n(p.k10)));
-        let t42 = sin_q_2.mul_add(n(p.l).neg_mul_add(t31, t32), t41);
-        let t43 = N::ONE / t42;
-        let t44 = cos_q_3.mul_sub(t38, n(p.l) * t2.mul_add(n(p.k15), t36));
-        let t45 = sin_q_3.neg_mul_add(t37, t44);
-        let t46 = t43 * t45;
-        let t47 = n(p.l) * sin_q_3;
-        let t48 = n(p.l) + t47;
-        let t49 = sin_q_4 * t48;
-        let t50 = sin_q_4.mul_sub(t18, sin_q_3 * sin_q_5);
-        let t51 = n(p.half_l_m).mul_sub(t47 + t49, n(p.k3) * t50);
-        let t52 = n(p.k17).mul_add(t49, sin_q_3 * n(p.k4));
-        let t53 = n(p.half_l_squared_m).neg_mul_add(t50, t52);
-        let t54 = sin_q_5.mul_add(t51, t53);
-        let t55 = n(p.half_l_m) * cos_q_4;
-        let t56 = n(p.half_l_m).neg_mul_add(t50, sin_q_3 * n(p.k17));
-        let t57 = sin_q_4.mul_sub(t56, t55 * (cos_q_4 * t18));
-        let t58 = t54 + sin_q_3.mul_add(n(p.k7), n(p.k21));
-        let t59 = cos_q_3 * sin_q_5;
-        let t60 = cos_q_3 * cos_q_4;
-        let t61 = cos_q_5.mul_sub(t48, n(p.l) * t59);
-        let t62 = t55.mul_sub(t61, n(p.k1) * t60);
-        let t63 = t60.neg_mul_add(t22 + n(p.k5), t62);
-        let t64 = n(p.l).mul_add(t10 + t57, n(p.k8));
-        let t65 = cos_q_3.neg_mul_add(cos_q_4.mul_add(t63, t29 * t51), t64);
-        let t66 = sin_q_3.mul_add(n(p.l).mul_add(t57, t58), t65);
-        let t67 = t45.neg_mul_add(t46, t66);
-        let t68 = N::ONE / t67;
-        let t69 = t26 * t43;
-        let t70 = t9.mul_add(t51, t14 * (n(p.l) * t60));
-        let t71 = t45.mul_add(t69, sin_q_4.neg_mul_add(t63, t70));
-        let t72 = t68 * t71;
-        let t73 = n(p.l) * sin_q_4;
-        let t74 = t13.mul_add(n(p.l) + t73, sin_q_4 * n(p.k1));
-        let t75 = sin_q_4.mul_add(t22, sin_q_4.mul_add(n(p.k5), n(p.k22)));
-        let t76 = t14.mul_add(t73, t9.mul_add(t9 * n(p.k3), n(p.k6)));
-        let t77 = sin_q_4.mul_add(t74 + t75, t76);
-        let t78 = t71.neg_mul_add(t72, t26.neg_mul_add(t69, t77));
-        let t79 = N::ONE / t78;
-        let t80 = t35 * t43;
-        let t81 = t45.mul_add(t80, t54);
-        let t82 = t68 * t81;
-        let t83 = sin_q_5.mul_add(n(p.k3), n(p.half_l_squared_m));
-        let t84 = t71.neg_mul_add(t82, t26.neg_mul_add(t80, t9 * t83));
-        let t85 = t79 * t84;
-        let t86 = sin_q_5.mul_add(n(p.half_l_squared_m) + t83, n(p.k4));
-        let t87 = t81.neg_mul_add(t82, t35.neg_mul_add(t80, t86));
-        let t88 = t84.neg_mul_add(t85, t87);
-        let t89 = N::ONE / t88;
-        let t90 = t21 * t43;
-        let t91 = t45.mul_add(t90, t62);
-        let t92 = t68 * t91;
-        let t93 = t71.mul_add(t92, t26.mul_add(t90, t74));
-        let t94 = t79 * t93;
-        let t95 = t84.neg_mul_add(t94, t81.mul_add(t92, t35 * t90));
-        let t96 = t89 * t95;
-        let t97 = t91.neg_mul_add(t92, t21.neg_mul_add(t90, n(p.k1)));
-        let t98 = t95.neg_mul_add(t96, t93.neg_mul_add(t94, t97));
-        let t99 = N::ONE / t98;
-        let t100 = n(p.l).mul_add(sin_q_5, n(p.l));
-        let t101 = sin_q_4.mul_add(t100, n(p.l));
-        let t102 = sin_q_3 * t101;
-        let t103 = n(p.l) * t18;
-        let t104 = t11 * t100;
-        let t105 = sin_q_2.mul_add(t102 - t103, t5 - t104);
-        let t106 = n(p.l) * cos_q_5;
-        let t107 = sin_q_3 * t106;
-        let t108 = cos_q_3.mul_add(t101, t107);
-        let t109 = sin_q_1.neg_mul_add(t105, cos_q_1 * t108);
-        let t110 = t43 * t109;
-        let t111 = cos_q_4 * t100;
-        let t112 = sin_q_2 * cos_q_1;
-        let t113 = t102 + (n(p.l) - t103);
-        let t114 = t113.mul_add(cos_q_2 * cos_q_1, t111 * t112);
-        let t115 = t45.mul_add(t110, t114);
-        let t116 = t68 * t115;
-        let t117 = sin_q_3 * sin_q_1.mul_sub(t101, t106 * t112);
-        let t118 = cos_q_3.mul_sub(t101.mul_add(t112, sin_q_1 * t106), t117);
-        let t119 = t71.neg_mul_add(t116, t26.neg_mul_add(t110, t118));
-        let t120 = t79 * t119;
-        let t121 = sin_q_3.mul_add(t112, cos_q_3 * sin_q_1);
-        let t122 = t100 * cos_q_4.mul_add(t121, t0 * cos_q_1);
-        let t123 = t81.neg_mul_add(t116, t35.neg_mul_add(t110, t122));
-        let t124 = t84.neg_mul_add(t120, t123);
-        let t125 = t89 * t124;
-        let t126 = sin_q_4.neg_mul_add(t121, t11 * cos_q_1);
-        let t127 = cos_q_3.mul_sub(t112, sin_q_3 * sin_q_1);
-        let t128 = n(p.l) * cos_q_5.mul_sub(t126, sin_q_5 * t127);
-        let t129 = t91.neg_mul_add(t116, t21.neg_mul_add(t110, t128));
-        let t130 = t95.mul_add(t125, t93.mul_add(t120, t129));
-        let t131 = t99 * t130;
-        let t132 = t119.mul_add(t120, t115.mul_add(t116, t109 * t110));
-        let t133 = t130.mul_add(t131, t124.mul_add(t125, t132));
-        let t134 = N::ONE / t133;
-        let t135 = sin_q_3 * sin_q_4;
-        let t136 = sin_q_2.neg_mul_add(t100.mul_add(t135, t48 - t103), t104);
-        let t137 = t68 * t136;
-        let t138 = t71.neg_mul_add(t137, cos_q_2.mul_add(t107, t2 * t101));
-        let t139 = t79 * t138;
-        let t140 = t84.neg_mul_add(t139, t81.neg_mul_add(t137, t12 * t100));
-        let t141 = t89 * t140;
-        let t142 = t93.neg_mul_add(t139, t91.mul_add(t137, n(p.l) * t3));
-        let t143 = t95.neg_mul_add(t141, t142);
-        let t144 = t99 * t143;
-        let t145 = t141.mul_add(t124, t139.mul_add(t119, t137 * t115));
-        let t146 = t144.neg_mul_add(t130, t145);
-        let t147 = t134 * t146;
-        let t148 = t138.mul_add(t139, t136 * t137);
-        let t149 = t143.mul_add(t144, t140 * t141) + t148;
-        let t150 = t146.neg_mul_add(t147, t149);
-        let t151 = N::ONE / t150;
-        let t152 = cos_q_1.mul_add(t105, sin_q_1 * t108);
-        let t153 = t43 * t152;
-        let t154 = sin_q_2 * sin_q_1;
-        let t155 = cos_q_2 * sin_q_1;
-        let t156 = t45.mul_add(t153, t155.mul_add(t113, t154 * t111));
-        let t157 = t68 * t156;
-        let t158 = cos_q_3 * t154.mul_sub(t101, cos_q_1 * t106);
-        let t159 = sin_q_3.mul_add(cos_q_1.mul_add(t101, t154 * t106), t158);
-        let t160 = t71.neg_mul_add(t157, t26.neg_mul_add(t153, t159));
-        let t161 = t79 * t160;
-        let t162 = sin_q_3.neg_mul_add(t154, cos_q_3 * cos_q_1);
-        let t163 = cos_q_4.mul_sub(t162, t0 * sin_q_1);
-        let t164 = t81.mul_add(t157, t35.mul_add(t153, t163 * t100));
-        let t165 = t84.mul_add(t161, t164);
-        let t166 = t89 * t165;
-        let t167 = sin_q_4.mul_add(t162, t11 * sin_q_1);
-        let t168 = cos_q_3.mul_add(t154, sin_q_3 * cos_q_1);
-        let t169 = n(p.l) * cos_q_5.mul_sub(t167, sin_q_5 * t168);
-        let t170 = t91.neg_mul_add(t157, t21.neg_mul_add(t153, t169));
-        let t171 = t95.neg_mul_add(t166, t93.mul_add(t161, t170));
-        let t172 = t99 * t171;
-        let t173 = t161.mul_add(t119, t157.mul_add(t115, t153 * t109));
-        let t174 = t172.mul_add(t130, t166.neg_mul_add(t124, t173));
-        let t175 = t134 * t174;
-        let t176 = t166.neg_mul_add(t140, t161.mul_add(t138, t157 * t136));
-        let t177 = t146.neg_mul_add(t175, t172.neg_mul_add(t143, t176));
-        let t178 = t151 * t177;
-        let t179 = t171.mul_add(t172, t156.mul_add(t157, t152 * t153));
-        let t180 = t179 + t165.mul_add(t166, t160 * t161);
-        let t181 = t177.neg_mul_add(t178, t174.neg_mul_add(t175, t180));
-        let t182 = N::ONE / t181;
-        let t183 = sin_q_3.mul_add(t29, t59);
-        let t184 = sin_q_2.neg_mul_add(t183, t11 * cos_q_5);
-        let t185 = t68 * t184;
-        let t186 = t71.neg_mul_add(t185, cos_q_2 * t50);
-        let t187 = t79 * t186;
-        let t188 = t81.neg_mul_add(t185, t12 * cos_q_5);
-        let t189 = t84.neg_mul_add(t187, t188);
-        let t190 = t89 * t189;
-        let t191 = cos_q_2 * t18;
-        let t192 = t91.mul_add(t185, sin_q_5.neg_mul_add(t1, t191));
-        let t193 = t95.neg_mul_add(t190, t93.neg_mul_add(t187, t192));
-        let t194 = t99 * t193;
-        let t195 = t190.mul_add(t124, t187.mul_add(t119, t185 * t115));
-        let t196 = t194.neg_mul_add(t130, t195);
-        let t197 = t134 * t196;
-        let t198 = t190.mul_add(t140, t187.mul_add(t138, t185 * t136));
-        let t199 = t146.neg_mul_add(t197, t194.mul_add(t143, t198));
-        let t200 = t151 * t199;
-        let t201 = t190.neg_mul_add(t165, t187.mul_add(t160, t185 * t156));
-        let t202 = t174.neg_mul_add(t197, t194.neg_mul_add(t171, t201));
-        let t203 = t177.neg_mul_add(t200, t202);
-        let t204 = t182 * t203;
-        let t205 = t186.mul_add(t187, t184 * t185);
-        let t206 = t193.mul_add(t194, t189 * t190) + t205;
-        let t207 = t199.neg_mul_add(t200, t196.neg_mul_add(t197, t206));
-        let t208 = t203.neg_mul_add(t204, t207);
-        let t209 = N::ONE / t208;
-        let t210 = cos_q_1.mul_sub(t184, t50 * sin_q_1);
-        let t211 = t43 * t210;
-        let t212 = t45.neg_mul_add(t211, t183.mul_add(t155, t9 * t154));
-        let t213 = t68 * t212;
-        let t214 = cos_q_3 * t29.mul_add(t154, sin_q_5 * cos_q_1);
-        let t215 = t29.mul_sub(cos_q_1, sin_q_5 * t154);
-        let t216 = t26.mul_add(t211, sin_q_3.mul_add(t215, t214));
-        let t217 = t213.neg_mul_add(t71, t216);
-        let t218 = t79 * t217;
-        let t219 = t213.mul_add(t81, t35.neg_mul_add(t211, cos_q_5 * t163));
-        let t220 = t84.mul_add(t218, t219);
-        let t221 = t89 * t220;
-        let t222 = sin_q_5.mul_add(t167, cos_q_5 * t168);
-        let t223 = t213.mul_add(t91, t21.neg_mul_add(t211, t222));
-        let t224 = t95.mul_add(t221, t93.neg_mul_add(t218, t223));
-        let t225 = t99 * t224;
-        let t226 = t213.neg_mul_add(t115, t211 * t109);
-        let t227 = t221.mul_add(t124, t218.neg_mul_add(t119, t226));
-        let t228 = t225.mul_add(t130, t227);
-        let t229 = t134 * t228;
-        let t230 = t221.neg_mul_add(t140, t218.mul_add(t138, t213 * t136));
-        let t231 = t146.mul_add(t229, t225.mul_add(t143, t230));
-        let t232 = t151 * t231;
-        let t233 = t213.neg_mul_add(t156, t211 * t152);
-        let t234 = t221.neg_mul_add(t165, t218.neg_mul_add(t160, t233));
-        let t235 = t174.neg_mul_add(t229, t225.mul_add(t171, t234));
-        let t236 = t177.mul_add(t232, t235);
-        let t237 = t182 * t236;
-        let t238 = t221.neg_mul_add(t189, t218.mul_add(t186, t184 * t213));
-        let t239 = t196.mul_add(t229, t225.mul_add(t193, t238));
-        let t240 = t203.mul_add(t237, t199.neg_mul_add(t232, t239));
-        let t241 = t209 * t240;
-        let t242 = sin_q_2 * q_1_dot;
-        let t243 = n(p.l) * q_1_dot;
-        let t244 = t242.mul_add(t242, q_2_dot * q_2_dot);
-        let t245 = n(p.l).mul_add(t244, t242.mul_add(t243, cos_q_2 * n(p.g)));
-        let t246 = cos_q_2 * q_2_dot;
-        let t247 = q_1_dot * t246;
-        let t248 = t247 * n(p.two_l);
-        let t249 = cos_q_3.mul_sub(t245, sin_q_3 * t248);
-        let t250 = cos_q_2 * q_1_dot;
-        let t251 = sin_q_3.neg_mul_add(t250, cos_q_3 * q_2_dot);
-        let t252 = t2.mul_add(q_1_dot, sin_q_3 * q_2_dot);
-        let t253 = t251 * t252;
-        let t254 = t247 - t253;
-        let t255 = n(p.l).neg_mul_add(t254, t249);
-        let t256 = t242 + q_3_dot;
-        let t257 = cos_q_4.mul_sub(t256, sin_q_4 * t251);
-        let t258 = q_2_dot * t242;
-        let t259 = sin_q_3.mul_sub(t258, q_3_dot * t252);
-        let t260 = cos_q_4.mul_add(t259, sin_q_4 * t247);
-        let t261 = t257.mul_add(q_4_dot, t260);
-        let t262 = q_4_dot + t252;
-        let t263 = t257 * t262;
-        let t264 = t261 + t263;
-        let t265 = t252.mul_add(t252, t256 * t256);
-        let t266 = cos_q_3.mul_add(t248, sin_q_3 * t245);
-        let t267 = n(p.l).mul_add(t265, t266);
-        let t268 = t250.neg_mul_add(t243, sin_q_2 * n(p.g));
-        let t269 = t250 * t242;
-        let t270 = n(p.l).neg_mul_add(t269, t268);
-        let t271 = cos_q_3.mul_sub(t258, t251 * q_3_dot);
-        let t272 = t251 * t256;
-        let t273 = t271 - t272;
-        let t274 = n(p.l).neg_mul_add(t273, t270);
-        let t275 = sin_q_4.mul_add(t256, cos_q_4 * t251);
-        let t276 = t275.mul_add(t275, t262 * t262);
-        let t277 = sin_q_4.mul_add(t267, cos_q_4 * t274);
-        let t278 = sin_q_5 * n(p.l).neg_mul_add(t264, t255);
-        let t279 = sin_q_5.neg_mul_add(t257, cos_q_5 * t262);
-        let t280 = cos_q_5.mul_add(t257, sin_q_5 * t262);
-        let t281 = t279 * t280;
-        let t282 = cos_q_5.mul_add(n(p.l).mul_add(t276, t277), t278);
-        let t283 = n(p.k1).mul_sub(t261, n(p.k3) * t281);
-        let t284 = n(p.half_l_m).neg_mul_add(t282, t283);
-        let t285 = t261 - t281;
-        let t286 = t275 + q_5_dot;
-        let t287 = t286.mul_add(t286, t280 * t280);
-        let t288 = sin_q_5.mul_add(t285, cos_q_5 * t287);
-        let t289 = n(p.k5).mul_add(t261, n(p.k4) * t263);
-        let t290 = n(p.k17).neg_mul_add(t255, t289);
-        let t291 = t284 + n(p.half_l_squared_m).mul_add(t288, t290);
-        let t292 = n(p.half_l_m).mul_add(t288, n(p.k17) * t264);
-        let t293 = n(p.k7).neg_mul_add(t253, n(p.k6) * t247);
-        let t294 = n(p.l).mul_add(t292, n(p.k15).neg_mul_add(t249, t293));
-        let t295 = cos_q_4.mul_sub(t267, sin_q_4 * t274);
-        let t296 = t257 * t275;
-        let t297 = t271 + t296;
-        let t298 = sin_q_4.neg_mul_add(t259, cos_q_4 * t247);
-        let t299 = q_4_dot.neg_mul_add(t275, t298);
-        let t300 = cos_q_5.mul_sub(t299, sin_q_5 * t271);
-        let t301 = t279.mul_add(q_5_dot, t300);
-        let t302 = t279 * t286;
-        let t303 = n(p.k3).mul_add(t301, n(p.k1) * t302);
-        let t304 = n(p.l).mul_add(t297, t295);
-        let t305 = n(p.half_l_m).neg_mul_add(t304, t303);
-        let t306 = t280 * (t286 * n(p.k18));
-        let t307 = sin_q_5.neg_mul_add(t306, t275 * (t262 * n(p.k16)));
-        let t308 = cos_q_5.neg_mul_add(t305, t307);
-        let t309 = cos_q_4.neg_mul_add(t308, sin_q_4.mul_add(t291, t294));
-        let t310 = sin_q_5.mul_sub(t287, cos_q_5 * t285);
-        let t311 = n(p.half_l_m).mul_add(t310, n(p.k17) * t276);
-        let t312 = t302 + t301;
-        let t313 = n(p.half_l_m).neg_mul_add(t312, n(p.k17) * t297);
-        let t314 = sin_q_4.mul_add(t311, n(p.k15) * t265);
-        let t315 = sin_q_3 * n(p.k15).mul_add(t254, t292);
-        let t316 = cos_q_3.mul_add(cos_q_4.mul_add(t313, t314), t315);
-        let t317 = sin_q_4.neg_mul_add(t308, t252 * (t256 * n(p.k14)));
-        let t318 = cos_q_4.neg_mul_add(t291, t317);
-        let t319 = n(p.k5).mul_add(t296, n(p.k4) * t271);
-        let t320 = cos_q_5.mul_add(t306, n(p.k17).mul_add(t295, t319));
-        let t321 = n(p.half_l_squared_m).neg_mul_add(t312, t320);
-        let t322 = sin_q_5.neg_mul_add(t305, t321);
-        let t323 = n(p.k7).mul_sub(t271, n(p.k6) * t272);
-        let t324 = cos_q_4.mul_sub(t311, sin_q_4 * t313);
-        let t325 = t322 + n(p.k15).neg_mul_add(t270, t323);
-        let t326 = n(p.l).neg_mul_add(t324, t325);
-        let t327 = cos_q_3.mul_add(t326, t258 * n(p.k12));
-        let t328 = n(p.l) * t247.mul_add(n(p.k23), t316);
-        let t329 = cos_q_2.mul_add(sin_q_3.mul_sub(t318, t327), t328);
-        let t330 = n(p.l).mul_add(t316, t247.mul_add(n(p.k11), t309));
-        let t331 = sin_q_2.mul_add(t330, t329);
-        let t332 = n(p.k13).mul_sub(t268, n(p.k9) * t269);
-        let t333 = n(p.l).mul_add(n(p.k15).neg_mul_add(t273, t324), t332);
-        let t334 = cos_q_3.neg_mul_add(t318, sin_q_3.neg_mul_add(t326, t333));
-        let t335 = t46.mul_add(t331, t334);
-        let t336 = t72.neg_mul_add(t335, t69.neg_mul_add(t331, t309));
-        let t337 = t82.mul_add(t335, t80.mul_add(t331, t322));
-        let t338 = t85.mul_add(t336, t337);
-        let t339 = sin_q_1 * q_1_dot;
-        let t340 = t242 * t339;
-        let t341 = sin_q_3 * t246;
-        let t342 = cos_q_1 * q_1_dot;
-        let t343 = t341 * t342;
-        let t344 = cos_q_3 * q_3_dot;
-        let t345 = cos_q_1 * t242;
-        let t346 = t344 * t345;
-        let t347 = sin_q_1 * t246;
-        let t348 = t344 * t347;
-        let t349 = sin_q_2 * q_2_dot;
-        let t350 = q_2_dot * t349;
-        let t351 = sin_q_1 * t350;
-        let t352 = sin_q_3.neg_mul_add(t351, t348 + t343);
-        let t353 = sin_q_3 * q_3_dot;
-        let t354 = q_3_dot * t353;
-        let t355 = sin_q_3.mul_sub(t340, t343) - t346 - t352;
-        let t356 = t353 * t339;
-        let t357 = q_1_dot * t342;
-        let t358 = q_3_dot * t344;
-        let t359 = cos_q_1.neg_mul_add(t358, t356);
-        let t360 = t355 - t154.neg_mul_add(t354, t348 + t346);
-        let t361 = cos_q_3.mul_sub(t357, t356) - t359 - t360;
-        let t362 = sin_q_2.mul_add(t344, t341);
-        let t363 = cos_q_1.mul_add(t353, cos_q_3 * t339);
-        let t364 = sin_q_1.mul_add(t362, sin_q_3 * t345) + t363;
-        let t365 = cos_q_4 * q_4_dot;
-        let t366 = t365 * t364;
-        let t367 = sin_q_4 * q_4_dot;
-        let t368 = q_4_dot * t367;
-        let t369 = cos_q_4 * cos_q_1;
-        let t370 = t258 * t369;
-        let t371 = cos_q_4 * sin_q_1;
-        let t372 = q_2_dot * t246;
-        let t373 = t349 * t367;
-        let t374 = sin_q_1 * t373;
-        let t375 = q_1_dot * t339;
-        let t376 = t0 * q_4_dot;
-        let t377 = t342 * t376;
-        let t378 = t371.mul_add(t372, t370) - t374;
-        let t379 = t11 * q_4_dot;
-        let t380 = q_4_dot * t379;
-        let t381 = t378 + (t377 + t11.mul_add(t375, t370));
-        let t382 = t162.mul_add(t368, t366) + sin_q_4.mul_add(t361, t366);
-        let t383 = t382 + (sin_q_1.mul_add(t380, t377 - t374) + t381);
-        let t384 = t246 * t342;
-        let t385 = cos_q_4.mul_add(t349, t376);
-        let t386 = sin_q_1.neg_mul_add(t385, t11 * t342);
-        let t387 = t386 - sin_q_4.mul_sub(t364, t162 * t365);
-        let t388 = cos_q_5 * q_5_dot;
-        let t389 = t388 * t387;
-        let t390 = sin_q_5 * q_5_dot;
-        let t391 = q_5_dot * t390;
-        let t392 = sin_q_5.neg_mul_add(t383, t389);
-        let t393 = t353 * t347;
-        let t394 = t353 * t345;
-        let t395 = cos_q_3 * t246;
-        let t396 = t342 * t395;
-        let t397 = cos_q_3.mul_add(t340, t394) - t396;
-        let t398 = cos_q_3.neg_mul_add(t351, t396 - t393);
-        let t399 = t344 * t339;
-        let t400 = cos_q_1.mul_add(t354, t399) + sin_q_3.mul_add(t357, t399);
-        let t401 = t400 + (t154.mul_add(t358, t393 + t394) + t397 - t398);
-        let t402 = sin_q_2 * t353;
-        let t403 = sin_q_1.mul_add(t395 - t402, cos_q_3 * t345);
-        let t404 = t403 - sin_q_3.mul_sub(t339, cos_q_1 * t344);
-        let t405 = t390 * t404;
-        let t406 = q_5_dot * t388;
-        let t407 = t168.mul_add(t406, t405) + cos_q_5.mul_add(t401, t405);
-        let t408 = t375 + (t340 - t384 - (t384 - t351)) - t361 - t383;
-        let t409 = t408 - (t407 - (t167.neg_mul_add(t391, t389) + t392));
-        let t410 = t157.mul_add(t335, t153.mul_add(t331, n(p.l) * t409));
-        let t411 = t92.mul_add(t335, t90.mul_add(t331, t284));
-        let t412 = t96.mul_add(t338, t94.neg_mul_add(t336, t411));
-        let t413 = t166.mul_add(t338, t161.mul_add(t336, t410));
-        let t414 = t341 * t339;
-        let t415 = cos_q_1 * t246;
-        let t416 = t344 * t415;
-        let t417 = cos_q_1 * t350;
-        let t418 = t242 * t342;
-        let t419 = sin_q_1 * t242;
-        let t420 = t344 * t419;
-        let t421 = t420 + sin_q_3.mul_add(t418, t414);
-        let t422 = sin_q_3.mul_add(t417, t414 - t416) + t421;
-        let t423 = t353 * t342;
-        let t424 = sin_q_1.mul_add(t358, t423) + cos_q_3.mul_add(t375, t423);
-        let t425 = t112.mul_add(t354, t420) - t416 + t422 + t424;
-        let t426 = cos_q_1.neg_mul_add(t362, sin_q_3 * t419);
-        let t427 = cos_q_3.mul_sub(t342, sin_q_1 * t353) - t426;
-        let t428 = t365 * t427;
-        let t429 = sin_q_4.neg_mul_add(t425, t428);
-        let t430 = t258 * t371;
-        let t431 = t376 * t339;
-        let t432 = cos_q_1 * t373;
-        let t433 = t369.neg_mul_add(t372, t432 + t430);
-        let t434 = cos_q_1.neg_mul_add(t380, t432 + t431);
-        let t435 = t11.mul_sub(t357, t430) - t431 - t433 - t434;
-        let t436 = t121.neg_mul_add(t368, t428) + t429 + t435;
-        let t437 = sin_q_4.mul_add(t427, t121 * t365);
-        let t438 = t388 * (t437 + cos_q_1.mul_add(t385, t11 * t339));
-        let t439 = t353 * t415;
-        let t440 = t339 * t395;
-        let t441 = t419 * t353;
-        let t442 = cos_q_3.mul_add(t418, t440) - t441;
-        let t443 = cos_q_3.mul_add(t417, t439 + t440) + t442;
-        let t444 = t344 * t342;
-        let t445 = sin_q_1.neg_mul_add(t354, t444);
-        let t446 = t443 - t112.neg_mul_add(t358, t441 - t439);
-        let t447 = cos_q_1.mul_add(t402 - t395, cos_q_3 * t419);
-        let t448 = t390 * (sin_q_1.mul_add(t344, sin_q_3 * t342) + t447);
-        let t449 = t446 - (sin_q_3.mul_sub(t375, t444) - t445);
-        let t450 = cos_q_5.neg_mul_add(t449, t448);
-        let t451 = t126.mul_add(t391, t438) + sin_q_5.mul_add(t436, t438);
-        let t452 = t246 * t339;
-        let t453 = t425 + (t357 + (t417 + t452 + (t418 + t452))) - t436;
-        let t454 = t127.neg_mul_add(t406, t448) + t450 - t451 + t453;
-        let t455 = t116.mul_add(t335, t110.mul_add(t331, n(p.l) * t454));
-        let t456 = t125.neg_mul_add(t338, t120.mul_add(t336, t455));
-        let t457 = t131.neg_mul_add(t412, t456);
-        let t458 = sin_q_4 * t344;
-        let t459 = t349 * t458;
-        let t460 = t344 * t379;
-        let t461 = sin_q_3 * t365;
-        let t462 = t349 * t461;
-        let t463 = t462 + t135.mul_add(t372, t459);
-        let t464 = t376.mul_add(sin_q_3 * q_4_dot, t462) - t460;
-        let t465 = t246 * t367;
-        let t466 = t365.mul_add(sin_q_2 * q_4_dot, t465);
-        let t467 = t464 + (t0.mul_add(t354, t459) - t460 + t463);
-        let t468 = t467 + (t466 + cos_q_4.mul_add(t350, t465));
-        let t469 = cos_q_2.neg_mul_add(t461 + t458, t135 * t349);
-        let t470 = cos_q_4.mul_sub(t246, sin_q_2 * t367) - t469;
-        let t471 = t388 * t470;
-        let t472 = sin_q_5.neg_mul_add(t468, t471);
-        let t473 = t353 * t349;
-        let t474 = cos_q_5 * t473;
-        let t475 = t390 * (cos_q_3 * t349);
-        let t476 = cos_q_2 * t353;
-        let t477 = t390 * t476;
-        let t478 = cos_q_2 * t358;
-        let t479 = cos_q_5.neg_mul_add(t478, t477 + t474);
-        let t480 = t191.neg_mul_add(q_5_dot * q_5_dot, t477 + t475);
-        let t481 = t18.mul_sub(t372, t474) - t475 - t479 - t480;
-        let t482 = t344 * t349;
-        let t483 = cos_q_2.mul_add(t354, t482) + sin_q_3.mul_add(t372, t482);
-        let t484 = t1.neg_mul_add(t391, t471) + t472 + t481;
-        let t485 = t137.mul_add(t335, n(p.l) * (t468 + (t372 + t483) - t484));
-        let t486 = t141.neg_mul_add(t338, t139.mul_add(t336, t485));
-        let t487 = t147.neg_mul_add(t457, t144.mul_add(t412, t486));
-        let t488 = t175.neg_mul_add(t457, t172.neg_mul_add(t412, t413));
-        let t489 = t178.neg_mul_add(t487, t488);
-        let t490 = t388 * t476;
-        let t491 = t349 * (t18 * q_5_dot);
-        let t492 = sin_q_5 * t473;
-        let t493 = t59.mul_add(t372, t491) - t492;
-        let t494 = sin_q_5.neg_mul_add(t478, t492 - t490);
-        let t495 = t390 * t470;
-        let t496 = t1.mul_add(t406, t495) + cos_q_5.mul_add(t468, t495);
-        let t497 = t2.mul_add(t391, t490 + t491) + t493 - t494 + t496;
-        let t498 = t187.mul_add(t336, t185.mul_add(t335, t497));
-        let t499 = t194.mul_add(t412, t190.neg_mul_add(t338, t498));
-        let t500 = t200.neg_mul_add(t487, t197.neg_mul_add(t457, t499));
-        let t501 = t204.neg_mul_add(t489, t500);
-        let t502 = t390 * t387;
-        let t503 = t388 * t404;
-        let t504 = sin_q_5.neg_mul_add(t401, t503);
-        let t505 = t167.mul_add(t406, t502) + cos_q_5.mul_add(t383, t502);
-        let t506 = t168.neg_mul_add(t391, t503) + t504 + t505;
-        let t507 = t213.neg_mul_add(t335, t211.mul_add(t331, t506));
-        let t508 = t221.neg_mul_add(t338, t218.neg_mul_add(t336, t507));
-        let t509 = t229.neg_mul_add(t457, t225.neg_mul_add(t412, t508));
-        let t510 = t237.neg_mul_add(t489, t232.mul_add(t487, t509));
-        let t511 = t224.mul_add(t225, t212.mul_add(t213, t210 * t211));
-        let t512 = t511 + t220.mul_add(t221, t217 * t218);
-        let t513 = t231.neg_mul_add(t232, t228.neg_mul_add(t229, t512));
-        let t514 = t240.neg_mul_add(t241, t236.neg_mul_add(t237, t513));
-        let t515 = t241.mul_add(t501, t510) / t514;
-        let lambda4 = t241.mul_add(t515, t209 * t501);
-        let t516 = t229.neg_mul_add(t515, t134 * t457);
-        let t517 = t237.neg_mul_add(t515, t182 * t489);
-        let t518 = t204 * lambda4;
-        let t519 = t517 - t518;
-        let t520 = t200.neg_mul_add(lambda4, t232.mul_add(t515, t151 * t487));
-        let t521 = t178 * t519;
-        let t522 = t175.neg_mul_add(t519, t197.neg_mul_add(lambda4, t516));
-        let lambda1 = t147.neg_mul_add(t520 - t521, t522);
-        let lambda2 = t521 - t520;
-        let lambda3 = t518 - t517;
-        let lambda5 = -t515;
-        let sound = PIVOTS.hold(t42, t42)
-            & PIVOTS.hold(t67, t66)
-            & PIVOTS.hold(t78, t77)
-            & PIVOTS.hold(t88, t86)
-            & PIVOTS.hold(t98, n(p.k1))
-            & PIVOTS.hold(t133, t133)
-            & PIVOTS.hold(t150, t149)
-            & PIVOTS.hold(t181, t180)
-            & PIVOTS.hold(t208, t206)
-            & PIVOTS.hold(t514, t512)
-            & lambda1.is_finite();
-        if !sound {
-            let pivots = [
-                (0, t42, t42),
-                (1, t67, t66),
-                (2, t78, t77),
-                (3, t88, t86),
-                (4, t98, n(p.k1)),
-                (5, t133, t133),
-                (6, t150, t149),
-                (7, t181, t180),
-                (8, t208, t206),
-                (9, t514, t512),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [
-            lambda1.store(),
-            lambda2.store(),
-            lambda3.store(),
-            lambda4.store(),
-            lambda5.store(),
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    let q_1 = n(q[0]);
+    let q_2 = n(q[1]);
+    let q_3 = n(q[2]);
+    let q_4 = n(q[3]);
+    let q_5 = n(q[4]);
+    let q_1_dot = n(v[0]);
+    let q_2_dot = n(v[1]);
+    let q_3_dot = n(v[2]);
+    let q_4_dot = n(v[3]);
+    let q_5_dot = n(v[4]);
+    let angles = [q_2, q_4, q_3, q_5, q_1];
+    let circular = N::sin_cos_all(angles);
+    let (sin_q_2, cos_q_2) = circular[0];
+    let (sin_q_4, cos_q_4) = circular[1];
+    let (sin_q_3, cos_q_3) = circular[2];
+    let (sin_q_5, cos_q_5) = circular[3];
+    let (sin_q_1, cos_q_1) = circular[4];
+    let t0 = cos_q_2 * sin_q_4;
+    let t1 = t0.mul_add(sin_q_3, sin_q_2 * cos_q_4);
+    let t2 = cos_q_2 * cos_q_3;
+    let t3 = t1.mul_add(cos_q_5, sin_q_5 * t2);
+    let t4 = sin_q_2 * n(p.l);
+    let t5 = n(p.l) + t4;
+    let t6 = cos_q_3 * cos_q_4.mul_sub(t5, t0 * n(p.l));
+    let t7 = t2.neg_mul_add(n(p.l), t6);
+    let t8 = t7.neg_mul_add(n(p.half_l_m), t3 * n(p.k3));
+    let t9 = cos_q_4 * cos_q_5;
+    let t10 = sin_q_3 * n(p.k15);
+    let t11 = cos_q_2 * cos_q_4;
+    let t12 = sin_q_3.mul_sub(t11, sin_q_2 * sin_q_4);
+    let t13 = sin_q_5 * n(p.half_l_m);
+    let t14 = t13 + n(p.k17);
+    let t15 = t12 * t14;
+    let t16 = t5.mul_add(t10, sin_q_2 * n(p.k6));
+    let t17 = sin_q_3.mul_add(t5, t4);
+    let t18 = cos_q_3 * cos_q_5;
+    let t19 = sin_q_4.mul_add(t5, n(p.l) * t11) * t18;
+    let t20 = sin_q_5.neg_mul_add(n(p.l).neg_mul_add(t12, t17), t19);
+    let t21 = n(p.half_l_m).mul_add(t20, t12 * n(p.k1));
+    let t22 = sin_q_5 * n(p.half_l_squared_m);
+    let t23 = t12.mul_add(t22, n(p.k17).neg_mul_add(t17, t12 * n(p.k5)));
+    let t24 = t21 + t23;
+    let t25 = t8.mul_add(t9, n(p.l).neg_mul_add(t15, t16));
+    let t26 = sin_q_4.neg_mul_add(t24, t25);
+    let t27 = t3.mul_add(n(p.half_l_m), t2 * n(p.k17));
+    let t28 = n(p.half_l_m) * t12;
+    let t29 = sin_q_4 * cos_q_5;
+    let t30 = sin_q_3 * sin_q_2.neg_mul_add(n(p.k15), t15);
+    let t31 = cos_q_3.mul_add(cos_q_4.mul_sub(t27, t28 * t29), t30);
+    let t32 = t26 + sin_q_2.mul_add(n(p.k9), n(p.k20));
+    let t33 = t6.neg_mul_add(n(p.k17), t2 * n(p.k4));
+    let t34 = t3.mul_add(n(p.half_l_squared_m), t33);
+    let t35 = sin_q_5.mul_add(t8, t34);
+    let t36 = sin_q_4.mul_add(t27, t9 * t28);
+    let t37 = n(p.l).mul_add(t36, t2.mul_add(n(p.k7), t35));
+    let t38 = cos_q_4.mul_add(t24, t8 * t29);
+    let t39 = sin_q_2.neg_mul_add(n(p.k13), t31);
+    let t40 = cos_q_3.mul_add(t37, sin_q_3 * t38);
+    let t41 = cos_q_2.mul_add(t40, n(p.l).neg_mul_add(t39, n(p.k10)));
+    // Row q[1]: pivot d[q[1]].
+    let t42 = sin_q_2.mul_add(n(p.l).neg_mul_add(t31, t32), t41);
+    let t43 = N::ONE / t42;
+    let t44 = cos_q_3.mul_sub(t38, n(p.l) * t2.mul_add(n(p.k15), t36));
+    let t45 = sin_q_3.neg_mul_add(t37, t44);
+    // Eliminates q[1] from row q[2]: l[q[2], q[1]].
+    let t46 = t43 * t45;
+    let t47 = sin_q_3 * n(p.l);
+    let t48 = n(p.l) + t47;
+    let t49 = sin_q_4 * t48;
+    let t50 = sin_q_4.mul_sub(t18, sin_q_3 * sin_q_5);
+    let t51 = n(p.half_l_m).mul_sub(t47 + t49, n(p.k3) * t50);
+    let t52 = n(p.k17).mul_add(t49, sin_q_3 * n(p.k4));
+    let t53 = n(p.half_l_squared_m).neg_mul_add(t50, t52);
+    let t54 = sin_q_5.mul_add(t51, t53);
+    let t55 = cos_q_4 * n(p.half_l_m);
+    let t56 = n(p.half_l_m).neg_mul_add(t50, sin_q_3 * n(p.k17));
+    let t57 = sin_q_4.mul_sub(t56, t55 * (cos_q_4 * t18));
+    let t58 = t54 + sin_q_3.mul_add(n(p.k7), n(p.k21));
+    let t59 = cos_q_3 * sin_q_5;
+    let t60 = cos_q_4 * cos_q_3;
+    let t61 = cos_q_5.mul_sub(t48, n(p.l) * t59);
+    let t62 = t55.mul_sub(t61, n(p.k1) * t60);
+    let t63 = t60.neg_mul_add(n(p.k5) + t22, t62);
+    let t64 = n(p.l).mul_add(t10 + t57, n(p.k8));
+    let t65 = cos_q_3.neg_mul_add(cos_q_4.mul_add(t63, t29 * t51), t64);
+    let t66 = sin_q_3.mul_add(n(p.l).mul_add(t57, t58), t65);
+    // Row q[2]: pivot d[q[2]].
+    let t67 = t45.neg_mul_add(t46, t66);
+    let t68 = N::ONE / t67;
+    // Eliminates q[1] from row q[3]: l[q[3], q[1]].
+    let t69 = t26 * t43;
+    let t70 = t9.mul_add(t51, t14 * (n(p.l) * t60));
+    let t71 = t45.mul_add(t69, sin_q_4.neg_mul_add(t63, t70));
+    // Eliminates q[2] from row q[3]: l[q[3], q[2]].
+    let t72 = t68 * t71;
+    let t73 = sin_q_4 * n(p.l);
+    let t74 = t13.mul_add(n(p.l) + t73, sin_q_4 * n(p.k1));
+    let t75 = sin_q_4.mul_add(t22, sin_q_4.mul_add(n(p.k5), n(p.k22)));
+    let t76 = t14.mul_add(t73, t9.mul_add(n(p.k3) * t9, n(p.k6)));
+    let t77 = sin_q_4.mul_add(t74 + t75, t76);
+    // Row q[3]: pivot d[q[3]].
+    let t78 = t71.neg_mul_add(t72, t26.neg_mul_add(t69, t77));
+    let t79 = N::ONE / t78;
+    // Eliminates q[1] from row q[4]: l[q[4], q[1]].
+    let t80 = t35 * t43;
+    let t81 = t45.mul_add(t80, t54);
+    // Eliminates q[2] from row q[4]: l[q[4], q[2]].
+    let t82 = t68 * t81;
+    let t83 = sin_q_5.mul_add(n(p.k3), n(p.half_l_squared_m));
+    let t84 = t71.neg_mul_add(t82, t26.neg_mul_add(t80, t9 * t83));
+    // Eliminates q[3] from row q[4]: l[q[4], q[3]].
+    let t85 = t79 * t84;
+    let t86 = sin_q_5.mul_add(n(p.half_l_squared_m) + t83, n(p.k4));
+    let t87 = t81.neg_mul_add(t82, t35.neg_mul_add(t80, t86));
+    // Row q[4]: pivot d[q[4]].
+    let t88 = t84.neg_mul_add(t85, t87);
+    let t89 = N::ONE / t88;
+    // Eliminates q[1] from row q[5]: l[q[5], q[1]].
+    let t90 = t21 * t43;
+    let t91 = t45.mul_add(t90, t62);
+    // Eliminates q[2] from row q[5]: l[q[5], q[2]].
+    let t92 = t68 * t91;
+    let t93 = t71.mul_add(t92, t26.mul_add(t90, t74));
+    // Eliminates q[3] from row q[5]: l[q[5], q[3]].
+    let t94 = t79 * t93;
+    let t95 = t84.neg_mul_add(t94, t81.mul_add(t92, t35 * t90));
+    // Eliminates q[4] from row q[5]: l[q[5], q[4]].
+    let t96 = t89 * t95;
+    let t97 = t91.neg_mul_add(t92, t21.neg_mul_add(t90, n(p.k1)));
+    // Row q[5]: pivot d[q[5]].
+    let t98 = t95.neg_mul_add(t96, t93.neg_mul_add(t94, t97));
+    let t99 = N::ONE / t98;
+    let t100 = sin_q_5.mul_add(n(p.l), n(p.l));
+    let t101 = sin_q_4.mul_add(t100, n(p.l));
+    let t102 = sin_q_3 * t101;
+    let t103 = n(p.l) * t18;
+    let t104 = t11 * t100;
+    let t105 = sin_q_2.mul_add(t102 - t103, t5 - t104);
+    let t106 = cos_q_5 * n(p.l);
+    let t107 = sin_q_3 * t106;
+    let t108 = cos_q_3.mul_add(t101, t107);
+    let t109 = t105.neg_mul_add(sin_q_1, cos_q_1 * t108);
+    // Eliminates q[1] from row along: l[along, q[1]].
+    let t110 = t43 * t109;
+    let t111 = cos_q_4 * t100;
+    let t112 = sin_q_2 * cos_q_1;
+    let t113 = t102 + (n(p.l) - t103);
+    let t114 = t113.mul_add(cos_q_2 * cos_q_1, t111 * t112);
+    let t115 = t45.mul_add(t110, t114);
+    // Eliminates q[2] from row along: l[along, q[2]].
+    let t116 = t68 * t115;
+    let t117 = sin_q_3 * t101.mul_sub(sin_q_1, t106 * t112);
+    let t118 = cos_q_3.mul_sub(t101.mul_add(t112, sin_q_1 * t106), t117);
+    let t119 = t71.neg_mul_add(t116, t26.neg_mul_add(t110, t118));
+    // Eliminates q[3] from row along: l[along, q[3]].
+    let t120 = t79 * t119;
+    let t121 = sin_q_3.mul_add(t112, cos_q_3 * sin_q_1);
+    let t122 = t100 * cos_q_4.mul_add(t121, t0 * cos_q_1);
+    let t123 = t81.neg_mul_add(t116, t35.neg_mul_add(t110, t122));
+    let t124 = t84.neg_mul_add(t120, t123);
+    // Eliminates q[4] from row along: l[along, q[4]].
+    let t125 = t89 * t124;
+    let t126 = sin_q_4.neg_mul_add(t121, t11 * cos_q_1);
+    let t127 = cos_q_3.mul_sub(t112, sin_q_3 * sin_q_1);
+    let t128 = n(p.l) * cos_q_5.mul_sub(t126, sin_q_5 * t127);
+    let t129 = t91.neg_mul_add(t116, t21.neg_mul_add(t110, t128));
+    let t130 = t95.mul_add(t125, t93.mul_add(t120, t129));
+    // Eliminates q[5] from row along: l[along, q[5]].
+    let t131 = t99 * t130;
+    let t132 = t119.mul_add(t120, t115.mul_add(t116, t109 * t110));
+    // Row along: pivot d[along].
+    let t133 = t130.mul_add(t131, t124.mul_add(t125, t132));
+    let t134 = N::ONE / t133;
+    let t135 = sin_q_4 * sin_q_3;
+    let t136 = sin_q_2.neg_mul_add(t100.mul_add(t135, t48 - t103), t104);
+    // Eliminates q[2] from row up: l[up, q[2]].
+    let t137 = t68 * t136;
+    let t138 = t71.neg_mul_add(t137, t2.mul_add(t101, cos_q_2 * t107));
+    // Eliminates q[3] from row up: l[up, q[3]].
+    let t139 = t79 * t138;
+    let t140 = t84.neg_mul_add(t139, t81.neg_mul_add(t137, t12 * t100));
+    // Eliminates q[4] from row up: l[up, q[4]].
+    let t141 = t89 * t140;
+    let t142 = t93.neg_mul_add(t139, t91.mul_add(t137, t3 * n(p.l)));
+    let t143 = t95.neg_mul_add(t141, t142);
+    // Eliminates q[5] from row up: l[up, q[5]].
+    let t144 = t99 * t143;
+    let t145 = t124.mul_add(t141, t119.mul_add(t139, t115 * t137));
+    let t146 = t130.neg_mul_add(t144, t145);
+    // Eliminates along from row up: l[up, along].
+    let t147 = t134 * t146;
+    let t148 = t138.mul_add(t139, t136 * t137);
+    let t149 = t143.mul_add(t144, t140 * t141) + t148;
+    // Row up: pivot d[up].
+    let t150 = t146.neg_mul_add(t147, t149);
+    let t151 = N::ONE / t150;
+    let t152 = t105.mul_add(cos_q_1, sin_q_1 * t108);
+    // Eliminates q[1] from row across: l[across, q[1]].
+    let t153 = t43 * t152;
+    let t154 = sin_q_2 * sin_q_1;
+    let t155 = cos_q_2 * sin_q_1;
+    let t156 = t45.mul_add(t153, t113.mul_add(t155, t111 * t154));
+    // Eliminates q[2] from row across: l[across, q[2]].
+    let t157 = t68 * t156;
+    let t158 = cos_q_3 * t101.mul_sub(t154, cos_q_1 * t106);
+    let t159 = sin_q_3.mul_add(t101.mul_add(cos_q_1, t106 * t154), t158);
+    let t160 = t71.neg_mul_add(t157, t26.neg_mul_add(t153, t159));
+    // Eliminates q[3] from row across: l[across, q[3]].
+    let t161 = t79 * t160;
+    let t162 = sin_q_3.neg_mul_add(t154, cos_q_3 * cos_q_1);
+    let t163 = cos_q_4.mul_sub(t162, t0 * sin_q_1);
+    let t164 = t81.mul_add(t157, t35.mul_add(t153, t100 * t163));
+    let t165 = t84.mul_add(t161, t164);
+    // Eliminates q[4] from row across: l[across, q[4]].
+    let t166 = t89 * t165;
+    let t167 = sin_q_4.mul_add(t162, t11 * sin_q_1);
+    let t168 = cos_q_3.mul_add(t154, sin_q_3 * cos_q_1);
+    let t169 = n(p.l) * cos_q_5.mul_sub(t167, sin_q_5 * t168);
+    let t170 = t91.neg_mul_add(t157, t21.neg_mul_add(t153, t169));
+    let t171 = t95.neg_mul_add(t166, t93.mul_add(t161, t170));
+    // Eliminates q[5] from row across: l[across, q[5]].
+    let t172 = t99 * t171;
+    let t173 = t119.mul_add(t161, t115.mul_add(t157, t109 * t153));
+    let t174 = t130.mul_add(t172, t124.neg_mul_add(t166, t173));
+    // Eliminates along from row across: l[across, along].
+    let t175 = t134 * t174;
+    let t176 = t140.neg_mul_add(t166, t138.mul_add(t161, t136 * t157));
+    let t177 = t146.neg_mul_add(t175, t143.neg_mul_add(t172, t176));
+    // Eliminates up from row across: l[across, up].
+    let t178 = t151 * t177;
+    let t179 = t171.mul_add(t172, t156.mul_add(t157, t152 * t153));
+    let t180 = t179 + t165.mul_add(t166, t160 * t161);
+    // Row across: pivot d[across].
+    let t181 = t177.neg_mul_add(t178, t174.neg_mul_add(t175, t180));
+    let t182 = N::ONE / t181;
+    let t183 = sin_q_3.mul_add(t29, t59);
+    let t184 = sin_q_2.neg_mul_add(t183, cos_q_5 * t11);
+    // Eliminates q[2] from row tips: l[tips, q[2]].
+    let t185 = t68 * t184;
+    let t186 = t71.neg_mul_add(t185, cos_q_2 * t50);
+    // Eliminates q[3] from row tips: l[tips, q[3]].
+    let t187 = t79 * t186;
+    let t188 = t81.neg_mul_add(t185, cos_q_5 * t12);
+    let t189 = t84.neg_mul_add(t187, t188);
+    // Eliminates q[4] from row tips: l[tips, q[4]].
+    let t190 = t89 * t189;
+    let t191 = cos_q_2 * t18;
+    let t192 = t91.mul_add(t185, t1.neg_mul_add(sin_q_5, t191));
+    let t193 = t95.neg_mul_add(t190, t93.neg_mul_add(t187, t192));
+    // Eliminates q[5] from row tips: l[tips, q[5]].
+    let t194 = t99 * t193;
+    let t195 = t124.mul_add(t190, t119.mul_add(t187, t115 * t185));
+    let t196 = t130.neg_mul_add(t194, t195);
+    // Eliminates along from row tips: l[tips, along].
+    let t197 = t134 * t196;
+    let t198 = t140.mul_add(t190, t138.mul_add(t187, t136 * t185));
+    let t199 = t146.neg_mul_add(t197, t143.mul_add(t194, t198));
+    // Eliminates up from row tips: l[tips, up].
+    let t200 = t151 * t199;
+    let t201 = t165.neg_mul_add(t190, t160.mul_add(t187, t156 * t185));
+    let t202 = t174.neg_mul_add(t197, t171.neg_mul_add(t194, t201));
+    let t203 = t177.neg_mul_add(t200, t202);
+    // Eliminates across from row tips: l[tips, across].
+    let t204 = t182 * t203;
+    let t205 = t186.mul_add(t187, t184 * t185);
+    let t206 = t193.mul_add(t194, t189 * t190) + t205;
+    let t207 = t199.neg_mul_add(t200, t196.neg_mul_add(t197, t206));
+    // Row tips: pivot d[tips].
+    let t208 = t203.neg_mul_add(t204, t207);
+    let t209 = N::ONE / t208;
+    let t210 = cos_q_1.mul_sub(t184, t50 * sin_q_1);
+    // Eliminates q[1] from row turns: l[turns, q[1]].
+    let t211 = t43 * t210;
+    let t212 = t45.neg_mul_add(t211, t155.mul_add(t183, t9 * t154));
+    // Eliminates q[2] from row turns: l[turns, q[2]].
+    let t213 = t68 * t212;
+    let t214 = cos_q_3 * t29.mul_add(t154, sin_q_5 * cos_q_1);
+    let t215 = t29.mul_sub(cos_q_1, sin_q_5 * t154);
+    let t216 = t26.mul_add(t211, sin_q_3.mul_add(t215, t214));
+    let t217 = t71.neg_mul_add(t213, t216);
+    // Eliminates q[3] from row turns: l[turns, q[3]].
+    let t218 = t79 * t217;
+    let t219 = t81.mul_add(t213, t35.neg_mul_add(t211, cos_q_5 * t163));
+    let t220 = t84.mul_add(t218, t219);
+    // Eliminates q[4] from row turns: l[turns, q[4]].
+    let t221 = t89 * t220;
+    let t222 = sin_q_5.mul_add(t167, cos_q_5 * t168);
+    let t223 = t91.mul_add(t213, t21.neg_mul_add(t211, t222));
+    let t224 = t95.mul_add(t221, t93.neg_mul_add(t218, t223));
+    // Eliminates q[5] from row turns: l[turns, q[5]].
+    let t225 = t99 * t224;
+    let t226 = t115.neg_mul_add(t213, t109 * t211);
+    let t227 = t124.mul_add(t221, t119.neg_mul_add(t218, t226));
+    let t228 = t130.mul_add(t225, t227);
+    // Eliminates along from row turns: l[turns, along].
+    let t229 = t134 * t228;
+    let t230 = t140.neg_mul_add(t221, t138.mul_add(t218, t136 * t213));
+    let t231 = t146.mul_add(t229, t143.mul_add(t225, t230));
+    // Eliminates up from row turns: l[turns, up].
+    let t232 = t151 * t231;
+    let t233 = t156.neg_mul_add(t213, t152 * t211);
+    let t234 = t165.neg_mul_add(t221, t160.neg_mul_add(t218, t233));
+    let t235 = t174.neg_mul_add(t229, t171.mul_add(t225, t234));
+    let t236 = t177.mul_add(t232, t235);
+    // Eliminates across from row turns: l[turns, across].
+    let t237 = t182 * t236;
+    let t238 = t189.neg_mul_add(t221, t186.mul_add(t218, t184 * t213));
+    let t239 = t196.mul_add(t229, t193.mul_add(t225, t238));
+    let t240 = t203.mul_add(t237, t199.neg_mul_add(t232, t239));
+    // Eliminates tips from row turns: l[turns, tips].
+    let t241 = t209 * t240;
+    let t242 = sin_q_2 * q_1_dot;
+    let t243 = n(p.l) * q_1_dot;
+    let t244 = t242.mul_add(t242, q_2_dot * q_2_dot);
+    let t245 = n(p.l).mul_add(t244, t242.mul_add(t243, cos_q_2 * n(p.g)));
+    let t246 = cos_q_2 * q_2_dot;
+    let t247 = q_1_dot * t246;
+    let t248 = t247 * n(p.two_l);
+    let t249 = cos_q_3.mul_sub(t245, sin_q_3 * t248);
+    let t250 = cos_q_2 * q_1_dot;
+    let t251 = sin_q_3.neg_mul_add(t250, cos_q_3 * q_2_dot);
+    let t252 = t2.mul_add(q_1_dot, sin_q_3 * q_2_dot);
+    let t253 = t251 * t252;
+    let t254 = t247 - t253;
+    let t255 = n(p.l).neg_mul_add(t254, t249);
+    let t256 = t242 + q_3_dot;
+    let t257 = cos_q_4.mul_sub(t256, sin_q_4 * t251);
+    let t258 = t242 * q_2_dot;
+    let t259 = sin_q_3.mul_sub(t258, t252 * q_3_dot);
+    let t260 = cos_q_4.mul_add(t259, sin_q_4 * t247);
+    let t261 = t257.mul_add(q_4_dot, t260);
+    let t262 = t252 + q_4_dot;
+    let t263 = t257 * t262;
+    let t264 = t261 + t263;
+    let t265 = t252.mul_add(t252, t256 * t256);
+    let t266 = sin_q_3.mul_add(t245, cos_q_3 * t248);
+    let t267 = n(p.l).mul_add(t265, t266);
+    let t268 = t243.neg_mul_add(t250, sin_q_2 * n(p.g));
+    let t269 = t242 * t250;
+    let t270 = n(p.l).neg_mul_add(t269, t268);
+    let t271 = cos_q_3.mul_sub(t258, t251 * q_3_dot);
+    let t272 = t251 * t256;
+    let t273 = t271 - t272;
+    let t274 = n(p.l).neg_mul_add(t273, t270);
+    let t275 = cos_q_4.mul_add(t251, sin_q_4 * t256);
+    let t276 = t275.mul_add(t275, t262 * t262);
+    let t277 = sin_q_4.mul_add(t267, cos_q_4 * t274);
+    let t278 = sin_q_5 * n(p.l).neg_mul_add(t264, t255);
+    let t279 = sin_q_5.neg_mul_add(t257, cos_q_5 * t262);
+    let t280 = cos_q_5.mul_add(t257, sin_q_5 * t262);
+    let t281 = t279 * t280;
+    let t282 = cos_q_5.mul_add(n(p.l).mul_add(t276, t277), t278);
+    let t283 = n(p.k1).mul_sub(t261, n(p.k3) * t281);
+    let t284 = n(p.half_l_m).neg_mul_add(t282, t283);
+    let t285 = t261 - t281;
+    let t286 = t275 + q_5_dot;
+    let t287 = t280.mul_add(t280, t286 * t286);
+    let t288 = sin_q_5.mul_add(t285, cos_q_5 * t287);
+    let t289 = n(p.k5).mul_add(t261, n(p.k4) * t263);
+    let t290 = n(p.k17).neg_mul_add(t255, t289);
+    let t291 = t284 + n(p.half_l_squared_m).mul_add(t288, t290);
+    let t292 = n(p.half_l_m).mul_add(t288, n(p.k17) * t264);
+    let t293 = n(p.k7).neg_mul_add(t253, n(p.k6) * t247);
+    let t294 = n(p.l).mul_add(t292, n(p.k15).neg_mul_add(t249, t293));
+    let t295 = cos_q_4.mul_sub(t267, sin_q_4 * t274);
+    let t296 = t257 * t275;
+    let t297 = t271 + t296;
+    let t298 = sin_q_4.neg_mul_add(t259, cos_q_4 * t247);
+    let t299 = q_4_dot.neg_mul_add(t275, t298);
+    let t300 = cos_q_5.mul_sub(t299, sin_q_5 * t271);
+    let t301 = t279.mul_add(q_5_dot, t300);
+    let t302 = t279 * t286;
+    let t303 = n(p.k3).mul_add(t301, n(p.k1) * t302);
+    let t304 = n(p.l).mul_add(t297, t295);
+    let t305 = n(p.half_l_m).neg_mul_add(t304, t303);
+    let t306 = t280 * (t286 * n(p.k18));
+    let t307 = sin_q_5.neg_mul_add(t306, t275 * (t262 * n(p.k16)));
+    let t308 = cos_q_5.neg_mul_add(t305, t307);
+    let t309 = cos_q_4.neg_mul_add(t308, sin_q_4.mul_add(t291, t294));
+    let t310 = sin_q_5.mul_sub(t287, cos_q_5 * t285);
+    let t311 = n(p.half_l_m).mul_add(t310, n(p.k17) * t276);
+    let t312 = t301 + t302;
+    let t313 = n(p.half_l_m).neg_mul_add(t312, n(p.k17) * t297);
+    let t314 = sin_q_4.mul_add(t311, n(p.k15) * t265);
+    let t315 = sin_q_3 * n(p.k15).mul_add(t254, t292);
+    let t316 = cos_q_3.mul_add(cos_q_4.mul_add(t313, t314), t315);
+    let t317 = sin_q_4.neg_mul_add(t308, t252 * (t256 * n(p.k14)));
+    let t318 = cos_q_4.neg_mul_add(t291, t317);
+    let t319 = n(p.k5).mul_add(t296, n(p.k4) * t271);
+    let t320 = cos_q_5.mul_add(t306, n(p.k17).mul_add(t295, t319));
+    let t321 = n(p.half_l_squared_m).neg_mul_add(t312, t320);
+    let t322 = sin_q_5.neg_mul_add(t305, t321);
+    let t323 = n(p.k7).mul_sub(t271, n(p.k6) * t272);
+    let t324 = cos_q_4.mul_sub(t311, sin_q_4 * t313);
+    let t325 = t322 + n(p.k15).neg_mul_add(t270, t323);
+    let t326 = n(p.l).neg_mul_add(t324, t325);
+    let t327 = cos_q_3.mul_add(t326, t258 * n(p.k12));
+    let t328 = n(p.l) * t247.mul_add(n(p.k23), t316);
+    let t329 = cos_q_2.mul_add(sin_q_3.mul_sub(t318, t327), t328);
+    let t330 = n(p.l).mul_add(t316, t247.mul_add(n(p.k11), t309));
+    let t331 = sin_q_2.mul_add(t330, t329);
+    let t332 = n(p.k13).mul_sub(t268, n(p.k9) * t269);
+    let t333 = n(p.l).mul_add(n(p.k15).neg_mul_add(t273, t324), t332);
+    let t334 = cos_q_3.neg_mul_add(t318, sin_q_3.neg_mul_add(t326, t333));
+    // Row q[2]: right-hand side z[q[2]].
+    let t335 = t46.mul_add(t331, t334);
+    // Row q[3]: right-hand side z[q[3]].
+    let t336 = t72.neg_mul_add(t335, t69.neg_mul_add(t331, t309));
+    let t337 = t82.mul_add(t335, t80.mul_add(t331, t322));
+    // Row q[4]: right-hand side z[q[4]].
+    let t338 = t85.mul_add(t336, t337);
+    let t339 = sin_q_1 * q_1_dot;
+    let t340 = t242 * t339;
+    let t341 = sin_q_3 * t246;
+    let t342 = cos_q_1 * q_1_dot;
+    let t343 = t341 * t342;
+    let t344 = cos_q_3 * q_3_dot;
+    let t345 = cos_q_1 * t242;
+    let t346 = t344 * t345;
+    let t347 = sin_q_1 * t246;
+    let t348 = t344 * t347;
+    let t349 = sin_q_2 * q_2_dot;
+    let t350 = q_2_dot * t349;
+    let t351 = sin_q_1 * t350;
+    let t352 = sin_q_3.neg_mul_add(t351, t343 + t348);
+    let t353 = sin_q_3 * q_3_dot;
+    let t354 = q_3_dot * t353;
+    let t355 = sin_q_3.mul_sub(t340, t343) - t346 - t352;
+    let t356 = t339 * t353;
+    let t357 = q_1_dot * t342;
+    let t358 = q_3_dot * t344;
+    let t359 = cos_q_1.neg_mul_add(t358, t356);
+    let t360 = t355 - t154.neg_mul_add(t354, t346 + t348);
+    let t361 = cos_q_3.mul_sub(t357, t356) - t359 - t360;
+    let t362 = sin_q_2.mul_add(t344, t341);
+    let t363 = cos_q_1.mul_add(t353, cos_q_3 * t339);
+    let t364 = sin_q_1.mul_add(t362, sin_q_3 * t345) + t363;
+    let t365 = cos_q_4 * q_4_dot;
+    let t366 = t364 * t365;
+    let t367 = sin_q_4 * q_4_dot;
+    let t368 = q_4_dot * t367;
+    let t369 = cos_q_4 * cos_q_1;
+    let t370 = t258 * t369;
+    let t371 = cos_q_4 * sin_q_1;
+    let t372 = q_2_dot * t246;
+    let t373 = t349 * t367;
+    let t374 = sin_q_1 * t373;
+    let t375 = q_1_dot * t339;
+    let t376 = t0 * q_4_dot;
+    let t377 = t342 * t376;
+    let t378 = t371.mul_add(t372, t370) - t374;
+    let t379 = t11 * q_4_dot;
+    let t380 = q_4_dot * t379;
+    let t381 = t378 + (t11.mul_add(t375, t370) + t377);
+    let t382 = sin_q_4.mul_add(t361, t366) + t162.mul_add(t368, t366);
+    let t383 = t382 + (t381 + sin_q_1.mul_add(t380, t377 - t374));
+    let t384 = t246 * t342;
+    let t385 = cos_q_4.mul_add(t349, t376);
+    let t386 = sin_q_1.neg_mul_add(t385, t11 * t342);
+    let t387 = t386 - sin_q_4.mul_sub(t364, t162 * t365);
+    let t388 = cos_q_5 * q_5_dot;
+    let t389 = t387 * t388;
+    let t390 = sin_q_5 * q_5_dot;
+    let t391 = q_5_dot * t390;
+    let t392 = sin_q_5.neg_mul_add(t383, t389);
+    let t393 = t347 * t353;
+    let t394 = t345 * t353;
+    let t395 = cos_q_3 * t246;
+    let t396 = t342 * t395;
+    let t397 = cos_q_3.mul_add(t340, t394) - t396;
+    let t398 = cos_q_3.neg_mul_add(t351, t396 - t393);
+    let t399 = t339 * t344;
+    let t400 = cos_q_1.mul_add(t354, t399) + sin_q_3.mul_add(t357, t399);
+    let t401 = t154.mul_add(t358, t393 + t394) + t397 - t398 + t400;
+    let t402 = sin_q_2.neg_mul_add(t353, t395);
+    let t403 = sin_q_3.mul_sub(t339, cos_q_1 * t344);
+    let t404 = sin_q_1.mul_add(t402, cos_q_3 * t345) - t403;
+    let t405 = t390 * t404;
+    let t406 = q_5_dot * t388;
+    let t407 = cos_q_5.mul_add(t401, t405) + t168.mul_add(t406, t405);
+    let t408 = t375 + (t340 - t384 - (t384 - t351)) - t361 - t383;
+    let t409 = t408 - (t407 - (t392 + t167.neg_mul_add(t391, t389)));
+    let t410 = t157.mul_add(t335, t153.mul_add(t331, n(p.l) * t409));
+    let t411 = t92.mul_add(t335, t90.mul_add(t331, t284));
+    // Row q[5]: right-hand side z[q[5]].
+    let t412 = t96.mul_add(t338, t94.neg_mul_add(t336, t411));
+    let t413 = t166.mul_add(t338, t161.mul_add(t336, t410));
+    let t414 = t339 * t341;
+    let t415 = cos_q_1 * t246;
+    let t416 = t344 * t415;
+    let t417 = cos_q_1 * t350;
+    let t418 = t242 * t342;
+    let t419 = sin_q_1 * t242;
+    let t420 = t344 * t419;
+    let t421 = sin_q_3.mul_add(t418, t414) + t420;
+    let t422 = sin_q_3.mul_add(t417, t414 - t416) + t421;
+    let t423 = t342 * t353;
+    let t424 = sin_q_1.mul_add(t358, t423) + cos_q_3.mul_add(t375, t423);
+    let t425 = t422 + (t112.mul_add(t354, t420) - t416) + t424;
+    let t426 = cos_q_1.neg_mul_add(t362, sin_q_3 * t419);
+    let t427 = cos_q_3.mul_sub(t342, sin_q_1 * t353) - t426;
+    let t428 = t365 * t427;
+    let t429 = sin_q_4.neg_mul_add(t425, t428);
+    let t430 = t258 * t371;
+    let t431 = t339 * t376;
+    let t432 = cos_q_1 * t373;
+    let t433 = t369.neg_mul_add(t372, t430 + t432);
+    let t434 = cos_q_1.neg_mul_add(t380, t431 + t432);
+    let t435 = t11.mul_sub(t357, t430) - t431 - t433 - t434;
+    let t436 = t429 + t121.neg_mul_add(t368, t428) + t435;
+    let t437 = sin_q_4.mul_add(t427, t121 * t365);
+    let t438 = t388 * (t437 + cos_q_1.mul_add(t385, t11 * t339));
+    let t439 = t353 * t415;
+    let t440 = t339 * t395;
+    let t441 = t353 * t419;
+    let t442 = cos_q_3.mul_add(t418, t440) - t441;
+    let t443 = cos_q_3.mul_add(t417, t439 + t440) + t442;
+    let t444 = t342 * t344;
+    let t445 = sin_q_1.neg_mul_add(t354, t444);
+    let t446 = t443 - t112.neg_mul_add(t358, t441 - t439);
+    let t447 = cos_q_1.neg_mul_add(t402, cos_q_3 * t419);
+    let t448 = t390 * (sin_q_1.mul_add(t344, sin_q_3 * t342) + t447);
+    let t449 = t446 - (sin_q_3.mul_sub(t375, t444) - t445);
+    let t450 = cos_q_5.neg_mul_add(t449, t448);
+    let t451 = sin_q_5.mul_add(t436, t438) + t126.mul_add(t391, t438);
+    let t452 = t246 * t339;
+    let t453 = t425 + (t357 + (t418 + t452 + (t417 + t452))) - t436;
+    let t454 = t450 + t127.neg_mul_add(t406, t448) - t451 + t453;
+    let t455 = t116.mul_add(t335, t110.mul_add(t331, n(p.l) * t454));
+    let t456 = t125.neg_mul_add(t338, t120.mul_add(t336, t455));
+    // Row along: right-hand side z[along].
+    let t457 = t131.neg_mul_add(t412, t456);
+    let t458 = sin_q_4 * t344;
+    let t459 = t349 * t458;
+    let t460 = t344 * t379;
+    let t461 = sin_q_3 * t365;
+    let t462 = t349 * t461;
+    let t463 = t135.mul_add(t372, t459) + t462;
+    let t464 = t376.mul_add(sin_q_3 * q_4_dot, t462) - t460;
+    let t465 = t246 * t367;
+    let t466 = t365.mul_add(sin_q_2 * q_4_dot, t465);
+    let t467 = t0.mul_add(t354, t459) - t460 + t463 + t464;
+    let t468 = t467 + (t466 + cos_q_4.mul_add(t350, t465));
+    let t469 = cos_q_2.neg_mul_add(t458 + t461, t135 * t349);
+    let t470 = cos_q_4.mul_sub(t246, sin_q_2 * t367) - t469;
+    let t471 = t388 * t470;
+    let t472 = sin_q_5.neg_mul_add(t468, t471);
+    let t473 = t349 * t353;
+    let t474 = cos_q_5 * t473;
+    let t475 = t390 * (cos_q_3 * t349);
+    let t476 = cos_q_2 * t353;
+    let t477 = t390 * t476;
+    let t478 = cos_q_2 * t358;
+    let t479 = cos_q_5.neg_mul_add(t478, t474 + t477);
+    let t480 = t191.neg_mul_add(q_5_dot * q_5_dot, t475 + t477);
+    let t481 = t18.mul_sub(t372, t474) - t475 - t479 - t480;
+    let t482 = t344 * t349;
+    let t483 = cos_q_2.mul_add(t354, t482) + sin_q_3.mul_add(t372, t482);
+    let t484 = t472 + t1.neg_mul_add(t391, t471) + t481;
+    let t485 = t137.mul_add(t335, n(p.l) * (t468 + (t372 + t483) - t484));
+    let t486 = t141.neg_mul_add(t338, t139.mul_add(t336, t485));
+    // Row up: right-hand side z[up].
+    let t487 = t147.neg_mul_add(t457, t144.mul_add(t412, t486));
+    let t488 = t175.neg_mul_add(t457, t172.neg_mul_add(t412, t413));
+    // Row across: right-hand side z[across].
+    let t489 = t178.neg_mul_add(t487, t488);
+    let t490 = t388 * t476;
+    let t491 = t349 * (t18 * q_5_dot);
+    let t492 = sin_q_5 * t473;
+    let t493 = t59.mul_add(t372, t491) - t492;
+    let t494 = sin_q_5.neg_mul_add(t478, t492 - t490);
+    let t495 = t390 * t470;
+    let t496 = cos_q_5.mul_add(t468, t495) + t1.mul_add(t406, t495);
+    let t497 = t2.mul_add(t391, t490 + t491) + t493 - t494 + t496;
+    let t498 = t187.mul_add(t336, t185.mul_add(t335, t497));
+    let t499 = t194.mul_add(t412, t190.neg_mul_add(t338, t498));
+    let t500 = t200.neg_mul_add(t487, t197.neg_mul_add(t457, t499));
+    // Row tips: right-hand side z[tips].
+    let t501 = t204.neg_mul_add(t489, t500);
+    let t502 = t387 * t390;
+    let t503 = t388 * t404;
+    let t504 = sin_q_5.neg_mul_add(t401, t503);
+    let t505 = cos_q_5.mul_add(t383, t502) + t167.mul_add(t406, t502);
+    let t506 = t505 + (t504 + t168.neg_mul_add(t391, t503));
+    let t507 = t213.neg_mul_add(t335, t211.mul_add(t331, t506));
+    let t508 = t221.neg_mul_add(t338, t218.neg_mul_add(t336, t507));
+    let t509 = t229.neg_mul_add(t457, t225.neg_mul_add(t412, t508));
+    let t510 = t237.neg_mul_add(t489, t232.mul_add(t487, t509));
+    let t511 = t224.mul_add(t225, t212.mul_add(t213, t210 * t211));
+    let t512 = t511 + t220.mul_add(t221, t217 * t218);
+    let t513 = t231.neg_mul_add(t232, t228.neg_mul_add(t229, t512));
+    // Row turns: pivot d[turns].
+    let t514 = t240.neg_mul_add(t241, t236.neg_mul_add(t237, t513));
+    // Row turns: right-hand side z[turns].
+    let t515 = t241.mul_add(t501, t510) / t514;
+    // Back substitution: lambda[tips].
+    let lambda4 = t241.mul_add(t515, t209 * t501);
+    let t516 = t229.neg_mul_add(t515, t134 * t457);
+    let t517 = t237.neg_mul_add(t515, t182 * t489);
+    let t518 = t204 * lambda4;
+    // Back substitution: lambda[across].
+    let t519 = t517 - t518;
+    let t520 = t200.neg_mul_add(lambda4, t232.mul_add(t515, t151 * t487));
+    let t521 = t178 * t519;
+    let t522 = t175.neg_mul_add(t519, t197.neg_mul_add(lambda4, t516));
+    // Back substitution: lambda[up]; Back substitution: lambda[along].
+    let lambda1 = t147.neg_mul_add(t520 - t521, t522);
+    let lambda2 = t521 - t520;
+    let lambda3 = t518 - t517;
+    let lambda5 = -t515;
+    let sound = PIVOTS.hold(t42, t42)
+        & PIVOTS.hold(t67, t66)
+        & PIVOTS.hold(t78, t77)
+        & PIVOTS.hold(t88, t86)
+        & PIVOTS.hold(t98, n(p.k1))
+        & PIVOTS.hold(t133, t133)
+        & PIVOTS.hold(t150, t149)
+        & PIVOTS.hold(t181, t180)
+        & PIVOTS.hold(t208, t206)
+        & PIVOTS.hold(t514, t512)
+        & lambda1.is_finite();
+    if !sound {
+        let pivots = [
+            (0, t42, t42),
+            (1, t67, t66),
+            (2, t78, t77),
+            (3, t88, t86),
+            (4, t98, n(p.k1)),
+            (5, t133, t133),
+            (6, t150, t149),
+            (7, t181, t180),
+            (8, t208, t206),
+            (9, t514, t512),
         ];
-        Ok(multipliers)
+        PIVOTS.check(pivots)?;
     }
+    let multipliers = [
+        lambda1.store(),
+        lambda2.store(),
+        lambda3.store(),
+        lambda4.store(),
+        lambda5.store(),
+    ];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -2471,7 +2599,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
         q_4: "q[4]" "rad";
         q_5: "q[5]" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { x3, y3, z3 } [
         x3: "x3" "m";
         y3: "y3" "m";

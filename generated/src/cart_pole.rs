@@ -74,7 +74,6 @@ impl<S: ::lagrangian::emitted::Scalar> CartPole<S> {
         let k0 = S::ONE / cart_plus_pole;
         let pivots = [(0, cart_plus_pole, cart_plus_pole)];
         Prepared {
-            pole: self.pole,
             l: self.l,
             J: self.J,
             rail: self.rail,
@@ -137,8 +136,6 @@ pub struct Outputs<S = f64> {
 /// The parameters of a [`CartPole`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
-    /// `pole`
-    pole: S,
     /// `l`
     l: S,
     /// `J`
@@ -245,63 +242,64 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_x, f_theta]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 2],
-    v: &[S; 2],
-    u: &Inputs<S>,
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        q: &'a [S; 2],
+        v: &'a [S; 2],
+        u: &'a Inputs<S>,
+    }) -> Result<[S; 2], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v, u })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 2],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 2],
-    /// As `accelerations` takes it.
-    pub u: &'a Inputs<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v, u } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta = n(q[1]);
-        let x_dot = n(v[0]);
-        let theta_dot = n(v[1]);
-        let (sin_theta, cos_theta) = theta.sin_cos();
-        let t0 = n(p.pole_l) * cos_theta;
-        let t1 = x_dot.neg_mul_add(n(p.rail), n(u.push));
-        let t2 = theta_dot * (n(p.pole_l) * theta_dot);
-        let t3 = sin_theta.mul_add(t2, t1);
-        let t4 = theta_dot * n(p.hinge);
-        let t5 = n(p.k0) * t0;
-        let t6 = t0.neg_mul_add(t5, n(p.J_plus_pole_l_squared));
-        let t7 = t5.mul_add(t3, sin_theta.neg_mul_add(n(p.pole_l_g), t4));
-        let t8 = t7 / t6;
-        let x_ddot = t5.mul_add(t8, n(p.k0) * t3);
-        let theta_ddot = -t8;
-        let sound = PIVOTS.hold(t6, n(p.J_plus_pole_l_squared)) & theta_ddot.is_finite();
-        if !sound {
-            let pivots = [(1, t6, n(p.J_plus_pole_l_squared))];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [x_ddot.store(), theta_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v, u } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta = n(q[1]);
+    let x_dot = n(v[0]);
+    let theta_dot = n(v[1]);
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = n(p.pole_l) * cos_theta;
+    let t1 = x_dot.neg_mul_add(n(p.rail), n(u.push));
+    let t2 = theta_dot * (n(p.pole_l) * theta_dot);
+    let t3 = sin_theta.mul_add(t2, t1);
+    let t4 = theta_dot * n(p.hinge);
+    // Eliminates x from row theta: l[theta, x].
+    let t5 = n(p.k0) * t0;
+    // Row theta: pivot d[theta].
+    let t6 = t0.neg_mul_add(t5, n(p.J_plus_pole_l_squared));
+    // Row theta: right-hand side z[theta].
+    let t7 = t5.mul_add(t3, sin_theta.neg_mul_add(n(p.pole_l_g), t4));
+    let t8 = t7 / t6;
+    // Back substitution: a[x].
+    let x_ddot = t5.mul_add(t8, n(p.k0) * t3);
+    let theta_ddot = -t8;
+    let sound = PIVOTS.hold(t6, n(p.J_plus_pole_l_squared)) & theta_ddot.is_finite();
+    if !sound {
+        let pivots = [(1, t6, n(p.J_plus_pole_l_squared))];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [x_ddot.store(), theta_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -320,9 +318,9 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let theta_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = theta_dot * theta_dot;
-    let t1 = cos_theta * (theta_dot * p.l) + x_dot;
-    let t2 = (sin_theta * (sin_theta * (t0 * p.l_squared)) + t1 * t1) * p.pole;
-    S::from_f64(0.5) * (t2 + t0 * p.J) + x_dot * (x_dot * p.half_cart)
+    let t1 = x_dot + cos_theta * (theta_dot * p.l);
+    let t2 = (t1 * t1 + sin_theta * (sin_theta * (t0 * p.l_squared))) * p.minus_pole;
+    x_dot * (x_dot * p.half_cart) + (t0 * p.J - t2) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -435,8 +433,8 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         hinge_force: "hinge_force" "N";
     ]
     prepared Prepared {
-        pole, l, J, rail, hinge, two_l, l_squared, pole_l_g, half_hinge, half_rail, pole_l,
-        half_cart, cart_plus_pole, J_plus_pole_l_squared, minus_pole_l, minus_pole, k0,
+        l, J, rail, hinge, two_l, l_squared, pole_l_g, half_hinge, half_rail, pole_l, half_cart,
+        cart_plus_pole, J_plus_pole_l_squared, minus_pole_l, minus_pole, k0,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }

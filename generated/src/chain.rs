@@ -53,7 +53,6 @@ impl<S: ::lagrangian::emitted::Scalar> Chain<S> {
         let t2 = self.g * l_m;
         let half_l_m = S::from_f64(0.5) * l_m;
         let t3 = t1 * S::from_f64(0.25);
-        let half_l_m_g = S::from_f64(0.5) * t2;
         let k14 = self.J + t3;
         let t4 = S::ONE / k14;
         let t5 = S::from_f64(0.25) * t4;
@@ -83,7 +82,7 @@ impl<S: ::lagrangian::emitted::Scalar> Chain<S> {
         let k19 = -(t2 * S::from_f64(3.5));
         let k20 = -(t2 * S::from_f64(2.5));
         let k21 = -(t2 * S::from_f64(1.5));
-        let minus_half_l_m_g = -half_l_m_g;
+        let minus_half_l_m_g = -(S::from_f64(0.5) * t2);
         let minus_l = -self.l;
         let k22 = t1 * t5;
         let k23 = self.J - t3;
@@ -101,7 +100,6 @@ impl<S: ::lagrangian::emitted::Scalar> Chain<S> {
             g: self.g,
             half_l,
             m_g,
-            half_l_m_g,
             l_m,
             k0,
             half_l_squared_m,
@@ -163,10 +161,6 @@ pub struct Coordinates<S = f64> {
     pub q: [S; 8],
 }
 
-/// What can be set while a [`Chain`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
 /// What can be observed of a [`Chain`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
@@ -189,8 +183,6 @@ pub struct Prepared<S = f64> {
     half_l: S,
     /// `m*g`
     m_g: S,
-    /// `0.5*l*m*g`
-    half_l_m_g: S,
     /// `l*m`
     l_m: S,
     /// `0.125*(l^2*m + 4*J)`
@@ -624,322 +616,337 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8], v: 
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6, f_q_7, f_q_8]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 8],
-    v: &[S; 8],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 8], v: &'a [S; 8] })
+        -> Result<[S; 8], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 8], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 8],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 8],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 8], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let q_1 = n(q[0]);
-        let q_2 = n(q[1]);
-        let q_3 = n(q[2]);
-        let q_4 = n(q[3]);
-        let q_5 = n(q[4]);
-        let q_6 = n(q[5]);
-        let q_7 = n(q[6]);
-        let q_8 = n(q[7]);
-        let q_1_dot = n(v[0]);
-        let q_2_dot = n(v[1]);
-        let q_3_dot = n(v[2]);
-        let q_4_dot = n(v[3]);
-        let q_5_dot = n(v[4]);
-        let q_6_dot = n(v[5]);
-        let q_7_dot = n(v[6]);
-        let q_8_dot = n(v[7]);
-        let angles = [q_7, q_8, q_6, q_5, q_4, q_3, q_2, q_1];
-        let circular = N::sin_cos_all(angles);
-        let (sin_q_7, cos_q_7) = circular[0];
-        let (sin_q_8, cos_q_8) = circular[1];
-        let (sin_q_6, cos_q_6) = circular[2];
-        let (sin_q_5, cos_q_5) = circular[3];
-        let (sin_q_4, cos_q_4) = circular[4];
-        let (sin_q_3, cos_q_3) = circular[5];
-        let (sin_q_2, cos_q_2) = circular[6];
-        let (sin_q_1, cos_q_1) = circular[7];
-        let t0 = q_7_dot * q_7_dot;
-        let t1 = q_6_dot * q_6_dot;
-        let t2 = q_8_dot * (n(p.half_l_m) * q_8_dot);
-        let t3 = q_5_dot * q_5_dot;
-        let t4 = q_4_dot * q_4_dot;
-        let t5 = q_3_dot * q_3_dot;
-        let t6 = q_1_dot * q_1_dot;
-        let t7 = q_2_dot * q_2_dot;
-        let t8 = n(p.l) * sin_q_7;
-        let t9 = n(p.l) * cos_q_7;
-        let t10 = sin_q_8 * cos_q_8;
-        let t11 = sin_q_8 * sin_q_8;
-        let t12 = n(p.l) * cos_q_6;
-        let t13 = cos_q_8 * cos_q_8;
-        let t14 = n(p.l) * sin_q_6;
-        let t15 = n(p.l) * cos_q_5;
-        let t16 = t8 * n(p.k26);
-        let t17 = t9 * n(p.k26);
-        let t18 = t10 * n(p.k22);
-        let t19 = n(p.k22).neg_mul_add(t11, N::from_f64(2.5));
-        let t20 = n(p.k22).neg_mul_add(t13, N::from_f64(2.5));
-        let t21 = t9.mul_add(cos_q_8, sin_q_8 * t8);
-        let t22 = n(p.l) * sin_q_5;
-        let t23 = t21 * n(p.k27);
-        let t24 = t14.mul_sub(t19, t12 * t18);
-        let t25 = t12.mul_sub(t20, t14 * t18);
-        let t26 = t21 * n(p.k22);
-        let t27 = n(p.m) * t15;
-        let t28 = t9.mul_add(t17, t8.mul_add(t16, n(p.k23)));
-        let t29 = t21.neg_mul_add(t23, t28);
-        let t30 = sin_q_8.neg_mul_add(t23, t16);
-        let t31 = cos_q_8.neg_mul_add(t23, t17);
-        let t32 = cos_q_8.neg_mul_add(t26, t9 * N::from_f64(1.5));
-        let t33 = sin_q_8.neg_mul_add(t26, t8 * N::from_f64(1.5));
-        let t34 = n(p.m) * t22;
-        let t35 = t9 * t0;
-        let t36 = N::ONE / t29;
-        let t37 = t24.mul_add(t14 * n(p.m), n(p.k23));
-        let t38 = n(p.k27) * t10;
-        let t39 = t31.mul_add(t12, t30 * t14);
-        let t40 = t8 * t0;
-        let t41 = n(p.l) * cos_q_4;
-        let t42 = n(p.l) * sin_q_4;
-        let t43 = t12 * t1;
-        let t44 = t14 * t1;
-        let t45 = n(p.m) * t41;
-        let t46 = n(p.k27).neg_mul_add(t13, n(p.k26));
-        let t47 = t40.mul_add(t46, t38.mul_add(t35, sin_q_8 * t2));
-        let t48 = n(p.m) * t42;
-        let t49 = t22 * t3;
-        let t50 = t15 * t3;
-        let t51 = t36 * t39;
-        let t52 = t36 * n(p.m);
-        let t53 = t36.mul_add(t32 * t33, t10 * n(p.k24));
-        let t54 = n(p.k27).neg_mul_add(t11, n(p.k26));
-        let t55 = t35.mul_add(t54, t38.mul_add(t40, cos_q_8 * t2));
-        let t56 = t36 * t31;
-        let t57 = t36 * t30;
-        let t58 = n(p.l) * cos_q_3;
-        let t59 = t39.neg_mul_add(t51, t25.mul_add(t12 * n(p.m), t37));
-        let t60 = t52.neg_mul_add(t33 * t33, N::ONE + t19);
-        let t61 = t51.neg_mul_add(t33, t24);
-        let t62 = t52.neg_mul_add(t32 * t32, N::ONE + t20);
-        let t63 = t51.neg_mul_add(t32, t25);
-        let t64 = t8.mul_sub(t55, t9 * t47);
-        let t65 = N::ONE / t59;
-        let t66 = t22.mul_sub(t60, t27 * t53);
-        let t67 = t15.mul_sub(t62, t34 * t53);
-        let t68 = t30.mul_add(t56, t38);
-        let t69 = t63.mul_add(t15, t61 * t22);
-        let t70 = n(p.l) * sin_q_3;
-        let t71 = t43.mul_add(t68, t56.mul_add(t64, t47));
-        let t72 = t44.neg_mul_add(t31.mul_sub(t56, n(p.m) * t20), t71);
-        let t73 = t44.mul_add(t68, t64.neg_mul_add(t57, t55));
-        let t74 = t43.neg_mul_add(t30.mul_sub(t57, n(p.m) * t19), t73);
-        let t75 = t65 * n(p.m_squared);
-        let t76 = n(p.m) * t65;
-        let t77 = t65.mul_add(t63 * t61, t53);
-        let t78 = n(p.m) * t58;
-        let t79 = n(p.m) * t70;
-        let t80 = t41 * t4;
-        let t81 = n(p.l) * cos_q_2;
-        let t82 = t75 * t69;
-        let t83 = t61 * t76;
-        let t84 = t63 * t76;
-        let t85 = n(p.m_squared) * t77;
-        let t86 = t27.mul_add(t67, t34.mul_add(t66, n(p.k23)));
-        let t87 = t69.neg_mul_add(t82, t86);
-        let t88 = t61.neg_mul_add(t82, n(p.m) * t66);
-        let t89 = t61.neg_mul_add(t83, N::ONE + t60);
-        let t90 = t63.neg_mul_add(t84, N::ONE + t62);
-        let t91 = t63.neg_mul_add(t82, n(p.m) * t67);
-        let t92 = t69.neg_mul_add(t84, t67);
-        let t93 = t69.neg_mul_add(t83, t66);
-        let t94 = t14.mul_sub(t74, t12 * t72);
-        let t95 = N::ONE / t87;
-        let t96 = t42.mul_sub(t89, t45 * t77);
-        let t97 = t41.mul_sub(t90, t48 * t77);
-        let t98 = t91.mul_add(t41, t88 * t42);
-        let t99 = t49 * t75.neg_mul_add(t63 * t63, n(p.m) * t62);
-        let t100 = t50 * t75.neg_mul_add(t61 * t61, n(p.m) * t60);
-        let t101 = t42 * t4;
-        let t102 = t84.mul_add(t94, t72) + t85.mul_add(t50, t99);
-        let t103 = t83.neg_mul_add(t94, t74) + t85.mul_add(t49, t100);
-        let t104 = n(p.l) * sin_q_2;
-        let t105 = t70 * t5;
-        let t106 = t95 * t98;
-        let t107 = n(p.m) * t95;
-        let t108 = t95.mul_add(t92 * t93, t77);
-        let t109 = t95 * t91;
-        let t110 = t95 * t88;
-        let t111 = t45.mul_add(t97, t48.mul_add(t96, n(p.k23)));
-        let t112 = t98.neg_mul_add(t106, t111);
-        let t113 = t106.neg_mul_add(t93, t96);
-        let t114 = t107.neg_mul_add(t93 * t93, N::ONE + t89);
-        let t115 = t106.neg_mul_add(t92, t97);
-        let t116 = t107.neg_mul_add(t92 * t92, N::ONE + t90);
-        let t117 = t22.mul_sub(t103, t15 * t102);
-        let t118 = N::ONE / t112;
-        let t119 = t70.mul_sub(t114, t78 * t108);
-        let t120 = t88.mul_add(t109, t85);
-        let t121 = t58.mul_sub(t116, t79 * t108);
-        let t122 = t115.mul_add(t58, t113 * t70);
-        let t123 = t80.mul_add(t120, t109.mul_add(t117, t102));
-        let t124 = t101.neg_mul_add(t91.mul_sub(t109, n(p.m) * t90), t123);
-        let t125 = t101.mul_add(t120, t117.neg_mul_add(t110, t103));
-        let t126 = t80.neg_mul_add(t88.mul_sub(t110, n(p.m) * t89), t125);
-        let t127 = n(p.m_squared) * t118;
-        let t128 = n(p.m) * t118;
-        let t129 = t118.mul_add(t115 * t113, t108);
-        let t130 = t58 * t5;
-        let t131 = n(p.l) * cos_q_1;
-        let t132 = n(p.l) * sin_q_1;
-        let t133 = t127 * t122;
-        let t134 = t113 * t128;
-        let t135 = n(p.m) * t129;
-        let t136 = t115 * t128;
-        let t137 = t42.mul_sub(t126, t41 * t124);
-        let t138 = n(p.m_squared) * t129;
-        let t139 = t78.mul_add(t121, t79.mul_add(t119, n(p.k23)));
-        let t140 = t122.neg_mul_add(t133, t139);
-        let t141 = t113.neg_mul_add(t133, n(p.m) * t119);
-        let t142 = t113.neg_mul_add(t134, t114 + N::from_f64(0.5));
-        let t143 = t115.neg_mul_add(t133, n(p.m) * t121);
-        let t144 = t115.neg_mul_add(t136, t116 + N::from_f64(0.5));
-        let t145 = N::ONE / t140;
-        let t146 = t104.mul_sub(t142, t81 * t135);
-        let t147 = sin_q_2 * (sin_q_1 * n(p.half_l_squared));
-        let t148 = t81.mul_sub(t144, t104 * t135);
-        let t149 = t105 * t127.neg_mul_add(t115 * t115, n(p.m) * t116);
-        let t150 = t143.mul_add(t81, t141 * t104);
-        let t151 = cos_q_2.mul_add(cos_q_1 * n(p.half_l_squared), t147);
-        let t152 = t130 * t127.neg_mul_add(t113 * t113, n(p.m) * t114);
-        let t153 = t136.mul_add(t137, t124) + t138.mul_add(t130, t149);
-        let t154 = t143.mul_add(t131, t141 * t132);
-        let t155 = t146.mul_add(n(p.m) * t104, n(p.k14));
-        let t156 = t134.neg_mul_add(t137, t126) + t138.mul_add(t105, t152);
-        let t157 = t148.mul_add(n(p.m) * t81, t155);
-        let t158 = t145.neg_mul_add(t150 * t150, t157);
-        let t159 = t145 * t154;
-        let t160 = t142.mul_sub(t132, t135 * t131);
-        let t161 = t145 * t141;
-        let t162 = t70.mul_sub(t156, t58 * t153);
-        let t163 = t145 * t143;
-        let t164 = N::ONE / t158;
-        let t165 = t132 * t6;
-        let t166 = cos_q_2 * t7;
-        let t167 = n(p.m) * t148.mul_add(t131, t146.mul_add(t132, t151));
-        let t168 = t150.mul_sub(t159, t167);
-        let t169 = t160.mul_add(n(p.m) * t132, n(p.k13));
-        let t170 = t144.mul_sub(t131, t135 * t132);
-        let t171 = t141.mul_add(t163, t138);
-        let t172 = t104.mul_add(t7, t165);
-        let t173 = sin_q_2.mul_add(t7 * n(p.half_l), t165);
-        let t174 = n(p.l).mul_add(cos_q_1.mul_add(t6, t166), n(p.g));
-        let t175 = n(p.g) + n(p.half_l).mul_add(t166, t131 * t6);
-        let t176 = t164 * t168;
-        let t177 = sin_q_1 * n(p.half_l_m_g);
-        let t178 = t172.mul_add(t171, t162.neg_mul_add(t161, t156));
-        let t179 = t174.neg_mul_add(t141.mul_sub(t161, n(p.m) * t142), t178);
-        let t180 = t173 * (cos_q_2 * n(p.half_l_m));
-        let t181 = t154.neg_mul_add(t159, t170.mul_add(n(p.m) * t131, t169));
-        let t182 = t168.neg_mul_add(t176, t181);
-        let t183 = t173.neg_mul_add(cos_q_1 * n(p.l_m), t177);
-        let t184 = t175.mul_sub(sin_q_2 * n(p.half_l_m), t180);
-        let t185 = t171.mul_add(t174, t163.mul_add(t162, t153));
-        let t186 = t172.neg_mul_add(t143.mul_sub(t163, n(p.m) * t144), t185);
-        let t187 = t81.neg_mul_add(t186, t104.mul_add(t179, t184));
-        let t188 = t132.mul_add(t179, t175.mul_add(sin_q_1 * n(p.l_m), t183));
-        let t189 = t176.mul_add(t187, t131.neg_mul_add(t186, t188));
-        let t190 = N::ONE / t182 * t189;
-        let t191 = t176.mul_add(t190, t164 * t187);
-        let t192 = t81.mul_add(t191, t131.mul_add(t190, t172));
-        let t193 = t104.neg_mul_add(t191, t132.neg_mul_add(t190, t174));
-        let t194 = t163 * t192;
-        let t195 = t161.mul_add(t193, t145 * t162);
-        let t196 = t195 - t194;
-        let t197 = t58.mul_add(t196, t105 + t192);
-        let t198 = t70.neg_mul_add(t196, t130 + t193);
-        let t199 = t136 * t197;
-        let t200 = t134.mul_add(t198, t118 * t137);
-        let t201 = t200 - t199;
-        let t202 = t41.mul_add(t201, t101 + t197);
-        let t203 = t42.neg_mul_add(t201, t80 + t198);
-        let t204 = t109 * t202;
-        let t205 = t110.mul_add(t203, t95 * t117);
-        let t206 = t205 - t204;
-        let t207 = t15.mul_add(t206, t49 + t202);
-        let t208 = t22.neg_mul_add(t206, t50 + t203);
-        let t209 = t84 * t207;
-        let t210 = t83.mul_add(t208, t65 * t94);
-        let t211 = t210 - t209;
-        let t212 = t12.mul_add(t211, t44 + t207);
-        let t213 = t14.neg_mul_add(t211, t43 + t208);
-        let t214 = t56 * t212;
-        let t215 = t57.mul_add(t213, t36 * t64);
-        let t216 = t215 - t214;
-        let t217 = sin_q_8 * t8.neg_mul_add(t216, t35 + t213);
-        let t218 = cos_q_8.mul_sub(t9.mul_add(t216, t40 + t212), t217);
-        let q_1_ddot = -t190;
-        let q_2_ddot = -t191;
-        let q_3_ddot = t194 - t195;
-        let q_4_ddot = t199 - t200;
-        let q_5_ddot = t204 - t205;
-        let q_6_ddot = t209 - t210;
-        let q_7_ddot = t214 - t215;
-        let q_8_ddot = t218 * n(p.k25);
-        let sound = PIVOTS.hold(t29, n(p.k13))
-            & PIVOTS.hold(t59, n(p.k12))
-            & PIVOTS.hold(t87, n(p.k11))
-            & PIVOTS.hold(t112, n(p.k10))
-            & PIVOTS.hold(t140, n(p.k9))
-            & PIVOTS.hold(t158, n(p.k8))
-            & PIVOTS.hold(t182, n(p.k7))
-            & q_8_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (6, t29, n(p.k13)),
-                (5, t59, n(p.k12)),
-                (4, t87, n(p.k11)),
-                (3, t112, n(p.k10)),
-                (2, t140, n(p.k9)),
-                (1, t158, n(p.k8)),
-                (0, t182, n(p.k7)),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            q_1_ddot.store(),
-            q_2_ddot.store(),
-            q_3_ddot.store(),
-            q_4_ddot.store(),
-            q_5_ddot.store(),
-            q_6_ddot.store(),
-            q_7_ddot.store(),
-            q_8_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let q_1 = n(q[0]);
+    let q_2 = n(q[1]);
+    let q_3 = n(q[2]);
+    let q_4 = n(q[3]);
+    let q_5 = n(q[4]);
+    let q_6 = n(q[5]);
+    let q_7 = n(q[6]);
+    let q_8 = n(q[7]);
+    let q_1_dot = n(v[0]);
+    let q_2_dot = n(v[1]);
+    let q_3_dot = n(v[2]);
+    let q_4_dot = n(v[3]);
+    let q_5_dot = n(v[4]);
+    let q_6_dot = n(v[5]);
+    let q_7_dot = n(v[6]);
+    let q_8_dot = n(v[7]);
+    let angles = [q_7, q_8, q_6, q_5, q_4, q_3, q_2, q_1];
+    let circular = N::sin_cos_all(angles);
+    let (sin_q_7, cos_q_7) = circular[0];
+    let (sin_q_8, cos_q_8) = circular[1];
+    let (sin_q_6, cos_q_6) = circular[2];
+    let (sin_q_5, cos_q_5) = circular[3];
+    let (sin_q_4, cos_q_4) = circular[4];
+    let (sin_q_3, cos_q_3) = circular[5];
+    let (sin_q_2, cos_q_2) = circular[6];
+    let (sin_q_1, cos_q_1) = circular[7];
+    let t0 = q_7_dot * q_7_dot;
+    let t1 = q_6_dot * q_6_dot;
+    let t2 = q_8_dot * (n(p.half_l_m) * q_8_dot);
+    let t3 = q_5_dot * q_5_dot;
+    let t4 = q_4_dot * q_4_dot;
+    let t5 = q_3_dot * q_3_dot;
+    let t6 = q_1_dot * q_1_dot;
+    let t7 = q_2_dot * q_2_dot;
+    let t8 = sin_q_7 * n(p.l);
+    let t9 = cos_q_7 * n(p.l);
+    let t10 = sin_q_8 * cos_q_8;
+    let t11 = sin_q_8 * sin_q_8;
+    let t12 = cos_q_6 * n(p.l);
+    let t13 = cos_q_8 * cos_q_8;
+    let t14 = sin_q_6 * n(p.l);
+    let t15 = cos_q_5 * n(p.l);
+    let t16 = t8 * n(p.k26);
+    let t17 = t9 * n(p.k26);
+    let t18 = t10 * n(p.k22);
+    let t19 = t11.neg_mul_add(n(p.k22), N::from_f64(2.5));
+    let t20 = t13.neg_mul_add(n(p.k22), N::from_f64(2.5));
+    let t21 = sin_q_8.mul_add(t8, cos_q_8 * t9);
+    let t22 = sin_q_5 * n(p.l);
+    let t23 = t21 * n(p.k27);
+    let t24 = t14.mul_sub(t19, t12 * t18);
+    let t25 = t12.mul_sub(t20, t14 * t18);
+    let t26 = n(p.k22) * t21;
+    let t27 = t15 * n(p.m);
+    let t28 = t9.mul_add(t17, t8.mul_add(t16, n(p.k23)));
+    // Eliminates q[7]: inertia d[q[7]].
+    let t29 = t21.neg_mul_add(t23, t28);
+    let t30 = sin_q_8.neg_mul_add(t23, t16);
+    let t31 = cos_q_8.neg_mul_add(t23, t17);
+    let t32 = cos_q_8.neg_mul_add(t26, t9 * N::from_f64(1.5));
+    let t33 = sin_q_8.neg_mul_add(t26, t8 * N::from_f64(1.5));
+    let t34 = n(p.m) * t22;
+    let t35 = t0 * t9;
+    let t36 = N::ONE / t29;
+    let t37 = (t14 * n(p.m)).mul_add(t24, n(p.k23));
+    let t38 = t10 * n(p.k27);
+    let t39 = t14.mul_add(t30, t12 * t31);
+    let t40 = t0 * t8;
+    let t41 = cos_q_4 * n(p.l);
+    let t42 = sin_q_4 * n(p.l);
+    let t43 = t1 * t12;
+    let t44 = t1 * t14;
+    let t45 = n(p.m) * t41;
+    let t46 = t13.neg_mul_add(n(p.k27), n(p.k26));
+    let t47 = t40.mul_add(t46, t35.mul_add(t38, sin_q_8 * t2));
+    let t48 = n(p.m) * t42;
+    let t49 = t3 * t22;
+    let t50 = t3 * t15;
+    let t51 = t36 * t39;
+    let t52 = n(p.m) * t36;
+    let t53 = t36.mul_add(t32 * t33, t10 * n(p.k24));
+    let t54 = t11.neg_mul_add(n(p.k27), n(p.k26));
+    let t55 = t35.mul_add(t54, t38.mul_add(t40, cos_q_8 * t2));
+    let t56 = t31 * t36;
+    let t57 = t30 * t36;
+    let t58 = cos_q_3 * n(p.l);
+    // Eliminates q[6]: inertia d[q[6]].
+    let t59 = t39.neg_mul_add(t51, (t12 * n(p.m)).mul_add(t25, t37));
+    let t60 = (t33 * t33).neg_mul_add(t52, t19 + N::ONE);
+    let t61 = t33.neg_mul_add(t51, t24);
+    let t62 = (t32 * t32).neg_mul_add(t52, t20 + N::ONE);
+    let t63 = t32.neg_mul_add(t51, t25);
+    let t64 = t8.mul_sub(t55, t9 * t47);
+    let t65 = N::ONE / t59;
+    let t66 = t22.mul_sub(t60, t27 * t53);
+    let t67 = t15.mul_sub(t62, t34 * t53);
+    let t68 = t30.mul_add(t56, t38);
+    let t69 = t22.mul_add(t61, t15 * t63);
+    let t70 = sin_q_3 * n(p.l);
+    let t71 = t43.mul_add(t68, t56.mul_add(t64, t47));
+    let t72 = t44.neg_mul_add(t31.mul_sub(t56, t20 * n(p.m)), t71);
+    let t73 = t44.mul_add(t68, t57.neg_mul_add(t64, t55));
+    let t74 = t43.neg_mul_add(t30.mul_sub(t57, t19 * n(p.m)), t73);
+    let t75 = t65 * n(p.m_squared);
+    let t76 = n(p.m) * t65;
+    let t77 = t65.mul_add(t61 * t63, t53);
+    let t78 = n(p.m) * t58;
+    let t79 = n(p.m) * t70;
+    let t80 = t4 * t41;
+    let t81 = cos_q_2 * n(p.l);
+    let t82 = t69 * t75;
+    let t83 = t61 * t76;
+    let t84 = t63 * t76;
+    let t85 = n(p.m_squared) * t77;
+    let t86 = t27.mul_add(t67, t34.mul_add(t66, n(p.k23)));
+    // Eliminates q[5]: inertia d[q[5]].
+    let t87 = t69.neg_mul_add(t82, t86);
+    let t88 = t61.neg_mul_add(t82, n(p.m) * t66);
+    let t89 = t61.neg_mul_add(t83, N::ONE + t60);
+    let t90 = t63.neg_mul_add(t84, N::ONE + t62);
+    let t91 = t63.neg_mul_add(t82, n(p.m) * t67);
+    let t92 = t69.neg_mul_add(t84, t67);
+    let t93 = t69.neg_mul_add(t83, t66);
+    let t94 = t14.mul_sub(t74, t12 * t72);
+    let t95 = N::ONE / t87;
+    let t96 = t42.mul_sub(t89, t45 * t77);
+    let t97 = t41.mul_sub(t90, t48 * t77);
+    let t98 = t42.mul_add(t88, t41 * t91);
+    let t99 = (t63 * t63).neg_mul_add(t75, n(p.m) * t62);
+    let t100 = (t61 * t61).neg_mul_add(t75, n(p.m) * t60);
+    let t101 = t4 * t42;
+    let t102 = t84.mul_add(t94, t72) + t49.mul_add(t99, t50 * t85);
+    let t103 = t50.mul_add(t100, t49 * t85) + t83.neg_mul_add(t94, t74);
+    let t104 = sin_q_2 * n(p.l);
+    let t105 = t5 * t70;
+    let t106 = t95 * t98;
+    let t107 = n(p.m) * t95;
+    let t108 = t95.mul_add(t92 * t93, t77);
+    let t109 = t91 * t95;
+    let t110 = t88 * t95;
+    let t111 = t45.mul_add(t97, t48.mul_add(t96, n(p.k23)));
+    // Eliminates q[4]: inertia d[q[4]].
+    let t112 = t98.neg_mul_add(t106, t111);
+    let t113 = t93.neg_mul_add(t106, t96);
+    let t114 = (t93 * t93).neg_mul_add(t107, N::ONE + t89);
+    let t115 = t92.neg_mul_add(t106, t97);
+    let t116 = (t92 * t92).neg_mul_add(t107, N::ONE + t90);
+    let t117 = t22.mul_sub(t103, t15 * t102);
+    let t118 = N::ONE / t112;
+    let t119 = t70.mul_sub(t114, t78 * t108);
+    let t120 = t88.mul_add(t109, t85);
+    let t121 = t58.mul_sub(t116, t79 * t108);
+    let t122 = t70.mul_add(t113, t58 * t115);
+    let t123 = t80.mul_add(t120, t109.mul_add(t117, t102));
+    let t124 = t101.neg_mul_add(t91.mul_sub(t109, n(p.m) * t90), t123);
+    let t125 = t101.mul_add(t120, t110.neg_mul_add(t117, t103));
+    let t126 = t80.neg_mul_add(t88.mul_sub(t110, n(p.m) * t89), t125);
+    let t127 = n(p.m_squared) * t118;
+    let t128 = n(p.m) * t118;
+    let t129 = t118.mul_add(t113 * t115, t108);
+    let t130 = t5 * t58;
+    let t131 = cos_q_1 * n(p.l);
+    let t132 = sin_q_1 * n(p.l);
+    let t133 = t122 * t127;
+    let t134 = t113 * t128;
+    let t135 = n(p.m) * t129;
+    let t136 = t115 * t128;
+    let t137 = t42.mul_sub(t126, t41 * t124);
+    let t138 = n(p.m_squared) * t129;
+    let t139 = t78.mul_add(t121, t79.mul_add(t119, n(p.k23)));
+    // Eliminates q[3]: inertia d[q[3]].
+    let t140 = t122.neg_mul_add(t133, t139);
+    let t141 = t113.neg_mul_add(t133, n(p.m) * t119);
+    let t142 = t113.neg_mul_add(t134, t114 + N::from_f64(0.5));
+    let t143 = t115.neg_mul_add(t133, n(p.m) * t121);
+    let t144 = t115.neg_mul_add(t136, t116 + N::from_f64(0.5));
+    let t145 = N::ONE / t140;
+    let t146 = t104.mul_sub(t142, t81 * t135);
+    let t147 = cos_q_2 * (cos_q_1 * n(p.half_l_squared));
+    let t148 = t81.mul_sub(t144, t104 * t135);
+    let t149 = (t115 * t115).neg_mul_add(t127, n(p.m) * t116);
+    let t150 = t104.mul_add(t141, t81 * t143);
+    let t151 = sin_q_2.mul_add(sin_q_1 * n(p.half_l_squared), t147);
+    let t152 = (t113 * t113).neg_mul_add(t127, n(p.m) * t114);
+    let t153 = t136.mul_add(t137, t124) + t105.mul_add(t149, t130 * t138);
+    let t154 = t132.mul_add(t141, t131 * t143);
+    let t155 = (n(p.m) * t104).mul_add(t146, n(p.k14));
+    let t156 = t130.mul_add(t152, t105 * t138);
+    let t157 = t134.neg_mul_add(t137, t126) + t156;
+    let t158 = (n(p.m) * t81).mul_add(t148, t155);
+    // Eliminates q[2]: inertia d[q[2]].
+    let t159 = t145.neg_mul_add(t150 * t150, t158);
+    let t160 = t145 * t154;
+    let t161 = t132.mul_sub(t142, t131 * t135);
+    let t162 = t141 * t145;
+    let t163 = t70.mul_sub(t157, t58 * t153);
+    let t164 = t143 * t145;
+    let t165 = N::ONE / t159;
+    let t166 = t6 * t132;
+    let t167 = cos_q_2 * t7;
+    let t168 = n(p.m) * t131.mul_add(t148, t132.mul_add(t146, t151));
+    let t169 = t150.mul_sub(t160, t168);
+    let t170 = t161.mul_add(n(p.m) * t132, n(p.k13));
+    let t171 = t131.mul_sub(t144, t132 * t135);
+    let t172 = t141.mul_add(t164, t138);
+    let t173 = t7.mul_add(t104, t166);
+    let t174 = sin_q_2.mul_add(t7 * n(p.half_l), t166);
+    let t175 = (n(p.m) * t131).mul_add(t171, t170);
+    let t176 = n(p.l).mul_add(cos_q_1.mul_add(t6, t167), n(p.g));
+    let t177 = t6.mul_add(t131, n(p.half_l) * t167) + n(p.g);
+    let t178 = t165 * t169;
+    let t179 = sin_q_1 * n(p.minus_half_l_m_g);
+    let t180 = t172.mul_add(t173, t162.neg_mul_add(t163, t157));
+    let t181 = t141.mul_sub(t162, n(p.m) * t142).neg_mul_add(t176, t180);
+    let t182 = t174 * (n(p.half_l_m) * cos_q_2);
+    // Eliminates q[1]: inertia d[q[1]].
+    let t183 = t169.neg_mul_add(t178, t154.neg_mul_add(t160, t175));
+    let t184 = t174.mul_add(cos_q_1 * n(p.l_m), t179);
+    let t185 = t177.mul_sub(n(p.half_l_m) * sin_q_2, t182);
+    let t186 = t172.mul_add(t176, t163.mul_add(t164, t153));
+    let t187 = t173.neg_mul_add(t143.mul_sub(t164, n(p.m) * t144), t186);
+    let t188 = t81.neg_mul_add(t187, t104.mul_add(t181, t185));
+    let t189 = t132.mul_add(t181, t177.mul_sub(sin_q_1 * n(p.l_m), t184));
+    let t190 = t178.mul_add(t188, t131.neg_mul_add(t187, t189));
+    let t191 = N::ONE / t183 * t190;
+    // Eliminates q[2]: alone z[q[2]]; Back substitution: a[q[2]].
+    let t192 = t178.mul_add(t191, t165 * t188);
+    let t193 = t81.mul_add(t192, t131.mul_add(t191, t173));
+    let t194 = t104.neg_mul_add(t192, t132.neg_mul_add(t191, t176));
+    let t195 = t164 * t193;
+    // Eliminates q[3]: alone z[q[3]].
+    let t196 = t162.mul_add(t194, t145 * t163);
+    // Back substitution: a[q[3]].
+    let t197 = t196 - t195;
+    let t198 = t58.mul_add(t197, t105 + t193);
+    let t199 = t70.neg_mul_add(t197, t130 + t194);
+    let t200 = t136 * t198;
+    // Eliminates q[4]: alone z[q[4]].
+    let t201 = t134.mul_add(t199, t118 * t137);
+    // Back substitution: a[q[4]].
+    let t202 = t201 - t200;
+    let t203 = t41.mul_add(t202, t101 + t198);
+    let t204 = t42.neg_mul_add(t202, t80 + t199);
+    let t205 = t109 * t203;
+    // Eliminates q[5]: alone z[q[5]].
+    let t206 = t110.mul_add(t204, t95 * t117);
+    // Back substitution: a[q[5]].
+    let t207 = t206 - t205;
+    let t208 = t15.mul_add(t207, t49 + t203);
+    let t209 = t22.neg_mul_add(t207, t50 + t204);
+    let t210 = t84 * t208;
+    // Eliminates q[6]: alone z[q[6]].
+    let t211 = t83.mul_add(t209, t65 * t94);
+    // Back substitution: a[q[6]].
+    let t212 = t211 - t210;
+    let t213 = t12.mul_add(t212, t44 + t208);
+    let t214 = t14.neg_mul_add(t212, t43 + t209);
+    let t215 = t56 * t213;
+    // Eliminates q[7]: alone z[q[7]].
+    let t216 = t57.mul_add(t214, t36 * t64);
+    // Back substitution: a[q[7]].
+    let t217 = t216 - t215;
+    let t218 = sin_q_8 * t8.neg_mul_add(t217, t35 + t214);
+    // Back substitution: a[q[8]].
+    let t219 = cos_q_8.mul_sub(t9.mul_add(t217, t40 + t213), t218);
+    let q_1_ddot = -t191;
+    let q_2_ddot = -t192;
+    let q_3_ddot = t195 - t196;
+    let q_4_ddot = t200 - t201;
+    let q_5_ddot = t205 - t206;
+    let q_6_ddot = t210 - t211;
+    let q_7_ddot = t215 - t216;
+    let q_8_ddot = t219 * n(p.k25);
+    let sound = PIVOTS.hold(t29, n(p.k13))
+        & PIVOTS.hold(t59, n(p.k12))
+        & PIVOTS.hold(t87, n(p.k11))
+        & PIVOTS.hold(t112, n(p.k10))
+        & PIVOTS.hold(t140, n(p.k9))
+        & PIVOTS.hold(t159, n(p.k8))
+        & PIVOTS.hold(t183, n(p.k7))
+        & q_8_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (6, t29, n(p.k13)),
+            (5, t59, n(p.k12)),
+            (4, t87, n(p.k11)),
+            (3, t112, n(p.k10)),
+            (2, t140, n(p.k9)),
+            (1, t159, n(p.k8)),
+            (0, t183, n(p.k7)),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        q_1_ddot.store(),
+        q_2_ddot.store(),
+        q_3_ddot.store(),
+        q_4_ddot.store(),
+        q_5_ddot.store(),
+        q_6_ddot.store(),
+        q_7_ddot.store(),
+        q_8_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1052,13 +1059,13 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let t0 = cos_q_2 + cos_q_1;
     let t1 = cos_q_3 + t0;
     let t2 = cos_q_4 + t1;
-    let t3 = p.half_l * cos_q_3 + p.l * t0 + (p.half_l * cos_q_2 + p.l * cos_q_1);
+    let t3 = cos_q_3 * p.half_l + t0 * p.l + (cos_q_1 * p.l + cos_q_2 * p.half_l);
     let t4 = cos_q_5 + t2;
     let t5 = cos_q_6 + t4;
-    let t6 = p.half_l * cos_q_5 + p.l * t2 + (p.half_l * cos_q_4 + p.l * t1 + t3);
-    let t7 = p.half_l * cos_q_7 + p.l * t5 + (p.half_l * cos_q_6 + p.l * t4 + t6);
-    let t8 = (p.half_l * cos_q_8 + p.l * (cos_q_7 + t5) + t7) * p.m_g;
-    -(t8 + cos_q_1 * p.half_l_m_g)
+    let t6 = t3 + (cos_q_4 * p.half_l + p.l * t1) + (cos_q_5 * p.half_l + p.l * t2);
+    let t7 = t6 + (cos_q_6 * p.half_l + p.l * t4) + (cos_q_7 * p.half_l + p.l * t5);
+    let t8 = (t7 + (cos_q_8 * p.half_l + p.l * (cos_q_7 + t5))) * p.m_g;
+    -(t8 - cos_q_1 * p.minus_half_l_m_g)
 }
 
 /// Height of the chain's end above the hinge. Unit: `m`.
@@ -1113,15 +1120,14 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
         q_7: "q[7]" "rad";
         q_8: "q[8]" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { end } [
         end: "end" "m";
     ]
     prepared Prepared {
-        l, m, J, g, half_l, m_g, half_l_m_g, l_m, k0, half_l_squared_m, k1, k2, k3, k4, k5, k6, k7,
-        k8, k9, k10, k11, k12, k13, k14, half_m, quarter_l_m, half_l_m, k15, k16, k17, k18, k19,
-        k20, k21, minus_half_l_m_g, minus_l, k22, k23, k24, half_l_squared, m_squared, k25, k26,
-        k27,
+        l, m, J, g, half_l, m_g, l_m, k0, half_l_squared_m, k1, k2, k3, k4, k5, k6, k7, k8, k9, k10,
+        k11, k12, k13, k14, half_m, quarter_l_m, half_l_m, k15, k16, k17, k18, k19, k20, k21,
+        minus_half_l_m_g, minus_l, k22, k23, k24, half_l_squared, m_squared, k25, k26, k27,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

@@ -153,14 +153,6 @@ pub struct Coordinates<S = f64> {
     pub q: [S; 8],
 }
 
-/// What can be set while a [`ChainRelative`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`ChainRelative`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`ChainRelative`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -681,325 +673,333 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8], v: 
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6, f_q_7, f_q_8]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 8],
-    v: &[S; 8],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 8], v: &'a [S; 8] })
+        -> Result<[S; 8], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 8], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 8],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 8],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 8], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let q_1 = n(q[0]);
-        let q_2 = n(q[1]);
-        let q_3 = n(q[2]);
-        let q_4 = n(q[3]);
-        let q_5 = n(q[4]);
-        let q_6 = n(q[5]);
-        let q_7 = n(q[6]);
-        let q_8 = n(q[7]);
-        let q_1_dot = n(v[0]);
-        let q_2_dot = n(v[1]);
-        let q_3_dot = n(v[2]);
-        let q_4_dot = n(v[3]);
-        let q_5_dot = n(v[4]);
-        let q_6_dot = n(v[5]);
-        let q_7_dot = n(v[6]);
-        let q_8_dot = n(v[7]);
-        let t0 = q_2 + q_1;
-        let t1 = t0 + q_3;
-        let t2 = t1 + q_4;
-        let t3 = t2 + q_5;
-        let t4 = t3 + q_6;
-        let t5 = t4 + q_7;
-        let t6 = t5 + q_8;
-        let angles = [q_1, t0, t1, t2, t3, t4, t5, t6];
-        let circular = N::sin_cos_all(angles);
-        let (sin_q_1, cos_q_1) = circular[0];
-        let (sin_t0, cos_t0) = circular[1];
-        let (sin_t1, cos_t1) = circular[2];
-        let (sin_t2, cos_t2) = circular[3];
-        let (sin_t3, cos_t3) = circular[4];
-        let (sin_t4, cos_t4) = circular[5];
-        let (sin_t5, cos_t5) = circular[6];
-        let (sin_t6, cos_t6) = circular[7];
-        let t7 = q_2_dot + q_1_dot;
-        let t8 = q_1_dot * q_1_dot;
-        let t9 = t7 + q_3_dot;
-        let t10 = t7 * t7;
-        let t11 = t9 + q_4_dot;
-        let t12 = t9 * t9;
-        let t13 = t11 + q_5_dot;
-        let t14 = t11 * t11;
-        let t15 = t13 + q_6_dot;
-        let t16 = t13 * t13;
-        let t17 = t15 + q_7_dot;
-        let t18 = t15 * t15;
-        let t19 = t17 + q_8_dot;
-        let t20 = t17 * t17;
-        let t21 = t19 * (n(p.half_l_m) * t19);
-        let t22 = n(p.l) * cos_q_1;
-        let t23 = n(p.l) * sin_q_1;
-        let t24 = n(p.l) * cos_t0;
-        let t25 = n(p.l) * sin_t0;
-        let t26 = t23 * t8;
-        let t27 = cos_t0 * t10;
-        let t28 = n(p.l) * cos_t1;
-        let t29 = n(p.l) * sin_t1;
-        let t30 = sin_t0 * (sin_q_1 * n(p.half_l_squared));
-        let t31 = t25.mul_add(t10, t26);
-        let t32 = n(p.l) * cos_t2;
-        let t33 = n(p.l) * sin_t2;
-        let t34 = n(p.m) * t29;
-        let t35 = n(p.m) * t28;
-        let t36 = t29 * t12;
-        let t37 = t28 * t12;
-        let t38 = n(p.l) * cos_t3;
-        let t39 = n(p.m) * t32;
-        let t40 = n(p.l) * sin_t3;
-        let t41 = n(p.m) * t33;
-        let t42 = t32 * t14;
-        let t43 = t33 * t14;
-        let t44 = sin_t0.mul_add(t10 * n(p.half_l), t26);
-        let t45 = n(p.l) * cos_t4;
-        let t46 = n(p.m) * t38;
-        let t47 = n(p.l) * sin_t4;
-        let t48 = n(p.m) * t40;
-        let t49 = t40 * t16;
-        let t50 = t38 * t16;
-        let t51 = n(p.l).mul_add(cos_q_1.mul_add(t8, t27), n(p.g));
-        let t52 = n(p.g) + n(p.half_l).mul_add(t27, t22 * t8);
-        let t53 = n(p.l) * sin_t5;
-        let t54 = n(p.l) * cos_t5;
-        let t55 = t45 * t18;
-        let t56 = t47 * t18;
-        let t57 = t53 * n(p.k18);
-        let t58 = t54 * n(p.k18);
-        let t59 = sin_t6 * cos_t6;
-        let t60 = sin_t6 * sin_t6;
-        let t61 = cos_t6 * cos_t6;
-        let t62 = t54.mul_add(cos_t6, sin_t6 * t53);
-        let t63 = t59 * n(p.k14);
-        let t64 = n(p.k14).neg_mul_add(t60, N::from_f64(2.5));
-        let t65 = n(p.k14).neg_mul_add(t61, N::from_f64(2.5));
-        let t66 = t54 * t20;
-        let t67 = n(p.k19) * t59;
-        let t68 = t62 * n(p.k19);
-        let t69 = t62 * n(p.k14);
-        let t70 = t54.mul_add(t58, t53.mul_add(t57, n(p.k15)));
-        let t71 = t62.neg_mul_add(t68, t70);
-        let t72 = sin_t6.neg_mul_add(t68, t57);
-        let t73 = cos_t6.neg_mul_add(t68, t58);
-        let t74 = t47.mul_sub(t64, t45 * t63);
-        let t75 = t45.mul_sub(t65, t47 * t63);
-        let t76 = sin_t6.neg_mul_add(t69, t53 * N::from_f64(1.5));
-        let t77 = cos_t6.neg_mul_add(t69, t54 * N::from_f64(1.5));
-        let t78 = t53 * t20;
-        let t79 = N::ONE / t71;
-        let t80 = t73.mul_add(t45, t72 * t47);
-        let t81 = t74.mul_add(t47 * n(p.m), n(p.k15));
-        let t82 = n(p.k19).neg_mul_add(t61, n(p.k18));
-        let t83 = t78.mul_add(t82, t67.mul_add(t66, sin_t6 * t21));
-        let t84 = sin_q_1 * n(p.half_l_m_g);
-        let t85 = t44 * (cos_t0 * n(p.half_l_m));
-        let t86 = n(p.k19).neg_mul_add(t60, n(p.k18));
-        let t87 = t66.mul_add(t86, t67.mul_add(t78, cos_t6 * t21));
-        let t88 = t44.neg_mul_add(cos_q_1 * n(p.l_m), t84);
-        let t89 = t79 * t80;
-        let t90 = t79 * t77;
-        let t91 = t79.neg_mul_add(t76 * (n(p.m) * t76), N::ONE + t64);
-        let t92 = t79 * t73;
-        let t93 = t53.mul_sub(t87, t54 * t83);
-        let t94 = t79 * t72;
-        let t95 = t80.neg_mul_add(t89, t75.mul_add(t45 * n(p.m), t81));
-        let t96 = t89.neg_mul_add(t76, t74);
-        let t97 = t90.mul_add(t76, t59 * n(p.k16));
-        let t98 = t80.neg_mul_add(t90, t75);
-        let t99 = t90.neg_mul_add(n(p.m) * t77, N::ONE + t65);
-        let t100 = t72.mul_add(t92, t67);
-        let t101 = N::ONE / t95;
-        let t102 = t46.neg_mul_add(t97, t40 * t91);
-        let t103 = t98.mul_add(t38, t96 * t40);
-        let t104 = t38.mul_sub(t99, t48 * t97);
-        let t105 = t55.mul_add(t100, t92.mul_add(t93, t83));
-        let t106 = t56.neg_mul_add(t73.mul_sub(t92, n(p.m) * t65), t105);
-        let t107 = t56.mul_add(t100, t93.neg_mul_add(t94, t87));
-        let t108 = t55.neg_mul_add(t72.mul_sub(t94, n(p.m) * t64), t107);
-        let t109 = t101 * n(p.m_squared);
-        let t110 = n(p.m) * t101;
-        let t111 = t101.mul_add(t98 * t96, t97);
-        let t112 = t109 * t103;
-        let t113 = t96 * t110;
-        let t114 = t98 * t110;
-        let t115 = t47.mul_sub(t108, t45 * t106);
-        let t116 = n(p.m_squared) * t111;
-        let t117 = t46.mul_add(t104, t48.mul_add(t102, n(p.k15)));
-        let t118 = t103.neg_mul_add(t112, t117);
-        let t119 = t96.neg_mul_add(t113, N::ONE + t91);
-        let t120 = t96.neg_mul_add(t112, n(p.m) * t102);
-        let t121 = t98.neg_mul_add(t114, N::ONE + t99);
-        let t122 = t98.neg_mul_add(t112, n(p.m) * t104);
-        let t123 = t103.neg_mul_add(t113, t102);
-        let t124 = N::ONE / t118;
-        let t125 = t33.mul_sub(t119, t39 * t111);
-        let t126 = t32.mul_sub(t121, t41 * t111);
-        let t127 = t103.neg_mul_add(t114, t104);
-        let t128 = t122.mul_add(t32, t120 * t33);
-        let t129 = t49 * t109.neg_mul_add(t98 * t98, n(p.m) * t99);
-        let t130 = t50 * t109.neg_mul_add(t96 * t96, n(p.m) * t91);
-        let t131 = t114.mul_add(t115, t106) + t116.mul_add(t50, t129);
-        let t132 = t113.neg_mul_add(t115, t108) + t116.mul_add(t49, t130);
-        let t133 = t124 * t128;
-        let t134 = t124 * t127;
-        let t135 = t124.neg_mul_add(t123 * (n(p.m) * t123), N::ONE + t119);
-        let t136 = t124 * t122;
-        let t137 = t124 * t120;
-        let t138 = t39.mul_add(t126, t41.mul_add(t125, n(p.k15)));
-        let t139 = t128.neg_mul_add(t133, t138);
-        let t140 = t133.neg_mul_add(t123, t125);
-        let t141 = t134.mul_add(t123, t111);
-        let t142 = t128.neg_mul_add(t134, t126);
-        let t143 = t134.neg_mul_add(n(p.m) * t127, N::ONE + t121);
-        let t144 = t40.mul_sub(t132, t38 * t131);
-        let t145 = t120.mul_add(t136, t116);
-        let t146 = N::ONE / t139;
-        let t147 = t35.neg_mul_add(t141, t29 * t135);
-        let t148 = t142.mul_add(t28, t140 * t29);
-        let t149 = t28.mul_sub(t143, t34 * t141);
-        let t150 = t42.mul_add(t145, t136.mul_add(t144, t131));
-        let t151 = t43.neg_mul_add(t122.mul_sub(t136, n(p.m) * t121), t150);
-        let t152 = t43.mul_add(t145, t144.neg_mul_add(t137, t132));
-        let t153 = t42.neg_mul_add(t120.mul_sub(t137, n(p.m) * t119), t152);
-        let t154 = n(p.m_squared) * t146;
-        let t155 = t146.mul_add(t142 * t140, t141);
-        let t156 = n(p.m) * t146;
-        let t157 = t154 * t148;
-        let t158 = n(p.m) * t155;
-        let t159 = t140 * t156;
-        let t160 = t142 * t156;
-        let t161 = n(p.m_squared) * t155;
-        let t162 = t33.mul_sub(t153, t32 * t151);
-        let t163 = t35.mul_add(t149, t34.mul_add(t147, n(p.k15)));
-        let t164 = t148.neg_mul_add(t157, t163);
-        let t165 = t140.neg_mul_add(t157, n(p.m) * t147);
-        let t166 = t140.neg_mul_add(t159, t135 + N::from_f64(0.5));
-        let t167 = t142.neg_mul_add(t157, n(p.m) * t149);
-        let t168 = t142.neg_mul_add(t160, t143 + N::from_f64(0.5));
-        let t169 = N::ONE / t164;
-        let t170 = t25.mul_sub(t166, t24 * t158);
-        let t171 = t24.mul_sub(t168, t25 * t158);
-        let t172 = t36 * t154.neg_mul_add(t142 * t142, n(p.m) * t143);
-        let t173 = t167.mul_add(t24, t165 * t25);
-        let t174 = cos_t0.mul_add(cos_q_1 * n(p.half_l_squared), t30);
-        let t175 = t37 * t154.neg_mul_add(t140 * t140, n(p.m) * t135);
-        let t176 = t160.mul_add(t162, t151) + t161.mul_add(t37, t172);
-        let t177 = t167.mul_add(t22, t165 * t23);
-        let t178 = t170.mul_add(n(p.m) * t25, n(p.k1));
-        let t179 = t159.neg_mul_add(t162, t153) + t161.mul_add(t36, t175);
-        let t180 = t171.mul_add(n(p.m) * t24, t178);
-        let t181 = t169.neg_mul_add(t173 * t173, t180);
-        let t182 = t169 * t177;
-        let t183 = t166.mul_sub(t23, t158 * t22);
-        let t184 = t29.mul_sub(t179, t28 * t176);
-        let t185 = t169 * t165;
-        let t186 = t169 * t167;
-        let t187 = N::ONE / t181;
-        let t188 = n(p.m) * t171.mul_add(t22, t170.mul_add(t23, t174));
-        let t189 = t173.mul_sub(t182, t188);
-        let t190 = t183.mul_add(n(p.m) * t23, n(p.k17));
-        let t191 = t165.mul_add(t186, t161);
-        let t192 = t168.mul_sub(t22, t158 * t23).mul_add(n(p.m) * t22, t190);
-        let t193 = t31.mul_add(t191, t184.neg_mul_add(t185, t179));
-        let t194 = t51.neg_mul_add(t165.mul_sub(t185, n(p.m) * t166), t193);
-        let t195 = t191.mul_add(t51, t186.mul_add(t184, t176));
-        let t196 = t31.neg_mul_add(t167.mul_sub(t186, n(p.m) * t168), t195);
-        let t197 = t187 * t189;
-        let t198 = t52.mul_sub(sin_t0 * n(p.half_l_m), t85);
-        let t199 = t189.neg_mul_add(t197, t177.neg_mul_add(t182, t192));
-        let t200 = t24.neg_mul_add(t196, t25.mul_add(t194, t198));
-        let t201 = t23.mul_add(t194, t52.mul_add(sin_q_1 * n(p.l_m), t88));
-        let t202 = t197.mul_add(t200, t22.neg_mul_add(t196, t201));
-        let t203 = N::ONE / t199 * t202;
-        let t204 = t197.mul_add(t203, t187 * t200);
-        let t205 = t25.neg_mul_add(t204, t23.neg_mul_add(t203, t51));
-        let t206 = t24.mul_add(t204, t22.mul_add(t203, t31));
-        let t207 = t186.neg_mul_add(t206, t185.mul_add(t205, t169 * t184));
-        let t208 = t29.neg_mul_add(t207, t37 + t205);
-        let t209 = t28.mul_add(t207, t36 + t206);
-        let t210 = t160.neg_mul_add(t209, t159.mul_add(t208, t146 * t162));
-        let t211 = t33.neg_mul_add(t210, t42 + t208);
-        let t212 = t32.mul_add(t210, t43 + t209);
-        let t213 = t136.neg_mul_add(t212, t137.mul_add(t211, t124 * t144));
-        let t214 = t40.neg_mul_add(t213, t50 + t211);
-        let t215 = t38.mul_add(t213, t49 + t212);
-        let t216 = t114.neg_mul_add(t215, t113.mul_add(t214, t101 * t115));
-        let t217 = t47.neg_mul_add(t216, t55 + t214);
-        let t218 = t45.mul_add(t216, t56 + t215);
-        let t219 = t92.neg_mul_add(t218, t94.mul_add(t217, t79 * t93));
-        let t220 = sin_t6 * t53.neg_mul_add(t219, t66 + t217);
-        let t221 = cos_t6.mul_sub(t54.mul_add(t219, t78 + t218), t220);
-        let q_1_ddot = -t203;
-        let q_2_ddot = t203 - t204;
-        let q_3_ddot = t204 - t207;
-        let q_4_ddot = t207 - t210;
-        let q_5_ddot = t210 - t213;
-        let q_6_ddot = t213 - t216;
-        let q_7_ddot = t216 - t219;
-        let q_8_ddot = t221.mul_add(n(p.k20), t219);
-        let sound = PIVOTS.hold(t71, t71)
-            & PIVOTS.hold(t95, t95)
-            & PIVOTS.hold(t118, t118)
-            & PIVOTS.hold(t139, t139)
-            & PIVOTS.hold(t164, t164)
-            & PIVOTS.hold(t181, t181)
-            & PIVOTS.hold(t199, t199)
-            & q_8_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (6, t71, t71),
-                (5, t95, t95),
-                (4, t118, t118),
-                (3, t139, t139),
-                (2, t164, t164),
-                (1, t181, t181),
-                (0, t199, t199),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            q_1_ddot.store(),
-            q_2_ddot.store(),
-            q_3_ddot.store(),
-            q_4_ddot.store(),
-            q_5_ddot.store(),
-            q_6_ddot.store(),
-            q_7_ddot.store(),
-            q_8_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let q_1 = n(q[0]);
+    let q_2 = n(q[1]);
+    let q_3 = n(q[2]);
+    let q_4 = n(q[3]);
+    let q_5 = n(q[4]);
+    let q_6 = n(q[5]);
+    let q_7 = n(q[6]);
+    let q_8 = n(q[7]);
+    let q_1_dot = n(v[0]);
+    let q_2_dot = n(v[1]);
+    let q_3_dot = n(v[2]);
+    let q_4_dot = n(v[3]);
+    let q_5_dot = n(v[4]);
+    let q_6_dot = n(v[5]);
+    let q_7_dot = n(v[6]);
+    let q_8_dot = n(v[7]);
+    let t0 = q_2 + q_1;
+    let t1 = t0 + q_3;
+    let t2 = t1 + q_4;
+    let t3 = t2 + q_5;
+    let t4 = t3 + q_6;
+    let t5 = t4 + q_7;
+    let t6 = t5 + q_8;
+    let angles = [q_1, t0, t1, t2, t3, t4, t5, t6];
+    let circular = N::sin_cos_all(angles);
+    let (sin_q_1, cos_q_1) = circular[0];
+    let (sin_t0, cos_t0) = circular[1];
+    let (sin_t1, cos_t1) = circular[2];
+    let (sin_t2, cos_t2) = circular[3];
+    let (sin_t3, cos_t3) = circular[4];
+    let (sin_t4, cos_t4) = circular[5];
+    let (sin_t5, cos_t5) = circular[6];
+    let (sin_t6, cos_t6) = circular[7];
+    let t7 = q_2_dot + q_1_dot;
+    let t8 = q_1_dot * q_1_dot;
+    let t9 = t7 + q_3_dot;
+    let t10 = t7 * t7;
+    let t11 = t9 + q_4_dot;
+    let t12 = t9 * t9;
+    let t13 = t11 + q_5_dot;
+    let t14 = t11 * t11;
+    let t15 = t13 + q_6_dot;
+    let t16 = t13 * t13;
+    let t17 = t15 + q_7_dot;
+    let t18 = t15 * t15;
+    let t19 = t17 + q_8_dot;
+    let t20 = t17 * t17;
+    let t21 = t19 * (n(p.half_l_m) * t19);
+    let t22 = n(p.l) * cos_q_1;
+    let t23 = n(p.l) * sin_q_1;
+    let t24 = n(p.l) * cos_t0;
+    let t25 = n(p.l) * sin_t0;
+    let t26 = t23 * t8;
+    let t27 = cos_t0 * t10;
+    let t28 = n(p.l) * cos_t1;
+    let t29 = n(p.l) * sin_t1;
+    let t30 = sin_t0 * (sin_q_1 * n(p.half_l_squared));
+    let t31 = t25.mul_add(t10, t26);
+    let t32 = n(p.l) * cos_t2;
+    let t33 = n(p.l) * sin_t2;
+    let t34 = n(p.m) * t29;
+    let t35 = n(p.m) * t28;
+    let t36 = t29 * t12;
+    let t37 = t28 * t12;
+    let t38 = n(p.l) * cos_t3;
+    let t39 = n(p.m) * t32;
+    let t40 = n(p.l) * sin_t3;
+    let t41 = n(p.m) * t33;
+    let t42 = t32 * t14;
+    let t43 = t33 * t14;
+    let t44 = sin_t0.mul_add(t10 * n(p.half_l), t26);
+    let t45 = n(p.l) * cos_t4;
+    let t46 = n(p.m) * t38;
+    let t47 = n(p.l) * sin_t4;
+    let t48 = n(p.m) * t40;
+    let t49 = t40 * t16;
+    let t50 = t38 * t16;
+    let t51 = n(p.l).mul_add(cos_q_1.mul_add(t8, t27), n(p.g));
+    let t52 = n(p.g) + n(p.half_l).mul_add(t27, t22 * t8);
+    let t53 = n(p.l) * sin_t5;
+    let t54 = n(p.l) * cos_t5;
+    let t55 = t45 * t18;
+    let t56 = t47 * t18;
+    let t57 = t53 * n(p.k18);
+    let t58 = t54 * n(p.k18);
+    let t59 = sin_t6 * cos_t6;
+    let t60 = sin_t6 * sin_t6;
+    let t61 = cos_t6 * cos_t6;
+    let t62 = t54.mul_add(cos_t6, sin_t6 * t53);
+    let t63 = t59 * n(p.k14);
+    let t64 = n(p.k14).neg_mul_add(t60, N::from_f64(2.5));
+    let t65 = n(p.k14).neg_mul_add(t61, N::from_f64(2.5));
+    let t66 = t54 * t20;
+    let t67 = n(p.k19) * t59;
+    let t68 = t62 * n(p.k19);
+    let t69 = t62 * n(p.k14);
+    let t70 = t54.mul_add(t58, t53.mul_add(t57, n(p.k15)));
+    // Eliminates q[7]: inertia d[q[7]].
+    let t71 = t62.neg_mul_add(t68, t70);
+    let t72 = sin_t6.neg_mul_add(t68, t57);
+    let t73 = cos_t6.neg_mul_add(t68, t58);
+    let t74 = t47.mul_sub(t64, t45 * t63);
+    let t75 = t45.mul_sub(t65, t47 * t63);
+    let t76 = sin_t6.neg_mul_add(t69, t53 * N::from_f64(1.5));
+    let t77 = cos_t6.neg_mul_add(t69, t54 * N::from_f64(1.5));
+    let t78 = t53 * t20;
+    let t79 = N::ONE / t71;
+    let t80 = t73.mul_add(t45, t72 * t47);
+    let t81 = t74.mul_add(t47 * n(p.m), n(p.k15));
+    let t82 = n(p.k19).neg_mul_add(t61, n(p.k18));
+    let t83 = t78.mul_add(t82, t67.mul_add(t66, sin_t6 * t21));
+    let t84 = sin_q_1 * n(p.half_l_m_g);
+    let t85 = t44 * (cos_t0 * n(p.half_l_m));
+    let t86 = n(p.k19).neg_mul_add(t60, n(p.k18));
+    let t87 = t66.mul_add(t86, t67.mul_add(t78, cos_t6 * t21));
+    let t88 = t44.neg_mul_add(cos_q_1 * n(p.l_m), t84);
+    let t89 = t79 * t80;
+    let t90 = t79 * t77;
+    let t91 = t79.neg_mul_add(t76 * (n(p.m) * t76), N::ONE + t64);
+    let t92 = t79 * t73;
+    let t93 = t53.mul_sub(t87, t54 * t83);
+    let t94 = t79 * t72;
+    // Eliminates q[6]: inertia d[q[6]].
+    let t95 = t80.neg_mul_add(t89, t75.mul_add(t45 * n(p.m), t81));
+    let t96 = t89.neg_mul_add(t76, t74);
+    let t97 = t90.mul_add(t76, t59 * n(p.k16));
+    let t98 = t80.neg_mul_add(t90, t75);
+    let t99 = t90.neg_mul_add(n(p.m) * t77, N::ONE + t65);
+    let t100 = t72.mul_add(t92, t67);
+    let t101 = N::ONE / t95;
+    let t102 = t46.neg_mul_add(t97, t40 * t91);
+    let t103 = t98.mul_add(t38, t96 * t40);
+    let t104 = t38.mul_sub(t99, t48 * t97);
+    let t105 = t55.mul_add(t100, t92.mul_add(t93, t83));
+    let t106 = t56.neg_mul_add(t73.mul_sub(t92, n(p.m) * t65), t105);
+    let t107 = t56.mul_add(t100, t93.neg_mul_add(t94, t87));
+    let t108 = t55.neg_mul_add(t72.mul_sub(t94, n(p.m) * t64), t107);
+    let t109 = t101 * n(p.m_squared);
+    let t110 = n(p.m) * t101;
+    let t111 = t101.mul_add(t98 * t96, t97);
+    let t112 = t109 * t103;
+    let t113 = t96 * t110;
+    let t114 = t98 * t110;
+    let t115 = t47.mul_sub(t108, t45 * t106);
+    let t116 = n(p.m_squared) * t111;
+    let t117 = t46.mul_add(t104, t48.mul_add(t102, n(p.k15)));
+    // Eliminates q[5]: inertia d[q[5]].
+    let t118 = t103.neg_mul_add(t112, t117);
+    let t119 = t96.neg_mul_add(t113, N::ONE + t91);
+    let t120 = t96.neg_mul_add(t112, n(p.m) * t102);
+    let t121 = t98.neg_mul_add(t114, N::ONE + t99);
+    let t122 = t98.neg_mul_add(t112, n(p.m) * t104);
+    let t123 = t103.neg_mul_add(t113, t102);
+    let t124 = N::ONE / t118;
+    let t125 = t33.mul_sub(t119, t39 * t111);
+    let t126 = t32.mul_sub(t121, t41 * t111);
+    let t127 = t103.neg_mul_add(t114, t104);
+    let t128 = t122.mul_add(t32, t120 * t33);
+    let t129 = t49 * t109.neg_mul_add(t98 * t98, n(p.m) * t99);
+    let t130 = t50 * t109.neg_mul_add(t96 * t96, n(p.m) * t91);
+    let t131 = t114.mul_add(t115, t106) + t116.mul_add(t50, t129);
+    let t132 = t113.neg_mul_add(t115, t108) + t116.mul_add(t49, t130);
+    let t133 = t124 * t128;
+    let t134 = t124 * t127;
+    let t135 = t124.neg_mul_add(t123 * (n(p.m) * t123), N::ONE + t119);
+    let t136 = t124 * t122;
+    let t137 = t124 * t120;
+    let t138 = t39.mul_add(t126, t41.mul_add(t125, n(p.k15)));
+    // Eliminates q[4]: inertia d[q[4]].
+    let t139 = t128.neg_mul_add(t133, t138);
+    let t140 = t133.neg_mul_add(t123, t125);
+    let t141 = t134.mul_add(t123, t111);
+    let t142 = t128.neg_mul_add(t134, t126);
+    let t143 = t134.neg_mul_add(n(p.m) * t127, N::ONE + t121);
+    let t144 = t40.mul_sub(t132, t38 * t131);
+    let t145 = t120.mul_add(t136, t116);
+    let t146 = N::ONE / t139;
+    let t147 = t35.neg_mul_add(t141, t29 * t135);
+    let t148 = t142.mul_add(t28, t140 * t29);
+    let t149 = t28.mul_sub(t143, t34 * t141);
+    let t150 = t42.mul_add(t145, t136.mul_add(t144, t131));
+    let t151 = t43.neg_mul_add(t122.mul_sub(t136, n(p.m) * t121), t150);
+    let t152 = t43.mul_add(t145, t144.neg_mul_add(t137, t132));
+    let t153 = t42.neg_mul_add(t120.mul_sub(t137, n(p.m) * t119), t152);
+    let t154 = n(p.m_squared) * t146;
+    let t155 = t146.mul_add(t142 * t140, t141);
+    let t156 = n(p.m) * t146;
+    let t157 = t154 * t148;
+    let t158 = n(p.m) * t155;
+    let t159 = t140 * t156;
+    let t160 = t142 * t156;
+    let t161 = n(p.m_squared) * t155;
+    let t162 = t33.mul_sub(t153, t32 * t151);
+    let t163 = t35.mul_add(t149, t34.mul_add(t147, n(p.k15)));
+    // Eliminates q[3]: inertia d[q[3]].
+    let t164 = t148.neg_mul_add(t157, t163);
+    let t165 = t140.neg_mul_add(t157, n(p.m) * t147);
+    let t166 = t140.neg_mul_add(t159, t135 + N::from_f64(0.5));
+    let t167 = t142.neg_mul_add(t157, n(p.m) * t149);
+    let t168 = t142.neg_mul_add(t160, t143 + N::from_f64(0.5));
+    let t169 = N::ONE / t164;
+    let t170 = t25.mul_sub(t166, t24 * t158);
+    let t171 = t24.mul_sub(t168, t25 * t158);
+    let t172 = t36 * t154.neg_mul_add(t142 * t142, n(p.m) * t143);
+    let t173 = t167.mul_add(t24, t165 * t25);
+    let t174 = cos_t0.mul_add(cos_q_1 * n(p.half_l_squared), t30);
+    let t175 = t37 * t154.neg_mul_add(t140 * t140, n(p.m) * t135);
+    let t176 = t160.mul_add(t162, t151) + t161.mul_add(t37, t172);
+    let t177 = t167.mul_add(t22, t165 * t23);
+    let t178 = t170.mul_add(n(p.m) * t25, n(p.k1));
+    let t179 = t159.neg_mul_add(t162, t153) + t161.mul_add(t36, t175);
+    let t180 = t171.mul_add(n(p.m) * t24, t178);
+    // Eliminates q[2]: inertia d[q[2]].
+    let t181 = t169.neg_mul_add(t173 * t173, t180);
+    let t182 = t169 * t177;
+    let t183 = t166.mul_sub(t23, t158 * t22);
+    let t184 = t29.mul_sub(t179, t28 * t176);
+    let t185 = t169 * t165;
+    let t186 = t169 * t167;
+    let t187 = N::ONE / t181;
+    let t188 = n(p.m) * t171.mul_add(t22, t170.mul_add(t23, t174));
+    let t189 = t173.mul_sub(t182, t188);
+    let t190 = t183.mul_add(n(p.m) * t23, n(p.k17));
+    let t191 = t165.mul_add(t186, t161);
+    let t192 = t168.mul_sub(t22, t158 * t23).mul_add(n(p.m) * t22, t190);
+    let t193 = t31.mul_add(t191, t184.neg_mul_add(t185, t179));
+    let t194 = t51.neg_mul_add(t165.mul_sub(t185, n(p.m) * t166), t193);
+    let t195 = t191.mul_add(t51, t186.mul_add(t184, t176));
+    let t196 = t31.neg_mul_add(t167.mul_sub(t186, n(p.m) * t168), t195);
+    let t197 = t187 * t189;
+    let t198 = t52.mul_sub(sin_t0 * n(p.half_l_m), t85);
+    // Eliminates q[1]: inertia d[q[1]].
+    let t199 = t189.neg_mul_add(t197, t177.neg_mul_add(t182, t192));
+    let t200 = t24.neg_mul_add(t196, t25.mul_add(t194, t198));
+    let t201 = t23.mul_add(t194, t52.mul_add(sin_q_1 * n(p.l_m), t88));
+    let t202 = t197.mul_add(t200, t22.neg_mul_add(t196, t201));
+    let t203 = N::ONE / t199 * t202;
+    // Eliminates q[2]: alone z[q[2]].
+    let t204 = t197.mul_add(t203, t187 * t200);
+    let t205 = t25.neg_mul_add(t204, t23.neg_mul_add(t203, t51));
+    let t206 = t24.mul_add(t204, t22.mul_add(t203, t31));
+    // Eliminates q[3]: alone z[q[3]].
+    let t207 = t186.neg_mul_add(t206, t185.mul_add(t205, t169 * t184));
+    let t208 = t29.neg_mul_add(t207, t37 + t205);
+    let t209 = t28.mul_add(t207, t36 + t206);
+    // Eliminates q[4]: alone z[q[4]].
+    let t210 = t160.neg_mul_add(t209, t159.mul_add(t208, t146 * t162));
+    let t211 = t33.neg_mul_add(t210, t42 + t208);
+    let t212 = t32.mul_add(t210, t43 + t209);
+    // Eliminates q[5]: alone z[q[5]].
+    let t213 = t136.neg_mul_add(t212, t137.mul_add(t211, t124 * t144));
+    let t214 = t40.neg_mul_add(t213, t50 + t211);
+    let t215 = t38.mul_add(t213, t49 + t212);
+    // Eliminates q[6]: alone z[q[6]].
+    let t216 = t114.neg_mul_add(t215, t113.mul_add(t214, t101 * t115));
+    let t217 = t47.neg_mul_add(t216, t55 + t214);
+    let t218 = t45.mul_add(t216, t56 + t215);
+    // Eliminates q[7]: alone z[q[7]].
+    let t219 = t92.neg_mul_add(t218, t94.mul_add(t217, t79 * t93));
+    let t220 = sin_t6 * t53.neg_mul_add(t219, t66 + t217);
+    let t221 = cos_t6.mul_sub(t54.mul_add(t219, t78 + t218), t220);
+    let q_1_ddot = -t203;
+    let q_2_ddot = t203 - t204;
+    let q_3_ddot = t204 - t207;
+    let q_4_ddot = t207 - t210;
+    let q_5_ddot = t210 - t213;
+    let q_6_ddot = t213 - t216;
+    let q_7_ddot = t216 - t219;
+    let q_8_ddot = t221.mul_add(n(p.k20), t219);
+    let sound = PIVOTS.hold(t71, t71)
+        & PIVOTS.hold(t95, t95)
+        & PIVOTS.hold(t118, t118)
+        & PIVOTS.hold(t139, t139)
+        & PIVOTS.hold(t164, t164)
+        & PIVOTS.hold(t181, t181)
+        & PIVOTS.hold(t199, t199)
+        & q_8_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (6, t71, t71),
+            (5, t95, t95),
+            (4, t118, t118),
+            (3, t139, t139),
+            (2, t164, t164),
+            (1, t181, t181),
+            (0, t199, t199),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        q_1_ddot.store(),
+        q_2_ddot.store(),
+        q_3_ddot.store(),
+        q_4_ddot.store(),
+        q_5_ddot.store(),
+        q_6_ddot.store(),
+        q_7_ddot.store(),
+        q_8_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1160,8 +1160,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         q_7: "q[7]" "rad";
         q_8: "q[8]" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         l, m, J, g, half_l, l_squared_m, m_g, half_l_m_g, l_m, k0, k1, half_l_m, half_m,
         quarter_l_m, k2, k3, k4, k5, k6, k7, k8, half_l_squared_m, k9, k10, two_l_m, three_l_m,

@@ -1,7 +1,7 @@
 // @generated from machines/chaplygin_sleigh.machine by `cargo xtask generate`; edits are lost.
 
-//! A sleigh of S. A. Chaplygin: a rigid body on ice with one blade, which goes along itself only;
-//! its
+//! A sleigh of S. A. Chaplygin: a rigid body on ice with one blade, which goes along itself
+//! only; its
 //! mass centre is ahead of the blade. It turns until it runs with the mass centre in front.
 //!
 //! 3 coordinates, 3 parameters, 1 output. Arithmetic of one call:
@@ -35,8 +35,8 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A sleigh of S. A. Chaplygin: a rigid body on ice with one blade, which goes along itself only;
-/// its
+/// A sleigh of S. A. Chaplygin: a rigid body on ice with one blade, which goes along itself
+/// only; its
 /// mass centre is ahead of the blade. It turns until it runs with the mass centre in front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChaplyginSleigh<S = f64> {
@@ -98,10 +98,6 @@ pub struct Coordinates<S = f64> {
     /// Direction of the blade. Unit: `rad`.
     pub phi: S,
 }
-
-/// What can be set while a [`ChaplyginSleigh`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
 
 /// What can be observed of a [`ChaplyginSleigh`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -231,116 +227,116 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3])
     [gamma1]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
-/// machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along
+    /// the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 3], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 3],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let phi = n(q[2]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let phi_dot = n(v[2]);
-        let (sin_phi, cos_phi) = phi.sin_cos();
-        let t0 = phi_dot * phi_dot;
-        let t1 = sin_phi * n(p.a);
-        let t2 = cos_phi * n(p.a);
-        let t3 = sin_phi * (phi_dot * y_dot);
-        let t4 = n(p.a) * sin_phi.mul_add(sin_phi, cos_phi * cos_phi);
-        let t5 = t4 * n(p.inverse_J);
-        let t6 = t5.mul_add(t1, sin_phi * n(p.inverse_m));
-        let t7 = t2.mul_add(t5, cos_phi * n(p.inverse_m));
-        let t8 = cos_phi.mul_add(t7, sin_phi * t6);
-        let t9 = cos_phi.mul_add(phi_dot * x_dot, t3) / t8;
-        let x_ddot = t6.neg_mul_add(t9, t0 * t2);
-        let y_ddot = t7.mul_add(t9, t0 * t1);
-        let phi_ddot = -(t5 * t9);
-        let sound = PIVOTS.hold(t8, t8) & phi_ddot.is_finite();
-        if !sound {
-            let pivots = [(3, t8, t8)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [x_ddot.store(), y_ddot.store(), phi_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let phi = n(q[2]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let phi_dot = n(v[2]);
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let t0 = phi_dot * phi_dot;
+    let t1 = sin_phi * n(p.a);
+    let t2 = cos_phi * n(p.a);
+    let t3 = sin_phi * (phi_dot * y_dot);
+    let t4 = n(p.a) * sin_phi.mul_add(sin_phi, cos_phi * cos_phi);
+    let t5 = t4 * n(p.inverse_J);
+    let t6 = t5.mul_add(t1, sin_phi * n(p.inverse_m));
+    let t7 = t2.mul_add(t5, cos_phi * n(p.inverse_m));
+    // Row blade: pivot d[blade].
+    let t8 = cos_phi.mul_add(t7, sin_phi * t6);
+    let t9 = cos_phi.mul_add(phi_dot * x_dot, t3) / t8;
+    let x_ddot = t6.neg_mul_add(t9, t0 * t2);
+    let y_ddot = t7.mul_add(t9, t0 * t1);
+    let phi_ddot = -(t5 * t9);
+    let sound = PIVOTS.hold(t8, t8) & phi_ddot.is_finite();
+    if !sound {
+        let pivots = [(3, t8, t8)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [x_ddot.store(), y_ddot.store(), phi_ddot.store()];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 1], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 1], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 3],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 1], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let phi = n(q[2]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let phi_dot = n(v[2]);
-        let (sin_phi, cos_phi) = phi.sin_cos();
-        let t0 = sin_phi * sin_phi;
-        let t1 = cos_phi * cos_phi;
-        let t2 = n(p.a) * (t0 + t1) * n(p.inverse_J);
-        let t3 = n(p.a).mul_add(t2, n(p.inverse_m));
-        let t4 = t1.mul_add(t3, t0 * t3);
-        let lambda1 = cos_phi.mul_add(x_dot, sin_phi * y_dot) * phi_dot / t4;
-        let sound = PIVOTS.hold(t4, t4) & lambda1.is_finite();
-        if !sound {
-            let pivots = [(3, t4, t4)];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [lambda1.store()];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let phi = n(q[2]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let phi_dot = n(v[2]);
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let t0 = sin_phi * sin_phi;
+    let t1 = cos_phi * cos_phi;
+    let t2 = n(p.a) * (t0 + t1) * n(p.inverse_J);
+    let t3 = n(p.a).mul_add(t2, n(p.inverse_m));
+    // Row blade: pivot d[blade].
+    let t4 = t1.mul_add(t3, t0 * t3);
+    let lambda1 = cos_phi.mul_add(x_dot, sin_phi * y_dot) * phi_dot / t4;
+    let sound = PIVOTS.hold(t4, t4) & lambda1.is_finite();
+    if !sound {
+        let pivots = [(3, t4, t4)];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [lambda1.store()];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -398,7 +394,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> Outp
         y: "y" "m";
         phi: "phi" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { along } [
         along: "along" "m/s";
     ]

@@ -58,15 +58,10 @@ impl<S: ::lagrangian::emitted::Scalar> ClosedPendulum<S> {
         let t0 = self.l * self.m;
         let t1 = self.l * t0;
         let t2 = self.g * t0;
-        let half_l_m_g = S::from_f64(0.5) * t2;
         let t3 = S::from_ratio(1, 6);
         let t4 = S::from_ratio(4, 3);
         let t5 = S::from_ratio(1, 3);
         let k9 = t1 * t5;
-        let k10 = t2 * S::from_f64(1.5);
-        let k11 = t2 * S::from_f64(2.5);
-        let k12 = t2 * S::from_f64(3.5);
-        let k13 = t2 * S::from_f64(4.5);
         let t6 = self.l * self.l;
         let t7 = S::ONE / self.l;
         let inverse_m = S::ONE / self.m;
@@ -87,20 +82,20 @@ impl<S: ::lagrangian::emitted::Scalar> ClosedPendulum<S> {
         let quarter_l_m = t0 * S::from_f64(0.25);
         let half_l_m = S::from_f64(0.5) * t0;
         let minus_l = -self.l;
-        let k14 = -k13;
-        let k15 = -k12;
-        let k16 = -k11;
-        let k17 = -k10;
-        let minus_half_l_m_g = -half_l_m_g;
-        let k18 = t3 * t6;
+        let k10 = -(t2 * S::from_f64(4.5));
+        let k11 = -(t2 * S::from_f64(3.5));
+        let k12 = -(t2 * S::from_f64(2.5));
+        let k13 = -(t2 * S::from_f64(1.5));
+        let minus_half_l_m_g = -(S::from_f64(0.5) * t2);
+        let k14 = t3 * t6;
         let half_l_squared = S::from_f64(0.5) * t6;
-        let k19 = t5 * t6;
-        let k20 = t4 * t6;
+        let k15 = t5 * t6;
+        let k16 = t4 * t6;
         let quarter_l_squared = S::from_f64(0.25) * t6;
-        let k21 = S::from_f64(1.5) * t7;
-        let k22 = t8 * S::from_f64(3.0);
+        let k17 = S::from_f64(1.5) * t7;
+        let k18 = t8 * S::from_f64(3.0);
         let minus_m = -self.m;
-        let k23 = t8 * S::from_ratio(3, 13);
+        let k19 = t8 * S::from_ratio(3, 13);
         let pivots = [(4, k9, k9)];
         Prepared {
             l: self.l,
@@ -110,7 +105,6 @@ impl<S: ::lagrangian::emitted::Scalar> ClosedPendulum<S> {
             half_l,
             k0,
             m_g,
-            half_l_m_g,
             k1,
             half_l_squared_m,
             k2,
@@ -124,26 +118,22 @@ impl<S: ::lagrangian::emitted::Scalar> ClosedPendulum<S> {
             half_m,
             quarter_l_m,
             half_l_m,
+            minus_l,
             k10,
             k11,
             k12,
             k13,
-            minus_l,
+            minus_half_l_m_g,
             k14,
+            half_l_squared,
             k15,
             k16,
-            k17,
-            minus_half_l_m_g,
-            k18,
-            half_l_squared,
-            k19,
-            k20,
             quarter_l_squared,
-            k21,
-            k22,
+            k17,
+            k18,
             inverse_m,
             minus_m,
-            k23,
+            k19,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -172,14 +162,6 @@ pub struct Coordinates<S = f64> {
     pub q: [S; 5],
 }
 
-/// What can be set while a [`ClosedPendulum`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`ClosedPendulum`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`ClosedPendulum`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -197,8 +179,6 @@ pub struct Prepared<S = f64> {
     k0: S,
     /// `m*g`
     m_g: S,
-    /// `0.5*l*m*g`
-    half_l_m_g: S,
     /// `(1/6)*l^2*m`
     k1: S,
     /// `0.5*l^2*m`
@@ -225,46 +205,38 @@ pub struct Prepared<S = f64> {
     quarter_l_m: S,
     /// `0.5*l*m`
     half_l_m: S,
-    /// `1.5*l*m*g`
-    k10: S,
-    /// `2.5*l*m*g`
-    k11: S,
-    /// `3.5*l*m*g`
-    k12: S,
-    /// `4.5*l*m*g`
-    k13: S,
     /// `-l`
     minus_l: S,
     /// `-4.5*l*m*g`
-    k14: S,
+    k10: S,
     /// `-3.5*l*m*g`
-    k15: S,
+    k11: S,
     /// `-2.5*l*m*g`
-    k16: S,
+    k12: S,
     /// `-1.5*l*m*g`
-    k17: S,
+    k13: S,
     /// `-0.5*l*m*g`
     minus_half_l_m_g: S,
     /// `(1/6)*l^2`
-    k18: S,
+    k14: S,
     /// `0.5*l^2`
     half_l_squared: S,
     /// `(1/3)*l^2`
-    k19: S,
+    k15: S,
     /// `(4/3)*l^2`
-    k20: S,
+    k16: S,
     /// `0.25*l^2`
     quarter_l_squared: S,
     /// `1.5/l`
-    k21: S,
+    k17: S,
     /// `3/l^2/m`
-    k22: S,
+    k18: S,
     /// `1/m`
     inverse_m: S,
     /// `-m`
     minus_m: S,
     /// `(3/13)/l^2/m`
-    k23: S,
+    k19: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -399,10 +371,10 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
     let cos_q_3 = q_3.cos();
     let cos_q_4 = q_4.cos();
     let cos_q_5 = q_5.cos();
-    let q_q_1 = p.k14 * cos_q_1;
-    let q_q_2 = p.k15 * cos_q_2;
-    let q_q_3 = p.k16 * cos_q_3;
-    let q_q_4 = p.k17 * cos_q_4;
+    let q_q_1 = p.k10 * cos_q_1;
+    let q_q_2 = p.k11 * cos_q_2;
+    let q_q_3 = p.k12 * cos_q_3;
+    let q_q_4 = p.k13 * cos_q_4;
     let q_q_5 = p.minus_half_l_m_g * cos_q_5;
     [q_q_1, q_q_2, q_q_3, q_q_4, q_q_5]
 }
@@ -430,30 +402,30 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: 
     let t3 = q_1_dot * q_1_dot;
     let t4 = t0 * p.k2;
     let t5 = q_5_dot * (q_5_dot * p.half_l_squared_m);
-    let t6 = t1 * sin_q_2;
-    let t7 = t2 * sin_q_3;
-    let t8 = t4 * sin_q_4;
+    let t6 = sin_q_2 * t1;
+    let t7 = sin_q_3 * t2;
+    let t8 = sin_q_4 * t4;
     let t9 = sin_q_1 * t3;
-    let t10 = t5 * sin_q_5;
-    let t11 = t1 * cos_q_2;
-    let t12 = t2 * cos_q_3;
-    let t13 = p.k3 * t7;
+    let t10 = sin_q_5 * t5;
+    let t11 = cos_q_2 * t1;
+    let t12 = cos_q_3 * t2;
+    let t13 = t7 * p.k3;
     let t14 = cos_q_1 * t3;
     let t15 = t6 + t9;
-    let t16 = t5 * cos_q_5 + t4 * cos_q_4;
+    let t16 = cos_q_4 * t4 + cos_q_5 * t5;
     let t17 = t12 * p.k3;
     let t18 = t11 + t14;
-    let t19 = sin_q_5 * (t18 + (t12 + t0 * cos_q_4));
-    let t20 = cos_q_2 * (p.k12 - t8 - t13 - (t10 + p.k4 * t9));
-    let t21 = t5 * (cos_q_5 * sin_q_4 - sin_q_5 * cos_q_4) + cos_q_4 * p.k10;
-    let t22 = p.half_l_squared_m * (t19 - cos_q_5 * (t15 + (t7 + t0 * sin_q_4)));
-    let t23 = cos_q_1 * (t10 + p.k4 * t6 + (t13 + (t8 - p.k13)));
-    let t24 = sin_q_3 * (t16 + p.k3 * t18) + cos_q_3 * (p.k11 - t8 - t10 - p.k3 * t15);
-    let f_q_1 = t23 - sin_q_1 * (t16 + (t17 + t11 * p.k4));
-    let f_q_2 = -(sin_q_2 * (t16 + (t17 + p.k4 * t14)) + t20);
-    let f_q_3 = -t24;
-    let f_q_4 = -(p.k2 * (sin_q_4 * (t12 + t18) - cos_q_4 * (t7 + t15)) + t21);
-    let f_q_5 = -(t22 + cos_q_5 * p.half_l_m_g);
+    let t19 = sin_q_5 * (t18 + (t12 + cos_q_4 * t0));
+    let t20 = cos_q_2 * (t10 + t9 * p.k4 + (t13 + (t8 + p.k11)));
+    let t21 = cos_q_3 * (t10 + (t8 + p.k12) + p.k3 * t15);
+    let t22 = t5 * (sin_q_4 * cos_q_5 - cos_q_4 * sin_q_5) - cos_q_4 * p.k13;
+    let t23 = p.half_l_squared_m * (t19 - cos_q_5 * (t15 + (t7 + sin_q_4 * t0)));
+    let t24 = cos_q_1 * (t10 + t6 * p.k4 + (t13 + (t8 + p.k10)));
+    let f_q_1 = t24 - sin_q_1 * (t16 + (t17 + t11 * p.k4));
+    let f_q_2 = -(sin_q_2 * (t16 + (t17 + t14 * p.k4)) - t20);
+    let f_q_3 = -(sin_q_3 * (t16 + p.k3 * t18) - t21);
+    let f_q_4 = -(t22 + p.k2 * (sin_q_4 * (t12 + t18) - cos_q_4 * (t7 + t15)));
+    let f_q_5 = -(t23 - cos_q_5 * p.minus_half_l_m_g);
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5]
 }
 
@@ -595,466 +567,507 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     [gamma1, gamma2]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
-/// machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 5],
-    v: &[S; 5],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along
+    /// the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    ///
+    /// So far these are the accelerations `a0` without constraint forces. The multipliers follow
+    /// from `C lambda = gamma - G a0`, where now `G` are the rows of the constraints and `C = G
+    /// M^-1 G^T`, row after row: `d`, `l` and `z` of constraints are those of `C = L D L^T`.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 5], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 5], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 5],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 5],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 5], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let q_1 = n(q[0]);
-        let q_2 = n(q[1]);
-        let q_3 = n(q[2]);
-        let q_4 = n(q[3]);
-        let q_5 = n(q[4]);
-        let q_1_dot = n(v[0]);
-        let q_2_dot = n(v[1]);
-        let q_3_dot = n(v[2]);
-        let q_4_dot = n(v[3]);
-        let q_5_dot = n(v[4]);
-        let angles = [q_5, q_4, q_3, q_2, q_1];
-        let circular = N::sin_cos_all(angles);
-        let (sin_q_5, cos_q_5) = circular[0];
-        let (sin_q_4, cos_q_4) = circular[1];
-        let (sin_q_3, cos_q_3) = circular[2];
-        let (sin_q_2, cos_q_2) = circular[3];
-        let (sin_q_1, cos_q_1) = circular[4];
-        let t0 = q_5_dot * q_5_dot;
-        let t1 = q_4_dot * q_4_dot;
-        let t2 = q_3_dot * q_3_dot;
-        let t3 = q_1_dot * q_1_dot;
-        let t4 = q_2_dot * q_2_dot;
-        let t5 = N::from_f64(0.75) * cos_q_5;
-        let t6 = n(p.l) * sin_q_4;
-        let t7 = n(p.l) * cos_q_4;
-        let t8 = n(p.l) * sin_q_3;
-        let t9 = n(p.l) * cos_q_3;
-        let t10 = cos_q_5 * t0;
-        let t11 = sin_q_5 * t0;
-        let t12 = sin_q_5 * t5;
-        let t13 = cos_q_5.neg_mul_add(t5, N::from_f64(1.5));
-        let t14 = N::from_f64(0.75) * sin_q_5;
-        let t15 = sin_q_5.neg_mul_add(t14, N::from_f64(1.5));
-        let t16 = t6 * t1;
-        let t17 = t7 * t1;
-        let t18 = n(p.l) * sin_q_2;
-        let t19 = n(p.l) * cos_q_2;
-        let t20 = t8 * t2;
-        let t21 = t7.mul_sub(t13, t12 * t6);
-        let t22 = t15.mul_sub(t6, t12 * t7);
-        let t23 = t9 * t2;
-        let t24 = n(p.l) * sin_q_1;
-        let t25 = t15.mul_add(t17, t12.mul_add(t16, n(p.half_l) * t10));
-        let t26 = t13.mul_add(t16, t12.mul_add(t17, n(p.half_l) * t11));
-        let t27 = n(p.l) * sin_q_5;
-        let t28 = cos_q_5 * n(p.k21);
-        let t29 = n(p.l) * cos_q_1;
-        let t30 = sin_q_5 * n(p.k21);
-        let t31 = sin_q_1 * t3;
-        let t32 = t6.mul_add(t22, t7.mul_sub(t21, n(p.k18)));
-        let t33 = sin_q_2 * n(p.half_l);
-        let t34 = cos_q_2 * (n(p.half_l_squared) * cos_q_1);
-        let t35 = t27 * t28;
-        let t36 = t30 * t27;
-        let t37 = t7.mul_sub(t26, t6 * t25);
-        let t38 = t29 * t3;
-        let t39 = N::ONE / t32;
-        let t40 = cos_q_2 * n(p.half_l);
-        let t41 = t19.mul_add(t4, t38);
-        let t42 = sin_q_2.mul_add(t4, t31);
-        let t43 = t40.mul_add(t4, t38);
-        let t44 = t6.neg_mul_add(t36, t7.neg_mul_add(t35, t6));
-        let t45 = n(p.g) - t4.mul_add(t33, t24 * t3);
-        let t46 = n(p.l) * cos_q_5;
-        let t47 = t31.neg_mul_add(n(p.half_l), n(p.g));
-        let t48 = n(p.l).neg_mul_add(t42, n(p.g));
-        let t49 = t28 * t46;
-        let t50 = t30 * t46;
-        let t51 = t22 * t39;
-        let t52 = t21 * t39;
-        let t53 = t39 * n(p.inverse_m);
-        let t54 = t24.mul_add(t43, t31 * (cos_q_1 * n(p.quarter_l_squared)));
-        let t55 = t22.neg_mul_add(t51, t15 + N::ONE);
-        let t56 = t22.mul_add(t52, t12);
-        let t57 = t21.neg_mul_add(t52, t13 + N::ONE);
-        let t58 = t52.mul_add(t44, t35);
-        let t59 = t51.mul_add(t44, t36);
-        let t60 = t6.neg_mul_add(t50, t7.neg_mul_add(t49, t7));
-        let t61 = t52.mul_add(t60, t49);
-        let t62 = t56.mul_sub(t9, t55 * t8);
-        let t63 = t9.mul_sub(t57, t8 * t56);
-        let t64 = t51.mul_add(t60, t50);
-        let t65 = t55.mul_add(t23, t56.mul_add(t20, t51.mul_add(t37, t25)));
-        let t66 = t57.mul_add(t20, t52.neg_mul_add(t37, t26));
-        let t67 = t56.mul_add(t23, t66);
-        let t68 = t8.neg_mul_add(t59, t9.neg_mul_add(t58, t8));
-        let t69 = cos_q_3.mul_add(t2, cos_q_2.mul_add(t4, cos_q_1 * t3));
-        let t70 = t8.neg_mul_add(t64, t9.neg_mul_add(t61, t9));
-        let t71 = t9.neg_mul_add(t63, t8.mul_add(t62, n(p.k18)));
-        let t72 = t9.mul_sub(t67, t8 * t65);
-        let t73 = N::ONE / t71;
-        let t74 = t63 * t73;
-        let t75 = t62 * t73;
-        let t76 = t73 * n(p.inverse_m);
-        let t77 = t62.mul_add(t74, t56);
-        let t78 = t63.mul_add(t74, t57 + N::from_f64(0.5));
-        let t79 = t62.mul_add(t75, t55 + N::from_f64(0.5));
-        let t80 = t74.neg_mul_add(t68, t58);
-        let t81 = t75.mul_add(t68, t59);
-        let t82 = t74.neg_mul_add(t70, t61);
-        let t83 = t19.mul_sub(t78, t18 * t77);
-        let t84 = t77.mul_sub(t19, t79 * t18);
-        let t85 = t77.mul_add(t41, t74.mul_add(t72, t67));
-        let t86 = t78.neg_mul_add(t48, t85);
-        let t87 = t79.mul_add(t41, t75.mul_add(t72, t65));
-        let t88 = t77.neg_mul_add(t48, t87);
-        let t89 = t18.neg_mul_add(t81, t19.neg_mul_add(t80, t18));
-        let t90 = sin_q_2.mul_add(n(p.half_l_squared) * sin_q_1, t34);
-        let t91 = t54 + t29.mul_add(t45, t47 * (cos_q_1 * n(p.half_l)));
-        let t92 = t75.mul_add(t70, t64);
-        let t93 = t18.neg_mul_add(t84, t19.mul_add(t83, n(p.k19)));
-        let t94 = t84.neg_mul_add(t24, t83.mul_add(t29, t90));
-        let t95 = t29.mul_add(t78.mul_sub(t29, t77 * t24), n(p.k20));
-        let t96 = t19.mul_sub(t86, t40.mul_add(t45, t43 * t33));
-        let t97 = t18.neg_mul_add(t88, t96);
-        let t98 = t18.neg_mul_add(t92, t19.neg_mul_add(t82, t19));
-        let t99 = N::ONE / t93;
-        let t100 = t99 * t94;
-        let t101 = t99 * n(p.inverse_m);
-        let t102 = t24.neg_mul_add(t77.mul_sub(t29, t79 * t24), t95);
-        let t103 = t94.neg_mul_add(t100, t102);
-        let t104 = t24.neg_mul_add(t88, t29.mul_sub(t86, t91));
-        let t105 = t24.neg_mul_add(t81, t29.neg_mul_add(t80, t24));
-        let t106 = t24.neg_mul_add(t92, t29.neg_mul_add(t82, t29));
-        let t107 = N::ONE / t103;
-        let t108 = t107 * t100.neg_mul_add(t97, t104);
-        let t109 = t107 * n(p.inverse_m);
-        let t110 = t109 * t100.neg_mul_add(t89, t105);
-        let t111 = t24 * t108;
-        let t112 = t29 * t108;
-        let t113 = t109 * t100.neg_mul_add(t98, t106);
-        let t114 = t99 * t94.neg_mul_add(t108, t97);
-        let t115 = t100.neg_mul_add(t110, t89 * t101);
-        let t116 = t100.neg_mul_add(t113, t101 * t98);
-        let t117 = t18 * t114;
-        let t118 = t19 * t114;
-        let t119 = t18.mul_add(t115, t24 * t110);
-        let t120 = t19.mul_add(t115, t29 * t110);
-        let t121 = t18.mul_add(t116, t24 * t113);
-        let t122 = t117 + (t41 + t111);
-        let t123 = t118 + (t48 + t112);
-        let t124 = t19.mul_add(t116, t29 * t113);
-        let t125 = t74.neg_mul_add(t120, t75.mul_add(t119, t68 * t76));
-        let t126 = t11 + sin_q_4.mul_add(t1, sin_q_3.mul_add(t2, t42));
-        let t127 = t74.neg_mul_add(t124, t75.mul_add(t121, t76 * t70));
-        let t128 = t8.neg_mul_add(t125, t119);
-        let t129 = t9.neg_mul_add(t125, t120);
-        let t130 = sin_q_2.mul_add(t115, sin_q_1 * t110);
-        let t131 = cos_q_2.mul_add(t115, cos_q_1 * t110);
-        let t132 = t8.neg_mul_add(t127, t121);
-        let t133 = t9.neg_mul_add(t127, t124);
-        let t134 = t73 * t63.neg_mul_add(t123, t62.mul_add(t122, t72));
-        let t135 = n(p.l).mul_add(t10 + cos_q_4.mul_add(t1, t69), t111);
-        let t136 = cos_q_2.mul_add(t116, cos_q_1 * t113);
-        let t137 = t9 * t134;
-        let t138 = t8 * t134;
-        let t139 = t52.neg_mul_add(t129, t51.neg_mul_add(t128, t44 * t53));
-        let t140 = t52.neg_mul_add(t133, t51.neg_mul_add(t132, t53 * t60));
-        let t141 = t137 + (t20 - t123);
-        let t142 = t23 + t122 - t138;
-        let t143 = t30.neg_mul_add(t6.mul_add(t139, t128), t27 * n(p.k22));
-        let t144 = t28.neg_mul_add(t7.mul_add(t139, t129), t143);
-        let t145 = t30.neg_mul_add(t6.mul_add(t140, t132), n(p.k22) * t46);
-        let t146 = t28.neg_mul_add(t7.mul_add(t140, t133), t145);
-        let t147 = t39 * t22.neg_mul_add(t142, t21.mul_add(t141, t37));
-        let t148 = sin_q_4.mul_add(t139, sin_q_3.neg_mul_add(t125, t130));
-        let t149 = cos_q_4.mul_add(t139, cos_q_3.neg_mul_add(t125, t131));
-        let t150 = cos_q_4.mul_add(t140, cos_q_3.neg_mul_add(t127, t136));
-        let t151 = t7 * t147;
-        let t152 = t6 * t147;
-        let t153 = n(p.l) * sin_q_5.mul_add(t144, t148);
-        let t154 = n(p.l) * cos_q_5.mul_add(t144, t149);
-        let t155 = n(p.l) * cos_q_5.mul_add(t146, t150);
-        let t156 = N::ONE / t153;
-        let t157 = cos_q_5 * (t16 + t141 - t151);
-        let t158 = sin_q_5.mul_sub(t152 + (t17 + t142), t157);
-        let t159 = N::from_f64(1.5) * t158;
-        let t160 = t156 * t154;
-        let t161 = sin_q_5.neg_mul_add(t159, t152 + (t117 + t135 - t138));
-        let t162 = t137 + (n(p.l).mul_sub(t126, t112) - t118) - t151;
-        let t163 = t154.neg_mul_add(t160, t155);
-        let t164 = t160.mul_add(t161, cos_q_5.mul_add(t159, t162)) / t163;
-        let t165 = t160.mul_add(t164, t156 * t161);
-        let t166 = t146.neg_mul_add(t164, n(p.k21) * t158);
-        let q_1_ddot = t110.neg_mul_add(t165, t113.mul_add(t164, t108));
-        let q_2_ddot = t115.neg_mul_add(t165, t116.mul_add(t164, t114));
-        let q_3_ddot = t125.mul_sub(t165, t127.mul_add(t164, t134));
-        let q_4_ddot = t139.neg_mul_add(t165, t140.mul_add(t164, t147));
-        let q_5_ddot = -t144.mul_add(t165, t166);
-        let t167 = t32 * n(p.m);
-        let t168 = t71 * n(p.minus_m);
-        let t169 = t93 * n(p.m);
-        let t170 = t103 * n(p.m);
-        let sound = PIVOTS.hold(t167, n(p.k8))
-            & PIVOTS.hold(t168, n(p.k7))
-            & PIVOTS.hold(t169, n(p.k6))
-            & PIVOTS.hold(t170, n(p.k5))
-            & PIVOTS.hold(t153, t153)
-            & PIVOTS.hold(t163, t155)
-            & q_5_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (3, t167, n(p.k8)),
-                (2, t168, n(p.k7)),
-                (1, t169, n(p.k6)),
-                (0, t170, n(p.k5)),
-                (5, t153, t153),
-                (6, t163, t155),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            q_1_ddot.store(),
-            q_2_ddot.store(),
-            q_3_ddot.store(),
-            q_4_ddot.store(),
-            q_5_ddot.store(),
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let q_1 = n(q[0]);
+    let q_2 = n(q[1]);
+    let q_3 = n(q[2]);
+    let q_4 = n(q[3]);
+    let q_5 = n(q[4]);
+    let q_1_dot = n(v[0]);
+    let q_2_dot = n(v[1]);
+    let q_3_dot = n(v[2]);
+    let q_4_dot = n(v[3]);
+    let q_5_dot = n(v[4]);
+    let angles = [q_5, q_4, q_3, q_2, q_1];
+    let circular = N::sin_cos_all(angles);
+    let (sin_q_5, cos_q_5) = circular[0];
+    let (sin_q_4, cos_q_4) = circular[1];
+    let (sin_q_3, cos_q_3) = circular[2];
+    let (sin_q_2, cos_q_2) = circular[3];
+    let (sin_q_1, cos_q_1) = circular[4];
+    let t0 = q_5_dot * q_5_dot;
+    let t1 = q_4_dot * q_4_dot;
+    let t2 = q_3_dot * q_3_dot;
+    let t3 = q_1_dot * q_1_dot;
+    let t4 = q_2_dot * q_2_dot;
+    let t5 = N::from_f64(0.75) * cos_q_5;
+    let t6 = n(p.l) * sin_q_4;
+    let t7 = n(p.l) * cos_q_4;
+    let t8 = n(p.l) * sin_q_3;
+    let t9 = n(p.l) * cos_q_3;
+    let t10 = cos_q_5 * t0;
+    let t11 = sin_q_5 * t0;
+    let t12 = sin_q_5 * t5;
+    let t13 = cos_q_5.neg_mul_add(t5, N::from_f64(1.5));
+    let t14 = N::from_f64(0.75) * sin_q_5;
+    let t15 = sin_q_5.neg_mul_add(t14, N::from_f64(1.5));
+    let t16 = t6 * t1;
+    let t17 = t7 * t1;
+    let t18 = n(p.l) * sin_q_2;
+    let t19 = n(p.l) * cos_q_2;
+    let t20 = t8 * t2;
+    let t21 = t7.mul_sub(t13, t12 * t6);
+    let t22 = t15.mul_sub(t6, t12 * t7);
+    let t23 = t9 * t2;
+    let t24 = n(p.l) * sin_q_1;
+    let t25 = t15.mul_add(t17, t12.mul_add(t16, n(p.half_l) * t10));
+    let t26 = t13.mul_add(t16, t12.mul_add(t17, n(p.half_l) * t11));
+    let t27 = n(p.l) * sin_q_5;
+    let t28 = cos_q_5 * n(p.k17);
+    let t29 = n(p.l) * cos_q_1;
+    let t30 = sin_q_5 * n(p.k17);
+    let t31 = sin_q_1 * t3;
+    // Eliminates q[4]: inertia d[q[4]].
+    let t32 = t6.mul_add(t22, t7.mul_sub(t21, n(p.k14)));
+    let t33 = sin_q_2 * n(p.half_l);
+    let t34 = cos_q_2 * (n(p.half_l_squared) * cos_q_1);
+    let t35 = t27 * t28;
+    let t36 = t30 * t27;
+    let t37 = t7.mul_sub(t26, t6 * t25);
+    let t38 = t29 * t3;
+    let t39 = N::ONE / t32;
+    let t40 = cos_q_2 * n(p.half_l);
+    let t41 = t19.mul_add(t4, t38);
+    let t42 = sin_q_2.mul_add(t4, t31);
+    let t43 = t40.mul_add(t4, t38);
+    let t44 = t6.neg_mul_add(t36, t7.neg_mul_add(t35, t6));
+    let t45 = n(p.g) - t4.mul_add(t33, t24 * t3);
+    let t46 = n(p.l) * cos_q_5;
+    let t47 = t31.neg_mul_add(n(p.half_l), n(p.g));
+    let t48 = n(p.l).neg_mul_add(t42, n(p.g));
+    let t49 = t28 * t46;
+    let t50 = t30 * t46;
+    let t51 = t22 * t39;
+    let t52 = t21 * t39;
+    let t53 = t39 * n(p.inverse_m);
+    let t54 = t24.mul_add(t43, t31 * (cos_q_1 * n(p.quarter_l_squared)));
+    let t55 = t22.neg_mul_add(t51, t15 + N::ONE);
+    let t56 = t22.mul_add(t52, t12);
+    let t57 = t21.neg_mul_add(t52, t13 + N::ONE);
+    let t58 = t52.mul_add(t44, t35);
+    let t59 = t51.mul_add(t44, t36);
+    let t60 = t6.neg_mul_add(t50, t7.neg_mul_add(t49, t7));
+    let t61 = t52.mul_add(t60, t49);
+    let t62 = t56.mul_sub(t9, t55 * t8);
+    let t63 = t9.mul_sub(t57, t8 * t56);
+    let t64 = t51.mul_add(t60, t50);
+    let t65 = t55.mul_add(t23, t56.mul_add(t20, t51.mul_add(t37, t25)));
+    let t66 = t57.mul_add(t20, t52.neg_mul_add(t37, t26));
+    let t67 = t56.mul_add(t23, t66);
+    let t68 = t8.neg_mul_add(t59, t9.neg_mul_add(t58, t8));
+    let t69 = cos_q_3.mul_add(t2, cos_q_2.mul_add(t4, cos_q_1 * t3));
+    let t70 = t8.neg_mul_add(t64, t9.neg_mul_add(t61, t9));
+    // Eliminates q[3]: inertia d[q[3]].
+    let t71 = t9.neg_mul_add(t63, t8.mul_add(t62, n(p.k14)));
+    let t72 = t9.mul_sub(t67, t8 * t65);
+    let t73 = N::ONE / t71;
+    let t74 = t63 * t73;
+    let t75 = t62 * t73;
+    let t76 = t73 * n(p.inverse_m);
+    let t77 = t62.mul_add(t74, t56);
+    let t78 = t63.mul_add(t74, t57 + N::from_f64(0.5));
+    let t79 = t62.mul_add(t75, t55 + N::from_f64(0.5));
+    let t80 = t74.neg_mul_add(t68, t58);
+    let t81 = t75.mul_add(t68, t59);
+    let t82 = t74.neg_mul_add(t70, t61);
+    let t83 = t19.mul_sub(t78, t18 * t77);
+    let t84 = t77.mul_sub(t19, t79 * t18);
+    let t85 = t77.mul_add(t41, t74.mul_add(t72, t67));
+    let t86 = t78.neg_mul_add(t48, t85);
+    let t87 = t79.mul_add(t41, t75.mul_add(t72, t65));
+    let t88 = t77.neg_mul_add(t48, t87);
+    let t89 = t18.neg_mul_add(t81, t19.neg_mul_add(t80, t18));
+    let t90 = sin_q_2.mul_add(n(p.half_l_squared) * sin_q_1, t34);
+    let t91 = t54 + t29.mul_add(t45, t47 * (cos_q_1 * n(p.half_l)));
+    let t92 = t75.mul_add(t70, t64);
+    // Eliminates q[2]: inertia d[q[2]].
+    let t93 = t18.neg_mul_add(t84, t19.mul_add(t83, n(p.k15)));
+    let t94 = t84.neg_mul_add(t24, t83.mul_add(t29, t90));
+    let t95 = t29.mul_add(t78.mul_sub(t29, t77 * t24), n(p.k16));
+    let t96 = t19.mul_sub(t86, t40.mul_add(t45, t43 * t33));
+    let t97 = t18.neg_mul_add(t88, t96);
+    let t98 = t18.neg_mul_add(t92, t19.neg_mul_add(t82, t19));
+    let t99 = N::ONE / t93;
+    let t100 = t99 * t94;
+    let t101 = t99 * n(p.inverse_m);
+    let t102 = t24.neg_mul_add(t77.mul_sub(t29, t79 * t24), t95);
+    // Eliminates q[1]: inertia d[q[1]].
+    let t103 = t94.neg_mul_add(t100, t102);
+    let t104 = t24.neg_mul_add(t88, t29.mul_sub(t86, t91));
+    let t105 = t24.neg_mul_add(t81, t29.neg_mul_add(t80, t24));
+    let t106 = t24.neg_mul_add(t92, t29.neg_mul_add(t82, t29));
+    let t107 = N::ONE / t103;
+    let t108 = t107 * t100.neg_mul_add(t97, t104);
+    let t109 = t107 * n(p.inverse_m);
+    let t110 = t109 * t100.neg_mul_add(t89, t105);
+    let t111 = t24 * t108;
+    let t112 = t29 * t108;
+    let t113 = t109 * t100.neg_mul_add(t98, t106);
+    let t114 = t99 * t94.neg_mul_add(t108, t97);
+    let t115 = t100.neg_mul_add(t110, t89 * t101);
+    let t116 = t100.neg_mul_add(t113, t101 * t98);
+    let t117 = t18 * t114;
+    let t118 = t19 * t114;
+    let t119 = t18.mul_add(t115, t24 * t110);
+    let t120 = t19.mul_add(t115, t29 * t110);
+    let t121 = t18.mul_add(t116, t24 * t113);
+    let t122 = t117 + (t41 + t111);
+    let t123 = t118 + (t48 + t112);
+    let t124 = t19.mul_add(t116, t29 * t113);
+    let t125 = t74.neg_mul_add(t120, t75.mul_add(t119, t68 * t76));
+    let t126 = t11 + sin_q_4.mul_add(t1, sin_q_3.mul_add(t2, t42));
+    let t127 = t74.neg_mul_add(t124, t75.mul_add(t121, t76 * t70));
+    let t128 = t8.neg_mul_add(t125, t119);
+    let t129 = t9.neg_mul_add(t125, t120);
+    let t130 = sin_q_2.mul_add(t115, sin_q_1 * t110);
+    let t131 = cos_q_2.mul_add(t115, cos_q_1 * t110);
+    let t132 = t8.neg_mul_add(t127, t121);
+    let t133 = t9.neg_mul_add(t127, t124);
+    let t134 = t73 * t63.neg_mul_add(t123, t62.mul_add(t122, t72));
+    let t135 = n(p.l).mul_add(t10 + cos_q_4.mul_add(t1, t69), t111);
+    let t136 = cos_q_2.mul_add(t116, cos_q_1 * t113);
+    let t137 = t9 * t134;
+    let t138 = t8 * t134;
+    let t139 = t52.neg_mul_add(t129, t51.neg_mul_add(t128, t44 * t53));
+    let t140 = t52.neg_mul_add(t133, t51.neg_mul_add(t132, t53 * t60));
+    let t141 = t137 + (t20 - t123);
+    let t142 = t23 + t122 - t138;
+    let t143 = t30.neg_mul_add(t6.mul_add(t139, t128), t27 * n(p.k18));
+    let t144 = t28.neg_mul_add(t7.mul_add(t139, t129), t143);
+    let t145 = t30.neg_mul_add(t6.mul_add(t140, t132), n(p.k18) * t46);
+    let t146 = t28.neg_mul_add(t7.mul_add(t140, t133), t145);
+    let t147 = t39 * t22.neg_mul_add(t142, t21.mul_add(t141, t37));
+    let t148 = sin_q_4.mul_add(t139, sin_q_3.neg_mul_add(t125, t130));
+    let t149 = cos_q_4.mul_add(t139, cos_q_3.neg_mul_add(t125, t131));
+    let t150 = cos_q_4.mul_add(t140, cos_q_3.neg_mul_add(t127, t136));
+    let t151 = t7 * t147;
+    let t152 = t6 * t147;
+    // Row along: pivot d[along].
+    let t153 = n(p.l) * sin_q_5.mul_add(t144, t148);
+    let t154 = n(p.l) * cos_q_5.mul_add(t144, t149);
+    let t155 = n(p.l) * cos_q_5.mul_add(t146, t150);
+    let t156 = N::ONE / t153;
+    let t157 = cos_q_5 * (t16 + t141 - t151);
+    let t158 = sin_q_5.mul_sub(t152 + (t17 + t142), t157);
+    let t159 = N::from_f64(1.5) * t158;
+    // Eliminates along from row across: l[across, along].
+    let t160 = t156 * t154;
+    let t161 = sin_q_5.neg_mul_add(t159, t152 + (t117 + t135 - t138));
+    let t162 = t137 + (n(p.l).mul_sub(t126, t112) - t118) - t151;
+    // Row across: pivot d[across].
+    let t163 = t154.neg_mul_add(t160, t155);
+    // Row across: right-hand side z[across].
+    let t164 = t160.mul_add(t161, cos_q_5.mul_add(t159, t162)) / t163;
+    // Back substitution: lambda[along].
+    let t165 = t160.mul_add(t164, t156 * t161);
+    let t166 = t146.neg_mul_add(t164, n(p.k17) * t158);
+    let q_1_ddot = t110.neg_mul_add(t165, t113.mul_add(t164, t108));
+    let q_2_ddot = t115.neg_mul_add(t165, t116.mul_add(t164, t114));
+    let q_3_ddot = t125.mul_sub(t165, t127.mul_add(t164, t134));
+    let q_4_ddot = t139.neg_mul_add(t165, t140.mul_add(t164, t147));
+    let q_5_ddot = -t144.mul_add(t165, t166);
+    let t167 = t32 * n(p.m);
+    let t168 = t71 * n(p.minus_m);
+    let t169 = t93 * n(p.m);
+    let t170 = t103 * n(p.m);
+    let sound = PIVOTS.hold(t167, n(p.k8))
+        & PIVOTS.hold(t168, n(p.k7))
+        & PIVOTS.hold(t169, n(p.k6))
+        & PIVOTS.hold(t170, n(p.k5))
+        & PIVOTS.hold(t153, t153)
+        & PIVOTS.hold(t163, t155)
+        & q_5_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (3, t167, n(p.k8)),
+            (2, t168, n(p.k7)),
+            (1, t169, n(p.k6)),
+            (0, t170, n(p.k5)),
+            (5, t153, t153),
+            (6, t163, t155),
         ];
-        Ok(accelerations)
+        PIVOTS.check(pivots)?;
     }
+    let accelerations = [
+        q_1_ddot.store(),
+        q_2_ddot.store(),
+        q_3_ddot.store(),
+        q_4_ddot.store(),
+        q_5_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 5],
-    v: &[S; 5],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 2], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 5],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 5],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let q_1 = n(q[0]);
-        let q_2 = n(q[1]);
-        let q_3 = n(q[2]);
-        let q_4 = n(q[3]);
-        let q_5 = n(q[4]);
-        let q_1_dot = n(v[0]);
-        let q_2_dot = n(v[1]);
-        let q_3_dot = n(v[2]);
-        let q_4_dot = n(v[3]);
-        let q_5_dot = n(v[4]);
-        let angles = [q_2, q_1, q_3, q_4, q_5];
-        let circular = N::sin_cos_all(angles);
-        let (sin_q_2, cos_q_2) = circular[0];
-        let (sin_q_1, cos_q_1) = circular[1];
-        let (sin_q_3, cos_q_3) = circular[2];
-        let (sin_q_4, cos_q_4) = circular[3];
-        let (sin_q_5, cos_q_5) = circular[4];
-        let t0 = q_2_dot * q_2_dot;
-        let t1 = q_1_dot * q_1_dot;
-        let t2 = q_3_dot * q_3_dot;
-        let t3 = q_4_dot * q_4_dot;
-        let t4 = q_5_dot * q_5_dot;
-        let t5 = cos_q_2 * t0;
-        let t6 = sin_q_2 * t0;
-        let t7 = sin_q_1 * t1;
-        let t8 = sin_q_2.mul_add(sin_q_1, cos_q_2 * cos_q_1) * n(p.k4);
-        let t9 = n(p.k3) * sin_q_1.mul_add(sin_q_3, cos_q_1 * cos_q_3);
-        let t10 = n(p.k2) * sin_q_1.mul_add(sin_q_4, cos_q_1 * cos_q_4);
-        let t11 = n(p.k23) * t8;
-        let t12 = sin_q_1.mul_add(sin_q_5, cos_q_1 * cos_q_5);
-        let t13 = n(p.half_l_squared_m) * t12;
-        let t14 = n(p.k23) * t9;
-        let t15 = sin_q_2.mul_add(sin_q_5, cos_q_2 * cos_q_5);
-        let t16 = n(p.k23) * t10;
-        let t17 = t8.neg_mul_add(t11, n(p.k6));
-        let t18 = cos_q_1 * t1;
-        let t19 = n(p.k23) * t13;
-        let t20 = n(p.k3) * sin_q_2.mul_add(sin_q_3, cos_q_2 * cos_q_3);
-        let t21 = t8.neg_mul_add(t14, t20);
-        let t22 = n(p.k2) * sin_q_2.mul_add(sin_q_4, cos_q_2 * cos_q_4);
-        let t23 = t8.neg_mul_add(t16, t22);
-        let t24 = n(p.k2) * sin_q_3.mul_add(sin_q_4, cos_q_3 * cos_q_4);
-        let t25 = N::ONE / t17;
-        let t26 = t8.neg_mul_add(t19, n(p.half_l_squared_m) * t15);
-        let t27 = sin_q_3.mul_add(sin_q_5, cos_q_3 * cos_q_5);
-        let t28 = t6 + t7;
-        let t29 = sin_q_3 * t2;
-        let t30 = t5 + t18;
-        let t31 = cos_q_3 * t2;
-        let t32 = sin_q_1 * n(p.l);
-        let t33 = sin_q_4 * t3;
-        let t34 = sin_q_4.mul_add(sin_q_5, cos_q_4 * cos_q_5);
-        let t35 = sin_q_5 * t4;
-        let t36 = t29 + t28;
-        let t37 = cos_q_4 * t3;
-        let t38 = t31 + t30;
-        let t39 = cos_q_5 * t4;
-        let t40 = n(p.k23) * t32;
-        let t41 = t33 + t36;
-        let t42 = t37 + t38;
-        let t43 = t25 * t21;
-        let t44 = t25 * t23;
-        let t45 = t25 * t26;
-        let t46 = t8.neg_mul_add(t40, sin_q_2 * n(p.l));
-        let t47 = t21.neg_mul_add(t43, t9.neg_mul_add(t14, n(p.k7)));
-        let t48 = t21.neg_mul_add(t44, t9.neg_mul_add(t16, t24));
-        let t49 = t9.neg_mul_add(t19, n(p.half_l_squared_m) * t27);
-        let t50 = t21.neg_mul_add(t45, t49);
-        let t51 = t10.neg_mul_add(t19, n(p.half_l_squared_m) * t34);
-        let t52 = n(p.l).mul_add(t42, n(p.half_l) * t39);
-        let t53 = N::ONE / t47;
-        let t54 = n(p.l).mul_add(t38, n(p.half_l) * t37);
-        let t55 = t25 * t46;
-        let t56 = cos_q_1 * n(p.l);
-        let t57 = n(p.g) - n(p.l).mul_add(t41, t35 * n(p.half_l));
-        let t58 = n(p.g) - n(p.l).mul_add(t36, n(p.half_l) * t33);
-        let t59 = t52 + t54;
-        let t60 = n(p.l).mul_add(t30, n(p.half_l) * t31);
-        let t61 = t9.neg_mul_add(t40, sin_q_3 * n(p.l));
-        let t62 = t21.neg_mul_add(t55, t61);
-        let t63 = n(p.k23) * t56;
-        let t64 = t57 + t58;
-        let t65 = n(p.g) - n(p.l).mul_add(t28, n(p.half_l) * t29);
-        let t66 = n(p.half_l).mul_add(t5, n(p.l) * t18);
-        let t67 = t53 * t48;
-        let t68 = t53 * t50;
-        let t69 = t53 * t62;
-        let t70 = t10.neg_mul_add(t40, sin_q_4 * n(p.l));
-        let t71 = t8.neg_mul_add(t63, cos_q_2 * n(p.l));
-        let t72 = t23.neg_mul_add(t44, t10.neg_mul_add(t16, n(p.k8)));
-        let t73 = t48.neg_mul_add(t67, t72);
-        let t74 = t48.neg_mul_add(t68, t23.neg_mul_add(t45, t51));
-        let t75 = t26.neg_mul_add(t45, t13.neg_mul_add(t19, n(p.k9)));
-        let t76 = n(p.g) - n(p.half_l).mul_add(t6, n(p.l) * t7);
-        let t77 = n(p.m) * (t59 + t60);
-        let t78 = N::ONE / t73;
-        let t79 = t48.neg_mul_add(t69, t23.neg_mul_add(t55, t70));
-        let t80 = t13.neg_mul_add(t40, sin_q_5 * n(p.l));
-        let t81 = t25 * t71;
-        let t82 = n(p.m) * (t64 + t65);
-        let t83 = n(p.half_m) * n(p.half_l).neg_mul_add(t7, n(p.g));
-        let t84 = t9.neg_mul_add(t63, cos_q_3 * n(p.l));
-        let t85 = t21.neg_mul_add(t81, t84);
-        let t86 = t77 + n(p.m).mul_add(t66, t18 * n(p.quarter_l_m));
-        let t87 = t78 * t74;
-        let t88 = t78 * t79;
-        let t89 = t74.neg_mul_add(t87, t50.neg_mul_add(t68, t75));
-        let t90 = t50.neg_mul_add(t69, t26.neg_mul_add(t55, t80));
-        let t91 = t74.neg_mul_add(t88, t90);
-        let t92 = t53 * t85;
-        let t93 = t10.neg_mul_add(t63, cos_q_4 * n(p.l));
-        let t94 = t82 + n(p.m).mul_add(t76, t83);
-        let t95 = sin_q_4 * t52.mul_add(n(p.m), n(p.half_m) * t54);
-        let t96 = t57.mul_add(n(p.m), n(p.half_m) * t58);
-        let t97 = sin_q_2 * n(p.half_m).mul_add(t66, t77);
-        let t98 = N::ONE / t89;
-        let t99 = sin_q_3 * n(p.m).mul_add(t59, n(p.half_m) * t60);
-        let t100 = n(p.m).mul_add(t64, n(p.half_m) * t65);
-        let t101 = t62.mul_add(t69, t46.mul_add(t55, t32 * t40));
-        let t102 = t48.neg_mul_add(t92, t23.neg_mul_add(t81, t93));
-        let t103 = t13.neg_mul_add(t63, cos_q_5 * n(p.l));
-        let t104 = n(p.l) * cos_q_1.mul_add(t94, sin_q_1 * t86);
-        let t105 = cos_q_2.mul_add(n(p.half_m).mul_add(t76, t82), t97);
-        let t106 = t78 * t102;
-        let t107 = t11.mul_sub(t104, n(p.l) * t105);
-        let t108 = cos_q_5.mul_add(t57, sin_q_5 * t52) * n(p.half_l_m);
-        let t109 = t50.neg_mul_add(t92, t26.neg_mul_add(t81, t103));
-        let t110 = t74.neg_mul_add(t106, t109);
-        let t111 = t98 * t91;
-        let t112 = t16.mul_sub(t104, n(p.l) * cos_q_4.mul_add(t96, t95));
-        let t113 = t14.mul_sub(t104, n(p.l) * cos_q_3.mul_add(t100, t99));
-        let t114 = t43.neg_mul_add(t107, t113);
-        let t115 = t40.neg_mul_add(t104, n(p.l) * (t39 + t42));
-        let t116 = t63.mul_add(t104, n(p.l) * (t35 + t41));
-        let t117 = t91.mul_add(t111, t79.mul_add(t88, t101));
-        let t118 = t98 * t110;
-        let t119 = t62.mul_add(t92, t46.mul_add(t81, t32 * t63));
-        let t120 = t67.neg_mul_add(t114, t44.neg_mul_add(t107, t112));
-        let t121 = t45.neg_mul_add(t107, t19.mul_sub(t104, t108));
-        let t122 = N::ONE / t117;
-        let t123 = t91.mul_add(t118, t79.mul_add(t106, t119));
-        let t124 = t87.neg_mul_add(t120, t68.neg_mul_add(t114, t121));
-        let t125 = t69.mul_add(t114, t55.mul_add(t107, t115));
-        let t126 = t92.neg_mul_add(t114, t81.neg_mul_add(t107, t116));
-        let t127 = t111.mul_add(t124, t88.mul_add(t120, t125));
-        let t128 = t110.mul_add(t118, t71.mul_add(t81, t56 * t63));
-        let t129 = t128 + t102.mul_add(t106, t85 * t92);
-        let t130 = t122 * t123;
-        let t131 = t118.neg_mul_add(t124, t106.neg_mul_add(t120, t126));
-        let t132 = t123.neg_mul_add(t130, t129);
-        let lambda2 = t130.mul_add(t127, t131) / t132;
-        let lambda1 = t130.mul_add(lambda2, t122 * t127);
-        let sound = PIVOTS.hold(n(p.k5), n(p.k5))
-            & PIVOTS.hold(t17, n(p.k6))
-            & PIVOTS.hold(t47, n(p.k7))
-            & PIVOTS.hold(t73, n(p.k8))
-            & PIVOTS.hold(t89, n(p.k9))
-            & PIVOTS.hold(t117, t117)
-            & PIVOTS.hold(t132, t129)
-            & lambda1.is_finite();
-        if !sound {
-            let pivots = [
-                (0, n(p.k5), n(p.k5)),
-                (1, t17, n(p.k6)),
-                (2, t47, n(p.k7)),
-                (3, t73, n(p.k8)),
-                (4, t89, n(p.k9)),
-                (5, t117, t117),
-                (6, t132, t129),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [lambda1.store(), lambda2.store()];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let q_1 = n(q[0]);
+    let q_2 = n(q[1]);
+    let q_3 = n(q[2]);
+    let q_4 = n(q[3]);
+    let q_5 = n(q[4]);
+    let q_1_dot = n(v[0]);
+    let q_2_dot = n(v[1]);
+    let q_3_dot = n(v[2]);
+    let q_4_dot = n(v[3]);
+    let q_5_dot = n(v[4]);
+    let angles = [q_2, q_1, q_3, q_4, q_5];
+    let circular = N::sin_cos_all(angles);
+    let (sin_q_2, cos_q_2) = circular[0];
+    let (sin_q_1, cos_q_1) = circular[1];
+    let (sin_q_3, cos_q_3) = circular[2];
+    let (sin_q_4, cos_q_4) = circular[3];
+    let (sin_q_5, cos_q_5) = circular[4];
+    let t0 = q_2_dot * q_2_dot;
+    let t1 = q_1_dot * q_1_dot;
+    let t2 = q_3_dot * q_3_dot;
+    let t3 = q_4_dot * q_4_dot;
+    let t4 = q_5_dot * q_5_dot;
+    let t5 = cos_q_2 * t0;
+    let t6 = sin_q_2 * t0;
+    let t7 = sin_q_1 * t1;
+    let t8 = sin_q_2.mul_add(sin_q_1, cos_q_2 * cos_q_1) * n(p.k4);
+    let t9 = n(p.k3) * sin_q_1.mul_add(sin_q_3, cos_q_1 * cos_q_3);
+    let t10 = n(p.k2) * sin_q_1.mul_add(sin_q_4, cos_q_1 * cos_q_4);
+    // Eliminates q[1] from row q[2]: l[q[2], q[1]].
+    let t11 = n(p.k19) * t8;
+    let t12 = sin_q_1.mul_add(sin_q_5, cos_q_1 * cos_q_5);
+    let t13 = n(p.half_l_squared_m) * t12;
+    // Eliminates q[1] from row q[3]: l[q[3], q[1]].
+    let t14 = n(p.k19) * t9;
+    let t15 = sin_q_2.mul_add(sin_q_5, cos_q_2 * cos_q_5);
+    // Eliminates q[1] from row q[4]: l[q[4], q[1]].
+    let t16 = n(p.k19) * t10;
+    // Row q[2]: pivot d[q[2]].
+    let t17 = t8.neg_mul_add(t11, n(p.k6));
+    let t18 = cos_q_1 * t1;
+    // Eliminates q[1] from row q[5]: l[q[5], q[1]].
+    let t19 = n(p.k19) * t13;
+    let t20 = n(p.k3) * sin_q_2.mul_add(sin_q_3, cos_q_2 * cos_q_3);
+    let t21 = t8.neg_mul_add(t14, t20);
+    let t22 = n(p.k2) * sin_q_2.mul_add(sin_q_4, cos_q_2 * cos_q_4);
+    let t23 = t8.neg_mul_add(t16, t22);
+    let t24 = n(p.k2) * sin_q_3.mul_add(sin_q_4, cos_q_3 * cos_q_4);
+    let t25 = N::ONE / t17;
+    let t26 = t8.neg_mul_add(t19, n(p.half_l_squared_m) * t15);
+    let t27 = sin_q_3.mul_add(sin_q_5, cos_q_3 * cos_q_5);
+    let t28 = t6 + t7;
+    let t29 = sin_q_3 * t2;
+    let t30 = t5 + t18;
+    let t31 = cos_q_3 * t2;
+    let t32 = sin_q_1 * n(p.l);
+    let t33 = sin_q_4 * t3;
+    let t34 = sin_q_4.mul_add(sin_q_5, cos_q_4 * cos_q_5);
+    let t35 = sin_q_5 * t4;
+    let t36 = t29 + t28;
+    let t37 = cos_q_4 * t3;
+    let t38 = t31 + t30;
+    let t39 = cos_q_5 * t4;
+    // Eliminates q[1] from row along: l[along, q[1]].
+    let t40 = n(p.k19) * t32;
+    let t41 = t33 + t36;
+    let t42 = t37 + t38;
+    // Eliminates q[2] from row q[3]: l[q[3], q[2]].
+    let t43 = t25 * t21;
+    // Eliminates q[2] from row q[4]: l[q[4], q[2]].
+    let t44 = t25 * t23;
+    // Eliminates q[2] from row q[5]: l[q[5], q[2]].
+    let t45 = t25 * t26;
+    let t46 = t8.neg_mul_add(t40, sin_q_2 * n(p.l));
+    // Row q[3]: pivot d[q[3]].
+    let t47 = t21.neg_mul_add(t43, t9.neg_mul_add(t14, n(p.k7)));
+    let t48 = t21.neg_mul_add(t44, t9.neg_mul_add(t16, t24));
+    let t49 = t9.neg_mul_add(t19, n(p.half_l_squared_m) * t27);
+    let t50 = t21.neg_mul_add(t45, t49);
+    let t51 = t10.neg_mul_add(t19, n(p.half_l_squared_m) * t34);
+    let t52 = n(p.l).mul_add(t42, n(p.half_l) * t39);
+    let t53 = N::ONE / t47;
+    let t54 = n(p.l).mul_add(t38, n(p.half_l) * t37);
+    // Eliminates q[2] from row along: l[along, q[2]].
+    let t55 = t25 * t46;
+    let t56 = cos_q_1 * n(p.l);
+    let t57 = n(p.g) - n(p.l).mul_add(t41, t35 * n(p.half_l));
+    let t58 = n(p.g) - n(p.l).mul_add(t36, n(p.half_l) * t33);
+    let t59 = t52 + t54;
+    let t60 = n(p.l).mul_add(t30, n(p.half_l) * t31);
+    let t61 = t9.neg_mul_add(t40, sin_q_3 * n(p.l));
+    let t62 = t21.neg_mul_add(t55, t61);
+    // Eliminates q[1] from row across: l[across, q[1]].
+    let t63 = n(p.k19) * t56;
+    let t64 = t57 + t58;
+    let t65 = n(p.g) - n(p.l).mul_add(t28, n(p.half_l) * t29);
+    let t66 = n(p.half_l).mul_add(t5, n(p.l) * t18);
+    // Eliminates q[3] from row q[4]: l[q[4], q[3]].
+    let t67 = t53 * t48;
+    // Eliminates q[3] from row q[5]: l[q[5], q[3]].
+    let t68 = t53 * t50;
+    // Eliminates q[3] from row along: l[along, q[3]].
+    let t69 = t53 * t62;
+    let t70 = t10.neg_mul_add(t40, sin_q_4 * n(p.l));
+    let t71 = t8.neg_mul_add(t63, cos_q_2 * n(p.l));
+    let t72 = t23.neg_mul_add(t44, t10.neg_mul_add(t16, n(p.k8)));
+    // Row q[4]: pivot d[q[4]].
+    let t73 = t48.neg_mul_add(t67, t72);
+    let t74 = t48.neg_mul_add(t68, t23.neg_mul_add(t45, t51));
+    let t75 = t26.neg_mul_add(t45, t13.neg_mul_add(t19, n(p.k9)));
+    let t76 = n(p.g) - n(p.half_l).mul_add(t6, n(p.l) * t7);
+    let t77 = n(p.m) * (t59 + t60);
+    let t78 = N::ONE / t73;
+    let t79 = t48.neg_mul_add(t69, t23.neg_mul_add(t55, t70));
+    let t80 = t13.neg_mul_add(t40, sin_q_5 * n(p.l));
+    // Eliminates q[2] from row across: l[across, q[2]].
+    let t81 = t25 * t71;
+    let t82 = n(p.m) * (t64 + t65);
+    let t83 = n(p.half_m) * n(p.half_l).neg_mul_add(t7, n(p.g));
+    let t84 = t9.neg_mul_add(t63, cos_q_3 * n(p.l));
+    let t85 = t21.neg_mul_add(t81, t84);
+    let t86 = t77 + n(p.m).mul_add(t66, t18 * n(p.quarter_l_m));
+    // Eliminates q[4] from row q[5]: l[q[5], q[4]].
+    let t87 = t78 * t74;
+    // Eliminates q[4] from row along: l[along, q[4]].
+    let t88 = t78 * t79;
+    // Row q[5]: pivot d[q[5]].
+    let t89 = t74.neg_mul_add(t87, t50.neg_mul_add(t68, t75));
+    let t90 = t50.neg_mul_add(t69, t26.neg_mul_add(t55, t80));
+    let t91 = t74.neg_mul_add(t88, t90);
+    // Eliminates q[3] from row across: l[across, q[3]].
+    let t92 = t53 * t85;
+    let t93 = t10.neg_mul_add(t63, cos_q_4 * n(p.l));
+    let t94 = t82 + n(p.m).mul_add(t76, t83);
+    let t95 = sin_q_4 * t52.mul_add(n(p.m), n(p.half_m) * t54);
+    let t96 = t57.mul_add(n(p.m), n(p.half_m) * t58);
+    let t97 = sin_q_2 * n(p.half_m).mul_add(t66, t77);
+    let t98 = N::ONE / t89;
+    let t99 = sin_q_3 * n(p.m).mul_add(t59, n(p.half_m) * t60);
+    let t100 = n(p.m).mul_add(t64, n(p.half_m) * t65);
+    let t101 = t62.mul_add(t69, t46.mul_add(t55, t32 * t40));
+    let t102 = t48.neg_mul_add(t92, t23.neg_mul_add(t81, t93));
+    let t103 = t13.neg_mul_add(t63, cos_q_5 * n(p.l));
+    let t104 = n(p.l) * cos_q_1.mul_add(t94, sin_q_1 * t86);
+    let t105 = cos_q_2.mul_add(n(p.half_m).mul_add(t76, t82), t97);
+    // Eliminates q[4] from row across: l[across, q[4]].
+    let t106 = t78 * t102;
+    // Row q[2]: right-hand side z[q[2]].
+    let t107 = t11.mul_sub(t104, n(p.l) * t105);
+    let t108 = cos_q_5.mul_add(t57, sin_q_5 * t52) * n(p.half_l_m);
+    let t109 = t50.neg_mul_add(t92, t26.neg_mul_add(t81, t103));
+    let t110 = t74.neg_mul_add(t106, t109);
+    // Eliminates q[5] from row along: l[along, q[5]].
+    let t111 = t98 * t91;
+    let t112 = t16.mul_sub(t104, n(p.l) * cos_q_4.mul_add(t96, t95));
+    let t113 = t14.mul_sub(t104, n(p.l) * cos_q_3.mul_add(t100, t99));
+    // Row q[3]: right-hand side z[q[3]].
+    let t114 = t43.neg_mul_add(t107, t113);
+    let t115 = t40.neg_mul_add(t104, n(p.l) * (t39 + t42));
+    let t116 = t63.mul_add(t104, n(p.l) * (t35 + t41));
+    // Row along: pivot d[along].
+    let t117 = t91.mul_add(t111, t79.mul_add(t88, t101));
+    // Eliminates q[5] from row across: l[across, q[5]].
+    let t118 = t98 * t110;
+    let t119 = t62.mul_add(t92, t46.mul_add(t81, t32 * t63));
+    // Row q[4]: right-hand side z[q[4]].
+    let t120 = t67.neg_mul_add(t114, t44.neg_mul_add(t107, t112));
+    let t121 = t45.neg_mul_add(t107, t19.mul_sub(t104, t108));
+    let t122 = N::ONE / t117;
+    let t123 = t91.mul_add(t118, t79.mul_add(t106, t119));
+    // Row q[5]: right-hand side z[q[5]].
+    let t124 = t87.neg_mul_add(t120, t68.neg_mul_add(t114, t121));
+    let t125 = t69.mul_add(t114, t55.mul_add(t107, t115));
+    let t126 = t92.neg_mul_add(t114, t81.neg_mul_add(t107, t116));
+    // Row along: right-hand side z[along].
+    let t127 = t111.mul_add(t124, t88.mul_add(t120, t125));
+    let t128 = t110.mul_add(t118, t71.mul_add(t81, t56 * t63));
+    let t129 = t128 + t102.mul_add(t106, t85 * t92);
+    // Eliminates along from row across: l[across, along].
+    let t130 = t122 * t123;
+    let t131 = t118.neg_mul_add(t124, t106.neg_mul_add(t120, t126));
+    // Row across: pivot d[across].
+    let t132 = t123.neg_mul_add(t130, t129);
+    // Row across: right-hand side z[across].
+    let lambda2 = t130.mul_add(t127, t131) / t132;
+    // Back substitution: lambda[along].
+    let lambda1 = t130.mul_add(lambda2, t122 * t127);
+    let sound = PIVOTS.hold(n(p.k5), n(p.k5))
+        & PIVOTS.hold(t17, n(p.k6))
+        & PIVOTS.hold(t47, n(p.k7))
+        & PIVOTS.hold(t73, n(p.k8))
+        & PIVOTS.hold(t89, n(p.k9))
+        & PIVOTS.hold(t117, t117)
+        & PIVOTS.hold(t132, t129)
+        & lambda1.is_finite();
+    if !sound {
+        let pivots = [
+            (0, n(p.k5), n(p.k5)),
+            (1, t17, n(p.k6)),
+            (2, t47, n(p.k7)),
+            (3, t73, n(p.k8)),
+            (4, t89, n(p.k9)),
+            (5, t117, t117),
+            (6, t132, t129),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [lambda1.store(), lambda2.store()];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1130,10 +1143,10 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let sin_q_5 = q_5.sin();
     let t0 = sin_q_2 + sin_q_1;
     let t1 = sin_q_3 + t0;
-    let t2 = p.half_l * sin_q_3 + p.l * t0 + (p.half_l * sin_q_2 + p.l * sin_q_1);
-    let t3 = p.half_l * sin_q_5 + p.l * (sin_q_4 + t1);
-    let t4 = (t3 + (p.half_l * sin_q_4 + p.l * t1 + t2)) * p.m_g;
-    t4 + sin_q_1 * p.half_l_m_g
+    let t2 = sin_q_3 * p.half_l + t0 * p.l + (sin_q_1 * p.l + sin_q_2 * p.half_l);
+    let t3 = sin_q_5 * p.half_l + p.l * (sin_q_4 + t1);
+    let t4 = (t2 + (sin_q_4 * p.half_l + p.l * t1) + t3) * p.m_g;
+    t4 - sin_q_1 * p.minus_half_l_m_g
 }
 
 ::lagrangian::emitted::implement! {
@@ -1151,13 +1164,12 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         q_4: "q[4]" "rad";
         q_5: "q[5]" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
-        l, m, d, g, half_l, k0, m_g, half_l_m_g, k1, half_l_squared_m, k2, k3, k4, k5, k6, k7, k8,
-        k9, half_m, quarter_l_m, half_l_m, k10, k11, k12, k13, minus_l, k14, k15, k16, k17,
-        minus_half_l_m_g, k18, half_l_squared, k19, k20, quarter_l_squared, k21, k22, inverse_m,
-        minus_m, k23,
+        l, m, d, g, half_l, k0, m_g, k1, half_l_squared_m, k2, k3, k4, k5, k6, k7, k8, k9, half_m,
+        quarter_l_m, half_l_m, minus_l, k10, k11, k12, k13, minus_half_l_m_g, k14, half_l_squared,
+        k15, k16, quarter_l_squared, k17, k18, inverse_m, minus_m, k19,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

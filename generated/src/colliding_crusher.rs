@@ -1,5 +1,5 @@
-// @generated from machines/contacts/colliding_crusher.machine by `cargo xtask generate`; edits are
-// lost.
+// @generated from machines/contacts/colliding_crusher.machine by `cargo xtask generate`; edits
+// are lost.
 
 //! The vibrating crusher from rest, with unilateral contacts: the mortar collides with the cylinder
 //! of the platform, the
@@ -17,7 +17,7 @@
 //! | `forces` | 22 | 23 | 0 | 1 | 0 | 47 |
 //! | `accelerations` | 29 | 25 | 0 | 1 | 0 | 56 |
 //! | `gaps` | 8 | 11 | 0 | 0 | 2 | 21 |
-//! | `contact_rates` | 38 | 41 | 2 | 0 | 2 | 83 |
+//! | `contact_rates` | 38 | 37 | 2 | 0 | 2 | 79 |
 //! | `contact_matrix` | 12 | 17 | 2 | 0 | 2 | 33 |
 //! | `contact_bias` | 87 | 63 | 4 | 0 | 2 | 156 |
 //! | `kinetic_energy` | 27 | 16 | 0 | 1 | 0 | 45 |
@@ -90,8 +90,8 @@ pub struct CollidingCrusher<S = f64> {
     pub xc: S,
     /// `yc`. Unit: `m`. Default: 0.3.
     pub yc: S,
-    /// Radii of the cylinder, of the mortar, of its bore, and of the pestle. Unit: `m`. Default:
-    /// 0.27.
+    /// Radii of the cylinder, of the mortar, of its bore, and of the pestle. Unit: `m`.
+    /// Default: 0.27.
     pub R: S,
     /// `r1`. Unit: `m`. Default: 0.25.
     pub r1: S,
@@ -252,10 +252,6 @@ pub struct Coordinates<S = f64> {
     /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
-
-/// What can be set while a [`CollidingCrusher`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
 
 /// What can be observed of a [`CollidingCrusher`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -542,81 +538,69 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_x, f_y, f_theta, zero, zero, zero, zero, zero, zero]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 9],
-    v: &[S; 9],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        t: S,
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+    }) -> Result<[S; 9], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, t, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub t: S,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 9],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 9],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let t0 = n(p.w) * n(t);
-        let t1 = theta * n(p.xc);
-        let t2 = n(p.yc) * theta;
-        let t3 = theta_dot * n(p.xc);
-        let t4 = theta_dot * n(p.yc);
-        let t5 = n(p.w).product_error(n(t));
-        let (sin_t0, cos_t0) = t0.sin_cos();
-        let t6 = n(p.half_b).mul_add(t3 + y_dot, n(p.half_c) * (t1 + y));
-        let t7 = n(p.half_b).mul_add(y_dot - t3, n(p.half_c) * (y - t1));
-        let t8 = n(p.half_b).mul_add(t4 + x_dot, n(p.half_c) * (t2 + x));
-        let t9 = n(p.half_b).mul_add(x_dot - t4, n(p.half_c) * (x - t2));
-        let t10 = n(p.k7).mul_add(t9, n(p.k4) * t7);
-        let t11 = t5.neg_mul_add(sin_t0, cos_t0);
-        let t12 = t5.mul_add(cos_t0, sin_t0);
-        let t13 = n(p.k6).mul_add(t8, n(p.k5) * t6) - t10;
-        let t14 = t12.neg_mul_add(n(p.k2), t11.mul_add(n(p.k3), t13));
-        let t15 = t11.neg_mul_add(n(p.m0_e_w_squared), t9 + t8);
-        let t16 = t12.neg_mul_add(n(p.m0_e_w_squared), t6 + t7);
-        let x_ddot = n(p.k10) * t14.mul_add(n(p.k8), t15);
-        let y_ddot = n(p.k10) * t14.neg_mul_add(n(p.k9), t16);
-        let theta_ddot = t14 * n(p.k11);
-        let zero = N::ZERO;
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            theta_ddot.store(),
-            zero.store(),
-            zero.store(),
-            zero.store(),
-            zero.store(),
-            zero.store(),
-            zero.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let t0 = n(p.w) * n(t);
+    let t1 = theta * n(p.xc);
+    let t2 = n(p.yc) * theta;
+    let t3 = theta_dot * n(p.xc);
+    let t4 = theta_dot * n(p.yc);
+    let t5 = n(p.w).product_error(n(t));
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t6 = n(p.half_b).mul_add(t3 + y_dot, n(p.half_c) * (t1 + y));
+    let t7 = n(p.half_b).mul_add(y_dot - t3, n(p.half_c) * (y - t1));
+    let t8 = n(p.half_b).mul_add(t4 + x_dot, n(p.half_c) * (t2 + x));
+    let t9 = n(p.half_b).mul_add(x_dot - t4, n(p.half_c) * (x - t2));
+    let t10 = n(p.k7).mul_add(t9, n(p.k4) * t7);
+    let t11 = t5.neg_mul_add(sin_t0, cos_t0);
+    let t12 = t5.mul_add(cos_t0, sin_t0);
+    let t13 = n(p.k6).mul_add(t8, n(p.k5) * t6) - t10;
+    let t14 = t12.neg_mul_add(n(p.k2), t11.mul_add(n(p.k3), t13));
+    let t15 = t11.neg_mul_add(n(p.m0_e_w_squared), t9 + t8);
+    let t16 = t12.neg_mul_add(n(p.m0_e_w_squared), t6 + t7);
+    // Back substitution: a[x].
+    let x_ddot = n(p.k10) * t14.mul_add(n(p.k8), t15);
+    // Back substitution: a[y].
+    let y_ddot = n(p.k10) * t14.neg_mul_add(n(p.k9), t16);
+    let theta_ddot = t14 * n(p.k11);
+    let zero = N::ZERO;
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        theta_ddot.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Gaps `g` of the unilateral contacts, in m: positive where they are open.
@@ -673,21 +657,23 @@ pub fn contact_rates<S: ::lagrangian::emitted::Scalar>(
     let y2_dot = v[7];
     let theta2_dot = v[8];
     let t0 = x1 * S::from_f64(2.0);
-    let t1 = y1 * S::from_f64(2.0);
-    let t2 = y1 * y1 + x1 * x1;
-    let t3 = y1 * y1_dot + x1 * x1_dot;
-    let t4 = y2 * y2_dot + x2 * x2_dot - (y1 * y2_dot + y1_dot * y2);
-    let t5 = y * y1_dot + y1 * y_dot + (x * x1_dot + x1 * x_dot);
-    let t6 = y1_dot * (x1 - x) + x1_dot * (y - y1);
-    let t7 = y2_dot * (x2 - x1) + x2_dot * (y1 - y2);
-    let t8 = S::ONE / (y2 * (y2 - t1) + (t2 + x2 * (x2 - t0))).sqrt();
-    let t9 = S::ONE / (y * (y - t1) + (t2 + x * (x - t0))).sqrt();
-    let t10 = t8 * (y1_dot * (x1 - x2) + x1_dot * (y2 - y1) + t7);
-    let t11 = t9 * (y_dot * (x - x1) + x_dot * (y1 - y) + t6);
-    let rate1 = t9 * (t5 - (t3 + (y * y_dot + x * x_dot)));
-    let rate2 = t11 + (theta1_dot * p.r1 - theta_dot * p.R);
-    let rate3 = -(t8 * (t3 - (x1 * x2_dot + x1_dot * x2) + t4));
-    let rate4 = t10 + (theta2_dot * p.r2 - theta1_dot * p.rho_minus_delta);
+    let t1 = S::from_f64(2.0) * y1;
+    let t2 = x1 * x1 + y1 * y1;
+    let t3 = x1 * x1_dot + y1 * y1_dot;
+    let t4 = y1 - y;
+    let t5 = y2 - y1;
+    let t6 = x - x1;
+    let t7 = x1 - x2;
+    let t8 = x2 * x2_dot + y2 * y2_dot - (y1_dot * y2 + y1 * y2_dot);
+    let t9 = y1 * y_dot + y1_dot * y + (x1 * x_dot + x1_dot * x);
+    let t10 = S::ONE / (t2 + x2 * (x2 - t0) + y2 * (y2 - t1)).sqrt();
+    let t11 = S::ONE / (t2 + x * (x - t0) + y * (y - t1)).sqrt();
+    let t12 = (x1_dot * t5 + y1_dot * t7 - (x2_dot * t5 + y2_dot * t7)) * t10;
+    let t13 = (x_dot * t4 + y_dot * t6 - (x1_dot * t4 + y1_dot * t6)) * t11;
+    let rate1 = (t9 - (t3 + (x * x_dot + y_dot * y))) * t11;
+    let rate2 = theta1_dot * p.r1 - theta_dot * p.R + t13;
+    let rate3 = -((t3 - (x1_dot * x2 + x1 * x2_dot) + t8) * t10);
+    let rate4 = theta2_dot * p.r2 - theta1_dot * p.rho_minus_delta + t12;
     [rate1, rate2, rate3, rate4]
 }
 
@@ -1201,7 +1187,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         y2: "y2" "m";
         theta2: "theta2" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs {
         s1, s2, ground_force, R_theta, R_s1, R_phi1, R_theta1, R_s2, R_phi2, R_theta2,
     } [

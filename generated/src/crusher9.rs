@@ -7,12 +7,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 26 | 10 | 4 | 0 | 0 | 40 |
-//! | `mass_matrix` | 28 | 6 | 0 | 3 | 0 | 40 |
+//! | `prepare` | 26 | 8 | 4 | 0 | 0 | 38 |
+//! | `mass_matrix` | 27 | 7 | 0 | 3 | 0 | 40 |
 //! | `bias` | 53 | 26 | 0 | 4 | 0 | 87 |
 //! | `applied` | 16 | 15 | 0 | 0 | 0 | 31 |
 //! | `forces` | 68 | 42 | 0 | 4 | 0 | 118 |
-//! | `accelerations` | 89 | 55 | 2 | 4 | 0 | 154 |
+//! | `accelerations` | 87 | 57 | 2 | 4 | 0 | 154 |
 //! | `kinetic_energy` | 41 | 26 | 0 | 4 | 0 | 75 |
 //! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
 //! | `dissipation` | 10 | 5 | 0 | 0 | 0 | 15 |
@@ -100,11 +100,11 @@ impl<S: ::lagrangian::emitted::Scalar> Crusher9<S> {
         let m0_y0 = self.m0 * self.y0;
         let e_w = self.w * self.e;
         let m1_plus_m2 = self.m1 + self.m2;
-        let k6 = S::ONE / pivot_1;
+        let k5 = S::ONE / pivot_1;
         let k0 = m1_plus_m2 + pivot_1;
         let k1_ = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
-        let pivot_2 = k1_ - k6 * (m0_y0 * m0_y0) - k6 * (m0_x0 * m0_x0);
-        let k4 = S::ONE / pivot_2;
+        let pivot_2 = k1_ - k5 * (m0_y0 * m0_y0) - k5 * (m0_x0 * m0_x0);
+        let k3 = S::ONE / pivot_2;
         let half_cx = self.cx * S::from_f64(0.5);
         let half_cy = self.cy * S::from_f64(0.5);
         let half_k1 = self.k1 * S::from_f64(0.5);
@@ -120,13 +120,11 @@ impl<S: ::lagrangian::emitted::Scalar> Crusher9<S> {
         let cy_xc = self.cy * self.xc;
         let cx_yc = self.cx * self.yc;
         let m0_e_w = self.m0 * e_w;
-        let k2_ = -m1_plus_m2;
         let minus_m2 = -self.m2;
         let inverse_m2 = S::ONE / self.m2;
         let inverse_m1 = S::ONE / self.m1;
-        let k3 = self.m0 * k6;
-        let k5 = self.m0 * k4;
-        let k7 = -k6;
+        let k2_ = self.m0 * k5;
+        let k4 = self.m0 * k3;
         let c0 = self.yc;
         let c1 = -c0;
         let c2 = self.w;
@@ -220,15 +218,13 @@ impl<S: ::lagrangian::emitted::Scalar> Crusher9<S> {
             cx_yc,
             m0_e_w,
             k1_,
-            k2_,
             minus_m2,
             inverse_m2,
             inverse_m1,
+            k2_,
             k3,
             k4,
             k5,
-            k6,
-            k7,
             singular: PIVOTS.vanished(pivots),
             series: [
                 c1, c2, c3, c4, c5, c7, c8, c10, c11, c12, c13, c14, c15, c16, c17, c18, c9, c19,
@@ -277,14 +273,6 @@ pub struct Coordinates<S = f64> {
     /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
-
-/// What can be set while a [`Crusher9`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`Crusher9`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
 
 /// The parameters of a [`Crusher9`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -379,8 +367,6 @@ pub struct Prepared<S = f64> {
     m0_e_w: S,
     /// `J + m0*x0^2 + m0*y0^2`
     k1_: S,
-    /// `-(m1 + m2)`
-    k2_: S,
     /// `-m2`
     minus_m2: S,
     /// `1/m2`
@@ -388,15 +374,13 @@ pub struct Prepared<S = f64> {
     /// `1/m1`
     inverse_m1: S,
     /// `m0/(m + m0)`
-    k3: S,
+    k2_: S,
     /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k4: S,
+    k3: S,
     /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k5: S,
+    k4: S,
     /// `1/(m + m0)`
-    k6: S,
-    /// `-1/(m + m0)`
-    k7: S,
+    k5: S,
     /// What the Taylor series takes from the parameters.
     series: [S; 34],
     /// Why these parameters leave the machine without accelerations, if they do.
@@ -444,27 +428,27 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.m1_plus_m2 * s1;
+    let t1 = s1 * p.m1_plus_m2;
     let t2 = p.m2 * s2;
     let t3 = sin_phi1 * cos_phi2;
     let t4 = cos_phi1 * sin_phi2;
-    let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t5 = sin_phi1 * sin_phi2 + cos_phi1 * cos_phi2;
     let zero = S::ZERO;
-    let m31 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
-    let m32 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
-    let m41 = p.m1_plus_m2 * cos_phi1;
-    let m42 = p.m1_plus_m2 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k2_);
+    let m31 = -(cos_theta * p.m0_y0 + sin_theta * p.m0_x0);
+    let m32 = cos_theta * p.m0_x0 - sin_theta * p.m0_y0;
+    let m41 = cos_phi1 * p.m1_plus_m2;
+    let m42 = sin_phi1 * p.m1_plus_m2;
+    let m51 = -(sin_phi1 * t1);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
-    let m75 = (t4 - t3) * t0;
+    let m75 = t0 * (t4 - t3);
     let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t3 - t4);
-    let m85 = t5 * (t0 * s2);
+    let m85 = t0 * s2 * t5;
     let m88 = s2 * t2;
     [
         [p.k0, zero, m31, m41, m51, zero, m71, m81, zero],
@@ -658,143 +642,145 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 9],
-    v: &[S; 9],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        t: S,
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+    }) -> Result<[S; 9], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, t, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub t: S,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 9],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 9],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let s1 = n(q[3]);
-        let phi1 = n(q[4]);
-        let s2 = n(q[6]);
-        let phi2 = n(q[7]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let s1_dot = n(v[3]);
-        let phi1_dot = n(v[4]);
-        let s2_dot = n(v[6]);
-        let phi2_dot = n(v[7]);
-        let t0 = n(p.w) * n(t);
-        let angles = [theta, phi1, phi2, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_theta, cos_theta) = circular[0];
-        let (sin_phi1, cos_phi1) = circular[1];
-        let (sin_phi2, cos_phi2) = circular[2];
-        let (sin_t0, cos_t0) = circular[3];
-        let t1 = theta_dot * theta_dot;
-        let t2 = n(p.w).product_error(n(t));
-        let t3 = theta.neg_mul_add(n(p.yc), x);
-        let t4 = theta.mul_add(n(p.xc), y);
-        let t5 = theta_dot.neg_mul_add(n(p.yb), x_dot);
-        let t6 = theta_dot.mul_add(n(p.xb), y_dot);
-        let t7 = (n(p.r1) - s1).neg_mul_add(n(p.k1), s1_dot * n(p.d1));
-        let t8 = phi1_dot * (s1_dot * N::from_f64(2.0));
-        let t9 = (n(p.r2) - s2).neg_mul_add(n(p.k2), s2_dot * n(p.d2));
-        let t10 = s2 * n(p.m2);
-        let t11 = phi1_dot * (s1 * phi1_dot);
-        let t12 = t6.mul_add(n(p.by_xb), t4 * n(p.cy_xc));
-        let t13 = s1 * s1;
-        let t14 = s2 * t10;
-        let t15 = cos_theta * n(p.y0);
-        let t16 = sin_theta * n(p.y0);
-        let t17 = sin_theta * n(p.x0);
-        let t18 = cos_theta * n(p.x0);
-        let t19 = t5.mul_add(n(p.bx), t3 * n(p.cx));
-        let t20 = t6.mul_add(n(p.by), t4 * n(p.cy));
-        let t21 = t18 - t16;
-        let t22 = t17 + t15;
-        let t23 = sin_phi1.mul_sub(t11, cos_phi1 * t8);
-        let t24 = n(p.m1).mul_add(t23, t9 * sin_phi2);
-        let t25 = sin_phi1.mul_add(t8, cos_phi1 * t11);
-        let t26 = t2.mul_add(cos_t0, sin_t0);
-        let t27 = t2.neg_mul_add(sin_t0, cos_t0);
-        let t28 = n(p.m1).mul_add(t25, t9 * cos_phi2);
-        let t29 = n(p.e_w_squared).mul_add(t26, t17.mul_add(t1, t15 * t1));
-        let t30 = n(p.m0) * t29;
-        let t31 = n(p.e_w_squared).mul_add(t27, t1.mul_sub(t18, t16 * t1));
-        let t32 = t31 * n(p.m0);
-        let t33 = t5.mul_add(n(p.bx_yb), t3 * n(p.cx_yc)) - t12;
-        let t34 = t7.neg_mul_add(cos_phi1, t19) - t32;
-        let t35 = t7.neg_mul_add(sin_phi1, t20) - t30;
-        let t36 = cos_phi1.neg_mul_add(t28, sin_phi1.neg_mul_add(t24, t7));
-        let t37 = t34.neg_mul_add(n(p.k3) * t22, t21.mul_add(t30, t33));
-        let t38 = t35.mul_sub(n(p.k3) * t21, t22 * t32) + t37;
-        let t39 = n(p.k5) * t38;
-        let t40 = t22.neg_mul_add(t39, t34);
-        let t41 = t21.mul_add(t39, t35);
-        let t42 = t41 * n(p.k6);
-        let t43 = t40 * n(p.k6);
-        let t44 = sin_phi1 * t42;
-        let t45 = cos_phi1.neg_mul_add(t43, n(p.inverse_m1) * t36);
-        let t46 = n(p.inverse_m1) * cos_phi1.mul_sub(t24, sin_phi1 * t28);
-        let t47 = t45 - t44;
-        let t48 = sin_phi1.neg_mul_add(t43, cos_phi1.mul_add(t42, t46));
-        let t49 = sin_phi1.mul_add(t48, cos_phi1.mul_add(t47, t43 + t25));
-        let t50 = sin_phi1.mul_add(t47, t42 + t23);
-        let t51 = cos_phi1.neg_mul_add(t48, t50);
-        let t52 = phi2_dot * (s2_dot * N::from_f64(2.0));
-        let t53 = n(p.inverse_m2) * t10.neg_mul_add(phi2_dot * phi2_dot, t9);
-        let t54 = cos_phi2.neg_mul_add(t51, sin_phi2.mul_add(t49, t52)) / s2;
-        let x_ddot = n(p.k7) * t40;
-        let y_ddot = n(p.k7) * t41;
-        let theta_ddot = t38 * n(p.k4);
-        let s1_ddot = t44 - t45;
-        let phi1_ddot = t48 / s1;
-        let zero = N::ZERO;
-        let s2_ddot = sin_phi2.mul_add(t51, cos_phi2.mul_sub(t49, t53));
-        let phi2_ddot = -t54;
-        let t55 = n(p.m1) * t13;
-        let t56 = t13 * n(p.m1_plus_m2);
-        let sound = PIVOTS.hold(t14, t14) & PIVOTS.hold(t55, t56) & phi2_ddot.is_finite();
-        if !sound {
-            let pivots = [(7, t14, t14), (4, t55, t56)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            theta_ddot.store(),
-            s1_ddot.store(),
-            phi1_ddot.store(),
-            zero.store(),
-            s2_ddot.store(),
-            phi2_ddot.store(),
-            zero.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let s1 = n(q[3]);
+    let phi1 = n(q[4]);
+    let s2 = n(q[6]);
+    let phi2 = n(q[7]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let s1_dot = n(v[3]);
+    let phi1_dot = n(v[4]);
+    let s2_dot = n(v[6]);
+    let phi2_dot = n(v[7]);
+    let t0 = n(p.w) * n(t);
+    let angles = [theta, phi1, phi2, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_theta, cos_theta) = circular[0];
+    let (sin_phi1, cos_phi1) = circular[1];
+    let (sin_phi2, cos_phi2) = circular[2];
+    let (sin_t0, cos_t0) = circular[3];
+    let t1 = theta_dot * theta_dot;
+    let t2 = n(p.w).product_error(n(t));
+    let t3 = theta.neg_mul_add(n(p.yc), x);
+    let t4 = theta.mul_add(n(p.xc), y);
+    let t5 = theta_dot.neg_mul_add(n(p.yb), x_dot);
+    let t6 = theta_dot.mul_add(n(p.xb), y_dot);
+    let t7 = (n(p.r1) - s1).neg_mul_add(n(p.k1), s1_dot * n(p.d1));
+    let t8 = s1_dot * N::from_f64(2.0) * phi1_dot;
+    let t9 = (n(p.r2) - s2).neg_mul_add(n(p.k2), s2_dot * n(p.d2));
+    let t10 = s2 * n(p.m2);
+    let t11 = phi1_dot * (s1 * phi1_dot);
+    let t12 = t4.mul_add(n(p.cy_xc), t6 * n(p.by_xb));
+    let t13 = s1 * s1;
+    let t14 = s2 * t10;
+    let t15 = cos_theta * n(p.y0);
+    let t16 = sin_theta * n(p.y0);
+    let t17 = sin_theta * n(p.x0);
+    let t18 = cos_theta * n(p.x0);
+    let t19 = t3.mul_add(n(p.cx), t5 * n(p.bx));
+    let t20 = t4.mul_add(n(p.cy), t6 * n(p.by));
+    let t21 = t18 - t16;
+    let t22 = t15 + t17;
+    let t23 = sin_phi1.mul_sub(t11, cos_phi1 * t8);
+    let t24 = n(p.m1).mul_add(t23, sin_phi2 * t9);
+    let t25 = cos_phi1.mul_add(t11, sin_phi1 * t8);
+    let t26 = t2.mul_add(cos_t0, sin_t0);
+    let t27 = t2.neg_mul_add(sin_t0, cos_t0);
+    let t28 = n(p.m1).mul_add(t25, cos_phi2 * t9);
+    let t29 = t26.mul_add(n(p.e_w_squared), t1.mul_add(t15, t1 * t17));
+    let t30 = t29 * n(p.m0);
+    let t31 = t27.mul_add(n(p.e_w_squared), t1.mul_sub(t18, t1 * t16));
+    let t32 = t31 * n(p.m0);
+    let t33 = t3.mul_add(n(p.cx_yc), t5 * n(p.bx_yb)) - t12;
+    let t34 = cos_phi1.neg_mul_add(t7, t19) - t32;
+    let t35 = sin_phi1.neg_mul_add(t7, t20) - t30;
+    // Eliminates s1: alone z[s1].
+    let t36 = cos_phi1.neg_mul_add(t28, sin_phi1.neg_mul_add(t24, t7));
+    let t37 = (t22 * n(p.k2_)).neg_mul_add(t34, t21.mul_add(t30, t33));
+    let t38 = t37 + (t21 * n(p.k2_)).mul_sub(t35, t22 * t32);
+    let t39 = t38 * n(p.k4);
+    // Back substitution: a[y].
+    let t40 = t21.mul_add(t39, t35) * n(p.k5);
+    // Back substitution: a[x].
+    let t41 = t22.neg_mul_add(t39, t34) * n(p.k5);
+    let t42 = sin_phi1 * t40;
+    let t43 = cos_phi1.neg_mul_add(t41, t36 * n(p.inverse_m1));
+    let t44 = n(p.inverse_m1) * cos_phi1.mul_sub(t24, sin_phi1 * t28);
+    // Back substitution: a[s1].
+    let t45 = t43 - t42;
+    let t46 = sin_phi1.neg_mul_add(t41, cos_phi1.mul_add(t40, t44));
+    let t47 = sin_phi1.mul_add(t46, cos_phi1.mul_add(t45, t25 + t41));
+    let t48 = sin_phi1.mul_add(t45, t23 + t40);
+    let t49 = cos_phi1.neg_mul_add(t46, t48);
+    let t50 = N::from_f64(2.0) * s2_dot * phi2_dot;
+    // Eliminates s2: alone z[s2].
+    let t51 = t10.neg_mul_add(phi2_dot * phi2_dot, t9) * n(p.inverse_m2);
+    // Back substitution: a[phi2].
+    let t52 = cos_phi2.neg_mul_add(t49, sin_phi2.mul_add(t47, t50)) / s2;
+    let x_ddot = -t41;
+    let y_ddot = -t40;
+    let theta_ddot = t38 * n(p.k3);
+    let s1_ddot = t42 - t43;
+    // Back substitution: a[phi1].
+    let phi1_ddot = t46 / s1;
+    let zero = N::ZERO;
+    // Back substitution: a[s2].
+    let s2_ddot = sin_phi2.mul_add(t49, cos_phi2.mul_sub(t47, t51));
+    let phi2_ddot = -t52;
+    let t53 = t13 * n(p.m1);
+    let t54 = t13 * n(p.m1_plus_m2);
+    let sound = PIVOTS.hold(t14, t14) & PIVOTS.hold(t53, t54) & phi2_ddot.is_finite();
+    if !sound {
+        let pivots = [(7, t14, t14), (4, t53, t54)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        theta_ddot.store(),
+        s1_ddot.store(),
+        phi1_ddot.store(),
+        zero.store(),
+        s2_ddot.store(),
+        phi2_ddot.store(),
+        zero.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -966,946 +952,946 @@ impl<S: Copy + Default> Default for Lists<S> {
     }
 }
 
-/// The Taylor series of the motion through a state, to be run with whatever instructions the
-/// processor has: row `j` of `coefficients` becomes `q⁽ʲ⁾/j!`. The time is the sum of two numbers.
-pub struct Series<'a, S> {
-    p: &'a Prepared<S>,
-    t: [S; 2],
-    q: &'a [S; 9],
-    v: &'a [S; 9],
-    lists: &'a mut Lists<S>,
-    coefficients: &'a mut [[S; 9]],
+::lagrangian::emitted::fast_function! {
+    /// The Taylor series of the motion through a state: row `j` of `coefficients` becomes
+    /// `q⁽ʲ⁾/j!`. The time is the sum of two numbers.
+    pub struct Series<'a, S> {
+        p: &'a Prepared<S>,
+        t: [S; 2],
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+        lists: &'a mut Lists<S>,
+        coefficients: &'a mut [[S; 9]],
+    } -> Result<(), ::lagrangian::emitted::Singular> = series_in;
 }
 
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
-    type Output = Result<(), ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self {
-            p,
-            t,
-            q,
-            v,
-            lists,
-            coefficients,
-        } = self;
-        let n = N::load;
-        let x0 = n(q[0]);
-        let x1 = n(q[2]);
-        let x2 = n(p.series[0]);
-        let x3 = x2.mul_add(x1, x0);
-        let x4 = n(t[1]);
-        let x5 = n(t[0]);
-        let x6 = n(p.series[1]);
-        let x7 = x6.product_error(x5);
-        let x8 = x6.mul_add(x4, x7);
-        let x9 = x6 * x5;
-        let x10 = n(q[3]);
-        let x11 = n(q[4]);
-        let x12 = n(q[6]);
-        let x13 = n(q[7]);
-        let x14 = n(q[1]);
-        let x15 = n(p.series[2]);
-        let x16 = x15 * x1;
-        let x17 = x16 + x14;
-        let x18 = n(p.series[3]);
-        let x19 = -x18;
-        let x20 = x19 + x10;
-        let x21 = n(p.series[4]);
-        let x22 = -x21;
-        let x23 = x22 + x12;
-        let angles24 = [x9, x1, x11, x13];
-        let x24 = N::sin_cos_all(angles24);
-        let x25 = x24[0].0;
-        let x26 = x24[0].1;
-        let x27 = x8.mul_add(x26, x25);
-        let x28 = x8.neg_mul_add(x25, x26);
-        let x29 = x24[1].0;
-        let x30 = x24[1].1;
-        let x31 = x24[2].0;
-        let x32 = x24[2].1;
-        let x33 = x24[3].0;
-        let x34 = x24[3].1;
-        let x35 = x10 * x32;
-        let x36 = x12 * x34;
-        let x37 = x10 * x31;
-        let x38 = x12 * x33;
-        let x39 = n(v[0]);
-        let x40 = n(v[2]);
-        let x41 = x2.mul_add(x40, x39);
-        let x42 = x6 * x28;
-        let x43 = x6 * x27;
-        let x44 = -x43;
-        let x45 = x40 * x30;
-        let x46 = x40 * x29;
-        let x47 = -x46;
-        let x48 = n(v[3]);
-        let x49 = n(v[4]);
-        let x50 = x49 * x32;
-        let x51 = x49 * x31;
-        let x52 = -x51;
-        let x53 = x48 * x32;
-        let x54 = x10.mul_add(x52, x53);
-        let x55 = n(v[6]);
-        let x56 = n(v[7]);
-        let x57 = x56 * x34;
-        let x58 = x56 * x33;
-        let x59 = -x58;
-        let x60 = x55 * x34;
-        let x61 = x12.mul_add(x59, x60);
-        let x62 = n(v[1]);
-        let x63 = x15 * x40;
-        let x64 = x63 + x62;
-        let x65 = x48 * x31;
-        let x66 = x10.mul_add(x50, x65);
-        let x67 = x55 * x33;
-        let x68 = x12.mul_add(x57, x67);
-        let x69 = x6 * x44;
-        let x70 = N::from_f64(0.5);
-        let x71 = x70 * x69;
-        let x72 = x6 * x42;
-        let x73 = -x72;
-        let x74 = x70 * x73;
-        let x75 = x40 * x47;
-        let x76 = N::from_f64(2.0);
-        let x77 = x70 * x75;
-        let x78 = x40 * x45;
-        let x79 = -x78;
-        let x80 = x70 * x79;
-        let x81 = x49 * x52;
-        let x82 = x70 * x81;
-        let x83 = x49 * x50;
-        let x84 = -x83;
-        let x85 = x70 * x84;
-        let x86 = x48 * x52;
-        let x87 = x10.mul_add(x85, x86);
-        let x88 = x56 * x59;
-        let x89 = x70 * x88;
-        let x90 = x56 * x57;
-        let x91 = -x90;
-        let x92 = x70 * x91;
-        let x93 = x55 * x59;
-        let x94 = x12.mul_add(x92, x93);
-        let x95 = x48 * x50;
-        let x96 = x10.mul_add(x82, x95);
-        let x97 = x55 * x57;
-        let x98 = x12.mul_add(x89, x97);
-        let x99 = n(p.series[5]);
-        let x100 = x99.mul_add(x40, x39);
-        let x101 = n(p.series[6]);
-        let x102 = x101 * x40;
-        let x103 = x102 + x62;
-        let x104 = n(p.series[7]);
-        let x105 = x104 * x75;
-        let x106 = n(p.series[8]);
-        let x107 = x106.mul_add(x79, x105);
-        let x108 = n(p.series[9]);
-        let x109 = x108.mul_add(x73, x107);
-        let x110 = x76 * x87;
-        let x111 = x76 * x94;
-        let x112 = x110 + x111;
-        let x113 = n(p.series[10]);
-        let x114 = x113 * x110;
-        let x115 = n(p.series[11]);
-        let x116 = x115.mul_add(x112, x114);
-        let x117 = n(p.series[12]);
-        let x118 = x117 * x3;
-        let x119 = n(p.series[13]);
-        let x120 = x119.mul_add(x100, x118);
-        let x121 = n(p.series[14]);
-        let x122 = n(p.series[15]);
-        let x123 = x122.mul_add(x109, x120);
-        let x124 = x123 + x116;
-        let x125 = x106 * x75;
-        let x126 = n(p.series[16]);
-        let x127 = x126.mul_add(x79, x125);
-        let x128 = x108.mul_add(x69, x127);
-        let x129 = x76 * x96;
-        let x130 = x76 * x98;
-        let x131 = x129 + x130;
-        let x132 = x113 * x129;
-        let x133 = x115.mul_add(x131, x132);
-        let x134 = n(p.series[17]);
-        let x135 = x134 * x17;
-        let x136 = n(p.series[18]);
-        let x137 = x136.mul_add(x103, x135);
-        let x138 = x122.mul_add(x128, x137);
-        let x139 = x138 + x133;
-        let x140 = n(p.series[19]);
-        let x141 = x140 * x128;
-        let x142 = n(p.series[20]);
-        let x143 = x142.mul_add(x109, x141);
-        let x144 = x30 * x143;
-        let x145 = n(p.series[21]);
-        let x146 = x145 * x128;
-        let x147 = x140.mul_add(x109, x146);
-        let x148 = x29 * x147;
-        let x149 = n(p.series[22]);
-        let x150 = x149 * x3;
-        let x151 = n(p.series[23]);
-        let x152 = x151.mul_add(x17, x150);
-        let x153 = n(p.series[24]);
-        let x154 = x153.mul_add(x100, x152);
-        let x155 = n(p.series[25]);
-        let x156 = x155.mul_add(x103, x154);
-        let x157 = n(p.series[26]);
-        let x158 = x156 + x144;
-        let x159 = x158 - x148;
-        let x160 = x31 * x133;
-        let x161 = x32 * x116;
-        let x162 = n(p.series[27]);
-        let x163 = x162 * x20;
-        let x164 = n(p.series[28]);
-        let x165 = x164.mul_add(x48, x163);
-        let x166 = x165 + x160;
-        let x167 = x166 + x161;
-        let x168 = x35 * x133;
-        let x169 = x37 * x116;
-        let x170 = x168 - x169;
-        let x172 = x33 * x131;
-        let x173 = x34 * x112;
-        let x174 = n(p.series[30]);
-        let x175 = x174 * x23;
-        let x176 = n(p.series[31]);
-        let x177 = x176.mul_add(x55, x175);
-        let x178 = x115.mul_add(x172, x177);
-        let x179 = x115.mul_add(x173, x178);
-        let x180 = x36 * x131;
-        let x181 = x38 * x112;
-        let x182 = x115 * x180;
-        let x183 = n(p.series[32]);
-        let x184 = x183.mul_add(x181, x182);
-        let x186 = -x29;
-        let x187 = x104 * x30;
-        let x188 = x106.mul_add(x186, x187);
-        let x189 = -x31;
-        let x190 = x10 * x189;
-        let x191 = -x33;
-        let x192 = x12 * x191;
-        let x193 = x113 * x32;
-        let x194 = x113 * x190;
-        let x195 = x115 + x113;
-        let x196 = x115.mul_add(x32, x193);
-        let x197 = x115.mul_add(x190, x194);
-        let x198 = x115 * x34;
-        let x199 = x115 * x192;
-        let x200 = x122 + x121;
-        let x201 = x122 * x188;
-        let x202 = x195 + x200;
-        let x203 = x106 * x30;
-        let x204 = x126.mul_add(x186, x203);
-        let x205 = x113 * x31;
-        let x206 = x113 * x35;
-        let x207 = x115.mul_add(x31, x205);
-        let x208 = x115.mul_add(x35, x206);
-        let x209 = x115 * x33;
-        let x210 = x115 * x36;
-        let x211 = x122 * x204;
-        let x212 = x140 * x204;
-        let x213 = x142.mul_add(x188, x212);
-        let x214 = x30 * x142;
-        let x215 = x30 * x140;
-        let x216 = x30 * x213;
-        let x217 = x145 * x204;
-        let x218 = x140.mul_add(x188, x217);
-        let x219 = x29 * x140;
-        let x220 = x29 * x145;
-        let x221 = x29 * x218;
-        let x222 = x216 + x157;
-        let x223 = x214 - x219;
-        let x224 = x215 - x220;
-        let x225 = x222 - x221;
-        let x226 = x31 * x195;
-        let x227 = x31 * x207;
-        let x228 = x31 * x208;
-        let x229 = x31 * x209;
-        let x230 = x31 * x210;
-        let x231 = x32 * x195;
-        let x232 = x32 * x196;
-        let x233 = x32 * x197;
-        let x234 = x32 * x198;
-        let x235 = x32 * x199;
-        let x236 = x232 + x227;
-        let x237 = x233 + x228;
-        let x238 = x234 + x229;
-        let x239 = x235 + x230;
-        let x240 = x35 * x195;
-        let x241 = x35 * x207;
-        let x242 = x35 * x208;
-        let x243 = x35 * x209;
-        let x244 = x35 * x210;
-        let x245 = x37 * x195;
-        let x246 = x37 * x196;
-        let x247 = x37 * x197;
-        let x248 = x37 * x198;
-        let x249 = x37 * x199;
-        let x250 = -x245;
-        let x251 = x241 - x246;
-        let x252 = x242 - x247;
-        let x253 = x243 - x248;
-        let x254 = x244 - x249;
-        let x255 = x33 * x31;
-        let x256 = x33 * x35;
-        let x257 = x33 * x33;
-        let x258 = x33 * x36;
-        let x259 = x34 * x32;
-        let x260 = x34 * x190;
-        let x261 = x34 * x34;
-        let x262 = x34 * x192;
-        let x263 = x115 * x255;
-        let x264 = x115 * x256;
-        let x265 = x115 * x257;
-        let x266 = x115 * x258;
-        let x267 = x115.mul_add(x259, x263);
-        let x268 = x115.mul_add(x260, x264);
-        let x269 = x115.mul_add(x261, x265);
-        let x270 = x115.mul_add(x262, x266);
-        let x271 = x36 * x31;
-        let x272 = x36 * x35;
-        let x273 = x36 * x33;
-        let x274 = x36 * x36;
-        let x275 = x38 * x32;
-        let x276 = x38 * x190;
-        let x277 = x38 * x34;
-        let x278 = x38 * x192;
-        let x279 = x115 * x271;
-        let x280 = x115 * x272;
-        let x281 = x115 * x273;
-        let x282 = x115 * x274;
-        let x283 = x183 * x38;
-        let x284 = x183.mul_add(x275, x279);
-        let x285 = x183.mul_add(x276, x280);
-        let x286 = x183.mul_add(x277, x281);
-        let x287 = x183.mul_add(x278, x282);
-        let mut x288 = [
-            x202.store(),
-            N::ZERO.store(),
-            x201.store(),
-            x196.store(),
-            x197.store(),
-            x198.store(),
-            x199.store(),
-            N::ZERO.store(),
-            x202.store(),
-            x211.store(),
-            x207.store(),
-            x208.store(),
-            x209.store(),
-            x210.store(),
-            x223.store(),
-            x224.store(),
-            x225.store(),
-            N::ZERO.store(),
-            N::ZERO.store(),
-            N::ZERO.store(),
-            N::ZERO.store(),
-            x231.store(),
-            x226.store(),
-            N::ZERO.store(),
-            x236.store(),
-            x237.store(),
-            x238.store(),
-            x239.store(),
-            x250.store(),
-            x240.store(),
-            N::ZERO.store(),
-            x251.store(),
-            x252.store(),
-            x253.store(),
-            x254.store(),
-            x198.store(),
-            x209.store(),
-            N::ZERO.store(),
-            x267.store(),
-            x268.store(),
-            x269.store(),
-            x270.store(),
-            x283.store(),
-            x210.store(),
-            N::ZERO.store(),
-            x284.store(),
-            x285.store(),
-            x286.store(),
-            x287.store(),
-        ];
-        let members288 = [0, 1, 2, 3, 4, 6, 7];
-        let factored = ::lagrangian::emitted::series::factor::<N>(7, 7, &mut x288);
-        if let Err(vanished) = factored {
-            let singular = ::lagrangian::emitted::series::singular(vanished, &members288, 9);
-            return Err(singular);
-        }
-        let x291 = -x124;
-        let x292 = -x139;
-        let x293 = -x159;
-        let x294 = -x167;
-        let x295 = -x170;
-        let x296 = -x179;
-        let x297 = -x184;
-        let mut x298 = [
-            x291.store(),
-            x292.store(),
-            x293.store(),
-            x294.store(),
-            x295.store(),
-            x296.store(),
-            x297.store(),
-        ];
-        let mut scratch298 = x298;
-        let (x, scratch) = (&mut x298, &mut scratch298);
-        ::lagrangian::emitted::series::solve::<N>(7, &x288, x, scratch);
-        let x299 = n(x298[0]);
-        let x300 = n(x298[1]);
-        let x301 = n(x298[2]);
-        let x302 = n(x298[3]);
-        let x303 = n(x298[4]);
-        let x304 = n(x298[5]);
-        let x305 = n(x298[6]);
-        let x308 = x299 * x70;
-        let x309 = x300 * x70;
-        let x310 = x301 * x70;
-        let x311 = x302 * x70;
-        let x312 = x303 * x70;
-        let x313 = x304 * x70;
-        let x314 = x305 * x70;
-        let x315 = x32.mul_add(x302, x299);
-        let x316 = x190.mul_add(x303, x315);
-        let x317 = x34.mul_add(x304, x316);
-        let x318 = x192.mul_add(x305, x317);
-        let x319 = x112 + x318;
-        let x320 = x195 * x299;
-        let x321 = x196.mul_add(x302, x320);
-        let x322 = x197.mul_add(x303, x321);
-        let x323 = x198.mul_add(x304, x322);
-        let x324 = x199.mul_add(x305, x323);
-        let x325 = x116 + x324;
-        let x326 = x31.mul_add(x302, x300);
-        let x327 = x35.mul_add(x303, x326);
-        let x328 = x33.mul_add(x304, x327);
-        let x329 = x36.mul_add(x305, x328);
-        let x330 = x131 + x329;
-        let x331 = x195 * x300;
-        let x332 = x207.mul_add(x302, x331);
-        let x333 = x208.mul_add(x303, x332);
-        let x334 = x209.mul_add(x304, x333);
-        let x335 = x210.mul_add(x305, x334);
-        let x336 = x133 + x335;
-        let x337 = x142 * x299;
-        let x338 = x140.mul_add(x300, x337);
-        let x339 = x213.mul_add(x301, x338);
-        let x340 = x143 + x339;
-        let x341 = x140 * x299;
-        let x342 = x145.mul_add(x300, x341);
-        let x343 = x218.mul_add(x301, x342);
-        let x344 = x147 + x343;
-        let x345 = x2.mul_add(x301, x299);
-        let x346 = x70 * x345;
-        let x347 = x30 * x70;
-        let x348 = x347.mul_add(x301, x77);
-        let x349 = x186 * x70;
-        let x350 = x349.mul_add(x301, x80);
-        let x351 = x32 * x70;
-        let x352 = x351.mul_add(x303, x82);
-        let x353 = x189 * x70;
-        let x354 = x353.mul_add(x303, x85);
-        let x355 = x32 * x302;
-        let x356 = x190.mul_add(x303, x355);
-        let x357 = x70.mul_add(x356, x87);
-        let x358 = x34 * x70;
-        let x359 = x358.mul_add(x305, x89);
-        let x360 = x191 * x70;
-        let x361 = x360.mul_add(x305, x92);
-        let x362 = x34 * x304;
-        let x363 = x192.mul_add(x305, x362);
-        let x364 = x70.mul_add(x363, x94);
-        let x365 = x15.mul_add(x301, x300);
-        let x366 = x70 * x365;
-        let x367 = x31 * x302;
-        let x368 = x35.mul_add(x303, x367);
-        let x369 = x70.mul_add(x368, x96);
-        let x370 = x33 * x304;
-        let x371 = x36.mul_add(x305, x370);
-        let x372 = x70.mul_add(x371, x98);
-        let x373 = x70 * x302;
-        let x374 = x70 * x304;
-        let second = [
-            x308.store(),
-            x309.store(),
-            x310.store(),
+#[inline(always)]
+fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Series<'_, S>,
+) -> Result<(), ::lagrangian::emitted::Singular> {
+    let Series {
+        p,
+        t,
+        q,
+        v,
+        lists,
+        coefficients,
+    } = call;
+    let n = N::load;
+    let x0 = n(q[0]);
+    let x1 = n(q[2]);
+    let x2 = n(p.series[0]);
+    let x3 = x2.mul_add(x1, x0);
+    let x4 = n(t[1]);
+    let x5 = n(t[0]);
+    let x6 = n(p.series[1]);
+    let x7 = x6.product_error(x5);
+    let x8 = x6.mul_add(x4, x7);
+    let x9 = x6 * x5;
+    let x10 = n(q[3]);
+    let x11 = n(q[4]);
+    let x12 = n(q[6]);
+    let x13 = n(q[7]);
+    let x14 = n(q[1]);
+    let x15 = n(p.series[2]);
+    let x16 = x15 * x1;
+    let x17 = x16 + x14;
+    let x18 = n(p.series[3]);
+    let x19 = -x18;
+    let x20 = x19 + x10;
+    let x21 = n(p.series[4]);
+    let x22 = -x21;
+    let x23 = x22 + x12;
+    let angles24 = [x9, x1, x11, x13];
+    let x24 = N::sin_cos_all(angles24);
+    let x25 = x24[0].0;
+    let x26 = x24[0].1;
+    let x27 = x8.mul_add(x26, x25);
+    let x28 = x8.neg_mul_add(x25, x26);
+    let x29 = x24[1].0;
+    let x30 = x24[1].1;
+    let x31 = x24[2].0;
+    let x32 = x24[2].1;
+    let x33 = x24[3].0;
+    let x34 = x24[3].1;
+    let x35 = x10 * x32;
+    let x36 = x12 * x34;
+    let x37 = x10 * x31;
+    let x38 = x12 * x33;
+    let x39 = n(v[0]);
+    let x40 = n(v[2]);
+    let x41 = x2.mul_add(x40, x39);
+    let x42 = x6 * x28;
+    let x43 = x6 * x27;
+    let x44 = -x43;
+    let x45 = x40 * x30;
+    let x46 = x40 * x29;
+    let x47 = -x46;
+    let x48 = n(v[3]);
+    let x49 = n(v[4]);
+    let x50 = x49 * x32;
+    let x51 = x49 * x31;
+    let x52 = -x51;
+    let x53 = x48 * x32;
+    let x54 = x10.mul_add(x52, x53);
+    let x55 = n(v[6]);
+    let x56 = n(v[7]);
+    let x57 = x56 * x34;
+    let x58 = x56 * x33;
+    let x59 = -x58;
+    let x60 = x55 * x34;
+    let x61 = x12.mul_add(x59, x60);
+    let x62 = n(v[1]);
+    let x63 = x15 * x40;
+    let x64 = x63 + x62;
+    let x65 = x48 * x31;
+    let x66 = x10.mul_add(x50, x65);
+    let x67 = x55 * x33;
+    let x68 = x12.mul_add(x57, x67);
+    let x69 = x6 * x44;
+    let x70 = N::from_f64(0.5);
+    let x71 = x70 * x69;
+    let x72 = x6 * x42;
+    let x73 = -x72;
+    let x74 = x70 * x73;
+    let x75 = x40 * x47;
+    let x76 = N::from_f64(2.0);
+    let x77 = x70 * x75;
+    let x78 = x40 * x45;
+    let x79 = -x78;
+    let x80 = x70 * x79;
+    let x81 = x49 * x52;
+    let x82 = x70 * x81;
+    let x83 = x49 * x50;
+    let x84 = -x83;
+    let x85 = x70 * x84;
+    let x86 = x48 * x52;
+    let x87 = x10.mul_add(x85, x86);
+    let x88 = x56 * x59;
+    let x89 = x70 * x88;
+    let x90 = x56 * x57;
+    let x91 = -x90;
+    let x92 = x70 * x91;
+    let x93 = x55 * x59;
+    let x94 = x12.mul_add(x92, x93);
+    let x95 = x48 * x50;
+    let x96 = x10.mul_add(x82, x95);
+    let x97 = x55 * x57;
+    let x98 = x12.mul_add(x89, x97);
+    let x99 = n(p.series[5]);
+    let x100 = x99.mul_add(x40, x39);
+    let x101 = n(p.series[6]);
+    let x102 = x101 * x40;
+    let x103 = x102 + x62;
+    let x104 = n(p.series[7]);
+    let x105 = x104 * x75;
+    let x106 = n(p.series[8]);
+    let x107 = x106.mul_add(x79, x105);
+    let x108 = n(p.series[9]);
+    let x109 = x108.mul_add(x73, x107);
+    let x110 = x76 * x87;
+    let x111 = x76 * x94;
+    let x112 = x110 + x111;
+    let x113 = n(p.series[10]);
+    let x114 = x113 * x110;
+    let x115 = n(p.series[11]);
+    let x116 = x115.mul_add(x112, x114);
+    let x117 = n(p.series[12]);
+    let x118 = x117 * x3;
+    let x119 = n(p.series[13]);
+    let x120 = x119.mul_add(x100, x118);
+    let x121 = n(p.series[14]);
+    let x122 = n(p.series[15]);
+    let x123 = x122.mul_add(x109, x120);
+    let x124 = x123 + x116;
+    let x125 = x106 * x75;
+    let x126 = n(p.series[16]);
+    let x127 = x126.mul_add(x79, x125);
+    let x128 = x108.mul_add(x69, x127);
+    let x129 = x76 * x96;
+    let x130 = x76 * x98;
+    let x131 = x129 + x130;
+    let x132 = x113 * x129;
+    let x133 = x115.mul_add(x131, x132);
+    let x134 = n(p.series[17]);
+    let x135 = x134 * x17;
+    let x136 = n(p.series[18]);
+    let x137 = x136.mul_add(x103, x135);
+    let x138 = x122.mul_add(x128, x137);
+    let x139 = x138 + x133;
+    let x140 = n(p.series[19]);
+    let x141 = x140 * x128;
+    let x142 = n(p.series[20]);
+    let x143 = x142.mul_add(x109, x141);
+    let x144 = x30 * x143;
+    let x145 = n(p.series[21]);
+    let x146 = x145 * x128;
+    let x147 = x140.mul_add(x109, x146);
+    let x148 = x29 * x147;
+    let x149 = n(p.series[22]);
+    let x150 = x149 * x3;
+    let x151 = n(p.series[23]);
+    let x152 = x151.mul_add(x17, x150);
+    let x153 = n(p.series[24]);
+    let x154 = x153.mul_add(x100, x152);
+    let x155 = n(p.series[25]);
+    let x156 = x155.mul_add(x103, x154);
+    let x157 = n(p.series[26]);
+    let x158 = x156 + x144;
+    let x159 = x158 - x148;
+    let x160 = x31 * x133;
+    let x161 = x32 * x116;
+    let x162 = n(p.series[27]);
+    let x163 = x162 * x20;
+    let x164 = n(p.series[28]);
+    let x165 = x164.mul_add(x48, x163);
+    let x166 = x165 + x160;
+    let x167 = x166 + x161;
+    let x168 = x35 * x133;
+    let x169 = x37 * x116;
+    let x170 = x168 - x169;
+    let x172 = x33 * x131;
+    let x173 = x34 * x112;
+    let x174 = n(p.series[30]);
+    let x175 = x174 * x23;
+    let x176 = n(p.series[31]);
+    let x177 = x176.mul_add(x55, x175);
+    let x178 = x115.mul_add(x172, x177);
+    let x179 = x115.mul_add(x173, x178);
+    let x180 = x36 * x131;
+    let x181 = x38 * x112;
+    let x182 = x115 * x180;
+    let x183 = n(p.series[32]);
+    let x184 = x183.mul_add(x181, x182);
+    let x186 = -x29;
+    let x187 = x104 * x30;
+    let x188 = x106.mul_add(x186, x187);
+    let x189 = -x31;
+    let x190 = x10 * x189;
+    let x191 = -x33;
+    let x192 = x12 * x191;
+    let x193 = x113 * x32;
+    let x194 = x113 * x190;
+    let x195 = x115 + x113;
+    let x196 = x115.mul_add(x32, x193);
+    let x197 = x115.mul_add(x190, x194);
+    let x198 = x115 * x34;
+    let x199 = x115 * x192;
+    let x200 = x122 + x121;
+    let x201 = x122 * x188;
+    let x202 = x195 + x200;
+    let x203 = x106 * x30;
+    let x204 = x126.mul_add(x186, x203);
+    let x205 = x113 * x31;
+    let x206 = x113 * x35;
+    let x207 = x115.mul_add(x31, x205);
+    let x208 = x115.mul_add(x35, x206);
+    let x209 = x115 * x33;
+    let x210 = x115 * x36;
+    let x211 = x122 * x204;
+    let x212 = x140 * x204;
+    let x213 = x142.mul_add(x188, x212);
+    let x214 = x30 * x142;
+    let x215 = x30 * x140;
+    let x216 = x30 * x213;
+    let x217 = x145 * x204;
+    let x218 = x140.mul_add(x188, x217);
+    let x219 = x29 * x140;
+    let x220 = x29 * x145;
+    let x221 = x29 * x218;
+    let x222 = x216 + x157;
+    let x223 = x214 - x219;
+    let x224 = x215 - x220;
+    let x225 = x222 - x221;
+    let x226 = x31 * x195;
+    let x227 = x31 * x207;
+    let x228 = x31 * x208;
+    let x229 = x31 * x209;
+    let x230 = x31 * x210;
+    let x231 = x32 * x195;
+    let x232 = x32 * x196;
+    let x233 = x32 * x197;
+    let x234 = x32 * x198;
+    let x235 = x32 * x199;
+    let x236 = x232 + x227;
+    let x237 = x233 + x228;
+    let x238 = x234 + x229;
+    let x239 = x235 + x230;
+    let x240 = x35 * x195;
+    let x241 = x35 * x207;
+    let x242 = x35 * x208;
+    let x243 = x35 * x209;
+    let x244 = x35 * x210;
+    let x245 = x37 * x195;
+    let x246 = x37 * x196;
+    let x247 = x37 * x197;
+    let x248 = x37 * x198;
+    let x249 = x37 * x199;
+    let x250 = -x245;
+    let x251 = x241 - x246;
+    let x252 = x242 - x247;
+    let x253 = x243 - x248;
+    let x254 = x244 - x249;
+    let x255 = x33 * x31;
+    let x256 = x33 * x35;
+    let x257 = x33 * x33;
+    let x258 = x33 * x36;
+    let x259 = x34 * x32;
+    let x260 = x34 * x190;
+    let x261 = x34 * x34;
+    let x262 = x34 * x192;
+    let x263 = x115 * x255;
+    let x264 = x115 * x256;
+    let x265 = x115 * x257;
+    let x266 = x115 * x258;
+    let x267 = x115.mul_add(x259, x263);
+    let x268 = x115.mul_add(x260, x264);
+    let x269 = x115.mul_add(x261, x265);
+    let x270 = x115.mul_add(x262, x266);
+    let x271 = x36 * x31;
+    let x272 = x36 * x35;
+    let x273 = x36 * x33;
+    let x274 = x36 * x36;
+    let x275 = x38 * x32;
+    let x276 = x38 * x190;
+    let x277 = x38 * x34;
+    let x278 = x38 * x192;
+    let x279 = x115 * x271;
+    let x280 = x115 * x272;
+    let x281 = x115 * x273;
+    let x282 = x115 * x274;
+    let x283 = x183 * x38;
+    let x284 = x183.mul_add(x275, x279);
+    let x285 = x183.mul_add(x276, x280);
+    let x286 = x183.mul_add(x277, x281);
+    let x287 = x183.mul_add(x278, x282);
+    let mut x288 = [
+        x202.store(),
+        N::ZERO.store(),
+        x201.store(),
+        x196.store(),
+        x197.store(),
+        x198.store(),
+        x199.store(),
+        N::ZERO.store(),
+        x202.store(),
+        x211.store(),
+        x207.store(),
+        x208.store(),
+        x209.store(),
+        x210.store(),
+        x223.store(),
+        x224.store(),
+        x225.store(),
+        N::ZERO.store(),
+        N::ZERO.store(),
+        N::ZERO.store(),
+        N::ZERO.store(),
+        x231.store(),
+        x226.store(),
+        N::ZERO.store(),
+        x236.store(),
+        x237.store(),
+        x238.store(),
+        x239.store(),
+        x250.store(),
+        x240.store(),
+        N::ZERO.store(),
+        x251.store(),
+        x252.store(),
+        x253.store(),
+        x254.store(),
+        x198.store(),
+        x209.store(),
+        N::ZERO.store(),
+        x267.store(),
+        x268.store(),
+        x269.store(),
+        x270.store(),
+        x283.store(),
+        x210.store(),
+        N::ZERO.store(),
+        x284.store(),
+        x285.store(),
+        x286.store(),
+        x287.store(),
+    ];
+    let members288 = [0, 1, 2, 3, 4, 6, 7];
+    let factored = ::lagrangian::emitted::series::factor::<N>(7, 7, &mut x288);
+    if let Err(vanished) = factored {
+        let singular = ::lagrangian::emitted::series::singular(vanished, &members288, 9);
+        return Err(singular);
+    }
+    let x291 = -x124;
+    let x292 = -x139;
+    let x293 = -x159;
+    let x294 = -x167;
+    let x295 = -x170;
+    let x296 = -x179;
+    let x297 = -x184;
+    let mut x298 = [
+        x291.store(),
+        x292.store(),
+        x293.store(),
+        x294.store(),
+        x295.store(),
+        x296.store(),
+        x297.store(),
+    ];
+    let mut scratch298 = x298;
+    let (x, scratch) = (&mut x298, &mut scratch298);
+    ::lagrangian::emitted::series::solve::<N>(7, &x288, x, scratch);
+    let x299 = n(x298[0]);
+    let x300 = n(x298[1]);
+    let x301 = n(x298[2]);
+    let x302 = n(x298[3]);
+    let x303 = n(x298[4]);
+    let x304 = n(x298[5]);
+    let x305 = n(x298[6]);
+    let x308 = x299 * x70;
+    let x309 = x300 * x70;
+    let x310 = x301 * x70;
+    let x311 = x302 * x70;
+    let x312 = x303 * x70;
+    let x313 = x304 * x70;
+    let x314 = x305 * x70;
+    let x315 = x32.mul_add(x302, x299);
+    let x316 = x190.mul_add(x303, x315);
+    let x317 = x34.mul_add(x304, x316);
+    let x318 = x192.mul_add(x305, x317);
+    let x319 = x112 + x318;
+    let x320 = x195 * x299;
+    let x321 = x196.mul_add(x302, x320);
+    let x322 = x197.mul_add(x303, x321);
+    let x323 = x198.mul_add(x304, x322);
+    let x324 = x199.mul_add(x305, x323);
+    let x325 = x116 + x324;
+    let x326 = x31.mul_add(x302, x300);
+    let x327 = x35.mul_add(x303, x326);
+    let x328 = x33.mul_add(x304, x327);
+    let x329 = x36.mul_add(x305, x328);
+    let x330 = x131 + x329;
+    let x331 = x195 * x300;
+    let x332 = x207.mul_add(x302, x331);
+    let x333 = x208.mul_add(x303, x332);
+    let x334 = x209.mul_add(x304, x333);
+    let x335 = x210.mul_add(x305, x334);
+    let x336 = x133 + x335;
+    let x337 = x142 * x299;
+    let x338 = x140.mul_add(x300, x337);
+    let x339 = x213.mul_add(x301, x338);
+    let x340 = x143 + x339;
+    let x341 = x140 * x299;
+    let x342 = x145.mul_add(x300, x341);
+    let x343 = x218.mul_add(x301, x342);
+    let x344 = x147 + x343;
+    let x345 = x2.mul_add(x301, x299);
+    let x346 = x70 * x345;
+    let x347 = x30 * x70;
+    let x348 = x347.mul_add(x301, x77);
+    let x349 = x186 * x70;
+    let x350 = x349.mul_add(x301, x80);
+    let x351 = x32 * x70;
+    let x352 = x351.mul_add(x303, x82);
+    let x353 = x189 * x70;
+    let x354 = x353.mul_add(x303, x85);
+    let x355 = x32 * x302;
+    let x356 = x190.mul_add(x303, x355);
+    let x357 = x70.mul_add(x356, x87);
+    let x358 = x34 * x70;
+    let x359 = x358.mul_add(x305, x89);
+    let x360 = x191 * x70;
+    let x361 = x360.mul_add(x305, x92);
+    let x362 = x34 * x304;
+    let x363 = x192.mul_add(x305, x362);
+    let x364 = x70.mul_add(x363, x94);
+    let x365 = x15.mul_add(x301, x300);
+    let x366 = x70 * x365;
+    let x367 = x31 * x302;
+    let x368 = x35.mul_add(x303, x367);
+    let x369 = x70.mul_add(x368, x96);
+    let x370 = x33 * x304;
+    let x371 = x36.mul_add(x305, x370);
+    let x372 = x70.mul_add(x371, x98);
+    let x373 = x70 * x302;
+    let x374 = x70 * x304;
+    let second = [
+        x308.store(),
+        x309.store(),
+        x310.store(),
+        x311.store(),
+        x312.store(),
+        N::ZERO.store(),
+        x313.store(),
+        x314.store(),
+        N::ZERO.store(),
+    ];
+    for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
+        *row = x;
+    }
+    const A0: [usize; 20] = [0, 0, 1, 1, 2, 3, 3, 4, 2, 4, 5, 6, 7, 8, 7, 8, 9, 10, 9, 10];
+    const B0: [usize; 20] = [0, 1, 2, 3, 2, 4, 5, 4, 3, 5, 0, 1, 3, 2, 6, 7, 5, 4, 8, 9];
+    ::lagrangian::emitted::series::keep::<N, 20, 20>(
+        &mut lists.a0.0,
+        2,
+        [
+            x301.store(),
+            x301.store(),
+            x303.store(),
+            x303.store(),
             x311.store(),
-            x312.store(),
-            N::ZERO.store(),
+            x305.store(),
+            x305.store(),
             x313.store(),
-            x314.store(),
-            N::ZERO.store(),
+            x311.store(),
+            x313.store(),
+            x340.store(),
+            x344.store(),
+            x336.store(),
+            x325.store(),
+            x336.store(),
+            x325.store(),
+            x330.store(),
+            x319.store(),
+            x330.store(),
+            x319.store(),
+        ],
+        &A0,
+    );
+    ::lagrangian::emitted::series::keep::<N, 20, 20>(
+        &mut lists.b0.0,
+        2,
+        [
+            x350.store(),
+            x348.store(),
+            x354.store(),
+            x352.store(),
+            x354.store(),
+            x361.store(),
+            x359.store(),
+            x361.store(),
+            x352.store(),
+            x359.store(),
+            x350.store(),
+            x348.store(),
+            x352.store(),
+            x354.store(),
+            x357.store(),
+            x369.store(),
+            x359.store(),
+            x361.store(),
+            x364.store(),
+            x372.store(),
+        ],
+        &B0,
+    );
+    let mut y18 = x346;
+    let mut y24 = x71;
+    let mut y25 = x74;
+    let mut y27 = x348;
+    let mut y28 = x350;
+    let mut y33 = x311;
+    let mut y35 = x352;
+    let mut y36 = x354;
+    let mut y40 = x313;
+    let mut y42 = x359;
+    let mut y43 = x361;
+    let mut y46 = x319;
+    let mut y47 = x325;
+    let mut y56 = x366;
+    let mut y65 = x330;
+    let mut y66 = x336;
+    let mut y77 = x340;
+    let mut y79 = x344;
+    let mut y88 = x373;
+    let mut y102 = x374;
+    let mut z14 = x301;
+    let mut z34 = x303;
+    let mut z41 = x305;
+    let mut older_y18 = x41;
+    let mut older_y56 = x64;
+    let mut older_y88 = x48;
+    let mut older_y102 = x55;
+    let mut r0 = x299;
+    let mut r1 = x300;
+    let mut r2 = x301;
+    let mut r3 = x302;
+    let mut r6 = x304;
+    let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
+    for order in 3..count {
+        let w0 = ::lagrangian::emitted::series::sweep::<N, 20, 20>(
+            [&lists.a0.0, &lists.b0.0],
+            order - 2,
+            [&A0, &B0],
+        );
+        let x375 = y25;
+        let x376 = x6 * x375;
+        let x377 = N::from_ratio(1, order as i64);
+        let x378 = x377 * x376;
+        let x379 = y24;
+        let x380 = x6 * x379;
+        let x381 = -x380;
+        let x382 = x377 * x381;
+        let x383 = w0[0];
+        let x384 = z14;
+        let x385 = x384.mul_add(x47, x383);
+        let x386 = y28;
+        let x387 = x40.mul_add(x386, x385);
+        let x388 = N::from_f64(order as f64);
+        let x389 = x377 * x387;
+        let x390 = w0[1];
+        let x391 = x384.mul_add(x45, x390);
+        let x392 = y27;
+        let x393 = x40.mul_add(x392, x391);
+        let x394 = -x393;
+        let x395 = x377 * x394;
+        let x396 = w0[2];
+        let x397 = z34;
+        let x398 = x397.mul_add(x52, x396);
+        let x399 = y36;
+        let x400 = x49.mul_add(x399, x398);
+        let x401 = x377 * x400;
+        let x402 = w0[3];
+        let x403 = x397.mul_add(x50, x402);
+        let x404 = y35;
+        let x405 = x49.mul_add(x404, x403);
+        let x406 = -x405;
+        let x407 = x377 * x406;
+        let x408 = w0[4];
+        let x409 = y33;
+        let x410 = x409.mul_add(x52, x408);
+        let x411 = x48.mul_add(x399, x410);
+        let x412 = x10.mul_add(x407, x411);
+        let x413 = w0[5];
+        let x414 = z41;
+        let x415 = x414.mul_add(x59, x413);
+        let x416 = y43;
+        let x417 = x56.mul_add(x416, x415);
+        let x418 = x377 * x417;
+        let x419 = w0[6];
+        let x420 = x414.mul_add(x57, x419);
+        let x421 = y42;
+        let x422 = x56.mul_add(x421, x420);
+        let x423 = -x422;
+        let x424 = x377 * x423;
+        let x425 = w0[7];
+        let x426 = y40;
+        let x427 = x426.mul_add(x59, x425);
+        let x428 = x55.mul_add(x416, x427);
+        let x429 = x12.mul_add(x424, x428);
+        let x430 = w0[8];
+        let x431 = x409.mul_add(x50, x430);
+        let x432 = x48.mul_add(x404, x431);
+        let x433 = x10.mul_add(x401, x432);
+        let x434 = w0[9];
+        let x435 = x426.mul_add(x57, x434);
+        let x436 = x55.mul_add(x421, x435);
+        let x437 = x12.mul_add(x418, x436);
+        let x438 = r0;
+        let x439 = r2;
+        let x440 = x99.mul_add(x439, x438);
+        let x441 = r1;
+        let x442 = x101 * x439;
+        let x443 = x442 + x441;
+        let x444 = r3;
+        let x445 = r6;
+        let x446 = N::from_f64((order - 1) as f64);
+        let x450 = x104 * x446;
+        let x451 = x450 * x387;
+        let x452 = x106 * x446;
+        let x453 = x452.mul_add(x394, x451);
+        let x454 = x108 * x446;
+        let x455 = x454.mul_add(x381, x453);
+        let x458 = x446 * x388;
+        let x459 = x458 * x412;
+        let x462 = x458.mul_add(x429, x459);
+        let x463 = x113 * x459;
+        let x464 = x115.mul_add(x462, x463);
+        let x465 = older_y18;
+        let x466 = x117 * x465;
+        let x467 = x119.mul_add(x440, x466);
+        let x468 = x122.mul_add(x455, x467);
+        let x469 = x468 + x464;
+        let x471 = x452 * x387;
+        let x472 = x126 * x446;
+        let x473 = x472.mul_add(x394, x471);
+        let x474 = x454.mul_add(x376, x473);
+        let x477 = x458 * x433;
+        let x480 = x458.mul_add(x437, x477);
+        let x481 = x113 * x477;
+        let x482 = x115.mul_add(x480, x481);
+        let x483 = older_y56;
+        let x484 = x134 * x483;
+        let x485 = x136.mul_add(x443, x484);
+        let x486 = x122.mul_add(x474, x485);
+        let x487 = x486 + x482;
+        let x488 = x140 * x474;
+        let x489 = x142.mul_add(x455, x488);
+        let x490 = w0[10];
+        let x491 = y77;
+        let x492 = x491.mul_add(x47, x490);
+        let x493 = x489.mul_add(x30, x492);
+        let x494 = x145 * x474;
+        let x495 = x140.mul_add(x455, x494);
+        let x496 = w0[11];
+        let x497 = y79;
+        let x498 = x497.mul_add(x45, x496);
+        let x499 = x495.mul_add(x29, x498);
+        let x500 = x149 * x465;
+        let x501 = x151.mul_add(x483, x500);
+        let x502 = x153.mul_add(x440, x501);
+        let x503 = x155.mul_add(x443, x502);
+        let x504 = x503 + x493;
+        let x505 = x504 - x499;
+        let x506 = w0[12];
+        let x507 = y66;
+        let x508 = x507.mul_add(x50, x506);
+        let x509 = x482.mul_add(x31, x508);
+        let x510 = w0[13];
+        let x511 = y47;
+        let x512 = x511.mul_add(x52, x510);
+        let x513 = x464.mul_add(x32, x512);
+        let x514 = older_y88;
+        let x515 = x162 * x514;
+        let x516 = x164.mul_add(x444, x515);
+        let x517 = x516 + x509;
+        let x518 = x517 + x513;
+        let x519 = w0[14];
+        let x520 = x507.mul_add(x54, x519);
+        let x521 = x482.mul_add(x35, x520);
+        let x522 = w0[15];
+        let x523 = x511.mul_add(x66, x522);
+        let x524 = x464.mul_add(x37, x523);
+        let x525 = x521 - x524;
+        let x526 = w0[16];
+        let x527 = y65;
+        let x528 = x527.mul_add(x57, x526);
+        let x529 = x480.mul_add(x33, x528);
+        let x530 = w0[17];
+        let x531 = y46;
+        let x532 = x531.mul_add(x59, x530);
+        let x533 = x462.mul_add(x34, x532);
+        let x534 = older_y102;
+        let x535 = x174 * x534;
+        let x536 = x176.mul_add(x445, x535);
+        let x537 = x115.mul_add(x529, x536);
+        let x538 = x115.mul_add(x533, x537);
+        let x539 = w0[18];
+        let x540 = x527.mul_add(x61, x539);
+        let x541 = x480.mul_add(x36, x540);
+        let x542 = w0[19];
+        let x543 = x531.mul_add(x68, x542);
+        let x544 = x462.mul_add(x38, x543);
+        let x545 = x115 * x541;
+        let x546 = x183.mul_add(x544, x545);
+        let x547 = -x469;
+        let x548 = -x487;
+        let x549 = -x505;
+        let x550 = -x518;
+        let x551 = -x525;
+        let x552 = -x538;
+        let x553 = -x546;
+        let mut x554 = [
+            x547.store(),
+            x548.store(),
+            x549.store(),
+            x550.store(),
+            x551.store(),
+            x552.store(),
+            x553.store(),
         ];
-        for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
-            *row = x;
+        let mut scratch554 = x554;
+        let (x, scratch) = (&mut x554, &mut scratch554);
+        ::lagrangian::emitted::series::solve::<N>(7, &x288, x, scratch);
+        let x555 = n(x554[0]);
+        let x556 = n(x554[1]);
+        let x557 = n(x554[2]);
+        let x558 = n(x554[3]);
+        let x559 = n(x554[4]);
+        let x560 = n(x554[5]);
+        let x561 = n(x554[6]);
+        let x562 = N::from_ratio(1, order as i64 - 1);
+        let x563 = N::from_ratio(order as i64 * (order as i64 - 1), 1);
+        let x564 = x555 * x562;
+        let x565 = x555 / x563;
+        let x566 = x556 * x562;
+        let x567 = x556 / x563;
+        let x568 = x557 * x562;
+        let x569 = x557 / x563;
+        let x570 = x558 * x562;
+        let x571 = x558 / x563;
+        let x572 = x559 * x562;
+        let x573 = x559 / x563;
+        let x574 = x560 * x562;
+        let x575 = x560 / x563;
+        let x576 = x561 * x562;
+        let x577 = x561 / x563;
+        let x578 = x562 * x377;
+        let x579 = x32.mul_add(x558, x555);
+        let x580 = x190.mul_add(x559, x579);
+        let x581 = x34.mul_add(x560, x580);
+        let x582 = x192.mul_add(x561, x581);
+        let x583 = x462 + x582;
+        let x584 = x195 * x555;
+        let x585 = x196.mul_add(x558, x584);
+        let x586 = x197.mul_add(x559, x585);
+        let x587 = x198.mul_add(x560, x586);
+        let x588 = x199.mul_add(x561, x587);
+        let x589 = x464 + x588;
+        let x590 = x31.mul_add(x558, x556);
+        let x591 = x35.mul_add(x559, x590);
+        let x592 = x33.mul_add(x560, x591);
+        let x593 = x36.mul_add(x561, x592);
+        let x594 = x480 + x593;
+        let x595 = x195 * x556;
+        let x596 = x207.mul_add(x558, x595);
+        let x597 = x208.mul_add(x559, x596);
+        let x598 = x209.mul_add(x560, x597);
+        let x599 = x210.mul_add(x561, x598);
+        let x600 = x482 + x599;
+        let x601 = x142 * x555;
+        let x602 = x140.mul_add(x556, x601);
+        let x603 = x213.mul_add(x557, x602);
+        let x604 = x489 + x603;
+        let x605 = x140 * x555;
+        let x606 = x145.mul_add(x556, x605);
+        let x607 = x218.mul_add(x557, x606);
+        let x608 = x495 + x607;
+        let x609 = x2.mul_add(x557, x555);
+        let x610 = x578 * x609;
+        let x611 = x30 * x578;
+        let x612 = x611.mul_add(x557, x389);
+        let x613 = x186 * x578;
+        let x614 = x613.mul_add(x557, x395);
+        let x615 = x32 * x578;
+        let x616 = x615.mul_add(x559, x401);
+        let x617 = x189 * x578;
+        let x618 = x617.mul_add(x559, x407);
+        let x619 = x32 * x558;
+        let x620 = x190.mul_add(x559, x619);
+        let x621 = x578.mul_add(x620, x412);
+        let x622 = x34 * x578;
+        let x623 = x622.mul_add(x561, x418);
+        let x624 = x191 * x578;
+        let x625 = x624.mul_add(x561, x424);
+        let x626 = x34 * x560;
+        let x627 = x192.mul_add(x561, x626);
+        let x628 = x578.mul_add(x627, x429);
+        let x629 = x15.mul_add(x557, x556);
+        let x630 = x578 * x629;
+        let x631 = x31 * x558;
+        let x632 = x35.mul_add(x559, x631);
+        let x633 = x578.mul_add(x632, x433);
+        let x634 = x33 * x560;
+        let x635 = x36.mul_add(x561, x634);
+        let x636 = x578.mul_add(x635, x437);
+        let x637 = x578 * x558;
+        let x638 = x578 * x560;
+        let x639 = y18;
+        let x640 = y56;
+        let x641 = y88;
+        let x642 = y102;
+        if let Some(row) = coefficients.get_mut(order) {
+            *row = [
+                x565.store(),
+                x567.store(),
+                x569.store(),
+                x571.store(),
+                x573.store(),
+                N::ZERO.store(),
+                x575.store(),
+                x577.store(),
+                N::ZERO.store(),
+            ];
         }
-        const A0: [usize; 20] = [0, 0, 1, 1, 2, 3, 3, 4, 2, 4, 5, 6, 7, 8, 7, 8, 9, 10, 9, 10];
-        const B0: [usize; 20] = [0, 1, 2, 3, 2, 4, 5, 4, 3, 5, 0, 1, 3, 2, 6, 7, 5, 4, 8, 9];
         ::lagrangian::emitted::series::keep::<N, 20, 20>(
             &mut lists.a0.0,
-            2,
+            order,
             [
-                x301.store(),
-                x301.store(),
-                x303.store(),
-                x303.store(),
-                x311.store(),
-                x305.store(),
-                x305.store(),
-                x313.store(),
-                x311.store(),
-                x313.store(),
-                x340.store(),
-                x344.store(),
-                x336.store(),
-                x325.store(),
-                x336.store(),
-                x325.store(),
-                x330.store(),
-                x319.store(),
-                x330.store(),
-                x319.store(),
+                x568.store(),
+                x568.store(),
+                x572.store(),
+                x572.store(),
+                x571.store(),
+                x576.store(),
+                x576.store(),
+                x575.store(),
+                x571.store(),
+                x575.store(),
+                x604.store(),
+                x608.store(),
+                x600.store(),
+                x589.store(),
+                x600.store(),
+                x589.store(),
+                x594.store(),
+                x583.store(),
+                x594.store(),
+                x583.store(),
             ],
             &A0,
         );
         ::lagrangian::emitted::series::keep::<N, 20, 20>(
             &mut lists.b0.0,
-            2,
+            order,
             [
-                x350.store(),
-                x348.store(),
-                x354.store(),
-                x352.store(),
-                x354.store(),
-                x361.store(),
-                x359.store(),
-                x361.store(),
-                x352.store(),
-                x359.store(),
-                x350.store(),
-                x348.store(),
-                x352.store(),
-                x354.store(),
-                x357.store(),
-                x369.store(),
-                x359.store(),
-                x361.store(),
-                x364.store(),
-                x372.store(),
+                x614.store(),
+                x612.store(),
+                x618.store(),
+                x616.store(),
+                x618.store(),
+                x625.store(),
+                x623.store(),
+                x625.store(),
+                x616.store(),
+                x623.store(),
+                x614.store(),
+                x612.store(),
+                x616.store(),
+                x618.store(),
+                x621.store(),
+                x633.store(),
+                x623.store(),
+                x625.store(),
+                x628.store(),
+                x636.store(),
             ],
             &B0,
         );
-        let mut y18 = x346;
-        let mut y24 = x71;
-        let mut y25 = x74;
-        let mut y27 = x348;
-        let mut y28 = x350;
-        let mut y33 = x311;
-        let mut y35 = x352;
-        let mut y36 = x354;
-        let mut y40 = x313;
-        let mut y42 = x359;
-        let mut y43 = x361;
-        let mut y46 = x319;
-        let mut y47 = x325;
-        let mut y56 = x366;
-        let mut y65 = x330;
-        let mut y66 = x336;
-        let mut y77 = x340;
-        let mut y79 = x344;
-        let mut y88 = x373;
-        let mut y102 = x374;
-        let mut z14 = x301;
-        let mut z34 = x303;
-        let mut z41 = x305;
-        let mut older_y18 = x41;
-        let mut older_y56 = x64;
-        let mut older_y88 = x48;
-        let mut older_y102 = x55;
-        let mut r0 = x299;
-        let mut r1 = x300;
-        let mut r2 = x301;
-        let mut r3 = x302;
-        let mut r6 = x304;
-        let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
-        for order in 3..count {
-            let w0 = ::lagrangian::emitted::series::sweep::<N, 20, 20>(
-                [&lists.a0.0, &lists.b0.0],
-                order - 2,
-                [&A0, &B0],
-            );
-            let x375 = y25;
-            let x376 = x6 * x375;
-            let x377 = N::from_ratio(1, order as i64);
-            let x378 = x377 * x376;
-            let x379 = y24;
-            let x380 = x6 * x379;
-            let x381 = -x380;
-            let x382 = x377 * x381;
-            let x383 = w0[0];
-            let x384 = z14;
-            let x385 = x384.mul_add(x47, x383);
-            let x386 = y28;
-            let x387 = x40.mul_add(x386, x385);
-            let x388 = N::from_f64(order as f64);
-            let x389 = x377 * x387;
-            let x390 = w0[1];
-            let x391 = x384.mul_add(x45, x390);
-            let x392 = y27;
-            let x393 = x40.mul_add(x392, x391);
-            let x394 = -x393;
-            let x395 = x377 * x394;
-            let x396 = w0[2];
-            let x397 = z34;
-            let x398 = x397.mul_add(x52, x396);
-            let x399 = y36;
-            let x400 = x49.mul_add(x399, x398);
-            let x401 = x377 * x400;
-            let x402 = w0[3];
-            let x403 = x397.mul_add(x50, x402);
-            let x404 = y35;
-            let x405 = x49.mul_add(x404, x403);
-            let x406 = -x405;
-            let x407 = x377 * x406;
-            let x408 = w0[4];
-            let x409 = y33;
-            let x410 = x409.mul_add(x52, x408);
-            let x411 = x48.mul_add(x399, x410);
-            let x412 = x10.mul_add(x407, x411);
-            let x413 = w0[5];
-            let x414 = z41;
-            let x415 = x414.mul_add(x59, x413);
-            let x416 = y43;
-            let x417 = x56.mul_add(x416, x415);
-            let x418 = x377 * x417;
-            let x419 = w0[6];
-            let x420 = x414.mul_add(x57, x419);
-            let x421 = y42;
-            let x422 = x56.mul_add(x421, x420);
-            let x423 = -x422;
-            let x424 = x377 * x423;
-            let x425 = w0[7];
-            let x426 = y40;
-            let x427 = x426.mul_add(x59, x425);
-            let x428 = x55.mul_add(x416, x427);
-            let x429 = x12.mul_add(x424, x428);
-            let x430 = w0[8];
-            let x431 = x409.mul_add(x50, x430);
-            let x432 = x48.mul_add(x404, x431);
-            let x433 = x10.mul_add(x401, x432);
-            let x434 = w0[9];
-            let x435 = x426.mul_add(x57, x434);
-            let x436 = x55.mul_add(x421, x435);
-            let x437 = x12.mul_add(x418, x436);
-            let x438 = r0;
-            let x439 = r2;
-            let x440 = x99.mul_add(x439, x438);
-            let x441 = r1;
-            let x442 = x101 * x439;
-            let x443 = x442 + x441;
-            let x444 = r3;
-            let x445 = r6;
-            let x446 = N::from_f64((order - 1) as f64);
-            let x450 = x104 * x446;
-            let x451 = x450 * x387;
-            let x452 = x106 * x446;
-            let x453 = x452.mul_add(x394, x451);
-            let x454 = x108 * x446;
-            let x455 = x454.mul_add(x381, x453);
-            let x458 = x446 * x388;
-            let x459 = x458 * x412;
-            let x462 = x458.mul_add(x429, x459);
-            let x463 = x113 * x459;
-            let x464 = x115.mul_add(x462, x463);
-            let x465 = older_y18;
-            let x466 = x117 * x465;
-            let x467 = x119.mul_add(x440, x466);
-            let x468 = x122.mul_add(x455, x467);
-            let x469 = x468 + x464;
-            let x471 = x452 * x387;
-            let x472 = x126 * x446;
-            let x473 = x472.mul_add(x394, x471);
-            let x474 = x454.mul_add(x376, x473);
-            let x477 = x458 * x433;
-            let x480 = x458.mul_add(x437, x477);
-            let x481 = x113 * x477;
-            let x482 = x115.mul_add(x480, x481);
-            let x483 = older_y56;
-            let x484 = x134 * x483;
-            let x485 = x136.mul_add(x443, x484);
-            let x486 = x122.mul_add(x474, x485);
-            let x487 = x486 + x482;
-            let x488 = x140 * x474;
-            let x489 = x142.mul_add(x455, x488);
-            let x490 = w0[10];
-            let x491 = y77;
-            let x492 = x491.mul_add(x47, x490);
-            let x493 = x489.mul_add(x30, x492);
-            let x494 = x145 * x474;
-            let x495 = x140.mul_add(x455, x494);
-            let x496 = w0[11];
-            let x497 = y79;
-            let x498 = x497.mul_add(x45, x496);
-            let x499 = x495.mul_add(x29, x498);
-            let x500 = x149 * x465;
-            let x501 = x151.mul_add(x483, x500);
-            let x502 = x153.mul_add(x440, x501);
-            let x503 = x155.mul_add(x443, x502);
-            let x504 = x503 + x493;
-            let x505 = x504 - x499;
-            let x506 = w0[12];
-            let x507 = y66;
-            let x508 = x507.mul_add(x50, x506);
-            let x509 = x482.mul_add(x31, x508);
-            let x510 = w0[13];
-            let x511 = y47;
-            let x512 = x511.mul_add(x52, x510);
-            let x513 = x464.mul_add(x32, x512);
-            let x514 = older_y88;
-            let x515 = x162 * x514;
-            let x516 = x164.mul_add(x444, x515);
-            let x517 = x516 + x509;
-            let x518 = x517 + x513;
-            let x519 = w0[14];
-            let x520 = x507.mul_add(x54, x519);
-            let x521 = x482.mul_add(x35, x520);
-            let x522 = w0[15];
-            let x523 = x511.mul_add(x66, x522);
-            let x524 = x464.mul_add(x37, x523);
-            let x525 = x521 - x524;
-            let x526 = w0[16];
-            let x527 = y65;
-            let x528 = x527.mul_add(x57, x526);
-            let x529 = x480.mul_add(x33, x528);
-            let x530 = w0[17];
-            let x531 = y46;
-            let x532 = x531.mul_add(x59, x530);
-            let x533 = x462.mul_add(x34, x532);
-            let x534 = older_y102;
-            let x535 = x174 * x534;
-            let x536 = x176.mul_add(x445, x535);
-            let x537 = x115.mul_add(x529, x536);
-            let x538 = x115.mul_add(x533, x537);
-            let x539 = w0[18];
-            let x540 = x527.mul_add(x61, x539);
-            let x541 = x480.mul_add(x36, x540);
-            let x542 = w0[19];
-            let x543 = x531.mul_add(x68, x542);
-            let x544 = x462.mul_add(x38, x543);
-            let x545 = x115 * x541;
-            let x546 = x183.mul_add(x544, x545);
-            let x547 = -x469;
-            let x548 = -x487;
-            let x549 = -x505;
-            let x550 = -x518;
-            let x551 = -x525;
-            let x552 = -x538;
-            let x553 = -x546;
-            let mut x554 = [
-                x547.store(),
-                x548.store(),
-                x549.store(),
-                x550.store(),
-                x551.store(),
-                x552.store(),
-                x553.store(),
-            ];
-            let mut scratch554 = x554;
-            let (x, scratch) = (&mut x554, &mut scratch554);
-            ::lagrangian::emitted::series::solve::<N>(7, &x288, x, scratch);
-            let x555 = n(x554[0]);
-            let x556 = n(x554[1]);
-            let x557 = n(x554[2]);
-            let x558 = n(x554[3]);
-            let x559 = n(x554[4]);
-            let x560 = n(x554[5]);
-            let x561 = n(x554[6]);
-            let x562 = N::from_ratio(1, order as i64 - 1);
-            let x563 = N::from_ratio(order as i64 * (order as i64 - 1), 1);
-            let x564 = x555 * x562;
-            let x565 = x555 / x563;
-            let x566 = x556 * x562;
-            let x567 = x556 / x563;
-            let x568 = x557 * x562;
-            let x569 = x557 / x563;
-            let x570 = x558 * x562;
-            let x571 = x558 / x563;
-            let x572 = x559 * x562;
-            let x573 = x559 / x563;
-            let x574 = x560 * x562;
-            let x575 = x560 / x563;
-            let x576 = x561 * x562;
-            let x577 = x561 / x563;
-            let x578 = x562 * x377;
-            let x579 = x32.mul_add(x558, x555);
-            let x580 = x190.mul_add(x559, x579);
-            let x581 = x34.mul_add(x560, x580);
-            let x582 = x192.mul_add(x561, x581);
-            let x583 = x462 + x582;
-            let x584 = x195 * x555;
-            let x585 = x196.mul_add(x558, x584);
-            let x586 = x197.mul_add(x559, x585);
-            let x587 = x198.mul_add(x560, x586);
-            let x588 = x199.mul_add(x561, x587);
-            let x589 = x464 + x588;
-            let x590 = x31.mul_add(x558, x556);
-            let x591 = x35.mul_add(x559, x590);
-            let x592 = x33.mul_add(x560, x591);
-            let x593 = x36.mul_add(x561, x592);
-            let x594 = x480 + x593;
-            let x595 = x195 * x556;
-            let x596 = x207.mul_add(x558, x595);
-            let x597 = x208.mul_add(x559, x596);
-            let x598 = x209.mul_add(x560, x597);
-            let x599 = x210.mul_add(x561, x598);
-            let x600 = x482 + x599;
-            let x601 = x142 * x555;
-            let x602 = x140.mul_add(x556, x601);
-            let x603 = x213.mul_add(x557, x602);
-            let x604 = x489 + x603;
-            let x605 = x140 * x555;
-            let x606 = x145.mul_add(x556, x605);
-            let x607 = x218.mul_add(x557, x606);
-            let x608 = x495 + x607;
-            let x609 = x2.mul_add(x557, x555);
-            let x610 = x578 * x609;
-            let x611 = x30 * x578;
-            let x612 = x611.mul_add(x557, x389);
-            let x613 = x186 * x578;
-            let x614 = x613.mul_add(x557, x395);
-            let x615 = x32 * x578;
-            let x616 = x615.mul_add(x559, x401);
-            let x617 = x189 * x578;
-            let x618 = x617.mul_add(x559, x407);
-            let x619 = x32 * x558;
-            let x620 = x190.mul_add(x559, x619);
-            let x621 = x578.mul_add(x620, x412);
-            let x622 = x34 * x578;
-            let x623 = x622.mul_add(x561, x418);
-            let x624 = x191 * x578;
-            let x625 = x624.mul_add(x561, x424);
-            let x626 = x34 * x560;
-            let x627 = x192.mul_add(x561, x626);
-            let x628 = x578.mul_add(x627, x429);
-            let x629 = x15.mul_add(x557, x556);
-            let x630 = x578 * x629;
-            let x631 = x31 * x558;
-            let x632 = x35.mul_add(x559, x631);
-            let x633 = x578.mul_add(x632, x433);
-            let x634 = x33 * x560;
-            let x635 = x36.mul_add(x561, x634);
-            let x636 = x578.mul_add(x635, x437);
-            let x637 = x578 * x558;
-            let x638 = x578 * x560;
-            let x639 = y18;
-            let x640 = y56;
-            let x641 = y88;
-            let x642 = y102;
-            if let Some(row) = coefficients.get_mut(order) {
-                *row = [
-                    x565.store(),
-                    x567.store(),
-                    x569.store(),
-                    x571.store(),
-                    x573.store(),
-                    N::ZERO.store(),
-                    x575.store(),
-                    x577.store(),
-                    N::ZERO.store(),
-                ];
-            }
-            ::lagrangian::emitted::series::keep::<N, 20, 20>(
-                &mut lists.a0.0,
-                order,
-                [
-                    x568.store(),
-                    x568.store(),
-                    x572.store(),
-                    x572.store(),
-                    x571.store(),
-                    x576.store(),
-                    x576.store(),
-                    x575.store(),
-                    x571.store(),
-                    x575.store(),
-                    x604.store(),
-                    x608.store(),
-                    x600.store(),
-                    x589.store(),
-                    x600.store(),
-                    x589.store(),
-                    x594.store(),
-                    x583.store(),
-                    x594.store(),
-                    x583.store(),
-                ],
-                &A0,
-            );
-            ::lagrangian::emitted::series::keep::<N, 20, 20>(
-                &mut lists.b0.0,
-                order,
-                [
-                    x614.store(),
-                    x612.store(),
-                    x618.store(),
-                    x616.store(),
-                    x618.store(),
-                    x625.store(),
-                    x623.store(),
-                    x625.store(),
-                    x616.store(),
-                    x623.store(),
-                    x614.store(),
-                    x612.store(),
-                    x616.store(),
-                    x618.store(),
-                    x621.store(),
-                    x633.store(),
-                    x623.store(),
-                    x625.store(),
-                    x628.store(),
-                    x636.store(),
-                ],
-                &B0,
-            );
-            y18 = x610;
-            y24 = x378;
-            y25 = x382;
-            y27 = x612;
-            y28 = x614;
-            y33 = x571;
-            y35 = x616;
-            y36 = x618;
-            y40 = x575;
-            y42 = x623;
-            y43 = x625;
-            y46 = x583;
-            y47 = x589;
-            y56 = x630;
-            y65 = x594;
-            y66 = x600;
-            y77 = x604;
-            y79 = x608;
-            y88 = x637;
-            y102 = x638;
-            z14 = x568;
-            z34 = x572;
-            z41 = x576;
-            older_y18 = x639;
-            older_y56 = x640;
-            older_y88 = x641;
-            older_y102 = x642;
-            r0 = x564;
-            r1 = x566;
-            r2 = x568;
-            r3 = x570;
-            r6 = x574;
-        }
-        Ok(())
+        y18 = x610;
+        y24 = x378;
+        y25 = x382;
+        y27 = x612;
+        y28 = x614;
+        y33 = x571;
+        y35 = x616;
+        y36 = x618;
+        y40 = x575;
+        y42 = x623;
+        y43 = x625;
+        y46 = x583;
+        y47 = x589;
+        y56 = x630;
+        y65 = x594;
+        y66 = x600;
+        y77 = x604;
+        y79 = x608;
+        y88 = x637;
+        y102 = x638;
+        z14 = x568;
+        z34 = x572;
+        z41 = x576;
+        older_y18 = x639;
+        older_y56 = x640;
+        older_y88 = x641;
+        older_y102 = x642;
+        r0 = x564;
+        r1 = x566;
+        r2 = x568;
+        r3 = x570;
+        r6 = x574;
     }
+    Ok(())
 }
 
 ::lagrangian::emitted::implement! {
@@ -1951,13 +1937,13 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         phi2: "phi2" "rad";
         theta2: "theta2" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         m, J, m0, x0, y0, w, m1, J1, m2, J2, cx, cy, xc, yc, bx, by, xb, yb, k1, d1, r1, k2, d2, r2,
         e_w, half_cx, half_cy, half_k1, half_k2, half_bx, half_by, half_d1, half_d2, e_w_squared,
-        half_m0, m1_plus_m2, m0_y0, m0_x0, k0, by_xb, bx_yb, cy_xc, cx_yc, m0_e_w, k1_, k2_,
-        minus_m2, inverse_m2, inverse_m1, k3, k4, k5, k6, k7,
+        half_m0, m1_plus_m2, m0_y0, m0_x0, k0, by_xb, bx_yb, cy_xc, cx_yc, m0_e_w, k1_, minus_m2,
+        inverse_m2, inverse_m1, k2_, k3, k4, k5,
     }
     series series
     singular singular

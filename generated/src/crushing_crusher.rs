@@ -1,16 +1,16 @@
 // @generated from machines/crushing_crusher.machine by `cargo xtask generate`; edits are lost.
 
 //! The crush process: the mortar rolls in the platform's cylinder, the pestle in the mortar, and
-//! nothing slips. A bed of crushed material lies in the mortar, delta thick; without one delta is
-//! 0.
+//! nothing slips. A bed of crushed material lies in the mortar, delta thick; without one delta
+//! is 0.
 //!
 //! 9 coordinates, 25 parameters. Arithmetic of one call:
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 54 | 21 | 9 | 0 | 0 | 84 |
+//! | `prepare` | 54 | 20 | 9 | 0 | 0 | 83 |
 //! | `start` | 4 | 6 | 2 | 0 | 0 | 12 |
-//! | `mass_matrix` | 28 | 6 | 0 | 3 | 0 | 40 |
+//! | `mass_matrix` | 27 | 7 | 0 | 3 | 0 | 40 |
 //! | `bias` | 53 | 26 | 0 | 4 | 0 | 87 |
 //! | `applied` | 14 | 20 | 0 | 0 | 0 | 34 |
 //! | `forces` | 67 | 44 | 0 | 4 | 0 | 119 |
@@ -41,8 +41,8 @@
 #![allow(rustdoc::all)]
 
 /// The crush process: the mortar rolls in the platform's cylinder, the pestle in the mortar, and
-/// nothing slips. A bed of crushed material lies in the mortar, delta thick; without one delta is
-/// 0.
+/// nothing slips. A bed of crushed material lies in the mortar, delta thick; without one delta
+/// is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrushingCrusher<S = f64> {
     /// Mass of the platform. Unit: `kg`. Default: 600.
@@ -110,23 +110,23 @@ impl<S: ::lagrangian::emitted::Scalar> CrushingCrusher<S> {
         let R_minus_r1 = self.R - self.r1;
         let rho_minus_r2_minus_delta = rho_minus_delta - self.r2;
         let k1 = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
-        let k8 = S::ONE / m_plus_m0;
-        let k5 = k1 - k8 * (m0_y0 * m0_y0) - k8 * (m0_x0 * m0_x0);
-        let k6 = S::ONE / k5;
+        let k7 = S::ONE / m_plus_m0;
+        let k4 = k1 - k7 * (m0_y0 * m0_y0) - k7 * (m0_x0 * m0_x0);
+        let k5 = S::ONE / k4;
         let pivot_10 = self.r1 * self.r1;
         let t0 = S::ONE / self.J1;
         let t1 = rho_minus_delta * t0;
         let pivot_12 = self.r2 * self.r2;
         let t2 = S::ONE / self.r1;
         let R_over_r1 = self.R * t2;
-        let k12 = R_minus_r1 * t2;
+        let k11 = R_minus_r1 * t2;
         let t3 = S::ONE / self.r2;
         let t4 = rho_minus_delta * t2 * t3;
-        let k13 = self.R * t4;
-        let k14 = R_minus_r1 * t4;
-        let k15 = rho_minus_r2_minus_delta * t3;
-        let k17 = self.m2 * rho_minus_r2_minus_delta;
-        let k18 = m1_plus_m2 * R_minus_r1;
+        let k12 = self.R * t4;
+        let k13 = R_minus_r1 * t4;
+        let k14 = rho_minus_r2_minus_delta * t3;
+        let k16 = self.m2 * rho_minus_r2_minus_delta;
+        let k17 = m1_plus_m2 * R_minus_r1;
         let t5 = self.J2 * t4;
         let t6 = self.R * t5;
         let t7 = R_minus_r1 * t5;
@@ -138,27 +138,26 @@ impl<S: ::lagrangian::emitted::Scalar> CrushingCrusher<S> {
         let half_by = self.by * S::from_f64(0.5);
         let e_omega2 = self.omega * e_omega;
         let m0_e_omega = self.m0 * e_omega;
-        let k2 = -m1_plus_m2;
         let minus_m2 = -self.m2;
         let minus_R = -self.R;
-        let k3 = self.delta - self.rho;
-        let k4 = self.m0 * k8;
-        let k7 = self.m0 * k6;
+        let k2 = self.delta - self.rho;
+        let k3 = self.m0 * k7;
+        let k6 = self.m0 * k5;
         let inverse_m2 = S::ONE / self.m2;
         let inverse_m1 = S::ONE / self.m1;
         let r1_squared_over_J1 = pivot_10 * t0;
-        let k9 = self.R * k6;
-        let k10 = self.r1 * t1;
-        let k11 = pivot_12 / self.J2 + rho_minus_delta * t1;
-        let k16 = self.m1 * R_minus_r1;
-        let k19 = k15 * t6;
-        let k20 = k12 * t8 + k13 * t7;
-        let k21 = k15 * t7;
-        let k22 = R_minus_r1 * k17;
-        let k23 = k14 * t7 + (R_minus_r1 * k18 + k12 * (self.J1 * k12));
-        let k24 = rho_minus_r2_minus_delta * k17 + k15 * (self.J2 * k15);
-        let k25 = k13 * t6 + (k1 + R_over_r1 * t8);
-        let k26 = S::ONE / k0;
+        let k8 = self.R * k5;
+        let k9 = self.r1 * t1;
+        let k10 = pivot_12 / self.J2 + rho_minus_delta * t1;
+        let k15 = self.m1 * R_minus_r1;
+        let k18 = k14 * t6;
+        let k19 = k11 * t8 + k12 * t7;
+        let k20 = k14 * t7;
+        let k21 = R_minus_r1 * k16;
+        let k22 = k13 * t7 + (R_minus_r1 * k17 + k11 * (self.J1 * k11));
+        let k23 = rho_minus_r2_minus_delta * k16 + k14 * (self.J2 * k14);
+        let k24 = k12 * t6 + (k1 + R_over_r1 * t8);
+        let k25 = S::ONE / k0;
         let one = S::ONE;
         let pivots = [
             (0, k0, k0),
@@ -185,7 +184,6 @@ impl<S: ::lagrangian::emitted::Scalar> CrushingCrusher<S> {
             by: self.by,
             xc: self.xc,
             yc: self.yc,
-            R: self.R,
             r1: self.r1,
             r2: self.r2,
             rho_minus_delta,
@@ -204,23 +202,23 @@ impl<S: ::lagrangian::emitted::Scalar> CrushingCrusher<S> {
             rho_minus_r2_minus_delta,
             m0_e_omega,
             k1,
-            k2,
             minus_m2,
             minus_R,
-            k3,
+            k2,
             m_plus_m0,
+            k3,
             k4,
             k5,
             k6,
             k7,
-            k8,
             inverse_m2,
             inverse_m1,
             r1_squared_over_J1,
+            k8,
             k9,
             k10,
-            k11,
             R_over_r1,
+            k11,
             k12,
             k13,
             k14,
@@ -235,7 +233,6 @@ impl<S: ::lagrangian::emitted::Scalar> CrushingCrusher<S> {
             k23,
             k24,
             k25,
-            k26,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -303,14 +300,6 @@ pub struct Coordinates<S = f64> {
     pub theta2: S,
 }
 
-/// What can be set while a [`CrushingCrusher`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`CrushingCrusher`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`CrushingCrusher`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -346,8 +335,6 @@ pub struct Prepared<S = f64> {
     xc: S,
     /// `yc`
     yc: S,
-    /// `R`
-    R: S,
     /// `r1`
     r1: S,
     /// `r2`
@@ -384,26 +371,24 @@ pub struct Prepared<S = f64> {
     m0_e_omega: S,
     /// `J + m0*x0^2 + m0*y0^2`
     k1: S,
-    /// `-(m1 + m2)`
-    k2: S,
     /// `-m2`
     minus_m2: S,
     /// `-R`
     minus_R: S,
     /// `-(rho - delta)`
-    k3: S,
+    k2: S,
     /// `m + m0`
     m_plus_m0: S,
     /// `m0/(m + m0)`
-    k4: S,
+    k3: S,
     /// `J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0)`
-    k5: S,
+    k4: S,
     /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k6: S,
+    k5: S,
     /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k7: S,
+    k6: S,
     /// `1/(m + m0)`
-    k8: S,
+    k7: S,
     /// `1/m2`
     inverse_m2: S,
     /// `1/m1`
@@ -411,43 +396,43 @@ pub struct Prepared<S = f64> {
     /// `r1^2/J1`
     r1_squared_over_J1: S,
     /// `R/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k9: S,
+    k8: S,
     /// `r1*(rho - delta)/J1`
-    k10: S,
+    k9: S,
     /// `(rho - delta)^2/J1 + r2^2/J2`
-    k11: S,
+    k10: S,
     /// `R/r1`
     R_over_r1: S,
     /// `(R - r1)/r1`
-    k12: S,
+    k11: S,
     /// `R*(rho - delta)/r1/r2`
-    k13: S,
+    k12: S,
     /// `(rho - delta)*(R - r1)/r1/r2`
-    k14: S,
+    k13: S,
     /// `(rho - r2 - delta)/r2`
-    k15: S,
+    k14: S,
     /// `m1*(R - r1)`
-    k16: S,
+    k15: S,
     /// `m2*(rho - r2 - delta)`
-    k17: S,
+    k16: S,
     /// `(m1 + m2)*(R - r1)`
-    k18: S,
+    k17: S,
     /// `J2*R*(rho - delta)*(rho - r2 - delta)/r1/r2^2`
-    k19: S,
+    k18: S,
     /// `J2*R*(rho - delta)^2*(R - r1)/r1^2/r2^2 + J1*R*(R - r1)/r1^2`
-    k20: S,
+    k19: S,
     /// `J2*(rho - delta)*(R - r1)*(rho - r2 - delta)/r1/r2^2`
-    k21: S,
+    k20: S,
     /// `m2*(R - r1)*(rho - r2 - delta)`
-    k22: S,
+    k21: S,
     /// `J2*(rho - delta)^2*(R - r1)^2/r1^2/r2^2 + J1*(R - r1)^2/r1^2 + (m1 + m2)*(R - r1)^2`
-    k23: S,
+    k22: S,
     /// `J2*(rho - r2 - delta)^2/r2^2 + m2*(rho - r2 - delta)^2`
-    k24: S,
+    k23: S,
     /// `J + m0*x0^2 + m0*y0^2 + J2*R^2*(rho - delta)^2/r1^2/r2^2 + J1*R^2/r1^2`
-    k25: S,
+    k24: S,
     /// `1/(m + m0 + m1 + m2)`
-    k26: S,
+    k25: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -497,27 +482,27 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.m1_plus_m2 * s1;
+    let t1 = s1 * p.m1_plus_m2;
     let t2 = p.m2 * s2;
     let t3 = sin_phi1 * cos_phi2;
     let t4 = cos_phi1 * sin_phi2;
-    let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t5 = sin_phi1 * sin_phi2 + cos_phi1 * cos_phi2;
     let zero = S::ZERO;
-    let m31 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
-    let m32 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
-    let m41 = p.m1_plus_m2 * cos_phi1;
-    let m42 = p.m1_plus_m2 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k2);
+    let m31 = -(cos_theta * p.m0_y0 + sin_theta * p.m0_x0);
+    let m32 = cos_theta * p.m0_x0 - sin_theta * p.m0_y0;
+    let m41 = cos_phi1 * p.m1_plus_m2;
+    let m42 = sin_phi1 * p.m1_plus_m2;
+    let m51 = -(sin_phi1 * t1);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
-    let m75 = (t4 - t3) * t0;
+    let m75 = t0 * (t4 - t3);
     let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t3 - t4);
-    let m85 = t5 * (t0 * s2);
+    let m85 = t0 * s2 * t5;
     let m88 = s2 * t2;
     [
         [p.k0, zero, m31, m41, m51, zero, m71, m81, zero],
@@ -745,9 +730,9 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let phi2_dot = v[7];
     let theta2_dot = v[8];
     let phi1 = -s1_dot;
-    let phi2 = theta1_dot * p.r1 + phi1_dot * s1 - p.R * theta_dot;
+    let phi2 = phi1_dot * s1 + theta1_dot * p.r1 + p.minus_R * theta_dot;
     let phi3 = -s2_dot;
-    let phi4 = p.r2 * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho_minus_delta;
+    let phi4 = phi2_dot * s2 + p.r2 * theta2_dot - theta1_dot * p.rho_minus_delta;
     [phi1, phi2, phi3, phi4]
 }
 
@@ -800,7 +785,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
         zero,
         zero,
         zero,
-        p.k3,
+        p.k2,
         zero,
         s2,
         p.r2,
@@ -824,383 +809,423 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(v: &[S; 9]) -> [S; 4] {
     [zero, gamma2, zero, gamma4]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix,
-/// without the coordinates that constraints settle, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 9],
-    v: &[S; 9],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass
+    /// matrix, without the coordinates that constraints settle, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        t: S,
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+    }) -> Result<[S; 9], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, t, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub t: S,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 9],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 9],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let phi1 = n(q[4]);
-        let phi2 = n(q[7]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let phi1_dot = n(v[4]);
-        let phi2_dot = n(v[7]);
-        let t0 = n(p.omega) * n(t);
-        let angles = [theta, phi1, phi2, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_theta, cos_theta) = circular[0];
-        let (sin_phi1, cos_phi1) = circular[1];
-        let (sin_phi2, cos_phi2) = circular[2];
-        let (sin_t0, cos_t0) = circular[3];
-        let t1 = n(p.yc) * theta;
-        let t2 = theta * n(p.xc);
-        let t3 = theta_dot * n(p.yc);
-        let t4 = theta_dot * n(p.xc);
-        let t5 = phi2_dot * (phi2_dot * n(p.rho_minus_r2_minus_delta));
-        let t6 = phi1_dot * phi1_dot;
-        let t7 = n(p.omega).product_error(n(t));
-        let t8 = theta_dot * theta_dot;
-        let t9 = n(p.bx).mul_add(t3 + x_dot, n(p.cx) * (t1 + x));
-        let t10 = n(p.bx).mul_add(x_dot - t3, n(p.cx) * (x - t1));
-        let t11 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
-        let t12 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
-        let t13 = sin_phi1 * n(p.k18);
-        let t14 = cos_phi1 * n(p.k18);
-        let t15 = t6 * cos_phi1;
-        let t16 = sin_theta.mul_add(n(p.m0_x0), cos_theta * n(p.m0_y0));
-        let t17 = cos_theta.mul_sub(n(p.m0_x0), sin_theta * n(p.m0_y0));
-        let t18 = n(p.k26) * t13;
-        let t19 = n(p.k26) * t14;
-        let t20 = n(p.k26) * t16;
-        let t21 = n(p.k26) * t17;
-        let t22 = t6 * sin_phi1;
-        let t23 = t15.mul_add(n(p.R_minus_r1), t5 * cos_phi2);
-        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k20)));
-        let t25 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
-        let t26 = n(p.e_omega2).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
-        let t27 = n(p.R_minus_r1).mul_add(t22, t5 * sin_phi2);
-        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k16));
-        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k25)));
-        let t30 = sin_phi2 * n(p.k17);
-        let t31 = t8 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
-        let t32 = n(p.e_omega2).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
-        let t33 = cos_phi2 * n(p.k17);
-        let t34 = n(p.m2).mul_add(t27, n(p.k16) * t22);
-        let t35 = N::ONE / t29;
-        let t36 = n(p.k26) * t30;
-        let t37 = t32.mul_add(n(p.m0), t28 - (t10 + t9));
-        let t38 = n(p.k26) * t33;
-        let t39 = n(p.yc).mul_add(t9 - t10, n(p.xc) * (t11 - t12));
-        let t40 = t32.mul_sub(n(p.m0_y0), n(p.m0_x0) * t26);
-        let t41 = n(p.m0).mul_add(t26, t34 - (t12 + t11));
-        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k19)));
-        let t43 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
-        let t44 = n(p.m0_y0).mul_add(t26, t32 * n(p.m0_x0));
-        let t45 = t35 * t24;
-        let t46 = t35 * t42;
-        let t47 = n(p.k17) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
-        let t48 = cos_phi1.mul_sub(t34, sin_phi1 * t28);
-        let t49 = t43.mul_add(n(p.k22), n(p.k21));
-        let t50 = sin_theta.mul_add(t44, cos_theta.mul_add(t40, t39));
-        let t51 = t50 + t21.mul_sub(t41, t37 * t20);
-        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k23)));
-        let t53 = t24.neg_mul_add(t45, t52);
-        let t54 = n(p.R_minus_r1).mul_add(t48, t37 * t18);
-        let t55 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
-        let t56 = N::ONE / t53;
-        let t57 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
-        let t58 = t45.neg_mul_add(t51, t19.neg_mul_add(t41, t54));
-        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k24)));
-        let t60 = t56 * t55;
-        let t61 = t55.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
-        let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t57)) / t61;
-        let phi1_ddot = t60.neg_mul_add(phi2_ddot, t56 * t58);
-        let t62 = t46.neg_mul_add(phi2_ddot, t35 * t51);
-        let t63 = t45 * phi1_ddot;
-        let t64 = t36.mul_add(phi2_ddot, n(p.k26) * t37);
-        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k26) * t41);
-        let t66 = t62 - t63;
-        let t67 = phi1_ddot.mul_add(n(p.k14), phi2_ddot * n(p.k15));
-        let x_ddot = t20.neg_mul_add(t66, t18.mul_add(phi1_ddot, t64));
-        let y_ddot = t21.mul_add(t66, t19.neg_mul_add(phi1_ddot, t65));
-        let theta_ddot = t63 - t62;
-        let zero = N::ZERO;
-        let theta1_ddot = -t66.mul_add(n(p.R_over_r1), phi1_ddot * n(p.k12));
-        let theta2_ddot = -t66.mul_add(n(p.k13), t67);
-        let sound = PIVOTS_1.hold(t29, n(p.k25))
-            & PIVOTS_1.hold(t53, n(p.k23))
-            & PIVOTS_1.hold(t61, n(p.k24))
-            & theta2_ddot.is_finite();
-        if !sound {
-            let pivots = [(2, t29, n(p.k25)), (4, t53, n(p.k23)), (7, t61, n(p.k24))];
-            PIVOTS_1.check(pivots)?;
-        }
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            theta_ddot.store(),
-            zero.store(),
-            phi1_ddot.store(),
-            theta1_ddot.store(),
-            zero.store(),
-            phi2_ddot.store(),
-            theta2_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let phi1 = n(q[4]);
+    let phi2 = n(q[7]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let phi1_dot = n(v[4]);
+    let phi2_dot = n(v[7]);
+    let t0 = n(p.omega) * n(t);
+    let angles = [theta, phi1, phi2, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_theta, cos_theta) = circular[0];
+    let (sin_phi1, cos_phi1) = circular[1];
+    let (sin_phi2, cos_phi2) = circular[2];
+    let (sin_t0, cos_t0) = circular[3];
+    let t1 = n(p.yc) * theta;
+    let t2 = theta * n(p.xc);
+    let t3 = theta_dot * n(p.yc);
+    let t4 = theta_dot * n(p.xc);
+    let t5 = phi2_dot * (phi2_dot * n(p.rho_minus_r2_minus_delta));
+    let t6 = phi1_dot * phi1_dot;
+    let t7 = n(p.omega).product_error(n(t));
+    let t8 = theta_dot * theta_dot;
+    let t9 = n(p.bx).mul_add(t3 + x_dot, n(p.cx) * (t1 + x));
+    let t10 = n(p.bx).mul_add(x_dot - t3, n(p.cx) * (x - t1));
+    let t11 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
+    let t12 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
+    let t13 = sin_phi1 * n(p.k17);
+    let t14 = cos_phi1 * n(p.k17);
+    let t15 = t6 * cos_phi1;
+    let t16 = sin_theta.mul_add(n(p.m0_x0), cos_theta * n(p.m0_y0));
+    let t17 = cos_theta.mul_sub(n(p.m0_x0), sin_theta * n(p.m0_y0));
+    // Eliminates x from row phi1: l[phi1, x].
+    let t18 = n(p.k25) * t13;
+    // Eliminates y from row phi1: l[phi1, y].
+    let t19 = n(p.k25) * t14;
+    // Eliminates x from row theta: l[theta, x].
+    let t20 = n(p.k25) * t16;
+    // Eliminates y from row theta: l[theta, y].
+    let t21 = n(p.k25) * t17;
+    let t22 = t6 * sin_phi1;
+    let t23 = t15.mul_add(n(p.R_minus_r1), t5 * cos_phi2);
+    let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k19)));
+    let t25 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
+    let t26 = n(p.e_omega2).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
+    let t27 = n(p.R_minus_r1).mul_add(t22, t5 * sin_phi2);
+    let t28 = t23.mul_add(n(p.m2), t15 * n(p.k15));
+    // Row theta: pivot d[theta].
+    let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k24)));
+    let t30 = sin_phi2 * n(p.k16);
+    let t31 = t8 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
+    let t32 = n(p.e_omega2).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
+    let t33 = cos_phi2 * n(p.k16);
+    let t34 = n(p.m2).mul_add(t27, n(p.k15) * t22);
+    let t35 = N::ONE / t29;
+    // Eliminates x from row phi2: l[phi2, x].
+    let t36 = n(p.k25) * t30;
+    let t37 = t32.mul_add(n(p.m0), t28 - (t10 + t9));
+    // Eliminates y from row phi2: l[phi2, y].
+    let t38 = n(p.k25) * t33;
+    let t39 = n(p.yc).mul_add(t9 - t10, n(p.xc) * (t11 - t12));
+    let t40 = t32.mul_sub(n(p.m0_y0), n(p.m0_x0) * t26);
+    let t41 = n(p.m0).mul_add(t26, t34 - (t12 + t11));
+    let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k18)));
+    let t43 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
+    let t44 = n(p.m0_y0).mul_add(t26, t32 * n(p.m0_x0));
+    // Eliminates theta from row phi1: l[phi1, theta].
+    let t45 = t35 * t24;
+    // Eliminates theta from row phi2: l[phi2, theta].
+    let t46 = t35 * t42;
+    let t47 = n(p.k16) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
+    let t48 = cos_phi1.mul_sub(t34, sin_phi1 * t28);
+    let t49 = t43.mul_add(n(p.k21), n(p.k20));
+    let t50 = sin_theta.mul_add(t44, cos_theta.mul_add(t40, t39));
+    // Row theta: right-hand side z[theta].
+    let t51 = t50 + t21.mul_sub(t41, t37 * t20);
+    let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k22)));
+    // Row phi1: pivot d[phi1].
+    let t53 = t24.neg_mul_add(t45, t52);
+    let t54 = n(p.R_minus_r1).mul_add(t48, t37 * t18);
+    let t55 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
+    let t56 = N::ONE / t53;
+    let t57 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
+    // Row phi1: right-hand side z[phi1].
+    let t58 = t45.neg_mul_add(t51, t19.neg_mul_add(t41, t54));
+    let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k23)));
+    // Eliminates phi1 from row phi2: l[phi2, phi1].
+    let t60 = t56 * t55;
+    // Row phi2: pivot d[phi2].
+    let t61 = t55.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
+    // Row phi2: right-hand side z[phi2].
+    let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t57)) / t61;
+    // Back substitution: a[phi1].
+    let phi1_ddot = t60.neg_mul_add(phi2_ddot, t56 * t58);
+    let t62 = t46.neg_mul_add(phi2_ddot, t35 * t51);
+    let t63 = t45 * phi1_ddot;
+    let t64 = t36.mul_add(phi2_ddot, n(p.k25) * t37);
+    let t65 = t38.neg_mul_add(phi2_ddot, n(p.k25) * t41);
+    // Back substitution: a[theta].
+    let t66 = t62 - t63;
+    let t67 = phi1_ddot.mul_add(n(p.k13), phi2_ddot * n(p.k14));
+    let x_ddot = t20.neg_mul_add(t66, t18.mul_add(phi1_ddot, t64));
+    // Back substitution: a[y].
+    let y_ddot = t21.mul_add(t66, t19.neg_mul_add(phi1_ddot, t65));
+    let theta_ddot = t63 - t62;
+    let zero = N::ZERO;
+    let theta1_ddot = -t66.mul_add(n(p.R_over_r1), phi1_ddot * n(p.k11));
+    let theta2_ddot = -t66.mul_add(n(p.k12), t67);
+    let sound = PIVOTS_1.hold(t29, n(p.k24))
+        & PIVOTS_1.hold(t53, n(p.k22))
+        & PIVOTS_1.hold(t61, n(p.k23))
+        & theta2_ddot.is_finite();
+    if !sound {
+        let pivots = [(2, t29, n(p.k24)), (4, t53, n(p.k22)), (7, t61, n(p.k23))];
+        PIVOTS_1.check(pivots)?;
+    }
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        theta_ddot.store(),
+        zero.store(),
+        phi1_ddot.store(),
+        theta1_ddot.store(),
+        zero.store(),
+        phi2_ddot.store(),
+        theta2_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 9],
-    v: &[S; 9],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    ///
+    /// So far these are the accelerations `a0` without constraint forces. The multipliers follow
+    /// from `C lambda = gamma - G a0`, where now `G` are the rows of the constraints and `C = G
+    /// M^-1 G^T`, row after row: `d`, `l` and `z` of constraints are those of `C = L D L^T`.
+    pub fn multipliers<'a, S>(Multipliers {
+        p: &'a Prepared<S>,
+        t: S,
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+    }) -> Result<[S; 4], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 4], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, t, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub t: S,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 9],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 9],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 4], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let s1 = n(q[3]);
-        let phi1 = n(q[4]);
-        let s2 = n(q[6]);
-        let phi2 = n(q[7]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let s1_dot = n(v[3]);
-        let phi1_dot = n(v[4]);
-        let s2_dot = n(v[6]);
-        let phi2_dot = n(v[7]);
-        let t0 = n(p.omega) * n(t);
-        let angles = [theta, phi1, phi2, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_theta, cos_theta) = circular[0];
-        let (sin_phi1, cos_phi1) = circular[1];
-        let (sin_phi2, cos_phi2) = circular[2];
-        let (sin_t0, cos_t0) = circular[3];
-        let t1 = N::ONE / s1;
-        let t2 = theta * n(p.xc);
-        let t3 = theta * n(p.yc);
-        let t4 = theta_dot * n(p.xc);
-        let t5 = theta_dot * n(p.yc);
-        let t6 = theta_dot * theta_dot;
-        let t7 = n(p.omega).product_error(n(t));
-        let t8 = N::ONE / s2;
-        let t9 = phi1_dot * s1_dot;
-        let t10 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
-        let t11 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
-        let t12 = n(p.bx).mul_add(t5 + x_dot, n(p.cx) * (t3 + x));
-        let t13 = n(p.bx).mul_add(x_dot - t5, n(p.cx) * (x - t3));
-        let t14 = t1 * (n(p.inverse_m1) * t1);
-        let t15 = s2 * (s2 * n(p.m2));
-        let t16 = s1 * (s1 * n(p.m1));
-        let t17 = n(p.yc).mul_add(t13, n(p.xc) * t11);
-        let t18 = sin_theta * n(p.x0);
-        let t19 = cos_theta * n(p.y0);
-        let t20 = cos_theta * n(p.x0);
-        let t21 = sin_theta * n(p.y0);
-        let t22 = sin_phi1 * s1;
-        let t23 = cos_phi1 * s1;
-        let t24 = sin_phi1 * t1;
-        let t25 = t18 + t19;
-        let t26 = n(p.k8) * cos_phi1;
-        let t27 = t20 - t21;
-        let t28 = cos_phi1 * t1;
-        let t29 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t30 = n(p.k8) * sin_phi1;
-        let t31 = n(p.k4) * t25;
-        let t32 = n(p.k4) * t27;
-        let t33 = t23.mul_sub(sin_phi2, cos_phi2 * t22);
-        let t34 = sin_phi1.mul_sub(cos_phi2, cos_phi1 * sin_phi2);
-        let t35 = sin_phi2.mul_add(t22, t23 * cos_phi2);
-        let t36 = t24.mul_add(t33, cos_phi1.neg_mul_add(t29, cos_phi2));
-        let t37 = t28.neg_mul_add(t33, sin_phi1.neg_mul_add(t29, sin_phi2));
-        let t38 = cos_phi1.neg_mul_add(t32, n(p.R));
-        let t39 = t28.neg_mul_add(t35, sin_phi1.neg_mul_add(t34, cos_phi2));
-        let t40 = n(p.k4) * sin_phi1.mul_sub(t27, cos_phi1 * t25);
-        let t41 = n(p.k6) * t40;
-        let t42 = t24.neg_mul_add(t35, cos_phi1.mul_add(t34, sin_phi2));
-        let t43 = n(p.k6) * sin_phi1.neg_mul_add(t31, t38);
-        let t44 = t41.neg_mul_add(t31, t26);
-        let t45 = t32.mul_add(t41, t30);
-        let t46 = t31.neg_mul_add(t43, t30);
-        let t47 = t32.neg_mul_add(t43, t26);
-        let t48 = n(p.k6) * (n(p.k4) * t27.mul_sub(t37, t25 * t36));
-        let t49 = t7.neg_mul_add(sin_t0, cos_t0);
-        let t50 = cos_phi1.mul_add(t44, n(p.inverse_m1));
-        let t51 = sin_phi1.mul_add(t45, t50);
-        let t52 = t44.mul_sub(t24, t45 * t28);
-        let t53 = t28.mul_add(t47, t24.mul_add(t46, s1 * t14));
-        let t54 = cos_phi1.mul_sub(t46, sin_phi1 * t47);
-        let t55 = t31.neg_mul_add(t48, n(p.k8) * t36);
-        let t56 = t32.mul_add(t48, n(p.k8) * t37);
-        let t57 = t7.mul_add(cos_t0, sin_t0);
-        let t58 = N::ONE / t51;
-        let t59 = s1.mul_add(t52, t41 * n(p.R));
-        let t60 = n(p.R).mul_add(t43, n(p.r1_squared_over_J1));
-        let t61 = s1.mul_add(t53, t60);
-        let t62 = n(p.e_omega2).mul_add(t49, t20.mul_sub(t6, t21 * t6));
-        let t63 = t62 * n(p.m0);
-        let t64 = n(p.e_omega2).mul_add(t57, t18.mul_add(t6, t19 * t6));
-        let t65 = n(p.m0) * t64;
-        let t66 = cos_phi1.neg_mul_add(t51, t52.neg_mul_add(t22, t44));
-        let t67 = n(p.k6) * (n(p.k4) * t25.mul_add(t42, t27 * t39));
-        let t68 = cos_phi1.mul_sub(t55, n(p.inverse_m1) * t29);
-        let t69 = sin_phi1.mul_add(t56, t68);
-        let t70 = t28.neg_mul_add(t56, t24.mul_add(t55, t14 * t33));
-        let t71 = sin_phi1.neg_mul_add(t51, t52.mul_add(t23, t45));
-        let t72 = t53.neg_mul_add(t23, sin_phi1.mul_add(t54, t47));
-        let t73 = n(p.yc).mul_add(t12, n(p.xc) * t10) - t17;
-        let t74 = t11 + t10 - t65;
-        let t75 = t13 + t12 - t63;
-        let t76 = t31.mul_add(t67, n(p.k8) * t42);
-        let t77 = t58 * t59;
-        let t78 = t22.neg_mul_add(t70, cos_phi1.neg_mul_add(t69, t55));
-        let t79 = t71.mul_add(sin_phi2, cos_phi2 * t66);
-        let t80 = t53.neg_mul_add(t22, cos_phi1.neg_mul_add(t54, t46));
-        let t81 = cos_phi2 * t8;
-        let t82 = t59.neg_mul_add(t77, t61);
-        let t83 = t32.mul_add(t67, n(p.k8) * t39);
-        let t84 = sin_phi1.neg_mul_add(t69, t23.mul_add(t70, t56));
-        let t85 = N::ONE / t82;
-        let t86 = t58 * t79;
-        let t87 = sin_phi2 * t8;
-        let t88 = t32.neg_mul_add(t74, t25.mul_add(t63, t73));
-        let t89 = t31.mul_sub(t75, t27 * t65) + t88;
-        let t90 = t28.neg_mul_add(t83, t24.neg_mul_add(t76, t14 * t35));
-        let t91 = cos_phi2.mul_add(t78, n(p.inverse_m2));
-        let t92 = sin_phi2.mul_add(t84, t91);
-        let t93 = cos_phi2.mul_sub(t80, sin_phi2 * t72);
-        let t94 = t59.neg_mul_add(t86, t93);
-        let t95 = n(p.k7) * t89;
-        let t96 = cos_phi1.mul_add(t76, n(p.inverse_m1) * t34);
-        let t97 = sin_phi1.neg_mul_add(t83, t96);
-        let t98 = s2 * t66.mul_sub(t87, t71 * t81);
-        let t99 = t25.mul_add(t95, t75);
-        let t100 = t27.neg_mul_add(t95, t74);
-        let t101 = t85 * t94;
-        let t102 = t58 * t98;
-        let t103 = cos_phi1.neg_mul_add(t97, t22.mul_add(t90, t76));
-        let t104 = t94.neg_mul_add(t101, t79.neg_mul_add(t86, t92));
-        let t105 = s2.neg_mul_add(t72.mul_add(t81, t80 * t87), n(p.k10));
-        let t106 = t59.mul_add(t102, t105);
-        let t107 = t30.mul_add(t99, t9 * N::from_f64(2.0));
-        let t108 = t87.mul_add(t103, s2 * (t8 * (n(p.inverse_m2) * t8)));
-        let t109 = t23.mul_add(t90, sin_phi1.mul_add(t97, t83));
-        let t110 = t26.mul_add(t99, phi1_dot * (s1 * phi1_dot));
-        let t111 = t30.mul_add(t100, t110);
-        let t112 = N::ONE / t104;
-        let t113 = t85 * t106;
-        let t114 = s2.mul_add(t81.mul_add(t109, t108), n(p.k11));
-        let t115 = s2.mul_sub(t78.mul_sub(t87, t84 * t81), t79 * t102);
-        let t116 = t94.mul_add(t113, t115);
-        let t117 = t89.mul_add(n(p.k9), t9) - t26.neg_mul_add(t100, t107);
-        let t118 = t77.mul_add(t111, t117);
-        let t119 = t86.neg_mul_add(t111, phi2_dot * (s2 * phi2_dot));
-        let t120 = t101.mul_add(t118, t119);
-        let t121 = t102.neg_mul_add(t111, phi2_dot * s2_dot);
-        let t122 = t112 * t116;
-        let t123 = t106.neg_mul_add(t113, t98.neg_mul_add(t102, t114));
-        let t124 = t116.neg_mul_add(t122, t123);
-        let t125 = t122.neg_mul_add(t120, t113.neg_mul_add(t118, t121));
-        let lambda4 = t125 / t124;
-        let lambda3 = t122.neg_mul_add(lambda4, t112 * t120);
-        let t126 = t113.neg_mul_add(lambda4, t85 * t118);
-        let t127 = t101.mul_add(lambda3, t126);
-        let t128 = t102.neg_mul_add(lambda4, t58 * t111);
-        let lambda1 = t77.mul_add(t127, t86.neg_mul_add(lambda3, t128));
-        let lambda2 = -t127;
-        let sound = PIVOTS.hold(n(p.J1), n(p.J1))
-            & PIVOTS.hold(n(p.J2), n(p.J2))
-            & PIVOTS.hold(n(p.m2), n(p.m2))
-            & PIVOTS.hold(t15, t15)
-            & PIVOTS.hold(n(p.m1), n(p.m1_plus_m2))
-            & PIVOTS.hold(t16, t16)
-            & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
-            & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
-            & PIVOTS.hold(n(p.k5), n(p.k1))
-            & PIVOTS.hold(t51, t51)
-            & PIVOTS.hold(t82, t61)
-            & PIVOTS.hold(t104, t92)
-            & PIVOTS.hold(t124, t114)
-            & lambda2.is_finite();
-        if !sound {
-            let pivots = [
-                (5, n(p.J1), n(p.J1)),
-                (8, n(p.J2), n(p.J2)),
-                (6, n(p.m2), n(p.m2)),
-                (7, t15, t15),
-                (3, n(p.m1), n(p.m1_plus_m2)),
-                (4, t16, t16),
-                (1, n(p.m_plus_m0), n(p.k0)),
-                (0, n(p.m_plus_m0), n(p.k0)),
-                (2, n(p.k5), n(p.k1)),
-                (9, t51, t51),
-                (10, t82, t61),
-                (11, t104, t92),
-                (12, t124, t114),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [
-            lambda1.store(),
-            lambda2.store(),
-            lambda3.store(),
-            lambda4.store(),
-        ];
-        Ok(multipliers)
+    let Multipliers { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let s1 = n(q[3]);
+    let phi1 = n(q[4]);
+    let s2 = n(q[6]);
+    let phi2 = n(q[7]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let s1_dot = n(v[3]);
+    let phi1_dot = n(v[4]);
+    let s2_dot = n(v[6]);
+    let phi2_dot = n(v[7]);
+    let t0 = n(p.omega) * n(t);
+    let angles = [theta, phi1, phi2, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_theta, cos_theta) = circular[0];
+    let (sin_phi1, cos_phi1) = circular[1];
+    let (sin_phi2, cos_phi2) = circular[2];
+    let (sin_t0, cos_t0) = circular[3];
+    let t1 = N::ONE / s1;
+    let t2 = theta * n(p.xc);
+    let t3 = theta * n(p.yc);
+    let t4 = n(p.xc) * theta_dot;
+    let t5 = n(p.yc) * theta_dot;
+    let t6 = theta_dot * theta_dot;
+    let t7 = n(p.omega).product_error(n(t));
+    let t8 = N::ONE / s2;
+    let t9 = phi1_dot * s1_dot;
+    let t10 = (t2 + y).mul_add(n(p.cy), (t4 + y_dot) * n(p.by));
+    let t11 = (y - t2).mul_add(n(p.cy), (y_dot - t4) * n(p.by));
+    let t12 = (t3 + x).mul_add(n(p.cx), (t5 + x_dot) * n(p.bx));
+    let t13 = (x - t3).mul_add(n(p.cx), (x_dot - t5) * n(p.bx));
+    let t14 = t1 * (t1 * n(p.inverse_m1));
+    let t15 = s2 * (s2 * n(p.m2));
+    let t16 = s1 * (s1 * n(p.m1));
+    let t17 = n(p.xc).mul_add(t11, n(p.yc) * t13);
+    let t18 = sin_theta * n(p.x0);
+    let t19 = cos_theta * n(p.y0);
+    let t20 = cos_theta * n(p.x0);
+    let t21 = sin_theta * n(p.y0);
+    let t22 = sin_phi1 * s1;
+    let t23 = cos_phi1 * s1;
+    let t24 = sin_phi1 * t1;
+    // Eliminates x: coupling l[x].
+    let t25 = t18 + t19;
+    let t26 = cos_phi1 * n(p.k7);
+    // Eliminates y: coupling l[y].
+    let t27 = t20 - t21;
+    let t28 = cos_phi1 * t1;
+    let t29 = sin_phi1.mul_add(sin_phi2, cos_phi1 * cos_phi2);
+    let t30 = sin_phi1 * n(p.k7);
+    let t31 = t25 * n(p.k3);
+    let t32 = t27 * n(p.k3);
+    let t33 = sin_phi2.mul_sub(t23, cos_phi2 * t22);
+    let t34 = sin_phi1.mul_sub(cos_phi2, cos_phi1 * sin_phi2);
+    let t35 = cos_phi2.mul_add(t23, sin_phi2 * t22);
+    let t36 = t24.mul_add(t33, cos_phi1.neg_mul_add(t29, cos_phi2));
+    let t37 = t28.neg_mul_add(t33, sin_phi1.neg_mul_add(t29, sin_phi2));
+    let t38 = t28.neg_mul_add(t35, sin_phi1.neg_mul_add(t34, cos_phi2));
+    let t39 = n(p.k3) * sin_phi1.mul_sub(t27, cos_phi1 * t25) * n(p.k5);
+    let t40 = t24.neg_mul_add(t35, cos_phi1.mul_add(t34, sin_phi2));
+    let t41 = sin_phi1.mul_add(t31, cos_phi1.mul_add(t32, n(p.minus_R)));
+    let t42 = t41 * n(p.k5);
+    let t43 = t31.neg_mul_add(t39, t26);
+    let t44 = t32.mul_add(t39, t30);
+    let t45 = t31.mul_add(t42, t30);
+    let t46 = t32.mul_add(t42, t26);
+    let t47 = n(p.k5) * (n(p.k3) * t27.mul_sub(t37, t25 * t36));
+    let t48 = t7.neg_mul_add(sin_t0, cos_t0);
+    let t49 = cos_phi1.mul_add(t43, n(p.inverse_m1));
+    // Row mortar_in_cylinder.gap: pivot d[mortar_in_cylinder.gap].
+    let t50 = sin_phi1.mul_add(t44, t49);
+    let t51 = t24.mul_sub(t43, t28 * t44);
+    let t52 = t28.mul_add(t46, t24.mul_add(t45, s1 * t14));
+    let t53 = cos_phi1.mul_sub(t45, sin_phi1 * t46);
+    let t54 = t31.neg_mul_add(t47, n(p.k7) * t36);
+    let t55 = t32.mul_add(t47, n(p.k7) * t37);
+    let t56 = t7.mul_add(cos_t0, sin_t0);
+    let t57 = N::ONE / t50;
+    let t58 = s1.mul_sub(t51, n(p.minus_R) * t39);
+    let t59 = n(p.minus_R).mul_add(t42, n(p.r1_squared_over_J1));
+    let t60 = s1.mul_add(t52, t59);
+    let t61 = t48.mul_add(n(p.e_omega2), t6.mul_sub(t20, t6 * t21));
+    let t62 = t61 * n(p.m0);
+    let t63 = t56.mul_add(n(p.e_omega2), t6.mul_add(t19, t6 * t18));
+    let t64 = t63 * n(p.m0);
+    let t65 = cos_phi1.neg_mul_add(t50, t22.neg_mul_add(t51, t43));
+    let t66 = n(p.k5) * (n(p.k3) * t27.mul_add(t38, t25 * t40));
+    let t67 = cos_phi1.mul_sub(t54, n(p.inverse_m1) * t29);
+    let t68 = sin_phi1.mul_add(t55, t67);
+    let t69 = t28.neg_mul_add(t55, t24.mul_add(t54, t14 * t33));
+    let t70 = sin_phi1.neg_mul_add(t50, t23.mul_add(t51, t44));
+    let t71 = t23.neg_mul_add(t52, sin_phi1.mul_add(t53, t46));
+    let t72 = n(p.xc).mul_add(t10, n(p.yc) * t12) - t17;
+    let t73 = t10 + t11 - t64;
+    let t74 = t12 + t13 - t62;
+    let t75 = t31.mul_add(t66, n(p.k7) * t40);
+    // Eliminates mortar_in_cylinder.gap from row mortar_in_cylinder.slip:
+    // l[mortar_in_cylinder.slip, mortar_in_cylinder.gap].
+    let t76 = t57 * t58;
+    let t77 = t22.neg_mul_add(t69, cos_phi1.neg_mul_add(t68, t54));
+    let t78 = cos_phi2.mul_add(t65, sin_phi2 * t70);
+    let t79 = t22.neg_mul_add(t52, cos_phi1.neg_mul_add(t53, t45));
+    let t80 = cos_phi2 * t8;
+    // Row mortar_in_cylinder.slip: pivot d[mortar_in_cylinder.slip].
+    let t81 = t58.neg_mul_add(t76, t60);
+    let t82 = t32.mul_add(t66, n(p.k7) * t38);
+    let t83 = sin_phi1.neg_mul_add(t68, t23.mul_add(t69, t55));
+    let t84 = N::ONE / t81;
+    // Eliminates mortar_in_cylinder.gap from row pestle_in_mortar.gap:
+    // l[pestle_in_mortar.gap, mortar_in_cylinder.gap].
+    let t85 = t57 * t78;
+    let t86 = sin_phi2 * t8;
+    let t87 = t32.neg_mul_add(t73, t25.mul_add(t62, t72));
+    let t88 = t87 + t31.mul_sub(t74, t27 * t64);
+    let t89 = t28.neg_mul_add(t82, t24.neg_mul_add(t75, t14 * t35));
+    let t90 = cos_phi2.mul_add(t77, n(p.inverse_m2));
+    let t91 = sin_phi2.mul_add(t83, t90);
+    let t92 = cos_phi2.mul_sub(t79, sin_phi2 * t71);
+    let t93 = t58.neg_mul_add(t85, t92);
+    let t94 = t88 * n(p.k6);
+    let t95 = cos_phi1.mul_add(t75, n(p.inverse_m1) * t34);
+    let t96 = sin_phi1.neg_mul_add(t82, t95);
+    let t97 = s2 * t65.mul_sub(t86, t70 * t80);
+    let t98 = t25.mul_add(t94, t74);
+    let t99 = t27.neg_mul_add(t94, t73);
+    // Eliminates mortar_in_cylinder.slip from row pestle_in_mortar.gap:
+    // l[pestle_in_mortar.gap, mortar_in_cylinder.slip].
+    let t100 = t84 * t93;
+    // Eliminates mortar_in_cylinder.gap from row pestle_in_mortar.slip:
+    // l[pestle_in_mortar.slip, mortar_in_cylinder.gap].
+    let t101 = t57 * t97;
+    let t102 = cos_phi1.neg_mul_add(t96, t22.mul_add(t89, t75));
+    // Row pestle_in_mortar.gap: pivot d[pestle_in_mortar.gap].
+    let t103 = t93.neg_mul_add(t100, t78.neg_mul_add(t85, t91));
+    let t104 = s2.neg_mul_add(t79.mul_add(t86, t71 * t80), n(p.k9));
+    let t105 = t58.mul_add(t101, t104);
+    let t106 = t30.mul_add(t98, t9 * N::from_f64(2.0));
+    let t107 = t86.mul_add(t102, s2 * (t8 * (t8 * n(p.inverse_m2))));
+    let t108 = t23.mul_add(t89, sin_phi1.mul_add(t96, t82));
+    // Eliminates s1: alone z[s1].
+    let t109 = t26.mul_add(t98, phi1_dot * (s1 * phi1_dot));
+    let t110 = t30.mul_add(t99, t109);
+    let t111 = N::ONE / t103;
+    // Eliminates mortar_in_cylinder.slip from row pestle_in_mortar.slip:
+    // l[pestle_in_mortar.slip, mortar_in_cylinder.slip].
+    let t112 = t84 * t105;
+    let t113 = s2.mul_add(t80.mul_add(t108, t107), n(p.k10));
+    let t114 = s2.mul_sub(t77.mul_sub(t86, t80 * t83), t78 * t101);
+    let t115 = t93.mul_add(t112, t114);
+    let t116 = t88.mul_add(n(p.k8), t9) - t26.neg_mul_add(t99, t106);
+    // Row mortar_in_cylinder.slip: right-hand side z[mortar_in_cylinder.slip].
+    let t117 = t76.mul_add(t110, t116);
+    // Eliminates s2: alone z[s2].
+    let t118 = t85.neg_mul_add(t110, phi2_dot * (s2 * phi2_dot));
+    // Row pestle_in_mortar.gap: right-hand side z[pestle_in_mortar.gap].
+    let t119 = t100.mul_add(t117, t118);
+    let t120 = t101.neg_mul_add(t110, phi2_dot * s2_dot);
+    // Eliminates pestle_in_mortar.gap from row pestle_in_mortar.slip:
+    // l[pestle_in_mortar.slip, pestle_in_mortar.gap].
+    let t121 = t111 * t115;
+    let t122 = t105.neg_mul_add(t112, t97.neg_mul_add(t101, t113));
+    // Row pestle_in_mortar.slip: pivot d[pestle_in_mortar.slip].
+    let t123 = t115.neg_mul_add(t121, t122);
+    // Row pestle_in_mortar.slip: right-hand side z[pestle_in_mortar.slip].
+    let t124 = t119.neg_mul_add(t121, t112.neg_mul_add(t117, t120));
+    let lambda4 = t124 / t123;
+    // Back substitution: lambda[pestle_in_mortar.gap].
+    let lambda3 = t121.neg_mul_add(lambda4, t111 * t119);
+    let t125 = t112.neg_mul_add(lambda4, t84 * t117);
+    // Back substitution: lambda[mortar_in_cylinder.slip].
+    let t126 = t100.mul_add(lambda3, t125);
+    let t127 = t101.neg_mul_add(lambda4, t57 * t110);
+    // Back substitution: lambda[mortar_in_cylinder.gap].
+    let lambda1 = t76.mul_add(t126, t85.neg_mul_add(lambda3, t127));
+    let lambda2 = -t126;
+    let sound = PIVOTS.hold(n(p.J1), n(p.J1))
+        & PIVOTS.hold(n(p.J2), n(p.J2))
+        & PIVOTS.hold(n(p.m2), n(p.m2))
+        & PIVOTS.hold(t15, t15)
+        & PIVOTS.hold(n(p.m1), n(p.m1_plus_m2))
+        & PIVOTS.hold(t16, t16)
+        & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
+        & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
+        & PIVOTS.hold(n(p.k4), n(p.k1))
+        & PIVOTS.hold(t50, t50)
+        & PIVOTS.hold(t81, t60)
+        & PIVOTS.hold(t103, t91)
+        & PIVOTS.hold(t123, t113)
+        & lambda2.is_finite();
+    if !sound {
+        let pivots = [
+            (5, n(p.J1), n(p.J1)),
+            (8, n(p.J2), n(p.J2)),
+            (6, n(p.m2), n(p.m2)),
+            (7, t15, t15),
+            (3, n(p.m1), n(p.m1_plus_m2)),
+            (4, t16, t16),
+            (1, n(p.m_plus_m0), n(p.k0)),
+            (0, n(p.m_plus_m0), n(p.k0)),
+            (2, n(p.k4), n(p.k1)),
+            (9, t50, t50),
+            (10, t81, t60),
+            (11, t103, t91),
+            (12, t123, t113),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [
+        lambda1.store(),
+        lambda2.store(),
+        lambda3.store(),
+        lambda4.store(),
+    ];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1403,14 +1428,14 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
         phi2: "phi2" "rad";
         theta2: "theta2" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
-        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, R, r1, r2, rho_minus_delta,
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, r1, r2, rho_minus_delta,
         e_omega, J0_omega2, half_cx, half_cy, half_bx, half_by, e_omega2, m1_plus_m2, m0_y0, m0_x0,
-        k0, R_minus_r1, rho_minus_r2_minus_delta, m0_e_omega, k1, k2, minus_m2, minus_R, k3,
-        m_plus_m0, k4, k5, k6, k7, k8, inverse_m2, inverse_m1, r1_squared_over_J1, k9, k10, k11,
-        R_over_r1, k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26,
+        k0, R_minus_r1, rho_minus_r2_minus_delta, m0_e_omega, k1, minus_m2, minus_R, k2, m_plus_m0,
+        k3, k4, k5, k6, k7, inverse_m2, inverse_m1, r1_squared_over_J1, k8, k9, k10, R_over_r1, k11,
+        k12, k13, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

@@ -130,14 +130,6 @@ pub struct Coordinates<S = f64> {
     pub c: S,
 }
 
-/// What can be set while a [`CueBall`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`CueBall`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`CueBall`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -243,68 +235,68 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: 
     [zero, zero, p.minus_m_g, f_a, f_b, f_c]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 6],
-    v: &[S; 6],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 6], v: &'a [S; 6] })
+        -> Result<[S; 6], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 6], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 6],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 6],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 6], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let b = n(q[4]);
-        let a_dot = n(v[3]);
-        let b_dot = n(v[4]);
-        let c_dot = n(v[5]);
-        let (sin_b, cos_b) = b.sin_cos();
-        let t0 = n(p.k0) * cos_b;
-        let t1 = n(p.k0) * sin_b;
-        let t2 = t0 * (c_dot * b_dot);
-        let t3 = n(p.k2) * t1;
-        let t4 = t0 * a_dot;
-        let t5 = t1.neg_mul_add(t3, n(p.k0));
-        let t6 = b_dot.mul_sub(t4, t2 * t3) / t5;
-        let zero = N::ZERO;
-        let a_ddot = t3.mul_sub(t6, n(p.k2) * t2);
-        let b_ddot = t4 * (n(p.k2) * c_dot);
-        let c_ddot = -t6;
-        let sound = PIVOTS.hold(t5, n(p.k0)) & c_ddot.is_finite();
-        if !sound {
-            let pivots = [(5, t5, n(p.k0))];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            zero.store(),
-            zero.store(),
-            n(p.minus_g).store(),
-            a_ddot.store(),
-            b_ddot.store(),
-            c_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let b = n(q[4]);
+    let a_dot = n(v[3]);
+    let b_dot = n(v[4]);
+    let c_dot = n(v[5]);
+    let (sin_b, cos_b) = b.sin_cos();
+    let t0 = n(p.k0) * cos_b;
+    let t1 = n(p.k0) * sin_b;
+    let t2 = t0 * (c_dot * b_dot);
+    // Eliminates a from row c: l[c, a].
+    let t3 = n(p.k2) * t1;
+    let t4 = t0 * a_dot;
+    // Row c: pivot d[c].
+    let t5 = t1.neg_mul_add(t3, n(p.k0));
+    // Row c: right-hand side z[c].
+    let t6 = b_dot.mul_sub(t4, t2 * t3) / t5;
+    let zero = N::ZERO;
+    // Back substitution: a[a].
+    let a_ddot = t3.mul_sub(t6, n(p.k2) * t2);
+    let b_ddot = t4 * (n(p.k2) * c_dot);
+    let c_ddot = -t6;
+    let sound = PIVOTS.hold(t5, n(p.k0)) & c_ddot.is_finite();
+    if !sound {
+        let pivots = [(5, t5, n(p.k0))];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        zero.store(),
+        zero.store(),
+        n(p.minus_g).store(),
+        a_ddot.store(),
+        b_ddot.store(),
+        c_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Gaps `g` of the unilateral contacts, in m: positive where they are open.
@@ -477,8 +469,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         b: "b" "rad";
         c: "c" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared { m, r, e, mu, k0, m_g, k1, minus_m_g, minus_r, minus_g, k2 }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

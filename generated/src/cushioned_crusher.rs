@@ -8,12 +8,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 30 | 15 | 6 | 0 | 0 | 51 |
-//! | `mass_matrix` | 28 | 6 | 0 | 3 | 0 | 40 |
+//! | `prepare` | 30 | 13 | 6 | 0 | 0 | 49 |
+//! | `mass_matrix` | 27 | 7 | 0 | 3 | 0 | 40 |
 //! | `bias` | 53 | 26 | 0 | 4 | 0 | 87 |
 //! | `applied` | 32 | 31 | 0 | 0 | 0 | 63 |
 //! | `forces` | 84 | 57 | 0 | 4 | 0 | 149 |
-//! | `accelerations` | 110 | 75 | 2 | 4 | 0 | 195 |
+//! | `accelerations` | 108 | 77 | 2 | 4 | 0 | 195 |
 //! | `kinetic_energy` | 41 | 27 | 0 | 4 | 0 | 76 |
 //! | `potential_energy` | 12 | 11 | 0 | 0 | 0 | 23 |
 //! | `dissipation` | 22 | 15 | 0 | 0 | 0 | 37 |
@@ -120,9 +120,9 @@ impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
         let k0 = m1_plus_m2 + pivot_1;
         let k1_ = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
         let t0 = self.drag2 * self.r2;
-        let k6 = S::ONE / pivot_1;
-        let pivot_2 = k1_ - k6 * (m0_y0 * m0_y0) - k6 * (m0_x0 * m0_x0);
-        let k4 = S::ONE / pivot_2;
+        let k5 = S::ONE / pivot_1;
+        let pivot_2 = k1_ - k5 * (m0_y0 * m0_y0) - k5 * (m0_x0 * m0_x0);
+        let k3 = S::ONE / pivot_2;
         let J0_omega2 = self.omega * (self.omega * self.J0);
         let half_cx = self.cx * S::from_f64(0.5);
         let half_cy = self.cy * S::from_f64(0.5);
@@ -139,7 +139,6 @@ impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
         let drag1_R = self.drag1 * self.R;
         let drag1_r1 = self.drag1 * self.r1;
         let m0_e_omega = self.m0 * e_omega;
-        let k2_ = -m1_plus_m2;
         let minus_m2 = -self.m2;
         let minus_drag1 = -self.drag1;
         let minus_drag2 = -self.drag2;
@@ -147,9 +146,8 @@ impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
         let inverse_m2 = S::ONE / self.m2;
         let two_m2 = self.m2 * S::from_f64(2.0);
         let inverse_m1 = S::ONE / self.m1;
-        let k3 = self.m0 * k6;
-        let k5 = self.m0 * k4;
-        let k7 = -k6;
+        let k2_ = self.m0 * k5;
+        let k4 = self.m0 * k3;
         let minus_inverse_J1 = -(S::ONE / self.J1);
         let minus_drag2_r2_over_J2 = -(t0 / self.J2);
         let pivots = [
@@ -184,8 +182,6 @@ impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
             k2: self.k2,
             d1: self.d1,
             d2: self.d2,
-            drag1: self.drag1,
-            drag2: self.drag2,
             R: self.R,
             r1: self.r1,
             rho: self.rho,
@@ -212,7 +208,6 @@ impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
             drag1_r1,
             m0_e_omega,
             k1_,
-            k2_,
             minus_m2,
             minus_drag1,
             minus_drag2,
@@ -220,11 +215,10 @@ impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
             inverse_m2,
             two_m2,
             inverse_m1,
+            k2_,
             k3,
             k4,
             k5,
-            k6,
-            k7,
             minus_inverse_J1,
             minus_drag2_r2_over_J2,
             singular: PIVOTS.vanished(pivots),
@@ -268,10 +262,6 @@ pub struct Coordinates<S = f64> {
     /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
-
-/// What can be set while a [`CushionedCrusher`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
 
 /// What can be observed of a [`CushionedCrusher`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -331,10 +321,6 @@ pub struct Prepared<S = f64> {
     d1: S,
     /// `d2`
     d2: S,
-    /// `drag1`
-    drag1: S,
-    /// `drag2`
-    drag2: S,
     /// `R`
     R: S,
     /// `r1`
@@ -387,8 +373,6 @@ pub struct Prepared<S = f64> {
     m0_e_omega: S,
     /// `J + m0*x0^2 + m0*y0^2`
     k1_: S,
-    /// `-(m1 + m2)`
-    k2_: S,
     /// `-m2`
     minus_m2: S,
     /// `-drag1`
@@ -404,15 +388,13 @@ pub struct Prepared<S = f64> {
     /// `1/m1`
     inverse_m1: S,
     /// `m0/(m + m0)`
-    k3: S,
+    k2_: S,
     /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k4: S,
+    k3: S,
     /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k5: S,
+    k4: S,
     /// `1/(m + m0)`
-    k6: S,
-    /// `-1/(m + m0)`
-    k7: S,
+    k5: S,
     /// `-1/J1`
     minus_inverse_J1: S,
     /// `-drag2*r2/J2`
@@ -462,27 +444,27 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.m1_plus_m2 * s1;
+    let t1 = s1 * p.m1_plus_m2;
     let t2 = p.m2 * s2;
     let t3 = sin_phi1 * cos_phi2;
     let t4 = cos_phi1 * sin_phi2;
-    let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t5 = sin_phi1 * sin_phi2 + cos_phi1 * cos_phi2;
     let zero = S::ZERO;
-    let m31 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
-    let m32 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
-    let m41 = p.m1_plus_m2 * cos_phi1;
-    let m42 = p.m1_plus_m2 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k2_);
+    let m31 = -(cos_theta * p.m0_y0 + sin_theta * p.m0_x0);
+    let m32 = cos_theta * p.m0_x0 - sin_theta * p.m0_y0;
+    let m41 = cos_phi1 * p.m1_plus_m2;
+    let m42 = sin_phi1 * p.m1_plus_m2;
+    let m51 = -(sin_phi1 * t1);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
-    let m75 = (t4 - t3) * t0;
+    let m75 = t0 * (t4 - t3);
     let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t3 - t4);
-    let m85 = t5 * (t0 * s2);
+    let m85 = t0 * s2 * t5;
     let m88 = s2 * t2;
     [
         [p.k0, zero, m31, m41, m51, zero, m71, m81, zero],
@@ -661,7 +643,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t4 = theta * p.xc;
     let t5 = phi2_dot * t1;
     let t6 = phi1_dot * t2;
-    let t7 = p.yc * theta;
+    let t7 = theta * p.yc;
     let t8 = t3 * p.y0;
     let t9 = theta_dot * p.xc;
     let t10 = phi2_dot * (s2_dot * S::from_f64(2.0));
@@ -669,198 +651,198 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let t12 = theta_dot * p.yc;
     let t13 = p.omega.product_error(t);
     let t14 = t3 * p.x0;
-    let t15 = p.by * (y_dot - t9) + p.cy * (y - t4);
-    let t16 = p.by * (t9 + y_dot) + p.cy * (t4 + y);
-    let t17 = p.bx * (x_dot - t12) + p.cx * (x - t7);
-    let t18 = p.bx * (t12 + x_dot) + p.cx * (t7 + x);
+    let t15 = (y - t4) * p.cy + (y_dot - t9) * p.by;
+    let t16 = (t4 + y) * p.cy + (t9 + y_dot) * p.by;
+    let t17 = (x - t7) * p.cx + (x_dot - t12) * p.bx;
+    let t18 = (t7 + x) * p.cx + (t12 + x_dot) * p.bx;
     let t19 = t2 + theta1_dot * p.r1 - theta_dot * p.R;
     let t20 = t1 + p.r2 * theta2_dot - theta1_dot * p.rho;
-    let t21 = t11 * sin_phi1 + cos_phi1 * t6;
-    let t22 = sin_phi1 * t6 - t11 * cos_phi1;
-    let t23 = t10 * sin_phi2 + cos_phi2 * t5 + t21;
-    let t24 = p.e_omega2 * (sin_t0 + t13 * cos_t0);
-    let t25 = t24 + (sin_theta * t14 + t8 * cos_theta);
-    let t26 = p.e_omega2 * (cos_t0 - t13 * sin_t0);
-    let t27 = t26 + (cos_theta * t14 - t8 * sin_theta);
-    let t28 = sin_phi2 * t5 - t10 * cos_phi2 + t22;
-    let t29 = t23 * p.m2;
-    let t30 = p.m2 * t28;
-    let t31 = t29 + t21 * p.m1;
-    let t32 = t30 + p.m1 * t22;
-    let t33 = cos_theta * (t27 * p.m0_y0 - t25 * p.m0_x0);
-    let t34 = p.m2 * (t28 * (cos_phi2 * s2) - t23 * (sin_phi2 * s2));
-    let t35 = t33 + (p.yc * (t18 - t17) + p.xc * (t16 - t15));
-    let f_x = t27 * p.m0 + (t31 - (t17 + t18));
-    let f_y = p.m0 * t25 + (t32 - (t15 + t16));
-    let f_theta = t19 * p.drag1_R - (sin_theta * (t25 * p.m0_y0 + t27 * p.m0_x0) + t35);
-    let f_s1 = cos_phi1 * t31 - ((s1 - p.gap1) * p.k1 + s1_dot * p.d1 - sin_phi1 * t32);
-    let f_phi1 = t32 * (cos_phi1 * s1) - t31 * (sin_phi1 * s1) - t19 * (s1 * p.drag1);
+    let t21 = cos_phi1 * t6 + sin_phi1 * t11;
+    let t22 = sin_phi1 * t6 - cos_phi1 * t11;
+    let t23 = cos_phi2 * t5 + sin_phi2 * t10 + t21;
+    let t24 = cos_theta * t8 + sin_theta * t14 + (sin_t0 + cos_t0 * t13) * p.e_omega2;
+    let t25 = cos_theta * t14 - sin_theta * t8 + (cos_t0 - sin_t0 * t13) * p.e_omega2;
+    let t26 = sin_phi2 * t5 - cos_phi2 * t10 + t22;
+    let t27 = t23 * p.m2;
+    let t28 = t26 * p.m2;
+    let t29 = t27 + t21 * p.m1;
+    let t30 = t28 + t22 * p.m1;
+    let t31 = cos_theta * (t25 * p.m0_y0 - t24 * p.m0_x0);
+    let t32 = p.m2 * (cos_phi2 * s2 * t26 - sin_phi2 * s2 * t23);
+    let t33 = p.xc * (t16 - t15) + p.yc * (t18 - t17) + t31;
+    let f_x = t29 - (t17 + t18) + t25 * p.m0;
+    let f_y = t30 - (t15 + t16) + t24 * p.m0;
+    let f_theta = t19 * p.drag1_R - (t33 + sin_theta * (t25 * p.m0_x0 + t24 * p.m0_y0));
+    let f_s1 = cos_phi1 * t29 - (s1_dot * p.d1 + (s1 - p.gap1) * p.k1 - sin_phi1 * t30);
+    let f_phi1 = cos_phi1 * s1 * t30 - sin_phi1 * s1 * t29 + t19 * (s1 * p.minus_drag1);
     let f_theta1 = t20 * p.drag2_rho - t19 * p.drag1_r1;
-    let f_s2 = cos_phi2 * t29 - ((s2 - p.gap2) * p.k2 + s2_dot * p.d2 - sin_phi2 * t30);
-    let f_phi2 = t34 - t20 * (s2 * p.drag2);
+    let f_s2 = cos_phi2 * t27 - (s2_dot * p.d2 + (s2 - p.gap2) * p.k2 - sin_phi2 * t28);
+    let f_phi2 = t20 * (s2 * p.minus_drag2) + t32;
     let f_theta2 = t20 * p.minus_drag2_r2;
     [
         f_x, f_y, f_theta, f_s1, f_phi1, f_theta1, f_s2, f_phi2, f_theta2,
     ]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 9],
-    v: &[S; 9],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        t: S,
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+    }) -> Result<[S; 9], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, t, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub t: S,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 9],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 9],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let s1 = n(q[3]);
-        let phi1 = n(q[4]);
-        let s2 = n(q[6]);
-        let phi2 = n(q[7]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let s1_dot = n(v[3]);
-        let phi1_dot = n(v[4]);
-        let theta1_dot = n(v[5]);
-        let s2_dot = n(v[6]);
-        let phi2_dot = n(v[7]);
-        let theta2_dot = n(v[8]);
-        let t0 = n(p.omega) * n(t);
-        let angles = [theta, phi1, phi2, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_theta, cos_theta) = circular[0];
-        let (sin_phi1, cos_phi1) = circular[1];
-        let (sin_phi2, cos_phi2) = circular[2];
-        let (sin_t0, cos_t0) = circular[3];
-        let t1 = theta * n(p.yc);
-        let t2 = theta * n(p.xc);
-        let t3 = phi1_dot * s1;
-        let t4 = theta_dot * n(p.yc);
-        let t5 = theta_dot * n(p.xc);
-        let t6 = theta_dot * theta_dot;
-        let t7 = theta1_dot.mul_add(n(p.r1), t3);
-        let t8 = theta_dot.neg_mul_add(n(p.R), t7);
-        let t9 = n(p.omega).product_error(n(t));
-        let t10 = n(p.bx).mul_add(x_dot - t4, n(p.cx) * (x - t1));
-        let t11 = n(p.by).mul_add(t5 + y_dot, n(p.cy) * (t2 + y));
-        let t12 = n(p.by).mul_add(y_dot - t5, n(p.cy) * (y - t2));
-        let t13 = n(p.bx).mul_add(t4 + x_dot, n(p.cx) * (t1 + x));
-        let t14 = t8 * n(p.drag1);
-        let t15 = (s1 - n(p.gap1)).mul_add(n(p.k1), s1_dot * n(p.d1));
-        let t16 = phi1_dot * t3;
-        let t17 = n(p.xc).mul_add(t12, t8 * n(p.drag1_R));
-        let t18 = (s2 - n(p.gap2)).mul_add(n(p.k2), s2_dot * n(p.d2));
-        let t19 = s2 * n(p.m2);
-        let t20 = n(p.r2).mul_add(theta2_dot, phi2_dot * s2);
-        let t21 = theta1_dot.neg_mul_add(n(p.rho), t20);
-        let t22 = phi1_dot * (s1_dot * N::from_f64(2.0));
-        let t23 = s1 * s1;
-        let t24 = n(p.yc).mul_sub(t10, n(p.xc) * t11);
-        let t25 = s2 * t19;
-        let t26 = t21 * n(p.drag2);
-        let t27 = t19.neg_mul_add(phi2_dot * phi2_dot, t18);
-        let t28 = phi2_dot.mul_add(s2_dot * n(p.two_m2), t26);
-        let t29 = t8.mul_sub(n(p.drag1_r1), t21 * n(p.drag2_rho));
-        let t30 = cos_theta * n(p.y0);
-        let t31 = sin_theta * n(p.y0);
-        let t32 = sin_theta * n(p.x0);
-        let t33 = cos_theta * n(p.x0);
-        let t34 = t33 - t31;
-        let t35 = t14.mul_add(sin_phi1, t10 + t13);
-        let t36 = t32 + t30;
-        let t37 = sin_phi1.neg_mul_add(t15, t12 + t11);
-        let t38 = sin_phi1.mul_sub(t16, cos_phi1 * t22);
-        let t39 = t9.mul_add(cos_t0, sin_t0);
-        let t40 = t9.neg_mul_add(sin_t0, cos_t0);
-        let t41 = t26.mul_add(cos_phi2, sin_phi2 * t18);
-        let t42 = n(p.m1).mul_add(t38, t41);
-        let t43 = sin_phi1.mul_add(t22, cos_phi1 * t16);
-        let t44 = n(p.e_omega2).mul_add(t39, t32.mul_add(t6, t30 * t6));
-        let t45 = n(p.m0) * t44;
-        let t46 = n(p.e_omega2).mul_add(t40, t6.mul_sub(t33, t31 * t6));
-        let t47 = t46 * n(p.m0);
-        let t48 = cos_phi2.mul_sub(t18, t26 * sin_phi2);
-        let t49 = n(p.m1).mul_add(t43, t48);
-        let t50 = cos_phi1.neg_mul_add(t15, t35) - t47;
-        let t51 = t14.neg_mul_add(cos_phi1, t37) - t45;
-        let t52 = t34.mul_add(t45, t24 + n(p.yc).neg_mul_add(t13, t17));
-        let t53 = cos_phi1.neg_mul_add(t49, sin_phi1.neg_mul_add(t42, t15));
-        let t54 = sin_phi1.neg_mul_add(t49, cos_phi1.mul_sub(t42, t14));
-        let t55 = t51.mul_sub(n(p.k3) * t34, t36 * t47);
-        let t56 = t55 + t50.neg_mul_add(n(p.k3) * t36, t52);
-        let t57 = n(p.k5) * t56;
-        let t58 = t36.neg_mul_add(t57, t50);
-        let t59 = t34.mul_add(t57, t51);
-        let t60 = t59 * n(p.k6);
-        let t61 = t58 * n(p.k6);
-        let t62 = sin_phi1 * t60;
-        let t63 = cos_phi1.neg_mul_add(t61, n(p.inverse_m1) * t53);
-        let t64 = t63 - t62;
-        let t65 = cos_phi1.mul_add(t60, n(p.inverse_m1) * t54);
-        let t66 = sin_phi1.neg_mul_add(t61, t65);
-        let t67 = sin_phi1.mul_add(t66, cos_phi1.mul_add(t64, t61 + t43));
-        let t68 = sin_phi1.mul_add(t64, t60 + t38);
-        let t69 = cos_phi1.neg_mul_add(t66, t68);
-        let t70 = sin_phi2.mul_add(t67, n(p.inverse_m2) * t28);
-        let t71 = cos_phi2.mul_sub(t67, n(p.inverse_m2) * t27);
-        let x_ddot = n(p.k7) * t58;
-        let y_ddot = n(p.k7) * t59;
-        let theta_ddot = t56 * n(p.k4);
-        let s1_ddot = t62 - t63;
-        let phi1_ddot = t66 / s1;
-        let theta1_ddot = n(p.minus_inverse_J1) * t29;
-        let s2_ddot = sin_phi2.mul_add(t69, t71);
-        let phi2_ddot = -(cos_phi2.neg_mul_add(t69, t70) / s2);
-        let theta2_ddot = t21 * n(p.minus_drag2_r2_over_J2);
-        let t72 = n(p.m1) * t23;
-        let t73 = t23 * n(p.m1_plus_m2);
-        let sound = PIVOTS.hold(t25, t25) & PIVOTS.hold(t72, t73) & phi2_ddot.is_finite();
-        if !sound {
-            let pivots = [(7, t25, t25), (4, t72, t73)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            theta_ddot.store(),
-            s1_ddot.store(),
-            phi1_ddot.store(),
-            theta1_ddot.store(),
-            s2_ddot.store(),
-            phi2_ddot.store(),
-            theta2_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let s1 = n(q[3]);
+    let phi1 = n(q[4]);
+    let s2 = n(q[6]);
+    let phi2 = n(q[7]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let s1_dot = n(v[3]);
+    let phi1_dot = n(v[4]);
+    let theta1_dot = n(v[5]);
+    let s2_dot = n(v[6]);
+    let phi2_dot = n(v[7]);
+    let theta2_dot = n(v[8]);
+    let t0 = n(p.omega) * n(t);
+    let angles = [theta, phi1, phi2, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_theta, cos_theta) = circular[0];
+    let (sin_phi1, cos_phi1) = circular[1];
+    let (sin_phi2, cos_phi2) = circular[2];
+    let (sin_t0, cos_t0) = circular[3];
+    let t1 = theta * n(p.yc);
+    let t2 = theta * n(p.xc);
+    let t3 = phi1_dot * s1;
+    let t4 = n(p.yc) * theta_dot;
+    let t5 = n(p.xc) * theta_dot;
+    let t6 = theta_dot * theta_dot;
+    let t7 = theta1_dot.mul_add(n(p.r1), t3);
+    let t8 = theta_dot.neg_mul_add(n(p.R), t7);
+    let t9 = n(p.omega).product_error(n(t));
+    let t10 = (x - t1).mul_add(n(p.cx), (x_dot - t4) * n(p.bx));
+    let t11 = (t2 + y).mul_add(n(p.cy), (t5 + y_dot) * n(p.by));
+    let t12 = (y - t2).mul_add(n(p.cy), (y_dot - t5) * n(p.by));
+    let t13 = (t1 + x).mul_add(n(p.cx), (t4 + x_dot) * n(p.bx));
+    let t14 = t8 * n(p.minus_drag1);
+    let t15 = (s1 - n(p.gap1)).mul_add(n(p.k1), s1_dot * n(p.d1));
+    let t16 = phi1_dot * t3;
+    let t17 = n(p.xc).mul_add(t12, t8 * n(p.drag1_R));
+    let t18 = (s2 - n(p.gap2)).mul_add(n(p.k2), s2_dot * n(p.d2));
+    let t19 = s2 * n(p.m2);
+    let t20 = phi2_dot.mul_add(s2, n(p.r2) * theta2_dot);
+    let t21 = theta1_dot.neg_mul_add(n(p.rho), t20);
+    let t22 = phi1_dot * (s1_dot * N::from_f64(2.0));
+    let t23 = s1 * s1;
+    let t24 = n(p.yc).mul_sub(t10, n(p.xc) * t11);
+    let t25 = s2 * t19;
+    let t26 = t21 * n(p.minus_drag2);
+    // Eliminates s2: alone z[s2].
+    let t27 = t19.neg_mul_add(phi2_dot * phi2_dot, t18);
+    let t28 = phi2_dot.mul_sub(s2_dot * n(p.two_m2), t26);
+    let t29 = t8.mul_sub(n(p.drag1_r1), t21 * n(p.drag2_rho));
+    let t30 = cos_theta * n(p.y0);
+    let t31 = sin_theta * n(p.y0);
+    let t32 = sin_theta * n(p.x0);
+    let t33 = cos_theta * n(p.x0);
+    let t34 = t33 - t31;
+    let t35 = sin_phi1.neg_mul_add(t14, t10 + t13);
+    let t36 = t30 + t32;
+    let t37 = sin_phi1.neg_mul_add(t15, t11 + t12);
+    let t38 = sin_phi1.mul_sub(t16, cos_phi1 * t22);
+    let t39 = cos_t0.mul_add(t9, sin_t0);
+    let t40 = sin_t0.neg_mul_add(t9, cos_t0);
+    let t41 = sin_phi2.mul_sub(t18, cos_phi2 * t26);
+    let t42 = n(p.m1).mul_add(t38, t41);
+    let t43 = cos_phi1.mul_add(t16, sin_phi1 * t22);
+    let t44 = t39.mul_add(n(p.e_omega2), t6.mul_add(t30, t6 * t32));
+    let t45 = t44 * n(p.m0);
+    let t46 = t40.mul_add(n(p.e_omega2), t6.mul_sub(t33, t6 * t31));
+    let t47 = t46 * n(p.m0);
+    let t48 = sin_phi2.mul_add(t26, cos_phi2 * t18);
+    let t49 = n(p.m1).mul_add(t43, t48);
+    let t50 = cos_phi1.neg_mul_add(t15, t35) - t47;
+    let t51 = cos_phi1.mul_add(t14, t37) - t45;
+    let t52 = t34.mul_add(t45, t24 + n(p.yc).neg_mul_add(t13, t17));
+    // Eliminates s1: alone z[s1].
+    let t53 = cos_phi1.neg_mul_add(t49, sin_phi1.neg_mul_add(t42, t15));
+    let t54 = sin_phi1.neg_mul_add(t49, cos_phi1.mul_add(t42, t14));
+    let t55 = (t34 * n(p.k2_)).mul_sub(t51, t36 * t47);
+    let t56 = (t36 * n(p.k2_)).neg_mul_add(t50, t52) + t55;
+    let t57 = t56 * n(p.k4);
+    // Back substitution: a[y].
+    let t58 = t34.mul_add(t57, t51) * n(p.k5);
+    // Back substitution: a[x].
+    let t59 = t36.neg_mul_add(t57, t50) * n(p.k5);
+    let t60 = sin_phi1 * t58;
+    let t61 = cos_phi1.neg_mul_add(t59, t53 * n(p.inverse_m1));
+    // Back substitution: a[s1].
+    let t62 = t61 - t60;
+    let t63 = cos_phi1.mul_add(t58, t54 * n(p.inverse_m1));
+    let t64 = sin_phi1.neg_mul_add(t59, t63);
+    let t65 = sin_phi1.mul_add(t64, cos_phi1.mul_add(t62, t43 + t59));
+    let t66 = sin_phi1.mul_add(t62, t38 + t58);
+    let t67 = cos_phi1.neg_mul_add(t64, t66);
+    let t68 = sin_phi2.mul_add(t65, t28 * n(p.inverse_m2));
+    let t69 = cos_phi2.mul_sub(t65, t27 * n(p.inverse_m2));
+    let x_ddot = -t59;
+    let y_ddot = -t58;
+    let theta_ddot = t56 * n(p.k3);
+    let s1_ddot = t60 - t61;
+    // Back substitution: a[phi1].
+    let phi1_ddot = t64 / s1;
+    let theta1_ddot = t29 * n(p.minus_inverse_J1);
+    // Back substitution: a[s2].
+    let s2_ddot = sin_phi2.mul_add(t67, t69);
+    // Back substitution: a[phi2].
+    let phi2_ddot = -(cos_phi2.neg_mul_add(t67, t68) / s2);
+    let theta2_ddot = t21 * n(p.minus_drag2_r2_over_J2);
+    let t70 = t23 * n(p.m1);
+    let t71 = t23 * n(p.m1_plus_m2);
+    let sound = PIVOTS.hold(t25, t25) & PIVOTS.hold(t70, t71) & phi2_ddot.is_finite();
+    if !sound {
+        let pivots = [(7, t25, t25), (4, t70, t71)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        theta_ddot.store(),
+        s1_ddot.store(),
+        phi1_ddot.store(),
+        theta1_ddot.store(),
+        s2_ddot.store(),
+        phi2_ddot.store(),
+        theta2_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1042,11 +1024,11 @@ pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(
     let t3 = y_dot - t1;
     let t4 = t0 + x_dot;
     let t5 = t1 + y_dot;
-    let t6 = p.r2 * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho;
-    let t7 = theta1_dot * p.r1 + phi1_dot * s1 - theta_dot * p.R;
-    let t8 = s2_dot * (s2_dot * p.d2) + s1_dot * (s1_dot * p.d1);
-    let t9 = (t5 * t5 + t3 * t3) * p.by + (t7 * (t7 * p.drag1) + t8);
-    (t4 * t4 + t2 * t2) * p.bx + t6 * (t6 * p.drag2) + t9
+    let t6 = phi2_dot * s2 + p.r2 * theta2_dot - theta1_dot * p.rho;
+    let t7 = phi1_dot * s1 + theta1_dot * p.r1 - theta_dot * p.R;
+    let t8 = s1_dot * (s1_dot * p.d1) + s2_dot * (s2_dot * p.d2);
+    let t9 = t8 - t7 * (t7 * p.minus_drag1) + (t3 * t3 + t5 * t5) * p.by;
+    (t2 * t2 + t4 * t4) * p.bx - t6 * (t6 * p.minus_drag2) + t9
 }
 
 /// Force with which the mortar presses on the cylinder, positive outwards. Unit: `N`.
@@ -1163,7 +1145,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         phi2: "phi2" "rad";
         theta2: "theta2" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { mortar_force, crushing_force, amplitude } [
         mortar_force: "mortar_force" "N";
         crushing_force: "crushing_force" "N";
@@ -1171,11 +1153,11 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     ]
     prepared Prepared {
         m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, gap1, gap2, k1, k2, d1, d2,
-        drag1, drag2, R, r1, rho, r2, e_omega, J0_omega2, half_cx, half_cy, half_k1, half_k2,
-        half_drag1, half_drag2, half_bx, half_by, half_d1, half_d2, e_omega2, m1_plus_m2, m0_y0,
-        m0_x0, k0, drag2_rho, drag1_R, drag1_r1, m0_e_omega, k1_, k2_, minus_m2, minus_drag1,
-        minus_drag2, minus_drag2_r2, inverse_m2, two_m2, inverse_m1, k3, k4, k5, k6, k7,
-        minus_inverse_J1, minus_drag2_r2_over_J2,
+        R, r1, rho, r2, e_omega, J0_omega2, half_cx, half_cy, half_k1, half_k2, half_drag1,
+        half_drag2, half_bx, half_by, half_d1, half_d2, e_omega2, m1_plus_m2, m0_y0, m0_x0, k0,
+        drag2_rho, drag1_R, drag1_r1, m0_e_omega, k1_, minus_m2, minus_drag1, minus_drag2,
+        minus_drag2_r2, inverse_m2, two_m2, inverse_m1, k2_, k3, k4, k5, minus_inverse_J1,
+        minus_drag2_r2_over_J2,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

@@ -49,8 +49,8 @@ pub struct DcMotor<S = f64> {
     pub L: S,
     /// Its resistance. Unit: `ohm`. Default: 0.5.
     pub R: S,
-    /// Torque by current, and voltage by rate: in SI units one number. Unit: `N*m/A`. Default:
-    /// 0.05.
+    /// Torque by current, and voltage by rate: in SI units one number. Unit: `N*m/A`.
+    /// Default: 0.05.
     pub k: S,
 }
 
@@ -187,46 +187,34 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_phi, f_i]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    v: &[S; 2],
-    u: &Inputs<S>,
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        v: &'a [S; 2],
+        u: &'a Inputs<S>,
+    }) -> Result<[S; 2], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, v, u })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 2],
-    /// As `accelerations` takes it.
-    pub u: &'a Inputs<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, v, u } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let phi_dot = n(v[0]);
-        let i_dot = n(v[1]);
-        let t0 = n(p.k).neg_mul_add(phi_dot, n(u.U));
-        let t1 = phi_dot.mul_sub(n(p.b), i_dot * n(p.k));
-        let phi_ddot = n(p.minus_inverse_J) * t1;
-        let i_ddot = n(p.inverse_L) * i_dot.neg_mul_add(n(p.R), t0);
-        let accelerations = [phi_ddot.store(), i_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, v, u } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let phi_dot = n(v[0]);
+    let i_dot = n(v[1]);
+    let t0 = n(p.k).neg_mul_add(phi_dot, n(u.U));
+    let t1 = phi_dot.mul_sub(n(p.b), i_dot * n(p.k));
+    let phi_ddot = n(p.minus_inverse_J) * t1;
+    let i_ddot = n(p.inverse_L) * i_dot.neg_mul_add(n(p.R), t0);
+    let accelerations = [phi_ddot.store(), i_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.

@@ -13,7 +13,7 @@
 //! | `bias` | 8 | 1 | 0 | 2 | 0 | 13 |
 //! | `applied` | 2 | 0 | 0 | 2 | 0 | 4 |
 //! | `forces` | 12 | 4 | 0 | 2 | 0 | 20 |
-//! | `accelerations` | 18 | 9 | 1 | 2 | 0 | 32 |
+//! | `accelerations` | 18 | 8 | 1 | 2 | 0 | 31 |
 //! | `kinetic_energy` | 11 | 4 | 0 | 2 | 0 | 19 |
 //! | `potential_energy` | 4 | 3 | 0 | 2 | 0 | 9 |
 //!
@@ -59,16 +59,15 @@ impl<S: ::lagrangian::emitted::Scalar> DoublePendulum<S> {
         let m2_l1_l2 = self.l1 * t2;
         let m2_l2_g = self.g * t2;
         let pivot_0 = t3 + self.m2 * t0;
-        let k1 = self.l1 * (t1 + m2_g);
         let m1_l1_g = self.l1 * t1;
         let half_m1_l1_squared = t3 * S::from_f64(0.5);
         let half_m2 = self.m2 * S::from_f64(0.5);
         let k0 = t0 * (self.m1 + self.m2);
         let m2_l2_squared = self.l2 * t2;
         let minus_m2_l1_l2 = -m2_l1_l2;
-        let k2 = -k1;
+        let k1 = -(self.l1 * (t1 + m2_g));
         let minus_m2_l2_g = -m2_l2_g;
-        let k3 = S::ONE / pivot_0;
+        let k2 = S::ONE / pivot_0;
         let c0 = self.g;
         let c1 = self.l1;
         let c2 = -c1;
@@ -92,11 +91,10 @@ impl<S: ::lagrangian::emitted::Scalar> DoublePendulum<S> {
             k0,
             m2_l2_squared,
             m2_l2_g,
-            k1,
             minus_m2_l1_l2,
-            k2,
+            k1,
             minus_m2_l2_g,
-            k3,
+            k2,
             singular: PIVOTS.vanished(pivots),
             series: [c0, c2, c1, c3, c4, c6, c8, c9, c7, c10],
         }
@@ -125,14 +123,6 @@ pub struct Coordinates<S = f64> {
     pub theta2: S,
 }
 
-/// What can be set while a [`DoublePendulum`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`DoublePendulum`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`DoublePendulum`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -156,16 +146,14 @@ pub struct Prepared<S = f64> {
     m2_l2_squared: S,
     /// `m2*l2*g`
     m2_l2_g: S,
-    /// `l1*(m2*g + m1*g)`
-    k1: S,
     /// `-m2*l1*l2`
     minus_m2_l1_l2: S,
     /// `-l1*(m2*g + m1*g)`
-    k2: S,
+    k1: S,
     /// `-m2*l2*g`
     minus_m2_l2_g: S,
     /// `1/(m1*l1^2 + m2*l1^2)`
-    k3: S,
+    k2: S,
     /// What the Taylor series takes from the parameters.
     series: [S; 10],
     /// Why these parameters leave the machine without accelerations, if they do.
@@ -222,7 +210,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     let theta2 = q[1];
     let sin_theta1 = theta1.sin();
     let sin_theta2 = theta2.sin();
-    let q_theta1 = p.k2 * sin_theta1;
+    let q_theta1 = p.k1 * sin_theta1;
     let q_theta2 = p.minus_m2_l2_g * sin_theta2;
     [q_theta1, q_theta2]
 }
@@ -239,71 +227,70 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
     let t1 = theta1_dot * theta1_dot;
     let t2 = sin_theta2 * (cos_theta1 * p.m2_l1_l2);
     let t3 = cos_theta2 * (sin_theta1 * p.m2_l1_l2);
-    let f_theta1 = t0 * t2 - (t0 * t3 + sin_theta1 * p.k1);
-    let f_theta2 = t3 * t1 - (t2 * t1 + sin_theta2 * p.m2_l2_g);
+    let f_theta1 = t0 * t2 - (t0 * t3 - sin_theta1 * p.k1);
+    let f_theta2 = t1 * t3 - (sin_theta2 * p.m2_l2_g + t1 * t2);
     [f_theta1, f_theta2]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 2],
-    v: &[S; 2],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 2], v: &'a [S; 2] })
+        -> Result<[S; 2], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 2],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 2],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta1 = n(q[0]);
-        let theta2 = n(q[1]);
-        let theta1_dot = n(v[0]);
-        let theta2_dot = n(v[1]);
-        let angles = [theta2, theta1];
-        let circular = N::sin_cos_all(angles);
-        let (sin_theta2, cos_theta2) = circular[0];
-        let (sin_theta1, cos_theta1) = circular[1];
-        let t0 = cos_theta2 * sin_theta1;
-        let t1 = sin_theta2 * cos_theta1;
-        let t2 = cos_theta2.mul_add(cos_theta1, sin_theta2 * sin_theta1);
-        let t3 = n(p.m2_l1_l2) * t2;
-        let t4 = theta2_dot * (n(p.m2_l1_l2) * theta2_dot);
-        let t5 = (t0 - t1).mul_add(t4, sin_theta1 * n(p.k1));
-        let t6 = theta1_dot * (n(p.m2_l1_l2) * theta1_dot);
-        let t7 = n(p.k3) * t3;
-        let t8 = (t1 - t0).mul_add(t6, sin_theta2 * n(p.m2_l2_g));
-        let t9 = t3.neg_mul_add(t7, n(p.m2_l2_squared));
-        let t10 = t5.neg_mul_add(t7, t8) / t9;
-        let theta1_ddot = t7.mul_sub(t10, n(p.k3) * t5);
-        let theta2_ddot = -t10;
-        let sound = PIVOTS.hold(t9, n(p.m2_l2_squared)) & theta2_ddot.is_finite();
-        if !sound {
-            let pivots = [(1, t9, n(p.m2_l2_squared))];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [theta1_ddot.store(), theta2_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta1 = n(q[0]);
+    let theta2 = n(q[1]);
+    let theta1_dot = n(v[0]);
+    let theta2_dot = n(v[1]);
+    let angles = [theta2, theta1];
+    let circular = N::sin_cos_all(angles);
+    let (sin_theta2, cos_theta2) = circular[0];
+    let (sin_theta1, cos_theta1) = circular[1];
+    let t0 = cos_theta2.mul_sub(sin_theta1, sin_theta2 * cos_theta1);
+    let t1 = sin_theta2.mul_add(sin_theta1, cos_theta2 * cos_theta1);
+    let t2 = n(p.m2_l1_l2) * t1;
+    let t3 = theta2_dot * (n(p.m2_l1_l2) * theta2_dot);
+    let t4 = t3.mul_sub(t0, sin_theta1 * n(p.k1));
+    let t5 = theta1_dot * (n(p.m2_l1_l2) * theta1_dot);
+    // Eliminates theta1 from row theta2: l[theta2, theta1].
+    let t6 = t2 * n(p.k2);
+    let t7 = t5.neg_mul_add(t0, sin_theta2 * n(p.m2_l2_g));
+    // Row theta2: pivot d[theta2].
+    let t8 = t2.neg_mul_add(t6, n(p.m2_l2_squared));
+    // Row theta2: right-hand side z[theta2].
+    let t9 = t4.neg_mul_add(t6, t7) / t8;
+    // Back substitution: a[theta1].
+    let theta1_ddot = t6.mul_sub(t9, t4 * n(p.k2));
+    let theta2_ddot = -t9;
+    let sound = PIVOTS.hold(t8, n(p.m2_l2_squared)) & theta2_ddot.is_finite();
+    if !sound {
+        let pivots = [(1, t8, n(p.m2_l2_squared))];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [theta1_ddot.store(), theta2_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -361,342 +348,342 @@ impl<S: Copy + Default> Default for Lists<S> {
     }
 }
 
-/// The Taylor series of the motion through a state, to be run with whatever instructions the
-/// processor has: row `j` of `coefficients` becomes `q⁽ʲ⁾/j!`. The time is the sum of two numbers.
-pub struct Series<'a, S> {
-    p: &'a Prepared<S>,
-    q: &'a [S; 2],
-    v: &'a [S; 2],
-    lists: &'a mut Lists<S>,
-    coefficients: &'a mut [[S; 2]],
+::lagrangian::emitted::fast_function! {
+    /// The Taylor series of the motion through a state: row `j` of `coefficients` becomes
+    /// `q⁽ʲ⁾/j!`. The time is the sum of two numbers.
+    pub struct Series<'a, S> {
+        p: &'a Prepared<S>,
+        q: &'a [S; 2],
+        v: &'a [S; 2],
+        lists: &'a mut Lists<S>,
+        coefficients: &'a mut [[S; 2]],
+    } -> Result<(), ::lagrangian::emitted::Singular> = series_in;
 }
 
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
-    type Output = Result<(), ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self {
-            p,
-            q,
-            v,
-            lists,
-            coefficients,
-        } = self;
-        let n = N::load;
-        let x0 = n(q[0]);
-        let x1 = n(q[1]);
-        let angles2 = [x0, x1];
-        let x2 = N::sin_cos_all(angles2);
-        let x3 = x2[0].0;
-        let x4 = x2[0].1;
-        let x5 = x2[1].0;
-        let x6 = x2[1].1;
-        let x7 = n(v[0]);
-        let x8 = x7 * x4;
-        let x9 = x7 * x3;
-        let x10 = -x9;
-        let x11 = n(v[1]);
-        let x12 = x11 * x6;
-        let x13 = x11 * x5;
-        let x14 = -x13;
-        let x15 = x7 * x10;
-        let x17 = N::from_f64(0.5);
-        let x18 = x17 * x15;
-        let x19 = x7 * x8;
-        let x20 = -x19;
-        let x21 = x17 * x20;
-        let x22 = x11 * x14;
-        let x23 = x17 * x22;
-        let x24 = x11 * x12;
-        let x25 = -x24;
-        let x26 = x17 * x25;
-        let x27 = n(p.series[0]);
-        let x28 = n(p.series[1]);
-        let x29 = x28.mul_add(x20, x27);
-        let x30 = n(p.series[2]);
-        let x31 = x30 * x15;
-        let x32 = n(p.series[3]);
-        let x33 = x32.mul_add(x22, x31);
-        let x34 = x28 * x20;
-        let x35 = n(p.series[4]);
-        let x36 = x35.mul_add(x25, x34);
-        let x37 = x27 + x36;
-        let x38 = n(p.series[5]);
-        let x39 = x38 * x29;
-        let x40 = n(p.series[6]);
-        let x41 = x40.mul_add(x37, x39);
-        let x42 = n(p.series[7]);
-        let x43 = x42 * x15;
-        let x44 = n(p.series[8]);
-        let x45 = x44.mul_add(x33, x43);
-        let x46 = x3 * x41;
-        let x47 = x4 * x45;
-        let x48 = x30 * x47;
-        let x49 = x28.mul_add(x46, x48);
-        let x50 = x5 * x37;
-        let x51 = x6 * x33;
-        let x52 = n(p.series[9]);
-        let x53 = x52 * x51;
-        let x54 = x52.mul_add(x50, x53);
-        let x55 = -x3;
-        let x56 = x28 * x55;
-        let x57 = -x5;
-        let x58 = x30 * x4;
-        let x59 = x32 * x6;
-        let x60 = x35 * x57;
-        let x61 = x38 * x56;
-        let x62 = x40.mul_add(x56, x61);
-        let x63 = x40 * x60;
-        let x64 = x42 * x4;
-        let x65 = x44.mul_add(x58, x64);
-        let x66 = x44 * x59;
-        let x67 = x3 * x62;
-        let x68 = x3 * x63;
-        let x69 = x4 * x65;
-        let x70 = x4 * x66;
-        let x71 = x30 * x69;
-        let x72 = x30 * x70;
-        let x73 = x28.mul_add(x67, x71);
-        let x74 = x28.mul_add(x68, x72);
-        let x75 = x5 * x56;
-        let x76 = x5 * x60;
-        let x77 = x6 * x58;
-        let x78 = x6 * x59;
-        let x79 = x52 * x77;
-        let x80 = x52 * x78;
-        let x81 = x52.mul_add(x75, x79);
-        let x82 = x52.mul_add(x76, x80);
-        let mut x83 = [x73.store(), x74.store(), x81.store(), x82.store()];
-        let members83 = [0, 1];
-        let factored = ::lagrangian::emitted::series::factor::<N>(2, 2, &mut x83);
-        if let Err(vanished) = factored {
-            let singular = ::lagrangian::emitted::series::singular(vanished, &members83, 2);
-            return Err(singular);
+#[inline(always)]
+fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Series<'_, S>,
+) -> Result<(), ::lagrangian::emitted::Singular> {
+    let Series {
+        p,
+        q,
+        v,
+        lists,
+        coefficients,
+    } = call;
+    let n = N::load;
+    let x0 = n(q[0]);
+    let x1 = n(q[1]);
+    let angles2 = [x0, x1];
+    let x2 = N::sin_cos_all(angles2);
+    let x3 = x2[0].0;
+    let x4 = x2[0].1;
+    let x5 = x2[1].0;
+    let x6 = x2[1].1;
+    let x7 = n(v[0]);
+    let x8 = x7 * x4;
+    let x9 = x7 * x3;
+    let x10 = -x9;
+    let x11 = n(v[1]);
+    let x12 = x11 * x6;
+    let x13 = x11 * x5;
+    let x14 = -x13;
+    let x15 = x7 * x10;
+    let x17 = N::from_f64(0.5);
+    let x18 = x17 * x15;
+    let x19 = x7 * x8;
+    let x20 = -x19;
+    let x21 = x17 * x20;
+    let x22 = x11 * x14;
+    let x23 = x17 * x22;
+    let x24 = x11 * x12;
+    let x25 = -x24;
+    let x26 = x17 * x25;
+    let x27 = n(p.series[0]);
+    let x28 = n(p.series[1]);
+    let x29 = x28.mul_add(x20, x27);
+    let x30 = n(p.series[2]);
+    let x31 = x30 * x15;
+    let x32 = n(p.series[3]);
+    let x33 = x32.mul_add(x22, x31);
+    let x34 = x28 * x20;
+    let x35 = n(p.series[4]);
+    let x36 = x35.mul_add(x25, x34);
+    let x37 = x27 + x36;
+    let x38 = n(p.series[5]);
+    let x39 = x38 * x29;
+    let x40 = n(p.series[6]);
+    let x41 = x40.mul_add(x37, x39);
+    let x42 = n(p.series[7]);
+    let x43 = x42 * x15;
+    let x44 = n(p.series[8]);
+    let x45 = x44.mul_add(x33, x43);
+    let x46 = x3 * x41;
+    let x47 = x4 * x45;
+    let x48 = x30 * x47;
+    let x49 = x28.mul_add(x46, x48);
+    let x50 = x5 * x37;
+    let x51 = x6 * x33;
+    let x52 = n(p.series[9]);
+    let x53 = x52 * x51;
+    let x54 = x52.mul_add(x50, x53);
+    let x55 = -x3;
+    let x56 = x28 * x55;
+    let x57 = -x5;
+    let x58 = x30 * x4;
+    let x59 = x32 * x6;
+    let x60 = x35 * x57;
+    let x61 = x38 * x56;
+    let x62 = x40.mul_add(x56, x61);
+    let x63 = x40 * x60;
+    let x64 = x42 * x4;
+    let x65 = x44.mul_add(x58, x64);
+    let x66 = x44 * x59;
+    let x67 = x3 * x62;
+    let x68 = x3 * x63;
+    let x69 = x4 * x65;
+    let x70 = x4 * x66;
+    let x71 = x30 * x69;
+    let x72 = x30 * x70;
+    let x73 = x28.mul_add(x67, x71);
+    let x74 = x28.mul_add(x68, x72);
+    let x75 = x5 * x56;
+    let x76 = x5 * x60;
+    let x77 = x6 * x58;
+    let x78 = x6 * x59;
+    let x79 = x52 * x77;
+    let x80 = x52 * x78;
+    let x81 = x52.mul_add(x75, x79);
+    let x82 = x52.mul_add(x76, x80);
+    let mut x83 = [x73.store(), x74.store(), x81.store(), x82.store()];
+    let members83 = [0, 1];
+    let factored = ::lagrangian::emitted::series::factor::<N>(2, 2, &mut x83);
+    if let Err(vanished) = factored {
+        let singular = ::lagrangian::emitted::series::singular(vanished, &members83, 2);
+        return Err(singular);
+    }
+    let x84 = -x49;
+    let x85 = -x54;
+    let x86 = n(x83[0]);
+    let x87 = x86 * x84;
+    let x88 = n(x83[2]);
+    let x89 = x88.mul_add(x85, x87);
+    let x90 = n(x83[1]);
+    let x91 = x90 * x84;
+    let x92 = n(x83[3]);
+    let x93 = x92.mul_add(x85, x91);
+    let x94 = x89 * x17;
+    let x95 = x93 * x17;
+    let x96 = x58 * x89;
+    let x97 = x59.mul_add(x93, x96);
+    let x98 = x33 + x97;
+    let x99 = x56 * x89;
+    let x100 = x60.mul_add(x93, x99);
+    let x101 = x37 + x100;
+    let x102 = x62 * x89;
+    let x103 = x63.mul_add(x93, x102);
+    let x104 = x41 + x103;
+    let x105 = x65 * x89;
+    let x106 = x66.mul_add(x93, x105);
+    let x107 = x45 + x106;
+    let x108 = x4 * x17;
+    let x109 = x108.mul_add(x89, x18);
+    let x110 = x55 * x17;
+    let x111 = x110.mul_add(x89, x21);
+    let x112 = x6 * x17;
+    let x113 = x112.mul_add(x93, x23);
+    let x114 = x57 * x17;
+    let x115 = x114.mul_add(x93, x26);
+    let second = [x94.store(), x95.store()];
+    for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
+        *row = x;
+    }
+    const A0: [usize; 8] = [0, 0, 1, 1, 2, 3, 4, 5];
+    const B0: [usize; 8] = [0, 1, 2, 3, 1, 0, 3, 2];
+    ::lagrangian::emitted::series::keep::<N, 8, 8>(
+        &mut lists.a0.0,
+        2,
+        [
+            x89.store(),
+            x89.store(),
+            x93.store(),
+            x93.store(),
+            x104.store(),
+            x107.store(),
+            x101.store(),
+            x98.store(),
+        ],
+        &A0,
+    );
+    ::lagrangian::emitted::series::keep::<N, 8, 8>(
+        &mut lists.b0.0,
+        2,
+        [
+            x111.store(),
+            x109.store(),
+            x115.store(),
+            x113.store(),
+            x109.store(),
+            x111.store(),
+            x113.store(),
+            x115.store(),
+        ],
+        &B0,
+    );
+    let mut y6 = x109;
+    let mut y7 = x111;
+    let mut y15 = x113;
+    let mut y16 = x115;
+    let mut y18 = x98;
+    let mut y22 = x101;
+    let mut y25 = x104;
+    let mut y26 = x107;
+    let mut z5 = x89;
+    let mut z14 = x93;
+    let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
+    for order in 3..count {
+        let w0 = ::lagrangian::emitted::series::sweep::<N, 8, 8>(
+            [&lists.a0.0, &lists.b0.0],
+            order - 2,
+            [&A0, &B0],
+        );
+        let x116 = w0[0];
+        let x117 = z5;
+        let x118 = x117.mul_add(x10, x116);
+        let x119 = y7;
+        let x120 = x7.mul_add(x119, x118);
+        let x122 = N::from_ratio(1, order as i64);
+        let x123 = x122 * x120;
+        let x124 = w0[1];
+        let x125 = x117.mul_add(x8, x124);
+        let x126 = y6;
+        let x127 = x7.mul_add(x126, x125);
+        let x128 = -x127;
+        let x129 = x122 * x128;
+        let x130 = w0[2];
+        let x131 = z14;
+        let x132 = x131.mul_add(x14, x130);
+        let x133 = y16;
+        let x134 = x11.mul_add(x133, x132);
+        let x135 = x122 * x134;
+        let x136 = w0[3];
+        let x137 = x131.mul_add(x12, x136);
+        let x138 = y15;
+        let x139 = x11.mul_add(x138, x137);
+        let x140 = -x139;
+        let x141 = x122 * x140;
+        let x142 = N::from_f64((order - 1) as f64);
+        let x145 = x28 * x142;
+        let x146 = x145 * x128;
+        let x148 = x30 * x142;
+        let x149 = x148 * x120;
+        let x150 = x32 * x142;
+        let x151 = x150.mul_add(x134, x149);
+        let x153 = x35 * x142;
+        let x154 = x153.mul_add(x140, x146);
+        let x155 = x38 * x146;
+        let x156 = x40.mul_add(x154, x155);
+        let x157 = x42 * x142;
+        let x158 = x157 * x120;
+        let x159 = x44.mul_add(x151, x158);
+        let x160 = w0[4];
+        let x161 = y25;
+        let x162 = x161.mul_add(x8, x160);
+        let x163 = x156.mul_add(x3, x162);
+        let x164 = w0[5];
+        let x165 = y26;
+        let x166 = x165.mul_add(x10, x164);
+        let x167 = x159.mul_add(x4, x166);
+        let x168 = x30 * x167;
+        let x169 = x28.mul_add(x163, x168);
+        let x170 = w0[6];
+        let x171 = y22;
+        let x172 = x171.mul_add(x12, x170);
+        let x173 = x154.mul_add(x5, x172);
+        let x174 = w0[7];
+        let x175 = y18;
+        let x176 = x175.mul_add(x14, x174);
+        let x177 = x151.mul_add(x6, x176);
+        let x178 = x52 * x177;
+        let x179 = x52.mul_add(x173, x178);
+        let x180 = -x169;
+        let x181 = -x179;
+        let x182 = x86 * x180;
+        let x183 = x88.mul_add(x181, x182);
+        let x184 = x90 * x180;
+        let x185 = x92.mul_add(x181, x184);
+        let x186 = N::from_ratio(1, order as i64 - 1);
+        let x187 = N::from_ratio(order as i64 * (order as i64 - 1), 1);
+        let x188 = x183 * x186;
+        let x189 = x183 / x187;
+        let x190 = x185 * x186;
+        let x191 = x185 / x187;
+        let x192 = x186 * x122;
+        let x193 = x58 * x183;
+        let x194 = x59.mul_add(x185, x193);
+        let x195 = x151 + x194;
+        let x196 = x56 * x183;
+        let x197 = x60.mul_add(x185, x196);
+        let x198 = x154 + x197;
+        let x199 = x62 * x183;
+        let x200 = x63.mul_add(x185, x199);
+        let x201 = x156 + x200;
+        let x202 = x65 * x183;
+        let x203 = x66.mul_add(x185, x202);
+        let x204 = x159 + x203;
+        let x205 = x4 * x192;
+        let x206 = x205.mul_add(x183, x123);
+        let x207 = x55 * x192;
+        let x208 = x207.mul_add(x183, x129);
+        let x209 = x6 * x192;
+        let x210 = x209.mul_add(x185, x135);
+        let x211 = x57 * x192;
+        let x212 = x211.mul_add(x185, x141);
+        if let Some(row) = coefficients.get_mut(order) {
+            *row = [x189.store(), x191.store()];
         }
-        let x84 = -x49;
-        let x85 = -x54;
-        let x86 = n(x83[0]);
-        let x87 = x86 * x84;
-        let x88 = n(x83[2]);
-        let x89 = x88.mul_add(x85, x87);
-        let x90 = n(x83[1]);
-        let x91 = x90 * x84;
-        let x92 = n(x83[3]);
-        let x93 = x92.mul_add(x85, x91);
-        let x94 = x89 * x17;
-        let x95 = x93 * x17;
-        let x96 = x58 * x89;
-        let x97 = x59.mul_add(x93, x96);
-        let x98 = x33 + x97;
-        let x99 = x56 * x89;
-        let x100 = x60.mul_add(x93, x99);
-        let x101 = x37 + x100;
-        let x102 = x62 * x89;
-        let x103 = x63.mul_add(x93, x102);
-        let x104 = x41 + x103;
-        let x105 = x65 * x89;
-        let x106 = x66.mul_add(x93, x105);
-        let x107 = x45 + x106;
-        let x108 = x4 * x17;
-        let x109 = x108.mul_add(x89, x18);
-        let x110 = x55 * x17;
-        let x111 = x110.mul_add(x89, x21);
-        let x112 = x6 * x17;
-        let x113 = x112.mul_add(x93, x23);
-        let x114 = x57 * x17;
-        let x115 = x114.mul_add(x93, x26);
-        let second = [x94.store(), x95.store()];
-        for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
-            *row = x;
-        }
-        const A0: [usize; 8] = [0, 0, 1, 1, 2, 3, 4, 5];
-        const B0: [usize; 8] = [0, 1, 2, 3, 1, 0, 3, 2];
         ::lagrangian::emitted::series::keep::<N, 8, 8>(
             &mut lists.a0.0,
-            2,
+            order,
             [
-                x89.store(),
-                x89.store(),
-                x93.store(),
-                x93.store(),
-                x104.store(),
-                x107.store(),
-                x101.store(),
-                x98.store(),
+                x188.store(),
+                x188.store(),
+                x190.store(),
+                x190.store(),
+                x201.store(),
+                x204.store(),
+                x198.store(),
+                x195.store(),
             ],
             &A0,
         );
         ::lagrangian::emitted::series::keep::<N, 8, 8>(
             &mut lists.b0.0,
-            2,
+            order,
             [
-                x111.store(),
-                x109.store(),
-                x115.store(),
-                x113.store(),
-                x109.store(),
-                x111.store(),
-                x113.store(),
-                x115.store(),
+                x208.store(),
+                x206.store(),
+                x212.store(),
+                x210.store(),
+                x206.store(),
+                x208.store(),
+                x210.store(),
+                x212.store(),
             ],
             &B0,
         );
-        let mut y6 = x109;
-        let mut y7 = x111;
-        let mut y15 = x113;
-        let mut y16 = x115;
-        let mut y18 = x98;
-        let mut y22 = x101;
-        let mut y25 = x104;
-        let mut y26 = x107;
-        let mut z5 = x89;
-        let mut z14 = x93;
-        let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
-        for order in 3..count {
-            let w0 = ::lagrangian::emitted::series::sweep::<N, 8, 8>(
-                [&lists.a0.0, &lists.b0.0],
-                order - 2,
-                [&A0, &B0],
-            );
-            let x116 = w0[0];
-            let x117 = z5;
-            let x118 = x117.mul_add(x10, x116);
-            let x119 = y7;
-            let x120 = x7.mul_add(x119, x118);
-            let x122 = N::from_ratio(1, order as i64);
-            let x123 = x122 * x120;
-            let x124 = w0[1];
-            let x125 = x117.mul_add(x8, x124);
-            let x126 = y6;
-            let x127 = x7.mul_add(x126, x125);
-            let x128 = -x127;
-            let x129 = x122 * x128;
-            let x130 = w0[2];
-            let x131 = z14;
-            let x132 = x131.mul_add(x14, x130);
-            let x133 = y16;
-            let x134 = x11.mul_add(x133, x132);
-            let x135 = x122 * x134;
-            let x136 = w0[3];
-            let x137 = x131.mul_add(x12, x136);
-            let x138 = y15;
-            let x139 = x11.mul_add(x138, x137);
-            let x140 = -x139;
-            let x141 = x122 * x140;
-            let x142 = N::from_f64((order - 1) as f64);
-            let x145 = x28 * x142;
-            let x146 = x145 * x128;
-            let x148 = x30 * x142;
-            let x149 = x148 * x120;
-            let x150 = x32 * x142;
-            let x151 = x150.mul_add(x134, x149);
-            let x153 = x35 * x142;
-            let x154 = x153.mul_add(x140, x146);
-            let x155 = x38 * x146;
-            let x156 = x40.mul_add(x154, x155);
-            let x157 = x42 * x142;
-            let x158 = x157 * x120;
-            let x159 = x44.mul_add(x151, x158);
-            let x160 = w0[4];
-            let x161 = y25;
-            let x162 = x161.mul_add(x8, x160);
-            let x163 = x156.mul_add(x3, x162);
-            let x164 = w0[5];
-            let x165 = y26;
-            let x166 = x165.mul_add(x10, x164);
-            let x167 = x159.mul_add(x4, x166);
-            let x168 = x30 * x167;
-            let x169 = x28.mul_add(x163, x168);
-            let x170 = w0[6];
-            let x171 = y22;
-            let x172 = x171.mul_add(x12, x170);
-            let x173 = x154.mul_add(x5, x172);
-            let x174 = w0[7];
-            let x175 = y18;
-            let x176 = x175.mul_add(x14, x174);
-            let x177 = x151.mul_add(x6, x176);
-            let x178 = x52 * x177;
-            let x179 = x52.mul_add(x173, x178);
-            let x180 = -x169;
-            let x181 = -x179;
-            let x182 = x86 * x180;
-            let x183 = x88.mul_add(x181, x182);
-            let x184 = x90 * x180;
-            let x185 = x92.mul_add(x181, x184);
-            let x186 = N::from_ratio(1, order as i64 - 1);
-            let x187 = N::from_ratio(order as i64 * (order as i64 - 1), 1);
-            let x188 = x183 * x186;
-            let x189 = x183 / x187;
-            let x190 = x185 * x186;
-            let x191 = x185 / x187;
-            let x192 = x186 * x122;
-            let x193 = x58 * x183;
-            let x194 = x59.mul_add(x185, x193);
-            let x195 = x151 + x194;
-            let x196 = x56 * x183;
-            let x197 = x60.mul_add(x185, x196);
-            let x198 = x154 + x197;
-            let x199 = x62 * x183;
-            let x200 = x63.mul_add(x185, x199);
-            let x201 = x156 + x200;
-            let x202 = x65 * x183;
-            let x203 = x66.mul_add(x185, x202);
-            let x204 = x159 + x203;
-            let x205 = x4 * x192;
-            let x206 = x205.mul_add(x183, x123);
-            let x207 = x55 * x192;
-            let x208 = x207.mul_add(x183, x129);
-            let x209 = x6 * x192;
-            let x210 = x209.mul_add(x185, x135);
-            let x211 = x57 * x192;
-            let x212 = x211.mul_add(x185, x141);
-            if let Some(row) = coefficients.get_mut(order) {
-                *row = [x189.store(), x191.store()];
-            }
-            ::lagrangian::emitted::series::keep::<N, 8, 8>(
-                &mut lists.a0.0,
-                order,
-                [
-                    x188.store(),
-                    x188.store(),
-                    x190.store(),
-                    x190.store(),
-                    x201.store(),
-                    x204.store(),
-                    x198.store(),
-                    x195.store(),
-                ],
-                &A0,
-            );
-            ::lagrangian::emitted::series::keep::<N, 8, 8>(
-                &mut lists.b0.0,
-                order,
-                [
-                    x208.store(),
-                    x206.store(),
-                    x212.store(),
-                    x210.store(),
-                    x206.store(),
-                    x208.store(),
-                    x210.store(),
-                    x212.store(),
-                ],
-                &B0,
-            );
-            y6 = x206;
-            y7 = x208;
-            y15 = x210;
-            y16 = x212;
-            y18 = x195;
-            y22 = x198;
-            y25 = x201;
-            y26 = x204;
-            z5 = x188;
-            z14 = x190;
-        }
-        Ok(())
+        y6 = x206;
+        y7 = x208;
+        y15 = x210;
+        y16 = x212;
+        y18 = x195;
+        y22 = x198;
+        y25 = x201;
+        y26 = x204;
+        z5 = x188;
+        z14 = x190;
     }
+    Ok(())
 }
 
 ::lagrangian::emitted::implement! {
@@ -712,11 +699,11 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         theta1: "theta1" "rad";
         theta2: "theta2" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         l1, l2, m1_l1_g, m2_g, half_m1_l1_squared, half_m2, m2_l1_l2, k0, m2_l2_squared, m2_l2_g,
-        k1, minus_m2_l1_l2, k2, minus_m2_l2_g, k3,
+        minus_m2_l1_l2, k1, minus_m2_l2_g, k2,
     }
     series series
     singular singular

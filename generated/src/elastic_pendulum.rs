@@ -63,12 +63,11 @@ pub struct ElasticPendulum<S = f64> {
 impl<S: ::lagrangian::emitted::Scalar> ElasticPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let m_g = self.m * self.g;
         let half_m = self.m * S::from_f64(0.5);
         let half_k = self.k * S::from_f64(0.5);
         let two_m = self.m * S::from_f64(2.0);
         let minus_m = -self.m;
-        let minus_m_g = -m_g;
+        let minus_m_g = -(self.m * self.g);
         let inverse_m = S::ONE / self.m;
         let pivots = [(0, self.m, self.m)];
         Prepared {
@@ -76,7 +75,6 @@ impl<S: ::lagrangian::emitted::Scalar> ElasticPendulum<S> {
             k: self.k,
             l0: self.l0,
             half_m,
-            m_g,
             half_k,
             two_m,
             minus_m,
@@ -109,10 +107,6 @@ pub struct Coordinates<S = f64> {
     pub theta: S,
 }
 
-/// What can be set while a [`ElasticPendulum`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
 /// What can be observed of a [`ElasticPendulum`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
@@ -131,8 +125,6 @@ pub struct Prepared<S = f64> {
     l0: S,
     /// `0.5*m`
     half_m: S,
-    /// `m*g`
-    m_g: S,
     /// `0.5*k`
     half_k: S,
     /// `2*m`
@@ -190,7 +182,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     let r = q[0];
     let theta = q[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let q_r = (p.l0 - r) * p.k + p.m_g * cos_theta;
+    let q_r = (p.l0 - r) * p.k - cos_theta * p.minus_m_g;
     let q_theta = sin_theta * (r * p.minus_m_g);
     [q_r, q_theta]
 }
@@ -203,61 +195,59 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
     let theta_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = theta_dot * r;
-    let f_r = t0 * (theta_dot * p.m) + ((p.l0 - r) * p.k + p.m_g * cos_theta);
-    let f_theta = -(t0 * (p.two_m * r_dot) + sin_theta * (r * p.m_g));
+    let f_r = (p.l0 - r) * p.k - cos_theta * p.minus_m_g + t0 * (theta_dot * p.m);
+    let f_theta = -(t0 * (p.two_m * r_dot) - sin_theta * (r * p.minus_m_g));
     [f_r, f_theta]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 2],
-    v: &[S; 2],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 2], v: &'a [S; 2] })
+        -> Result<[S; 2], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 2],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 2],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let r = n(q[0]);
-        let theta = n(q[1]);
-        let r_dot = n(v[0]);
-        let theta_dot = n(v[1]);
-        let (sin_theta, cos_theta) = theta.sin_cos();
-        let t0 = r * n(p.m);
-        let t1 = r * t0;
-        let t2 = r * n(p.two_m) * (theta_dot * r_dot);
-        let t3 = n(p.m_g).mul_add(cos_theta, (n(p.l0) - r) * n(p.k));
-        let r_ddot = n(p.inverse_m) * t0.mul_add(theta_dot * theta_dot, t3);
-        let theta_ddot = -(sin_theta.mul_add(r * n(p.m_g), t2) / t1);
-        let sound = PIVOTS.hold(t1, t1) & theta_ddot.is_finite();
-        if !sound {
-            let pivots = [(1, t1, t1)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [r_ddot.store(), theta_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let r = n(q[0]);
+    let theta = n(q[1]);
+    let r_dot = n(v[0]);
+    let theta_dot = n(v[1]);
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = r * n(p.m);
+    // Row theta: pivot d[theta].
+    let t1 = r * t0;
+    let t2 = r * n(p.two_m) * (theta_dot * r_dot);
+    let t3 = (n(p.l0) - r) * n(p.k);
+    let t4 = cos_theta.neg_mul_add(n(p.minus_m_g), t3);
+    let r_ddot = t0.mul_add(theta_dot * theta_dot, t4) * n(p.inverse_m);
+    let theta_ddot = -(sin_theta.neg_mul_add(r * n(p.minus_m_g), t2) / t1);
+    let sound = PIVOTS.hold(t1, t1) & theta_ddot.is_finite();
+    if !sound {
+        let pivots = [(1, t1, t1)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [r_ddot.store(), theta_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -291,7 +281,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let theta = q[1];
     let cos_theta = theta.cos();
     let t0 = p.l0 - r;
-    t0 * (t0 * p.half_k) - cos_theta * (p.m_g * r)
+    t0 * (t0 * p.half_k) + cos_theta * (r * p.minus_m_g)
 }
 
 /// Angular momentum about the pivot: conserved where nothing weighs. Unit: `J*s`.
@@ -338,11 +328,11 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         r: "r" "m";
         theta: "theta" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { momentum } [
         momentum: "momentum" "J*s";
     ]
-    prepared Prepared { m, k, l0, half_m, m_g, half_k, two_m, minus_m, minus_m_g, inverse_m }
+    prepared Prepared { m, k, l0, half_m, half_k, two_m, minus_m, minus_m_g, inverse_m }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

@@ -70,7 +70,6 @@ impl<S: ::lagrangian::emitted::Scalar> FlyballGovernor<S> {
         let l_squared = self.l * self.l;
         let two_l = self.l * S::from_f64(2.0);
         let l_squared_m = l_squared * self.m;
-        let two_l_m_g = two_l * (self.g * self.m);
         let two_l_squared_m = l_squared_m * S::from_f64(2.0);
         let half_over_l = S::from_f64(0.5) * t0;
         let half_over_b = inverse_b * S::from_f64(0.5);
@@ -84,7 +83,7 @@ impl<S: ::lagrangian::emitted::Scalar> FlyballGovernor<S> {
         let l_squared_over_b = l_squared * inverse_b;
         let J_plus_two_l_squared_m = self.J + two_l_squared_m;
         let minus_two_l_squared_m = -two_l_squared_m;
-        let minus_two_l_m_g = -two_l_m_g;
+        let minus_two_l_m_g = -(two_l * (self.g * self.m));
         let minus_half_over_b = -half_over_b;
         let inverse_M = S::ONE / self.M;
         let k0 = t0 * half_over_l / self.m;
@@ -101,7 +100,6 @@ impl<S: ::lagrangian::emitted::Scalar> FlyballGovernor<S> {
             half_over_b,
             l_squared_m,
             M_g,
-            two_l_m_g,
             half_J,
             half_M,
             two_l_squared_m,
@@ -158,10 +156,6 @@ pub struct Inputs<S = f64> {
     pub drive: S,
 }
 
-/// What can be observed of a [`FlyballGovernor`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`FlyballGovernor`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -185,8 +179,6 @@ pub struct Prepared<S = f64> {
     l_squared_m: S,
     /// `M*g`
     M_g: S,
-    /// `2*l*m*g`
-    two_l_m_g: S,
     /// `0.5*J`
     half_J: S,
     /// `0.5*M`
@@ -294,8 +286,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     let alpha_dot = v[1];
     let (sin_alpha, cos_alpha) = alpha.sin_cos();
     let t0 = cos_alpha * (sin_alpha * phi_dot);
-    let f_phi = u.drive - t0 * (p.four_l_squared_m * alpha_dot);
-    let f_alpha = t0 * (phi_dot * p.two_l_squared_m) - sin_alpha * p.two_l_m_g;
+    let f_phi = u.drive - p.four_l_squared_m * alpha_dot * t0;
+    let f_alpha = sin_alpha * p.minus_two_l_m_g + phi_dot * p.two_l_squared_m * t0;
     [f_phi, f_alpha, p.M_g]
 }
 
@@ -379,145 +371,153 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     [gamma1]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
-/// multiplied out.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
-    u: &Inputs<S>,
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass
+    /// matrix multiplied out.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        q: &'a [S; 3],
+        v: &'a [S; 3],
+        u: &'a Inputs<S>,
+    }) -> Result<[S; 3], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v, u })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 3],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 3],
-    /// As `accelerations` takes it.
-    pub u: &'a Inputs<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v, u } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let alpha = n(q[1]);
-        let s = n(q[2]);
-        let phi_dot = n(v[0]);
-        let alpha_dot = n(v[1]);
-        let s_dot = n(v[2]);
-        let (sin_alpha, cos_alpha) = alpha.sin_cos();
-        let t0 = sin_alpha * alpha_dot;
-        let t1 = cos_alpha.neg_mul_add(n(p.l), s);
-        let t2 = cos_alpha * alpha_dot;
-        let t3 = sin_alpha * cos_alpha;
-        let t4 = t0.mul_add(n(p.l), s_dot);
-        let t5 = t1 * n(p.inverse_b);
-        let t6 = phi_dot * (n(p.two_l_squared_m) * phi_dot);
-        let t7 = t3.neg_mul_add(t6, sin_alpha * n(p.two_l_m_g));
-        let t8 = cos_alpha * (phi_dot * n(p.four_l_squared_m));
-        let t9 = n(p.two_l_squared_m) * cos_alpha;
-        let t10 = cos_alpha.neg_mul_add(t9, n(p.J_plus_two_l_squared_m));
-        let t11 = t1 * (sin_alpha * n(p.l_over_b));
-        let t12 = t3.mul_add(n(p.l_squared_over_b), t11);
-        let t13 = t5 * n(p.inverse_M);
-        let t14 = n(p.k0) * t12;
-        let t15 = t1.mul_add(t2 * (alpha_dot * n(p.l)), t4 * t4);
-        let t16 = t2.mul_sub(t2, t0 * t0) * n(p.two_l_squared);
-        let t17 = t12.mul_add(t14, t5 * t13);
-        let t18 = t7.neg_mul_add(t14, t13 * n(p.M_g));
-        let t19 = t15.mul_add(N::from_f64(2.0), t16);
-        let t20 = t19.mul_add(n(p.half_over_b), t18) / t17;
-        let phi_ddot = t0.neg_mul_add(t8, n(u.drive)) / t10;
-        let alpha_ddot = -t14.mul_add(t20, n(p.k0) * t7);
-        let s_ddot = t13.neg_mul_add(t20, n(p.g));
-        let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t17, t17) & alpha_ddot.is_finite();
-        if !sound {
-            let pivots = [(0, t10, t10), (3, t17, t17)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [phi_ddot.store(), alpha_ddot.store(), s_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v, u } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let alpha = n(q[1]);
+    let s = n(q[2]);
+    let phi_dot = n(v[0]);
+    let alpha_dot = n(v[1]);
+    let s_dot = n(v[2]);
+    let (sin_alpha, cos_alpha) = alpha.sin_cos();
+    let t0 = sin_alpha * alpha_dot;
+    let t1 = cos_alpha.neg_mul_add(n(p.l), s);
+    let t2 = cos_alpha * alpha_dot;
+    let t3 = sin_alpha * cos_alpha;
+    let t4 = n(p.l).mul_add(t0, s_dot);
+    let t5 = t1 * n(p.inverse_b);
+    let t6 = phi_dot * (n(p.two_l_squared_m) * phi_dot);
+    let t7 = t6.mul_add(t3, sin_alpha * n(p.minus_two_l_m_g));
+    let t8 = cos_alpha * (phi_dot * n(p.four_l_squared_m));
+    let t9 = cos_alpha * n(p.two_l_squared_m);
+    // Row phi: pivot d[phi].
+    let t10 = cos_alpha.neg_mul_add(t9, n(p.J_plus_two_l_squared_m));
+    let t11 = t3 * n(p.l_squared_over_b);
+    let t12 = t1.mul_add(sin_alpha * n(p.l_over_b), t11);
+    // Eliminates s from row links: l[links, s].
+    let t13 = t5 * n(p.inverse_M);
+    // Eliminates alpha from row links: l[links, alpha].
+    let t14 = t12 * n(p.k0);
+    let t15 = t4.mul_add(t4, t1 * (alpha_dot * n(p.l) * t2));
+    let t16 = t2.mul_sub(t2, t0 * t0) * n(p.two_l_squared);
+    // Row links: pivot d[links].
+    let t17 = t12.mul_add(t14, t5 * t13);
+    let t18 = t15.mul_add(N::from_f64(2.0), t16);
+    let t19 = t7.mul_add(t14, t13 * n(p.M_g));
+    // Row links: right-hand side z[links].
+    let t20 = t18.mul_add(n(p.half_over_b), t19) / t17;
+    let phi_ddot = t0.neg_mul_add(t8, n(u.drive)) / t10;
+    // Back substitution: a[alpha].
+    let alpha_ddot = -t14.mul_sub(t20, t7 * n(p.k0));
+    // Back substitution: a[s].
+    let s_ddot = t13.neg_mul_add(t20, n(p.g));
+    let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t17, t17) & alpha_ddot.is_finite();
+    if !sound {
+        let pivots = [(0, t10, t10), (3, t17, t17)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [phi_ddot.store(), alpha_ddot.store(), s_ddot.store()];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    ///
+    /// So far these are the accelerations `a0` without constraint forces. The multipliers follow
+    /// from `C lambda = gamma - G a0`, where now `G` are the rows of the constraints and `C = G
+    /// M^-1 G^T`, row after row: `d`, `l` and `z` of constraints are those of `C = L D L^T`.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 1], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 1], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 3],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 1], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let alpha = n(q[1]);
-        let s = n(q[2]);
-        let phi_dot = n(v[0]);
-        let alpha_dot = n(v[1]);
-        let s_dot = n(v[2]);
-        let (sin_alpha, cos_alpha) = alpha.sin_cos();
-        let t0 = alpha_dot * alpha_dot;
-        let t1 = cos_alpha * n(p.l);
-        let t2 = sin_alpha.mul_add(n(p.l) * alpha_dot, s_dot);
-        let t3 = sin_alpha * sin_alpha;
-        let t4 = t1 * t0;
-        let t5 = s - t1;
-        let t6 = sin_alpha * (n(p.two_l) * phi_dot.mul_add(phi_dot, t0));
-        let t7 = t3.mul_add(n(p.two_l_squared_m), n(p.J));
-        let t8 = cos_alpha * n(p.l_squared_over_b);
-        let t9 = n(p.inverse_b) * t5;
-        let t10 = cos_alpha.mul_sub(cos_alpha, t3);
-        let t11 = sin_alpha * t5.mul_add(n(p.l_over_b), t8);
-        let t12 = t10 * (t0 * n(p.two_l_squared));
-        let t13 = sin_alpha * N::from_f64(2.0);
-        let t14 = N::from_f64(2.0).mul_add(t5.mul_add(t4, t2 * t2), t12);
-        let t15 = t14.mul_add(n(p.half_over_b), t5 * n(p.g_over_b));
-        let t16 = (t4 + n(p.g)).neg_mul_add(t13, cos_alpha * t6);
-        let t17 = t11.mul_add(t11 * n(p.k0), t9 * (t9 * n(p.inverse_M)));
-        let lambda1 = -(t16.mul_add(t11 * n(p.half_over_l), t15) / t17);
-        let sound = PIVOTS.hold(t7, t7) & PIVOTS.hold(t17, t17) & lambda1.is_finite();
-        if !sound {
-            let pivots = [(0, t7, t7), (3, t17, t17)];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [lambda1.store()];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let alpha = n(q[1]);
+    let s = n(q[2]);
+    let phi_dot = n(v[0]);
+    let alpha_dot = n(v[1]);
+    let s_dot = n(v[2]);
+    let (sin_alpha, cos_alpha) = alpha.sin_cos();
+    let t0 = alpha_dot * alpha_dot;
+    let t1 = cos_alpha * n(p.l);
+    let t2 = sin_alpha.mul_add(n(p.l) * alpha_dot, s_dot);
+    let t3 = sin_alpha * sin_alpha;
+    let t4 = t1 * t0;
+    let t5 = s - t1;
+    let t6 = sin_alpha * (n(p.two_l) * phi_dot.mul_add(phi_dot, t0));
+    // Eliminates phi: inertia d[phi].
+    let t7 = t3.mul_add(n(p.two_l_squared_m), n(p.J));
+    let t8 = cos_alpha * n(p.l_squared_over_b);
+    let t9 = n(p.inverse_b) * t5;
+    let t10 = cos_alpha.mul_sub(cos_alpha, t3);
+    let t11 = sin_alpha * t5.mul_add(n(p.l_over_b), t8);
+    let t12 = t10 * (t0 * n(p.two_l_squared));
+    let t13 = sin_alpha * N::from_f64(2.0);
+    let t14 = N::from_f64(2.0).mul_add(t5.mul_add(t4, t2 * t2), t12);
+    let t15 = t14.mul_add(n(p.half_over_b), t5 * n(p.g_over_b));
+    let t16 = (t4 + n(p.g)).neg_mul_add(t13, cos_alpha * t6);
+    // Row links: pivot d[links].
+    let t17 = t11.mul_add(t11 * n(p.k0), t9 * (t9 * n(p.inverse_M)));
+    let lambda1 = -(t16.mul_add(t11 * n(p.half_over_l), t15) / t17);
+    let sound = PIVOTS.hold(t7, t7) & PIVOTS.hold(t17, t17) & lambda1.is_finite();
+    if !sound {
+        let pivots = [(0, t7, t7), (3, t17, t17)];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [lambda1.store()];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -549,7 +549,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let alpha = q[1];
     let s = q[2];
     let cos_alpha = alpha.cos();
-    -(p.two_l_m_g * cos_alpha + p.M_g * s)
+    -(p.M_g * s - cos_alpha * p.minus_two_l_m_g)
 }
 
 /// Power `P` that drives, forces and inputs put in, in W.
@@ -580,12 +580,12 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 3], u: &Inputs<S>) ->
     inputs Inputs { drive } [
         drive: "drive" "N*m" = 0.0;
     ] over S
-    outputs Outputs {} []
+    outputs Outputs {} [], defined here
     prepared Prepared {
-        l, M, J, g, b_squared, l_squared, inverse_b, half_over_b, l_squared_m, M_g, two_l_m_g,
-        half_J, half_M, two_l_squared_m, four_l_squared_m, two_l_squared, l_over_b,
-        l_squared_over_b, J_plus_two_l_squared_m, minus_two_l_squared_m, minus_two_l_m_g,
-        minus_half_over_b, two_l, half_over_l, inverse_M, k0, g_over_b,
+        l, M, J, g, b_squared, l_squared, inverse_b, half_over_b, l_squared_m, M_g, half_J, half_M,
+        two_l_squared_m, four_l_squared_m, two_l_squared, l_over_b, l_squared_over_b,
+        J_plus_two_l_squared_m, minus_two_l_squared_m, minus_two_l_m_g, minus_half_over_b, two_l,
+        half_over_l, inverse_M, k0, g_over_b,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }

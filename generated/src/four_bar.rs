@@ -1,7 +1,7 @@
 // @generated from machines/four_bar.machine by `cargo xtask generate`; edits are lost.
 
-//! A four-bar linkage: crank, coupler and rocker, all uniform, on a ground bar of length d. Angles
-//! are
+//! A four-bar linkage: crank, coupler and rocker, all uniform, on a ground bar of length d.
+//! Angles are
 //! absolute. With the lengths given the crank turns over and the rocker swings.
 //!
 //! 3 coordinates, 9 parameters. Arithmetic of one call:
@@ -18,8 +18,8 @@
 //! | `constraint_rates` | 9 | 4 | 0 | 3 | 0 | 19 |
 //! | `constraint_matrix` | 6 | 0 | 0 | 3 | 0 | 12 |
 //! | `constraint_bias` | 12 | 4 | 0 | 3 | 0 | 22 |
-//! | `accelerations` | 68 | 36 | 3 | 3 | 0 | 113 |
-//! | `multipliers` | 58 | 28 | 3 | 3 | 0 | 95 |
+//! | `accelerations` | 68 | 35 | 3 | 3 | 0 | 112 |
+//! | `multipliers` | 58 | 27 | 3 | 3 | 0 | 94 |
 //! | `kinetic_energy` | 16 | 6 | 0 | 2 | 0 | 26 |
 //! | `potential_energy` | 5 | 3 | 0 | 3 | 0 | 11 |
 //!
@@ -38,8 +38,8 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A four-bar linkage: crank, coupler and rocker, all uniform, on a ground bar of length d. Angles
-/// are
+/// A four-bar linkage: crank, coupler and rocker, all uniform, on a ground bar of length d.
+/// Angles are
 /// absolute. With the lengths given the crank turns over and the rocker swings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FourBar<S = f64> {
@@ -74,14 +74,11 @@ impl<S: ::lagrangian::emitted::Scalar> FourBar<S> {
         let t4 = self.m1 * t0;
         let t5 = t1 * self.m1;
         let t6 = self.b * t2;
-        let half_c_m3_g = t1 * t3;
         let t7 = self.c * t3;
         let half_a_b_m2 = t2 * (self.a * S::from_f64(0.5));
         let t8 = S::from_ratio(1, 3);
         let pivot_0 = t4 * t8 + self.m2 * t0;
         let t9 = S::from_ratio(1, 12);
-        let half_b_m2_g = t2 * t1;
-        let k6 = self.a * (m2_g + t5);
         let t10 = S::from_ratio(1, 6);
         let t11 = (self.m1 + self.m2 * S::from_f64(4.0)) * (t0 * S::from_f64(0.25));
         let k5 = t7 * t8;
@@ -94,13 +91,13 @@ impl<S: ::lagrangian::emitted::Scalar> FourBar<S> {
         let k4 = t6 * t8;
         let minus_a = -self.a;
         let minus_half_a_b_m2 = -half_a_b_m2;
-        let k7 = -k6;
-        let minus_half_b_m2_g = -half_b_m2_g;
-        let minus_half_c_m3_g = -half_c_m3_g;
+        let k6 = -(self.a * (m2_g + t5));
+        let minus_half_b_m2_g = -(t2 * t1);
+        let minus_half_c_m3_g = -(t1 * t3);
         let minus_b = -self.b;
         let minus_c = -self.c;
-        let k8 = S::from_f64(3.0) / (self.m3 * (self.c * self.c));
-        let k9 = S::ONE / pivot_0;
+        let k7 = S::from_f64(3.0) / (self.m3 * (self.c * self.c));
+        let k8 = S::ONE / pivot_0;
         let pivots = [(2, k5, k5), (0, pivot_0, pivot_0)];
         Prepared {
             a: self.a,
@@ -112,24 +109,21 @@ impl<S: ::lagrangian::emitted::Scalar> FourBar<S> {
             k0,
             m2_g,
             half_a_m1_g,
-            half_c_m3_g,
             k1,
             k2,
             half_a_b_m2,
             k3,
             k4,
             k5,
-            k6,
-            half_b_m2_g,
             minus_a,
             minus_half_a_b_m2,
-            k7,
+            k6,
             minus_half_b_m2_g,
             minus_half_c_m3_g,
             minus_b,
             minus_c,
+            k7,
             k8,
-            k9,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -166,14 +160,6 @@ pub struct Coordinates<S = f64> {
     pub rocker: S,
 }
 
-/// What can be set while a [`FourBar`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`FourBar`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`FourBar`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -195,8 +181,6 @@ pub struct Prepared<S = f64> {
     m2_g: S,
     /// `0.5*a*m1*g`
     half_a_m1_g: S,
-    /// `0.5*c*m3*g`
-    half_c_m3_g: S,
     /// `(1/6)*a^2*m1`
     k1: S,
     /// `(1/6)*c^2*m3`
@@ -209,16 +193,12 @@ pub struct Prepared<S = f64> {
     k4: S,
     /// `(1/3)*c^2*m3`
     k5: S,
-    /// `a*(m2*g + 0.5*m1*g)`
-    k6: S,
-    /// `0.5*b*m2*g`
-    half_b_m2_g: S,
     /// `-a`
     minus_a: S,
     /// `-0.5*a*b*m2`
     minus_half_a_b_m2: S,
     /// `-a*(m2*g + 0.5*m1*g)`
-    k7: S,
+    k6: S,
     /// `-0.5*b*m2*g`
     minus_half_b_m2_g: S,
     /// `-0.5*c*m3*g`
@@ -228,9 +208,9 @@ pub struct Prepared<S = f64> {
     /// `-c`
     minus_c: S,
     /// `3/c^2/m3`
-    k8: S,
+    k7: S,
     /// `1/(a^2*m2 + (1/3)*a^2*m1)`
-    k9: S,
+    k8: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -291,7 +271,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     let cos_crank = crank.cos();
     let cos_coupler = coupler.cos();
     let cos_rocker = rocker.cos();
-    let q_crank = p.k7 * cos_crank;
+    let q_crank = p.k6 * cos_crank;
     let q_coupler = p.minus_half_b_m2_g * cos_coupler;
     let q_rocker = p.minus_half_c_m3_g * cos_rocker;
     [q_crank, q_coupler, q_rocker]
@@ -311,9 +291,9 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let t1 = crank_dot * crank_dot;
     let t2 = sin_coupler * (cos_crank * p.half_a_b_m2);
     let t3 = cos_coupler * (sin_crank * p.half_a_b_m2);
-    let f_crank = t0 * t2 - (t0 * t3 + cos_crank * p.k6);
-    let f_coupler = t3 * t1 - (t2 * t1 + cos_coupler * p.half_b_m2_g);
-    let f_rocker = p.minus_half_c_m3_g * cos_rocker;
+    let f_crank = t0 * t2 - (t0 * t3 - cos_crank * p.k6);
+    let f_coupler = t1 * t3 - (t1 * t2 - cos_coupler * p.minus_half_b_m2_g);
+    let f_rocker = cos_rocker * p.minus_half_c_m3_g;
     [f_crank, f_coupler, f_rocker]
 }
 
@@ -422,210 +402,237 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     [gamma1, gamma2]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
-/// multiplied out, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass
+    /// matrix multiplied out, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 3], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 3],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let crank = n(q[0]);
-        let coupler = n(q[1]);
-        let rocker = n(q[2]);
-        let crank_dot = n(v[0]);
-        let coupler_dot = n(v[1]);
-        let rocker_dot = n(v[2]);
-        let angles = [coupler, crank, rocker];
-        let circular = N::sin_cos_all(angles);
-        let (sin_coupler, cos_coupler) = circular[0];
-        let (sin_crank, cos_crank) = circular[1];
-        let (sin_rocker, cos_rocker) = circular[2];
-        let t0 = crank_dot * crank_dot;
-        let t1 = coupler_dot * coupler_dot;
-        let t2 = rocker_dot * rocker_dot;
-        let t3 = cos_crank * n(p.a);
-        let t4 = sin_crank * n(p.a);
-        let t5 = sin_coupler * n(p.b);
-        let t6 = sin_rocker * n(p.c);
-        let t7 = cos_coupler * n(p.b);
-        let t8 = cos_rocker * n(p.c);
-        let t9 = cos_coupler * sin_crank;
-        let t10 = n(p.k9) * t4;
-        let t11 = n(p.k8) * t6;
-        let t12 = n(p.k9) * t3;
-        let t13 = n(p.k8) * t8;
-        let t14 = sin_coupler * cos_crank;
-        let t15 = sin_coupler.mul_add(sin_crank, cos_coupler * cos_crank);
-        let t16 = n(p.half_a_b_m2) * t15;
-        let t17 = n(p.k9) * t16;
-        let t18 = t16.neg_mul_add(t10, t5);
-        let t19 = t12.neg_mul_add(t16, t7);
-        let t20 = cos_rocker * n(p.half_c_m3_g);
-        let t21 = t16.neg_mul_add(t17, n(p.k4));
-        let t22 = t1 * n(p.half_a_b_m2);
-        let t23 = (t9 - t14).mul_add(t22, cos_crank * n(p.k6));
-        let t24 = cos_coupler * n(p.half_b_m2_g);
-        let t25 = t8.neg_mul_add(t2, t1.mul_add(t7, t3 * t0));
-        let t26 = t6.neg_mul_add(t2, t1.mul_add(t5, t4 * t0));
-        let t27 = N::ONE / t21;
-        let t28 = (t14 - t9).mul_add(n(p.half_a_b_m2) * t0, t24);
-        let t29 = t23.neg_mul_add(t17, t28);
-        let t30 = t27 * t18;
-        let t31 = t27 * t19;
-        let t32 = t18.mul_add(t30, t4.mul_add(t10, t6 * t11));
-        let t33 = t31.mul_add(t18, t12.mul_add(t4, t13 * t6));
-        let t34 = t23.neg_mul_add(t10, t11.mul_add(t20, t25));
-        let t35 = t30.neg_mul_add(t29, t34);
-        let t36 = t23.mul_add(t12, t13.neg_mul_add(t20, t26));
-        let t37 = t19.mul_add(t31, t3.mul_add(t12, t8 * t13));
-        let t38 = N::ONE / t32;
-        let t39 = t38 * t33;
-        let t40 = t33.neg_mul_add(t39, t37);
-        let t41 = t39.mul_add(t35, t31.mul_add(t29, t36)) / t40;
-        let t42 = t39.mul_add(t41, t38 * t35);
-        let t43 = t30.mul_add(t42, t31.neg_mul_add(t41, t27 * t29));
-        let t44 = t10.neg_mul_add(t42, t12.mul_sub(t41, n(p.k9) * t23));
-        let crank_ddot = t17.mul_add(t43, t44);
-        let coupler_ddot = -t43;
-        let rocker_ddot = t11.mul_sub(t42, t13.mul_add(t41, n(p.k8) * t20));
-        let sound = PIVOTS.hold(t21, n(p.k4))
-            & PIVOTS.hold(t32, t32)
-            & PIVOTS.hold(t40, t37)
-            & coupler_ddot.is_finite();
-        if !sound {
-            let pivots = [(1, t21, n(p.k4)), (3, t32, t32), (4, t40, t37)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            crank_ddot.store(),
-            coupler_ddot.store(),
-            rocker_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let crank = n(q[0]);
+    let coupler = n(q[1]);
+    let rocker = n(q[2]);
+    let crank_dot = n(v[0]);
+    let coupler_dot = n(v[1]);
+    let rocker_dot = n(v[2]);
+    let angles = [coupler, crank, rocker];
+    let circular = N::sin_cos_all(angles);
+    let (sin_coupler, cos_coupler) = circular[0];
+    let (sin_crank, cos_crank) = circular[1];
+    let (sin_rocker, cos_rocker) = circular[2];
+    let t0 = crank_dot * crank_dot;
+    let t1 = coupler_dot * coupler_dot;
+    let t2 = rocker_dot * rocker_dot;
+    let t3 = cos_crank * n(p.a);
+    let t4 = sin_crank * n(p.a);
+    let t5 = sin_coupler * n(p.b);
+    let t6 = sin_rocker * n(p.c);
+    let t7 = cos_coupler * n(p.b);
+    let t8 = cos_rocker * n(p.c);
+    // Eliminates crank from row along: l[along, crank].
+    let t9 = t4 * n(p.k8);
+    // Eliminates rocker from row along: l[along, rocker].
+    let t10 = t6 * n(p.k7);
+    // Eliminates crank from row across: l[across, crank].
+    let t11 = t3 * n(p.k8);
+    // Eliminates rocker from row across: l[across, rocker].
+    let t12 = t8 * n(p.k7);
+    let t13 = cos_coupler.mul_add(cos_crank, sin_coupler * sin_crank);
+    let t14 = n(p.half_a_b_m2) * t13;
+    let t15 = cos_coupler.mul_sub(sin_crank, sin_coupler * cos_crank);
+    // Eliminates crank from row coupler: l[coupler, crank].
+    let t16 = n(p.k8) * t14;
+    let t17 = t9.neg_mul_add(t14, t5);
+    let t18 = t11.neg_mul_add(t14, t7);
+    let t19 = cos_rocker * n(p.minus_half_c_m3_g);
+    // Row coupler: pivot d[coupler].
+    let t20 = t14.neg_mul_add(t16, n(p.k4));
+    let t21 = (t1 * n(p.half_a_b_m2)).mul_sub(t15, cos_crank * n(p.k6));
+    let t22 = cos_coupler * n(p.minus_half_b_m2_g);
+    let t23 = t2.neg_mul_add(t8, t0.mul_add(t3, t1 * t7));
+    let t24 = t2.neg_mul_add(t6, t0.mul_add(t4, t1 * t5));
+    let t25 = N::ONE / t20;
+    let t26 = (t0 * n(p.half_a_b_m2)).mul_add(t15, t22);
+    // Row coupler: right-hand side z[coupler].
+    let t27 = t16.mul_add(t21, t26);
+    // Eliminates coupler from row along: l[along, coupler].
+    let t28 = t17 * t25;
+    // Eliminates coupler from row across: l[across, coupler].
+    let t29 = t18 * t25;
+    // Row along: pivot d[along].
+    let t30 = t17.mul_add(t28, t6.mul_add(t10, t4 * t9));
+    let t31 = t17.mul_add(t29, t6.mul_add(t12, t4 * t11));
+    let t32 = t9.neg_mul_add(t21, t10.neg_mul_add(t19, t23));
+    // Row along: right-hand side z[along].
+    let t33 = t27.mul_add(t28, t32);
+    let t34 = t11.mul_add(t21, t12.mul_add(t19, t24));
+    let t35 = t18.mul_add(t29, t8.mul_add(t12, t3 * t11));
+    let t36 = N::ONE / t30;
+    // Eliminates along from row across: l[across, along].
+    let t37 = t31 * t36;
+    // Row across: pivot d[across].
+    let t38 = t31.neg_mul_add(t37, t35);
+    // Row across: right-hand side z[across].
+    let t39 = t33.mul_add(t37, t27.neg_mul_add(t29, t34)) / t38;
+    // Back substitution: lambda[along].
+    let t40 = t37.mul_add(t39, t33 * t36);
+    // Back substitution: a[coupler].
+    let t41 = t28.mul_sub(t40, t29.mul_add(t39, t25 * t27));
+    let t42 = t9.neg_mul_add(t40, t11.mul_sub(t39, n(p.k8) * t21));
+    // Back substitution: a[crank].
+    let crank_ddot = t16.mul_add(t41, t42);
+    let coupler_ddot = -t41;
+    // Back substitution: a[rocker].
+    let rocker_ddot = t10.mul_sub(t40, t12.mul_sub(t39, n(p.k7) * t19));
+    let sound = PIVOTS.hold(t20, n(p.k4))
+        & PIVOTS.hold(t30, t30)
+        & PIVOTS.hold(t38, t35)
+        & coupler_ddot.is_finite();
+    if !sound {
+        let pivots = [(1, t20, n(p.k4)), (3, t30, t30), (4, t38, t35)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        crank_ddot.store(),
+        coupler_ddot.store(),
+        rocker_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 2], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 3],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let crank = n(q[0]);
-        let coupler = n(q[1]);
-        let rocker = n(q[2]);
-        let crank_dot = n(v[0]);
-        let coupler_dot = n(v[1]);
-        let rocker_dot = n(v[2]);
-        let angles = [coupler, crank, rocker];
-        let circular = N::sin_cos_all(angles);
-        let (sin_coupler, cos_coupler) = circular[0];
-        let (sin_crank, cos_crank) = circular[1];
-        let (sin_rocker, cos_rocker) = circular[2];
-        let t0 = crank_dot * crank_dot;
-        let t1 = coupler_dot * coupler_dot;
-        let t2 = rocker_dot * rocker_dot;
-        let t3 = cos_crank * n(p.a);
-        let t4 = sin_crank * n(p.a);
-        let t5 = sin_coupler * n(p.b);
-        let t6 = sin_rocker * n(p.c);
-        let t7 = cos_coupler * n(p.b);
-        let t8 = cos_rocker * n(p.c);
-        let t9 = cos_coupler * sin_crank;
-        let t10 = n(p.k9) * t4;
-        let t11 = n(p.k8) * t6;
-        let t12 = n(p.k9) * t3;
-        let t13 = n(p.k8) * t8;
-        let t14 = sin_coupler * cos_crank;
-        let t15 = sin_coupler.mul_add(sin_crank, cos_coupler * cos_crank);
-        let t16 = n(p.half_a_b_m2) * t15;
-        let t17 = n(p.k9) * t16;
-        let t18 = t16.neg_mul_add(t10, t5);
-        let t19 = t16.neg_mul_add(t12, t7);
-        let t20 = cos_rocker * n(p.half_c_m3_g);
-        let t21 = t16.neg_mul_add(t17, n(p.k4));
-        let t22 = n(p.half_a_b_m2) * t1;
-        let t23 = (t9 - t14).mul_add(t22, cos_crank * n(p.k6));
-        let t24 = cos_coupler * n(p.half_b_m2_g);
-        let t25 = t8.neg_mul_add(t2, t7.mul_add(t1, t3 * t0));
-        let t26 = t6.neg_mul_add(t2, t5.mul_add(t1, t4 * t0));
-        let t27 = N::ONE / t21;
-        let t28 = (t14 - t9).mul_add(n(p.half_a_b_m2) * t0, t24);
-        let t29 = t17.neg_mul_add(t23, t28);
-        let t30 = t27 * t18;
-        let t31 = t27 * t19;
-        let t32 = t18.mul_add(t30, t4.mul_add(t10, t6 * t11));
-        let t33 = t18.mul_add(t31, t4.mul_add(t12, t6 * t13));
-        let t34 = t10.neg_mul_add(t23, t11.mul_add(t20, t25));
-        let t35 = t30.neg_mul_add(t29, t34);
-        let t36 = t12.mul_add(t23, t13.neg_mul_add(t20, t26));
-        let t37 = t19.mul_add(t31, t3.mul_add(t12, t8 * t13));
-        let t38 = N::ONE / t32;
-        let t39 = t38 * t33;
-        let t40 = t33.neg_mul_add(t39, t37);
-        let lambda2 = t39.mul_add(t35, t31.mul_add(t29, t36)) / t40;
-        let lambda1 = t39.mul_add(lambda2, t38 * t35);
-        let sound = PIVOTS.hold(t21, n(p.k4))
-            & PIVOTS.hold(t32, t32)
-            & PIVOTS.hold(t40, t37)
-            & lambda1.is_finite();
-        if !sound {
-            let pivots = [(1, t21, n(p.k4)), (3, t32, t32), (4, t40, t37)];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [lambda1.store(), lambda2.store()];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let crank = n(q[0]);
+    let coupler = n(q[1]);
+    let rocker = n(q[2]);
+    let crank_dot = n(v[0]);
+    let coupler_dot = n(v[1]);
+    let rocker_dot = n(v[2]);
+    let angles = [coupler, crank, rocker];
+    let circular = N::sin_cos_all(angles);
+    let (sin_coupler, cos_coupler) = circular[0];
+    let (sin_crank, cos_crank) = circular[1];
+    let (sin_rocker, cos_rocker) = circular[2];
+    let t0 = crank_dot * crank_dot;
+    let t1 = coupler_dot * coupler_dot;
+    let t2 = rocker_dot * rocker_dot;
+    let t3 = cos_crank * n(p.a);
+    let t4 = sin_crank * n(p.a);
+    let t5 = sin_coupler * n(p.b);
+    let t6 = sin_rocker * n(p.c);
+    let t7 = cos_coupler * n(p.b);
+    let t8 = cos_rocker * n(p.c);
+    // Eliminates crank from row along: l[along, crank].
+    let t9 = t4 * n(p.k8);
+    // Eliminates rocker from row along: l[along, rocker].
+    let t10 = t6 * n(p.k7);
+    // Eliminates crank from row across: l[across, crank].
+    let t11 = t3 * n(p.k8);
+    // Eliminates rocker from row across: l[across, rocker].
+    let t12 = t8 * n(p.k7);
+    let t13 = cos_coupler.mul_add(cos_crank, sin_coupler * sin_crank);
+    let t14 = n(p.half_a_b_m2) * t13;
+    let t15 = cos_coupler.mul_sub(sin_crank, sin_coupler * cos_crank);
+    // Eliminates crank from row coupler: l[coupler, crank].
+    let t16 = n(p.k8) * t14;
+    let t17 = t9.neg_mul_add(t14, t5);
+    let t18 = t11.neg_mul_add(t14, t7);
+    let t19 = cos_rocker * n(p.minus_half_c_m3_g);
+    // Row coupler: pivot d[coupler].
+    let t20 = t14.neg_mul_add(t16, n(p.k4));
+    let t21 = (t1 * n(p.half_a_b_m2)).mul_sub(t15, cos_crank * n(p.k6));
+    let t22 = cos_coupler * n(p.minus_half_b_m2_g);
+    let t23 = t2.neg_mul_add(t8, t0.mul_add(t3, t1 * t7));
+    let t24 = t2.neg_mul_add(t6, t0.mul_add(t4, t1 * t5));
+    let t25 = N::ONE / t20;
+    let t26 = (t0 * n(p.half_a_b_m2)).mul_add(t15, t22);
+    // Row coupler: right-hand side z[coupler].
+    let t27 = t16.mul_add(t21, t26);
+    // Eliminates coupler from row along: l[along, coupler].
+    let t28 = t17 * t25;
+    // Eliminates coupler from row across: l[across, coupler].
+    let t29 = t18 * t25;
+    // Row along: pivot d[along].
+    let t30 = t17.mul_add(t28, t6.mul_add(t10, t4 * t9));
+    let t31 = t17.mul_add(t29, t6.mul_add(t12, t4 * t11));
+    let t32 = t9.neg_mul_add(t21, t10.neg_mul_add(t19, t23));
+    // Row along: right-hand side z[along].
+    let t33 = t27.mul_add(t28, t32);
+    let t34 = t11.mul_add(t21, t12.mul_add(t19, t24));
+    let t35 = t18.mul_add(t29, t8.mul_add(t12, t3 * t11));
+    let t36 = N::ONE / t30;
+    // Eliminates along from row across: l[across, along].
+    let t37 = t31 * t36;
+    // Row across: pivot d[across].
+    let t38 = t31.neg_mul_add(t37, t35);
+    // Row across: right-hand side z[across].
+    let lambda2 = t33.mul_add(t37, t27.neg_mul_add(t29, t34)) / t38;
+    // Back substitution: lambda[along].
+    let lambda1 = t37.mul_add(lambda2, t33 * t36);
+    let sound = PIVOTS.hold(t20, n(p.k4))
+        & PIVOTS.hold(t30, t30)
+        & PIVOTS.hold(t38, t35)
+        & lambda1.is_finite();
+    if !sound {
+        let pivots = [(1, t20, n(p.k4)), (3, t30, t30), (4, t38, t35)];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [lambda1.store(), lambda2.store()];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -667,8 +674,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let sin_crank = crank.sin();
     let sin_coupler = coupler.sin();
     let sin_rocker = rocker.sin();
-    let t0 = p.half_c_m3_g * sin_rocker + sin_crank * p.half_a_m1_g;
-    p.m2_g * (p.half_b * sin_coupler + sin_crank * p.a) + t0
+    let t0 = sin_crank * p.half_a_m1_g - sin_rocker * p.minus_half_c_m3_g;
+    t0 + (sin_crank * p.a + sin_coupler * p.half_b) * p.m2_g
 }
 
 ::lagrangian::emitted::implement! {
@@ -689,12 +696,11 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         coupler: "coupler" "rad";
         rocker: "rocker" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
-        a, b, c, d, m2, half_b, k0, m2_g, half_a_m1_g, half_c_m3_g, k1, k2, half_a_b_m2, k3, k4, k5,
-        k6, half_b_m2_g, minus_a, minus_half_a_b_m2, k7, minus_half_b_m2_g, minus_half_c_m3_g,
-        minus_b, minus_c, k8, k9,
+        a, b, c, d, m2, half_b, k0, m2_g, half_a_m1_g, k1, k2, half_a_b_m2, k3, k4, k5, minus_a,
+        minus_half_a_b_m2, k6, minus_half_b_m2_g, minus_half_c_m3_g, minus_b, minus_c, k7, k8,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

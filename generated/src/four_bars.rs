@@ -1,9 +1,9 @@
 // @generated from machines/four_bars.machine by `cargo xtask generate`; edits are lost.
 
-//! N four-bar linkages in a row, all bars equal: N + 1 cranks on ground, joined by N couplers.
-//! While
-//! the couplers stay level it is a pendulum. Where the cranks lie level too, the constraints depend
-//! on
+//! N four-bar linkages in a row, all bars equal: N + 1 cranks on ground, joined by N
+//! couplers. While
+//! the couplers stay level it is a pendulum. Where the cranks lie level too, the constraints
+//! depend on
 //! each other, and every window could as well leave the parallelogram.
 //!
 //! 5 coordinates, 4 parameters. Arithmetic of one call:
@@ -20,8 +20,8 @@
 //! | `constraint_rates` | 14 | 8 | 0 | 5 | 0 | 32 |
 //! | `constraint_matrix` | 12 | 0 | 0 | 5 | 0 | 22 |
 //! | `constraint_bias` | 19 | 8 | 0 | 5 | 0 | 37 |
-//! | `accelerations` | 158 | 88 | 6 | 5 | 0 | 262 |
-//! | `multipliers` | 139 | 72 | 6 | 5 | 0 | 227 |
+//! | `accelerations` | 158 | 86 | 6 | 5 | 0 | 260 |
+//! | `multipliers` | 139 | 70 | 6 | 5 | 0 | 225 |
 //! | `kinetic_energy` | 27 | 12 | 0 | 4 | 0 | 47 |
 //! | `potential_energy` | 6 | 6 | 0 | 5 | 0 | 17 |
 //!
@@ -40,10 +40,10 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// N four-bar linkages in a row, all bars equal: N + 1 cranks on ground, joined by N couplers.
-/// While
-/// the couplers stay level it is a pendulum. Where the cranks lie level too, the constraints depend
-/// on
+/// N four-bar linkages in a row, all bars equal: N + 1 cranks on ground, joined by N
+/// couplers. While
+/// the couplers stay level it is a pendulum. Where the cranks lie level too, the constraints
+/// depend on
 /// each other, and every window could as well leave the parallelogram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FourBars<S = f64> {
@@ -65,8 +65,6 @@ impl<S: ::lagrangian::emitted::Scalar> FourBars<S> {
         let t2 = t0 * self.g;
         let t3 = S::ONE / (self.m * (self.l * self.l));
         let half_l_squared_m = S::from_f64(0.5) * t1;
-        let half_l_m_g = S::from_f64(0.5) * t2;
-        let k4 = t2 * S::from_f64(1.5);
         let k2 = t1 * S::from_ratio(4, 3);
         let k3 = t1 * S::from_ratio(1, 3);
         let half_l = self.l * S::from_f64(0.5);
@@ -75,10 +73,10 @@ impl<S: ::lagrangian::emitted::Scalar> FourBars<S> {
         let k1 = t1 * S::from_ratio(1, 6);
         let minus_l = -self.l;
         let minus_half_l_squared_m = -half_l_squared_m;
-        let k5 = -k4;
-        let minus_half_l_m_g = -half_l_m_g;
-        let k6 = t3 * S::from_f64(3.0);
-        let k7 = t3 * S::from_f64(0.75);
+        let k4 = -(t2 * S::from_f64(1.5));
+        let minus_half_l_m_g = -(S::from_f64(0.5) * t2);
+        let k5 = t3 * S::from_f64(3.0);
+        let k6 = t3 * S::from_f64(0.75);
         let pivots = [(2, k3, k3), (0, k2, k2), (4, k3, k3)];
         Prepared {
             l: self.l,
@@ -86,18 +84,16 @@ impl<S: ::lagrangian::emitted::Scalar> FourBars<S> {
             half_l,
             k0,
             m_g,
-            half_l_m_g,
             k1,
             half_l_squared_m,
             k2,
             k3,
-            k4,
             minus_l,
             minus_half_l_squared_m,
-            k5,
+            k4,
             minus_half_l_m_g,
+            k5,
             k6,
-            k7,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -126,14 +122,6 @@ pub struct Coordinates<S = f64> {
     pub coupler: [S; 2],
 }
 
-/// What can be set while a [`FourBars`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`FourBars`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`FourBars`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -147,8 +135,6 @@ pub struct Prepared<S = f64> {
     k0: S,
     /// `m*g`
     m_g: S,
-    /// `0.5*l*m*g`
-    half_l_m_g: S,
     /// `(1/6)*l^2*m`
     k1: S,
     /// `0.5*l^2*m`
@@ -157,20 +143,18 @@ pub struct Prepared<S = f64> {
     k2: S,
     /// `(1/3)*l^2*m`
     k3: S,
-    /// `1.5*l*m*g`
-    k4: S,
     /// `-l`
     minus_l: S,
     /// `-0.5*l^2*m`
     minus_half_l_squared_m: S,
     /// `-1.5*l*m*g`
-    k5: S,
+    k4: S,
     /// `-0.5*l*m*g`
     minus_half_l_m_g: S,
     /// `3/l^2/m`
-    k6: S,
+    k5: S,
     /// `0.75/l^2/m`
-    k7: S,
+    k6: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -264,8 +248,8 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
     let cos_crank_2 = crank_2.cos();
     let cos_coupler_1 = coupler_1.cos();
     let cos_coupler_2 = coupler_2.cos();
-    let q_crank_0 = p.k5 * cos_crank_0;
-    let q_crank_1 = p.k5 * cos_crank_1;
+    let q_crank_0 = p.k4 * cos_crank_0;
+    let q_crank_1 = p.k4 * cos_crank_1;
     let q_crank_2 = p.minus_half_l_m_g * cos_crank_2;
     let q_coupler_1 = p.minus_half_l_m_g * cos_coupler_1;
     let q_coupler_2 = p.minus_half_l_m_g * cos_coupler_2;
@@ -294,13 +278,13 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: 
     let t3 = crank_1_dot * crank_1_dot;
     let t4 = sin_coupler_1 * (cos_crank_0 * p.half_l_squared_m);
     let t5 = cos_coupler_1 * (sin_crank_0 * p.half_l_squared_m);
-    let t6 = sin_coupler_2 * (p.half_l_squared_m * cos_crank_1);
-    let t7 = cos_coupler_2 * (p.half_l_squared_m * sin_crank_1);
-    let f_crank_0 = t0 * t4 - (t0 * t5 + cos_crank_0 * p.k4);
-    let f_crank_1 = t1 * t6 - (t1 * t7 + p.k4 * cos_crank_1);
-    let f_crank_2 = p.minus_half_l_m_g * cos_crank_2;
-    let f_coupler_1 = t5 * t2 - (t4 * t2 + cos_coupler_1 * p.half_l_m_g);
-    let f_coupler_2 = t7 * t3 - (t6 * t3 + cos_coupler_2 * p.half_l_m_g);
+    let t6 = sin_coupler_2 * (cos_crank_1 * p.half_l_squared_m);
+    let t7 = cos_coupler_2 * (sin_crank_1 * p.half_l_squared_m);
+    let f_crank_0 = t0 * t4 - (t0 * t5 - cos_crank_0 * p.k4);
+    let f_crank_1 = t1 * t6 - (t1 * t7 - cos_crank_1 * p.k4);
+    let f_crank_2 = cos_crank_2 * p.minus_half_l_m_g;
+    let f_coupler_1 = t2 * t5 - (t2 * t4 - cos_coupler_1 * p.minus_half_l_m_g);
+    let f_coupler_2 = t3 * t7 - (t3 * t6 - cos_coupler_2 * p.minus_half_l_m_g);
     [f_crank_0, f_crank_1, f_crank_2, f_coupler_1, f_coupler_2]
 }
 
@@ -468,373 +452,443 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     [gamma1, gamma2, gamma3, gamma4]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
-/// multiplied out, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 5],
-    v: &[S; 5],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass
+    /// matrix multiplied out, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 5], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 5], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 5],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 5],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 5], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let crank_0 = n(q[0]);
-        let crank_1 = n(q[1]);
-        let crank_2 = n(q[2]);
-        let coupler_1 = n(q[3]);
-        let coupler_2 = n(q[4]);
-        let crank_0_dot = n(v[0]);
-        let crank_1_dot = n(v[1]);
-        let crank_2_dot = n(v[2]);
-        let coupler_1_dot = n(v[3]);
-        let coupler_2_dot = n(v[4]);
-        let angles = [coupler_1, crank_0, coupler_2, crank_1, crank_2];
-        let circular = N::sin_cos_all(angles);
-        let (sin_coupler_1, cos_coupler_1) = circular[0];
-        let (sin_crank_0, cos_crank_0) = circular[1];
-        let (sin_coupler_2, cos_coupler_2) = circular[2];
-        let (sin_crank_1, cos_crank_1) = circular[3];
-        let (sin_crank_2, cos_crank_2) = circular[4];
-        let t0 = crank_0_dot * crank_0_dot;
-        let t1 = crank_1_dot * crank_1_dot;
-        let t2 = coupler_1_dot * coupler_1_dot;
-        let t3 = coupler_2_dot * coupler_2_dot;
-        let t4 = crank_2_dot * crank_2_dot;
-        let t5 = cos_crank_0 * n(p.l);
-        let t6 = sin_crank_0 * n(p.l);
-        let t7 = n(p.l) * sin_crank_1;
-        let t8 = sin_coupler_2 * n(p.l);
-        let t9 = cos_coupler_1 * cos_crank_0;
-        let t10 = n(p.l) * sin_crank_2;
-        let t11 = cos_coupler_2 * cos_crank_1;
-        let t12 = n(p.k7) * t5;
-        let t13 = n(p.k7) * t6;
-        let t14 = n(p.l) * cos_crank_1;
-        let t15 = n(p.k6) * t8;
-        let t16 = cos_coupler_2 * n(p.l);
-        let t17 = sin_coupler_1.mul_add(sin_crank_0, t9);
-        let t18 = n(p.half_l_squared_m) * t17;
-        let t19 = n(p.k6) * t10;
-        let t20 = sin_coupler_2.mul_add(sin_crank_1, t11);
-        let t21 = n(p.half_l_squared_m) * t20;
-        let t22 = n(p.k6) * t16;
-        let t23 = n(p.l) * cos_crank_2;
-        let t24 = n(p.k7) * t18;
-        let t25 = t18.neg_mul_add(t13, sin_coupler_1 * n(p.l));
-        let t26 = n(p.k6) * t21;
-        let t27 = t21.neg_mul_add(t15, t7);
-        let t28 = t18.neg_mul_add(t12, cos_coupler_1 * n(p.l));
-        let t29 = cos_coupler_1 * sin_crank_0;
-        let t30 = sin_coupler_1 * cos_crank_0;
-        let t31 = t18.neg_mul_add(t24, n(p.k3));
-        let t32 = t21.neg_mul_add(t26, n(p.k2));
-        let t33 = t22.neg_mul_add(t21, t14);
-        let t34 = n(p.k6) * t23;
-        let t35 = sin_coupler_2 * cos_crank_1;
-        let t36 = cos_coupler_2 * sin_crank_1;
-        let t37 = N::ONE / t31;
-        let t38 = N::ONE / t32;
-        let t39 = cos_crank_1 * t1;
-        let t40 = sin_crank_1 * t1;
-        let t41 = t2 * n(p.half_l_squared_m);
-        let t42 = (t29 - t30).mul_add(t41, cos_crank_0 * n(p.k4));
-        let t43 = cos_crank_2 * n(p.half_l_m_g);
-        let t44 = cos_coupler_2 * n(p.half_l_m_g);
-        let t45 = (t35 - t36).mul_add(n(p.half_l_squared_m) * t1, t44);
-        let t46 = n(p.half_l_squared_m) * t3;
-        let t47 = t37 * t25;
-        let t48 = t37 * t28;
-        let t49 = t38 * t7;
-        let t50 = t38 * t27;
-        let t51 = t38 * t14;
-        let t52 = t38 * t33;
-        let t53 = cos_coupler_1 * n(p.half_l_m_g);
-        let t54 = t2.mul_add(sin_coupler_1, sin_crank_0 * t0) - t40;
-        let t55 = t7 * t50;
-        let t56 = t27.mul_add(t50, t8.mul_add(t15, t10 * t19));
-        let t57 = t52 * t7;
-        let t58 = t7.mul_add(t49, t25.mul_add(t47, t6 * t13));
-        let t59 = t51.mul_add(t7, t48.mul_add(t25, t12 * t6));
-        let t60 = cos_coupler_2.mul_add(t3, t39);
-        let t61 = sin_coupler_2.mul_add(t3, t40);
-        let t62 = t14.mul_add(t51, t28.mul_add(t48, t5 * t12));
-        let t63 = (t36 - t35).mul_add(t46, n(p.k4) * cos_crank_1);
-        let t64 = t26.neg_mul_add(t45, t63);
-        let t65 = N::ONE / t58;
-        let t66 = t2.mul_add(cos_coupler_1, cos_crank_0 * t0) - t39;
-        let t67 = (t30 - t29).mul_add(n(p.half_l_squared_m) * t0, t53);
-        let t68 = t42.neg_mul_add(t24, t67);
-        let t69 = cos_crank_2.neg_mul_add(t4, t60);
-        let t70 = sin_crank_2.neg_mul_add(t4, t61);
-        let t71 = t49.mul_add(t64, n(p.l).mul_sub(t66, t42 * t13));
-        let t72 = t47.neg_mul_add(t68, t71);
-        let t73 = t48.mul_add(t68, t42.mul_add(t12, n(p.l) * t54));
-        let t74 = t15.neg_mul_add(t45, n(p.l).mul_add(t69, t19 * t43));
-        let t75 = t22.mul_add(t45, n(p.l).mul_sub(t70, t34 * t43));
-        let t76 = t33.mul_add(t52, t16.mul_add(t22, t23 * t34));
-        let t77 = t65 * t55;
-        let t78 = t65 * t59;
-        let t79 = t65 * t57;
-        let t80 = t55.neg_mul_add(t77, t56);
-        let t81 = t55.neg_mul_add(t78, t51 * t27);
-        let t82 = t52.mul_add(t27, t22.mul_add(t8, t34 * t10));
-        let t83 = t55.neg_mul_add(t79, t82);
-        let t84 = t77.mul_add(t72, t50.neg_mul_add(t64, t74));
-        let t85 = N::ONE / t80;
-        let t86 = t85 * t81;
-        let t87 = t85 * t83;
-        let t88 = t81.neg_mul_add(t86, t59.neg_mul_add(t78, t62));
-        let t89 = t81.neg_mul_add(t87, t59.neg_mul_add(t79, t14 * t52));
-        let t90 = t78.mul_add(t72, t51.neg_mul_add(t64, t73));
-        let t91 = t86.neg_mul_add(t84, t90);
-        let t92 = t79.neg_mul_add(t72, t52.mul_add(t64, t75));
-        let t93 = N::ONE / t88;
-        let t94 = t93 * t89;
-        let t95 = t83.neg_mul_add(t87, t57.neg_mul_add(t79, t76));
-        let t96 = t89.neg_mul_add(t94, t95);
-        let t97 = t94.mul_add(t91, t87.mul_add(t84, t92)) / t96;
-        let t98 = t94.mul_add(t97, t93 * t91);
-        let t99 = t86.neg_mul_add(t98, t87.mul_add(t97, t85 * t84));
-        let t100 = t78.mul_add(t98, t79.neg_mul_add(t97, t65 * t72));
-        let t101 = t77.mul_add(t99, t100);
-        let t102 = t51.mul_add(t98, t52.neg_mul_add(t97, t38 * t64));
-        let t103 = t50.mul_add(t99, t102);
-        let t104 = t49 * t101;
-        let t105 = t47.mul_add(t101, t48.neg_mul_add(t98, t37 * t68));
-        let t106 = t13.neg_mul_add(t101, t12.mul_sub(t98, n(p.k7) * t42));
-        let t107 = t15.neg_mul_add(t99, t22.mul_sub(t97, n(p.k6) * t45));
-        let crank_0_ddot = t24.mul_add(t105, t106);
-        let crank_1_ddot = t104 - t103;
-        let crank_2_ddot = t19.mul_sub(t99, t34.mul_add(t97, n(p.k6) * t43));
-        let coupler_1_ddot = -t105;
-        let coupler_2_ddot = t26.mul_add(t103 - t104, t107);
-        let sound = PIVOTS.hold(t31, n(p.k3))
-            & PIVOTS.hold(t32, n(p.k2))
-            & PIVOTS.hold(t58, t58)
-            & PIVOTS.hold(t80, t56)
-            & PIVOTS.hold(t88, t62)
-            & PIVOTS.hold(t96, t76)
-            & coupler_2_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (3, t31, n(p.k3)),
-                (1, t32, n(p.k2)),
-                (5, t58, t58),
-                (6, t80, t56),
-                (7, t88, t62),
-                (8, t96, t76),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            crank_0_ddot.store(),
-            crank_1_ddot.store(),
-            crank_2_ddot.store(),
-            coupler_1_ddot.store(),
-            coupler_2_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let crank_0 = n(q[0]);
+    let crank_1 = n(q[1]);
+    let crank_2 = n(q[2]);
+    let coupler_1 = n(q[3]);
+    let coupler_2 = n(q[4]);
+    let crank_0_dot = n(v[0]);
+    let crank_1_dot = n(v[1]);
+    let crank_2_dot = n(v[2]);
+    let coupler_1_dot = n(v[3]);
+    let coupler_2_dot = n(v[4]);
+    let angles = [coupler_1, crank_0, coupler_2, crank_1, crank_2];
+    let circular = N::sin_cos_all(angles);
+    let (sin_coupler_1, cos_coupler_1) = circular[0];
+    let (sin_crank_0, cos_crank_0) = circular[1];
+    let (sin_coupler_2, cos_coupler_2) = circular[2];
+    let (sin_crank_1, cos_crank_1) = circular[3];
+    let (sin_crank_2, cos_crank_2) = circular[4];
+    let t0 = crank_0_dot * crank_0_dot;
+    let t1 = crank_1_dot * crank_1_dot;
+    let t2 = coupler_1_dot * coupler_1_dot;
+    let t3 = coupler_2_dot * coupler_2_dot;
+    let t4 = crank_2_dot * crank_2_dot;
+    let t5 = cos_crank_0 * n(p.l);
+    let t6 = sin_crank_0 * n(p.l);
+    let t7 = sin_crank_1 * n(p.l);
+    let t8 = sin_coupler_2 * n(p.l);
+    let t9 = sin_coupler_1 * sin_crank_0;
+    let t10 = sin_crank_2 * n(p.l);
+    let t11 = sin_coupler_2 * sin_crank_1;
+    // Eliminates crank[0] from row across[1]: l[across[1], crank[0]].
+    let t12 = t5 * n(p.k6);
+    // Eliminates crank[0] from row along[1]: l[along[1], crank[0]].
+    let t13 = t6 * n(p.k6);
+    let t14 = cos_crank_1 * n(p.l);
+    // Eliminates coupler[2] from row along[2]: l[along[2], coupler[2]].
+    let t15 = t8 * n(p.k5);
+    let t16 = cos_coupler_2 * n(p.l);
+    let t17 = cos_coupler_1.mul_add(cos_crank_0, t9);
+    let t18 = n(p.half_l_squared_m) * t17;
+    // Eliminates crank[2] from row along[2]: l[along[2], crank[2]].
+    let t19 = t10 * n(p.k5);
+    let t20 = cos_coupler_2.mul_add(cos_crank_1, t11);
+    let t21 = n(p.half_l_squared_m) * t20;
+    // Eliminates coupler[2] from row across[2]: l[across[2], coupler[2]].
+    let t22 = n(p.k5) * t16;
+    let t23 = cos_crank_2 * n(p.l);
+    // Eliminates crank[0] from row coupler[1]: l[coupler[1], crank[0]].
+    let t24 = n(p.k6) * t18;
+    let t25 = t13.neg_mul_add(t18, sin_coupler_1 * n(p.l));
+    // Eliminates coupler[2] from row crank[1]: l[crank[1], coupler[2]].
+    let t26 = n(p.k5) * t21;
+    let t27 = t15.neg_mul_add(t21, t7);
+    let t28 = t12.neg_mul_add(t18, cos_coupler_1 * n(p.l));
+    // Row coupler[1]: pivot d[coupler[1]].
+    let t29 = t18.neg_mul_add(t24, n(p.k3));
+    // Row crank[1]: pivot d[crank[1]].
+    let t30 = t21.neg_mul_add(t26, n(p.k2));
+    let t31 = t21.neg_mul_add(t22, t14);
+    // Eliminates crank[2] from row across[2]: l[across[2], crank[2]].
+    let t32 = n(p.k5) * t23;
+    let t33 = N::ONE / t29;
+    let t34 = N::ONE / t30;
+    let t35 = cos_crank_1 * t1;
+    let t36 = sin_coupler_1 * cos_crank_0;
+    let t37 = cos_coupler_1.mul_sub(sin_crank_0, t36);
+    let t38 = sin_crank_1 * t1;
+    let t39 = cos_coupler_2 * sin_crank_1;
+    let t40 = sin_coupler_2.mul_sub(cos_crank_1, t39);
+    let t41 = t2 * n(p.half_l_squared_m);
+    let t42 = t41.mul_sub(t37, cos_crank_0 * n(p.k4));
+    let t43 = cos_crank_2 * n(p.minus_half_l_m_g);
+    let t44 = cos_coupler_2 * n(p.minus_half_l_m_g);
+    let t45 = (t1 * n(p.half_l_squared_m)).mul_sub(t40, t44);
+    let t46 = t3 * n(p.half_l_squared_m);
+    // Eliminates coupler[1] from row along[1]: l[along[1], coupler[1]].
+    let t47 = t25 * t33;
+    // Eliminates coupler[1] from row across[1]: l[across[1], coupler[1]].
+    let t48 = t28 * t33;
+    // Eliminates crank[1] from row along[1]: l[along[1], crank[1]].
+    let t49 = t7 * t34;
+    // Eliminates crank[1] from row along[2]: l[along[2], crank[1]].
+    let t50 = t27 * t34;
+    // Eliminates crank[1] from row across[1]: l[across[1], crank[1]].
+    let t51 = t14 * t34;
+    // Eliminates crank[1] from row across[2]: l[across[2], crank[1]].
+    let t52 = t31 * t34;
+    let t53 = cos_coupler_1 * n(p.minus_half_l_m_g);
+    let t54 = t7 * t50;
+    let t55 = t27.mul_add(t50, t10.mul_add(t19, t8 * t15));
+    let t56 = t7 * t52;
+    // Row along[1]: pivot d[along[1]].
+    let t57 = t7.mul_add(t49, t25.mul_add(t47, t6 * t13));
+    let t58 = t7.mul_add(t51, t25.mul_add(t48, t6 * t12));
+    let t59 = cos_coupler_2.mul_add(t3, t35);
+    let t60 = sin_coupler_2.mul_add(t3, t38);
+    let t61 = t14.mul_add(t51, t28.mul_add(t48, t5 * t12));
+    // Row crank[1]: right-hand side z[crank[1]].
+    let t62 = t26.mul_add(t45, t46.mul_add(t40, cos_crank_1 * n(p.k4)));
+    let t63 = N::ONE / t57;
+    let t64 = cos_crank_0.mul_add(t0, cos_coupler_1 * t2) - t35;
+    let t65 = (t0 * n(p.half_l_squared_m)).mul_add(t37, t53);
+    // Row coupler[1]: right-hand side z[coupler[1]].
+    let t66 = t24.mul_add(t42, t65);
+    let t67 = sin_crank_0.mul_add(t0, sin_coupler_1 * t2) - t38;
+    let t68 = cos_crank_2.neg_mul_add(t4, t59);
+    let t69 = sin_crank_2.neg_mul_add(t4, t60);
+    let t70 = t49.neg_mul_add(t62, n(p.l).mul_sub(t64, t13 * t42));
+    // Row along[1]: right-hand side z[along[1]].
+    let t71 = t47.mul_add(t66, t70);
+    let t72 = t48.neg_mul_add(t66, n(p.l).mul_add(t67, t12 * t42));
+    let t73 = t15.neg_mul_add(t45, n(p.l).mul_sub(t68, t19 * t43));
+    let t74 = t22.mul_add(t45, n(p.l).mul_add(t69, t32 * t43));
+    let t75 = t31.mul_add(t52, t23.mul_add(t32, t16 * t22));
+    // Eliminates along[1] from row along[2]: l[along[2], along[1]].
+    let t76 = t54 * t63;
+    // Eliminates along[1] from row across[1]: l[across[1], along[1]].
+    let t77 = t58 * t63;
+    // Eliminates along[1] from row across[2]: l[across[2], along[1]].
+    let t78 = t56 * t63;
+    // Row along[2]: pivot d[along[2]].
+    let t79 = t54.neg_mul_add(t76, t55);
+    let t80 = t54.neg_mul_add(t77, t27 * t51);
+    let t81 = t27.mul_add(t52, t10.mul_add(t32, t8 * t22));
+    let t82 = t54.neg_mul_add(t78, t81);
+    // Row along[2]: right-hand side z[along[2]].
+    let t83 = t71.mul_add(t76, t50.mul_add(t62, t73));
+    let t84 = N::ONE / t79;
+    // Eliminates along[2] from row across[1]: l[across[1], along[2]].
+    let t85 = t80 * t84;
+    // Eliminates along[2] from row across[2]: l[across[2], along[2]].
+    let t86 = t82 * t84;
+    // Row across[1]: pivot d[across[1]].
+    let t87 = t80.neg_mul_add(t85, t58.neg_mul_add(t77, t61));
+    let t88 = t80.neg_mul_add(t86, t58.neg_mul_add(t78, t14 * t52));
+    let t89 = t71.mul_add(t77, t51.mul_add(t62, t72));
+    // Row across[1]: right-hand side z[across[1]].
+    let t90 = t83.neg_mul_add(t85, t89);
+    let t91 = t71.neg_mul_add(t78, t52.neg_mul_add(t62, t74));
+    let t92 = N::ONE / t87;
+    // Eliminates across[1] from row across[2]: l[across[2], across[1]].
+    let t93 = t88 * t92;
+    let t94 = t82.neg_mul_add(t86, t56.neg_mul_add(t78, t75));
+    // Row across[2]: pivot d[across[2]].
+    let t95 = t88.neg_mul_add(t93, t94);
+    // Row across[2]: right-hand side z[across[2]].
+    let t96 = t90.mul_add(t93, t83.mul_add(t86, t91)) / t95;
+    // Back substitution: lambda[across[1]].
+    let t97 = t93.mul_add(t96, t90 * t92);
+    // Back substitution: lambda[along[2]].
+    let t98 = t85.neg_mul_add(t97, t86.mul_add(t96, t83 * t84));
+    let t99 = t77.mul_add(t97, t78.neg_mul_add(t96, t63 * t71));
+    // Back substitution: lambda[along[1]].
+    let t100 = t76.mul_add(t98, t99);
+    let t101 = t51.mul_sub(t97, t52.mul_add(t96, t34 * t62));
+    let t102 = t50.mul_add(t98, t101);
+    let t103 = t49 * t100;
+    // Back substitution: a[coupler[1]].
+    let t104 = t47.mul_sub(t100, t48.mul_add(t97, t33 * t66));
+    let t105 = t13.neg_mul_add(t100, t12.mul_sub(t97, n(p.k6) * t42));
+    let t106 = t15.neg_mul_add(t98, t22.mul_sub(t96, n(p.k5) * t45));
+    // Back substitution: a[crank[0]].
+    let crank_0_ddot = t24.mul_add(t104, t105);
+    let crank_1_ddot = t103 - t102;
+    // Back substitution: a[crank[2]].
+    let crank_2_ddot = t19.mul_sub(t98, t32.mul_sub(t96, n(p.k5) * t43));
+    let coupler_1_ddot = -t104;
+    // Back substitution: a[crank[1]]; Back substitution: a[coupler[2]].
+    let coupler_2_ddot = t26.mul_add(t102 - t103, t106);
+    let sound = PIVOTS.hold(t29, n(p.k3))
+        & PIVOTS.hold(t30, n(p.k2))
+        & PIVOTS.hold(t57, t57)
+        & PIVOTS.hold(t79, t55)
+        & PIVOTS.hold(t87, t61)
+        & PIVOTS.hold(t95, t75)
+        & coupler_2_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (3, t29, n(p.k3)),
+            (1, t30, n(p.k2)),
+            (5, t57, t57),
+            (6, t79, t55),
+            (7, t87, t61),
+            (8, t95, t75),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        crank_0_ddot.store(),
+        crank_1_ddot.store(),
+        crank_2_ddot.store(),
+        coupler_1_ddot.store(),
+        coupler_2_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 5],
-    v: &[S; 5],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 4], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 4], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 5],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 5],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 4], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let crank_0 = n(q[0]);
-        let crank_1 = n(q[1]);
-        let crank_2 = n(q[2]);
-        let coupler_1 = n(q[3]);
-        let coupler_2 = n(q[4]);
-        let crank_0_dot = n(v[0]);
-        let crank_1_dot = n(v[1]);
-        let crank_2_dot = n(v[2]);
-        let coupler_1_dot = n(v[3]);
-        let coupler_2_dot = n(v[4]);
-        let angles = [coupler_1, crank_0, coupler_2, crank_1, crank_2];
-        let circular = N::sin_cos_all(angles);
-        let (sin_coupler_1, cos_coupler_1) = circular[0];
-        let (sin_crank_0, cos_crank_0) = circular[1];
-        let (sin_coupler_2, cos_coupler_2) = circular[2];
-        let (sin_crank_1, cos_crank_1) = circular[3];
-        let (sin_crank_2, cos_crank_2) = circular[4];
-        let t0 = crank_0_dot * crank_0_dot;
-        let t1 = crank_1_dot * crank_1_dot;
-        let t2 = coupler_1_dot * coupler_1_dot;
-        let t3 = coupler_2_dot * coupler_2_dot;
-        let t4 = crank_2_dot * crank_2_dot;
-        let t5 = n(p.l) * cos_crank_0;
-        let t6 = n(p.l) * sin_crank_0;
-        let t7 = n(p.l) * sin_crank_1;
-        let t8 = sin_coupler_2 * n(p.l);
-        let t9 = cos_coupler_1 * cos_crank_0;
-        let t10 = n(p.l) * sin_crank_2;
-        let t11 = cos_coupler_2 * cos_crank_1;
-        let t12 = n(p.k7) * t5;
-        let t13 = n(p.k7) * t6;
-        let t14 = n(p.l) * cos_crank_1;
-        let t15 = n(p.k6) * t8;
-        let t16 = cos_coupler_2 * n(p.l);
-        let t17 = sin_coupler_1.mul_add(sin_crank_0, t9);
-        let t18 = n(p.half_l_squared_m) * t17;
-        let t19 = n(p.k6) * t10;
-        let t20 = sin_coupler_2.mul_add(sin_crank_1, t11);
-        let t21 = n(p.half_l_squared_m) * t20;
-        let t22 = n(p.k6) * t16;
-        let t23 = n(p.l) * cos_crank_2;
-        let t24 = n(p.k7) * t18;
-        let t25 = t18.neg_mul_add(t13, n(p.l) * sin_coupler_1);
-        let t26 = n(p.k6) * t21;
-        let t27 = t21.neg_mul_add(t15, t7);
-        let t28 = t18.neg_mul_add(t12, n(p.l) * cos_coupler_1);
-        let t29 = cos_coupler_1 * sin_crank_0;
-        let t30 = sin_coupler_1 * cos_crank_0;
-        let t31 = t18.neg_mul_add(t24, n(p.k3));
-        let t32 = t21.neg_mul_add(t26, n(p.k2));
-        let t33 = t22.neg_mul_add(t21, t14);
-        let t34 = n(p.k6) * t23;
-        let t35 = sin_coupler_2 * cos_crank_1;
-        let t36 = cos_coupler_2 * sin_crank_1;
-        let t37 = N::ONE / t31;
-        let t38 = N::ONE / t32;
-        let t39 = cos_crank_1 * t1;
-        let t40 = sin_crank_1 * t1;
-        let t41 = n(p.half_l_squared_m) * t2;
-        let t42 = (t29 - t30).mul_add(t41, cos_crank_0 * n(p.k4));
-        let t43 = cos_crank_2 * n(p.half_l_m_g);
-        let t44 = cos_coupler_2 * n(p.half_l_m_g);
-        let t45 = (t35 - t36).mul_add(n(p.half_l_squared_m) * t1, t44);
-        let t46 = n(p.half_l_squared_m) * t3;
-        let t47 = t37 * t25;
-        let t48 = t37 * t28;
-        let t49 = t38 * t7;
-        let t50 = t38 * t27;
-        let t51 = t38 * t14;
-        let t52 = t38 * t33;
-        let t53 = cos_coupler_1 * n(p.half_l_m_g);
-        let t54 = sin_coupler_1.mul_add(t2, sin_crank_0 * t0) - t40;
-        let t55 = t7 * t50;
-        let t56 = t27.mul_add(t50, t8.mul_add(t15, t10 * t19));
-        let t57 = t52 * t7;
-        let t58 = t7.mul_add(t49, t25.mul_add(t47, t6 * t13));
-        let t59 = t51.mul_add(t7, t48.mul_add(t25, t12 * t6));
-        let t60 = cos_coupler_2.mul_add(t3, t39);
-        let t61 = sin_coupler_2.mul_add(t3, t40);
-        let t62 = t14.mul_add(t51, t28.mul_add(t48, t5 * t12));
-        let t63 = (t36 - t35).mul_add(t46, cos_crank_1 * n(p.k4));
-        let t64 = t26.neg_mul_add(t45, t63);
-        let t65 = N::ONE / t58;
-        let t66 = cos_coupler_1.mul_add(t2, cos_crank_0 * t0) - t39;
-        let t67 = (t30 - t29).mul_add(n(p.half_l_squared_m) * t0, t53);
-        let t68 = t24.neg_mul_add(t42, t67);
-        let t69 = cos_crank_2.neg_mul_add(t4, t60);
-        let t70 = sin_crank_2.neg_mul_add(t4, t61);
-        let t71 = t49.mul_add(t64, n(p.l).mul_sub(t66, t13 * t42));
-        let t72 = t47.neg_mul_add(t68, t71);
-        let t73 = t48.mul_add(t68, t12.mul_add(t42, n(p.l) * t54));
-        let t74 = t15.neg_mul_add(t45, n(p.l).mul_add(t69, t19 * t43));
-        let t75 = t22.mul_add(t45, n(p.l).mul_sub(t70, t34 * t43));
-        let t76 = t33.mul_add(t52, t16.mul_add(t22, t23 * t34));
-        let t77 = t65 * t55;
-        let t78 = t65 * t59;
-        let t79 = t65 * t57;
-        let t80 = t55.neg_mul_add(t77, t56);
-        let t81 = t55.neg_mul_add(t78, t51 * t27);
-        let t82 = t52.mul_add(t27, t22.mul_add(t8, t34 * t10));
-        let t83 = t55.neg_mul_add(t79, t82);
-        let t84 = t77.mul_add(t72, t50.neg_mul_add(t64, t74));
-        let t85 = N::ONE / t80;
-        let t86 = t85 * t81;
-        let t87 = t85 * t83;
-        let t88 = t81.neg_mul_add(t86, t59.neg_mul_add(t78, t62));
-        let t89 = t81.neg_mul_add(t87, t59.neg_mul_add(t79, t14 * t52));
-        let t90 = t78.mul_add(t72, t51.neg_mul_add(t64, t73));
-        let t91 = t86.neg_mul_add(t84, t90);
-        let t92 = t79.neg_mul_add(t72, t52.mul_add(t64, t75));
-        let t93 = N::ONE / t88;
-        let t94 = t93 * t89;
-        let t95 = t83.neg_mul_add(t87, t57.neg_mul_add(t79, t76));
-        let t96 = t89.neg_mul_add(t94, t95);
-        let lambda4 = t94.mul_add(t91, t87.mul_add(t84, t92)) / t96;
-        let lambda3 = t94.mul_add(lambda4, t93 * t91);
-        let lambda2 = t86.neg_mul_add(lambda3, t87.mul_add(lambda4, t85 * t84));
-        let t97 = t78.mul_add(lambda3, t79.neg_mul_add(lambda4, t65 * t72));
-        let lambda1 = t77.mul_add(lambda2, t97);
-        let sound = PIVOTS.hold(t31, n(p.k3))
-            & PIVOTS.hold(t32, n(p.k2))
-            & PIVOTS.hold(t58, t58)
-            & PIVOTS.hold(t80, t56)
-            & PIVOTS.hold(t88, t62)
-            & PIVOTS.hold(t96, t76)
-            & lambda1.is_finite();
-        if !sound {
-            let pivots = [
-                (3, t31, n(p.k3)),
-                (1, t32, n(p.k2)),
-                (5, t58, t58),
-                (6, t80, t56),
-                (7, t88, t62),
-                (8, t96, t76),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [
-            lambda1.store(),
-            lambda2.store(),
-            lambda3.store(),
-            lambda4.store(),
-        ];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let crank_0 = n(q[0]);
+    let crank_1 = n(q[1]);
+    let crank_2 = n(q[2]);
+    let coupler_1 = n(q[3]);
+    let coupler_2 = n(q[4]);
+    let crank_0_dot = n(v[0]);
+    let crank_1_dot = n(v[1]);
+    let crank_2_dot = n(v[2]);
+    let coupler_1_dot = n(v[3]);
+    let coupler_2_dot = n(v[4]);
+    let angles = [coupler_1, crank_0, coupler_2, crank_1, crank_2];
+    let circular = N::sin_cos_all(angles);
+    let (sin_coupler_1, cos_coupler_1) = circular[0];
+    let (sin_crank_0, cos_crank_0) = circular[1];
+    let (sin_coupler_2, cos_coupler_2) = circular[2];
+    let (sin_crank_1, cos_crank_1) = circular[3];
+    let (sin_crank_2, cos_crank_2) = circular[4];
+    let t0 = crank_0_dot * crank_0_dot;
+    let t1 = crank_1_dot * crank_1_dot;
+    let t2 = coupler_1_dot * coupler_1_dot;
+    let t3 = coupler_2_dot * coupler_2_dot;
+    let t4 = crank_2_dot * crank_2_dot;
+    let t5 = cos_crank_0 * n(p.l);
+    let t6 = sin_crank_0 * n(p.l);
+    let t7 = sin_crank_1 * n(p.l);
+    let t8 = sin_coupler_2 * n(p.l);
+    let t9 = sin_coupler_1 * sin_crank_0;
+    let t10 = sin_crank_2 * n(p.l);
+    let t11 = sin_coupler_2 * sin_crank_1;
+    // Eliminates crank[0] from row across[1]: l[across[1], crank[0]].
+    let t12 = t5 * n(p.k6);
+    // Eliminates crank[0] from row along[1]: l[along[1], crank[0]].
+    let t13 = t6 * n(p.k6);
+    let t14 = cos_crank_1 * n(p.l);
+    // Eliminates coupler[2] from row along[2]: l[along[2], coupler[2]].
+    let t15 = t8 * n(p.k5);
+    let t16 = cos_coupler_2 * n(p.l);
+    let t17 = cos_coupler_1.mul_add(cos_crank_0, t9);
+    let t18 = n(p.half_l_squared_m) * t17;
+    // Eliminates crank[2] from row along[2]: l[along[2], crank[2]].
+    let t19 = t10 * n(p.k5);
+    let t20 = cos_coupler_2.mul_add(cos_crank_1, t11);
+    let t21 = n(p.half_l_squared_m) * t20;
+    // Eliminates coupler[2] from row across[2]: l[across[2], coupler[2]].
+    let t22 = n(p.k5) * t16;
+    let t23 = cos_crank_2 * n(p.l);
+    // Eliminates crank[0] from row coupler[1]: l[coupler[1], crank[0]].
+    let t24 = n(p.k6) * t18;
+    let t25 = t13.neg_mul_add(t18, sin_coupler_1 * n(p.l));
+    // Eliminates coupler[2] from row crank[1]: l[crank[1], coupler[2]].
+    let t26 = n(p.k5) * t21;
+    let t27 = t15.neg_mul_add(t21, t7);
+    let t28 = t12.neg_mul_add(t18, cos_coupler_1 * n(p.l));
+    // Row coupler[1]: pivot d[coupler[1]].
+    let t29 = t18.neg_mul_add(t24, n(p.k3));
+    // Row crank[1]: pivot d[crank[1]].
+    let t30 = t21.neg_mul_add(t26, n(p.k2));
+    let t31 = t21.neg_mul_add(t22, t14);
+    // Eliminates crank[2] from row across[2]: l[across[2], crank[2]].
+    let t32 = n(p.k5) * t23;
+    let t33 = N::ONE / t29;
+    let t34 = N::ONE / t30;
+    let t35 = cos_crank_1 * t1;
+    let t36 = sin_coupler_1 * cos_crank_0;
+    let t37 = cos_coupler_1.mul_sub(sin_crank_0, t36);
+    let t38 = sin_crank_1 * t1;
+    let t39 = cos_coupler_2 * sin_crank_1;
+    let t40 = sin_coupler_2.mul_sub(cos_crank_1, t39);
+    let t41 = t2 * n(p.half_l_squared_m);
+    let t42 = t41.mul_sub(t37, cos_crank_0 * n(p.k4));
+    let t43 = cos_crank_2 * n(p.minus_half_l_m_g);
+    let t44 = cos_coupler_2 * n(p.minus_half_l_m_g);
+    let t45 = (t1 * n(p.half_l_squared_m)).mul_sub(t40, t44);
+    let t46 = t3 * n(p.half_l_squared_m);
+    // Eliminates coupler[1] from row along[1]: l[along[1], coupler[1]].
+    let t47 = t25 * t33;
+    // Eliminates coupler[1] from row across[1]: l[across[1], coupler[1]].
+    let t48 = t28 * t33;
+    // Eliminates crank[1] from row along[1]: l[along[1], crank[1]].
+    let t49 = t7 * t34;
+    // Eliminates crank[1] from row along[2]: l[along[2], crank[1]].
+    let t50 = t27 * t34;
+    // Eliminates crank[1] from row across[1]: l[across[1], crank[1]].
+    let t51 = t14 * t34;
+    // Eliminates crank[1] from row across[2]: l[across[2], crank[1]].
+    let t52 = t31 * t34;
+    let t53 = cos_coupler_1 * n(p.minus_half_l_m_g);
+    let t54 = t7 * t50;
+    let t55 = t27.mul_add(t50, t10.mul_add(t19, t8 * t15));
+    let t56 = t7 * t52;
+    // Row along[1]: pivot d[along[1]].
+    let t57 = t7.mul_add(t49, t25.mul_add(t47, t6 * t13));
+    let t58 = t7.mul_add(t51, t25.mul_add(t48, t6 * t12));
+    let t59 = cos_coupler_2.mul_add(t3, t35);
+    let t60 = sin_coupler_2.mul_add(t3, t38);
+    let t61 = t14.mul_add(t51, t28.mul_add(t48, t5 * t12));
+    // Row crank[1]: right-hand side z[crank[1]].
+    let t62 = t26.mul_add(t45, t46.mul_add(t40, cos_crank_1 * n(p.k4)));
+    let t63 = N::ONE / t57;
+    let t64 = cos_crank_0.mul_add(t0, cos_coupler_1 * t2) - t35;
+    let t65 = (t0 * n(p.half_l_squared_m)).mul_add(t37, t53);
+    // Row coupler[1]: right-hand side z[coupler[1]].
+    let t66 = t24.mul_add(t42, t65);
+    let t67 = sin_crank_0.mul_add(t0, sin_coupler_1 * t2) - t38;
+    let t68 = cos_crank_2.neg_mul_add(t4, t59);
+    let t69 = sin_crank_2.neg_mul_add(t4, t60);
+    let t70 = t49.neg_mul_add(t62, n(p.l).mul_sub(t64, t13 * t42));
+    // Row along[1]: right-hand side z[along[1]].
+    let t71 = t47.mul_add(t66, t70);
+    let t72 = t48.neg_mul_add(t66, n(p.l).mul_add(t67, t12 * t42));
+    let t73 = t15.neg_mul_add(t45, n(p.l).mul_sub(t68, t19 * t43));
+    let t74 = t22.mul_add(t45, n(p.l).mul_add(t69, t32 * t43));
+    let t75 = t31.mul_add(t52, t23.mul_add(t32, t16 * t22));
+    // Eliminates along[1] from row along[2]: l[along[2], along[1]].
+    let t76 = t54 * t63;
+    // Eliminates along[1] from row across[1]: l[across[1], along[1]].
+    let t77 = t58 * t63;
+    // Eliminates along[1] from row across[2]: l[across[2], along[1]].
+    let t78 = t56 * t63;
+    // Row along[2]: pivot d[along[2]].
+    let t79 = t54.neg_mul_add(t76, t55);
+    let t80 = t54.neg_mul_add(t77, t27 * t51);
+    let t81 = t27.mul_add(t52, t10.mul_add(t32, t8 * t22));
+    let t82 = t54.neg_mul_add(t78, t81);
+    // Row along[2]: right-hand side z[along[2]].
+    let t83 = t71.mul_add(t76, t50.mul_add(t62, t73));
+    let t84 = N::ONE / t79;
+    // Eliminates along[2] from row across[1]: l[across[1], along[2]].
+    let t85 = t80 * t84;
+    // Eliminates along[2] from row across[2]: l[across[2], along[2]].
+    let t86 = t82 * t84;
+    // Row across[1]: pivot d[across[1]].
+    let t87 = t80.neg_mul_add(t85, t58.neg_mul_add(t77, t61));
+    let t88 = t80.neg_mul_add(t86, t58.neg_mul_add(t78, t14 * t52));
+    let t89 = t71.mul_add(t77, t51.mul_add(t62, t72));
+    // Row across[1]: right-hand side z[across[1]].
+    let t90 = t83.neg_mul_add(t85, t89);
+    let t91 = t71.neg_mul_add(t78, t52.neg_mul_add(t62, t74));
+    let t92 = N::ONE / t87;
+    // Eliminates across[1] from row across[2]: l[across[2], across[1]].
+    let t93 = t88 * t92;
+    let t94 = t82.neg_mul_add(t86, t56.neg_mul_add(t78, t75));
+    // Row across[2]: pivot d[across[2]].
+    let t95 = t88.neg_mul_add(t93, t94);
+    // Row across[2]: right-hand side z[across[2]].
+    let lambda4 = t90.mul_add(t93, t83.mul_add(t86, t91)) / t95;
+    // Back substitution: lambda[across[1]].
+    let lambda3 = t93.mul_add(lambda4, t90 * t92);
+    // Back substitution: lambda[along[2]].
+    let lambda2 = t85.neg_mul_add(lambda3, t86.mul_add(lambda4, t83 * t84));
+    let t96 = t77.mul_add(lambda3, t78.neg_mul_add(lambda4, t63 * t71));
+    // Back substitution: lambda[along[1]].
+    let lambda1 = t76.mul_add(lambda2, t96);
+    let sound = PIVOTS.hold(t29, n(p.k3))
+        & PIVOTS.hold(t30, n(p.k2))
+        & PIVOTS.hold(t57, t57)
+        & PIVOTS.hold(t79, t55)
+        & PIVOTS.hold(t87, t61)
+        & PIVOTS.hold(t95, t75)
+        & lambda1.is_finite();
+    if !sound {
+        let pivots = [
+            (3, t29, n(p.k3)),
+            (1, t30, n(p.k2)),
+            (5, t57, t57),
+            (6, t79, t55),
+            (7, t87, t61),
+            (8, t95, t75),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [
+        lambda1.store(),
+        lambda2.store(),
+        lambda3.store(),
+        lambda4.store(),
+    ];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -895,9 +949,9 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     let sin_coupler_2 = coupler_2.sin();
     let sin_coupler_1 = coupler_1.sin();
     let sin_crank_2 = crank_2.sin();
-    let t0 = p.half_l * sin_coupler_1 + p.l * sin_crank_0;
-    let t1 = (p.half_l * sin_coupler_2 + p.l * sin_crank_1 + t0) * p.m_g;
-    t1 + (sin_crank_2 + (sin_crank_1 + sin_crank_0)) * p.half_l_m_g
+    let t0 = sin_crank_0 * p.l + sin_coupler_1 * p.half_l;
+    let t1 = (sin_crank_2 + (sin_crank_1 + sin_crank_0)) * p.minus_half_l_m_g;
+    (sin_crank_1 * p.l + sin_coupler_2 * p.half_l + t0) * p.m_g - t1
 }
 
 ::lagrangian::emitted::implement! {
@@ -917,11 +971,11 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         coupler_1: "coupler[1]" "rad";
         coupler_2: "coupler[2]" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
-        l, m, half_l, k0, m_g, half_l_m_g, k1, half_l_squared_m, k2, k3, k4, minus_l,
-        minus_half_l_squared_m, k5, minus_half_l_m_g, k6, k7,
+        l, m, half_l, k0, m_g, k1, half_l_squared_m, k2, k3, minus_l, minus_half_l_squared_m, k4,
+        minus_half_l_m_g, k5, k6,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

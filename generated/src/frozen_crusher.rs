@@ -5,20 +5,20 @@
 //! The axis of the debalance then moves as if the platform were not turned, so that all inertia of
 //! the platform is constant: no products θ θ″ and θ′² are left in its equations, and without
 //! contact they are those of a linear, forced oscillator of three coordinates. The suspension is
-//! the two pairs of the exact machine. Turned by 0.04 rad at 0.9 rad/s, the platform's
-//! accelerations
+//! the two pairs of the exact machine. Turned by 0.04 rad at 0.9 rad/s, the
+//! platform's accelerations
 //! differ from the exact ones by 0.003 m/s² of 158, and by 0.7 rad/s² of 24.
 //!
 //! 9 coordinates, 18 parameters. Arithmetic of one call:
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 24 | 10 | 2 | 0 | 0 | 36 |
-//! | `mass_matrix` | 24 | 3 | 0 | 2 | 0 | 31 |
+//! | `prepare` | 24 | 9 | 2 | 0 | 0 | 35 |
+//! | `mass_matrix` | 23 | 4 | 0 | 2 | 0 | 31 |
 //! | `bias` | 72 | 52 | 0 | 3 | 0 | 130 |
 //! | `applied` | 12 | 23 | 0 | 0 | 0 | 35 |
 //! | `forces` | 84 | 76 | 0 | 3 | 0 | 166 |
-//! | `accelerations` | 188 | 143 | 5 | 3 | 0 | 342 |
+//! | `accelerations` | 188 | 142 | 5 | 3 | 0 | 341 |
 //! | `kinetic_energy` | 37 | 25 | 0 | 3 | 0 | 68 |
 //! | `potential_energy` | 8 | 7 | 0 | 0 | 0 | 15 |
 //! | `dissipation` | 8 | 7 | 0 | 0 | 0 | 15 |
@@ -45,8 +45,8 @@
 /// The axis of the debalance then moves as if the platform were not turned, so that all inertia of
 /// the platform is constant: no products θ θ″ and θ′² are left in its equations, and without
 /// contact they are those of a linear, forced oscillator of three coordinates. The suspension is
-/// the two pairs of the exact machine. Turned by 0.04 rad at 0.9 rad/s, the platform's
-/// accelerations
+/// the two pairs of the exact machine. Turned by 0.04 rad at 0.9 rad/s, the
+/// platform's accelerations
 /// differ from the exact ones by 0.003 m/s² of 158, and by 0.7 rad/s² of 24.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrozenCrusher<S = f64> {
@@ -98,9 +98,9 @@ impl<S: ::lagrangian::emitted::Scalar> FrozenCrusher<S> {
         let e_omega2 = self.omega * e_omega;
         let k0 = m1_plus_m2 + (self.m + self.m0);
         let k1 = self.y0 * t0 + (self.J + self.x0 * m0_x0);
-        let k6 = S::ONE / k1;
-        let k3 = t0 * k6;
-        let k4 = m0_x0 * k6;
+        let k5 = S::ONE / k1;
+        let k2 = t0 * k5;
+        let k3 = m0_x0 * k5;
         let J0_omega2 = self.omega * (self.omega * self.J0);
         let half_cx = self.cx * S::from_f64(0.5);
         let half_cy = self.cy * S::from_f64(0.5);
@@ -114,12 +114,11 @@ impl<S: ::lagrangian::emitted::Scalar> FrozenCrusher<S> {
         let by_xc = self.by * self.xc;
         let bx_yc = self.bx * self.yc;
         let minus_m0_y0 = -t0;
-        let k2 = -m1_plus_m2;
         let minus_m2 = -self.m2;
-        let k5 = m0_x0 * k3;
-        let k7 = S::ONE / m1_plus_m2;
-        let k8 = k0 - t0 * k3;
-        let k9 = k0 - m0_x0 * k4;
+        let k4 = m0_x0 * k2;
+        let k6 = S::ONE / m1_plus_m2;
+        let k7 = k0 - t0 * k2;
+        let k8 = k0 - m0_x0 * k3;
         let pivots = [
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
@@ -162,15 +161,14 @@ impl<S: ::lagrangian::emitted::Scalar> FrozenCrusher<S> {
             by_xc,
             bx_yc,
             minus_m0_y0,
-            k2,
             minus_m2,
+            k2,
             k3,
             k4,
             k5,
             k6,
             k7,
             k8,
-            k9,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -212,14 +210,6 @@ pub struct Coordinates<S = f64> {
     /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
-
-/// What can be set while a [`FrozenCrusher`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`FrozenCrusher`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
 
 /// The parameters of a [`FrozenCrusher`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -294,24 +284,22 @@ pub struct Prepared<S = f64> {
     bx_yc: S,
     /// `-m0*y0`
     minus_m0_y0: S,
-    /// `-(m1 + m2)`
-    k2: S,
     /// `-m2`
     minus_m2: S,
     /// `m0*y0/(J + m0*x0^2 + m0*y0^2)`
-    k3: S,
+    k2: S,
     /// `m0*x0/(J + m0*x0^2 + m0*y0^2)`
-    k4: S,
+    k3: S,
     /// `m0^2*x0*y0/(J + m0*x0^2 + m0*y0^2)`
-    k5: S,
+    k4: S,
     /// `1/(J + m0*x0^2 + m0*y0^2)`
-    k6: S,
+    k5: S,
     /// `1/(m1 + m2)`
-    k7: S,
+    k6: S,
     /// `m + m0 + m1 + m2 - m0^2*y0^2/(J + m0*x0^2 + m0*y0^2)`
-    k8: S,
+    k7: S,
     /// `m + m0 + m1 + m2 - m0^2*x0^2/(J + m0*x0^2 + m0*y0^2)`
-    k9: S,
+    k8: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -355,25 +343,25 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.m1_plus_m2 * s1;
+    let t1 = s1 * p.m1_plus_m2;
     let t2 = p.m2 * s2;
     let t3 = cos_phi1 * sin_phi2;
     let t4 = sin_phi1 * cos_phi2;
-    let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t5 = sin_phi1 * sin_phi2 + cos_phi1 * cos_phi2;
     let zero = S::ZERO;
-    let m41 = p.m1_plus_m2 * cos_phi1;
-    let m42 = p.m1_plus_m2 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k2);
+    let m41 = cos_phi1 * p.m1_plus_m2;
+    let m42 = sin_phi1 * p.m1_plus_m2;
+    let m51 = -(sin_phi1 * t1);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
-    let m75 = (t3 - t4) * t0;
+    let m75 = t0 * (t3 - t4);
     let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t4 - t3);
-    let m85 = t5 * (t0 * s2);
+    let m85 = t0 * s2 * t5;
     let m88 = s2 * t2;
     [
         [p.k0, zero, p.minus_m0_y0, m41, m51, zero, m71, m81, zero],
@@ -613,235 +601,261 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 9],
-    v: &[S; 9],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        t: S,
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+    }) -> Result<[S; 9], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, t, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub t: S,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 9],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 9],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let s1 = n(q[3]);
-        let phi1 = n(q[4]);
-        let s2 = n(q[6]);
-        let phi2 = n(q[7]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let s1_dot = n(v[3]);
-        let phi1_dot = n(v[4]);
-        let s2_dot = n(v[6]);
-        let phi2_dot = n(v[7]);
-        let t0 = n(p.omega) * n(t);
-        let angles = [phi1, phi2, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_phi1, cos_phi1) = circular[0];
-        let (sin_phi2, cos_phi2) = circular[1];
-        let (sin_t0, cos_t0) = circular[2];
-        let t1 = n(p.m1_plus_m2) * s1;
-        let t2 = s1 * phi1_dot;
-        let t3 = s2 * phi2_dot;
-        let t4 = theta_dot * n(p.xc);
-        let t5 = n(p.xc) * theta;
-        let t6 = theta_dot * n(p.yc);
-        let t7 = n(p.yc) * theta;
-        let t8 = s1 * t1;
-        let t9 = n(p.m2) * s2;
-        let t10 = y_dot - t4;
-        let t11 = t4 + y_dot;
-        let t12 = y - t5;
-        let t13 = t5 + y;
-        let t14 = s1 * n(p.m2);
-        let t15 = n(p.omega).product_error(n(t));
-        let t16 = t6 + x_dot;
-        let t17 = x_dot - t6;
-        let t18 = t7 + x;
-        let t19 = x - t7;
-        let t20 = s2 * t9;
-        let t21 = n(p.cx_yc).mul_add(t19 - t18, n(p.cy_xc) * (t12 - t13));
-        let t22 = n(p.bx_yc).mul_add(t17 - t16, n(p.by_xc) * (t10 - t11));
-        let t23 = n(p.m1_plus_m2) * cos_phi1;
-        let t24 = n(p.m1_plus_m2) * sin_phi1;
-        let t25 = sin_phi1 * t1;
-        let t26 = sin_phi2 * s2_dot;
-        let t27 = sin_phi1 * s1_dot;
-        let t28 = cos_phi1 * t2;
-        let t29 = cos_phi2 * s2_dot;
-        let t30 = n(p.k7) * t23;
-        let t31 = n(p.k7) * t24;
-        let t32 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t33 = cos_phi1 * s1_dot;
-        let t34 = sin_phi1 * t2;
-        let t35 = phi2_dot * t26;
-        let t36 = cos_phi2 * t3;
-        let t37 = t23 * t30;
-        let t38 = t23.neg_mul_add(t31, n(p.k5));
-        let t39 = t24.mul_sub(t31, n(p.k9));
-        let t40 = n(p.m2) * t32;
-        let t41 = phi1_dot * t27;
-        let t42 = t27 + t28;
-        let t43 = phi2_dot * t29;
-        let t44 = sin_phi2 * t3;
-        let t45 = phi1_dot * t33;
-        let t46 = t33 - t34;
-        let t47 = n(p.k7) * t40;
-        let t48 = t26 + t36;
-        let t49 = N::ONE / (t37 - n(p.k8));
-        let t50 = y_dot + t42;
-        let t51 = t29 - t44;
-        let t52 = x_dot + t46;
-        let t53 = cos_phi1 * sin_phi2;
-        let t54 = sin_phi1 * cos_phi2;
-        let t55 = t23.neg_mul_add(t47, n(p.m2) * cos_phi2);
-        let t56 = t41 + phi1_dot.mul_add(t28, t41);
-        let t57 = t48 + t50;
-        let t58 = t45 + phi1_dot.neg_mul_add(t34, t45);
-        let t59 = t51 + t52;
-        let t60 = t35 + phi2_dot.mul_add(t36, t35) + t56;
-        let t61 = n(p.m2).mul_add(t57, n(p.m1) * t50);
-        let t62 = t43 + phi2_dot.neg_mul_add(t44, t43) + t58;
-        let t63 = t49 * t38;
-        let t64 = t49 * t25;
-        let t65 = t49 * t55;
-        let t66 = n(p.m2).mul_add(t59, t52 * n(p.m1));
-        let t67 = t38 * t63;
-        let t68 = t38.neg_mul_add(t64, cos_phi1 * t1);
-        let t69 = t9 * (t54 - t53);
-        let t70 = t38.mul_add(t65, t24.neg_mul_add(t47, n(p.m2) * sin_phi2));
-        let t71 = n(p.m2).mul_add(t60, n(p.m1) * t56);
-        let t72 = t15.mul_add(cos_t0, sin_t0);
-        let t73 = t61 * (cos_phi1 * phi1_dot);
-        let t74 = n(p.m2).mul_add(t62, n(p.m1) * t58);
-        let t75 = t66 * (sin_phi1 * phi1_dot);
-        let t76 = t57 * (cos_phi2 * phi2_dot);
-        let t77 = t59 * (sin_phi2 * phi2_dot);
-        let t78 = n(p.k7) * t69;
-        let t79 = N::ONE / (t39 - t67);
-        let t80 = t15.neg_mul_add(sin_t0, cos_t0);
-        let t81 = t23.mul_add(t78, sin_phi2 * t9);
-        let t82 = t72 * n(p.m0_e_x0_omega2);
-        let t83 = t79 * t68;
-        let t84 = t79 * t70;
-        let t85 = t68.mul_add(t83, t25.mul_add(t64, t8));
-        let t86 = t68.mul_add(t84, t25.neg_mul_add(t65, (t53 - t54) * t14));
-        let t87 = t49 * t81;
-        let t88 = N::ONE / t85;
-        let t89 = t55.mul_add(t65, t40.neg_mul_add(t47, n(p.m2)));
-        let t90 = (t16 + t17).mul_add(n(p.bx), (t18 + t19) * n(p.cx));
-        let t91 = t80.mul_sub(n(p.m0_e_y0_omega2), t82) - (t22 + t21);
-        let t92 = sin_phi1.mul_add(t74, t73) - cos_phi1.mul_add(t71, t75);
-        let t93 = t73 - t75 - t92;
-        let t94 = sin_phi2.mul_add(t62, t76) - cos_phi2.mul_add(t60, t77);
-        let t95 = (t11 + t10).mul_add(n(p.by), (t13 + t12) * n(p.cy));
-        let t96 = t38.neg_mul_add(t87, t24.neg_mul_add(t78, cos_phi2 * t9));
-        let t97 = sin_phi2 * s2_dot.mul_add(t59, t3 * t57);
-        let t98 = t60.neg_mul_add(sin_phi2 * s2, t59 * t48);
-        let t99 = t80.mul_add(n(p.m0_e_omega2), t71) - t90;
-        let t100 = t95 + t72.neg_mul_add(n(p.m0_e_omega2), t74);
-        let t101 = sin_phi1 * s1_dot.mul_add(t66, t2 * t61);
-        let t102 = t71.neg_mul_add(sin_phi1 * s1, t66 * t42);
-        let t103 = t79 * t96;
-        let t104 = cos_phi2.mul_sub(s2_dot.mul_sub(t57, t3 * t59), t97);
-        let t105 = t88 * t86;
-        let t106 = t30.neg_mul_add(t93, t91.neg_mul_add(n(p.k3), t99));
-        let t107 = cos_phi1.mul_sub(s1_dot.mul_sub(t61, t2 * t66), t101);
-        let t108 = t68.mul_add(t103, t25.mul_add(t87, t32 * (t14 * s2)));
-        let t109 = t104 - (t62.mul_add(cos_phi2 * s2, t51 * t57) - t98);
-        let t110 = t86.neg_mul_add(t105, t70.mul_add(t84, t89));
-        let t111 = t47.neg_mul_add(t93, n(p.m2) * (t76 - t77 - t94));
-        let t112 = t31.mul_add(t93, n(p.k4).neg_mul_add(t91, t100));
-        let t113 = t63.neg_mul_add(t106, t112);
-        let t114 = t107 - (t74.mul_add(cos_phi1 * s1, t46 * t61) - t102);
-        let t115 = t88 * t108;
-        let t116 = N::ONE / t110;
-        let t117 = t83.neg_mul_add(t113, t64.neg_mul_add(t106, t114));
-        let t118 = t70.neg_mul_add(t103, t55.mul_add(t87, t40 * t78));
-        let t119 = t86.mul_add(t115, t118);
-        let t120 = t87.neg_mul_add(t106, n(p.m2).mul_sub(t109, t78 * t93));
-        let t121 = t81.mul_add(t87, t69.neg_mul_add(t78, t20));
-        let t122 = t84.neg_mul_add(t113, t65.mul_add(t106, t111));
-        let t123 = t105.neg_mul_add(t117, t122);
-        let t124 = t116 * t119;
-        let t125 = t115.neg_mul_add(t117, t103.neg_mul_add(t113, t120));
-        let t126 = t108.neg_mul_add(t115, t96.mul_add(t103, t121));
-        let t127 = t119.neg_mul_add(t124, t126);
-        let phi2_ddot = t124.mul_add(t123, t125) / t127;
-        let s2_ddot = t124.mul_add(phi2_ddot, t116 * t123);
-        let t128 = t115.neg_mul_add(phi2_ddot, t88 * t117);
-        let phi1_ddot = t105.neg_mul_add(s2_ddot, t128);
-        let t129 = t87.mul_add(phi2_ddot, t49 * t106);
-        let t130 = t78.neg_mul_add(phi2_ddot, n(p.k7) * t93);
-        let t131 = t84.mul_add(s2_ddot, t103.mul_add(phi2_ddot, t79 * t113));
-        let y_ddot = t83.mul_add(phi1_ddot, t131);
-        let t132 = t64.mul_add(phi1_ddot, t65.neg_mul_add(s2_ddot, t129));
-        let t133 = t63 * y_ddot;
-        let t134 = t132 - t133;
-        let t135 = n(p.k4).mul_add(y_ddot, t91 * n(p.k6));
-        let t136 = t31.neg_mul_add(y_ddot, t47.neg_mul_add(s2_ddot, t130));
-        let x_ddot = t133 - t132;
-        let theta_ddot = -n(p.k3).mul_add(t134, t135);
-        let s1_ddot = t30.mul_add(t134, t136);
-        let zero = N::ZERO;
-        let t137 = n(p.k8) - t37;
-        let t138 = t67 - t39;
-        let sound = PIVOTS.hold(t137, n(p.k0))
-            & PIVOTS.hold(t138, n(p.k0))
-            & PIVOTS.hold(t85, t8)
-            & PIVOTS.hold(t110, n(p.m2))
-            & PIVOTS.hold(t127, t20)
-            & theta_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (0, t137, n(p.k0)),
-                (1, t138, n(p.k0)),
-                (4, t85, t8),
-                (6, t110, n(p.m2)),
-                (7, t127, t20),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            theta_ddot.store(),
-            s1_ddot.store(),
-            phi1_ddot.store(),
-            zero.store(),
-            s2_ddot.store(),
-            phi2_ddot.store(),
-            zero.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let s1 = n(q[3]);
+    let phi1 = n(q[4]);
+    let s2 = n(q[6]);
+    let phi2 = n(q[7]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let s1_dot = n(v[3]);
+    let phi1_dot = n(v[4]);
+    let s2_dot = n(v[6]);
+    let phi2_dot = n(v[7]);
+    let t0 = n(p.omega) * n(t);
+    let angles = [phi1, phi2, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_phi1, cos_phi1) = circular[0];
+    let (sin_phi2, cos_phi2) = circular[1];
+    let (sin_t0, cos_t0) = circular[2];
+    let t1 = n(p.m1_plus_m2) * s1;
+    let t2 = s1 * phi1_dot;
+    let t3 = s2 * phi2_dot;
+    let t4 = theta_dot * n(p.xc);
+    let t5 = n(p.xc) * theta;
+    let t6 = theta_dot * n(p.yc);
+    let t7 = theta * n(p.yc);
+    let t8 = s1 * t1;
+    let t9 = s2 * n(p.m2);
+    let t10 = y_dot - t4;
+    let t11 = t4 + y_dot;
+    let t12 = y - t5;
+    let t13 = t5 + y;
+    let t14 = s1 * n(p.m2);
+    let t15 = n(p.omega).product_error(n(t));
+    let t16 = t6 + x_dot;
+    let t17 = x_dot - t6;
+    let t18 = t7 + x;
+    let t19 = x - t7;
+    let t20 = s2 * t9;
+    let t21 = (t12 - t13).mul_add(n(p.cy_xc), (t19 - t18) * n(p.cx_yc));
+    let t22 = (t10 - t11).mul_add(n(p.by_xc), (t17 - t16) * n(p.bx_yc));
+    let t23 = cos_phi1 * n(p.m1_plus_m2);
+    let t24 = sin_phi1 * n(p.m1_plus_m2);
+    let t25 = sin_phi1 * t1;
+    let t26 = sin_phi2 * s2_dot;
+    let t27 = sin_phi1 * s1_dot;
+    let t28 = cos_phi1 * t2;
+    let t29 = cos_phi2 * s2_dot;
+    // Eliminates s1 from row x: l[x, s1].
+    let t30 = t23 * n(p.k6);
+    // Eliminates s1 from row y: l[y, s1].
+    let t31 = t24 * n(p.k6);
+    let t32 = sin_phi1.mul_add(sin_phi2, cos_phi1 * cos_phi2);
+    let t33 = cos_phi1 * s1_dot;
+    let t34 = sin_phi1 * t2;
+    let t35 = phi2_dot * t26;
+    let t36 = cos_phi2 * t3;
+    let t37 = t23 * t30;
+    let t38 = t23.neg_mul_add(t31, n(p.k4));
+    let t39 = t24.mul_sub(t31, n(p.k8));
+    let t40 = n(p.m2) * t32;
+    let t41 = phi1_dot * t27;
+    let t42 = t27 + t28;
+    let t43 = phi2_dot * t29;
+    let t44 = sin_phi2 * t3;
+    let t45 = phi1_dot * t33;
+    let t46 = t33 - t34;
+    // Eliminates s1 from row s2: l[s2, s1].
+    let t47 = n(p.k6) * t40;
+    let t48 = t26 + t36;
+    // Row x: pivot d[x].
+    let t49 = N::ONE / (t37 - n(p.k7));
+    let t50 = y_dot + t42;
+    let t51 = t29 - t44;
+    let t52 = x_dot + t46;
+    let t53 = t23.neg_mul_add(t47, cos_phi2 * n(p.m2));
+    let t54 = t41 + phi1_dot.mul_add(t28, t41);
+    let t55 = t48 + t50;
+    let t56 = t45 + phi1_dot.neg_mul_add(t34, t45);
+    let t57 = t51 + t52;
+    let t58 = sin_phi1.mul_sub(cos_phi2, cos_phi1 * sin_phi2);
+    let t59 = t35 + phi2_dot.mul_add(t36, t35) + t54;
+    let t60 = n(p.m2).mul_add(t55, t50 * n(p.m1));
+    let t61 = t43 + phi2_dot.neg_mul_add(t44, t43) + t56;
+    // Eliminates x from row y: l[y, x].
+    let t62 = t38 * t49;
+    // Eliminates x from row phi1: l[phi1, x].
+    let t63 = t25 * t49;
+    // Eliminates x from row s2: l[s2, x].
+    let t64 = t49 * t53;
+    let t65 = n(p.m2).mul_add(t57, t52 * n(p.m1));
+    let t66 = t38 * t62;
+    let t67 = t38.neg_mul_add(t63, cos_phi1 * t1);
+    let t68 = t9 * t58;
+    let t69 = t38.mul_add(t64, t24.neg_mul_add(t47, sin_phi2 * n(p.m2)));
+    let t70 = n(p.m2).mul_add(t59, t54 * n(p.m1));
+    let t71 = cos_t0.mul_add(t15, sin_t0);
+    let t72 = t60 * (cos_phi1 * phi1_dot);
+    let t73 = n(p.m2).mul_add(t61, n(p.m1) * t56);
+    let t74 = t65 * (sin_phi1 * phi1_dot);
+    let t75 = t55 * (cos_phi2 * phi2_dot);
+    let t76 = t57 * (sin_phi2 * phi2_dot);
+    // Eliminates s1 from row phi2: l[phi2, s1].
+    let t77 = n(p.k6) * t68;
+    // Row y: pivot d[y].
+    let t78 = N::ONE / (t39 - t66);
+    let t79 = sin_t0.neg_mul_add(t15, cos_t0);
+    let t80 = t23.mul_add(t77, sin_phi2 * t9);
+    let t81 = t71 * n(p.m0_e_x0_omega2);
+    // Eliminates y from row phi1: l[phi1, y].
+    let t82 = t67 * t78;
+    // Eliminates y from row s2: l[s2, y].
+    let t83 = t69 * t78;
+    // Row phi1: pivot d[phi1].
+    let t84 = t67.mul_add(t82, t25.mul_add(t63, t8));
+    let t85 = t67.mul_sub(t83, t25.mul_add(t64, t14 * t58));
+    // Eliminates x from row phi2: l[phi2, x].
+    let t86 = t49 * t80;
+    let t87 = N::ONE / t84;
+    let t88 = t53.mul_add(t64, t40.neg_mul_add(t47, n(p.m2)));
+    let t89 = (t18 + t19).mul_add(n(p.cx), (t16 + t17) * n(p.bx));
+    let t90 = t79.mul_sub(n(p.m0_e_y0_omega2), t81) - (t22 + t21);
+    let t91 = sin_phi1.mul_add(t73, t72) - cos_phi1.mul_add(t70, t74);
+    let t92 = t72 - t74 - t91;
+    let t93 = sin_phi2.mul_add(t61, t75) - cos_phi2.mul_add(t59, t76);
+    let t94 = (t12 + t13).mul_add(n(p.cy), (t10 + t11) * n(p.by));
+    let t95 = t38.neg_mul_add(t86, t24.neg_mul_add(t77, cos_phi2 * t9));
+    let t96 = sin_phi2 * t3.mul_add(t55, s2_dot * t57);
+    let t97 = t59.neg_mul_add(sin_phi2 * s2, t48 * t57);
+    let t98 = t79.mul_add(n(p.m0_e_omega2), t70) - t89;
+    let t99 = t94 + t71.neg_mul_add(n(p.m0_e_omega2), t73);
+    let t100 = sin_phi1 * t2.mul_add(t60, s1_dot * t65);
+    let t101 = t70.neg_mul_add(sin_phi1 * s1, t42 * t65);
+    // Eliminates y from row phi2: l[phi2, y].
+    let t102 = t78 * t95;
+    let t103 = cos_phi2.mul_sub(s2_dot.mul_sub(t55, t3 * t57), t96);
+    // Eliminates phi1 from row s2: l[s2, phi1].
+    let t104 = t85 * t87;
+    // Row x: right-hand side z[x].
+    let t105 = t30.neg_mul_add(t92, t90.neg_mul_add(n(p.k2), t98));
+    let t106 = cos_phi1.mul_sub(s1_dot.mul_sub(t60, t2 * t65), t100);
+    let t107 = t67.mul_add(t102, t25.mul_add(t86, s2 * t14 * t32));
+    let t108 = t103 - (t61.mul_add(cos_phi2 * s2, t51 * t55) - t97);
+    // Row s2: pivot d[s2].
+    let t109 = t85.neg_mul_add(t104, t69.mul_add(t83, t88));
+    let t110 = t47.neg_mul_add(t92, n(p.m2) * (t75 - t76 - t93));
+    let t111 = t31.mul_add(t92, t90.neg_mul_add(n(p.k3), t99));
+    // Row y: right-hand side z[y].
+    let t112 = t62.neg_mul_add(t105, t111);
+    let t113 = t106 - (t73.mul_add(cos_phi1 * s1, t46 * t60) - t101);
+    // Eliminates phi1 from row phi2: l[phi2, phi1].
+    let t114 = t87 * t107;
+    let t115 = N::ONE / t109;
+    // Row phi1: right-hand side z[phi1].
+    let t116 = t82.neg_mul_add(t112, t63.neg_mul_add(t105, t113));
+    let t117 = t69.neg_mul_add(t102, t53.mul_add(t86, t40 * t77));
+    let t118 = t85.mul_add(t114, t117);
+    let t119 = t86.neg_mul_add(t105, n(p.m2).mul_sub(t108, t77 * t92));
+    let t120 = t80.mul_add(t86, t68.neg_mul_add(t77, t20));
+    let t121 = t83.neg_mul_add(t112, t64.mul_add(t105, t110));
+    // Row s2: right-hand side z[s2].
+    let t122 = t104.neg_mul_add(t116, t121);
+    // Eliminates s2 from row phi2: l[phi2, s2].
+    let t123 = t115 * t118;
+    let t124 = t114.neg_mul_add(t116, t102.neg_mul_add(t112, t119));
+    let t125 = t107.neg_mul_add(t114, t95.mul_add(t102, t120));
+    // Row phi2: pivot d[phi2].
+    let t126 = t118.neg_mul_add(t123, t125);
+    // Row phi2: right-hand side z[phi2].
+    let phi2_ddot = t122.mul_add(t123, t124) / t126;
+    // Back substitution: a[s2].
+    let s2_ddot = t123.mul_add(phi2_ddot, t115 * t122);
+    let t127 = t114.neg_mul_add(phi2_ddot, t87 * t116);
+    // Back substitution: a[phi1].
+    let phi1_ddot = t104.neg_mul_add(s2_ddot, t127);
+    let t128 = t86.mul_add(phi2_ddot, t49 * t105);
+    let t129 = t77.neg_mul_add(phi2_ddot, n(p.k6) * t92);
+    let t130 = t83.mul_add(s2_ddot, t102.mul_add(phi2_ddot, t78 * t112));
+    // Back substitution: a[y].
+    let y_ddot = t82.mul_add(phi1_ddot, t130);
+    let t131 = t63.mul_add(phi1_ddot, t64.neg_mul_add(s2_ddot, t128));
+    let t132 = t62 * y_ddot;
+    // Back substitution: a[x].
+    let t133 = t131 - t132;
+    let t134 = n(p.k3).mul_add(y_ddot, t90 * n(p.k5));
+    let t135 = t31.neg_mul_add(y_ddot, t47.neg_mul_add(s2_ddot, t129));
+    let x_ddot = t132 - t131;
+    // Back substitution: a[theta].
+    let theta_ddot = -n(p.k2).mul_add(t133, t134);
+    // Back substitution: a[s1].
+    let s1_ddot = t30.mul_add(t133, t135);
+    let zero = N::ZERO;
+    let t136 = n(p.k7) - t37;
+    let t137 = t66 - t39;
+    let sound = PIVOTS.hold(t136, n(p.k0))
+        & PIVOTS.hold(t137, n(p.k0))
+        & PIVOTS.hold(t84, t8)
+        & PIVOTS.hold(t109, n(p.m2))
+        & PIVOTS.hold(t126, t20)
+        & theta_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (0, t136, n(p.k0)),
+            (1, t137, n(p.k0)),
+            (4, t84, t8),
+            (6, t109, n(p.m2)),
+            (7, t126, t20),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        theta_ddot.store(),
+        s1_ddot.store(),
+        phi1_ddot.store(),
+        zero.store(),
+        s2_ddot.store(),
+        phi2_ddot.store(),
+        zero.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1026,13 +1040,13 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
         phi2: "phi2" "rad";
         theta2: "theta2" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, e_omega, J0_omega2,
         half_cx, half_cy, half_bx, half_by, m1_plus_m2, k0, m0_x0, k1, e_omega2, m0_e_omega2,
-        m0_e_x0_omega2, m0_e_y0_omega2, cy_xc, cx_yc, by_xc, bx_yc, minus_m0_y0, k2, minus_m2, k3,
-        k4, k5, k6, k7, k8, k9,
+        m0_e_x0_omega2, m0_e_y0_omega2, cy_xc, cx_yc, by_xc, bx_yc, minus_m0_y0, minus_m2, k2, k3,
+        k4, k5, k6, k7, k8,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

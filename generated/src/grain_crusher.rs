@@ -2,16 +2,16 @@
 
 //! The crush process with grains that roll on mortar and pestle both, as rollers of diameter delta
 //! without mass: the pestle turns the other way than on a bed, by the relation of R. Willis. The
-//! multiplier of `grain` is the friction on the pestle, and on the mortar, along the same
-//! direction.
+//! multiplier of `grain` is the friction on the pestle, and on the mortar, along the
+//! same direction.
 //!
 //! 9 coordinates, 25 parameters, 1 output. Arithmetic of one call:
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 52 | 21 | 10 | 0 | 0 | 83 |
+//! | `prepare` | 52 | 20 | 10 | 0 | 0 | 82 |
 //! | `start` | 4 | 6 | 2 | 0 | 0 | 12 |
-//! | `mass_matrix` | 28 | 6 | 0 | 3 | 0 | 40 |
+//! | `mass_matrix` | 27 | 7 | 0 | 3 | 0 | 40 |
 //! | `bias` | 53 | 26 | 0 | 4 | 0 | 87 |
 //! | `applied` | 14 | 20 | 0 | 0 | 0 | 34 |
 //! | `forces` | 67 | 44 | 0 | 4 | 0 | 119 |
@@ -44,8 +44,8 @@
 
 /// The crush process with grains that roll on mortar and pestle both, as rollers of diameter delta
 /// without mass: the pestle turns the other way than on a bed, by the relation of R. Willis. The
-/// multiplier of `grain` is the friction on the pestle, and on the mortar, along the same
-/// direction.
+/// multiplier of `grain` is the friction on the pestle, and on the mortar, along the
+/// same direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GrainCrusher<S = f64> {
     /// Mass of the platform. Unit: `kg`. Default: 600.
@@ -104,7 +104,7 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let rho_minus_r2_minus_delta = self.rho - self.r2 - self.delta;
-        let rho_plus_r2 = self.rho + self.r2;
+        let t0 = self.rho + self.r2;
         let e_omega = self.omega * self.e;
         let m1_plus_m2 = self.m1 + self.m2;
         let m0_y0 = self.m0 * self.y0;
@@ -113,25 +113,25 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
         let k0 = m1_plus_m2 + m_plus_m0;
         let R_minus_r1 = self.R - self.r1;
         let k1 = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
-        let k8 = S::ONE / m_plus_m0;
-        let k5 = k1 - k8 * (m0_y0 * m0_y0) - k8 * (m0_x0 * m0_x0);
-        let k6 = S::ONE / k5;
+        let k7 = S::ONE / m_plus_m0;
+        let k4 = k1 - k7 * (m0_y0 * m0_y0) - k7 * (m0_x0 * m0_x0);
+        let k5 = S::ONE / k4;
         let pivot_10 = self.r2 * self.r2;
-        let t0 = S::ONE / self.J1;
-        let t1 = self.rho * t0;
+        let t1 = S::ONE / self.J1;
+        let t2 = self.rho * t1;
         let pivot_12 = self.r1 * self.r1;
-        let t2 = S::ONE / self.r2;
-        let rho_over_r2 = self.rho * t2;
-        let k12 = rho_plus_r2 * t2;
-        let t3 = S::ONE / self.r1;
-        let R_over_r1 = self.R * t3;
-        let k13 = R_minus_r1 * t3;
-        let k15 = self.m2 * rho_minus_r2_minus_delta;
-        let k16 = m1_plus_m2 * R_minus_r1;
-        let t4 = self.J2 * rho_over_r2;
-        let t5 = rho_over_r2 * t4;
-        let t6 = R_over_r1 * t5 + self.J1 * R_over_r1;
-        let t7 = k12 * t4;
+        let t3 = S::ONE / self.r2;
+        let rho_over_r2 = self.rho * t3;
+        let k11 = t0 * t3;
+        let t4 = S::ONE / self.r1;
+        let R_over_r1 = self.R * t4;
+        let k12 = R_minus_r1 * t4;
+        let k14 = self.m2 * rho_minus_r2_minus_delta;
+        let k15 = m1_plus_m2 * R_minus_r1;
+        let t5 = self.J2 * rho_over_r2;
+        let t6 = rho_over_r2 * t5;
+        let t7 = R_over_r1 * t6 + self.J1 * R_over_r1;
+        let t8 = k11 * t5;
         let two_rho_over_delta = self.rho * S::from_f64(2.0) / self.delta;
         let J0_omega2 = self.omega * (self.omega * self.J0);
         let half_cx = self.cx * S::from_f64(0.5);
@@ -140,28 +140,27 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
         let half_by = self.by * S::from_f64(0.5);
         let e_omega2 = self.omega * e_omega;
         let m0_e_omega = self.m0 * e_omega;
-        let k2 = -m1_plus_m2;
         let minus_m2 = -self.m2;
-        let k3 = -rho_plus_r2;
+        let k2 = -t0;
         let minus_R = -self.R;
-        let k4 = self.m0 * k8;
-        let k7 = self.m0 * k6;
+        let k3 = self.m0 * k7;
+        let k6 = self.m0 * k5;
         let inverse_m2 = S::ONE / self.m2;
         let inverse_m1 = S::ONE / self.m1;
-        let k9 = pivot_10 / self.J2 + self.rho * t1;
-        let k10 = rho_plus_r2 * S::from_f64(2.0);
-        let r1_rho_over_J1 = self.r1 * t1;
-        let r1_squared_over_J1 = t0 * pivot_12;
-        let k11 = self.R * k6;
-        let k14 = self.m1 * R_minus_r1;
-        let k17 = k13 * t6;
-        let k18 = R_over_r1 * t7;
-        let k19 = k13 * t7;
-        let k20 = R_minus_r1 * k15;
-        let k21 = R_minus_r1 * k16 + k13 * (k13 * t5 + self.J1 * k13);
-        let k22 = rho_minus_r2_minus_delta * k15 + k12 * (self.J2 * k12);
-        let k23 = k1 + R_over_r1 * t6;
-        let k24 = S::ONE / k0;
+        let k8 = pivot_10 / self.J2 + self.rho * t2;
+        let k9 = t0 * S::from_f64(2.0);
+        let r1_rho_over_J1 = self.r1 * t2;
+        let r1_squared_over_J1 = t1 * pivot_12;
+        let k10 = self.R * k5;
+        let k13 = self.m1 * R_minus_r1;
+        let k16 = k12 * t7;
+        let k17 = R_over_r1 * t8;
+        let k18 = k12 * t8;
+        let k19 = R_minus_r1 * k14;
+        let k20 = R_minus_r1 * k15 + k12 * (k12 * t6 + self.J1 * k12);
+        let k21 = rho_minus_r2_minus_delta * k14 + k11 * (self.J2 * k11);
+        let k22 = k1 + R_over_r1 * t7;
+        let k23 = S::ONE / k0;
         let one = S::ONE;
         let pivots = [
             (0, k0, k0),
@@ -188,12 +187,10 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
             by: self.by,
             xc: self.xc,
             yc: self.yc,
-            R: self.R,
             r1: self.r1,
             rho: self.rho,
             r2: self.r2,
             rho_minus_r2_minus_delta,
-            rho_plus_r2,
             two_rho_over_delta,
             e_omega,
             J0_omega2,
@@ -209,26 +206,26 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
             R_minus_r1,
             m0_e_omega,
             k1,
-            k2,
             minus_m2,
-            k3,
+            k2,
             minus_R,
             m_plus_m0,
+            k3,
             k4,
             k5,
             k6,
             k7,
-            k8,
             inverse_m2,
             inverse_m1,
+            k8,
             k9,
-            k10,
             r1_rho_over_J1,
             r1_squared_over_J1,
-            k11,
+            k10,
             rho_over_r2,
-            k12,
+            k11,
             R_over_r1,
+            k12,
             k13,
             k14,
             k15,
@@ -240,7 +237,6 @@ impl<S: ::lagrangian::emitted::Scalar> GrainCrusher<S> {
             k21,
             k22,
             k23,
-            k24,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -307,10 +303,6 @@ pub struct Coordinates<S = f64> {
     pub theta2: S,
 }
 
-/// What can be set while a [`GrainCrusher`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
 /// What can be observed of a [`GrainCrusher`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
@@ -353,8 +345,6 @@ pub struct Prepared<S = f64> {
     xc: S,
     /// `yc`
     yc: S,
-    /// `R`
-    R: S,
     /// `r1`
     r1: S,
     /// `rho`
@@ -363,8 +353,6 @@ pub struct Prepared<S = f64> {
     r2: S,
     /// `rho - r2 - delta`
     rho_minus_r2_minus_delta: S,
-    /// `rho + r2`
-    rho_plus_r2: S,
     /// `2*rho/delta`
     two_rho_over_delta: S,
     /// `e*omega`
@@ -395,70 +383,68 @@ pub struct Prepared<S = f64> {
     m0_e_omega: S,
     /// `J + m0*x0^2 + m0*y0^2`
     k1: S,
-    /// `-(m1 + m2)`
-    k2: S,
     /// `-m2`
     minus_m2: S,
     /// `-(rho + r2)`
-    k3: S,
+    k2: S,
     /// `-R`
     minus_R: S,
     /// `m + m0`
     m_plus_m0: S,
     /// `m0/(m + m0)`
-    k4: S,
+    k3: S,
     /// `J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0)`
-    k5: S,
+    k4: S,
     /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k6: S,
+    k5: S,
     /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k7: S,
+    k6: S,
     /// `1/(m + m0)`
-    k8: S,
+    k7: S,
     /// `1/m2`
     inverse_m2: S,
     /// `1/m1`
     inverse_m1: S,
     /// `rho^2/J1 + r2^2/J2`
-    k9: S,
+    k8: S,
     /// `2*(rho + r2)`
-    k10: S,
+    k9: S,
     /// `r1*rho/J1`
     r1_rho_over_J1: S,
     /// `r1^2/J1`
     r1_squared_over_J1: S,
     /// `R/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
-    k11: S,
+    k10: S,
     /// `rho/r2`
     rho_over_r2: S,
     /// `(rho + r2)/r2`
-    k12: S,
+    k11: S,
     /// `R/r1`
     R_over_r1: S,
     /// `(R - r1)/r1`
-    k13: S,
+    k12: S,
     /// `m1*(R - r1)`
-    k14: S,
+    k13: S,
     /// `m2*(rho - r2 - delta)`
-    k15: S,
+    k14: S,
     /// `(m1 + m2)*(R - r1)`
-    k16: S,
+    k15: S,
     /// `(R - r1)*(J1*R/r1 + J2*R*rho^2/r1/r2^2)/r1`
-    k17: S,
+    k16: S,
     /// `J2*R*rho*(rho + r2)/r1/r2^2`
-    k18: S,
+    k17: S,
     /// `J2*rho*(rho + r2)*(R - r1)/r1/r2^2`
-    k19: S,
+    k18: S,
     /// `m2*(rho - r2 - delta)*(R - r1)`
-    k20: S,
+    k19: S,
     /// `(R - r1)*(J1*(R - r1)/r1 + J2*rho^2*(R - r1)/r1/r2^2)/r1 + (m1 + m2)*(R - r1)^2`
-    k21: S,
+    k20: S,
     /// `J2*(rho + r2)^2/r2^2 + m2*(rho - r2 - delta)^2`
-    k22: S,
+    k21: S,
     /// `J + m0*x0^2 + m0*y0^2 + R*(J1*R/r1 + J2*R*rho^2/r1/r2^2)/r1`
-    k23: S,
+    k22: S,
     /// `1/(m + m0 + m1 + m2)`
-    k24: S,
+    k23: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -508,27 +494,27 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.m1_plus_m2 * s1;
+    let t1 = s1 * p.m1_plus_m2;
     let t2 = p.m2 * s2;
     let t3 = sin_phi1 * cos_phi2;
     let t4 = cos_phi1 * sin_phi2;
-    let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t5 = sin_phi1 * sin_phi2 + cos_phi1 * cos_phi2;
     let zero = S::ZERO;
-    let m31 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
-    let m32 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
-    let m41 = p.m1_plus_m2 * cos_phi1;
-    let m42 = p.m1_plus_m2 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k2);
+    let m31 = -(cos_theta * p.m0_y0 + sin_theta * p.m0_x0);
+    let m32 = cos_theta * p.m0_x0 - sin_theta * p.m0_y0;
+    let m41 = cos_phi1 * p.m1_plus_m2;
+    let m42 = sin_phi1 * p.m1_plus_m2;
+    let m51 = -(sin_phi1 * t1);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
-    let m75 = (t4 - t3) * t0;
+    let m75 = t0 * (t4 - t3);
     let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t3 - t4);
-    let m85 = t5 * (t0 * s2);
+    let m85 = t0 * s2 * t5;
     let m88 = s2 * t2;
     [
         [p.k0, zero, m31, m41, m51, zero, m71, m81, zero],
@@ -757,7 +743,7 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let phi1 = -s2_dot;
     let phi2 = (theta1_dot - phi2_dot) * p.rho - (phi2_dot - theta2_dot) * p.r2;
     let phi3 = -s1_dot;
-    let phi4 = theta1_dot * p.r1 + phi1_dot * s1 - p.R * theta_dot;
+    let phi4 = phi1_dot * s1 + theta1_dot * p.r1 + p.minus_R * theta_dot;
     [phi1, phi2, phi3, phi4]
 }
 
@@ -793,7 +779,7 @@ pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &
         zero,
         p.rho,
         zero,
-        p.k3,
+        p.k2,
         p.r2,
         zero,
         zero,
@@ -829,378 +815,410 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(v: &[S; 9]) -> [S; 4] {
     [zero, zero, zero, gamma4]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix,
-/// without the coordinates that constraints settle, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 9],
-    v: &[S; 9],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass
+    /// matrix, without the coordinates that constraints settle, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        t: S,
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+    }) -> Result<[S; 9], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, t, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub t: S,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 9],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 9],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let phi1 = n(q[4]);
-        let phi2 = n(q[7]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let phi1_dot = n(v[4]);
-        let phi2_dot = n(v[7]);
-        let t0 = n(p.omega) * n(t);
-        let angles = [theta, phi1, phi2, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_theta, cos_theta) = circular[0];
-        let (sin_phi1, cos_phi1) = circular[1];
-        let (sin_phi2, cos_phi2) = circular[2];
-        let (sin_t0, cos_t0) = circular[3];
-        let t1 = n(p.yc) * theta;
-        let t2 = theta * n(p.xc);
-        let t3 = theta_dot * n(p.yc);
-        let t4 = theta_dot * n(p.xc);
-        let t5 = phi2_dot * (phi2_dot * n(p.rho_minus_r2_minus_delta));
-        let t6 = phi1_dot * phi1_dot;
-        let t7 = n(p.omega).product_error(n(t));
-        let t8 = theta_dot * theta_dot;
-        let t9 = n(p.bx).mul_add(t3 + x_dot, n(p.cx) * (t1 + x));
-        let t10 = n(p.bx).mul_add(x_dot - t3, n(p.cx) * (x - t1));
-        let t11 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
-        let t12 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
-        let t13 = sin_phi1 * n(p.k16);
-        let t14 = cos_phi1 * n(p.k16);
-        let t15 = t6 * cos_phi1;
-        let t16 = sin_theta.mul_add(n(p.m0_x0), cos_theta * n(p.m0_y0));
-        let t17 = cos_theta.mul_sub(n(p.m0_x0), sin_theta * n(p.m0_y0));
-        let t18 = n(p.k24) * t13;
-        let t19 = n(p.k24) * t14;
-        let t20 = n(p.k24) * t16;
-        let t21 = n(p.k24) * t17;
-        let t22 = t6 * sin_phi1;
-        let t23 = t15.mul_add(n(p.R_minus_r1), t5 * cos_phi2);
-        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k17)));
-        let t25 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
-        let t26 = n(p.e_omega2).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
-        let t27 = n(p.R_minus_r1).mul_add(t22, t5 * sin_phi2);
-        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k14));
-        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k23)));
-        let t30 = sin_phi2 * n(p.k15);
-        let t31 = t8 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
-        let t32 = n(p.e_omega2).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
-        let t33 = cos_phi2 * n(p.k15);
-        let t34 = n(p.m2).mul_add(t27, n(p.k14) * t22);
-        let t35 = N::ONE / t29;
-        let t36 = n(p.k24) * t30;
-        let t37 = t32.mul_add(n(p.m0), t28 - (t10 + t9));
-        let t38 = n(p.k24) * t33;
-        let t39 = n(p.yc).mul_add(t9 - t10, n(p.xc) * (t11 - t12));
-        let t40 = t32.mul_sub(n(p.m0_y0), n(p.m0_x0) * t26);
-        let t41 = n(p.m0).mul_add(t26, t34 - (t12 + t11));
-        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k18)));
-        let t43 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
-        let t44 = n(p.m0_y0).mul_add(t26, t32 * n(p.m0_x0));
-        let t45 = t35 * t24;
-        let t46 = t35 * t42;
-        let t47 = n(p.k15) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
-        let t48 = cos_phi1.mul_sub(t34, sin_phi1 * t28);
-        let t49 = t43.mul_add(n(p.k20), n(p.k19));
-        let t50 = sin_theta.mul_add(t44, cos_theta.mul_add(t40, t39));
-        let t51 = t50 + t21.mul_sub(t41, t37 * t20);
-        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k21)));
-        let t53 = t24.neg_mul_add(t45, t52);
-        let t54 = n(p.R_minus_r1).mul_add(t48, t37 * t18);
-        let t55 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
-        let t56 = N::ONE / t53;
-        let t57 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
-        let t58 = t45.neg_mul_add(t51, t19.neg_mul_add(t41, t54));
-        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k22)));
-        let t60 = t56 * t55;
-        let t61 = t55.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
-        let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t57)) / t61;
-        let phi1_ddot = t60.neg_mul_add(phi2_ddot, t56 * t58);
-        let t62 = t46.neg_mul_add(phi2_ddot, t35 * t51);
-        let t63 = t45 * phi1_ddot;
-        let t64 = t36.mul_add(phi2_ddot, n(p.k24) * t37);
-        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k24) * t41);
-        let t66 = t62 - t63;
-        let t67 = t66.mul_add(n(p.R_over_r1), phi1_ddot * n(p.k13));
-        let x_ddot = t20.neg_mul_add(t66, t18.mul_add(phi1_ddot, t64));
-        let y_ddot = t21.mul_add(t66, t19.neg_mul_add(phi1_ddot, t65));
-        let theta_ddot = t63 - t62;
-        let zero = N::ZERO;
-        let theta1_ddot = -t67;
-        let theta2_ddot = t67.mul_add(n(p.rho_over_r2), phi2_ddot * n(p.k12));
-        let sound = PIVOTS_1.hold(t29, n(p.k23))
-            & PIVOTS_1.hold(t53, n(p.k21))
-            & PIVOTS_1.hold(t61, n(p.k22))
-            & theta2_ddot.is_finite();
-        if !sound {
-            let pivots = [(2, t29, n(p.k23)), (4, t53, n(p.k21)), (7, t61, n(p.k22))];
-            PIVOTS_1.check(pivots)?;
-        }
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            theta_ddot.store(),
-            zero.store(),
-            phi1_ddot.store(),
-            theta1_ddot.store(),
-            zero.store(),
-            phi2_ddot.store(),
-            theta2_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let phi1 = n(q[4]);
+    let phi2 = n(q[7]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let phi1_dot = n(v[4]);
+    let phi2_dot = n(v[7]);
+    let t0 = n(p.omega) * n(t);
+    let angles = [theta, phi1, phi2, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_theta, cos_theta) = circular[0];
+    let (sin_phi1, cos_phi1) = circular[1];
+    let (sin_phi2, cos_phi2) = circular[2];
+    let (sin_t0, cos_t0) = circular[3];
+    let t1 = n(p.yc) * theta;
+    let t2 = theta * n(p.xc);
+    let t3 = theta_dot * n(p.yc);
+    let t4 = theta_dot * n(p.xc);
+    let t5 = phi2_dot * (phi2_dot * n(p.rho_minus_r2_minus_delta));
+    let t6 = phi1_dot * phi1_dot;
+    let t7 = n(p.omega).product_error(n(t));
+    let t8 = theta_dot * theta_dot;
+    let t9 = n(p.bx).mul_add(t3 + x_dot, n(p.cx) * (t1 + x));
+    let t10 = n(p.bx).mul_add(x_dot - t3, n(p.cx) * (x - t1));
+    let t11 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
+    let t12 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
+    let t13 = sin_phi1 * n(p.k15);
+    let t14 = cos_phi1 * n(p.k15);
+    let t15 = t6 * cos_phi1;
+    let t16 = sin_theta.mul_add(n(p.m0_x0), cos_theta * n(p.m0_y0));
+    let t17 = cos_theta.mul_sub(n(p.m0_x0), sin_theta * n(p.m0_y0));
+    // Eliminates x from row phi1: l[phi1, x].
+    let t18 = n(p.k23) * t13;
+    // Eliminates y from row phi1: l[phi1, y].
+    let t19 = n(p.k23) * t14;
+    // Eliminates x from row theta: l[theta, x].
+    let t20 = n(p.k23) * t16;
+    // Eliminates y from row theta: l[theta, y].
+    let t21 = n(p.k23) * t17;
+    let t22 = t6 * sin_phi1;
+    let t23 = t15.mul_add(n(p.R_minus_r1), t5 * cos_phi2);
+    let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k16)));
+    let t25 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
+    let t26 = n(p.e_omega2).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
+    let t27 = n(p.R_minus_r1).mul_add(t22, t5 * sin_phi2);
+    let t28 = t23.mul_add(n(p.m2), t15 * n(p.k13));
+    // Row theta: pivot d[theta].
+    let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k22)));
+    let t30 = sin_phi2 * n(p.k14);
+    let t31 = t8 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
+    let t32 = n(p.e_omega2).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
+    let t33 = cos_phi2 * n(p.k14);
+    let t34 = n(p.m2).mul_add(t27, n(p.k13) * t22);
+    let t35 = N::ONE / t29;
+    // Eliminates x from row phi2: l[phi2, x].
+    let t36 = n(p.k23) * t30;
+    let t37 = t32.mul_add(n(p.m0), t28 - (t10 + t9));
+    // Eliminates y from row phi2: l[phi2, y].
+    let t38 = n(p.k23) * t33;
+    let t39 = n(p.yc).mul_add(t9 - t10, n(p.xc) * (t11 - t12));
+    let t40 = t32.mul_sub(n(p.m0_y0), n(p.m0_x0) * t26);
+    let t41 = n(p.m0).mul_add(t26, t34 - (t12 + t11));
+    let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k17)));
+    let t43 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
+    let t44 = n(p.m0_y0).mul_add(t26, t32 * n(p.m0_x0));
+    // Eliminates theta from row phi1: l[phi1, theta].
+    let t45 = t35 * t24;
+    // Eliminates theta from row phi2: l[phi2, theta].
+    let t46 = t35 * t42;
+    let t47 = n(p.k14) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
+    let t48 = cos_phi1.mul_sub(t34, sin_phi1 * t28);
+    let t49 = t43.mul_add(n(p.k19), n(p.k18));
+    let t50 = sin_theta.mul_add(t44, cos_theta.mul_add(t40, t39));
+    // Row theta: right-hand side z[theta].
+    let t51 = t50 + t21.mul_sub(t41, t37 * t20);
+    let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k20)));
+    // Row phi1: pivot d[phi1].
+    let t53 = t24.neg_mul_add(t45, t52);
+    let t54 = n(p.R_minus_r1).mul_add(t48, t37 * t18);
+    let t55 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
+    let t56 = N::ONE / t53;
+    let t57 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
+    // Row phi1: right-hand side z[phi1].
+    let t58 = t45.neg_mul_add(t51, t19.neg_mul_add(t41, t54));
+    let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k21)));
+    // Eliminates phi1 from row phi2: l[phi2, phi1].
+    let t60 = t56 * t55;
+    // Row phi2: pivot d[phi2].
+    let t61 = t55.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
+    // Row phi2: right-hand side z[phi2].
+    let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t57)) / t61;
+    // Back substitution: a[phi1].
+    let phi1_ddot = t60.neg_mul_add(phi2_ddot, t56 * t58);
+    let t62 = t46.neg_mul_add(phi2_ddot, t35 * t51);
+    let t63 = t45 * phi1_ddot;
+    let t64 = t36.mul_add(phi2_ddot, n(p.k23) * t37);
+    let t65 = t38.neg_mul_add(phi2_ddot, n(p.k23) * t41);
+    // Back substitution: a[theta].
+    let t66 = t62 - t63;
+    let t67 = t66.mul_add(n(p.R_over_r1), phi1_ddot * n(p.k12));
+    let x_ddot = t20.neg_mul_add(t66, t18.mul_add(phi1_ddot, t64));
+    // Back substitution: a[y].
+    let y_ddot = t21.mul_add(t66, t19.neg_mul_add(phi1_ddot, t65));
+    let theta_ddot = t63 - t62;
+    let zero = N::ZERO;
+    let theta1_ddot = -t67;
+    let theta2_ddot = t67.mul_add(n(p.rho_over_r2), phi2_ddot * n(p.k11));
+    let sound = PIVOTS_1.hold(t29, n(p.k22))
+        & PIVOTS_1.hold(t53, n(p.k20))
+        & PIVOTS_1.hold(t61, n(p.k21))
+        & theta2_ddot.is_finite();
+    if !sound {
+        let pivots = [(2, t29, n(p.k22)), (4, t53, n(p.k20)), (7, t61, n(p.k21))];
+        PIVOTS_1.check(pivots)?;
+    }
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        theta_ddot.store(),
+        zero.store(),
+        phi1_ddot.store(),
+        theta1_ddot.store(),
+        zero.store(),
+        phi2_ddot.store(),
+        theta2_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 9],
-    v: &[S; 9],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    ///
+    /// So far these are the accelerations `a0` without constraint forces. The multipliers follow
+    /// from `C lambda = gamma - G a0`, where now `G` are the rows of the constraints and `C = G
+    /// M^-1 G^T`, row after row: `d`, `l` and `z` of constraints are those of `C = L D L^T`.
+    pub fn multipliers<'a, S>(Multipliers {
+        p: &'a Prepared<S>,
+        t: S,
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+    }) -> Result<[S; 4], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 4], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, t, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub t: S,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 9],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 9],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 4], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let s1 = n(q[3]);
-        let phi1 = n(q[4]);
-        let s2 = n(q[6]);
-        let phi2 = n(q[7]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let s1_dot = n(v[3]);
-        let phi1_dot = n(v[4]);
-        let s2_dot = n(v[6]);
-        let phi2_dot = n(v[7]);
-        let t0 = n(p.omega) * n(t);
-        let angles = [phi1, phi2, theta, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_phi1, cos_phi1) = circular[0];
-        let (sin_phi2, cos_phi2) = circular[1];
-        let (sin_theta, cos_theta) = circular[2];
-        let (sin_t0, cos_t0) = circular[3];
-        let t1 = N::ONE / s2;
-        let t2 = N::ONE / s1;
-        let t3 = theta * n(p.xc);
-        let t4 = theta * n(p.yc);
-        let t5 = theta_dot * n(p.xc);
-        let t6 = theta_dot * n(p.yc);
-        let t7 = theta_dot * theta_dot;
-        let t8 = n(p.omega).product_error(n(t));
-        let t9 = phi1_dot * s1_dot;
-        let t10 = n(p.by).mul_add(t5 + y_dot, n(p.cy) * (t3 + y));
-        let t11 = n(p.by).mul_add(y_dot - t5, n(p.cy) * (y - t3));
-        let t12 = n(p.bx).mul_add(t6 + x_dot, n(p.cx) * (t4 + x));
-        let t13 = n(p.bx).mul_add(x_dot - t6, n(p.cx) * (x - t4));
-        let t14 = t2 * (t2 * n(p.inverse_m1));
-        let t15 = phi2_dot * (s2 * phi2_dot);
-        let t16 = n(p.yc).mul_add(t13, n(p.xc) * t11);
-        let t17 = s2 * (s2 * n(p.m2));
-        let t18 = s1 * (s1 * n(p.m1));
-        let t19 = sin_phi1 * s1;
-        let t20 = cos_phi1 * s1;
-        let t21 = sin_phi2 * t1;
-        let t22 = sin_phi1 * t2;
-        let t23 = sin_theta * n(p.x0);
-        let t24 = cos_theta * n(p.y0);
-        let t25 = cos_phi2 * t1;
-        let t26 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t27 = n(p.rho_plus_r2) * t21;
-        let t28 = cos_phi1 * t2;
-        let t29 = cos_theta * n(p.x0);
-        let t30 = sin_theta * n(p.y0);
-        let t31 = t23 + t24;
-        let t32 = n(p.rho_plus_r2) * t25;
-        let t33 = t20.mul_sub(sin_phi2, t19 * cos_phi2);
-        let t34 = t29 - t30;
-        let t35 = n(p.k4) * t31;
-        let t36 = t22.mul_add(t33, cos_phi1.neg_mul_add(t26, cos_phi2));
-        let t37 = t28.neg_mul_add(t33, sin_phi1.neg_mul_add(t26, sin_phi2));
-        let t38 = sin_phi1.mul_sub(t32, cos_phi1 * t27);
-        let t39 = n(p.k4) * t34;
-        let t40 = t19.mul_add(t27, t20 * t32);
-        let t41 = t28.neg_mul_add(t40, sin_phi1.neg_mul_add(t38, t32));
-        let t42 = t22.neg_mul_add(t40, cos_phi1.mul_add(t38, t27));
-        let t43 = cos_phi1 * n(p.k8);
-        let t44 = t8.neg_mul_add(sin_t0, cos_t0);
-        let t45 = t8.mul_add(cos_t0, sin_t0);
-        let t46 = n(p.k6) * (n(p.k4) * t34.mul_sub(t37, t36 * t31));
-        let t47 = sin_phi1 * n(p.k8);
-        let t48 = n(p.e_omega2).mul_add(t44, t29.mul_sub(t7, t30 * t7));
-        let t49 = t48 * n(p.m0);
-        let t50 = n(p.e_omega2).mul_add(t45, t23.mul_add(t7, t24 * t7));
-        let t51 = n(p.m0) * t50;
-        let t52 = n(p.k4) * sin_phi1.mul_sub(t34, cos_phi1 * t31);
-        let t53 = n(p.k6) * t52;
-        let t54 = t46.neg_mul_add(t35, t36 * n(p.k8));
-        let t55 = t39.mul_add(t46, t37 * n(p.k8));
-        let t56 = cos_phi1.neg_mul_add(t39, n(p.R));
-        let t57 = n(p.yc).mul_add(t12, n(p.xc) * t10) - t16;
-        let t58 = t13 + t12 - t49;
-        let t59 = t11 + t10 - t51;
-        let t60 = n(p.k6) * (n(p.k4) * t31.mul_add(t42, t34 * t41));
-        let t61 = t35.neg_mul_add(t53, t43);
-        let t62 = t39.mul_add(t53, t47);
-        let t63 = cos_phi1.mul_sub(t54, t26 * n(p.inverse_m1));
-        let t64 = sin_phi1.mul_add(t55, t63);
-        let t65 = t28.neg_mul_add(t55, t22.mul_add(t54, t33 * t14));
-        let t66 = t35.mul_add(t60, n(p.k8) * t42);
-        let t67 = t39.mul_add(t60, n(p.k8) * t41);
-        let t68 = n(p.k6) * sin_phi1.neg_mul_add(t35, t56);
-        let t69 = t39.neg_mul_add(t59, t31.mul_add(t49, t57));
-        let t70 = t35.mul_sub(t58, t34 * t51) + t69;
-        let t71 = cos_phi1.mul_add(t61, n(p.inverse_m1));
-        let t72 = sin_phi1.mul_add(t62, t71);
-        let t73 = s1.mul_add(t65, t46 * n(p.R));
-        let t74 = n(p.k7) * t70;
-        let t75 = t19.neg_mul_add(t65, cos_phi1.neg_mul_add(t64, t54));
-        let t76 = sin_phi1.neg_mul_add(t64, t20.mul_add(t65, t55));
-        let t77 = t28.neg_mul_add(t67, t22.neg_mul_add(t66, t14 * t40));
-        let t78 = cos_phi1.mul_add(t66, n(p.inverse_m1) * t38);
-        let t79 = sin_phi1.neg_mul_add(t67, t78);
-        let t80 = t31.mul_add(t74, t58);
-        let t81 = t34.neg_mul_add(t74, t59);
-        let t82 = cos_phi2.mul_add(t75, n(p.inverse_m2));
-        let t83 = sin_phi2.mul_add(t76, t82);
-        let t84 = t47.mul_add(t80, t9 * N::from_f64(2.0));
-        let t85 = N::ONE / t83;
-        let t86 = n(p.rho_plus_r2) * t75.mul_sub(t21, t76 * t25);
-        let t87 = n(p.rho_plus_r2) * (t1 * (n(p.inverse_m2) * t1));
-        let t88 = cos_phi1.neg_mul_add(t79, t19.mul_add(t77, t66));
-        let t89 = t22.mul_add(t35.neg_mul_add(t68, t47), s1 * t14);
-        let t90 = t43.mul_add(t80, phi1_dot * (s1 * phi1_dot));
-        let t91 = t20.mul_add(t77, sin_phi1.mul_add(t79, t67));
-        let t92 = n(p.R).mul_add(t68, n(p.r1_squared_over_J1));
-        let t93 = t28.mul_add(t39.neg_mul_add(t68, t43), t89);
-        let t94 = s1.mul_add(t93, t92);
-        let t95 = t25.mul_add(t91, t21.mul_add(t88, t87));
-        let t96 = n(p.rho_plus_r2).mul_add(t95, n(p.k9));
-        let t97 = t85 * t86;
-        let t98 = t64 * t85;
-        let t99 = t85 * t73;
-        let t100 = t86.neg_mul_add(t97, t96);
-        let t101 = t86.neg_mul_add(t98, t79);
-        let t102 = s1.mul_add(t77, t60.mul_add(n(p.R), n(p.r1_rho_over_J1)));
-        let t103 = t86.mul_add(t99, t102);
-        let t104 = s1.mul_add(t22.mul_sub(t61, t28 * t62), t53 * n(p.R));
-        let t105 = t1 * (phi2_dot * (n(p.k10) * s2_dot));
-        let t106 = t97.neg_mul_add(t15, t105);
-        let t107 = t70.mul_add(n(p.k11), t9) - t43.neg_mul_add(t81, t84);
-        let t108 = N::ONE / t100;
-        let t109 = t108 * t101;
-        let t110 = t108 * t103;
-        let t111 = t101.neg_mul_add(t109, t64.neg_mul_add(t98, t72));
-        let t112 = t101.mul_add(t110, t64.neg_mul_add(t99, t104));
-        let t113 = t98.neg_mul_add(t15, t47.mul_add(t81, t90));
-        let t114 = t109.neg_mul_add(t106, t113);
-        let t115 = N::ONE / t111;
-        let t116 = t115 * t112;
-        let t117 = t110.neg_mul_add(t106, t99.mul_add(t15, t107));
-        let t118 = t103.neg_mul_add(t110, t73.neg_mul_add(t99, t94));
-        let t119 = t112.neg_mul_add(t116, t118);
-        let t120 = t116.mul_add(t114, t117) / t119;
-        let lambda3 = t116.mul_add(t120, t115 * t114);
-        let t121 = t110.neg_mul_add(t120, t108 * t106);
-        let t122 = t109 * lambda3;
-        let t123 = t98.neg_mul_add(lambda3, t99.mul_add(t120, t85 * t15));
-        let lambda1 = t97.neg_mul_add(t121 - t122, t123);
-        let lambda2 = t122 - t121;
-        let lambda4 = -t120;
-        let sound = PIVOTS.hold(n(p.J1), n(p.J1))
-            & PIVOTS.hold(n(p.J2), n(p.J2))
-            & PIVOTS.hold(n(p.m2), n(p.m2))
-            & PIVOTS.hold(t17, t17)
-            & PIVOTS.hold(n(p.m1), n(p.m1_plus_m2))
-            & PIVOTS.hold(t18, t18)
-            & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
-            & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
-            & PIVOTS.hold(n(p.k5), n(p.k1))
-            & PIVOTS.hold(t83, t83)
-            & PIVOTS.hold(t100, t96)
-            & PIVOTS.hold(t111, t72)
-            & PIVOTS.hold(t119, t94)
-            & lambda1.is_finite();
-        if !sound {
-            let pivots = [
-                (5, n(p.J1), n(p.J1)),
-                (8, n(p.J2), n(p.J2)),
-                (6, n(p.m2), n(p.m2)),
-                (7, t17, t17),
-                (3, n(p.m1), n(p.m1_plus_m2)),
-                (4, t18, t18),
-                (1, n(p.m_plus_m0), n(p.k0)),
-                (0, n(p.m_plus_m0), n(p.k0)),
-                (2, n(p.k5), n(p.k1)),
-                (9, t83, t83),
-                (10, t100, t96),
-                (11, t111, t72),
-                (12, t119, t94),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [
-            lambda1.store(),
-            lambda2.store(),
-            lambda3.store(),
-            lambda4.store(),
-        ];
-        Ok(multipliers)
+    let Multipliers { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let s1 = n(q[3]);
+    let phi1 = n(q[4]);
+    let s2 = n(q[6]);
+    let phi2 = n(q[7]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let s1_dot = n(v[3]);
+    let phi1_dot = n(v[4]);
+    let s2_dot = n(v[6]);
+    let phi2_dot = n(v[7]);
+    let t0 = n(p.omega) * n(t);
+    let angles = [phi1, phi2, theta, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_phi1, cos_phi1) = circular[0];
+    let (sin_phi2, cos_phi2) = circular[1];
+    let (sin_theta, cos_theta) = circular[2];
+    let (sin_t0, cos_t0) = circular[3];
+    let t1 = N::ONE / s2;
+    let t2 = N::ONE / s1;
+    let t3 = theta * n(p.xc);
+    let t4 = theta * n(p.yc);
+    let t5 = n(p.xc) * theta_dot;
+    let t6 = n(p.yc) * theta_dot;
+    let t7 = theta_dot * theta_dot;
+    let t8 = n(p.omega).product_error(n(t));
+    let t9 = phi1_dot * s1_dot;
+    let t10 = (t3 + y).mul_add(n(p.cy), (t5 + y_dot) * n(p.by));
+    let t11 = (y - t3).mul_add(n(p.cy), (y_dot - t5) * n(p.by));
+    let t12 = (t4 + x).mul_add(n(p.cx), (t6 + x_dot) * n(p.bx));
+    let t13 = (x - t4).mul_add(n(p.cx), (x_dot - t6) * n(p.bx));
+    let t14 = t2 * (t2 * n(p.inverse_m1));
+    // Eliminates s2: alone z[s2].
+    let t15 = phi2_dot * (s2 * phi2_dot);
+    let t16 = n(p.xc).mul_add(t11, n(p.yc) * t13);
+    let t17 = s2 * (s2 * n(p.m2));
+    let t18 = s1 * (s1 * n(p.m1));
+    let t19 = sin_phi1 * s1;
+    let t20 = cos_phi1 * s1;
+    let t21 = sin_phi2 * t1;
+    let t22 = sin_phi1 * t2;
+    let t23 = sin_theta * n(p.x0);
+    let t24 = cos_theta * n(p.y0);
+    let t25 = cos_phi2 * t1;
+    let t26 = sin_phi1.mul_add(sin_phi2, cos_phi1 * cos_phi2);
+    let t27 = n(p.k2) * t21;
+    let t28 = cos_phi1 * t2;
+    let t29 = cos_theta * n(p.x0);
+    let t30 = sin_theta * n(p.y0);
+    // Eliminates x: coupling l[x].
+    let t31 = t23 + t24;
+    let t32 = n(p.k2) * t25;
+    let t33 = sin_phi2.mul_sub(t20, cos_phi2 * t19);
+    // Eliminates y: coupling l[y].
+    let t34 = t29 - t30;
+    let t35 = t31 * n(p.k3);
+    let t36 = t22.mul_add(t33, cos_phi1.neg_mul_add(t26, cos_phi2));
+    let t37 = t28.neg_mul_add(t33, sin_phi1.neg_mul_add(t26, sin_phi2));
+    let t38 = cos_phi1.mul_sub(t27, sin_phi1 * t32);
+    let t39 = t34 * n(p.k3);
+    let t40 = t20.mul_add(t32, t19 * t27);
+    let t41 = t28.mul_sub(t40, sin_phi1.mul_add(t38, t32));
+    let t42 = t22.mul_add(t40, cos_phi1.mul_sub(t38, t27));
+    let t43 = cos_phi1 * n(p.k7);
+    let t44 = t8.neg_mul_add(sin_t0, cos_t0);
+    let t45 = t8.mul_add(cos_t0, sin_t0);
+    let t46 = n(p.k3) * t34.mul_sub(t37, t31 * t36) * n(p.k5);
+    let t47 = sin_phi1 * n(p.k7);
+    let t48 = t44.mul_add(n(p.e_omega2), t7.mul_sub(t29, t7 * t30));
+    let t49 = t48 * n(p.m0);
+    let t50 = t45.mul_add(n(p.e_omega2), t7.mul_add(t24, t7 * t23));
+    let t51 = t50 * n(p.m0);
+    let t52 = n(p.k3) * sin_phi1.mul_sub(t34, cos_phi1 * t31) * n(p.k5);
+    let t53 = t35.neg_mul_add(t46, t36 * n(p.k7));
+    let t54 = t39.mul_add(t46, t37 * n(p.k7));
+    let t55 = n(p.xc).mul_add(t10, n(p.yc) * t12) - t16;
+    let t56 = t12 + t13 - t49;
+    let t57 = t10 + t11 - t51;
+    let t58 = n(p.k5) * (n(p.k3) * t34.mul_add(t41, t31 * t42));
+    let t59 = t35.neg_mul_add(t52, t43);
+    let t60 = t39.mul_add(t52, t47);
+    let t61 = cos_phi1.mul_sub(t53, n(p.inverse_m1) * t26);
+    let t62 = sin_phi1.mul_add(t54, t61);
+    let t63 = t28.neg_mul_add(t54, t22.mul_add(t53, t14 * t33));
+    let t64 = t35.mul_add(t58, n(p.k7) * t42);
+    let t65 = t39.mul_add(t58, n(p.k7) * t41);
+    let t66 = sin_phi1.mul_add(t35, cos_phi1.mul_add(t39, n(p.minus_R)));
+    let t67 = n(p.k5) * t66;
+    let t68 = t39.neg_mul_add(t57, t31.mul_add(t49, t55));
+    let t69 = t68 + t35.mul_sub(t56, t34 * t51);
+    let t70 = cos_phi1.mul_add(t59, n(p.inverse_m1));
+    let t71 = sin_phi1.mul_add(t60, t70);
+    let t72 = s1.mul_sub(t63, t46 * n(p.minus_R));
+    let t73 = t69 * n(p.k6);
+    let t74 = t19.neg_mul_add(t63, cos_phi1.neg_mul_add(t62, t53));
+    let t75 = sin_phi1.neg_mul_add(t62, t20.mul_add(t63, t54));
+    let t76 = t28.mul_add(t65, t22.mul_add(t64, t14 * t40));
+    let t77 = cos_phi1.mul_add(t64, n(p.inverse_m1) * t38);
+    let t78 = sin_phi1.neg_mul_add(t65, t77);
+    let t79 = t31.mul_add(t73, t56);
+    let t80 = n(p.minus_R).neg_mul_add(t58, n(p.r1_rho_over_J1));
+    let t81 = t34.neg_mul_add(t73, t57);
+    let t82 = cos_phi2.mul_add(t74, n(p.inverse_m2));
+    // Row bed: pivot d[bed].
+    let t83 = sin_phi2.mul_add(t75, t82);
+    let t84 = t22.mul_sub(t59, t28 * t60);
+    let t85 = t47.mul_add(t79, t9 * N::from_f64(2.0));
+    let t86 = N::ONE / t83;
+    let t87 = n(p.k2) * t21.mul_sub(t74, t25 * t75);
+    let t88 = cos_phi1.neg_mul_add(t78, t19.neg_mul_add(t76, t64));
+    let t89 = t22.mul_add(t35.mul_add(t67, t47), s1 * t14);
+    // Eliminates s1: alone z[s1].
+    let t90 = t43.mul_add(t79, phi1_dot * (s1 * phi1_dot));
+    let t91 = t21.mul_sub(t88, t1 * (t1 * n(p.inverse_m2)) * n(p.k2));
+    let t92 = t20.neg_mul_add(t76, sin_phi1.mul_add(t78, t65));
+    let t93 = n(p.minus_R).mul_add(t67, n(p.r1_squared_over_J1));
+    let t94 = s1.mul_add(t28.mul_add(t39.mul_add(t67, t43), t89), t93);
+    let t95 = n(p.k2).neg_mul_add(t25.mul_add(t92, t91), n(p.k8));
+    // Eliminates bed from row grain: l[grain, bed].
+    let t96 = t86 * t87;
+    // Eliminates bed from row mortar_in_cylinder.gap: l[mortar_in_cylinder.gap, bed].
+    let t97 = t62 * t86;
+    // Eliminates bed from row mortar_in_cylinder.slip: l[mortar_in_cylinder.slip, bed].
+    let t98 = t72 * t86;
+    // Row grain: pivot d[grain].
+    let t99 = t87.neg_mul_add(t96, t95);
+    let t100 = t87.mul_add(t97, t78);
+    let t101 = t87.neg_mul_add(t98, s1.neg_mul_add(t76, t80));
+    // Row grain: right-hand side z[grain].
+    let t102 = t15.mul_add(t96, t1 * (n(p.k9) * s2_dot * phi2_dot));
+    let t103 = t69.mul_add(n(p.k10), t9) - t43.neg_mul_add(t81, t85);
+    let t104 = N::ONE / t99;
+    // Eliminates grain from row mortar_in_cylinder.gap: l[mortar_in_cylinder.gap, grain].
+    let t105 = t100 * t104;
+    // Eliminates grain from row mortar_in_cylinder.slip: l[mortar_in_cylinder.slip, grain].
+    let t106 = t101 * t104;
+    // Row mortar_in_cylinder.gap: pivot d[mortar_in_cylinder.gap].
+    let t107 = t100.neg_mul_add(t105, t62.neg_mul_add(t97, t71));
+    let t108 = t62.neg_mul_add(t98, s1.mul_sub(t84, n(p.minus_R) * t52));
+    let t109 = t100.mul_add(t106, t108);
+    let t110 = t15.neg_mul_add(t97, t47.mul_add(t81, t90));
+    // Row mortar_in_cylinder.gap: right-hand side z[mortar_in_cylinder.gap].
+    let t111 = t102.neg_mul_add(t105, t110);
+    let t112 = N::ONE / t107;
+    // Eliminates mortar_in_cylinder.gap from row mortar_in_cylinder.slip:
+    // l[mortar_in_cylinder.slip, mortar_in_cylinder.gap].
+    let t113 = t109 * t112;
+    let t114 = t102.neg_mul_add(t106, t15.mul_add(t98, t103));
+    let t115 = t101.neg_mul_add(t106, t72.neg_mul_add(t98, t94));
+    // Row mortar_in_cylinder.slip: pivot d[mortar_in_cylinder.slip].
+    let t116 = t109.neg_mul_add(t113, t115);
+    // Row mortar_in_cylinder.slip: right-hand side z[mortar_in_cylinder.slip].
+    let t117 = t111.mul_add(t113, t114) / t116;
+    // Back substitution: lambda[mortar_in_cylinder.gap].
+    let lambda3 = t113.mul_add(t117, t111 * t112);
+    let t118 = t106.neg_mul_add(t117, t102 * t104);
+    let t119 = t105 * lambda3;
+    let t120 = t97.neg_mul_add(lambda3, t98.mul_add(t117, t15 * t86));
+    // Back substitution: lambda[grain]; Back substitution: lambda[bed].
+    let lambda1 = t96.mul_add(t118 - t119, t120);
+    let lambda2 = t119 - t118;
+    let lambda4 = -t117;
+    let sound = PIVOTS.hold(n(p.J1), n(p.J1))
+        & PIVOTS.hold(n(p.J2), n(p.J2))
+        & PIVOTS.hold(n(p.m2), n(p.m2))
+        & PIVOTS.hold(t17, t17)
+        & PIVOTS.hold(n(p.m1), n(p.m1_plus_m2))
+        & PIVOTS.hold(t18, t18)
+        & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
+        & PIVOTS.hold(n(p.m_plus_m0), n(p.k0))
+        & PIVOTS.hold(n(p.k4), n(p.k1))
+        & PIVOTS.hold(t83, t83)
+        & PIVOTS.hold(t99, t95)
+        & PIVOTS.hold(t107, t71)
+        & PIVOTS.hold(t116, t94)
+        & lambda1.is_finite();
+    if !sound {
+        let pivots = [
+            (5, n(p.J1), n(p.J1)),
+            (8, n(p.J2), n(p.J2)),
+            (6, n(p.m2), n(p.m2)),
+            (7, t17, t17),
+            (3, n(p.m1), n(p.m1_plus_m2)),
+            (4, t18, t18),
+            (1, n(p.m_plus_m0), n(p.k0)),
+            (0, n(p.m_plus_m0), n(p.k0)),
+            (2, n(p.k4), n(p.k1)),
+            (9, t83, t83),
+            (10, t99, t95),
+            (11, t107, t71),
+            (12, t116, t94),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [
+        lambda1.store(),
+        lambda2.store(),
+        lambda3.store(),
+        lambda4.store(),
+    ];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1421,17 +1439,17 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
         phi2: "phi2" "rad";
         theta2: "theta2" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { grain_spin } [
         grain_spin: "grain_spin" "rad/s";
     ]
     prepared Prepared {
-        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, R, r1, rho, r2,
-        rho_minus_r2_minus_delta, rho_plus_r2, two_rho_over_delta, e_omega, J0_omega2, half_cx,
-        half_cy, half_bx, half_by, e_omega2, m1_plus_m2, m0_y0, m0_x0, k0, R_minus_r1, m0_e_omega,
-        k1, k2, minus_m2, k3, minus_R, m_plus_m0, k4, k5, k6, k7, k8, inverse_m2, inverse_m1, k9,
-        k10, r1_rho_over_J1, r1_squared_over_J1, k11, rho_over_r2, k12, R_over_r1, k13, k14, k15,
-        k16, k17, k18, k19, k20, k21, k22, k23, k24,
+        m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, r1, rho, r2,
+        rho_minus_r2_minus_delta, two_rho_over_delta, e_omega, J0_omega2, half_cx, half_cy, half_bx,
+        half_by, e_omega2, m1_plus_m2, m0_y0, m0_x0, k0, R_minus_r1, m0_e_omega, k1, minus_m2, k2,
+        minus_R, m_plus_m0, k3, k4, k5, k6, k7, inverse_m2, inverse_m1, k8, k9, r1_rho_over_J1,
+        r1_squared_over_J1, k10, rho_over_r2, k11, R_over_r1, k12, k13, k14, k15, k16, k17, k18,
+        k19, k20, k21, k22, k23,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

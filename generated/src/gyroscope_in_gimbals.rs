@@ -170,10 +170,6 @@ pub struct Coordinates<S = f64> {
     pub gamma: S,
 }
 
-/// What can be set while a [`GyroscopeInGimbals`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
 /// What can be observed of a [`GyroscopeInGimbals`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
@@ -210,8 +206,8 @@ pub struct Prepared<S = f64> {
     w_d_g: S,
     /// `C3 + B2 - (A3 + C2 + w*d^2)`
     k4: S,
-    /// `A3 + A2 + w*d^2 - (B2 - (A3 + C2 + w*d^2)) - (C3 + A3 + A2 + w*d^2 + B2 - (A3 + C2 +
-    /// w*d^2))`
+    /// `A3 + A2 + w*d^2 - (B2 - (A3 + C2 + w*d^2)) - (C3 + A3 + A2 + w*d^2 + B2 - (A3 + C2
+    /// + w*d^2))`
     k5: S,
     /// `0.5*A1`
     half_A1: S,
@@ -225,8 +221,8 @@ pub struct Prepared<S = f64> {
     minus_w_d_g: S,
     /// `-C3`
     minus_C3: S,
-    /// `C3 + A3 + A2 + w*d^2 + B2 - (A3 + C2 + w*d^2) - (A3 + A2 + w*d^2 - (B2 - (A3 + C2 +
-    /// w*d^2)))`
+    /// `C3 + A3 + A2 + w*d^2 + B2 - (A3 + C2 + w*d^2) - (A3 + A2 + w*d^2 - (B2 - (A3 + C2
+    /// + w*d^2)))`
     k8: S,
     /// `-1/(A3 + A2 + w*d^2)`
     k9: S,
@@ -309,62 +305,58 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     [f_alpha, f_beta, f_gamma]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 3], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 3],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let beta = n(q[1]);
-        let alpha_dot = n(v[0]);
-        let beta_dot = n(v[1]);
-        let gamma_dot = n(v[2]);
-        let (sin_beta, cos_beta) = beta.sin_cos();
-        let t0 = gamma_dot * n(p.C3);
-        let t1 = sin_beta * sin_beta;
-        let t2 = sin_beta * alpha_dot;
-        let t3 = cos_beta * beta_dot;
-        let t4 = t1.mul_add(n(p.k2), n(p.k3));
-        let t5 = alpha_dot.neg_mul_add(t0, n(p.w_d_g));
-        let t6 = t2.neg_mul_add(alpha_dot * n(p.k4), t5);
-        let t7 = N::ONE / t4 * (t2.mul_add(n(p.k8), t0) * t3);
-        let alpha_ddot = -t7;
-        let beta_ddot = t6 * (cos_beta * n(p.k9));
-        let gamma_ddot = sin_beta.mul_sub(t7, alpha_dot * t3);
-        let t8 = t1.mul_add(n(p.k4), n(p.k3));
-        let sound = PIVOTS.hold(t4, t8) & gamma_ddot.is_finite();
-        if !sound {
-            let pivots = [(0, t4, t8)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [alpha_ddot.store(), beta_ddot.store(), gamma_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let beta = n(q[1]);
+    let alpha_dot = n(v[0]);
+    let beta_dot = n(v[1]);
+    let gamma_dot = n(v[2]);
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let t0 = gamma_dot * n(p.C3);
+    let t1 = sin_beta * sin_beta;
+    let t2 = sin_beta * alpha_dot;
+    let t3 = cos_beta * beta_dot;
+    // Eliminates alpha: inertia d[alpha].
+    let t4 = t1.mul_add(n(p.k2), n(p.k3));
+    let t5 = alpha_dot.neg_mul_add(t0, n(p.w_d_g));
+    let t6 = t2.neg_mul_add(alpha_dot * n(p.k4), t5);
+    let t7 = N::ONE / t4 * (t2.mul_add(n(p.k8), t0) * t3);
+    let alpha_ddot = -t7;
+    let beta_ddot = t6 * (cos_beta * n(p.k9));
+    let gamma_ddot = sin_beta.mul_sub(t7, alpha_dot * t3);
+    let t8 = t1.mul_add(n(p.k4), n(p.k3));
+    let sound = PIVOTS.hold(t4, t8) & gamma_ddot.is_finite();
+    if !sound {
+        let pivots = [(0, t4, t8)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [alpha_ddot.store(), beta_ddot.store(), gamma_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -474,7 +466,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         beta: "beta" "rad";
         gamma: "gamma" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { rotor_momentum, vertical_momentum } [
         rotor_momentum: "rotor_momentum" "J*s";
         vertical_momentum: "vertical_momentum" "J*s";

@@ -1,9 +1,9 @@
 // @generated from machines/heavy_top.machine by `cargo xtask generate`; edits are lost.
 
-//! A symmetrical top on a fixed point, heavy: precession psi about the vertical, nutation theta
-//! from
-//! it, and spin phi about the top's own axis. Energy and two angular momenta are conserved: about
-//! the
+//! A symmetrical top on a fixed point, heavy: precession psi about the vertical, nutation
+//! theta from
+//! it, and spin phi about the top's own axis. Energy and two angular momenta are conserved:
+//! about the
 //! vertical and about the top's axis, since psi and phi are cyclic.
 //!
 //! 3 coordinates, 5 parameters, 2 outputs. Arithmetic of one call:
@@ -38,10 +38,10 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A symmetrical top on a fixed point, heavy: precession psi about the vertical, nutation theta
-/// from
-/// it, and spin phi about the top's own axis. Energy and two angular momenta are conserved: about
-/// the
+/// A symmetrical top on a fixed point, heavy: precession psi about the vertical, nutation
+/// theta from
+/// it, and spin phi about the top's own axis. Energy and two angular momenta are conserved:
+/// about the
 /// vertical and about the top's axis, since psi and phi are cyclic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeavyTop<S = f64> {
@@ -117,10 +117,6 @@ pub struct Coordinates<S = f64> {
     /// Unit: `rad`.
     pub phi: S,
 }
-
-/// What can be set while a [`HeavyTop`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
 
 /// What can be observed of a [`HeavyTop`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -237,73 +233,58 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     [f_psi, f_theta, f_phi]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 3], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 3],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta = n(q[1]);
-        let phi = n(q[2]);
-        let psi_dot = n(v[0]);
-        let theta_dot = n(v[1]);
-        let phi_dot = n(v[2]);
-        let angles = [theta, phi];
-        let circular = N::sin_cos_all(angles);
-        let (sin_theta, cos_theta) = circular[0];
-        let (sin_phi, cos_phi) = circular[1];
-        let t0 = psi_dot * theta_dot;
-        let t1 = sin_theta * psi_dot;
-        let t2 = cos_theta * t0;
-        let t3 = sin_theta * n(p.m_l_g);
-        let t4 = n(p.k0) * cos_theta.mul_add(psi_dot, phi_dot);
-        let t5 = sin_phi.mul_add(t1, cos_phi * theta_dot);
-        let t6 = cos_phi.mul_sub(t1, sin_phi * theta_dot);
-        let t7 = sin_theta * (sin_theta * n(p.A_plus_m_l_squared));
-        let t8 = phi_dot.neg_mul_add(t5, cos_phi * t2);
-        let t9 = phi_dot.mul_add(t6, sin_phi * t2);
-        let t10 = n(p.A_plus_m_l_squared).mul_sub(t8, t4 * t5);
-        let t11 = t3.mul_add(sin_phi, t10);
-        let t12 = n(p.A_plus_m_l_squared).mul_add(t9, t4 * t6);
-        let t13 = t3.neg_mul_add(cos_phi, t12);
-        let t14 = N::ONE / sin_theta * sin_phi.mul_add(t13, cos_phi * t11);
-        let psi_ddot = t14 * n(p.k4);
-        let theta_ddot = n(p.k3) * sin_phi.mul_sub(t11, cos_phi * t13);
-        let phi_ddot = t14.mul_add(cos_theta * n(p.k3), sin_theta * t0);
-        let t15 = cos_theta.mul_add(cos_theta * n(p.C), t7);
-        let sound = PIVOTS.hold(t7, t15) & phi_ddot.is_finite();
-        if !sound {
-            let pivots = [(0, t7, t15)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [psi_ddot.store(), theta_ddot.store(), phi_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta = n(q[1]);
+    let phi = n(q[2]);
+    let psi_dot = n(v[0]);
+    let theta_dot = n(v[1]);
+    let phi_dot = n(v[2]);
+    let angles = [theta, phi];
+    let circular = N::sin_cos_all(angles);
+    let (sin_theta, cos_theta) = circular[0];
+    let (sin_phi, cos_phi) = circular[1];
+    let t0 = psi_dot * theta_dot;
+    let t1 = sin_theta * psi_dot;
+    let t2 = cos_theta * t0;
+    let t3 = sin_theta * n(p.m_l_g);
+    let t4 = n(p.k0) * cos_theta.mul_add(psi_dot, phi_dot);
+    let t5 = sin_phi.mul_add(t1, cos_phi * theta_dot);
+    let t6 = cos_phi.mul_sub(t1, sin_phi * theta_dot);
+    let t7 = sin_theta * (sin_theta * n(p.A_plus_m_l_squared));
+    let t8 = phi_dot.neg_mul_add(t5, cos_phi * t2);
+    let t9 = phi_dot.mul_add(t6, sin_phi * t2);
+    let t10 = n(p.A_plus_m_l_squared).mul_sub(t8, t4 * t5);
+    let t11 = t3.mul_add(sin_phi, t10);
+    let t12 = n(p.A_plus_m_l_squared).mul_add(t9, t4 * t6);
+    let t13 = t3.neg_mul_add(cos_phi, t12);
+    let t14 = N::ONE / sin_theta * sin_phi.mul_add(t13, cos_phi * t11);
+    let psi_ddot = t14 * n(p.k4);
+    let theta_ddot = n(p.k3) * sin_phi.mul_sub(t11, cos_phi * t13);
+    let phi_ddot = t14.mul_add(cos_theta * n(p.k3), sin_theta * t0);
+    let t15 = cos_theta.mul_add(cos_theta * n(p.C), t7);
+    let sound = PIVOTS.hold(t7, t15) & phi_ddot.is_finite();
+    if !sound {
+        let pivots = [(0, t7, t15)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [psi_ddot.store(), theta_ddot.store(), phi_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -409,7 +390,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         theta: "theta" "rad";
         phi: "phi" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { vertical_momentum, axial_momentum } [
         vertical_momentum: "vertical_momentum" "J*s";
         axial_momentum: "axial_momentum" "J*s";

@@ -122,10 +122,6 @@ pub struct Coordinates<S = f64> {
     pub theta: S,
 }
 
-/// What can be set while a [`KapitzaPendulum`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
 /// What can be observed of a [`KapitzaPendulum`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
@@ -223,49 +219,34 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1
     [f_theta]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 1],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, t: S, q: &'a [S; 1] })
+        -> Result<[S; 1], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 1], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, t, q })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub t: S,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 1],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 1], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta = n(q[0]);
-        let t0 = n(p.omega) * n(t);
-        let angles = [theta, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_theta, _) = circular[0];
-        let (sin_t0, cos_t0) = circular[1];
-        let t1 = n(p.omega).product_error(n(t)).neg_mul_add(sin_t0, cos_t0);
-        let t2 = n(p.m_l_a_omega2).neg_mul_add(t1, n(p.m_l_g));
-        let theta_ddot = t2 * (n(p.k0) * sin_theta);
-        let accelerations = [theta_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, t, q } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta = n(q[0]);
+    let t0 = n(p.omega) * n(t);
+    let angles = [theta, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_theta, _) = circular[0];
+    let (sin_t0, cos_t0) = circular[1];
+    let t1 = n(p.omega).product_error(n(t)).neg_mul_add(sin_t0, cos_t0);
+    let t2 = n(p.m_l_a_omega2).neg_mul_add(t1, n(p.m_l_g));
+    let theta_ddot = t2 * (n(p.k0) * sin_theta);
+    let accelerations = [theta_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -379,7 +360,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     coordinates 1 Coordinates { theta } [
         theta: "theta" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { force } [
         force: "force" "N";
     ]

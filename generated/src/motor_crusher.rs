@@ -25,8 +25,8 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 20 | 9 | 2 | 0 | 0 | 31 |
-//! | `mass_matrix` | 37 | 9 | 0 | 4 | 0 | 54 |
+//! | `prepare` | 20 | 8 | 2 | 0 | 0 | 30 |
+//! | `mass_matrix` | 36 | 10 | 0 | 4 | 0 | 54 |
 //! | `bias` | 54 | 25 | 0 | 4 | 0 | 87 |
 //! | `applied` | 17 | 22 | 1 | 0 | 0 | 40 |
 //! | `forces` | 71 | 46 | 1 | 4 | 0 | 126 |
@@ -138,9 +138,9 @@ impl<S: ::lagrangian::emitted::Scalar> MotorCrusher<S> {
         let m1_plus_m2 = self.m1 + self.m2;
         let m_plus_m0 = self.m + self.m0;
         let J0_plus_m0_e_squared = self.J0 + self.e * m0_e;
-        let k7 = S::ONE / J0_plus_m0_e_squared;
-        let k3 = m0_e * k7;
-        let k4 = m0_e * k3;
+        let k6 = S::ONE / J0_plus_m0_e_squared;
+        let k2 = m0_e * k6;
+        let k3 = m0_e * k2;
         let inverse_omega2 = t0 * t0;
         let sk2 = self.sk * self.sk;
         let two_Mk_sk_over_omega = t0 * (S::from_f64(2.0) * (self.sk * self.Mk));
@@ -150,11 +150,10 @@ impl<S: ::lagrangian::emitted::Scalar> MotorCrusher<S> {
         let half_by = self.by * S::from_f64(0.5);
         let k0 = m1_plus_m2 + m_plus_m0;
         let k1 = self.J + (self.y0 * m0_y0 + self.x0 * m0_x0);
-        let k2 = -m1_plus_m2;
         let minus_m2 = -self.m2;
         let minus_m0_e = -m0_e;
-        let k5 = self.e * k3;
-        let k6 = k4 * k4;
+        let k4 = self.e * k2;
+        let k5 = k3 * k3;
         let m0_squared = self.m0 * self.m0;
         let pivots = [
             (5, self.J1, self.J1),
@@ -196,16 +195,15 @@ impl<S: ::lagrangian::emitted::Scalar> MotorCrusher<S> {
             k0,
             J0_plus_m0_e_squared,
             k1,
-            k2,
             minus_m2,
             minus_m0_e,
+            k2,
             k3,
-            k4,
             m_plus_m0,
+            k4,
             k5,
-            k6,
             m0_squared,
-            k7,
+            k6,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -260,10 +258,6 @@ pub struct Coordinates<S = f64> {
     /// Angle of the debalance against the ground. Unit: `rad`.
     pub psi: S,
 }
-
-/// What can be set while a [`MotorCrusher`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
 
 /// What can be observed of a [`MotorCrusher`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -345,26 +339,24 @@ pub struct Prepared<S = f64> {
     J0_plus_m0_e_squared: S,
     /// `J + m0*x0^2 + m0*y0^2`
     k1: S,
-    /// `-(m1 + m2)`
-    k2: S,
     /// `-m2`
     minus_m2: S,
     /// `-m0*e`
     minus_m0_e: S,
     /// `m0*e/(J0 + m0*e^2)`
-    k3: S,
+    k2: S,
     /// `m0^2*e^2/(J0 + m0*e^2)`
-    k4: S,
+    k3: S,
     /// `m + m0`
     m_plus_m0: S,
     /// `m0*e^2/(J0 + m0*e^2)`
-    k5: S,
+    k4: S,
     /// `m0^4*e^4/(J0 + m0*e^2)^2`
-    k6: S,
+    k5: S,
     /// `m0^2`
     m0_squared: S,
     /// `1/(J0 + m0*e^2)`
-    k7: S,
+    k6: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -419,32 +411,32 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let (sin_psi, cos_psi) = psi.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.m1_plus_m2 * s1;
+    let t1 = s1 * p.m1_plus_m2;
     let t2 = p.m2 * s2;
     let t3 = cos_phi1 * sin_phi2;
     let t4 = sin_phi1 * cos_phi2;
-    let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
-    let t6 = cos_psi * (cos_theta * p.x0 - sin_theta * p.y0);
+    let t5 = sin_phi1 * sin_phi2 + cos_phi1 * cos_phi2;
+    let t6 = sin_psi * (cos_theta * p.y0 + sin_theta * p.x0);
     let zero = S::ZERO;
-    let m3_1 = -(p.m0_x0 * sin_theta + cos_theta * p.m0_y0);
-    let m3_2 = p.m0_x0 * cos_theta - sin_theta * p.m0_y0;
-    let m4_1 = p.m1_plus_m2 * cos_phi1;
-    let m4_2 = p.m1_plus_m2 * sin_phi1;
-    let m5_1 = sin_phi1 * (s1 * p.k2);
+    let m3_1 = -(cos_theta * p.m0_y0 + sin_theta * p.m0_x0);
+    let m3_2 = cos_theta * p.m0_x0 - sin_theta * p.m0_y0;
+    let m4_1 = cos_phi1 * p.m1_plus_m2;
+    let m4_2 = sin_phi1 * p.m1_plus_m2;
+    let m5_1 = -(sin_phi1 * t1);
     let m5_2 = cos_phi1 * t1;
     let m5_5 = s1 * t1;
     let m7_1 = cos_phi2 * p.m2;
     let m7_2 = sin_phi2 * p.m2;
     let m7_4 = p.m2 * t5;
-    let m7_5 = (t3 - t4) * t0;
+    let m7_5 = t0 * (t3 - t4);
     let m8_1 = sin_phi2 * (s2 * p.minus_m2);
     let m8_2 = cos_phi2 * t2;
     let m8_4 = t2 * (t4 - t3);
-    let m8_5 = t5 * (t0 * s2);
+    let m8_5 = t0 * s2 * t5;
     let m8_8 = s2 * t2;
     let m10_1 = sin_psi * p.minus_m0_e;
     let m10_2 = cos_psi * p.m0_e;
-    let m10_3 = p.m0_e * (sin_psi * (sin_theta * p.x0 + cos_theta * p.y0) + t6);
+    let m10_3 = (cos_psi * (cos_theta * p.x0 - sin_theta * p.y0) + t6) * p.m0_e;
     [
         [p.k0, zero, m3_1, m4_1, m5_1, zero, m7_1, m8_1, zero, m10_1],
         [zero, p.k0, m3_2, m4_2, m5_2, zero, m7_2, m8_2, zero, m10_2],
@@ -660,159 +652,167 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     ]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 10],
-    v: &[S; 10],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Velocities are eliminated from the tips of the machine to the ground, with the inertia `G`
+    /// and the loads `g` that remain on them. Comments name these numbers where they are computed,
+    /// up to signs and factors that depend on parameters alone, for coordinate `i` or the velocity
+    /// in its place; `k` are the velocities that follow:
+    ///
+    /// ```text
+    /// d[i] = G[i, i], l[i] = G[i, k]/d[i], z[i] = g[i]/d[i]
+    /// a[i] = z[i] - sum l[i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        q: &'a [S; 10],
+        v: &'a [S; 10],
+    }) -> Result<[S; 10], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 10], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 10],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 10],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 10], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let s1 = n(q[3]);
-        let phi1 = n(q[4]);
-        let s2 = n(q[6]);
-        let psi = n(q[9]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let s1_dot = n(v[3]);
-        let phi1_dot = n(v[4]);
-        let s2_dot = n(v[6]);
-        let phi2_dot = n(v[7]);
-        let psi_dot = n(v[9]);
-        let angles = [theta, psi, phi1];
-        let circular = N::sin_cos_all(angles);
-        let (sin_theta, cos_theta) = circular[0];
-        let (sin_psi, cos_psi) = circular[1];
-        let (sin_phi1, cos_phi1) = circular[2];
-        let t0 = n(p.omega) - psi_dot;
-        let t1 = theta * n(p.xc);
-        let t2 = theta * n(p.yc);
-        let t3 = theta_dot * n(p.xc);
-        let t4 = theta_dot * n(p.yc);
-        let t5 = theta_dot * theta_dot;
-        let t6 = psi_dot * (psi_dot * n(p.e));
-        let t7 = t0.mul_add(t0 * n(p.inverse_omega2), n(p.sk2));
-        let t8 = n(p.by).mul_add(y_dot - t3, n(p.cy) * (y - t1));
-        let t9 = n(p.by).mul_add(t3 + y_dot, n(p.cy) * (t1 + y));
-        let t10 = n(p.bx).mul_add(x_dot - t4, n(p.cx) * (x - t2));
-        let t11 = n(p.bx).mul_add(t4 + x_dot, n(p.cx) * (t2 + x));
-        let t12 = s1 * s1;
-        let t13 = n(p.yc).mul_add(t10, n(p.xc) * t8);
-        let t14 = s2 * (s2 * n(p.m2));
-        let t15 = cos_theta * n(p.x0);
-        let t16 = sin_theta * n(p.y0);
-        let t17 = sin_theta * n(p.x0);
-        let t18 = cos_theta * n(p.y0);
-        let t19 = sin_psi * cos_psi;
-        let t20 = t15 - t16;
-        let t21 = cos_psi.neg_mul_add(cos_psi * n(p.k4), n(p.m_plus_m0));
-        let t22 = cos_psi * n(p.m0_e);
-        let t23 = t17 + t18;
-        let t24 = t19 * n(p.k4);
-        let t25 = t20 * n(p.m0);
-        let t26 = N::ONE / t21;
-        let t27 = t23 * n(p.m0);
-        let t28 = sin_psi * n(p.m0_e);
-        let t29 = sin_psi.mul_add(t23, cos_psi * t20);
-        let t30 = t17.mul_add(t5, t18.mul_add(t5, sin_psi * t6));
-        let t31 = t16.neg_mul_add(t5, t15.mul_add(t5, cos_psi * t6));
-        let t32 = n(p.k5) * t29;
-        let t33 = cos_psi.neg_mul_add(t32, t20);
-        let t34 = t23.mul_add(t27, t20.mul_add(t25, n(p.J)));
-        let t35 = t22.mul_add(t30, t0 * n(p.two_Mk_sk_over_omega) / t7);
-        let t36 = t28.neg_mul_add(t31, t35);
-        let t37 = sin_psi.neg_mul_add(sin_psi * n(p.k4), n(p.m_plus_m0));
-        let t38 = t26.neg_mul_add(t19 * (t19 * n(p.k6)), t37);
-        let t39 = t27.mul_add(t31, n(p.yc).mul_add(t11, n(p.xc) * t9) - t13);
-        let t40 = t26 * t33;
-        let t41 = n(p.k3) * t36;
-        let t42 = N::ONE / t38;
-        let t43 = t40.mul_add(t24, sin_psi.neg_mul_add(t32, t23));
-        let t44 = t29.neg_mul_add(n(p.k4) * t29, t34);
-        let t45 = n(p.m0).neg_mul_add(t31, t10 + t11);
-        let t46 = cos_psi.mul_add(t41, n(p.m0).neg_mul_add(t30, t8 + t9));
-        let t47 = t43 * n(p.m0);
-        let t48 = t46.neg_mul_add(t26 * t24, sin_psi.neg_mul_add(t41, t45));
-        let t49 = t29.mul_add(t41, t25.neg_mul_add(t30, t39));
-        let t50 = t40.neg_mul_add(t33 * n(p.m0_squared), t44);
-        let t51 = t42.neg_mul_add(t43 * (t43 * n(p.m0_squared)), t50);
-        let t52 = t46.neg_mul_add(t40 * n(p.m0), t49);
-        let t53 = N::ONE / t51 * t48.mul_add(t42 * t47, t52);
-        let t54 = t42 * t47.mul_add(t53, t48);
-        let t55 = phi1_dot * (N::from_f64(2.0) * s1_dot);
-        let t56 = t24.neg_mul_add(t54, t53.neg_mul_add(t33 * n(p.m0), t46));
-        let t57 = t26 * t56;
-        let t58 = t28.neg_mul_add(t54, t53.mul_add(t29 * n(p.m0_e), t36));
-        let t59 = t54.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
-        let t60 = t57.neg_mul_add(cos_phi1, t54.mul_add(sin_phi1, t55)) / s1;
-        let x_ddot = -t54;
-        let y_ddot = -t57;
-        let theta_ddot = -t53;
-        let s1_ddot = t57.mul_add(sin_phi1, t59);
-        let phi1_ddot = -t60;
-        let zero = N::ZERO;
-        let s2_ddot = phi2_dot * (phi2_dot * s2);
-        let phi2_ddot = phi2_dot * (N::from_f64(-2.0) * s2_dot) / s2;
-        let psi_ddot = n(p.k7) * t22.mul_add(t57, t58);
-        let t61 = t12 * n(p.m1);
-        let t62 = t12 * n(p.m1_plus_m2);
-        let sound = PIVOTS.hold(t14, t14)
-            & PIVOTS.hold(t61, t62)
-            & PIVOTS.hold(t21, n(p.k0))
-            & PIVOTS.hold(t38, n(p.k0))
-            & PIVOTS.hold(t51, n(p.k1))
-            & phi1_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (7, t14, t14),
-                (4, t61, t62),
-                (1, t21, n(p.k0)),
-                (0, t38, n(p.k0)),
-                (2, t51, n(p.k1)),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            theta_ddot.store(),
-            s1_ddot.store(),
-            phi1_ddot.store(),
-            zero.store(),
-            s2_ddot.store(),
-            phi2_ddot.store(),
-            zero.store(),
-            psi_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let s1 = n(q[3]);
+    let phi1 = n(q[4]);
+    let s2 = n(q[6]);
+    let psi = n(q[9]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let s1_dot = n(v[3]);
+    let phi1_dot = n(v[4]);
+    let s2_dot = n(v[6]);
+    let phi2_dot = n(v[7]);
+    let psi_dot = n(v[9]);
+    let angles = [theta, psi, phi1];
+    let circular = N::sin_cos_all(angles);
+    let (sin_theta, cos_theta) = circular[0];
+    let (sin_psi, cos_psi) = circular[1];
+    let (sin_phi1, cos_phi1) = circular[2];
+    let t0 = n(p.omega) - psi_dot;
+    let t1 = theta * n(p.xc);
+    let t2 = theta * n(p.yc);
+    let t3 = theta_dot * n(p.xc);
+    let t4 = theta_dot * n(p.yc);
+    let t5 = theta_dot * theta_dot;
+    let t6 = psi_dot * (psi_dot * n(p.e));
+    let t7 = t0.mul_add(t0 * n(p.inverse_omega2), n(p.sk2));
+    let t8 = n(p.by).mul_add(y_dot - t3, n(p.cy) * (y - t1));
+    let t9 = n(p.by).mul_add(t3 + y_dot, n(p.cy) * (t1 + y));
+    let t10 = n(p.bx).mul_add(x_dot - t4, n(p.cx) * (x - t2));
+    let t11 = n(p.bx).mul_add(t4 + x_dot, n(p.cx) * (t2 + x));
+    let t12 = s1 * s1;
+    let t13 = n(p.yc).mul_add(t10, n(p.xc) * t8);
+    let t14 = s2 * (s2 * n(p.m2));
+    let t15 = cos_theta * n(p.x0);
+    let t16 = sin_theta * n(p.y0);
+    let t17 = sin_theta * n(p.x0);
+    let t18 = cos_theta * n(p.y0);
+    let t19 = sin_psi * cos_psi;
+    let t20 = t15 - t16;
+    // Eliminates y: inertia d[y].
+    let t21 = cos_psi.neg_mul_add(cos_psi * n(p.k3), n(p.m_plus_m0));
+    let t22 = cos_psi * n(p.m0_e);
+    let t23 = t17 + t18;
+    let t24 = t19 * n(p.k3);
+    let t25 = t20 * n(p.m0);
+    let t26 = N::ONE / t21;
+    let t27 = t23 * n(p.m0);
+    let t28 = sin_psi * n(p.m0_e);
+    let t29 = sin_psi.mul_add(t23, cos_psi * t20);
+    let t30 = t17.mul_add(t5, t18.mul_add(t5, sin_psi * t6));
+    let t31 = t16.neg_mul_add(t5, t15.mul_add(t5, cos_psi * t6));
+    let t32 = n(p.k4) * t29;
+    let t33 = cos_psi.neg_mul_add(t32, t20);
+    let t34 = t23.mul_add(t27, t20.mul_add(t25, n(p.J)));
+    let t35 = t22.mul_add(t30, t0 * n(p.two_Mk_sk_over_omega) / t7);
+    let t36 = t28.neg_mul_add(t31, t35);
+    let t37 = sin_psi.neg_mul_add(sin_psi * n(p.k3), n(p.m_plus_m0));
+    // Eliminates x: inertia d[x].
+    let t38 = t26.neg_mul_add(t19 * (t19 * n(p.k5)), t37);
+    let t39 = t27.mul_add(t31, n(p.yc).mul_add(t11, n(p.xc) * t9) - t13);
+    let t40 = t26 * t33;
+    let t41 = n(p.k2) * t36;
+    let t42 = N::ONE / t38;
+    let t43 = t40.mul_add(t24, sin_psi.neg_mul_add(t32, t23));
+    let t44 = t29.neg_mul_add(n(p.k3) * t29, t34);
+    let t45 = n(p.m0).neg_mul_add(t31, t10 + t11);
+    let t46 = cos_psi.mul_add(t41, n(p.m0).neg_mul_add(t30, t8 + t9));
+    let t47 = t43 * n(p.m0);
+    let t48 = t46.neg_mul_add(t26 * t24, sin_psi.neg_mul_add(t41, t45));
+    let t49 = t29.mul_add(t41, t25.neg_mul_add(t30, t39));
+    let t50 = t40.neg_mul_add(t33 * n(p.m0_squared), t44);
+    // Eliminates theta: inertia d[theta].
+    let t51 = t42.neg_mul_add(t43 * (t43 * n(p.m0_squared)), t50);
+    let t52 = t46.neg_mul_add(t40 * n(p.m0), t49);
+    let t53 = N::ONE / t51 * t48.mul_add(t42 * t47, t52);
+    // Back substitution: a[x].
+    let t54 = t42 * t47.mul_add(t53, t48);
+    let t55 = phi1_dot * (N::from_f64(2.0) * s1_dot);
+    let t56 = t24.neg_mul_add(t54, t53.neg_mul_add(t33 * n(p.m0), t46));
+    // Back substitution: a[y].
+    let t57 = t26 * t56;
+    let t58 = t28.neg_mul_add(t54, t53.mul_add(t29 * n(p.m0_e), t36));
+    // Eliminates s1: alone z[s1].
+    let t59 = t54.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
+    // Back substitution: a[phi1].
+    let t60 = t57.neg_mul_add(cos_phi1, t54.mul_add(sin_phi1, t55)) / s1;
+    let x_ddot = -t54;
+    let y_ddot = -t57;
+    let theta_ddot = -t53;
+    // Back substitution: a[s1].
+    let s1_ddot = t57.mul_add(sin_phi1, t59);
+    let phi1_ddot = -t60;
+    let zero = N::ZERO;
+    // Eliminates s2: alone z[s2]; Back substitution: a[s2].
+    let s2_ddot = phi2_dot * (phi2_dot * s2);
+    let phi2_ddot = phi2_dot * (N::from_f64(-2.0) * s2_dot) / s2;
+    // Back substitution: a[psi].
+    let psi_ddot = n(p.k6) * t22.mul_add(t57, t58);
+    let t61 = t12 * n(p.m1);
+    let t62 = t12 * n(p.m1_plus_m2);
+    let sound = PIVOTS.hold(t14, t14)
+        & PIVOTS.hold(t61, t62)
+        & PIVOTS.hold(t21, n(p.k0))
+        & PIVOTS.hold(t38, n(p.k0))
+        & PIVOTS.hold(t51, n(p.k1))
+        & phi1_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (7, t14, t14),
+            (4, t61, t62),
+            (1, t21, n(p.k0)),
+            (0, t38, n(p.k0)),
+            (2, t51, n(p.k1)),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        theta_ddot.store(),
+        s1_ddot.store(),
+        phi1_ddot.store(),
+        zero.store(),
+        s2_ddot.store(),
+        phi2_ddot.store(),
+        zero.store(),
+        psi_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1050,7 +1050,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         theta2: "theta2" "rad";
         psi: "psi" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { speed, motor_torque, motor_power, amplitude } [
         speed: "speed" "rad/s";
         motor_torque: "motor_torque" "N*m";
@@ -1060,8 +1060,8 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     prepared Prepared {
         m, m0, m1, m2, J, J0, J1, J2, e, x0, y0, omega, cx, cy, bx, by, xc, yc, inverse_omega2, sk2,
         two_Mk_sk_over_omega, half_cx, half_cy, half_bx, half_by, m1_plus_m2, m0_e, m0_y0, m0_x0,
-        k0, J0_plus_m0_e_squared, k1, k2, minus_m2, minus_m0_e, k3, k4, m_plus_m0, k5, k6,
-        m0_squared, k7,
+        k0, J0_plus_m0_e_squared, k1, minus_m2, minus_m0_e, k2, k3, m_plus_m0, k4, k5, m0_squared,
+        k6,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

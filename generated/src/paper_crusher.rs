@@ -15,12 +15,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 24 | 10 | 2 | 0 | 0 | 36 |
-//! | `mass_matrix` | 24 | 3 | 0 | 2 | 0 | 31 |
+//! | `prepare` | 24 | 9 | 2 | 0 | 0 | 35 |
+//! | `mass_matrix` | 23 | 4 | 0 | 2 | 0 | 31 |
 //! | `bias` | 72 | 52 | 0 | 3 | 0 | 130 |
 //! | `applied` | 12 | 11 | 0 | 0 | 0 | 23 |
 //! | `forces` | 84 | 65 | 0 | 3 | 0 | 155 |
-//! | `accelerations` | 188 | 131 | 5 | 3 | 0 | 330 |
+//! | `accelerations` | 188 | 130 | 5 | 3 | 0 | 329 |
 //! | `kinetic_energy` | 37 | 25 | 0 | 3 | 0 | 68 |
 //! | `potential_energy` | 6 | 3 | 0 | 0 | 0 | 9 |
 //! | `dissipation` | 6 | 3 | 0 | 0 | 0 | 9 |
@@ -107,9 +107,9 @@ impl<S: ::lagrangian::emitted::Scalar> PaperCrusher<S> {
         let e_omega2 = self.omega * e_omega;
         let k0 = m1_plus_m2 + (self.m + self.m0);
         let k1 = self.y0 * t0 + (self.J + self.x0 * m0_x0);
-        let k6 = S::ONE / k1;
-        let k3 = t0 * k6;
-        let k4 = m0_x0 * k6;
+        let k5 = S::ONE / k1;
+        let k2 = t0 * k5;
+        let k3 = m0_x0 * k5;
         let J0_omega2 = self.omega * (self.omega * self.J0);
         let cx_yc = self.cx * self.yc;
         let bx_yb = self.bx * self.yb;
@@ -123,12 +123,11 @@ impl<S: ::lagrangian::emitted::Scalar> PaperCrusher<S> {
         let m0_e_y0_omega2 = e_omega2 * t0;
         let by_xb = self.by * self.xb;
         let minus_m0_y0 = -t0;
-        let k2 = -m1_plus_m2;
         let minus_m2 = -self.m2;
-        let k5 = m0_x0 * k3;
-        let k7 = S::ONE / m1_plus_m2;
-        let k8 = k0 - t0 * k3;
-        let k9 = k0 - m0_x0 * k4;
+        let k4 = m0_x0 * k2;
+        let k6 = S::ONE / m1_plus_m2;
+        let k7 = k0 - t0 * k2;
+        let k8 = k0 - m0_x0 * k3;
         let pivots = [
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
@@ -173,15 +172,14 @@ impl<S: ::lagrangian::emitted::Scalar> PaperCrusher<S> {
             m0_e_y0_omega2,
             by_xb,
             minus_m0_y0,
-            k2,
             minus_m2,
+            k2,
             k3,
             k4,
             k5,
             k6,
             k7,
             k8,
-            k9,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -223,14 +221,6 @@ pub struct Coordinates<S = f64> {
     /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
-
-/// What can be set while a [`PaperCrusher`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`PaperCrusher`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
 
 /// The parameters of a [`PaperCrusher`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -309,24 +299,22 @@ pub struct Prepared<S = f64> {
     by_xb: S,
     /// `-m0*y0`
     minus_m0_y0: S,
-    /// `-(m1 + m2)`
-    k2: S,
     /// `-m2`
     minus_m2: S,
     /// `m0*y0/(J + m0*x0^2 + m0*y0^2)`
-    k3: S,
+    k2: S,
     /// `m0*x0/(J + m0*x0^2 + m0*y0^2)`
-    k4: S,
+    k3: S,
     /// `m0^2*x0*y0/(J + m0*x0^2 + m0*y0^2)`
-    k5: S,
+    k4: S,
     /// `1/(J + m0*x0^2 + m0*y0^2)`
-    k6: S,
+    k5: S,
     /// `1/(m1 + m2)`
-    k7: S,
+    k6: S,
     /// `m + m0 + m1 + m2 - m0^2*y0^2/(J + m0*x0^2 + m0*y0^2)`
-    k8: S,
+    k7: S,
     /// `m + m0 + m1 + m2 - m0^2*x0^2/(J + m0*x0^2 + m0*y0^2)`
-    k9: S,
+    k8: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -370,25 +358,25 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.m1_plus_m2 * s1;
+    let t1 = s1 * p.m1_plus_m2;
     let t2 = p.m2 * s2;
     let t3 = cos_phi1 * sin_phi2;
     let t4 = sin_phi1 * cos_phi2;
-    let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t5 = sin_phi1 * sin_phi2 + cos_phi1 * cos_phi2;
     let zero = S::ZERO;
-    let m41 = p.m1_plus_m2 * cos_phi1;
-    let m42 = p.m1_plus_m2 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k2);
+    let m41 = cos_phi1 * p.m1_plus_m2;
+    let m42 = sin_phi1 * p.m1_plus_m2;
+    let m51 = -(sin_phi1 * t1);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
-    let m75 = (t3 - t4) * t0;
+    let m75 = t0 * (t3 - t4);
     let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t4 - t3);
-    let m85 = t5 * (t0 * s2);
+    let m85 = t0 * s2 * t5;
     let m88 = s2 * t2;
     [
         [p.k0, zero, p.minus_m0_y0, m41, m51, zero, m71, m81, zero],
@@ -611,225 +599,250 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 9],
-    v: &[S; 9],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        t: S,
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+    }) -> Result<[S; 9], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, t, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub t: S,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 9],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 9],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let s1 = n(q[3]);
-        let phi1 = n(q[4]);
-        let s2 = n(q[6]);
-        let phi2 = n(q[7]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let s1_dot = n(v[3]);
-        let phi1_dot = n(v[4]);
-        let s2_dot = n(v[6]);
-        let phi2_dot = n(v[7]);
-        let t0 = n(p.omega) * n(t);
-        let angles = [phi1, phi2, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_phi1, cos_phi1) = circular[0];
-        let (sin_phi2, cos_phi2) = circular[1];
-        let (sin_t0, cos_t0) = circular[2];
-        let t1 = n(p.m1_plus_m2) * s1;
-        let t2 = s1 * phi1_dot;
-        let t3 = s2 * phi2_dot;
-        let t4 = n(p.m2) * s2;
-        let t5 = s1 * n(p.m2);
-        let t6 = n(p.omega).product_error(n(t));
-        let t7 = theta_dot.mul_add(n(p.xb), y_dot);
-        let t8 = s1 * t1;
-        let t9 = theta.mul_add(n(p.xc), y);
-        let t10 = theta_dot.neg_mul_add(n(p.yb), x_dot);
-        let t11 = theta.neg_mul_add(n(p.yc), x);
-        let t12 = s2 * t4;
-        let t13 = t11.mul_sub(n(p.cx_yc), t9 * n(p.cy_xc));
-        let t14 = n(p.m1_plus_m2) * cos_phi1;
-        let t15 = n(p.m1_plus_m2) * sin_phi1;
-        let t16 = sin_phi1 * t1;
-        let t17 = sin_phi2 * s2_dot;
-        let t18 = sin_phi1 * s1_dot;
-        let t19 = cos_phi1 * t2;
-        let t20 = cos_phi2 * s2_dot;
-        let t21 = n(p.k7) * t14;
-        let t22 = n(p.k7) * t15;
-        let t23 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t24 = cos_phi1 * s1_dot;
-        let t25 = sin_phi1 * t2;
-        let t26 = cos_phi2 * t3;
-        let t27 = t18 + t19;
-        let t28 = t14 * t21;
-        let t29 = t14.neg_mul_add(t22, n(p.k5));
-        let t30 = t15.mul_sub(t22, n(p.k9));
-        let t31 = n(p.m2) * t23;
-        let t32 = phi2_dot * t20;
-        let t33 = sin_phi2 * t3;
-        let t34 = phi1_dot * t24;
-        let t35 = t24 - t25;
-        let t36 = phi2_dot * t17;
-        let t37 = phi1_dot * t18;
-        let t38 = n(p.k7) * t31;
-        let t39 = t17 + t26;
-        let t40 = y_dot + t27;
-        let t41 = N::ONE / (t28 - n(p.k8));
-        let t42 = t20 - t33;
-        let t43 = x_dot + t35;
-        let t44 = cos_phi1 * sin_phi2;
-        let t45 = sin_phi1 * cos_phi2;
-        let t46 = t14.neg_mul_add(t38, n(p.m2) * cos_phi2);
-        let t47 = t39 + t40;
-        let t48 = t34 + phi1_dot.neg_mul_add(t25, t34);
-        let t49 = t42 + t43;
-        let t50 = t37 + phi1_dot.mul_add(t19, t37);
-        let t51 = n(p.m2).mul_add(t47, n(p.m1) * t40);
-        let t52 = t32 + phi2_dot.neg_mul_add(t33, t32) + t48;
-        let t53 = n(p.m2).mul_add(t49, t43 * n(p.m1));
-        let t54 = t41 * t29;
-        let t55 = t41 * t16;
-        let t56 = t41 * t46;
-        let t57 = t36 + phi2_dot.mul_add(t26, t36) + t50;
-        let t58 = t29 * t54;
-        let t59 = t29.neg_mul_add(t55, cos_phi1 * t1);
-        let t60 = t4 * (t45 - t44);
-        let t61 = t29.mul_add(t56, t15.neg_mul_add(t38, n(p.m2) * sin_phi2));
-        let t62 = t51 * (cos_phi1 * phi1_dot);
-        let t63 = n(p.m2).mul_add(t52, n(p.m1) * t48);
-        let t64 = t53 * (sin_phi1 * phi1_dot);
-        let t65 = n(p.m2).mul_add(t57, n(p.m1) * t50);
-        let t66 = t6.mul_add(cos_t0, sin_t0);
-        let t67 = t47 * (cos_phi2 * phi2_dot);
-        let t68 = t49 * (sin_phi2 * phi2_dot);
-        let t69 = n(p.k7) * t60;
-        let t70 = N::ONE / (t30 - t58);
-        let t71 = t6.neg_mul_add(sin_t0, cos_t0);
-        let t72 = t14.mul_add(t69, sin_phi2 * t4);
-        let t73 = t66 * n(p.m0_e_x0_omega2);
-        let t74 = t70 * t59;
-        let t75 = t70 * t61;
-        let t76 = t59.mul_add(t74, t16.mul_add(t55, t8));
-        let t77 = t59.mul_add(t75, t16.neg_mul_add(t56, (t44 - t45) * t5));
-        let t78 = t41 * t72;
-        let t79 = N::ONE / t76;
-        let t80 = t46.mul_add(t56, t31.neg_mul_add(t38, n(p.m2)));
-        let t81 = sin_phi1.mul_add(t63, t62) - cos_phi1.mul_add(t65, t64);
-        let t82 = t62 - t64 - t81;
-        let t83 = t10.mul_sub(n(p.bx_yb), t7 * n(p.by_xb)) + t13;
-        let t84 = t71.mul_sub(n(p.m0_e_y0_omega2), t73) - t83;
-        let t85 = t10.mul_add(n(p.bx), t11 * n(p.cx));
-        let t86 = t66.neg_mul_add(n(p.m0_e_omega2), t63);
-        let t87 = sin_phi2.mul_add(t52, t67) - cos_phi2.mul_add(t57, t68);
-        let t88 = t29.neg_mul_add(t78, t15.neg_mul_add(t69, cos_phi2 * t4));
-        let t89 = sin_phi2 * s2_dot.mul_add(t49, t3 * t47);
-        let t90 = t57.neg_mul_add(sin_phi2 * s2, t49 * t39);
-        let t91 = t85 - t71.mul_add(n(p.m0_e_omega2), t65);
-        let t92 = t86 + t7.mul_add(n(p.by), t9 * n(p.cy));
-        let t93 = t65.neg_mul_add(sin_phi1 * s1, t53 * t27);
-        let t94 = cos_phi1 * s1_dot.mul_sub(t51, t2 * t53);
-        let t95 = t70 * t88;
-        let t96 = cos_phi2.mul_sub(s2_dot.mul_sub(t47, t3 * t49), t89);
-        let t97 = t79 * t77;
-        let t98 = t21.mul_add(t82, t84.mul_add(n(p.k3), t91));
-        let t99 = sin_phi1.mul_sub(s1_dot.mul_add(t53, t2 * t51), t94);
-        let t100 = t59.mul_add(t95, t16.mul_add(t78, t23 * (t5 * s2)));
-        let t101 = t96 - (t52.mul_add(cos_phi2 * s2, t42 * t47) - t90);
-        let t102 = t77.neg_mul_add(t97, t61.mul_add(t75, t80));
-        let t103 = t22.mul_add(t82, n(p.k4).neg_mul_add(t84, t92));
-        let t104 = t54.mul_add(t98, t103);
-        let t105 = t63.mul_add(cos_phi1 * s1, t35 * t51) - t93 + t99;
-        let t106 = t38.neg_mul_add(t82, n(p.m2) * (t67 - t68 - t87));
-        let t107 = t79 * t100;
-        let t108 = N::ONE / t102;
-        let t109 = t74.mul_add(t104, t55.neg_mul_add(t98, t105));
-        let t110 = t61.neg_mul_add(t95, t46.mul_add(t78, t31 * t69));
-        let t111 = t77.mul_add(t107, t110);
-        let t112 = t78.mul_add(t98, n(p.m2).mul_sub(t101, t69 * t82));
-        let t113 = t72.mul_add(t78, t60.neg_mul_add(t69, t12));
-        let t114 = t75.neg_mul_add(t104, t56.neg_mul_add(t98, t106));
-        let t115 = t97.mul_add(t109, t114);
-        let t116 = t108 * t111;
-        let t117 = t107.mul_add(t109, t95.neg_mul_add(t104, t112));
-        let t118 = t100.neg_mul_add(t107, t88.mul_add(t95, t113));
-        let t119 = t111.neg_mul_add(t116, t118);
-        let phi2_ddot = t116.mul_add(t115, t117) / t119;
-        let s2_ddot = t116.mul_add(phi2_ddot, t108 * t115);
-        let t120 = t97.mul_add(s2_ddot, t107.mul_add(phi2_ddot, t79 * t109));
-        let t121 = t78.neg_mul_add(phi2_ddot, t41 * t98);
-        let t122 = t69.mul_sub(phi2_ddot, n(p.k7) * t82);
-        let t123 = t75.mul_add(s2_ddot, t95.mul_add(phi2_ddot, t70 * t104));
-        let y_ddot = t74.neg_mul_add(t120, t123);
-        let t124 = t55.mul_add(t120, t56.mul_add(s2_ddot, t121));
-        let x_ddot = t54.mul_add(y_ddot, t124);
-        let t125 = t22.mul_add(y_ddot, t38.mul_add(s2_ddot, t122));
-        let t126 = n(p.k4).mul_add(y_ddot, t84 * n(p.k6));
-        let theta_ddot = n(p.k3).mul_sub(x_ddot, t126);
-        let s1_ddot = -t21.mul_add(x_ddot, t125);
-        let phi1_ddot = -t120;
-        let zero = N::ZERO;
-        let t127 = n(p.k8) - t28;
-        let t128 = t58 - t30;
-        let sound = PIVOTS.hold(t127, n(p.k0))
-            & PIVOTS.hold(t128, n(p.k0))
-            & PIVOTS.hold(t76, t8)
-            & PIVOTS.hold(t102, n(p.m2))
-            & PIVOTS.hold(t119, t12)
-            & s1_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (0, t127, n(p.k0)),
-                (1, t128, n(p.k0)),
-                (4, t76, t8),
-                (6, t102, n(p.m2)),
-                (7, t119, t12),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            theta_ddot.store(),
-            s1_ddot.store(),
-            phi1_ddot.store(),
-            zero.store(),
-            s2_ddot.store(),
-            phi2_ddot.store(),
-            zero.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let s1 = n(q[3]);
+    let phi1 = n(q[4]);
+    let s2 = n(q[6]);
+    let phi2 = n(q[7]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let s1_dot = n(v[3]);
+    let phi1_dot = n(v[4]);
+    let s2_dot = n(v[6]);
+    let phi2_dot = n(v[7]);
+    let t0 = n(p.omega) * n(t);
+    let angles = [phi1, phi2, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_phi1, cos_phi1) = circular[0];
+    let (sin_phi2, cos_phi2) = circular[1];
+    let (sin_t0, cos_t0) = circular[2];
+    let t1 = n(p.m1_plus_m2) * s1;
+    let t2 = s1 * phi1_dot;
+    let t3 = s2 * phi2_dot;
+    let t4 = s2 * n(p.m2);
+    let t5 = s1 * n(p.m2);
+    let t6 = n(p.omega).product_error(n(t));
+    let t7 = theta_dot.mul_add(n(p.xb), y_dot);
+    let t8 = s1 * t1;
+    let t9 = theta.mul_add(n(p.xc), y);
+    let t10 = theta_dot.neg_mul_add(n(p.yb), x_dot);
+    let t11 = theta.neg_mul_add(n(p.yc), x);
+    let t12 = s2 * t4;
+    let t13 = t11.mul_sub(n(p.cx_yc), t9 * n(p.cy_xc));
+    let t14 = cos_phi1 * n(p.m1_plus_m2);
+    let t15 = sin_phi1 * n(p.m1_plus_m2);
+    let t16 = sin_phi1 * t1;
+    let t17 = sin_phi2 * s2_dot;
+    let t18 = sin_phi1 * s1_dot;
+    let t19 = cos_phi1 * t2;
+    let t20 = cos_phi2 * s2_dot;
+    // Eliminates s1 from row x: l[x, s1].
+    let t21 = t14 * n(p.k6);
+    // Eliminates s1 from row y: l[y, s1].
+    let t22 = t15 * n(p.k6);
+    let t23 = sin_phi1.mul_add(sin_phi2, cos_phi1 * cos_phi2);
+    let t24 = cos_phi1 * s1_dot;
+    let t25 = sin_phi1 * t2;
+    let t26 = cos_phi2 * t3;
+    let t27 = t18 + t19;
+    let t28 = t14 * t21;
+    let t29 = t14.neg_mul_add(t22, n(p.k4));
+    let t30 = t15.mul_sub(t22, n(p.k8));
+    let t31 = n(p.m2) * t23;
+    let t32 = phi2_dot * t20;
+    let t33 = sin_phi2 * t3;
+    let t34 = phi1_dot * t24;
+    let t35 = t24 - t25;
+    let t36 = phi2_dot * t17;
+    let t37 = phi1_dot * t18;
+    // Eliminates s1 from row s2: l[s2, s1].
+    let t38 = n(p.k6) * t31;
+    let t39 = t17 + t26;
+    let t40 = y_dot + t27;
+    // Row x: pivot d[x].
+    let t41 = N::ONE / (t28 - n(p.k7));
+    let t42 = t20 - t33;
+    let t43 = x_dot + t35;
+    let t44 = t14.neg_mul_add(t38, cos_phi2 * n(p.m2));
+    let t45 = t39 + t40;
+    let t46 = t34 + phi1_dot.neg_mul_add(t25, t34);
+    let t47 = t42 + t43;
+    let t48 = t37 + phi1_dot.mul_add(t19, t37);
+    let t49 = sin_phi1.mul_sub(cos_phi2, cos_phi1 * sin_phi2);
+    let t50 = n(p.m2).mul_add(t45, t40 * n(p.m1));
+    let t51 = t32 + phi2_dot.neg_mul_add(t33, t32) + t46;
+    let t52 = n(p.m2).mul_add(t47, t43 * n(p.m1));
+    // Eliminates x from row y: l[y, x].
+    let t53 = t29 * t41;
+    // Eliminates x from row phi1: l[phi1, x].
+    let t54 = t16 * t41;
+    // Eliminates x from row s2: l[s2, x].
+    let t55 = t41 * t44;
+    let t56 = t36 + phi2_dot.mul_add(t26, t36) + t48;
+    let t57 = t29 * t53;
+    let t58 = t29.neg_mul_add(t54, cos_phi1 * t1);
+    let t59 = t4 * t49;
+    let t60 = t29.mul_add(t55, t15.neg_mul_add(t38, sin_phi2 * n(p.m2)));
+    let t61 = t50 * (cos_phi1 * phi1_dot);
+    let t62 = n(p.m2).mul_add(t51, n(p.m1) * t46);
+    let t63 = t52 * (sin_phi1 * phi1_dot);
+    let t64 = n(p.m2).mul_add(t56, n(p.m1) * t48);
+    let t65 = t6.mul_add(cos_t0, sin_t0);
+    let t66 = t45 * (cos_phi2 * phi2_dot);
+    let t67 = t47 * (sin_phi2 * phi2_dot);
+    // Eliminates s1 from row phi2: l[phi2, s1].
+    let t68 = n(p.k6) * t59;
+    // Row y: pivot d[y].
+    let t69 = N::ONE / (t30 - t57);
+    let t70 = t6.neg_mul_add(sin_t0, cos_t0);
+    let t71 = t14.mul_add(t68, sin_phi2 * t4);
+    let t72 = t65 * n(p.m0_e_x0_omega2);
+    // Eliminates y from row phi1: l[phi1, y].
+    let t73 = t58 * t69;
+    // Eliminates y from row s2: l[s2, y].
+    let t74 = t60 * t69;
+    // Row phi1: pivot d[phi1].
+    let t75 = t58.mul_add(t73, t16.mul_add(t54, t8));
+    let t76 = t58.mul_sub(t74, t16.mul_add(t55, t5 * t49));
+    // Eliminates x from row phi2: l[phi2, x].
+    let t77 = t41 * t71;
+    let t78 = N::ONE / t75;
+    let t79 = t44.mul_add(t55, t31.neg_mul_add(t38, n(p.m2)));
+    let t80 = sin_phi1.mul_add(t62, t61) - cos_phi1.mul_add(t64, t63);
+    let t81 = t61 - t63 - t80;
+    let t82 = t10.mul_sub(n(p.bx_yb), t7 * n(p.by_xb)) + t13;
+    let t83 = t70.mul_sub(n(p.m0_e_y0_omega2), t72) - t82;
+    let t84 = t11.mul_add(n(p.cx), t10 * n(p.bx));
+    let t85 = t65.neg_mul_add(n(p.m0_e_omega2), t62);
+    let t86 = sin_phi2.mul_add(t51, t66) - cos_phi2.mul_add(t56, t67);
+    let t87 = t29.neg_mul_add(t77, t15.neg_mul_add(t68, cos_phi2 * t4));
+    let t88 = sin_phi2 * t3.mul_add(t45, s2_dot * t47);
+    let t89 = t56.neg_mul_add(sin_phi2 * s2, t39 * t47);
+    let t90 = t84 - t70.mul_add(n(p.m0_e_omega2), t64);
+    let t91 = t9.mul_add(n(p.cy), t7 * n(p.by)) + t85;
+    let t92 = t64.neg_mul_add(sin_phi1 * s1, t27 * t52);
+    let t93 = cos_phi1 * s1_dot.mul_sub(t50, t2 * t52);
+    // Eliminates y from row phi2: l[phi2, y].
+    let t94 = t69 * t87;
+    let t95 = cos_phi2.mul_sub(s2_dot.mul_sub(t45, t3 * t47), t88);
+    // Eliminates phi1 from row s2: l[s2, phi1].
+    let t96 = t76 * t78;
+    // Row x: right-hand side z[x].
+    let t97 = t21.mul_add(t81, t83.mul_add(n(p.k2), t90));
+    let t98 = sin_phi1.mul_sub(t2.mul_add(t50, s1_dot * t52), t93);
+    let t99 = t58.mul_add(t94, t16.mul_add(t77, s2 * t5 * t23));
+    let t100 = t95 - (t51.mul_add(cos_phi2 * s2, t42 * t45) - t89);
+    // Row s2: pivot d[s2].
+    let t101 = t76.neg_mul_add(t96, t60.mul_add(t74, t79));
+    let t102 = t22.mul_add(t81, t83.neg_mul_add(n(p.k3), t91));
+    // Row y: right-hand side z[y].
+    let t103 = t53.mul_add(t97, t102);
+    let t104 = t62.mul_add(cos_phi1 * s1, t35 * t50) - t92 + t98;
+    let t105 = t38.neg_mul_add(t81, n(p.m2) * (t66 - t67 - t86));
+    // Eliminates phi1 from row phi2: l[phi2, phi1].
+    let t106 = t78 * t99;
+    let t107 = N::ONE / t101;
+    // Row phi1: right-hand side z[phi1].
+    let t108 = t73.mul_add(t103, t54.neg_mul_add(t97, t104));
+    let t109 = t60.neg_mul_add(t94, t44.mul_add(t77, t31 * t68));
+    let t110 = t76.mul_add(t106, t109);
+    let t111 = t77.mul_add(t97, n(p.m2).mul_sub(t100, t68 * t81));
+    let t112 = t71.mul_add(t77, t59.neg_mul_add(t68, t12));
+    let t113 = t74.neg_mul_add(t103, t55.neg_mul_add(t97, t105));
+    // Row s2: right-hand side z[s2].
+    let t114 = t96.mul_add(t108, t113);
+    // Eliminates s2 from row phi2: l[phi2, s2].
+    let t115 = t107 * t110;
+    let t116 = t106.mul_add(t108, t94.neg_mul_add(t103, t111));
+    let t117 = t99.neg_mul_add(t106, t87.mul_add(t94, t112));
+    // Row phi2: pivot d[phi2].
+    let t118 = t110.neg_mul_add(t115, t117);
+    // Row phi2: right-hand side z[phi2].
+    let phi2_ddot = t114.mul_add(t115, t116) / t118;
+    // Back substitution: a[s2].
+    let s2_ddot = t115.mul_add(phi2_ddot, t107 * t114);
+    // Back substitution: a[phi1].
+    let t119 = t96.mul_add(s2_ddot, t106.mul_add(phi2_ddot, t78 * t108));
+    let t120 = t77.neg_mul_add(phi2_ddot, t41 * t97);
+    let t121 = t68.mul_sub(phi2_ddot, n(p.k6) * t81);
+    let t122 = t74.mul_add(s2_ddot, t94.mul_add(phi2_ddot, t69 * t103));
+    // Back substitution: a[y].
+    let y_ddot = t73.neg_mul_add(t119, t122);
+    let t123 = t54.mul_add(t119, t55.mul_add(s2_ddot, t120));
+    // Back substitution: a[x].
+    let x_ddot = t53.mul_add(y_ddot, t123);
+    let t124 = t22.mul_add(y_ddot, t38.mul_add(s2_ddot, t121));
+    let t125 = n(p.k3).mul_add(y_ddot, t83 * n(p.k5));
+    let theta_ddot = n(p.k2).mul_sub(x_ddot, t125);
+    // Back substitution: a[s1].
+    let s1_ddot = -t21.mul_add(x_ddot, t124);
+    let phi1_ddot = -t119;
+    let zero = N::ZERO;
+    let t126 = n(p.k7) - t28;
+    let t127 = t57 - t30;
+    let sound = PIVOTS.hold(t126, n(p.k0))
+        & PIVOTS.hold(t127, n(p.k0))
+        & PIVOTS.hold(t75, t8)
+        & PIVOTS.hold(t101, n(p.m2))
+        & PIVOTS.hold(t118, t12)
+        & s1_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (0, t126, n(p.k0)),
+            (1, t127, n(p.k0)),
+            (4, t75, t8),
+            (6, t101, n(p.m2)),
+            (7, t118, t12),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        theta_ddot.store(),
+        s1_ddot.store(),
+        phi1_ddot.store(),
+        zero.store(),
+        s2_ddot.store(),
+        phi2_ddot.store(),
+        zero.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1004,13 +1017,13 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
         phi2: "phi2" "rad";
         theta2: "theta2" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         m, m0, m1, m2, J, J1, J2, x0, y0, omega, cx, cy, bx, by, xc, yc, xb, yb, e_omega, J0_omega2,
         m1_plus_m2, cx_yc, bx_yb, cy_xc, m0_e_omega2, half_cx, half_cy, half_bx, half_by, k0, m0_x0,
-        k1, e_omega2, m0_e_x0_omega2, m0_e_y0_omega2, by_xb, minus_m0_y0, k2, minus_m2, k3, k4, k5,
-        k6, k7, k8, k9,
+        k1, e_omega2, m0_e_x0_omega2, m0_e_y0_omega2, by_xb, minus_m0_y0, minus_m2, k2, k3, k4, k5,
+        k6, k7, k8,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

@@ -1,7 +1,7 @@
 // @generated from machines/particle_pendulum.machine by `cargo xtask generate`; edits are lost.
 
-//! A double pendulum in Cartesian coordinates: two particles that two rods hold. The constraints
-//! are
+//! A double pendulum in Cartesian coordinates: two particles that two rods hold. The
+//! constraints are
 //! scaled so that their multipliers are the forces in the rods, positive where a rod presses.
 //!
 //! 4 coordinates, 5 parameters. Arithmetic of one call:
@@ -34,8 +34,8 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A double pendulum in Cartesian coordinates: two particles that two rods hold. The constraints
-/// are
+/// A double pendulum in Cartesian coordinates: two particles that two rods hold. The
+/// constraints are
 /// scaled so that their multipliers are the forces in the rods, positive where a rod presses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParticlePendulum<S = f64> {
@@ -56,7 +56,6 @@ impl<S: ::lagrangian::emitted::Scalar> ParticlePendulum<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let inverse_l1 = S::ONE / self.l1;
         let inverse_l2 = S::ONE / self.l2;
-        let m1_g = self.m1 * self.g;
         let m2_g = self.m2 * self.g;
         let l1_squared = self.l1 * self.l1;
         let half_over_l1 = inverse_l1 * S::from_f64(0.5);
@@ -64,7 +63,7 @@ impl<S: ::lagrangian::emitted::Scalar> ParticlePendulum<S> {
         let half_over_l2 = S::from_f64(0.5) * inverse_l2;
         let half_m1 = self.m1 * S::from_f64(0.5);
         let half_m2 = self.m2 * S::from_f64(0.5);
-        let minus_m1_g = -m1_g;
+        let minus_m1_g = -(self.m1 * self.g);
         let minus_m2_g = -m2_g;
         let minus_inverse_l2 = -inverse_l2;
         let minus_inverse_l1 = -inverse_l1;
@@ -87,7 +86,6 @@ impl<S: ::lagrangian::emitted::Scalar> ParticlePendulum<S> {
             l2_squared,
             inverse_l2,
             half_over_l2,
-            m1_g,
             m2_g,
             half_m1,
             half_m2,
@@ -132,14 +130,6 @@ pub struct Coordinates<S = f64> {
     pub y2: S,
 }
 
-/// What can be set while a [`ParticlePendulum`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`ParticlePendulum`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`ParticlePendulum`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -161,8 +151,6 @@ pub struct Prepared<S = f64> {
     inverse_l2: S,
     /// `0.5/l2`
     half_over_l2: S,
-    /// `m1*g`
-    m1_g: S,
     /// `m2*g`
     m2_g: S,
     /// `0.5*m1`
@@ -317,159 +305,173 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S
     [gamma1, gamma2]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
-/// machine, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 4],
-    v: &[S; 4],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along
+    /// the machine, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 4], v: &'a [S; 4] })
+        -> Result<[S; 4], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 4], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 4],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 4],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 4], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x1 = n(q[0]);
-        let y1 = n(q[1]);
-        let x2 = n(q[2]);
-        let y2 = n(q[3]);
-        let x1_dot = n(v[0]);
-        let y1_dot = n(v[1]);
-        let x2_dot = n(v[2]);
-        let y2_dot = n(v[3]);
-        let t0 = x1 - x2;
-        let t1 = y1 - y2;
-        let t2 = x1_dot - x2_dot;
-        let t3 = y1_dot - y2_dot;
-        let t4 = n(p.inverse_m1) * (n(p.inverse_l1) * x1);
-        let t5 = n(p.inverse_m1) * (n(p.inverse_l1) * y1);
-        let t6 = n(p.inverse_l2) * t0;
-        let t7 = n(p.inverse_l2) * t1;
-        let t8 = n(p.inverse_m2) * t6;
-        let t9 = n(p.inverse_m1) * t6;
-        let t10 = n(p.inverse_m2) * t7;
-        let t11 = n(p.inverse_m1) * t7;
-        let t12 = y1_dot.mul_add(y1_dot, x1_dot * x1_dot);
-        let t13 = n(p.inverse_l1).neg_mul_add(t12, y1 * n(p.g_over_l1));
-        let t14 = n(p.inverse_l1) * y1.mul_add(t5, x1 * t4);
-        let t15 = n(p.inverse_l2) * t5.mul_add(t1, t4 * t0);
-        let t16 = N::ONE / t14;
-        let t17 = n(p.inverse_l2) * t1.mul_add(t10 + t11, t0 * (t8 + t9));
-        let t18 = t16 * t15;
-        let t19 = n(p.inverse_l2) * t3.mul_add(t3, t2 * t2);
-        let t20 = t15.neg_mul_add(t18, t17);
-        let t21 = t18.mul_add(t13, t19) / t20;
-        let t22 = t18.mul_add(t21, t16 * t13);
-        let x1_ddot = t4.mul_sub(t22, t9 * t21);
-        let y1_ddot = t5.mul_sub(t22, t11.mul_add(t21, n(p.g)));
-        let x2_ddot = t8 * t21;
-        let y2_ddot = t10.mul_sub(t21, n(p.g));
-        let sound = PIVOTS.hold(t14, t14) & PIVOTS.hold(t20, t17) & y1_ddot.is_finite();
-        if !sound {
-            let pivots = [(4, t14, t14), (5, t20, t17)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            x1_ddot.store(),
-            y1_ddot.store(),
-            x2_ddot.store(),
-            y2_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x1 = n(q[0]);
+    let y1 = n(q[1]);
+    let x2 = n(q[2]);
+    let y2 = n(q[3]);
+    let x1_dot = n(v[0]);
+    let y1_dot = n(v[1]);
+    let x2_dot = n(v[2]);
+    let y2_dot = n(v[3]);
+    let t0 = x1 - x2;
+    let t1 = y1 - y2;
+    let t2 = x1_dot - x2_dot;
+    let t3 = y1_dot - y2_dot;
+    let t4 = n(p.inverse_m1) * (n(p.inverse_l1) * x1);
+    let t5 = n(p.inverse_m1) * (n(p.inverse_l1) * y1);
+    let t6 = n(p.inverse_l2) * t0;
+    let t7 = n(p.inverse_l2) * t1;
+    let t8 = n(p.inverse_m2) * t6;
+    let t9 = n(p.inverse_m1) * t6;
+    let t10 = n(p.inverse_m2) * t7;
+    let t11 = n(p.inverse_m1) * t7;
+    let t12 = y1_dot.mul_add(y1_dot, x1_dot * x1_dot);
+    let t13 = n(p.inverse_l1).neg_mul_add(t12, y1 * n(p.g_over_l1));
+    // Row upper_rod: pivot d[upper_rod].
+    let t14 = n(p.inverse_l1) * y1.mul_add(t5, x1 * t4);
+    let t15 = n(p.inverse_l2) * t5.mul_add(t1, t4 * t0);
+    let t16 = N::ONE / t14;
+    let t17 = n(p.inverse_l2) * t1.mul_add(t10 + t11, t0 * (t8 + t9));
+    // Eliminates upper_rod from row lower_rod: l[lower_rod, upper_rod].
+    let t18 = t16 * t15;
+    let t19 = n(p.inverse_l2) * t3.mul_add(t3, t2 * t2);
+    // Row lower_rod: pivot d[lower_rod].
+    let t20 = t15.neg_mul_add(t18, t17);
+    // Row lower_rod: right-hand side z[lower_rod].
+    let t21 = t18.mul_add(t13, t19) / t20;
+    // Back substitution: lambda[upper_rod].
+    let t22 = t18.mul_add(t21, t16 * t13);
+    let x1_ddot = t4.mul_sub(t22, t9 * t21);
+    let y1_ddot = t5.mul_sub(t22, t11.mul_add(t21, n(p.g)));
+    let x2_ddot = t8 * t21;
+    let y2_ddot = t10.mul_sub(t21, n(p.g));
+    let sound = PIVOTS.hold(t14, t14) & PIVOTS.hold(t20, t17) & y1_ddot.is_finite();
+    if !sound {
+        let pivots = [(4, t14, t14), (5, t20, t17)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        x1_ddot.store(),
+        y1_ddot.store(),
+        x2_ddot.store(),
+        y2_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 4],
-    v: &[S; 4],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 4], v: &'a [S; 4] })
+        -> Result<[S; 2], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 4],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 4],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x1 = n(q[0]);
-        let y1 = n(q[1]);
-        let x2 = n(q[2]);
-        let y2 = n(q[3]);
-        let x1_dot = n(v[0]);
-        let y1_dot = n(v[1]);
-        let x2_dot = n(v[2]);
-        let y2_dot = n(v[3]);
-        let t0 = n(p.inverse_l1) * x1;
-        let t1 = n(p.inverse_l1) * y1;
-        let t2 = x1_dot - x2_dot;
-        let t3 = y1_dot - y2_dot;
-        let t4 = n(p.inverse_m1) * t1;
-        let t5 = n(p.inverse_l2) * (x1 - x2);
-        let t6 = n(p.inverse_l2) * (y1 - y2);
-        let t7 = n(p.inverse_m1) * t5;
-        let t8 = n(p.inverse_m1) * t6;
-        let t9 = t6 * n(p.inverse_m2);
-        let t10 = t1.mul_add(t4, t0 * (n(p.inverse_m1) * t0));
-        let t11 = y1_dot.mul_add(y1_dot, x1_dot * x1_dot);
-        let t12 = n(p.inverse_l1).mul_sub(t11, t4 * n(p.m1_g));
-        let t13 = N::ONE / t10;
-        let t14 = t1.mul_add(t8, t0 * t7);
-        let t15 = n(p.inverse_l2) * t3.mul_add(t3, t2 * t2);
-        let t16 = t6.mul_add(t9, t5 * (t5 * n(p.inverse_m2)));
-        let t17 = t6.mul_add(t8, t5 * t7) + t16;
-        let t18 = t13 * t14;
-        let t19 = t14.neg_mul_add(t18, t17);
-        let t20 = t8.neg_mul_add(n(p.m1_g), t9.mul_add(n(p.m2_g), t15));
-        let t21 = t18.neg_mul_add(t12, t20) / t19;
-        let lambda1 = t18.mul_sub(t21, t13 * t12);
-        let lambda2 = -t21;
-        let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t19, t17) & lambda2.is_finite();
-        if !sound {
-            let pivots = [(4, t10, t10), (5, t19, t17)];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [lambda1.store(), lambda2.store()];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x1 = n(q[0]);
+    let y1 = n(q[1]);
+    let x2 = n(q[2]);
+    let y2 = n(q[3]);
+    let x1_dot = n(v[0]);
+    let y1_dot = n(v[1]);
+    let x2_dot = n(v[2]);
+    let y2_dot = n(v[3]);
+    let t0 = n(p.inverse_l1) * x1;
+    let t1 = n(p.inverse_l1) * y1;
+    let t2 = x1_dot - x2_dot;
+    let t3 = y1_dot - y2_dot;
+    // Eliminates y1 from row upper_rod: l[upper_rod, y1].
+    let t4 = t1 * n(p.inverse_m1);
+    let t5 = (x1 - x2) * n(p.inverse_l2);
+    let t6 = (y1 - y2) * n(p.inverse_l2);
+    // Eliminates x1 from row lower_rod: l[lower_rod, x1].
+    let t7 = n(p.inverse_m1) * t5;
+    // Eliminates y1 from row lower_rod: l[lower_rod, y1].
+    let t8 = n(p.inverse_m1) * t6;
+    // Eliminates y2 from row lower_rod: l[lower_rod, y2].
+    let t9 = t6 * n(p.inverse_m2);
+    // Eliminates x1 from row upper_rod: l[upper_rod, x1]; Row upper_rod: pivot d[upper_rod].
+    let t10 = t0.mul_add(t0 * n(p.inverse_m1), t1 * t4);
+    let t11 = n(p.inverse_l1) * x1_dot.mul_add(x1_dot, y1_dot * y1_dot);
+    // Row upper_rod: right-hand side z[upper_rod].
+    let t12 = t4.mul_add(n(p.minus_m1_g), t11);
+    let t13 = N::ONE / t10;
+    let t14 = t0.mul_add(t7, t1 * t8);
+    let t15 = t2.mul_add(t2, t3 * t3);
+    // Eliminates x2 from row lower_rod: l[lower_rod, x2].
+    let t16 = t5.mul_add(t5 * n(p.inverse_m2), t6 * t9);
+    let t17 = t5.mul_add(t7, t6 * t8) + t16;
+    let t18 = n(p.inverse_l2).mul_add(t15, t9 * n(p.m2_g));
+    // Eliminates upper_rod from row lower_rod: l[lower_rod, upper_rod].
+    let t19 = t13 * t14;
+    // Row lower_rod: pivot d[lower_rod].
+    let t20 = t14.neg_mul_add(t19, t17);
+    // Row lower_rod: right-hand side z[lower_rod].
+    let t21 = t12.neg_mul_add(t19, n(p.minus_m1_g).mul_add(t8, t18));
+    let t22 = t21 / t20;
+    let lambda1 = t19.mul_sub(t22, t12 * t13);
+    let lambda2 = -t22;
+    let sound = PIVOTS.hold(t10, t10) & PIVOTS.hold(t20, t17) & lambda2.is_finite();
+    if !sound {
+        let pivots = [(4, t10, t10), (5, t20, t17)];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [lambda1.store(), lambda2.store()];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -494,7 +496,7 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S;
 pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4]) -> S {
     let y1 = q[1];
     let y2 = q[3];
-    p.m2_g * y2 + p.m1_g * y1
+    p.m2_g * y2 - p.minus_m1_g * y1
 }
 
 ::lagrangian::emitted::implement! {
@@ -512,12 +514,12 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         x2: "x2" "m";
         y2: "y2" "m";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
-        m1, m2, g, l1_squared, inverse_l1, half_over_l1, l2_squared, inverse_l2, half_over_l2, m1_g,
-        m2_g, half_m1, half_m2, minus_m1_g, minus_m2_g, minus_inverse_l2, minus_inverse_l1,
-        inverse_m1, inverse_m2, g_over_l1,
+        m1, m2, g, l1_squared, inverse_l1, half_over_l1, l2_squared, inverse_l2, half_over_l2, m2_g,
+        half_m1, half_m2, minus_m1_g, minus_m2_g, minus_inverse_l2, minus_inverse_l1, inverse_m1,
+        inverse_m2, g_over_l1,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

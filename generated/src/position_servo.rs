@@ -40,8 +40,8 @@
 /// sets the voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PositionServo<S = f64> {
-    /// Mass of the arm, and the distance of its mass centre from the axis. Unit: `kg`. Default:
-    /// 1.2.
+    /// Mass of the arm, and the distance of its mass centre from the axis. Unit: `kg`.
+    /// Default: 1.2.
     pub m: S,
     /// `a`. Unit: `m`. Default: 0.25.
     pub a: S,
@@ -263,63 +263,49 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_theta, f_i, f_seen, f_error]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 4],
-    v: &[S; 4],
-    u: &Inputs<S>,
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        q: &'a [S; 4],
+        v: &'a [S; 4],
+        u: &'a Inputs<S>,
+    }) -> Result<[S; 4], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 4], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v, u })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 4],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 4],
-    /// As `accelerations` takes it.
-    pub u: &'a Inputs<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 4], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v, u } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta = n(q[0]);
-        let theta_dot = n(v[0]);
-        let i_dot = n(v[1]);
-        let seen_dot = n(v[2]);
-        let error_dot = n(v[3]);
-        let cos_theta = theta.cos();
-        let t0 = theta - seen_dot;
-        let t1 = t0.neg_mul_add(n(p.kd_over_tau), error_dot * n(p.ki));
-        let t2 = (seen_dot - n(u.wanted)).neg_mul_add(n(p.kp), t1);
-        let t3 = t2 - i_dot.mul_add(n(p.R), theta_dot * n(p.n_k));
-        let t4 = n(p.n_k).mul_sub(i_dot, theta_dot * n(p.b));
-        let theta_ddot = n(p.k1) * n(p.m_a_g).mul_sub(cos_theta, t4);
-        let i_ddot = n(p.inverse_L) * t3;
-        let seen_ddot = t0 * n(p.inverse_tau);
-        let error_ddot = n(u.wanted) - seen_dot;
-        let accelerations = [
-            theta_ddot.store(),
-            i_ddot.store(),
-            seen_ddot.store(),
-            error_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, v, u } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta = n(q[0]);
+    let theta_dot = n(v[0]);
+    let i_dot = n(v[1]);
+    let seen_dot = n(v[2]);
+    let error_dot = n(v[3]);
+    let cos_theta = theta.cos();
+    let t0 = theta - seen_dot;
+    let t1 = t0.neg_mul_add(n(p.kd_over_tau), error_dot * n(p.ki));
+    let t2 = (seen_dot - n(u.wanted)).neg_mul_add(n(p.kp), t1);
+    let t3 = t2 - i_dot.mul_add(n(p.R), theta_dot * n(p.n_k));
+    let t4 = n(p.n_k).mul_sub(i_dot, theta_dot * n(p.b));
+    let theta_ddot = n(p.k1) * n(p.m_a_g).mul_sub(cos_theta, t4);
+    let i_ddot = n(p.inverse_L) * t3;
+    let seen_ddot = t0 * n(p.inverse_tau);
+    let error_ddot = n(u.wanted) - seen_dot;
+    let accelerations = [
+        theta_ddot.store(),
+        i_ddot.store(),
+        seen_ddot.store(),
+        error_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.

@@ -1,11 +1,11 @@
 // @generated from machines/prisms.machine by `cargo xtask generate`; edits are lost.
 
-//! Two prisms with Coulomb friction: one slides down on the other, which slides on the floor (D.
-//! Đurić,
+//! Two prisms with Coulomb friction: one slides down on the other, which slides on the floor
+//! (D. Đurić,
 //! *On Brachistochronic Motion of a Multibody System with Real Constraints*, figure 1).
 //!
-//! The defaults are those of the paper's example, with 9.81 m/s² for the gravity that it does not
-//! give.
+//! The defaults are those of the paper's example, with 9.81 m/s² for the gravity that it does
+//! not give.
 //!
 //! 2 coordinates, 6 parameters. Arithmetic of one call:
 //!
@@ -31,12 +31,12 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// Two prisms with Coulomb friction: one slides down on the other, which slides on the floor (D.
-/// Đurić,
+/// Two prisms with Coulomb friction: one slides down on the other, which slides on the floor
+/// (D. Đurić,
 /// *On Brachistochronic Motion of a Multibody System with Real Constraints*, figure 1).
 ///
-/// The defaults are those of the paper's example, with 9.81 m/s² for the gravity that it does not
-/// give.
+/// The defaults are those of the paper's example, with 9.81 m/s² for the gravity that it does
+/// not give.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prisms<S = f64> {
     /// Mass of the prism that slides down. Unit: `kg`. Default: 32/13.
@@ -138,14 +138,6 @@ pub struct Coordinates<S = f64> {
     /// How far the other has moved on it, horizontally and to the other side. Unit: `m`.
     pub q2: S,
 }
-
-/// What can be set while a [`Prisms`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`Prisms`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
 
 /// The parameters of a [`Prisms`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -258,60 +250,51 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] 
     [one, zero, zero, p.k3]
 }
 
-/// What there is without friction, and what a unit of each friction force adds to it:
-/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
-/// coefficients of friction. A machine with contacts has this in place of accelerations and
-/// multipliers.
-///
-/// A pivot that vanishes is an error.
-pub fn friction<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
+::lagrangian::emitted::fast_function! {
+    /// What there is without friction, and what a unit of each friction force adds to it:
+    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
+    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// and multipliers.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn friction<'a, S>(Friction { p: &'a Prepared<S> })
+        -> Result<[S; 22], ::lagrangian::emitted::Singular> = friction_in;
+}
+
+#[inline(always)]
+fn friction_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Friction<'_, S>,
 ) -> Result<[S; 22], ::lagrangian::emitted::Singular> {
-    S::run(Friction { p })
-}
-
-/// A call of [`friction`], to be run with whatever instructions the processor has.
-pub struct Friction<'a, S> {
-    /// As `friction` takes it.
-    pub p: &'a Prepared<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 22], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let friction = [
-            n(p.k6).store(),
-            n(p.k5).store(),
-            n(p.k6).store(),
-            n(p.k7).store(),
-            n(p.k8).store(),
-            n(p.k9).store(),
-            n(p.k11).store(),
-            n(p.k10).store(),
-            n(p.k11).store(),
-            n(p.k12).store(),
-            n(p.k15).store(),
-            n(p.k16).store(),
-            n(p.k12).store(),
-            n(p.k13).store(),
-            n(p.k12).store(),
-            n(p.k14).store(),
-            n(p.k17).store(),
-            n(p.k15).store(),
-            n(p.mu2).store(),
-            n(p.mu1).store(),
-            n(p.mu2).store(),
-            n(p.mu1).store(),
-        ];
-        Ok(friction)
+    let Friction { p } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let friction = [
+        n(p.k6).store(),
+        n(p.k5).store(),
+        n(p.k6).store(),
+        n(p.k7).store(),
+        n(p.k8).store(),
+        n(p.k9).store(),
+        n(p.k11).store(),
+        n(p.k10).store(),
+        n(p.k11).store(),
+        n(p.k12).store(),
+        n(p.k15).store(),
+        n(p.k16).store(),
+        n(p.k12).store(),
+        n(p.k13).store(),
+        n(p.k12).store(),
+        n(p.k14).store(),
+        n(p.k17).store(),
+        n(p.k15).store(),
+        n(p.mu2).store(),
+        n(p.mu1).store(),
+        n(p.mu2).store(),
+        n(p.mu1).store(),
+    ];
+    Ok(friction)
 }
 
 /// Kinetic energy `T`, in J.
@@ -351,8 +334,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         q1: "q1" "m";
         q2: "q2" "m";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         k0, m_plus_M, k1, half_M, half_m, k2, k3, minus_m, k4, mu2, mu1, k5, k6, k7, k8, k9, k10,
         k11, k12, k13, k14, k15, k16, k17,

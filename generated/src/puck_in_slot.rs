@@ -135,14 +135,6 @@ pub struct Coordinates<S = f64> {
     pub y: S,
 }
 
-/// What can be set while a [`PuckInSlot`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`PuckInSlot`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`PuckInSlot`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -182,8 +174,8 @@ pub struct Prepared<S = f64> {
     /// `(sin(alpha)^2*(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125))) +
     /// cos(alpha)*(1 - sin…`
     k11: S,
-    /// `sin(alpha)*(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125))) -
-    /// sin(alpha)*(sin(alpha)…`
+    /// `sin(alpha)*(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125)))
+    /// - sin(alpha)*(sin(alpha)…`
     k12: S,
     /// `(1 + sign(cos(alpha) + 0.3125) - abs(sign(cos(alpha) + 0.3125)))/m`
     k13: S,
@@ -258,79 +250,70 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] 
     [p.k4, zero, zero, p.k2]
 }
 
-/// What there is without friction, and what a unit of each friction force adds to it:
-/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
-/// coefficients of friction. A machine with contacts has this in place of accelerations and
-/// multipliers.
-///
-/// A pivot that vanishes is an error.
-pub fn friction<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
+::lagrangian::emitted::fast_function! {
+    /// What there is without friction, and what a unit of each friction force adds to it:
+    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
+    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// and multipliers.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn friction<'a, S>(Friction { p: &'a Prepared<S> })
+        -> Result<[S; 40], ::lagrangian::emitted::Singular> = friction_in;
+}
+
+#[inline(always)]
+fn friction_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Friction<'_, S>,
 ) -> Result<[S; 40], ::lagrangian::emitted::Singular> {
-    S::run(Friction { p })
-}
-
-/// A call of [`friction`], to be run with whatever instructions the processor has.
-pub struct Friction<'a, S> {
-    /// As `friction` takes it.
-    pub p: &'a Prepared<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 40], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let zero = N::ZERO;
-        let friction = [
-            n(p.k6).store(),
-            zero.store(),
-            n(p.k7).store(),
-            zero.store(),
-            n(p.k8).store(),
-            zero.store(),
-            n(p.k9).store(),
-            n(p.k8).store(),
-            zero.store(),
-            n(p.k9).store(),
-            n(p.k10).store(),
-            zero.store(),
-            n(p.k11).store(),
-            zero.store(),
-            n(p.k15).store(),
-            zero.store(),
-            n(p.k12).store(),
-            n(p.k15).store(),
-            zero.store(),
-            n(p.k12).store(),
-            zero.store(),
-            n(p.k13).store(),
-            zero.store(),
-            n(p.k14).store(),
-            zero.store(),
-            zero.store(),
-            zero.store(),
-            zero.store(),
-            zero.store(),
-            zero.store(),
-            n(p.mu).store(),
-            n(p.mu).store(),
-            n(p.mu0).store(),
-            n(p.mu0).store(),
-            n(p.k1).store(),
-            zero.store(),
-            n(p.k0).store(),
-            n(p.k1).store(),
-            zero.store(),
-            n(p.k0).store(),
-        ];
-        Ok(friction)
+    let Friction { p } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let zero = N::ZERO;
+    let friction = [
+        n(p.k6).store(),
+        zero.store(),
+        n(p.k7).store(),
+        zero.store(),
+        n(p.k8).store(),
+        zero.store(),
+        n(p.k9).store(),
+        n(p.k8).store(),
+        zero.store(),
+        n(p.k9).store(),
+        n(p.k10).store(),
+        zero.store(),
+        n(p.k11).store(),
+        zero.store(),
+        n(p.k15).store(),
+        zero.store(),
+        n(p.k12).store(),
+        n(p.k15).store(),
+        zero.store(),
+        n(p.k12).store(),
+        zero.store(),
+        n(p.k13).store(),
+        zero.store(),
+        n(p.k14).store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        n(p.mu).store(),
+        n(p.mu).store(),
+        n(p.mu0).store(),
+        n(p.mu0).store(),
+        n(p.k1).store(),
+        zero.store(),
+        n(p.k0).store(),
+        n(p.k1).store(),
+        zero.store(),
+        n(p.k0).store(),
+    ];
+    Ok(friction)
 }
 
 /// Kinetic energy `T`, in J.
@@ -369,8 +352,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         x: "x" "m";
         y: "y" "m";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         m, k0, k1, k2, half_m, k3, k4, k5, mu, mu0, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15,
     }

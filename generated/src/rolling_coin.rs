@@ -1,7 +1,7 @@
 // @generated from machines/rolling_coin.machine by `cargo xtask generate`; edits are lost.
 
-//! A coin, or a disc, that rolls on a table: position of the point where it touches, heading, lean
-//! and
+//! A coin, or a disc, that rolls on a table: position of the point where it touches, heading,
+//! lean and
 //! roll. What touches stands still: two constraints on rates alone.
 //!
 //! 5 coordinates, 5 parameters. Arithmetic of one call:
@@ -36,8 +36,8 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A coin, or a disc, that rolls on a table: position of the point where it touches, heading, lean
-/// and
+/// A coin, or a disc, that rolls on a table: position of the point where it touches, heading,
+/// lean and
 /// roll. What touches stands still: two constraints on rates alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingCoin<S = f64> {
@@ -47,8 +47,8 @@ pub struct RollingCoin<S = f64> {
     pub r: S,
     /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
-    /// Inertia about the axis, and across it; those of a uniform disc. Unit: `kg*m^2`. Default:
-    /// 0.005.
+    /// Inertia about the axis, and across it; those of a uniform disc. Unit: `kg*m^2`.
+    /// Default: 0.005.
     pub C: S,
     /// `A`. Unit: `kg*m^2`. Default: 0.0025.
     pub A: S,
@@ -78,7 +78,6 @@ impl<S: ::lagrangian::emitted::Scalar> RollingCoin<S> {
         ];
         Prepared {
             m: self.m,
-            r: self.r,
             C: self.C,
             A: self.A,
             m_r_g,
@@ -131,21 +130,11 @@ pub struct Coordinates<S = f64> {
     pub roll: S,
 }
 
-/// What can be set while a [`RollingCoin`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`RollingCoin`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`RollingCoin`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
     /// `m`
     m: S,
-    /// `r`
-    r: S,
     /// `C`
     C: S,
     /// `A`
@@ -314,7 +303,7 @@ pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     let y_dot = v[1];
     let roll_dot = v[4];
     let (sin_heading, cos_heading) = heading.sin_cos();
-    let phi1 = sin_heading * y_dot + cos_heading * x_dot - roll_dot * p.r;
+    let phi1 = cos_heading * x_dot + sin_heading * y_dot + roll_dot * p.minus_r;
     let phi2 = cos_heading * y_dot - sin_heading * x_dot;
     [phi1, phi2]
 }
@@ -366,273 +355,321 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(q: &[S; 5], v: &[S; 5])
     [gamma1, gamma2]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
-/// multiplied out, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 5],
-    v: &[S; 5],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass
+    /// matrix multiplied out, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 5], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 5], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 5],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 5],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 5], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let heading = n(q[2]);
-        let lean = n(q[3]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let heading_dot = n(v[2]);
-        let lean_dot = n(v[3]);
-        let roll_dot = n(v[4]);
-        let angles = [lean, heading];
-        let circular = N::sin_cos_all(angles);
-        let (sin_lean, cos_lean) = circular[0];
-        let (sin_heading, cos_heading) = circular[1];
-        let t0 = lean_dot * lean_dot;
-        let t1 = n(p.C) * roll_dot;
-        let t2 = sin_lean * n(p.C);
-        let t3 = cos_lean * n(p.m_r);
-        let t4 = sin_lean * n(p.m_r);
-        let t5 = cos_lean * lean_dot;
-        let t6 = sin_lean * heading_dot;
-        let t7 = n(p.inverse_C) * t2;
-        let t8 = cos_lean * n(p.k0);
-        let t9 = cos_lean.neg_mul_add(t8, n(p.C_plus_m_r_squared));
-        let t10 = sin_heading * t3;
-        let t11 = t4 * cos_heading;
-        let t12 = cos_heading * t3;
-        let t13 = t4 * sin_heading;
-        let t14 = t2 * n(p.r_over_C);
-        let t15 = t5 * n(p.two_m_r);
-        let t16 = t2.neg_mul_add(t7, t9);
-        let t17 = n(p.k2) * t10;
-        let t18 = t5 * (n(p.C) * heading_dot);
-        let t19 = n(p.k2) * t12;
-        let t20 = N::ONE / t16;
-        let t21 = n(p.k0).mul_add(t6, t1);
-        let t22 = t21.mul_add(cos_lean * heading_dot, sin_lean * n(p.m_r_g));
-        let t23 = cos_heading.mul_sub(t15, t13 * heading_dot);
-        let t24 = t11.mul_add(heading_dot, sin_heading * t15);
-        let t25 = t5.mul_sub(t6.mul_add(n(p.k1), t1), t7 * t18);
-        let t26 = sin_heading.mul_sub(x_dot, cos_heading * y_dot);
-        let t27 = t20 * t11;
-        let t28 = t20 * t13;
-        let t29 = t20 * t14;
-        let t30 = cos_heading.mul_add(x_dot, sin_heading * y_dot);
-        let t31 = t11.neg_mul_add(t27, t10.neg_mul_add(t17, n(p.m)));
-        let t32 = t11.neg_mul_add(t28, t10 * t19);
-        let t33 = t11.neg_mul_add(t29, cos_heading);
-        let t34 = t17.mul_add(t22, heading_dot.mul_sub(t23, t13 * t0));
-        let t35 = t27.neg_mul_add(t25, t34);
-        let t36 = t19.neg_mul_add(t22, heading_dot.mul_add(t24, t11 * t0));
-        let t37 = N::ONE / t31;
-        let t38 = heading_dot.mul_sub(t26, n(p.r_over_C) * t18);
-        let t39 = t37 * t32;
-        let t40 = t37 * t33;
-        let t41 = sin_heading * t37;
-        let t42 = t13.neg_mul_add(t28, t12.neg_mul_add(t19, n(p.m)));
-        let t43 = t32.neg_mul_add(t39, t42);
-        let t44 = t32.neg_mul_add(t40, t13.neg_mul_add(t29, sin_heading));
-        let t45 = t32.mul_add(t41, cos_heading);
-        let t46 = t39.neg_mul_add(t35, t28.neg_mul_add(t25, t36));
-        let t47 = N::ONE / t43;
-        let t48 = t47 * t44;
-        let t49 = t47 * t45;
-        let t50 = t33.mul_add(t40, t14.mul_add(t29, n(p.r_squared_over_C)));
-        let t51 = t44.mul_add(t48, t50);
-        let t52 = t49.neg_mul_add(t44, t41 * t33);
-        let t53 = t48.mul_add(t46, t40.mul_add(t35, t29.mul_add(t25, t38)));
-        let t54 = t45.mul_add(t49, sin_heading * t41);
-        let t55 = N::ONE / t51;
-        let t56 = t55 * t52;
-        let t57 = t49.mul_add(t46, t41.neg_mul_add(t35, heading_dot * t30));
-        let t58 = t52.neg_mul_add(t56, t54);
-        let t59 = t56.mul_add(t53, t57) / t58;
-        let t60 = t56.mul_add(t59, t55 * t53);
-        let t61 = t49.neg_mul_add(t59, t47 * t46);
-        let t62 = t48 * t60;
-        let t63 = t40.neg_mul_add(t60, t41.mul_add(t59, t37 * t35));
-        let t64 = t61 - t62;
-        let t65 = t39 * t64;
-        let t66 = t28.neg_mul_add(t64, t29.neg_mul_add(t60, t20 * t25));
-        let t67 = t63 - t65;
-        let t68 = t27 * t67;
-        let t69 = n(p.r_over_C).mul_add(t60, n(p.inverse_C) * t18);
-        let x_ddot = t65 - t63;
-        let y_ddot = t62 - t61;
-        let heading_ddot = t68 - t66;
-        let lean_ddot = t17.mul_add(t67, t19.neg_mul_add(t64, n(p.k2) * t22));
-        let roll_ddot = t7.mul_sub(t66 - t68, t69);
-        let sound = PIVOTS.hold(t16, t9)
-            & PIVOTS.hold(t31, n(p.m))
-            & PIVOTS.hold(t43, n(p.m))
-            & PIVOTS.hold(t51, t51)
-            & PIVOTS.hold(t58, t54)
-            & roll_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (2, t16, t9),
-                (0, t31, n(p.m)),
-                (1, t43, n(p.m)),
-                (5, t51, t51),
-                (6, t58, t54),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            heading_ddot.store(),
-            lean_ddot.store(),
-            roll_ddot.store(),
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let heading = n(q[2]);
+    let lean = n(q[3]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let heading_dot = n(v[2]);
+    let lean_dot = n(v[3]);
+    let roll_dot = n(v[4]);
+    let angles = [lean, heading];
+    let circular = N::sin_cos_all(angles);
+    let (sin_lean, cos_lean) = circular[0];
+    let (sin_heading, cos_heading) = circular[1];
+    let t0 = lean_dot * lean_dot;
+    let t1 = n(p.C) * roll_dot;
+    let t2 = sin_lean * n(p.C);
+    let t3 = cos_lean * n(p.m_r);
+    let t4 = sin_lean * n(p.m_r);
+    let t5 = cos_lean * lean_dot;
+    let t6 = sin_lean * heading_dot;
+    // Eliminates roll from row heading: l[heading, roll].
+    let t7 = n(p.inverse_C) * t2;
+    let t8 = cos_lean * n(p.k0);
+    let t9 = cos_lean.neg_mul_add(t8, n(p.C_plus_m_r_squared));
+    let t10 = sin_heading * t3;
+    let t11 = t4 * cos_heading;
+    let t12 = cos_heading * t3;
+    let t13 = t4 * sin_heading;
+    let t14 = t2 * n(p.r_over_C);
+    let t15 = t5 * n(p.two_m_r);
+    // Row heading: pivot d[heading].
+    let t16 = t2.neg_mul_add(t7, t9);
+    // Eliminates lean from row x: l[x, lean].
+    let t17 = n(p.k2) * t10;
+    let t18 = t5 * (n(p.C) * heading_dot);
+    // Eliminates lean from row y: l[y, lean].
+    let t19 = n(p.k2) * t12;
+    let t20 = N::ONE / t16;
+    let t21 = n(p.k0).mul_add(t6, t1);
+    let t22 = t21.mul_add(cos_lean * heading_dot, sin_lean * n(p.m_r_g));
+    let t23 = cos_heading.mul_sub(t15, t13 * heading_dot);
+    let t24 = t11.mul_add(heading_dot, sin_heading * t15);
+    // Row heading: right-hand side z[heading].
+    let t25 = t5.mul_sub(t6.mul_add(n(p.k1), t1), t7 * t18);
+    let t26 = sin_heading.mul_sub(x_dot, cos_heading * y_dot);
+    // Eliminates heading from row x: l[x, heading].
+    let t27 = t20 * t11;
+    // Eliminates heading from row y: l[y, heading].
+    let t28 = t20 * t13;
+    // Eliminates heading from row ahead: l[ahead, heading].
+    let t29 = t20 * t14;
+    let t30 = cos_heading.mul_add(x_dot, sin_heading * y_dot);
+    // Row x: pivot d[x].
+    let t31 = t11.neg_mul_add(t27, t10.neg_mul_add(t17, n(p.m)));
+    let t32 = t11.neg_mul_add(t28, t10 * t19);
+    let t33 = t11.neg_mul_add(t29, cos_heading);
+    let t34 = t17.mul_add(t22, heading_dot.mul_sub(t23, t13 * t0));
+    // Row x: right-hand side z[x].
+    let t35 = t27.neg_mul_add(t25, t34);
+    let t36 = t19.neg_mul_add(t22, heading_dot.mul_add(t24, t11 * t0));
+    let t37 = N::ONE / t31;
+    let t38 = heading_dot.mul_sub(t26, n(p.r_over_C) * t18);
+    // Eliminates x from row y: l[y, x].
+    let t39 = t37 * t32;
+    // Eliminates x from row ahead: l[ahead, x].
+    let t40 = t37 * t33;
+    // Eliminates x from row across: l[across, x].
+    let t41 = sin_heading * t37;
+    let t42 = t13.neg_mul_add(t28, t12.neg_mul_add(t19, n(p.m)));
+    // Row y: pivot d[y].
+    let t43 = t32.neg_mul_add(t39, t42);
+    let t44 = t32.neg_mul_add(t40, t13.neg_mul_add(t29, sin_heading));
+    let t45 = t32.mul_add(t41, cos_heading);
+    // Row y: right-hand side z[y].
+    let t46 = t39.neg_mul_add(t35, t28.neg_mul_add(t25, t36));
+    let t47 = N::ONE / t43;
+    // Eliminates y from row ahead: l[ahead, y].
+    let t48 = t47 * t44;
+    // Eliminates y from row across: l[across, y].
+    let t49 = t47 * t45;
+    let t50 = t33.mul_add(t40, t14.mul_add(t29, n(p.r_squared_over_C)));
+    // Row ahead: pivot d[ahead].
+    let t51 = t44.mul_add(t48, t50);
+    let t52 = t49.neg_mul_add(t44, t41 * t33);
+    // Row ahead: right-hand side z[ahead].
+    let t53 = t48.mul_add(t46, t40.mul_add(t35, t29.mul_add(t25, t38)));
+    let t54 = t45.mul_add(t49, sin_heading * t41);
+    let t55 = N::ONE / t51;
+    // Eliminates ahead from row across: l[across, ahead].
+    let t56 = t55 * t52;
+    let t57 = t49.mul_add(t46, t41.neg_mul_add(t35, heading_dot * t30));
+    // Row across: pivot d[across].
+    let t58 = t52.neg_mul_add(t56, t54);
+    // Row across: right-hand side z[across].
+    let t59 = t56.mul_add(t53, t57) / t58;
+    // Back substitution: lambda[ahead].
+    let t60 = t56.mul_add(t59, t55 * t53);
+    let t61 = t49.neg_mul_add(t59, t47 * t46);
+    let t62 = t48 * t60;
+    let t63 = t40.neg_mul_add(t60, t41.mul_add(t59, t37 * t35));
+    // Back substitution: a[y].
+    let t64 = t61 - t62;
+    let t65 = t39 * t64;
+    let t66 = t28.neg_mul_add(t64, t29.neg_mul_add(t60, t20 * t25));
+    // Back substitution: a[x].
+    let t67 = t63 - t65;
+    let t68 = t27 * t67;
+    let t69 = n(p.r_over_C).mul_add(t60, n(p.inverse_C) * t18);
+    let x_ddot = t65 - t63;
+    let y_ddot = t62 - t61;
+    let heading_ddot = t68 - t66;
+    // Back substitution: a[lean].
+    let lean_ddot = t17.mul_add(t67, t19.neg_mul_add(t64, n(p.k2) * t22));
+    // Back substitution: a[heading].
+    let roll_ddot = t7.mul_sub(t66 - t68, t69);
+    let sound = PIVOTS.hold(t16, t9)
+        & PIVOTS.hold(t31, n(p.m))
+        & PIVOTS.hold(t43, n(p.m))
+        & PIVOTS.hold(t51, t51)
+        & PIVOTS.hold(t58, t54)
+        & roll_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (2, t16, t9),
+            (0, t31, n(p.m)),
+            (1, t43, n(p.m)),
+            (5, t51, t51),
+            (6, t58, t54),
         ];
-        Ok(accelerations)
+        PIVOTS.check(pivots)?;
     }
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        heading_ddot.store(),
+        lean_ddot.store(),
+        roll_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 5],
-    v: &[S; 5],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 2], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 5],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 5],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let heading = n(q[2]);
-        let lean = n(q[3]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let heading_dot = n(v[2]);
-        let lean_dot = n(v[3]);
-        let roll_dot = n(v[4]);
-        let angles = [lean, heading];
-        let circular = N::sin_cos_all(angles);
-        let (sin_lean, cos_lean) = circular[0];
-        let (sin_heading, cos_heading) = circular[1];
-        let t0 = lean_dot * lean_dot;
-        let t1 = n(p.C) * roll_dot;
-        let t2 = sin_lean * n(p.C);
-        let t3 = cos_lean * n(p.m_r);
-        let t4 = sin_lean * n(p.m_r);
-        let t5 = cos_lean * lean_dot;
-        let t6 = sin_lean * heading_dot;
-        let t7 = t2 * n(p.inverse_C);
-        let t8 = cos_lean * n(p.k0);
-        let t9 = cos_lean.neg_mul_add(t8, n(p.C_plus_m_r_squared));
-        let t10 = sin_heading * t3;
-        let t11 = t4 * cos_heading;
-        let t12 = cos_heading * t3;
-        let t13 = t4 * sin_heading;
-        let t14 = t2 * n(p.r_over_C);
-        let t15 = t5 * n(p.two_m_r);
-        let t16 = t2.neg_mul_add(t7, t9);
-        let t17 = n(p.k2) * t10;
-        let t18 = t5 * (n(p.C) * heading_dot);
-        let t19 = n(p.k2) * t12;
-        let t20 = N::ONE / t16;
-        let t21 = n(p.k0).mul_add(t6, t1);
-        let t22 = t21.mul_add(cos_lean * heading_dot, sin_lean * n(p.m_r_g));
-        let t23 = cos_heading.mul_sub(t15, t13 * heading_dot);
-        let t24 = t11.mul_add(heading_dot, sin_heading * t15);
-        let t25 = t5.mul_sub(t6.mul_add(n(p.k1), t1), t7 * t18);
-        let t26 = sin_heading.mul_sub(x_dot, cos_heading * y_dot);
-        let t27 = t20 * t11;
-        let t28 = t20 * t13;
-        let t29 = t20 * t14;
-        let t30 = cos_heading.mul_add(x_dot, sin_heading * y_dot);
-        let t31 = t11.neg_mul_add(t27, t10.neg_mul_add(t17, n(p.m)));
-        let t32 = t11.neg_mul_add(t28, t10 * t19);
-        let t33 = t11.neg_mul_add(t29, cos_heading);
-        let t34 = t17.mul_add(t22, heading_dot.mul_sub(t23, t13 * t0));
-        let t35 = t27.neg_mul_add(t25, t34);
-        let t36 = t19.neg_mul_add(t22, heading_dot.mul_add(t24, t11 * t0));
-        let t37 = N::ONE / t31;
-        let t38 = heading_dot.mul_sub(t26, n(p.r_over_C) * t18);
-        let t39 = t37 * t32;
-        let t40 = t37 * t33;
-        let t41 = sin_heading * t37;
-        let t42 = t13.neg_mul_add(t28, t12.neg_mul_add(t19, n(p.m)));
-        let t43 = t32.neg_mul_add(t39, t42);
-        let t44 = t32.neg_mul_add(t40, t13.neg_mul_add(t29, sin_heading));
-        let t45 = t32.mul_add(t41, cos_heading);
-        let t46 = t39.neg_mul_add(t35, t28.neg_mul_add(t25, t36));
-        let t47 = N::ONE / t43;
-        let t48 = t47 * t44;
-        let t49 = t47 * t45;
-        let t50 = t33.mul_add(t40, t14.mul_add(t29, n(p.r_squared_over_C)));
-        let t51 = t44.mul_add(t48, t50);
-        let t52 = t44.neg_mul_add(t49, t33 * t41);
-        let t53 = t48.mul_add(t46, t40.mul_add(t35, t29.mul_add(t25, t38)));
-        let t54 = t45.mul_add(t49, sin_heading * t41);
-        let t55 = N::ONE / t51;
-        let t56 = t55 * t52;
-        let t57 = t49.mul_add(t46, t41.neg_mul_add(t35, heading_dot * t30));
-        let t58 = t52.neg_mul_add(t56, t54);
-        let lambda2 = t56.mul_add(t53, t57) / t58;
-        let lambda1 = t56.mul_add(lambda2, t55 * t53);
-        let sound = PIVOTS.hold(t16, t9)
-            & PIVOTS.hold(t31, n(p.m))
-            & PIVOTS.hold(t43, n(p.m))
-            & PIVOTS.hold(t51, t51)
-            & PIVOTS.hold(t58, t54)
-            & lambda1.is_finite();
-        if !sound {
-            let pivots = [
-                (2, t16, t9),
-                (0, t31, n(p.m)),
-                (1, t43, n(p.m)),
-                (5, t51, t51),
-                (6, t58, t54),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [lambda1.store(), lambda2.store()];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let heading = n(q[2]);
+    let lean = n(q[3]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let heading_dot = n(v[2]);
+    let lean_dot = n(v[3]);
+    let roll_dot = n(v[4]);
+    let angles = [lean, heading];
+    let circular = N::sin_cos_all(angles);
+    let (sin_lean, cos_lean) = circular[0];
+    let (sin_heading, cos_heading) = circular[1];
+    let t0 = lean_dot * lean_dot;
+    let t1 = n(p.C) * roll_dot;
+    let t2 = sin_lean * n(p.C);
+    let t3 = cos_lean * n(p.m_r);
+    let t4 = sin_lean * n(p.m_r);
+    let t5 = cos_lean * lean_dot;
+    let t6 = sin_lean * heading_dot;
+    // Eliminates roll from row heading: l[heading, roll].
+    let t7 = t2 * n(p.inverse_C);
+    let t8 = cos_lean * n(p.k0);
+    let t9 = cos_lean.neg_mul_add(t8, n(p.C_plus_m_r_squared));
+    let t10 = sin_heading * t3;
+    let t11 = t4 * cos_heading;
+    let t12 = cos_heading * t3;
+    let t13 = t4 * sin_heading;
+    let t14 = t2 * n(p.r_over_C);
+    let t15 = t5 * n(p.two_m_r);
+    // Row heading: pivot d[heading].
+    let t16 = t2.neg_mul_add(t7, t9);
+    // Eliminates lean from row x: l[x, lean].
+    let t17 = n(p.k2) * t10;
+    let t18 = t5 * (n(p.C) * heading_dot);
+    // Eliminates lean from row y: l[y, lean].
+    let t19 = n(p.k2) * t12;
+    let t20 = N::ONE / t16;
+    let t21 = n(p.k0).mul_add(t6, t1);
+    let t22 = t21.mul_add(cos_lean * heading_dot, sin_lean * n(p.m_r_g));
+    let t23 = cos_heading.mul_sub(t15, t13 * heading_dot);
+    let t24 = t11.mul_add(heading_dot, sin_heading * t15);
+    // Row heading: right-hand side z[heading].
+    let t25 = t5.mul_sub(t6.mul_add(n(p.k1), t1), t7 * t18);
+    let t26 = sin_heading.mul_sub(x_dot, cos_heading * y_dot);
+    // Eliminates heading from row x: l[x, heading].
+    let t27 = t20 * t11;
+    // Eliminates heading from row y: l[y, heading].
+    let t28 = t20 * t13;
+    // Eliminates heading from row ahead: l[ahead, heading].
+    let t29 = t20 * t14;
+    let t30 = cos_heading.mul_add(x_dot, sin_heading * y_dot);
+    // Row x: pivot d[x].
+    let t31 = t11.neg_mul_add(t27, t10.neg_mul_add(t17, n(p.m)));
+    let t32 = t11.neg_mul_add(t28, t10 * t19);
+    let t33 = t11.neg_mul_add(t29, cos_heading);
+    let t34 = t17.mul_add(t22, heading_dot.mul_sub(t23, t13 * t0));
+    // Row x: right-hand side z[x].
+    let t35 = t27.neg_mul_add(t25, t34);
+    let t36 = t19.neg_mul_add(t22, heading_dot.mul_add(t24, t11 * t0));
+    let t37 = N::ONE / t31;
+    let t38 = heading_dot.mul_sub(t26, n(p.r_over_C) * t18);
+    // Eliminates x from row y: l[y, x].
+    let t39 = t37 * t32;
+    // Eliminates x from row ahead: l[ahead, x].
+    let t40 = t37 * t33;
+    // Eliminates x from row across: l[across, x].
+    let t41 = sin_heading * t37;
+    let t42 = t13.neg_mul_add(t28, t12.neg_mul_add(t19, n(p.m)));
+    // Row y: pivot d[y].
+    let t43 = t32.neg_mul_add(t39, t42);
+    let t44 = t32.neg_mul_add(t40, t13.neg_mul_add(t29, sin_heading));
+    let t45 = t32.mul_add(t41, cos_heading);
+    // Row y: right-hand side z[y].
+    let t46 = t39.neg_mul_add(t35, t28.neg_mul_add(t25, t36));
+    let t47 = N::ONE / t43;
+    // Eliminates y from row ahead: l[ahead, y].
+    let t48 = t47 * t44;
+    // Eliminates y from row across: l[across, y].
+    let t49 = t47 * t45;
+    let t50 = t33.mul_add(t40, t14.mul_add(t29, n(p.r_squared_over_C)));
+    // Row ahead: pivot d[ahead].
+    let t51 = t44.mul_add(t48, t50);
+    let t52 = t44.neg_mul_add(t49, t33 * t41);
+    // Row ahead: right-hand side z[ahead].
+    let t53 = t48.mul_add(t46, t40.mul_add(t35, t29.mul_add(t25, t38)));
+    let t54 = t45.mul_add(t49, sin_heading * t41);
+    let t55 = N::ONE / t51;
+    // Eliminates ahead from row across: l[across, ahead].
+    let t56 = t55 * t52;
+    let t57 = t49.mul_add(t46, t41.neg_mul_add(t35, heading_dot * t30));
+    // Row across: pivot d[across].
+    let t58 = t52.neg_mul_add(t56, t54);
+    // Row across: right-hand side z[across].
+    let lambda2 = t56.mul_add(t53, t57) / t58;
+    // Back substitution: lambda[ahead].
+    let lambda1 = t56.mul_add(lambda2, t55 * t53);
+    let sound = PIVOTS.hold(t16, t9)
+        & PIVOTS.hold(t31, n(p.m))
+        & PIVOTS.hold(t43, n(p.m))
+        & PIVOTS.hold(t51, t51)
+        & PIVOTS.hold(t58, t54)
+        & lambda1.is_finite();
+    if !sound {
+        let pivots = [
+            (2, t16, t9),
+            (0, t31, n(p.m)),
+            (1, t43, n(p.m)),
+            (5, t51, t51),
+            (6, t58, t54),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [lambda1.store(), lambda2.store()];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -662,11 +699,11 @@ pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
     let t1 = cos_lean * heading_dot;
     let t2 = cos_heading * y_dot - sin_heading * x_dot;
     let t3 = t0 + roll_dot;
-    let t4 = t0 * p.r + (sin_heading * y_dot + cos_heading * x_dot);
-    let t5 = t2 * sin_lean;
-    let t6 = t2 * cos_lean - p.r * lean_dot;
-    let t7 = (t1 * t1 + lean_dot * lean_dot) * p.A + t3 * (t3 * p.C);
-    S::from_f64(0.5) * ((t6 * t6 + (t5 * t5 + t4 * t4)) * p.m + t7)
+    let t4 = cos_heading * x_dot + sin_heading * y_dot - p.minus_r * t0;
+    let t5 = sin_lean * t2;
+    let t6 = lean_dot * p.minus_r + cos_lean * t2;
+    let t7 = (lean_dot * lean_dot + t1 * t1) * p.A + t3 * (t3 * p.C);
+    (t7 + (t4 * t4 + t5 * t5 + t6 * t6) * p.m) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -696,10 +733,10 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         lean: "lean" "rad";
         roll: "roll" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
-        m, r, C, A, m_r_g, m_r, C_plus_m_r_squared, A_plus_m_r_squared, two_m_r, k0, k1, minus_m_r,
+        m, C, A, m_r_g, m_r, C_plus_m_r_squared, A_plus_m_r_squared, two_m_r, k0, k1, minus_m_r,
         minus_C, minus_r, k2, inverse_C, r_over_C, r_squared_over_C,
     }
     singular singular

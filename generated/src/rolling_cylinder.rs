@@ -1,7 +1,7 @@
 // @generated from machines/rolling_cylinder.machine by `cargo xtask generate`; edits are lost.
 
-//! A cylinder that rolls inside a fixed one, in polar coordinates about its axis: a pendulum, as
-//! long
+//! A cylinder that rolls inside a fixed one, in polar coordinates about its axis: a pendulum,
+//! as long
 //! as it presses.
 //!
 //! 3 coordinates, 5 parameters. Arithmetic of one call:
@@ -37,8 +37,8 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A cylinder that rolls inside a fixed one, in polar coordinates about its axis: a pendulum, as
-/// long
+/// A cylinder that rolls inside a fixed one, in polar coordinates about its axis: a pendulum,
+/// as long
 /// as it presses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingCylinder<S = f64> {
@@ -119,14 +119,6 @@ pub struct Coordinates<S = f64> {
     /// Angle of the cylinder. Unit: `rad`.
     pub theta: S,
 }
-
-/// What can be set while a [`RollingCylinder`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`RollingCylinder`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
 
 /// The parameters of a [`RollingCylinder`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -287,110 +279,98 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(v: &[S; 3]) -> [S; 2] {
     [zero, gamma2]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
-/// machine, without the coordinates that constraints settle.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along
+    /// the machine, without the coordinates that constraints settle.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 3] })
+        -> Result<[S; 3], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let phi = n(q[1]);
-        let sin_phi = phi.sin();
-        let zero = N::ZERO;
-        let phi_ddot = sin_phi * n(p.k1);
-        let theta_ddot = sin_phi * n(p.k0);
-        let accelerations = [zero.store(), phi_ddot.store(), theta_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let phi = n(q[1]);
+    let sin_phi = phi.sin();
+    let zero = N::ZERO;
+    let phi_ddot = sin_phi * n(p.k1);
+    let theta_ddot = sin_phi * n(p.k0);
+    let accelerations = [zero.store(), phi_ddot.store(), theta_ddot.store()];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 2], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 3],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let s = n(q[0]);
-        let phi = n(q[1]);
-        let s_dot = n(v[0]);
-        let phi_dot = n(v[1]);
-        let (sin_phi, cos_phi) = phi.sin_cos();
-        let t0 = phi_dot * s_dot;
-        let t1 = s * s;
-        let t2 = t0 * N::from_f64(2.0);
-        let t3 = phi_dot * (phi_dot * s);
-        let t4 = s * (n(p.m) * s);
-        let t5 = t1.mul_add(n(p.inverse_m) / t1, n(p.r_squared_over_J));
-        let t6 = sin_phi.mul_sub(t3, t2 * cos_phi);
-        let t7 = t2.mul_add(sin_phi, cos_phi * t3) + n(p.g);
-        let lambda1 = n(p.m) * cos_phi.mul_add(t7, sin_phi * t6);
-        let lambda2 = -((t0 + sin_phi.neg_mul_add(t7, cos_phi * t6)) / t5);
-        let sound = PIVOTS.hold(n(p.J), n(p.J))
-            & PIVOTS.hold(n(p.m), n(p.m))
-            & PIVOTS.hold(t4, t4)
-            & PIVOTS.hold(n(p.inverse_m), n(p.inverse_m))
-            & PIVOTS.hold(t5, t5)
-            & lambda2.is_finite();
-        if !sound {
-            let pivots = [
-                (2, n(p.J), n(p.J)),
-                (0, n(p.m), n(p.m)),
-                (1, t4, t4),
-                (3, n(p.inverse_m), n(p.inverse_m)),
-                (4, t5, t5),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [lambda1.store(), lambda2.store()];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let s = n(q[0]);
+    let phi = n(q[1]);
+    let s_dot = n(v[0]);
+    let phi_dot = n(v[1]);
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let t0 = phi_dot * s_dot;
+    let t1 = s * s;
+    let t2 = t0 * N::from_f64(2.0);
+    let t3 = phi_dot * (phi_dot * s);
+    let t4 = s * (n(p.m) * s);
+    // Row contact.slip: pivot d[contact.slip].
+    let t5 = t1.mul_add(n(p.inverse_m) / t1, n(p.r_squared_over_J));
+    let t6 = sin_phi.mul_sub(t3, t2 * cos_phi);
+    let t7 = t2.mul_add(sin_phi, cos_phi * t3) + n(p.g);
+    let lambda1 = n(p.m) * cos_phi.mul_add(t7, sin_phi * t6);
+    let lambda2 = -((t0 + sin_phi.neg_mul_add(t7, cos_phi * t6)) / t5);
+    let sound = PIVOTS.hold(n(p.J), n(p.J))
+        & PIVOTS.hold(n(p.m), n(p.m))
+        & PIVOTS.hold(t4, t4)
+        & PIVOTS.hold(n(p.inverse_m), n(p.inverse_m))
+        & PIVOTS.hold(t5, t5)
+        & lambda2.is_finite();
+    if !sound {
+        let pivots = [
+            (2, n(p.J), n(p.J)),
+            (0, n(p.m), n(p.m)),
+            (1, t4, t4),
+            (3, n(p.inverse_m), n(p.inverse_m)),
+            (4, t5, t5),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [lambda1.store(), lambda2.store()];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -448,8 +428,8 @@ pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
         phi: "phi" "rad";
         theta: "theta" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         m, J, r, g, m_g, R_minus_r, two_m, minus_m, minus_m_g, inverse_m, r_squared_over_J, k0, k1,
     }

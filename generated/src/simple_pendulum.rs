@@ -96,10 +96,6 @@ pub struct Coordinates<S = f64> {
     pub theta: S,
 }
 
-/// What can be set while a [`SimplePendulum`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
 /// What can be observed of a [`SimplePendulum`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
@@ -162,40 +158,28 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> 
     [f_theta]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 1],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 1] })
+        -> Result<[S; 1], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 1], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 1],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 1], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta = n(q[0]);
-        let sin_theta = theta.sin();
-        let theta_ddot = n(p.minus_g_over_l) * sin_theta;
-        let accelerations = [theta_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta = n(q[0]);
+    let sin_theta = theta.sin();
+    let theta_ddot = n(p.minus_g_over_l) * sin_theta;
+    let accelerations = [theta_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -257,7 +241,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     coordinates 1 Coordinates { theta } [
         theta: "theta" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { tension } [
         tension: "tension" "N";
     ]

@@ -1,15 +1,15 @@
 // @generated from machines/six_joint_arm.machine by `cargo xtask generate`; edits are lost.
 
-//! An industrial arm with six revolute joints: a turning column, shoulder and elbow in its plane,
-//! and
+//! An industrial arm with six revolute joints: a turning column, shoulder and elbow in its
+//! plane, and
 //! a wrist of three axes. Masses and sizes are those of a desk-sized arm that carries 5 kg.
 //!
 //! 6 coordinates, 12 parameters, 6 inputs, 1 output. Arithmetic of one call:
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 67 | 50 | 0 | 0 | 0 | 117 |
-//! | `mass_matrix` | 129 | 88 | 0 | 5 | 0 | 227 |
+//! | `prepare` | 67 | 49 | 0 | 0 | 0 | 116 |
+//! | `mass_matrix` | 128 | 89 | 0 | 5 | 0 | 227 |
 //! | `bias` | 185 | 130 | 0 | 5 | 0 | 325 |
 //! | `applied` | 41 | 29 | 0 | 5 | 0 | 80 |
 //! | `forces` | 194 | 143 | 0 | 5 | 0 | 347 |
@@ -36,8 +36,8 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// An industrial arm with six revolute joints: a turning column, shoulder and elbow in its plane,
-/// and
+/// An industrial arm with six revolute joints: a turning column, shoulder and elbow in its
+/// plane, and
 /// a wrist of three axes. Masses and sizes are those of a desk-sized arm that carries 5 kg.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SixJointArm<S = f64> {
@@ -49,8 +49,8 @@ pub struct SixJointArm<S = f64> {
     pub b: S,
     /// `c`. Unit: `m`. Default: 0.1.
     pub c: S,
-    /// Masses: column, upper arm, forearm, wrist, hand, flange with its load. Unit: `kg`. Default:
-    /// 12.
+    /// Masses: column, upper arm, forearm, wrist, hand, flange with its load. Unit: `kg`.
+    /// Default: 12.
     pub m1: S,
     /// `m2`. Unit: `kg`. Default: 9.
     pub m2: S,
@@ -114,7 +114,6 @@ impl<S: ::lagrangian::emitted::Scalar> SixJointArm<S> {
         let k29 = self.m6 * S::from_ratio(3, 1250);
         let k31 = self.m6 * S::from_ratio(3, 100);
         let t25 = S::from_f64(2.0) + self.c * S::from_f64(25.0);
-        let k33 = t25 * (self.m6 * S::from_ratio(3, 2500));
         let k37 = k0 - k4;
         let half_a = self.a * S::from_f64(0.5);
         let half_b = self.b * S::from_f64(0.5);
@@ -144,6 +143,7 @@ impl<S: ::lagrangian::emitted::Scalar> SixJointArm<S> {
         let k28 = k3 + k4;
         let k30 = k0 - k1;
         let k32 = S::from_ratio(1, 20000) * (self.m1 + S::from_f64(600.0));
+        let k33 = t25 * (self.m6 * S::from_ratio(3, 2500));
         let k34 = self.a * k21;
         let k35 = self.c * k31;
         let k36 = self.g * k31;
@@ -153,7 +153,6 @@ impl<S: ::lagrangian::emitted::Scalar> SixJointArm<S> {
         let k41 = self.b * k31;
         let k42 = self.a * k31;
         let two_b = self.b * S::from_f64(2.0);
-        let k43 = -k33;
         Prepared {
             h: self.h,
             a: self.a,
@@ -222,7 +221,6 @@ impl<S: ::lagrangian::emitted::Scalar> SixJointArm<S> {
             k41,
             k42,
             two_b,
-            k43,
         }
     }
 
@@ -371,8 +369,8 @@ pub struct Prepared<S = f64> {
     /// `0.002 + 0.002 + 0.25*c^2*m5 + 0.02 + 0.0073*m6 + c^2*m6 + 0.16*c*m6 + 0.003 - (0.002 +
     /// 0.25*c^2*m5 +…`
     k27: S,
-    /// `0.002 + 0.25*c^2*m5 + 0.02 + 0.0073*m6 + c^2*m6 + 0.16*c*m6 + 0.002 + 0.25*c^2*m5 + 0.02 +
-    /// 0.0073*m6…`
+    /// `0.002 + 0.25*c^2*m5 + 0.02 + 0.0073*m6 + c^2*m6 + 0.16*c*m6 + 0.002 + 0.25*c^2*m5 + 0.02
+    /// + 0.0073*m6…`
     k28: S,
     /// `0.0024*m6`
     k29: S,
@@ -405,8 +403,6 @@ pub struct Prepared<S = f64> {
     k42: S,
     /// `2*b`
     two_b: S,
-    /// `-0.0012*m6*(2 + 25*c)`
-    k43: S,
 }
 
 /// A pivot of an elimination that is not above this share of its diagonal element may be rounding
@@ -447,9 +443,9 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]
     let t2 = cos_q_6 * cos_q_5;
     let t3 = cos_q_6 * sin_q_5;
     let t4 = sin_q_6 * sin_q_4;
-    let t5 = sin_q_6 * p.k1 + cos_q_6 * t0;
-    let t6 = cos_q_5 * p.k2 - p.k31 * t3;
-    let t7 = p.k31 * t2 + sin_q_5 * p.k2;
+    let t5 = cos_q_6 * t0 + sin_q_6 * p.k1;
+    let t6 = cos_q_5 * p.k2 - t3 * p.k31;
+    let t7 = sin_q_5 * p.k2 + t2 * p.k31;
     let t8 = sin_q_6 * cos_q_4;
     let t9 = sin_q_6 * t5;
     let t10 = S::from_ratio(1, 1000) - cos_q_6 * t5;
@@ -469,52 +465,52 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]
     let t22 = t17 + sin_q_4 * t13;
     let t23 = t2 * p.k38 + sin_q_5 * (t15 - p.k37);
     let t24 = cos_q_4 * t16;
-    let t25 = t2 * p.k42 + sin_q_5 * p.k40;
+    let t25 = sin_q_5 * p.k40 + t2 * p.k42;
     let t26 = p.k31 * t8 + sin_q_4 * t7;
     let t27 = cos_q_5 * t23 - cos_q_6 * p.k33;
     let t28 = sin_q_5 * t23;
-    let t29 = cos_q_2 * sin_q_3 + sin_q_2 * cos_q_3;
-    let t30 = p.k7 + t22;
+    let t29 = sin_q_2 * cos_q_3 + cos_q_2 * sin_q_3;
+    let t30 = t22 + p.k7;
     let m44 = t28 + p.k39;
-    let t31 = t28 + (p.k6 - t15);
+    let t31 = p.k6 - t15 + t28;
     let t32 = sin_q_4 * t12 - cos_q_4 * t13;
-    let t33 = cos_q_4 * t27 + sin_q_4 * m54 + t14 * p.b;
-    let t34 = p.a * cos_q_3;
-    let m43 = cos_q_4 * m54 - sin_q_4 * t27 - p.b * t26;
+    let t33 = sin_q_4 * m54 + cos_q_4 * t27 + t14 * p.b;
+    let t34 = cos_q_3 * p.a;
+    let m43 = cos_q_4 * m54 - sin_q_4 * t27 - t26 * p.b;
     let t35 = t17 + t6 * t11;
     let t36 = t33 + p.k24;
     let t37 = cos_q_4 * (t19 * S::from_f64(2.0) - cos_q_4 * t31);
     let t38 = t0 + m43;
-    let t39 = t34 * t26;
+    let t39 = t26 * t34;
     let t40 = sin_q_3 * (cos_q_4 * t25 - t4 * p.k42);
-    let m64 = t3 * p.k33 + cos_q_5 * p.k0;
-    let t41 = sin_q_5 * p.k0 - t2 * p.k33;
-    let t42 = cos_q_4 * (sin_q_4 * (t31 + m55) + t24) - (p.b * t32 + sin_q_4 * t19);
+    let m64 = cos_q_5 * p.k0 + p.k33 * t3;
+    let t41 = sin_q_5 * p.k0 - p.k33 * t2;
+    let t42 = cos_q_4 * (t24 + sin_q_4 * (m55 + t31)) - (sin_q_4 * t19 + t32 * p.b);
     let t43 = sin_q_4 * (S::from_f64(2.0) * t24 + sin_q_4 * t31);
-    let m33 = p.two_b * t35 + (m55 * (cos_q_4 * cos_q_4) + p.k8) - t43;
+    let m33 = m55 * (cos_q_4 * cos_q_4) + p.k8 + p.two_b * t35 - t43;
     let t44 = sin_q_3 * p.k34 - t34 * (p.k7 + t35);
     let t45 = m55 + t6 * p.b;
-    let t46 = cos_q_6 * cos_q_4 - t4 * cos_q_5;
-    let t47 = cos_q_5 * t8 + cos_q_6 * sin_q_4;
-    let t48 = t21 * (t20 * t18 + t30 * t29) + (p.k12 - cos_q_2 * (cos_q_2 * p.k11));
+    let t46 = cos_q_6 * cos_q_4 - cos_q_5 * t4;
+    let t47 = cos_q_6 * sin_q_4 + cos_q_5 * t8;
+    let t48 = p.k12 - cos_q_2 * (cos_q_2 * p.k11) + t21 * (t18 * t20 + t29 * t30);
     let t49 = m33 - t44;
     let m53 = cos_q_4 * t45 - t19;
-    let m63 = sin_q_4 * t41 - cos_q_4 * t1 - p.k41 * t47;
-    let t50 = t18 * t36 + (t21 * t30 + t29 * (t37 + (t22 * p.two_b + t11 * m55)));
-    let t51 = t29 * (t42 - (sin_q_3 * (sin_q_4 * t25 + t8 * p.k42) + t34 * t32));
+    let m63 = sin_q_4 * t41 - cos_q_4 * t1 - t47 * p.k41;
+    let t50 = t29 * (t21 * t30 + t29 * (t11 * m55 + t22 * p.two_b + t37) + t18 * t36);
+    let t51 = t29 * (t42 - (sin_q_3 * (t8 * p.k42 + sin_q_4 * t25) + t32 * t34));
     let t52 = t29 * (sin_q_4 * t1 + cos_q_4 * t41 - t46 * p.k41);
-    let m11 = t29 * t50 + (t18 * (t29 * t36 + (t21 * t20 + t18 * (m44 + p.k9))) + t48);
-    let m21 = t51 + (t18 * (t38 - t39) - cos_q_2 * p.k19);
+    let m11 = t48 + t18 * (t20 * t21 + t18 * (m44 + p.k9) + t29 * t36) + t50;
+    let m21 = t18 * (t38 - t39) - cos_q_2 * p.k19 + t51;
     let m22 = t49 + (p.k10 - S::from_f64(2.0) * t40 - t44);
     let m31 = t18 * t38 + t29 * t42;
     let m32 = t49 - t40;
-    let m41 = t29 * t33 + (t21 * t14 + t18 * m44);
+    let m41 = t14 * t21 + t18 * m44 + t29 * t33;
     let m42 = m43 - t39;
-    let m51 = t29 * (t24 + sin_q_4 * t45) + (t6 * (t21 * sin_q_4) + t18 * m54);
+    let m51 = t6 * (sin_q_4 * t21) + m54 * t18 + t29 * (t24 + sin_q_4 * t45);
     let m52 = m53 + (t12 * t34 - sin_q_3 * t25);
-    let m61 = t46 * (sin_q_2 * p.k42) + t18 * m64 - t52;
-    let m62 = p.k42 * (sin_q_6 * (sin_q_5 * sin_q_3) - cos_q_3 * t47) + m63;
-    let m65 = sin_q_6 * p.k43;
+    let m61 = t18 * m64 + t46 * (sin_q_2 * p.k42) - t52;
+    let m62 = m63 + p.k42 * (sin_q_6 * (sin_q_5 * sin_q_3) - cos_q_3 * t47);
+    let m65 = -t1;
     [
         [m11, m21, m31, m41, m51, m61],
         [m21, m22, m32, m42, m52, m62],
@@ -846,352 +842,380 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 6],
-    v: &[S; 6],
-    u: &Inputs<S>,
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        q: &'a [S; 6],
+        v: &'a [S; 6],
+        u: &'a Inputs<S>,
+    }) -> Result<[S; 6], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 6], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v, u })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 6],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 6],
-    /// As `accelerations` takes it.
-    pub u: &'a Inputs<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 6], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v, u } = self;
-        let n = N::load;
-        let q_2 = n(q[1]);
-        let q_3 = n(q[2]);
-        let q_4 = n(q[3]);
-        let q_5 = n(q[4]);
-        let q_6 = n(q[5]);
-        let q_1_dot = n(v[0]);
-        let q_2_dot = n(v[1]);
-        let q_3_dot = n(v[2]);
-        let q_4_dot = n(v[3]);
-        let q_5_dot = n(v[4]);
-        let q_6_dot = n(v[5]);
-        let angles = [q_6, q_5, q_4, q_2, q_3];
-        let circular = N::sin_cos_all(angles);
-        let (sin_q_6, cos_q_6) = circular[0];
-        let (sin_q_5, cos_q_5) = circular[1];
-        let (sin_q_4, cos_q_4) = circular[2];
-        let (sin_q_2, cos_q_2) = circular[3];
-        let (sin_q_3, cos_q_3) = circular[4];
-        let t0 = q_3_dot + q_2_dot;
-        let t1 = q_1_dot * q_2_dot;
-        let t2 = q_2_dot * q_2_dot;
-        let t3 = t0 * t0;
-        let t4 = N::from_ratio(1, 500);
-        let t5 = sin_q_6 * n(p.k33);
-        let t6 = cos_q_6 * cos_q_5;
-        let t7 = cos_q_6 * sin_q_5;
-        let t8 = sin_q_6 * sin_q_4;
-        let t9 = n(p.k1).mul_add(sin_q_6, cos_q_6 * t4);
-        let t10 = t7.neg_mul_add(n(p.k31), cos_q_5 * n(p.k2));
-        let t11 = t6.mul_add(n(p.k31), sin_q_5 * n(p.k2));
-        let t12 = sin_q_6 * t9;
-        let t13 = N::from_ratio(1, 1000);
-        let t14 = cos_q_6.neg_mul_add(t9, t13);
-        let t15 = sin_q_4 * sin_q_4;
-        let t16 = cos_q_4 * t10;
-        let t17 = sin_q_4 * t10;
-        let t18 = cos_q_4.mul_sub(t11, n(p.k31) * t8);
-        let t19 = cos_q_2.mul_sub(cos_q_3, sin_q_2 * sin_q_3);
-        let t20 = n(p.k1) - t12;
-        let t21 = sin_q_5.mul_sub(t14, cos_q_5 * t5);
-        let t22 = cos_q_5.mul_add(t14, sin_q_5 * t5);
-        let t23 = t12 + n(p.k3);
-        let t24 = cos_q_4 * t16;
-        let t25 = sin_q_2 * n(p.a);
-        let t26 = t18 + n(p.k21);
-        let t27 = cos_q_2.mul_add(sin_q_3, sin_q_2 * cos_q_3);
-        let t28 = sin_q_4 * t22;
-        let t29 = sin_q_4.mul_add(t17, t24);
-        let t30 = sin_q_5.mul_add(t20 - n(p.k37), t6 * n(p.k38));
-        let t31 = sin_q_6 * cos_q_4;
-        let t32 = n(p.k7) + t29;
-        let t33 = cos_q_5.mul_sub(t30, cos_q_6 * n(p.k33));
-        let t34 = sin_q_5 * t30;
-        let t35 = t6.mul_add(n(p.k42), sin_q_5 * n(p.k40));
-        let t36 = t34 + n(p.k39);
-        let t37 = t34 + (n(p.k6) - t20);
-        let t38 = cos_q_2.neg_mul_add(cos_q_2 * n(p.k11), n(p.k12));
-        let t39 = sin_q_4.mul_add(t11, n(p.k31) * t31);
-        let t40 = cos_q_4 * t22;
-        let t41 = t18.mul_add(n(p.b), cos_q_4.mul_add(t33, sin_q_4 * t21));
-        let t42 = sin_q_4.mul_sub(t16, cos_q_4 * t17);
-        let t43 = n(p.a) * cos_q_3;
-        let t44 = t41 + n(p.k24);
-        let t45 = cos_q_4.neg_mul_add(t37, N::from_f64(2.0) * t28);
-        let t46 = sin_q_4.neg_mul_add(t33, cos_q_4 * t21);
-        let t47 = n(p.b).neg_mul_add(t39, t46);
-        let t48 = cos_q_4.mul_add(t45, n(p.two_b).mul_add(t29, t23 * t15));
-        let t49 = t4 + t47;
-        let t50 = t43 * t39;
-        let t51 = t10.mul_add(t15, t24);
-        let t52 = t27.mul_add(t44, t19.mul_add(t36 + n(p.k9), t25 * t26));
-        let t53 = t25.mul_add(t32.mul_add(t27, t26 * t19), t38);
-        let t54 = n(p.b).mul_add(t42, sin_q_4 * t28);
-        let t55 = cos_q_4.mul_sub(sin_q_4.mul_add(t23 + t37, t40), t54);
-        let t56 = sin_q_3 * sin_q_4.mul_add(t35, t31 * n(p.k42));
-        let t57 = t23.mul_add(cos_q_4 * cos_q_4, n(p.k8));
-        let t58 = t19.mul_add(t44, t27.mul_add(t48, t25 * t32));
-        let t59 = t27.mul_add(t58, t19.mul_add(t52, t53));
-        let t60 = sin_q_3 * cos_q_4.mul_sub(t35, t8 * n(p.k42));
-        let t61 = t27 * q_1_dot;
-        let t62 = sin_q_2 * q_1_dot;
-        let t63 = cos_q_2 * q_1_dot;
-        let t64 = N::ONE / t59;
-        let t65 = sin_q_4.mul_add(t37, N::from_f64(2.0) * t40);
-        let t66 = sin_q_4.neg_mul_add(t65, n(p.two_b).mul_add(t51, t57));
-        let t67 = t43.neg_mul_add(t51 + n(p.k7), sin_q_3 * n(p.k34));
-        let t68 = t19 * q_1_dot;
-        let t69 = sin_q_4.mul_add(t61, cos_q_4 * t0);
-        let t70 = cos_q_4.mul_sub(t61, sin_q_4 * t0);
-        let t71 = q_1_dot * t63;
-        let t72 = t19.mul_sub(t49 - t50, cos_q_2 * n(p.k19));
-        let t73 = t27.mul_add(t55 - t43.mul_add(t42, t56), t72);
-        let t74 = t66 - t67;
-        let t75 = t68.mul_add(q_3_dot, t19 * t1);
-        let t76 = q_3_dot.mul_add(t61, t27 * t1);
-        let t77 = t68 + q_4_dot;
-        let t78 = t69 + q_5_dot;
-        let t79 = n(p.a).neg_mul_add(t62.mul_add(t62, t2), cos_q_2 * n(p.g));
-        let t80 = t68 * t0;
-        let t81 = q_2_dot * t63;
-        let t82 = t64 * t73;
-        let t83 = t74 + (N::from_f64(2.0).neg_mul_add(t60, n(p.k10)) - t67);
-        let t84 = cos_q_4.mul_sub(t75, q_4_dot * t69);
-        let t85 = sin_q_5.mul_add(t77, cos_q_5 * t70);
-        let t86 = cos_q_5.mul_sub(t77, sin_q_5 * t70);
-        let t87 = sin_q_2 * n(p.a).mul_add(t71, n(p.g));
-        let t88 = t75 + t80;
-        let t89 = t61 * t61;
-        let t90 = t73.neg_mul_add(t82, t83);
-        let t91 = sin_q_6.mul_add(t85, cos_q_6 * t78);
-        let t92 = cos_q_6.mul_sub(t85, sin_q_6 * t78);
-        let t93 = t86 + q_6_dot;
-        let t94 = q_4_dot.mul_add(t70, sin_q_4 * t75);
-        let t95 = t68 * t61;
-        let t96 = cos_q_3.mul_add(t87, sin_q_3 * t79);
-        let t97 = n(p.b).mul_add(t88, t81 * n(p.two_a));
-        let t98 = t3 + t89;
-        let t99 = sin_q_3.neg_mul_add(t87, cos_q_3 * t79);
-        let t100 = N::ONE / t90;
-        let t101 = t27.mul_add(t55, t19 * t49);
-        let t102 = t85.mul_add(q_5_dot, sin_q_5.mul_add(t84, cos_q_5 * t76));
-        let t103 = t91 * t92;
-        let t104 = t91 * t91;
-        let t105 = t91 * t93;
-        let t106 = t86.mul_add(q_5_dot, cos_q_5.mul_sub(t84, sin_q_5 * t76));
-        let t107 = n(p.b).mul_add(t95, t96);
-        let t108 = n(p.b).neg_mul_add(t98, t99);
-        let t109 = t86 * t78;
-        let t110 = t93 * t93;
-        let t111 = t64 * t101;
-        let t112 = t92 * t92;
-        let t113 = cos_q_4.mul_sub(t107, sin_q_4 * t97);
-        let t114 = t85 * t86;
-        let t115 = t109 + t106;
-        let t116 = sin_q_4.mul_add(t107, cos_q_4 * t97);
-        let t117 = t103 + t102;
-        let t118 = t92 * t93;
-        let t119 = t104 + t110;
-        let t120 = t73.mul_add(t111, t60 - t74);
-        let t121 = cos_q_6.mul_sub(t106, sin_q_6 * t94);
-        let t122 = t91.neg_mul_add(q_6_dot, t121);
-        let t123 = cos_q_5.mul_add(t113, sin_q_5 * t108);
-        let t124 = t94 - t114;
-        let t125 = t85.mul_add(t85, t78 * t78);
-        let t126 = t100 * t120;
-        let t127 = t27.mul_add(t41, t36.mul_add(t19, t25 * t18));
-        let t128 = n(p.k0).mul_sub(t102, n(p.k1) * t103);
-        let t129 = n(p.k29).mul_add(t117, n(p.k0) * t105);
-        let t130 = t92.mul_add(q_6_dot, sin_q_6.mul_add(t106, cos_q_6 * t94));
-        let t131 = t118 + t130;
-        let t132 = sin_q_6.mul_sub(t117, cos_q_6 * t119);
-        let t133 = t114.neg_mul_add(n(p.k4), n(p.k3) * t94);
-        let t134 = t120.neg_mul_add(t126, t101.neg_mul_add(t111, t66));
-        let t135 = t64 * t127;
-        let t136 = t10.mul_add(n(p.b), t23);
-        let t137 = t13.neg_mul_add(t112 - t104, t128);
-        let t138 = cos_q_6 * n(p.c).mul_add(t115, t116);
-        let t139 = t13.neg_mul_add(t131, n(p.k1).mul_sub(t122, t129));
-        let t140 = sin_q_6.mul_add(t119, cos_q_6 * t117);
-        let t141 = n(p.k29).neg_mul_add(t110 - t112, t118 * n(p.k30));
-        let t142 = sin_q_5.neg_mul_add(t113, cos_q_5 * t108);
-        let t143 = n(p.k31).mul_add(t131, n(p.k2) * t125);
-        let t144 = t68 * t68;
-        let t145 = t0 * t61;
-        let t146 = N::ONE / t134;
-        let t147 = t73.neg_mul_add(t135, t47 - t50);
-        let t148 = sin_q_6.mul_add(t124.neg_mul_add(n(p.c), t123), t138);
-        let t149 = n(p.k29).neg_mul_add(t105 + t122, t137);
-        let t150 = n(p.k31).neg_mul_add(t148, t149);
-        let t151 = n(p.k2).mul_add(t116, t109 * n(p.k28));
-        let t152 = t13.neg_mul_add(t122 - t105, t141);
-        let t153 = n(p.k31).neg_mul_add(n(p.c).neg_mul_add(t125, t142), t152);
-        let t154 = n(p.k35).mul_add(t132, n(p.k2).neg_mul_add(t123, t133));
-        let t155 = n(p.k31).mul_add(t132, n(p.k2) * t124);
-        let t156 = n(p.k31).neg_mul_add(t140, n(p.k2) * t115);
-        let t157 = t76 + t145;
-        let t158 = t100 * t147;
-        let t159 = t19.mul_add(t21, t10 * (sin_q_4 * t25));
-        let t160 = t27.mul_add(sin_q_4.mul_add(t136, t40), t159);
-        let t161 = cos_q_4.mul_sub(t136, t28);
-        let t162 = t102.mul_sub(n(p.k4), t85 * (n(p.k3) * t78)) - t150;
-        let t163 = cos_q_6.mul_add(t153, sin_q_6.neg_mul_add(t139, t154));
-        let t164 = cos_q_5.mul_sub(t155, sin_q_5 * t143);
-        let t165 = t6.neg_mul_add(n(p.k33), sin_q_5 * n(p.k0));
-        let t166 = n(p.k33).mul_add(t7, cos_q_5 * n(p.k0));
-        let t167 = t120.mul_add(t158, t101.neg_mul_add(t135, t47));
-        let t168 = t64 * t160;
-        let t169 = n(p.k6).mul_add(t84, t69 * (t77 * n(p.k5)));
-        let t170 = cos_q_6.mul_add(t139, n(p.k35).neg_mul_add(t140, t151));
-        let t171 = sin_q_6.mul_add(t153, t170);
-        let t172 = t70.mul_add(t77 * n(p.k27), t163);
-        let t173 = sin_q_4.mul_add(t164, cos_q_4 * t156);
-        let t174 = t4.neg_mul_add(t3 - t144, t80 * n(p.k23));
-        let t175 = t69.mul_add(n(p.k6) * t70, t76 * n(p.k5));
-        let t176 = t61.mul_add(t4.mul_add(t68, n(p.k8) * t0), n(p.k9) * t76);
-        let t177 = cos_q_5.neg_mul_add(t8, cos_q_6 * cos_q_4);
-        let t178 = t146 * t167;
-        let t179 = t161 + t16.mul_sub(t43, sin_q_3 * t35);
-        let t180 = t73.neg_mul_add(t168, t179);
-        let t181 = cos_q_5.neg_mul_add(t171, sin_q_5.mul_add(t162, t169));
-        let t182 = sin_q_5.neg_mul_add(t171, cos_q_5.neg_mul_add(t162, t175));
-        let t183 = cos_q_4.mul_add(t165, sin_q_4 * t5);
-        let t184 = n(p.k24).mul_add(t89 - t144, n(p.k9) * t95);
-        let t185 = cos_q_5.mul_add(t31, cos_q_6 * sin_q_4);
-        let t186 = t147.neg_mul_add(t158, t127.neg_mul_add(t135, t36));
-        let t187 = t167.neg_mul_add(t178, t186);
-        let t188 = t100 * t180;
-        let t189 = t81.mul_add(n(p.k25), n(p.k24).neg_mul_add(t157, t174));
-        let t190 = t81.neg_mul_add(n(p.k26), n(p.k24).neg_mul_add(t88, t176));
-        let t191 = t182 + t190;
-        let t192 = n(p.k19).mul_add(t63.neg_mul_add(t63, t2), t81 * n(p.k18));
-        let t193 = t173 + n(p.k7).mul_sub(t88, n(p.k21) * t157);
-        let t194 = t177.mul_add(sin_q_2 * n(p.k42), t19 * t166);
-        let t195 = t27.mul_sub(n(p.k41).neg_mul_add(t177, t183), t194);
-        let t196 = cos_q_4.neg_mul_add(t164, sin_q_4 * t156);
-        let t197 = n(p.k7).mul_add(t96, n(p.k21) * t99);
-        let t198 = n(p.k7).mul_add(t98, n(p.k21) * t95);
-        let t199 = sin_q_4.mul_sub(t165, cos_q_4 * t5);
-        let t200 = n(p.k41).neg_mul_add(t185, t199);
-        let t201 = N::ONE / t187;
-        let t202 = t120.mul_add(t188, t101.neg_mul_add(t168, t161));
-        let t203 = cos_q_4.neg_mul_add(t181, sin_q_4 * t172);
-        let t204 = n(p.b).mul_add(t173, t189) + t203;
-        let t205 = t64 * t195;
-        let t206 = t197 - t4.neg_mul_add(t76 - t145, t184);
-        let t207 = cos_q_3.neg_mul_add(t185, sin_q_6 * (sin_q_5 * sin_q_3));
-        let t208 = t146 * t202;
-        let t209 = t62 * n(p.k19).mul_sub(t63, q_2_dot * n(p.k20));
-        let t210 = sin_q_3.mul_add(t191, n(p.a).mul_add(t193, t192));
-        let t211 = sin_q_4.mul_add(t181, cos_q_4 * t172);
-        let t212 = n(p.b).mul_add(t196, t206) - t211;
-        let t213 = n(p.k11).mul_add(t71, n(p.k14));
-        let t214 = cos_q_5.mul_add(t143, sin_q_5.mul_add(t155, t198));
-        let t215 = t73.mul_add(t205, n(p.k42).mul_add(t207, t200));
-        let t216 = t147.neg_mul_add(t188, t127.neg_mul_add(t168, t21));
-        let t217 = t167.neg_mul_add(t208, t216);
-        let t218 = cos_q_3.mul_add(t204, t210);
-        let t219 = t196 + n(p.k21).mul_add(t3 + t144, n(p.k7) * t95);
-        let t220 = t100 * t215;
-        let t221 = t201 * t217;
-        let t222 = t180.neg_mul_add(t188, t160.neg_mul_add(t168, t23));
-        let t223 = sin_q_3.mul_add(t204, cos_q_3.neg_mul_add(t191, t209));
-        let t224 = sin_q_2.mul_add(t218, q_1_dot * n(p.friction));
-        let t225 = t212 + sin_q_2.mul_sub(t213, q_2_dot * n(p.friction));
-        let t226 = cos_q_3.mul_add(t219, sin_q_3 * t214);
-        let t227 = t120.mul_add(t220, t101.mul_add(t205, t200));
-        let t228 = t217.neg_mul_add(t221, t202.neg_mul_add(t208, t222));
-        let t229 = n(u.tau[0]) - cos_q_2.mul_add(t223, t224);
-        let t230 = t146 * t227;
-        let t231 = N::ONE / t228;
-        let t232 = q_6_dot.neg_mul_add(n(p.friction), t150) + n(u.tau[5]);
-        let t233 = n(p.a).mul_add(t226, t225) + n(u.tau[1]);
-        let t234 = t82.neg_mul_add(t229, t233);
-        let t235 = n(u.tau[2]) - q_3_dot.mul_sub(n(p.friction), t212);
-        let t236 = n(u.tau[3]) - q_4_dot.mul_sub(n(p.friction), t182);
-        let t237 = t147.neg_mul_add(t220, t127.mul_add(t205, t166));
-        let t238 = t167.neg_mul_add(t230, t237);
-        let t239 = n(u.tau[4]) - q_5_dot.mul_add(n(p.friction), t163);
-        let t240 = t126.mul_add(t234, t111.neg_mul_add(t229, t235));
-        let t241 = t201 * t238;
-        let t242 = t180.neg_mul_add(t220, t160.mul_sub(t205, t5));
-        let t243 = t220.neg_mul_add(t234, t205.mul_add(t229, t232));
-        let t244 = t158.neg_mul_add(t234, t135.neg_mul_add(t229, t236));
-        let t245 = t178.neg_mul_add(t240, t244);
-        let t246 = t188.neg_mul_add(t234, t168.neg_mul_add(t229, t239));
-        let t247 = t217.neg_mul_add(t241, t202.neg_mul_add(t230, t242));
-        let t248 = t215.neg_mul_add(t220, t195.neg_mul_add(t205, n(p.k0)));
-        let t249 = t221.neg_mul_add(t245, t208.neg_mul_add(t240, t246));
-        let t250 = t231 * t247;
-        let t251 = t241.neg_mul_add(t245, t230.neg_mul_add(t240, t243));
-        let t252 = t238.neg_mul_add(t241, t227.neg_mul_add(t230, t248));
-        let t253 = t247.neg_mul_add(t250, t252);
-        let q_6_ddot = t250.neg_mul_add(t249, t251) / t253;
-        let q_5_ddot = t250.neg_mul_add(q_6_ddot, t231 * t249);
-        let t254 = t205.mul_add(q_6_ddot, t64 * t229);
-        let t255 = t241.neg_mul_add(q_6_ddot, t201 * t245);
-        let q_4_ddot = t221.neg_mul_add(q_5_ddot, t255);
-        let t256 = t230.neg_mul_add(q_6_ddot, t146 * t240);
-        let t257 = t220.neg_mul_add(q_6_ddot, t100 * t234);
-        let t258 = t168.neg_mul_add(q_5_ddot, t254);
-        let t259 = t208.neg_mul_add(q_5_ddot, t256);
-        let q_3_ddot = t178.neg_mul_add(q_4_ddot, t259);
-        let t260 = t188.neg_mul_add(q_5_ddot, t257);
-        let t261 = t135.neg_mul_add(q_4_ddot, t258);
-        let q_2_ddot = t126.mul_add(q_3_ddot, t158.neg_mul_add(q_4_ddot, t260));
-        let t262 = t111.neg_mul_add(q_3_ddot, t261);
-        let q_1_ddot = t82.neg_mul_add(q_2_ddot, t262);
-        let sound = PIVOTS.hold(t59, t59)
-            & PIVOTS.hold(t90, t83)
-            & PIVOTS.hold(t134, t66)
-            & PIVOTS.hold(t187, t36)
-            & PIVOTS.hold(t228, t23)
-            & PIVOTS.hold(t253, n(p.k0))
-            & q_1_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (0, t59, t59),
-                (1, t90, t83),
-                (2, t134, t66),
-                (3, t187, t36),
-                (4, t228, t23),
-                (5, t253, n(p.k0)),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            q_1_ddot.store(),
-            q_2_ddot.store(),
-            q_3_ddot.store(),
-            q_4_ddot.store(),
-            q_5_ddot.store(),
-            q_6_ddot.store(),
+    let Accelerations { p, q, v, u } = call;
+    let n = N::load;
+    let q_2 = n(q[1]);
+    let q_3 = n(q[2]);
+    let q_4 = n(q[3]);
+    let q_5 = n(q[4]);
+    let q_6 = n(q[5]);
+    let q_1_dot = n(v[0]);
+    let q_2_dot = n(v[1]);
+    let q_3_dot = n(v[2]);
+    let q_4_dot = n(v[3]);
+    let q_5_dot = n(v[4]);
+    let q_6_dot = n(v[5]);
+    let angles = [q_6, q_5, q_4, q_2, q_3];
+    let circular = N::sin_cos_all(angles);
+    let (sin_q_6, cos_q_6) = circular[0];
+    let (sin_q_5, cos_q_5) = circular[1];
+    let (sin_q_4, cos_q_4) = circular[2];
+    let (sin_q_2, cos_q_2) = circular[3];
+    let (sin_q_3, cos_q_3) = circular[4];
+    let t0 = q_3_dot + q_2_dot;
+    let t1 = q_1_dot * q_2_dot;
+    let t2 = q_2_dot * q_2_dot;
+    let t3 = t0 * t0;
+    let t4 = N::from_ratio(1, 500);
+    let t5 = sin_q_6 * n(p.k33);
+    let t6 = cos_q_6 * cos_q_5;
+    let t7 = cos_q_6 * sin_q_5;
+    let t8 = sin_q_6 * sin_q_4;
+    let t9 = n(p.k1).mul_add(sin_q_6, cos_q_6 * t4);
+    let t10 = t7.neg_mul_add(n(p.k31), cos_q_5 * n(p.k2));
+    let t11 = t6.mul_add(n(p.k31), sin_q_5 * n(p.k2));
+    let t12 = sin_q_6 * t9;
+    let t13 = N::from_ratio(1, 1000);
+    let t14 = cos_q_6.neg_mul_add(t9, t13);
+    let t15 = sin_q_4 * sin_q_4;
+    let t16 = cos_q_4 * t10;
+    let t17 = sin_q_4 * t10;
+    let t18 = cos_q_4.mul_sub(t11, n(p.k31) * t8);
+    let t19 = cos_q_2.mul_sub(cos_q_3, sin_q_2 * sin_q_3);
+    let t20 = n(p.k1) - t12;
+    let t21 = sin_q_5.mul_sub(t14, cos_q_5 * t5);
+    let t22 = cos_q_5.mul_add(t14, sin_q_5 * t5);
+    let t23 = t12 + n(p.k3);
+    let t24 = cos_q_4 * t16;
+    let t25 = sin_q_2 * n(p.a);
+    let t26 = t18 + n(p.k21);
+    let t27 = cos_q_2.mul_add(sin_q_3, sin_q_2 * cos_q_3);
+    let t28 = sin_q_4 * t22;
+    let t29 = sin_q_4.mul_add(t17, t24);
+    let t30 = sin_q_5.mul_add(t20 - n(p.k37), t6 * n(p.k38));
+    let t31 = sin_q_6 * cos_q_4;
+    let t32 = n(p.k7) + t29;
+    let t33 = cos_q_5.mul_sub(t30, cos_q_6 * n(p.k33));
+    let t34 = sin_q_5 * t30;
+    let t35 = t6.mul_add(n(p.k42), sin_q_5 * n(p.k40));
+    let t36 = t34 + n(p.k39);
+    let t37 = t34 + (n(p.k6) - t20);
+    let t38 = cos_q_2.neg_mul_add(cos_q_2 * n(p.k11), n(p.k12));
+    let t39 = sin_q_4.mul_add(t11, n(p.k31) * t31);
+    let t40 = cos_q_4 * t22;
+    let t41 = t18.mul_add(n(p.b), cos_q_4.mul_add(t33, sin_q_4 * t21));
+    let t42 = sin_q_4.mul_sub(t16, cos_q_4 * t17);
+    let t43 = n(p.a) * cos_q_3;
+    let t44 = t41 + n(p.k24);
+    let t45 = cos_q_4.neg_mul_add(t37, N::from_f64(2.0) * t28);
+    let t46 = sin_q_4.neg_mul_add(t33, cos_q_4 * t21);
+    let t47 = n(p.b).neg_mul_add(t39, t46);
+    let t48 = cos_q_4.mul_add(t45, n(p.two_b).mul_add(t29, t23 * t15));
+    let t49 = t4 + t47;
+    let t50 = t43 * t39;
+    let t51 = t10.mul_add(t15, t24);
+    let t52 = t27.mul_add(t44, t19.mul_add(t36 + n(p.k9), t25 * t26));
+    let t53 = t25.mul_add(t32.mul_add(t27, t26 * t19), t38);
+    let t54 = n(p.b).mul_add(t42, sin_q_4 * t28);
+    let t55 = cos_q_4.mul_sub(sin_q_4.mul_add(t23 + t37, t40), t54);
+    let t56 = sin_q_3 * sin_q_4.mul_add(t35, t31 * n(p.k42));
+    let t57 = t23.mul_add(cos_q_4 * cos_q_4, n(p.k8));
+    let t58 = t19.mul_add(t44, t27.mul_add(t48, t25 * t32));
+    // Row q[1]: pivot d[q[1]].
+    let t59 = t27.mul_add(t58, t19.mul_add(t52, t53));
+    let t60 = sin_q_3 * cos_q_4.mul_sub(t35, t8 * n(p.k42));
+    let t61 = t27 * q_1_dot;
+    let t62 = sin_q_2 * q_1_dot;
+    let t63 = cos_q_2 * q_1_dot;
+    let t64 = N::ONE / t59;
+    let t65 = sin_q_4.mul_add(t37, N::from_f64(2.0) * t40);
+    let t66 = sin_q_4.neg_mul_add(t65, n(p.two_b).mul_add(t51, t57));
+    let t67 = t43.neg_mul_add(t51 + n(p.k7), sin_q_3 * n(p.k34));
+    let t68 = t19 * q_1_dot;
+    let t69 = sin_q_4.mul_add(t61, cos_q_4 * t0);
+    let t70 = cos_q_4.mul_sub(t61, sin_q_4 * t0);
+    let t71 = q_1_dot * t63;
+    let t72 = t19.mul_sub(t49 - t50, cos_q_2 * n(p.k19));
+    let t73 = t27.mul_add(t55 - t43.mul_add(t42, t56), t72);
+    let t74 = t66 - t67;
+    let t75 = t68.mul_add(q_3_dot, t19 * t1);
+    let t76 = q_3_dot.mul_add(t61, t27 * t1);
+    let t77 = t68 + q_4_dot;
+    let t78 = t69 + q_5_dot;
+    let t79 = n(p.a).neg_mul_add(t62.mul_add(t62, t2), cos_q_2 * n(p.g));
+    let t80 = t68 * t0;
+    let t81 = q_2_dot * t63;
+    // Eliminates q[1] from row q[2]: l[q[2], q[1]].
+    let t82 = t64 * t73;
+    let t83 = t74 + (N::from_f64(2.0).neg_mul_add(t60, n(p.k10)) - t67);
+    let t84 = cos_q_4.mul_sub(t75, q_4_dot * t69);
+    let t85 = sin_q_5.mul_add(t77, cos_q_5 * t70);
+    let t86 = cos_q_5.mul_sub(t77, sin_q_5 * t70);
+    let t87 = sin_q_2 * n(p.a).mul_add(t71, n(p.g));
+    let t88 = t75 + t80;
+    let t89 = t61 * t61;
+    // Row q[2]: pivot d[q[2]].
+    let t90 = t73.neg_mul_add(t82, t83);
+    let t91 = sin_q_6.mul_add(t85, cos_q_6 * t78);
+    let t92 = cos_q_6.mul_sub(t85, sin_q_6 * t78);
+    let t93 = t86 + q_6_dot;
+    let t94 = q_4_dot.mul_add(t70, sin_q_4 * t75);
+    let t95 = t68 * t61;
+    let t96 = cos_q_3.mul_add(t87, sin_q_3 * t79);
+    let t97 = n(p.b).mul_add(t88, t81 * n(p.two_a));
+    let t98 = t3 + t89;
+    let t99 = sin_q_3.neg_mul_add(t87, cos_q_3 * t79);
+    let t100 = N::ONE / t90;
+    let t101 = t27.mul_add(t55, t19 * t49);
+    let t102 = t85.mul_add(q_5_dot, sin_q_5.mul_add(t84, cos_q_5 * t76));
+    let t103 = t91 * t92;
+    let t104 = t91 * t91;
+    let t105 = t91 * t93;
+    let t106 = t86.mul_add(q_5_dot, cos_q_5.mul_sub(t84, sin_q_5 * t76));
+    let t107 = n(p.b).mul_add(t95, t96);
+    let t108 = n(p.b).neg_mul_add(t98, t99);
+    let t109 = t86 * t78;
+    let t110 = t93 * t93;
+    // Eliminates q[1] from row q[3]: l[q[3], q[1]].
+    let t111 = t64 * t101;
+    let t112 = t92 * t92;
+    let t113 = cos_q_4.mul_sub(t107, sin_q_4 * t97);
+    let t114 = t85 * t86;
+    let t115 = t109 + t106;
+    let t116 = sin_q_4.mul_add(t107, cos_q_4 * t97);
+    let t117 = t103 + t102;
+    let t118 = t92 * t93;
+    let t119 = t104 + t110;
+    let t120 = t73.mul_add(t111, t60 - t74);
+    let t121 = cos_q_6.mul_sub(t106, sin_q_6 * t94);
+    let t122 = t91.neg_mul_add(q_6_dot, t121);
+    let t123 = cos_q_5.mul_add(t113, sin_q_5 * t108);
+    let t124 = t94 - t114;
+    let t125 = t85.mul_add(t85, t78 * t78);
+    // Eliminates q[2] from row q[3]: l[q[3], q[2]].
+    let t126 = t100 * t120;
+    let t127 = t27.mul_add(t41, t36.mul_add(t19, t25 * t18));
+    let t128 = n(p.k0).mul_sub(t102, n(p.k1) * t103);
+    let t129 = n(p.k29).mul_add(t117, n(p.k0) * t105);
+    let t130 = t92.mul_add(q_6_dot, sin_q_6.mul_add(t106, cos_q_6 * t94));
+    let t131 = t118 + t130;
+    let t132 = sin_q_6.mul_sub(t117, cos_q_6 * t119);
+    let t133 = t114.neg_mul_add(n(p.k4), n(p.k3) * t94);
+    // Row q[3]: pivot d[q[3]].
+    let t134 = t120.neg_mul_add(t126, t101.neg_mul_add(t111, t66));
+    // Eliminates q[1] from row q[4]: l[q[4], q[1]].
+    let t135 = t64 * t127;
+    let t136 = t10.mul_add(n(p.b), t23);
+    let t137 = t13.neg_mul_add(t112 - t104, t128);
+    let t138 = cos_q_6 * n(p.c).mul_add(t115, t116);
+    let t139 = t13.neg_mul_add(t131, n(p.k1).mul_sub(t122, t129));
+    let t140 = sin_q_6.mul_add(t119, cos_q_6 * t117);
+    let t141 = n(p.k29).neg_mul_add(t110 - t112, t118 * n(p.k30));
+    let t142 = sin_q_5.neg_mul_add(t113, cos_q_5 * t108);
+    let t143 = n(p.k31).mul_add(t131, n(p.k2) * t125);
+    let t144 = t68 * t68;
+    let t145 = t0 * t61;
+    let t146 = N::ONE / t134;
+    let t147 = t73.neg_mul_add(t135, t47 - t50);
+    let t148 = sin_q_6.mul_add(t124.neg_mul_add(n(p.c), t123), t138);
+    let t149 = n(p.k29).neg_mul_add(t105 + t122, t137);
+    let t150 = n(p.k31).neg_mul_add(t148, t149);
+    let t151 = n(p.k2).mul_add(t116, t109 * n(p.k28));
+    let t152 = t13.neg_mul_add(t122 - t105, t141);
+    let t153 = n(p.k31).neg_mul_add(n(p.c).neg_mul_add(t125, t142), t152);
+    let t154 = n(p.k35).mul_add(t132, n(p.k2).neg_mul_add(t123, t133));
+    let t155 = n(p.k31).mul_add(t132, n(p.k2) * t124);
+    let t156 = n(p.k31).neg_mul_add(t140, n(p.k2) * t115);
+    let t157 = t76 + t145;
+    // Eliminates q[2] from row q[4]: l[q[4], q[2]].
+    let t158 = t100 * t147;
+    let t159 = t19.mul_add(t21, t10 * (sin_q_4 * t25));
+    let t160 = t27.mul_add(sin_q_4.mul_add(t136, t40), t159);
+    let t161 = cos_q_4.mul_sub(t136, t28);
+    let t162 = t102.mul_sub(n(p.k4), t85 * (n(p.k3) * t78)) - t150;
+    let t163 = cos_q_6.mul_add(t153, sin_q_6.neg_mul_add(t139, t154));
+    let t164 = cos_q_5.mul_sub(t155, sin_q_5 * t143);
+    let t165 = t6.neg_mul_add(n(p.k33), sin_q_5 * n(p.k0));
+    let t166 = n(p.k33).mul_add(t7, cos_q_5 * n(p.k0));
+    let t167 = t120.mul_add(t158, t101.neg_mul_add(t135, t47));
+    // Eliminates q[1] from row q[5]: l[q[5], q[1]].
+    let t168 = t64 * t160;
+    let t169 = n(p.k6).mul_add(t84, t69 * (t77 * n(p.k5)));
+    let t170 = cos_q_6.mul_add(t139, n(p.k35).neg_mul_add(t140, t151));
+    let t171 = sin_q_6.mul_add(t153, t170);
+    let t172 = t70.mul_add(t77 * n(p.k27), t163);
+    let t173 = sin_q_4.mul_add(t164, cos_q_4 * t156);
+    let t174 = t4.neg_mul_add(t3 - t144, t80 * n(p.k23));
+    let t175 = t69.mul_add(n(p.k6) * t70, t76 * n(p.k5));
+    let t176 = t61.mul_add(t4.mul_add(t68, n(p.k8) * t0), n(p.k9) * t76);
+    let t177 = cos_q_5.neg_mul_add(t8, cos_q_6 * cos_q_4);
+    // Eliminates q[3] from row q[4]: l[q[4], q[3]].
+    let t178 = t146 * t167;
+    let t179 = t161 + t16.mul_sub(t43, sin_q_3 * t35);
+    let t180 = t73.neg_mul_add(t168, t179);
+    let t181 = cos_q_5.neg_mul_add(t171, sin_q_5.mul_add(t162, t169));
+    let t182 = sin_q_5.neg_mul_add(t171, cos_q_5.neg_mul_add(t162, t175));
+    let t183 = cos_q_4.mul_add(t165, sin_q_4 * t5);
+    let t184 = n(p.k24).mul_add(t89 - t144, n(p.k9) * t95);
+    let t185 = cos_q_5.mul_add(t31, cos_q_6 * sin_q_4);
+    let t186 = t147.neg_mul_add(t158, t127.neg_mul_add(t135, t36));
+    // Row q[4]: pivot d[q[4]].
+    let t187 = t167.neg_mul_add(t178, t186);
+    // Eliminates q[2] from row q[5]: l[q[5], q[2]].
+    let t188 = t100 * t180;
+    let t189 = t81.mul_add(n(p.k25), n(p.k24).neg_mul_add(t157, t174));
+    let t190 = t81.neg_mul_add(n(p.k26), n(p.k24).neg_mul_add(t88, t176));
+    let t191 = t182 + t190;
+    let t192 = n(p.k19).mul_add(t63.neg_mul_add(t63, t2), t81 * n(p.k18));
+    let t193 = t173 + n(p.k7).mul_sub(t88, n(p.k21) * t157);
+    let t194 = t177.mul_add(sin_q_2 * n(p.k42), t19 * t166);
+    let t195 = t27.mul_sub(n(p.k41).neg_mul_add(t177, t183), t194);
+    let t196 = cos_q_4.neg_mul_add(t164, sin_q_4 * t156);
+    let t197 = n(p.k7).mul_add(t96, n(p.k21) * t99);
+    let t198 = n(p.k7).mul_add(t98, n(p.k21) * t95);
+    let t199 = sin_q_4.mul_sub(t165, cos_q_4 * t5);
+    let t200 = n(p.k41).neg_mul_add(t185, t199);
+    let t201 = N::ONE / t187;
+    let t202 = t120.mul_add(t188, t101.neg_mul_add(t168, t161));
+    let t203 = cos_q_4.neg_mul_add(t181, sin_q_4 * t172);
+    let t204 = n(p.b).mul_add(t173, t189) + t203;
+    // Eliminates q[1] from row q[6]: l[q[6], q[1]].
+    let t205 = t64 * t195;
+    let t206 = t197 - t4.neg_mul_add(t76 - t145, t184);
+    let t207 = cos_q_3.neg_mul_add(t185, sin_q_6 * (sin_q_5 * sin_q_3));
+    // Eliminates q[3] from row q[5]: l[q[5], q[3]].
+    let t208 = t146 * t202;
+    let t209 = t62 * n(p.k19).mul_sub(t63, q_2_dot * n(p.k20));
+    let t210 = sin_q_3.mul_add(t191, n(p.a).mul_add(t193, t192));
+    let t211 = sin_q_4.mul_add(t181, cos_q_4 * t172);
+    let t212 = n(p.b).mul_add(t196, t206) - t211;
+    let t213 = n(p.k11).mul_add(t71, n(p.k14));
+    let t214 = cos_q_5.mul_add(t143, sin_q_5.mul_add(t155, t198));
+    let t215 = t73.mul_add(t205, n(p.k42).mul_add(t207, t200));
+    let t216 = t147.neg_mul_add(t188, t127.neg_mul_add(t168, t21));
+    let t217 = t167.neg_mul_add(t208, t216);
+    let t218 = cos_q_3.mul_add(t204, t210);
+    let t219 = t196 + n(p.k21).mul_add(t3 + t144, n(p.k7) * t95);
+    // Eliminates q[2] from row q[6]: l[q[6], q[2]].
+    let t220 = t100 * t215;
+    // Eliminates q[4] from row q[5]: l[q[5], q[4]].
+    let t221 = t201 * t217;
+    let t222 = t180.neg_mul_add(t188, t160.neg_mul_add(t168, t23));
+    let t223 = sin_q_3.mul_add(t204, cos_q_3.neg_mul_add(t191, t209));
+    let t224 = sin_q_2.mul_add(t218, q_1_dot * n(p.friction));
+    let t225 = t212 + sin_q_2.mul_sub(t213, q_2_dot * n(p.friction));
+    let t226 = cos_q_3.mul_add(t219, sin_q_3 * t214);
+    let t227 = t120.mul_add(t220, t101.mul_add(t205, t200));
+    // Row q[5]: pivot d[q[5]].
+    let t228 = t217.neg_mul_add(t221, t202.neg_mul_add(t208, t222));
+    let t229 = n(u.tau[0]) - cos_q_2.mul_add(t223, t224);
+    // Eliminates q[3] from row q[6]: l[q[6], q[3]].
+    let t230 = t146 * t227;
+    let t231 = N::ONE / t228;
+    let t232 = q_6_dot.neg_mul_add(n(p.friction), t150) + n(u.tau[5]);
+    let t233 = n(p.a).mul_add(t226, t225) + n(u.tau[1]);
+    // Row q[2]: right-hand side z[q[2]].
+    let t234 = t82.neg_mul_add(t229, t233);
+    let t235 = n(u.tau[2]) - q_3_dot.mul_sub(n(p.friction), t212);
+    let t236 = n(u.tau[3]) - q_4_dot.mul_sub(n(p.friction), t182);
+    let t237 = t147.neg_mul_add(t220, t127.mul_add(t205, t166));
+    let t238 = t167.neg_mul_add(t230, t237);
+    let t239 = n(u.tau[4]) - q_5_dot.mul_add(n(p.friction), t163);
+    // Row q[3]: right-hand side z[q[3]].
+    let t240 = t126.mul_add(t234, t111.neg_mul_add(t229, t235));
+    // Eliminates q[4] from row q[6]: l[q[6], q[4]].
+    let t241 = t201 * t238;
+    let t242 = t180.neg_mul_add(t220, t160.mul_sub(t205, t5));
+    let t243 = t220.neg_mul_add(t234, t205.mul_add(t229, t232));
+    let t244 = t158.neg_mul_add(t234, t135.neg_mul_add(t229, t236));
+    // Row q[4]: right-hand side z[q[4]].
+    let t245 = t178.neg_mul_add(t240, t244);
+    let t246 = t188.neg_mul_add(t234, t168.neg_mul_add(t229, t239));
+    let t247 = t217.neg_mul_add(t241, t202.neg_mul_add(t230, t242));
+    let t248 = t215.neg_mul_add(t220, t195.neg_mul_add(t205, n(p.k0)));
+    // Row q[5]: right-hand side z[q[5]].
+    let t249 = t221.neg_mul_add(t245, t208.neg_mul_add(t240, t246));
+    // Eliminates q[5] from row q[6]: l[q[6], q[5]].
+    let t250 = t231 * t247;
+    let t251 = t241.neg_mul_add(t245, t230.neg_mul_add(t240, t243));
+    let t252 = t238.neg_mul_add(t241, t227.neg_mul_add(t230, t248));
+    // Row q[6]: pivot d[q[6]].
+    let t253 = t247.neg_mul_add(t250, t252);
+    // Row q[6]: right-hand side z[q[6]].
+    let q_6_ddot = t250.neg_mul_add(t249, t251) / t253;
+    // Back substitution: a[q[5]].
+    let q_5_ddot = t250.neg_mul_add(q_6_ddot, t231 * t249);
+    let t254 = t205.mul_add(q_6_ddot, t64 * t229);
+    let t255 = t241.neg_mul_add(q_6_ddot, t201 * t245);
+    // Back substitution: a[q[4]].
+    let q_4_ddot = t221.neg_mul_add(q_5_ddot, t255);
+    let t256 = t230.neg_mul_add(q_6_ddot, t146 * t240);
+    let t257 = t220.neg_mul_add(q_6_ddot, t100 * t234);
+    let t258 = t168.neg_mul_add(q_5_ddot, t254);
+    let t259 = t208.neg_mul_add(q_5_ddot, t256);
+    // Back substitution: a[q[3]].
+    let q_3_ddot = t178.neg_mul_add(q_4_ddot, t259);
+    let t260 = t188.neg_mul_add(q_5_ddot, t257);
+    let t261 = t135.neg_mul_add(q_4_ddot, t258);
+    // Back substitution: a[q[2]].
+    let q_2_ddot = t126.mul_add(q_3_ddot, t158.neg_mul_add(q_4_ddot, t260));
+    let t262 = t111.neg_mul_add(q_3_ddot, t261);
+    // Back substitution: a[q[1]].
+    let q_1_ddot = t82.neg_mul_add(q_2_ddot, t262);
+    let sound = PIVOTS.hold(t59, t59)
+        & PIVOTS.hold(t90, t83)
+        & PIVOTS.hold(t134, t66)
+        & PIVOTS.hold(t187, t36)
+        & PIVOTS.hold(t228, t23)
+        & PIVOTS.hold(t253, n(p.k0))
+        & q_1_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (0, t59, t59),
+            (1, t90, t83),
+            (2, t134, t66),
+            (3, t187, t36),
+            (4, t228, t23),
+            (5, t253, n(p.k0)),
         ];
-        Ok(accelerations)
+        PIVOTS.check(pivots)?;
     }
+    let accelerations = [
+        q_1_ddot.store(),
+        q_2_ddot.store(),
+        q_3_ddot.store(),
+        q_4_ddot.store(),
+        q_5_ddot.store(),
+        q_6_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1430,7 +1454,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]) ->
         h, a, b, c, m2, m3, m4, m5, m6, friction, g, half_a, half_b, half_c, k0, k1, k2, k3, k4, k5,
         k6, k7, k8, k9, k10, k11, k12, a_squared, k13, m2_g, m3_g, m4_g, m5_g, m6_g, half_h_m1_g,
         half_friction, k14, k15, k16, k17, two_a, k18, k19, k20, k21, k22, k23, k24, k25, k26, k27,
-        k28, k29, k30, k31, k32, k33, k34, k35, k36, k37, k38, k39, k40, k41, k42, two_b, k43,
+        k28, k29, k30, k31, k32, k33, k34, k35, k36, k37, k38, k39, k40, k41, k42, two_b,
     }
     accelerations { (p, t, q, v, u) Accelerations { p, q, v, u } }
     system {

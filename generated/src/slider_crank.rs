@@ -1,9 +1,9 @@
 // @generated from machines/slider_crank.machine by `cargo xtask generate`; edits are lost.
 
-//! A slider-crank: a crank turns, a rod joins it to a slider on a rail through the crank's axis.
-//! One
-//! degree of freedom; the loop is closed by two constraints, whose multipliers are what the pin at
-//! the
+//! A slider-crank: a crank turns, a rod joins it to a slider on a rail through the crank's
+//! axis. One
+//! degree of freedom; the loop is closed by two constraints, whose multipliers are what the pin
+//! at the
 //! slider carries.
 //!
 //! 3 coordinates, 9 parameters. Arithmetic of one call:
@@ -20,8 +20,8 @@
 //! | `constraint_rates` | 6 | 4 | 0 | 2 | 0 | 14 |
 //! | `constraint_matrix` | 4 | 0 | 0 | 2 | 0 | 8 |
 //! | `constraint_bias` | 8 | 2 | 0 | 2 | 0 | 14 |
-//! | `accelerations` | 53 | 29 | 3 | 2 | 0 | 89 |
-//! | `multipliers` | 45 | 22 | 3 | 2 | 0 | 74 |
+//! | `accelerations` | 53 | 28 | 3 | 2 | 0 | 88 |
+//! | `multipliers` | 45 | 21 | 3 | 2 | 0 | 73 |
 //! | `kinetic_energy` | 16 | 6 | 0 | 2 | 0 | 26 |
 //! | `potential_energy` | 4 | 2 | 0 | 2 | 0 | 8 |
 //! | `assumption_0` | 0 | 0 | 0 | 1 | 0 | 1 |
@@ -41,10 +41,10 @@
 // What the description says is no Markdown.
 #![allow(rustdoc::all)]
 
-/// A slider-crank: a crank turns, a rod joins it to a slider on a rail through the crank's axis.
-/// One
-/// degree of freedom; the loop is closed by two constraints, whose multipliers are what the pin at
-/// the
+/// A slider-crank: a crank turns, a rod joins it to a slider on a rail through the crank's
+/// axis. One
+/// degree of freedom; the loop is closed by two constraints, whose multipliers are what the pin
+/// at the
 /// slider carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliderCrank<S = f64> {
@@ -78,10 +78,8 @@ impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
         let t3 = self.m1 * t0;
         let t4 = t1 * self.m1;
         let half_a_b_m2 = t2 * (self.a * S::from_f64(0.5));
-        let half_b_m2_g = t1 * t2;
         let pivot_0 = t3 * S::from_f64(0.25) + (self.J1 + self.m2 * t0);
         let t5 = (self.m1 + self.m2 * S::from_f64(4.0)) * (t0 * S::from_f64(0.25));
-        let k3 = self.a * (m2_g + t4);
         let half_b = self.b * S::from_f64(0.5);
         let half_a_m1_g = self.a * t4;
         let k0 = S::from_f64(0.125) * (S::from_f64(4.0) * self.J1 + t3);
@@ -90,11 +88,11 @@ impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
         let k2 = self.J2 + t2 * (self.b * S::from_f64(0.25));
         let minus_a = -self.a;
         let minus_half_a_b_m2 = -half_a_b_m2;
-        let k4 = -k3;
-        let minus_half_b_m2_g = -half_b_m2_g;
+        let k3 = -(self.a * (m2_g + t4));
+        let minus_half_b_m2_g = -(t1 * t2);
         let minus_b = -self.b;
         let inverse_m3 = S::ONE / self.m3;
-        let k5 = S::ONE / pivot_0;
+        let k4 = S::ONE / pivot_0;
         let pivots = [(2, self.m3, self.m3), (0, pivot_0, pivot_0)];
         Prepared {
             a: self.a,
@@ -110,15 +108,13 @@ impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
             half_a_b_m2,
             k1,
             k2,
-            k3,
-            half_b_m2_g,
             minus_a,
             minus_half_a_b_m2,
-            k4,
+            k3,
             minus_half_b_m2_g,
             minus_b,
             inverse_m3,
-            k5,
+            k4,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -151,14 +147,6 @@ pub struct Coordinates<S = f64> {
     pub s: S,
 }
 
-/// What can be set while a [`SliderCrank`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`SliderCrank`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`SliderCrank`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -188,16 +176,12 @@ pub struct Prepared<S = f64> {
     k1: S,
     /// `J2 + 0.25*b^2*m2`
     k2: S,
-    /// `a*(m2*g + 0.5*m1*g)`
-    k3: S,
-    /// `0.5*b*m2*g`
-    half_b_m2_g: S,
     /// `-a`
     minus_a: S,
     /// `-0.5*a*b*m2`
     minus_half_a_b_m2: S,
     /// `-a*(m2*g + 0.5*m1*g)`
-    k4: S,
+    k3: S,
     /// `-0.5*b*m2*g`
     minus_half_b_m2_g: S,
     /// `-b`
@@ -205,7 +189,7 @@ pub struct Prepared<S = f64> {
     /// `1/m3`
     inverse_m3: S,
     /// `1/(J1 + a^2*m2 + 0.25*a^2*m1)`
-    k5: S,
+    k4: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -263,7 +247,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     let phi = q[1];
     let cos_theta = theta.cos();
     let cos_phi = phi.cos();
-    let q_theta = p.k4 * cos_theta;
+    let q_theta = p.k3 * cos_theta;
     let q_phi = p.minus_half_b_m2_g * cos_phi;
     let zero = S::ZERO;
     [q_theta, q_phi, zero]
@@ -281,8 +265,8 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let t1 = theta_dot * theta_dot;
     let t2 = sin_phi * (cos_theta * p.half_a_b_m2);
     let t3 = cos_phi * (sin_theta * p.half_a_b_m2);
-    let f_theta = t0 * t2 - (t0 * t3 + cos_theta * p.k3);
-    let f_phi = t3 * t1 - (t2 * t1 + cos_phi * p.half_b_m2_g);
+    let f_theta = t0 * t2 - (t0 * t3 - cos_theta * p.k3);
+    let f_phi = t1 * t3 - (t1 * t2 - cos_phi * p.minus_half_b_m2_g);
     let zero = S::ZERO;
     [f_theta, f_phi, zero]
 }
@@ -378,184 +362,205 @@ pub fn constraint_bias<S: ::lagrangian::emitted::Scalar>(
     [gamma1, gamma2]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
-/// multiplied out, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass
+    /// matrix multiplied out, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 3], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 3],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta = n(q[0]);
-        let phi = n(q[1]);
-        let theta_dot = n(v[0]);
-        let phi_dot = n(v[1]);
-        let angles = [phi, theta];
-        let circular = N::sin_cos_all(angles);
-        let (sin_phi, cos_phi) = circular[0];
-        let (sin_theta, cos_theta) = circular[1];
-        let t0 = phi_dot * phi_dot;
-        let t1 = theta_dot * theta_dot;
-        let t2 = cos_theta * n(p.a);
-        let t3 = sin_theta * n(p.a);
-        let t4 = sin_phi * n(p.b);
-        let t5 = cos_phi * n(p.b);
-        let t6 = cos_phi * sin_theta;
-        let t7 = sin_phi * cos_theta;
-        let t8 = n(p.k5) * t2;
-        let t9 = n(p.k5) * t3;
-        let t10 = sin_phi.mul_add(sin_theta, cos_phi * cos_theta);
-        let t11 = n(p.half_a_b_m2) * t10;
-        let t12 = t0 * n(p.half_a_b_m2);
-        let t13 = (t6 - t7).mul_add(t12, cos_theta * n(p.k3));
-        let t14 = cos_phi * n(p.half_b_m2_g);
-        let t15 = n(p.k5) * t11;
-        let t16 = t11.neg_mul_add(t9, t4);
-        let t17 = t11.neg_mul_add(t8, t5);
-        let t18 = t11.neg_mul_add(t15, n(p.k2));
-        let t19 = (t7 - t6).mul_add(n(p.half_a_b_m2) * t1, t14);
-        let t20 = t13.neg_mul_add(t15, t19);
-        let t21 = N::ONE / t18;
-        let t22 = t21 * t16;
-        let t23 = t21 * t17;
-        let t24 = t16.mul_add(t22, t3.mul_add(t9, n(p.inverse_m3)));
-        let t25 = t23.mul_add(t16, t8 * t3);
-        let t26 = t13.neg_mul_add(t9, t0.mul_add(t5, t2 * t1));
-        let t27 = t22.neg_mul_add(t20, t26);
-        let t28 = t17.mul_add(t23, t2 * t8);
-        let t29 = N::ONE / t24;
-        let t30 = t29 * t25;
-        let t31 = t23.mul_add(t20, t13.mul_add(t8, t0.mul_add(t4, t3 * t1)));
-        let t32 = t25.neg_mul_add(t30, t28);
-        let t33 = t30.mul_add(t27, t31) / t32;
-        let t34 = t30.mul_add(t33, t29 * t27);
-        let t35 = t22.mul_add(t34, t23.neg_mul_add(t33, t21 * t20));
-        let t36 = t9.neg_mul_add(t34, t8.mul_sub(t33, n(p.k5) * t13));
-        let theta_ddot = t15.mul_add(t35, t36);
-        let phi_ddot = -t35;
-        let s_ddot = -(n(p.inverse_m3) * t34);
-        let sound = PIVOTS.hold(t18, n(p.k2))
-            & PIVOTS.hold(t24, t24)
-            & PIVOTS.hold(t32, t28)
-            & s_ddot.is_finite();
-        if !sound {
-            let pivots = [(1, t18, n(p.k2)), (3, t24, t24), (4, t32, t28)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [theta_ddot.store(), phi_ddot.store(), s_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta = n(q[0]);
+    let phi = n(q[1]);
+    let theta_dot = n(v[0]);
+    let phi_dot = n(v[1]);
+    let angles = [phi, theta];
+    let circular = N::sin_cos_all(angles);
+    let (sin_phi, cos_phi) = circular[0];
+    let (sin_theta, cos_theta) = circular[1];
+    let t0 = phi_dot * phi_dot;
+    let t1 = theta_dot * theta_dot;
+    let t2 = cos_theta * n(p.a);
+    let t3 = sin_theta * n(p.a);
+    let t4 = sin_phi * n(p.b);
+    let t5 = cos_phi * n(p.b);
+    // Eliminates theta from row across: l[across, theta].
+    let t6 = t2 * n(p.k4);
+    // Eliminates theta from row along: l[along, theta].
+    let t7 = t3 * n(p.k4);
+    let t8 = cos_phi.mul_sub(sin_theta, sin_phi * cos_theta);
+    let t9 = cos_phi.mul_add(cos_theta, sin_phi * sin_theta);
+    let t10 = n(p.half_a_b_m2) * t9;
+    let t11 = (t0 * n(p.half_a_b_m2)).mul_sub(t8, cos_theta * n(p.k3));
+    let t12 = cos_phi * n(p.minus_half_b_m2_g);
+    // Eliminates theta from row phi: l[phi, theta].
+    let t13 = n(p.k4) * t10;
+    let t14 = t7.neg_mul_add(t10, t4);
+    let t15 = t6.neg_mul_add(t10, t5);
+    // Row phi: pivot d[phi].
+    let t16 = t10.neg_mul_add(t13, n(p.k2));
+    // Row phi: right-hand side z[phi].
+    let t17 = t11.mul_add(t13, (t1 * n(p.half_a_b_m2)).mul_add(t8, t12));
+    let t18 = N::ONE / t16;
+    // Eliminates phi from row along: l[along, phi].
+    let t19 = t14 * t18;
+    // Eliminates phi from row across: l[across, phi].
+    let t20 = t15 * t18;
+    // Row along: pivot d[along].
+    let t21 = t14.mul_add(t19, t3.mul_add(t7, n(p.inverse_m3)));
+    let t22 = t14.mul_add(t20, t3 * t6);
+    let t23 = t7.neg_mul_add(t11, t1.mul_add(t2, t0 * t5));
+    // Row along: right-hand side z[along].
+    let t24 = t17.mul_add(t19, t23);
+    let t25 = t6.mul_add(t11, t1.mul_add(t3, t0 * t4));
+    let t26 = t15.mul_add(t20, t2 * t6);
+    let t27 = N::ONE / t21;
+    // Eliminates along from row across: l[across, along].
+    let t28 = t22 * t27;
+    // Row across: pivot d[across].
+    let t29 = t22.neg_mul_add(t28, t26);
+    // Row across: right-hand side z[across].
+    let t30 = t24.mul_add(t28, t17.neg_mul_add(t20, t25)) / t29;
+    // Back substitution: lambda[along].
+    let t31 = t28.mul_add(t30, t24 * t27);
+    // Back substitution: a[phi].
+    let t32 = t19.mul_sub(t31, t20.mul_add(t30, t17 * t18));
+    let t33 = t7.neg_mul_add(t31, t6.mul_sub(t30, n(p.k4) * t11));
+    // Back substitution: a[theta].
+    let theta_ddot = t13.mul_add(t32, t33);
+    let phi_ddot = -t32;
+    // Back substitution: a[s].
+    let s_ddot = -(n(p.inverse_m3) * t31);
+    let sound = PIVOTS.hold(t16, n(p.k2))
+        & PIVOTS.hold(t21, t21)
+        & PIVOTS.hold(t29, t26)
+        & s_ddot.is_finite();
+    if !sound {
+        let pivots = [(1, t16, n(p.k2)), (3, t21, t21), (4, t29, t26)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [theta_ddot.store(), phi_ddot.store(), s_ddot.store()];
+    Ok(accelerations)
 }
 
-/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
-///
-/// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 3],
-    v: &[S; 3],
+::lagrangian::emitted::fast_function! {
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    ///
+    /// The rows of constraints are those of `G a = gamma`: there `M` stands for `G`, with zeros for
+    /// two constraints, and `f` for `gamma`. Their unknowns are the multipliers.
+    pub fn multipliers<'a, S>(Multipliers { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 2], ::lagrangian::emitted::Singular> = multipliers_in;
+}
+
+#[inline(always)]
+fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Multipliers<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Multipliers { p, q, v })
-}
-
-/// A call of [`multipliers`], to be run with whatever instructions the processor has.
-pub struct Multipliers<'a, S> {
-    /// As `multipliers` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `multipliers` takes it.
-    pub q: &'a [S; 3],
-    /// As `multipliers` takes it.
-    pub v: &'a [S; 3],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta = n(q[0]);
-        let phi = n(q[1]);
-        let theta_dot = n(v[0]);
-        let phi_dot = n(v[1]);
-        let angles = [phi, theta];
-        let circular = N::sin_cos_all(angles);
-        let (sin_phi, cos_phi) = circular[0];
-        let (sin_theta, cos_theta) = circular[1];
-        let t0 = phi_dot * phi_dot;
-        let t1 = theta_dot * theta_dot;
-        let t2 = cos_theta * n(p.a);
-        let t3 = sin_theta * n(p.a);
-        let t4 = sin_phi * n(p.b);
-        let t5 = cos_phi * n(p.b);
-        let t6 = cos_phi * sin_theta;
-        let t7 = sin_phi * cos_theta;
-        let t8 = n(p.k5) * t2;
-        let t9 = n(p.k5) * t3;
-        let t10 = sin_phi.mul_add(sin_theta, cos_phi * cos_theta);
-        let t11 = n(p.half_a_b_m2) * t10;
-        let t12 = n(p.half_a_b_m2) * t0;
-        let t13 = (t6 - t7).mul_add(t12, cos_theta * n(p.k3));
-        let t14 = cos_phi * n(p.half_b_m2_g);
-        let t15 = n(p.k5) * t11;
-        let t16 = t11.neg_mul_add(t9, t4);
-        let t17 = t11.neg_mul_add(t8, t5);
-        let t18 = t11.neg_mul_add(t15, n(p.k2));
-        let t19 = (t7 - t6).mul_add(n(p.half_a_b_m2) * t1, t14);
-        let t20 = t15.neg_mul_add(t13, t19);
-        let t21 = N::ONE / t18;
-        let t22 = t21 * t16;
-        let t23 = t21 * t17;
-        let t24 = t16.mul_add(t22, t3.mul_add(t9, n(p.inverse_m3)));
-        let t25 = t16.mul_add(t23, t3 * t8);
-        let t26 = t9.neg_mul_add(t13, t5.mul_add(t0, t2 * t1));
-        let t27 = t22.neg_mul_add(t20, t26);
-        let t28 = t17.mul_add(t23, t2 * t8);
-        let t29 = N::ONE / t24;
-        let t30 = t29 * t25;
-        let t31 = t23.mul_add(t20, t8.mul_add(t13, t4.mul_add(t0, t3 * t1)));
-        let t32 = t25.neg_mul_add(t30, t28);
-        let lambda2 = t30.mul_add(t27, t31) / t32;
-        let lambda1 = t30.mul_add(lambda2, t29 * t27);
-        let sound = PIVOTS.hold(t18, n(p.k2))
-            & PIVOTS.hold(t24, t24)
-            & PIVOTS.hold(t32, t28)
-            & lambda1.is_finite();
-        if !sound {
-            let pivots = [(1, t18, n(p.k2)), (3, t24, t24), (4, t32, t28)];
-            PIVOTS.check(pivots)?;
-        }
-        let multipliers = [lambda1.store(), lambda2.store()];
-        Ok(multipliers)
+    let Multipliers { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta = n(q[0]);
+    let phi = n(q[1]);
+    let theta_dot = n(v[0]);
+    let phi_dot = n(v[1]);
+    let angles = [phi, theta];
+    let circular = N::sin_cos_all(angles);
+    let (sin_phi, cos_phi) = circular[0];
+    let (sin_theta, cos_theta) = circular[1];
+    let t0 = phi_dot * phi_dot;
+    let t1 = theta_dot * theta_dot;
+    let t2 = cos_theta * n(p.a);
+    let t3 = sin_theta * n(p.a);
+    let t4 = sin_phi * n(p.b);
+    let t5 = cos_phi * n(p.b);
+    // Eliminates theta from row across: l[across, theta].
+    let t6 = t2 * n(p.k4);
+    // Eliminates theta from row along: l[along, theta].
+    let t7 = t3 * n(p.k4);
+    let t8 = cos_phi.mul_sub(sin_theta, sin_phi * cos_theta);
+    let t9 = cos_phi.mul_add(cos_theta, sin_phi * sin_theta);
+    let t10 = n(p.half_a_b_m2) * t9;
+    let t11 = (t0 * n(p.half_a_b_m2)).mul_sub(t8, cos_theta * n(p.k3));
+    let t12 = cos_phi * n(p.minus_half_b_m2_g);
+    // Eliminates theta from row phi: l[phi, theta].
+    let t13 = n(p.k4) * t10;
+    let t14 = t7.neg_mul_add(t10, t4);
+    let t15 = t6.neg_mul_add(t10, t5);
+    // Row phi: pivot d[phi].
+    let t16 = t10.neg_mul_add(t13, n(p.k2));
+    // Row phi: right-hand side z[phi].
+    let t17 = t11.mul_add(t13, (t1 * n(p.half_a_b_m2)).mul_add(t8, t12));
+    let t18 = N::ONE / t16;
+    // Eliminates phi from row along: l[along, phi].
+    let t19 = t14 * t18;
+    // Eliminates phi from row across: l[across, phi].
+    let t20 = t15 * t18;
+    // Row along: pivot d[along].
+    let t21 = t14.mul_add(t19, t3.mul_add(t7, n(p.inverse_m3)));
+    let t22 = t14.mul_add(t20, t3 * t6);
+    let t23 = t7.neg_mul_add(t11, t1.mul_add(t2, t0 * t5));
+    // Row along: right-hand side z[along].
+    let t24 = t17.mul_add(t19, t23);
+    let t25 = t6.mul_add(t11, t1.mul_add(t3, t0 * t4));
+    let t26 = t15.mul_add(t20, t2 * t6);
+    let t27 = N::ONE / t21;
+    // Eliminates along from row across: l[across, along].
+    let t28 = t22 * t27;
+    // Row across: pivot d[across].
+    let t29 = t22.neg_mul_add(t28, t26);
+    // Row across: right-hand side z[across].
+    let lambda2 = t24.mul_add(t28, t17.neg_mul_add(t20, t25)) / t29;
+    // Back substitution: lambda[along].
+    let lambda1 = t28.mul_add(lambda2, t24 * t27);
+    let sound = PIVOTS.hold(t16, n(p.k2))
+        & PIVOTS.hold(t21, t21)
+        & PIVOTS.hold(t29, t26)
+        & lambda1.is_finite();
+    if !sound {
+        let pivots = [(1, t16, n(p.k2)), (3, t21, t21), (4, t29, t26)];
+        PIVOTS.check(pivots)?;
+    }
+    let multipliers = [lambda1.store(), lambda2.store()];
+    Ok(multipliers)
 }
 
 /// Kinetic energy `T`, in J.
@@ -625,11 +630,11 @@ pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
         phi: "phi" "rad";
         s: "s" "m";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
-        a, b, m2, m3, J2, half_b, m2_g, half_a_m1_g, k0, half_m3, half_a_b_m2, k1, k2, k3,
-        half_b_m2_g, minus_a, minus_half_a_b_m2, k4, minus_half_b_m2_g, minus_b, inverse_m3, k5,
+        a, b, m2, m3, J2, half_b, m2_g, half_a_m1_g, k0, half_m3, half_a_b_m2, k1, k2, minus_a,
+        minus_half_a_b_m2, k3, minus_half_b_m2_g, minus_b, inverse_m3, k4,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

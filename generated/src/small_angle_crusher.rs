@@ -10,12 +10,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 39 | 9 | 2 | 0 | 0 | 50 |
-//! | `mass_matrix` | 26 | 6 | 0 | 2 | 0 | 36 |
+//! | `prepare` | 39 | 8 | 2 | 0 | 0 | 49 |
+//! | `mass_matrix` | 25 | 7 | 0 | 2 | 0 | 36 |
 //! | `bias` | 85 | 62 | 0 | 3 | 0 | 153 |
 //! | `applied` | 6 | 6 | 0 | 0 | 0 | 12 |
 //! | `forces` | 91 | 68 | 0 | 3 | 0 | 165 |
-//! | `accelerations` | 202 | 136 | 5 | 3 | 0 | 349 |
+//! | `accelerations` | 202 | 135 | 5 | 3 | 0 | 348 |
 //! | `kinetic_energy` | 50 | 29 | 0 | 3 | 0 | 85 |
 //! | `potential_energy` | 6 | 2 | 0 | 0 | 0 | 8 |
 //! | `dissipation` | 6 | 2 | 0 | 0 | 0 | 8 |
@@ -122,10 +122,9 @@ impl<S: ::lagrangian::emitted::Scalar> SmallAngleCrusher<S> {
         let quarter_m0 = self.m0 * S::from_f64(0.25);
         let e_y0_omega = e_omega * self.y0;
         let e_x0_omega = e_omega * self.x0;
-        let k4 = -m1_plus_m2;
         let minus_m2 = -self.m2;
-        let k5 = S::ONE / k0;
-        let k6 = S::ONE / m1_plus_m2;
+        let k4 = S::ONE / k0;
+        let k5 = S::ONE / m1_plus_m2;
         let pivots = [
             (5, self.J1, self.J1),
             (8, self.J2, self.J2),
@@ -178,10 +177,9 @@ impl<S: ::lagrangian::emitted::Scalar> SmallAngleCrusher<S> {
             quarter_m0,
             e_y0_omega,
             e_x0_omega,
-            k4,
             minus_m2,
+            k4,
             k5,
-            k6,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -223,14 +221,6 @@ pub struct Coordinates<S = f64> {
     /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
-
-/// What can be set while a [`SmallAngleCrusher`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`SmallAngleCrusher`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
 
 /// The parameters of a [`SmallAngleCrusher`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -325,14 +315,12 @@ pub struct Prepared<S = f64> {
     e_y0_omega: S,
     /// `e*x0*omega`
     e_x0_omega: S,
-    /// `-(m1 + m2)`
-    k4: S,
     /// `-m2`
     minus_m2: S,
     /// `1/(J + m0*x0^2 + m0*y0^2)`
-    k5: S,
+    k4: S,
     /// `1/(m1 + m2)`
-    k6: S,
+    k5: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -377,27 +365,27 @@ pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t0 = s1 * p.m2;
-    let t1 = p.m1_plus_m2 * s1;
+    let t1 = s1 * p.m1_plus_m2;
     let t2 = p.m2 * s2;
     let t3 = cos_phi1 * sin_phi2;
     let t4 = sin_phi1 * cos_phi2;
-    let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t5 = sin_phi1 * sin_phi2 + cos_phi1 * cos_phi2;
     let zero = S::ZERO;
     let m31 = -(theta * p.m0_x0 + p.m0_y0);
     let m32 = p.m0_x0 - theta * p.m0_y0;
-    let m41 = p.m1_plus_m2 * cos_phi1;
-    let m42 = p.m1_plus_m2 * sin_phi1;
-    let m51 = sin_phi1 * (s1 * p.k4);
+    let m41 = cos_phi1 * p.m1_plus_m2;
+    let m42 = sin_phi1 * p.m1_plus_m2;
+    let m51 = -(sin_phi1 * t1);
     let m52 = cos_phi1 * t1;
     let m55 = s1 * t1;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * t5;
-    let m75 = (t3 - t4) * t0;
+    let m75 = t0 * (t3 - t4);
     let m81 = sin_phi2 * (s2 * p.minus_m2);
     let m82 = cos_phi2 * t2;
     let m84 = t2 * (t4 - t3);
-    let m85 = t5 * (t0 * s2);
+    let m85 = t0 * s2 * t5;
     let m88 = s2 * t2;
     [
         [p.k1, zero, m31, m41, m51, zero, m71, m81, zero],
@@ -618,231 +606,258 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 9],
-    v: &[S; 9],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        t: S,
+        q: &'a [S; 9],
+        v: &'a [S; 9],
+    }) -> Result<[S; 9], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, t, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub t: S,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 9],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 9],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, t, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let y = n(q[1]);
-        let theta = n(q[2]);
-        let s1 = n(q[3]);
-        let phi1 = n(q[4]);
-        let s2 = n(q[6]);
-        let phi2 = n(q[7]);
-        let x_dot = n(v[0]);
-        let y_dot = n(v[1]);
-        let theta_dot = n(v[2]);
-        let s1_dot = n(v[3]);
-        let phi1_dot = n(v[4]);
-        let s2_dot = n(v[6]);
-        let phi2_dot = n(v[7]);
-        let t0 = n(p.omega) * n(t);
-        let angles = [phi1, phi2, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_phi1, cos_phi1) = circular[0];
-        let (sin_phi2, cos_phi2) = circular[1];
-        let (sin_t0, cos_t0) = circular[2];
-        let t1 = n(p.m0_x0).mul_add(theta, n(p.m0_y0));
-        let t2 = theta.neg_mul_add(n(p.m0_y0), n(p.m0_x0));
-        let t3 = n(p.m1_plus_m2) * s1;
-        let t4 = s1 * phi1_dot;
-        let t5 = s2 * phi2_dot;
-        let t6 = n(p.omega).product_error(n(t));
-        let t7 = n(p.k5) * t1;
-        let t8 = n(p.k5) * t2;
-        let t9 = s1 * t3;
-        let t10 = n(p.m2) * s2;
-        let t11 = s1 * n(p.m2);
-        let t12 = theta_dot * theta_dot;
-        let t13 = s2 * t10;
-        let t14 = n(p.m1_plus_m2) * cos_phi1;
-        let t15 = n(p.m1_plus_m2) * sin_phi1;
-        let t16 = sin_phi1 * t3;
-        let t17 = sin_phi2 * s2_dot;
-        let t18 = sin_phi1 * s1_dot;
-        let t19 = cos_phi1 * t4;
-        let t20 = cos_phi2 * s2_dot;
-        let t21 = n(p.k6) * t14;
-        let t22 = n(p.k6) * t15;
-        let t23 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t24 = cos_phi1 * s1_dot;
-        let t25 = sin_phi1 * t4;
-        let t26 = cos_phi2 * t5;
-        let t27 = t18 + t19;
-        let t28 = t14.neg_mul_add(t21, t1.neg_mul_add(t7, n(p.k1)));
-        let t29 = t14.neg_mul_add(t22, t1 * t8);
-        let t30 = n(p.m2) * t23;
-        let t31 = phi2_dot * t20;
-        let t32 = sin_phi2 * t5;
-        let t33 = phi1_dot * t24;
-        let t34 = t24 - t25;
-        let t35 = N::ONE / t28;
-        let t36 = phi2_dot * t17;
-        let t37 = phi1_dot * t18;
-        let t38 = t6.neg_mul_add(sin_t0, cos_t0);
-        let t39 = n(p.k6) * t30;
-        let t40 = t17 + t26;
-        let t41 = y_dot + t27;
-        let t42 = t20 - t32;
-        let t43 = x_dot + t34;
-        let t44 = t6.mul_add(cos_t0, sin_t0);
-        let t45 = cos_phi1 * sin_phi2;
-        let t46 = sin_phi1 * cos_phi2;
-        let t47 = t14.neg_mul_add(t39, n(p.m2) * cos_phi2);
-        let t48 = t40 + t41;
-        let t49 = t33 + phi1_dot.neg_mul_add(t25, t33);
-        let t50 = t42 + t43;
-        let t51 = t37 + phi1_dot.mul_add(t19, t37);
-        let t52 = t35 * t29;
-        let t53 = t35 * t16;
-        let t54 = t38.mul_add(n(p.e_omega), y_dot);
-        let t55 = t54 * (n(p.m0_y0) * theta_dot);
-        let t56 = t15.neg_mul_add(t22, t2.neg_mul_add(t8, n(p.k1)));
-        let t57 = t29.neg_mul_add(t52, t56);
-        let t58 = t29.mul_add(t53, cos_phi1 * t3);
-        let t59 = t35 * t47;
-        let t60 = t31 + phi2_dot.neg_mul_add(t32, t31) + t49;
-        let t61 = N::ONE / t57;
-        let t62 = t36 + phi2_dot.mul_add(t26, t36) + t51;
-        let t63 = n(p.m2).mul_add(t48, n(p.m1) * t41);
-        let t64 = n(p.m2).mul_add(t50, t43 * n(p.m1));
-        let t65 = t38 * n(p.m0_e_y0_omega2);
-        let t66 = t44.neg_mul_add(n(p.e_omega), x_dot);
-        let t67 = t66 * (n(p.m0_x0) * theta_dot);
-        let t68 = t10 * (t46 - t45);
-        let t69 = t15.neg_mul_add(t39, n(p.m2) * sin_phi2);
-        let t70 = t29.neg_mul_add(t59, t69);
-        let t71 = t48 * (cos_phi2 * phi2_dot);
-        let t72 = t50 * (sin_phi2 * phi2_dot);
-        let t73 = t63 * (cos_phi1 * phi1_dot);
-        let t74 = n(p.m2).mul_add(t60, n(p.m1) * t49);
-        let t75 = t64 * (sin_phi1 * phi1_dot);
-        let t76 = n(p.m2).mul_add(t62, n(p.m1) * t51);
-        let t77 = t44.neg_mul_add(theta * n(p.m0_e_y0_omega2), t55);
-        let t78 = n(p.k6) * t68;
-        let t79 = t61 * t58;
-        let t80 = t61 * t70;
-        let t81 = t58.neg_mul_add(t79, t16.neg_mul_add(t53, t9));
-        let t82 = t38.neg_mul_add(theta * n(p.m0_e_x0_omega2), t67);
-        let t83 = t14.mul_add(t78, sin_phi2 * t10);
-        let t84 = N::ONE / t81;
-        let t85 = t58.neg_mul_add(t80, t16.mul_add(t59, (t45 - t46) * t11));
-        let t86 = t82 + (t77 + n(p.m0_e_x0_omega2).mul_sub(t44, t65));
-        let t87 = t35 * t83;
-        let t88 = t84 * t85;
-        let t89 = t47.neg_mul_add(t59, t30.neg_mul_add(t39, n(p.m2)));
-        let t90 = sin_phi2.mul_add(t60, t71) - cos_phi2.mul_add(t62, t72);
-        let t91 = sin_phi1.mul_add(t74, t73) - cos_phi1.mul_add(t76, t75);
-        let t92 = t73 - t75 - t91;
-        let t93 = theta_dot.mul_add(n(p.k3), theta * n(p.k2));
-        let t94 = t93 + (t67 + t55 - t86);
-        let t95 = t76 + t38.mul_add(n(p.m0_e_omega2), n(p.m0_x0) * t12);
-        let t96 = t44.mul_add(n(p.m0_e_omega2), n(p.m0_y0) * t12) - t74;
-        let t97 = t29.mul_add(t87, t15.neg_mul_add(t78, cos_phi2 * t10));
-        let t98 = sin_phi2 * s2_dot.mul_add(t50, t5 * t48);
-        let t99 = t62.neg_mul_add(sin_phi2 * s2, t50 * t40);
-        let t100 = t85.neg_mul_add(t88, t70.neg_mul_add(t80, t89));
-        let t101 = t95 - x_dot.mul_add(n(p.two_bx), n(p.two_cx) * x);
-        let t102 = t96 - y_dot.mul_add(n(p.two_by), n(p.two_cy) * y);
-        let t103 = sin_phi1 * s1_dot.mul_add(t64, t4 * t63);
-        let t104 = t76.neg_mul_add(sin_phi1 * s1, t64 * t27);
-        let t105 = t61 * t97;
-        let t106 = cos_phi2.mul_sub(s2_dot.mul_sub(t48, t5 * t50), t98);
-        let t107 = N::ONE / t100;
-        let t108 = t21.neg_mul_add(t92, t7.neg_mul_add(t94, t101));
-        let t109 = cos_phi1.mul_sub(s1_dot.mul_sub(t63, t4 * t64), t103);
-        let t110 = t16.neg_mul_add(t87, t23 * (t11 * s2));
-        let t111 = t58.neg_mul_add(t105, t110);
-        let t112 = t106 - (t60.mul_add(cos_phi2 * s2, t42 * t48) - t99);
-        let t113 = t39.neg_mul_add(t92, n(p.m2) * (t71 - t72 - t90));
-        let t114 = t22.neg_mul_add(t92, t8.mul_add(t94, t102));
-        let t115 = t52.neg_mul_add(t108, t114);
-        let t116 = t109 - (t74.mul_add(cos_phi1 * s1, t34 * t63) - t104);
-        let t117 = t84 * t111;
-        let t118 = t79.neg_mul_add(t115, t53.mul_add(t108, t116));
-        let t119 = t70.mul_add(t105, t47.neg_mul_add(t87, t30 * t78));
-        let t120 = t85.mul_add(t117, t119);
-        let t121 = t87.mul_add(t108, n(p.m2).mul_sub(t112, t78 * t92));
-        let t122 = t83.neg_mul_add(t87, t68.neg_mul_add(t78, t13));
-        let t123 = t80.neg_mul_add(t115, t59.neg_mul_add(t108, t113));
-        let t124 = t88.neg_mul_add(t118, t123);
-        let t125 = t107 * t120;
-        let t126 = t117.neg_mul_add(t118, t105.neg_mul_add(t115, t121));
-        let t127 = t111.neg_mul_add(t117, t97.neg_mul_add(t105, t122));
-        let t128 = t120.neg_mul_add(t125, t127);
-        let phi2_ddot = t125.mul_add(t124, t126) / t128;
-        let s2_ddot = t125.mul_add(phi2_ddot, t107 * t124);
-        let t129 = t117.neg_mul_add(phi2_ddot, t84 * t118);
-        let phi1_ddot = t88.neg_mul_add(s2_ddot, t129);
-        let t130 = t87.mul_add(phi2_ddot, t35 * t108);
-        let t131 = t105.neg_mul_add(phi2_ddot, t61 * t115);
-        let t132 = t78.mul_sub(phi2_ddot, n(p.k6) * t92);
-        let y_ddot = t79.neg_mul_add(phi1_ddot, t80.neg_mul_add(s2_ddot, t131));
-        let t133 = t53.mul_add(phi1_ddot, t59.neg_mul_add(s2_ddot, t130));
-        let x_ddot = t52.neg_mul_add(y_ddot, t133);
-        let t134 = t22.mul_add(y_ddot, t39.mul_add(s2_ddot, t132));
-        let theta_ddot = t7.mul_sub(x_ddot, t8.mul_add(y_ddot, n(p.k5) * t94));
-        let s1_ddot = -t21.mul_add(x_ddot, t134);
-        let zero = N::ZERO;
-        let sound = PIVOTS.hold(t28, n(p.k1))
-            & PIVOTS.hold(t57, n(p.k1))
-            & PIVOTS.hold(t81, t9)
-            & PIVOTS.hold(t100, n(p.m2))
-            & PIVOTS.hold(t128, t13)
-            & s1_ddot.is_finite();
-        if !sound {
-            let pivots = [
-                (0, t28, n(p.k1)),
-                (1, t57, n(p.k1)),
-                (4, t81, t9),
-                (6, t100, n(p.m2)),
-                (7, t128, t13),
-            ];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            x_ddot.store(),
-            y_ddot.store(),
-            theta_ddot.store(),
-            s1_ddot.store(),
-            phi1_ddot.store(),
-            zero.store(),
-            s2_ddot.store(),
-            phi2_ddot.store(),
-            zero.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, t, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let y = n(q[1]);
+    let theta = n(q[2]);
+    let s1 = n(q[3]);
+    let phi1 = n(q[4]);
+    let s2 = n(q[6]);
+    let phi2 = n(q[7]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let theta_dot = n(v[2]);
+    let s1_dot = n(v[3]);
+    let phi1_dot = n(v[4]);
+    let s2_dot = n(v[6]);
+    let phi2_dot = n(v[7]);
+    let t0 = n(p.omega) * n(t);
+    let angles = [phi1, phi2, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_phi1, cos_phi1) = circular[0];
+    let (sin_phi2, cos_phi2) = circular[1];
+    let (sin_t0, cos_t0) = circular[2];
+    let t1 = n(p.m0_x0).mul_add(theta, n(p.m0_y0));
+    let t2 = theta.neg_mul_add(n(p.m0_y0), n(p.m0_x0));
+    let t3 = n(p.m1_plus_m2) * s1;
+    let t4 = s1 * phi1_dot;
+    let t5 = s2 * phi2_dot;
+    let t6 = n(p.omega).product_error(n(t));
+    // Eliminates theta from row x: l[x, theta].
+    let t7 = t1 * n(p.k4);
+    // Eliminates theta from row y: l[y, theta].
+    let t8 = t2 * n(p.k4);
+    let t9 = s1 * t3;
+    let t10 = s2 * n(p.m2);
+    let t11 = s1 * n(p.m2);
+    let t12 = theta_dot * theta_dot;
+    let t13 = s2 * t10;
+    let t14 = cos_phi1 * n(p.m1_plus_m2);
+    let t15 = sin_phi1 * n(p.m1_plus_m2);
+    let t16 = sin_phi1 * t3;
+    let t17 = sin_phi2 * s2_dot;
+    let t18 = sin_phi1 * s1_dot;
+    let t19 = cos_phi1 * t4;
+    let t20 = cos_phi2 * s2_dot;
+    // Eliminates s1 from row x: l[x, s1].
+    let t21 = t14 * n(p.k5);
+    // Eliminates s1 from row y: l[y, s1].
+    let t22 = t15 * n(p.k5);
+    let t23 = sin_phi1.mul_add(sin_phi2, cos_phi1 * cos_phi2);
+    let t24 = cos_phi1 * s1_dot;
+    let t25 = sin_phi1 * t4;
+    let t26 = cos_phi2 * t5;
+    let t27 = t18 + t19;
+    // Row x: pivot d[x].
+    let t28 = t14.neg_mul_add(t21, t1.neg_mul_add(t7, n(p.k1)));
+    let t29 = t14.neg_mul_add(t22, t1 * t8);
+    let t30 = n(p.m2) * t23;
+    let t31 = phi2_dot * t20;
+    let t32 = sin_phi2 * t5;
+    let t33 = phi1_dot * t24;
+    let t34 = t24 - t25;
+    let t35 = N::ONE / t28;
+    let t36 = phi2_dot * t17;
+    let t37 = phi1_dot * t18;
+    let t38 = t6.neg_mul_add(sin_t0, cos_t0);
+    // Eliminates s1 from row s2: l[s2, s1].
+    let t39 = n(p.k5) * t30;
+    let t40 = t17 + t26;
+    let t41 = y_dot + t27;
+    let t42 = t20 - t32;
+    let t43 = x_dot + t34;
+    let t44 = t6.mul_add(cos_t0, sin_t0);
+    let t45 = t14.neg_mul_add(t39, cos_phi2 * n(p.m2));
+    let t46 = t40 + t41;
+    let t47 = t33 + phi1_dot.neg_mul_add(t25, t33);
+    let t48 = t42 + t43;
+    let t49 = t37 + phi1_dot.mul_add(t19, t37);
+    // Eliminates x from row y: l[y, x].
+    let t50 = t29 * t35;
+    // Eliminates x from row phi1: l[phi1, x].
+    let t51 = t16 * t35;
+    let t52 = n(p.m0_y0) * theta_dot * t38.mul_add(n(p.e_omega), y_dot);
+    let t53 = sin_phi1.mul_sub(cos_phi2, cos_phi1 * sin_phi2);
+    let t54 = t15.neg_mul_add(t22, t2.neg_mul_add(t8, n(p.k1)));
+    // Row y: pivot d[y].
+    let t55 = t29.neg_mul_add(t50, t54);
+    let t56 = t29.mul_add(t51, cos_phi1 * t3);
+    // Eliminates x from row s2: l[s2, x].
+    let t57 = t35 * t45;
+    let t58 = t31 + phi2_dot.neg_mul_add(t32, t31) + t47;
+    let t59 = N::ONE / t55;
+    let t60 = t36 + phi2_dot.mul_add(t26, t36) + t49;
+    let t61 = n(p.m2).mul_add(t46, t41 * n(p.m1));
+    let t62 = n(p.m2).mul_add(t48, t43 * n(p.m1));
+    let t63 = n(p.m0_e_y0_omega2) * t38;
+    let t64 = n(p.e_omega).neg_mul_add(t44, x_dot);
+    let t65 = n(p.m0_x0) * theta_dot * t64;
+    let t66 = t10 * t53;
+    let t67 = t15.neg_mul_add(t39, sin_phi2 * n(p.m2));
+    let t68 = t29.neg_mul_add(t57, t67);
+    let t69 = t46 * (cos_phi2 * phi2_dot);
+    let t70 = t48 * (sin_phi2 * phi2_dot);
+    let t71 = t61 * (cos_phi1 * phi1_dot);
+    let t72 = n(p.m2).mul_add(t58, t47 * n(p.m1));
+    let t73 = t62 * (sin_phi1 * phi1_dot);
+    let t74 = n(p.m2).mul_add(t60, t49 * n(p.m1));
+    let t75 = (theta * n(p.m0_e_y0_omega2)).neg_mul_add(t44, t52);
+    // Eliminates s1 from row phi2: l[phi2, s1].
+    let t76 = n(p.k5) * t66;
+    // Eliminates y from row phi1: l[phi1, y].
+    let t77 = t56 * t59;
+    // Eliminates y from row s2: l[s2, y].
+    let t78 = t59 * t68;
+    // Row phi1: pivot d[phi1].
+    let t79 = t56.neg_mul_add(t77, t16.neg_mul_add(t51, t9));
+    let t80 = (theta * n(p.m0_e_x0_omega2)).neg_mul_add(t38, t65);
+    let t81 = t14.mul_add(t76, sin_phi2 * t10);
+    let t82 = N::ONE / t79;
+    let t83 = t56.neg_mul_add(t78, t16.mul_sub(t57, t11 * t53));
+    let t84 = t75 + n(p.m0_e_x0_omega2).mul_sub(t44, t63) + t80;
+    // Eliminates x from row phi2: l[phi2, x].
+    let t85 = t35 * t81;
+    // Eliminates phi1 from row s2: l[s2, phi1].
+    let t86 = t82 * t83;
+    let t87 = t45.neg_mul_add(t57, t30.neg_mul_add(t39, n(p.m2)));
+    let t88 = sin_phi2.mul_add(t58, t69) - cos_phi2.mul_add(t60, t70);
+    let t89 = sin_phi1.mul_add(t72, t71) - cos_phi1.mul_add(t74, t73);
+    let t90 = t71 - t73 - t89;
+    let t91 = theta.mul_add(n(p.k2), theta_dot * n(p.k3));
+    let t92 = t91 + (t52 + t65 - t84);
+    let t93 = t74 + t38.mul_add(n(p.m0_e_omega2), n(p.m0_x0) * t12);
+    let t94 = t44.mul_add(n(p.m0_e_omega2), n(p.m0_y0) * t12) - t72;
+    let t95 = t29.mul_add(t85, t15.neg_mul_add(t76, cos_phi2 * t10));
+    let t96 = sin_phi2 * t5.mul_add(t46, s2_dot * t48);
+    let t97 = t60.neg_mul_add(sin_phi2 * s2, t40 * t48);
+    // Row s2: pivot d[s2].
+    let t98 = t83.neg_mul_add(t86, t68.neg_mul_add(t78, t87));
+    let t99 = t93 - n(p.two_cx).mul_add(x, x_dot * n(p.two_bx));
+    let t100 = t94 - n(p.two_cy).mul_add(y, y_dot * n(p.two_by));
+    let t101 = sin_phi1 * t4.mul_add(t61, s1_dot * t62);
+    let t102 = t74.neg_mul_add(sin_phi1 * s1, t27 * t62);
+    // Eliminates y from row phi2: l[phi2, y].
+    let t103 = t59 * t95;
+    let t104 = cos_phi2.mul_sub(s2_dot.mul_sub(t46, t5 * t48), t96);
+    let t105 = N::ONE / t98;
+    // Row x: right-hand side z[x].
+    let t106 = t21.neg_mul_add(t90, t7.neg_mul_add(t92, t99));
+    let t107 = cos_phi1.mul_sub(s1_dot.mul_sub(t61, t4 * t62), t101);
+    let t108 = t16.neg_mul_add(t85, s2 * t11 * t23);
+    let t109 = t56.neg_mul_add(t103, t108);
+    let t110 = t104 - (t58.mul_add(cos_phi2 * s2, t42 * t46) - t97);
+    let t111 = t39.neg_mul_add(t90, n(p.m2) * (t69 - t70 - t88));
+    let t112 = t22.neg_mul_add(t90, t8.mul_add(t92, t100));
+    // Row y: right-hand side z[y].
+    let t113 = t50.neg_mul_add(t106, t112);
+    let t114 = t107 - (t72.mul_add(cos_phi1 * s1, t34 * t61) - t102);
+    // Eliminates phi1 from row phi2: l[phi2, phi1].
+    let t115 = t82 * t109;
+    // Row phi1: right-hand side z[phi1].
+    let t116 = t77.neg_mul_add(t113, t51.mul_add(t106, t114));
+    let t117 = t68.mul_add(t103, t45.neg_mul_add(t85, t30 * t76));
+    let t118 = t83.mul_add(t115, t117);
+    let t119 = t85.mul_add(t106, n(p.m2).mul_sub(t110, t76 * t90));
+    let t120 = t81.neg_mul_add(t85, t66.neg_mul_add(t76, t13));
+    let t121 = t78.neg_mul_add(t113, t57.neg_mul_add(t106, t111));
+    // Row s2: right-hand side z[s2].
+    let t122 = t86.neg_mul_add(t116, t121);
+    // Eliminates s2 from row phi2: l[phi2, s2].
+    let t123 = t105 * t118;
+    let t124 = t115.neg_mul_add(t116, t103.neg_mul_add(t113, t119));
+    let t125 = t109.neg_mul_add(t115, t95.neg_mul_add(t103, t120));
+    // Row phi2: pivot d[phi2].
+    let t126 = t118.neg_mul_add(t123, t125);
+    // Row phi2: right-hand side z[phi2].
+    let phi2_ddot = t122.mul_add(t123, t124) / t126;
+    // Back substitution: a[s2].
+    let s2_ddot = t123.mul_add(phi2_ddot, t105 * t122);
+    let t127 = t115.neg_mul_add(phi2_ddot, t82 * t116);
+    // Back substitution: a[phi1].
+    let phi1_ddot = t86.neg_mul_add(s2_ddot, t127);
+    let t128 = t85.mul_add(phi2_ddot, t35 * t106);
+    let t129 = t103.neg_mul_add(phi2_ddot, t59 * t113);
+    let t130 = t76.mul_sub(phi2_ddot, n(p.k5) * t90);
+    // Back substitution: a[y].
+    let y_ddot = t77.neg_mul_add(phi1_ddot, t78.neg_mul_add(s2_ddot, t129));
+    let t131 = t51.mul_add(phi1_ddot, t57.neg_mul_add(s2_ddot, t128));
+    // Back substitution: a[x].
+    let x_ddot = t50.neg_mul_add(y_ddot, t131);
+    let t132 = t22.mul_add(y_ddot, t39.mul_add(s2_ddot, t130));
+    // Back substitution: a[theta].
+    let theta_ddot = t7.mul_sub(x_ddot, t8.mul_add(y_ddot, n(p.k4) * t92));
+    // Back substitution: a[s1].
+    let s1_ddot = -t21.mul_add(x_ddot, t132);
+    let zero = N::ZERO;
+    let sound = PIVOTS.hold(t28, n(p.k1))
+        & PIVOTS.hold(t55, n(p.k1))
+        & PIVOTS.hold(t79, t9)
+        & PIVOTS.hold(t98, n(p.m2))
+        & PIVOTS.hold(t126, t13)
+        & s1_ddot.is_finite();
+    if !sound {
+        let pivots = [
+            (0, t28, n(p.k1)),
+            (1, t55, n(p.k1)),
+            (4, t79, t9),
+            (6, t98, n(p.m2)),
+            (7, t126, t13),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [
+        x_ddot.store(),
+        y_ddot.store(),
+        theta_ddot.store(),
+        s1_ddot.store(),
+        phi1_ddot.store(),
+        zero.store(),
+        s2_ddot.store(),
+        phi2_ddot.store(),
+        zero.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1025,15 +1040,14 @@ pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
         phi2: "phi2" "rad";
         theta2: "theta2" "rad";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         m0, m1, m2, J1, J2, omega, cx, cy, bx, by, e_omega, J0_omega2, half_J, half_m, two_y0,
         two_x0, y0_squared, x0_squared, half_m0, cx_yc2_plus_cy_xc2, bx_yc2_plus_by_xc2, k0, m0_y0,
         m0_x0, m1_plus_m2, k1, e_omega2, m0_e_omega2, m0_e_y0_omega2, m0_e_x0_omega2, two_cx,
         two_bx, two_cy, two_by, k2, k3, e_y0_omega2, e_x0_omega2, two_e_y0_omega2, two_e_x0_omega2,
-        four_e_x0_omega2, four_e_y0_omega2, quarter_m0, e_y0_omega, e_x0_omega, k4, minus_m2, k5,
-        k6,
+        four_e_x0_omega2, four_e_y0_omega2, quarter_m0, e_y0_omega, e_x0_omega, minus_m2, k4, k5,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, t, q, v } }

@@ -73,22 +73,19 @@ impl<S: ::lagrangian::emitted::Scalar> SphericalPendulum<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m * self.l;
         let m_l_squared = self.l * t0;
-        let m_l_g = self.g * t0;
         let two_m_l_squared = m_l_squared * S::from_f64(2.0);
         let half_m_l_squared = m_l_squared * S::from_f64(0.5);
         let minus_m_l_squared = -m_l_squared;
-        let minus_m_l_g = -m_l_g;
+        let minus_m_l_g = -(self.g * t0);
         let minus_two_m_l_squared = -two_m_l_squared;
         let minus_l = -self.l;
         let minus_inverse_l = -(S::ONE / self.l);
         let pivots = [(1, m_l_squared, m_l_squared)];
         Prepared {
             m: self.m,
-            l: self.l,
             g: self.g,
             m_l_squared,
             half_m_l_squared,
-            m_l_g,
             two_m_l_squared,
             minus_m_l_squared,
             minus_m_l_g,
@@ -117,16 +114,12 @@ impl<S: ::lagrangian::emitted::Scalar> SphericalPendulum<S> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
     /// Direction in which the pendulum hangs, about the upward vertical.
-    /// A little less than what makes it a conical pendulum, sqrt(g/(l cos(theta))) = 4.4. Unit:
-    /// `rad`.
+    /// A little less than what makes it a conical pendulum, sqrt(g/(l cos(theta))) = 4.4.
+    /// Unit: `rad`.
     pub phi: S,
     /// Angle of the rod from the downward vertical. Unit: `rad`.
     pub theta: S,
 }
-
-/// What can be set while a [`SphericalPendulum`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
 
 /// What can be observed of a [`SphericalPendulum`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,16 +137,12 @@ pub struct Outputs<S = f64> {
 pub struct Prepared<S = f64> {
     /// `m`
     m: S,
-    /// `l`
-    l: S,
     /// `g`
     g: S,
     /// `m*l^2`
     m_l_squared: S,
     /// `0.5*m*l^2`
     half_m_l_squared: S,
-    /// `m*l*g`
-    m_l_g: S,
     /// `2*m*l^2`
     two_m_l_squared: S,
     /// `-m*l^2`
@@ -225,59 +214,44 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
     let theta_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = sin_theta * (cos_theta * phi_dot);
-    let f_phi = t0 * (p.minus_two_m_l_squared * theta_dot);
-    let f_theta = t0 * (phi_dot * p.m_l_squared) - sin_theta * p.m_l_g;
+    let f_phi = p.minus_two_m_l_squared * theta_dot * t0;
+    let f_theta = sin_theta * p.minus_m_l_g + phi_dot * p.m_l_squared * t0;
     [f_phi, f_theta]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 2],
-    v: &[S; 2],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 2], v: &'a [S; 2] })
+        -> Result<[S; 2], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 2],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 2],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let theta = n(q[1]);
-        let phi_dot = n(v[0]);
-        let theta_dot = n(v[1]);
-        let (sin_theta, cos_theta) = theta.sin_cos();
-        let t0 = cos_theta * phi_dot;
-        let t1 = sin_theta * (sin_theta * n(p.m_l_squared));
-        let t2 = t0.neg_mul_add(phi_dot * n(p.l), n(p.g));
-        let phi_ddot = t0 * (N::from_f64(-2.0) * theta_dot) / sin_theta;
-        let theta_ddot = t2 * (sin_theta * n(p.minus_inverse_l));
-        let sound = PIVOTS.hold(t1, t1) & phi_ddot.is_finite();
-        if !sound {
-            let pivots = [(0, t1, t1)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [phi_ddot.store(), theta_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let theta = n(q[1]);
+    let phi_dot = n(v[0]);
+    let theta_dot = n(v[1]);
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = cos_theta * phi_dot;
+    let t1 = sin_theta * (sin_theta * n(p.m_l_squared));
+    let t2 = (phi_dot * n(p.minus_l)).mul_add(t0, n(p.g));
+    let phi_ddot = N::from_f64(-2.0) * theta_dot * t0 / sin_theta;
+    let theta_ddot = sin_theta * n(p.minus_inverse_l) * t2;
+    let sound = PIVOTS.hold(t1, t1) & phi_ddot.is_finite();
+    if !sound {
+        let pivots = [(0, t1, t1)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [phi_ddot.store(), theta_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -351,7 +325,7 @@ pub fn output_tension<S: ::lagrangian::emitted::Scalar>(
     let theta_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = sin_theta * phi_dot;
-    ((t0 * t0 + theta_dot * theta_dot) * p.l + cos_theta * p.g) * p.m
+    (cos_theta * p.g - (theta_dot * theta_dot + t0 * t0) * p.minus_l) * p.m
 }
 
 /// By how much `sin(theta) > 0` holds.
@@ -385,15 +359,15 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         phi: "phi" "rad";
         theta: "theta" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { vertical_momentum, height, tension } [
         vertical_momentum: "vertical_momentum" "J*s";
         height: "height" "m";
         tension: "tension" "N";
     ]
     prepared Prepared {
-        m, l, g, m_l_squared, half_m_l_squared, m_l_g, two_m_l_squared, minus_m_l_squared,
-        minus_m_l_g, minus_two_m_l_squared, minus_l, minus_inverse_l,
+        m, g, m_l_squared, half_m_l_squared, two_m_l_squared, minus_m_l_squared, minus_m_l_g,
+        minus_two_m_l_squared, minus_l, minus_inverse_l,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }

@@ -261,72 +261,60 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_u_1, f_u_2, f_u_3, f_u_4, f_u_5, f_u_6, f_u_7, f_u_8]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 8],
-    u: &Inputs<S>,
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        q: &'a [S; 8],
+        u: &'a Inputs<S>,
+    }) -> Result<[S; 8], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 8], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, u })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 8],
-    /// As `accelerations` takes it.
-    pub u: &'a Inputs<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 8], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, u } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let u_1 = n(q[0]);
-        let u_2 = n(q[1]);
-        let u_3 = n(q[2]);
-        let u_4 = n(q[3]);
-        let u_5 = n(q[4]);
-        let u_6 = n(q[5]);
-        let u_7 = n(q[6]);
-        let u_8 = n(q[7]);
-        let t0 = u_1 - u_2;
-        let t1 = u_2 - u_3;
-        let t2 = u_3 - u_4;
-        let t3 = u_4 - u_5;
-        let t4 = u_5 - u_6;
-        let t5 = u_6 - u_7;
-        let t6 = u_7 - u_8;
-        let u_1_ddot = n(p.minus_k_over_m) * t0;
-        let u_2_ddot = n(p.k_over_m) * (t0 - t1);
-        let u_3_ddot = n(p.k_over_m) * (t1 - t2);
-        let u_4_ddot = n(p.k_over_m) * (t2 - t3);
-        let u_5_ddot = n(p.k_over_m) * (t3 - t4);
-        let u_6_ddot = n(p.k_over_m) * (t4 - t5);
-        let u_7_ddot = n(p.k_over_m) * (t5 - t6);
-        let u_8_ddot = n(p.inverse_m) * t6.mul_add(n(p.k), n(u.pull));
-        let accelerations = [
-            u_1_ddot.store(),
-            u_2_ddot.store(),
-            u_3_ddot.store(),
-            u_4_ddot.store(),
-            u_5_ddot.store(),
-            u_6_ddot.store(),
-            u_7_ddot.store(),
-            u_8_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, u } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let u_1 = n(q[0]);
+    let u_2 = n(q[1]);
+    let u_3 = n(q[2]);
+    let u_4 = n(q[3]);
+    let u_5 = n(q[4]);
+    let u_6 = n(q[5]);
+    let u_7 = n(q[6]);
+    let u_8 = n(q[7]);
+    let t0 = u_1 - u_2;
+    let t1 = u_2 - u_3;
+    let t2 = u_3 - u_4;
+    let t3 = u_4 - u_5;
+    let t4 = u_5 - u_6;
+    let t5 = u_6 - u_7;
+    let t6 = u_7 - u_8;
+    let u_1_ddot = n(p.minus_k_over_m) * t0;
+    let u_2_ddot = n(p.k_over_m) * (t0 - t1);
+    let u_3_ddot = n(p.k_over_m) * (t1 - t2);
+    let u_4_ddot = n(p.k_over_m) * (t2 - t3);
+    let u_5_ddot = n(p.k_over_m) * (t3 - t4);
+    let u_6_ddot = n(p.k_over_m) * (t4 - t5);
+    let u_7_ddot = n(p.k_over_m) * (t5 - t6);
+    let u_8_ddot = n(p.inverse_m) * t6.mul_add(n(p.k), n(u.pull));
+    let accelerations = [
+        u_1_ddot.store(),
+        u_2_ddot.store(),
+        u_3_ddot.store(),
+        u_4_ddot.store(),
+        u_5_ddot.store(),
+        u_6_ddot.store(),
+        u_7_ddot.store(),
+        u_8_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.

@@ -11,7 +11,7 @@
 //! | `applied` | 1 | 0 | 0 | 0 | 0 | 1 |
 //! | `forces` | 1 | 0 | 0 | 0 | 0 | 1 |
 //! | `slips` | 0 | 1 | 0 | 0 | 0 | 1 |
-//! | `friction` | 2 | 1 | 0 | 0 | 0 | 3 |
+//! | `friction` | 2 | 0 | 0 | 0 | 0 | 2 |
 //! | `kinetic_energy` | 2 | 0 | 0 | 0 | 0 | 2 |
 //! | `potential_energy` | 2 | 0 | 0 | 0 | 0 | 2 |
 //!
@@ -59,7 +59,6 @@ impl<S: ::lagrangian::emitted::Scalar> StickSlip<S> {
         let pivots = [(0, self.m, self.m)];
         Prepared {
             m: self.m,
-            k: self.k,
             v_b: self.v_b,
             half_m,
             half_k,
@@ -92,21 +91,11 @@ pub struct Coordinates<S = f64> {
     pub x: S,
 }
 
-/// What can be set while a [`StickSlip`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`StickSlip`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`StickSlip`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
     /// `m`
     m: S,
-    /// `k`
-    k: S,
     /// `v_b`
     v_b: S,
     /// `0.5*m`
@@ -179,52 +168,40 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>() -> [S; 1] {
     [one]
 }
 
-/// What there is without friction, and what a unit of each friction force adds to it:
-/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
-/// coefficients of friction. A machine with contacts has this in place of accelerations and
-/// multipliers.
-///
-/// A pivot that vanishes is an error.
-pub fn friction<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 1],
+::lagrangian::emitted::fast_function! {
+    /// What there is without friction, and what a unit of each friction force adds to it:
+    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
+    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// and multipliers.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn friction<'a, S>(Friction { p: &'a Prepared<S>, q: &'a [S; 1] })
+        -> Result<[S; 8], ::lagrangian::emitted::Singular> = friction_in;
+}
+
+#[inline(always)]
+fn friction_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Friction<'_, S>,
 ) -> Result<[S; 8], ::lagrangian::emitted::Singular> {
-    S::run(Friction { p, q })
-}
-
-/// A call of [`friction`], to be run with whatever instructions the processor has.
-pub struct Friction<'a, S> {
-    /// As `friction` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `friction` takes it.
-    pub q: &'a [S; 1],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 8], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let x = n(q[0]);
-        let r0 = -(n(p.inverse_m) * (x * n(p.k)));
-        let zero = N::ZERO;
-        let friction = [
-            r0.store(),
-            r0.store(),
-            n(p.m_g).store(),
-            n(p.inverse_m).store(),
-            n(p.inverse_m).store(),
-            zero.store(),
-            n(p.mu).store(),
-            n(p.mu0).store(),
-        ];
-        Ok(friction)
+    let Friction { p, q } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let x = n(q[0]);
+    let r0 = x * n(p.minus_k) * n(p.inverse_m);
+    let zero = N::ZERO;
+    let friction = [
+        r0.store(),
+        r0.store(),
+        n(p.m_g).store(),
+        n(p.inverse_m).store(),
+        n(p.inverse_m).store(),
+        zero.store(),
+        n(p.mu).store(),
+        n(p.mu0).store(),
+    ];
+    Ok(friction)
 }
 
 /// Kinetic energy `T`, in J.
@@ -260,9 +237,9 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     coordinates 1 Coordinates { x } [
         x: "x" "m";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
-    prepared Prepared { m, k, v_b, half_m, half_k, minus_k, mu, mu0, m_g, inverse_m }
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
+    prepared Prepared { m, v_b, half_m, half_k, minus_k, mu, mu0, m_g, inverse_m }
     singular singular
     accelerations friction
     system {

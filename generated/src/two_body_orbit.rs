@@ -70,7 +70,6 @@ impl<S: ::lagrangian::emitted::Scalar> TwoBodyOrbit<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m2 + self.m1;
         let k7 = S::ONE / t0;
-        let m1_m2_G = self.G * (self.m2 * self.m1);
         let t1 = self.m1 * k7;
         let k1 = self.m2 * t1;
         let t2 = t1 * k1;
@@ -80,14 +79,13 @@ impl<S: ::lagrangian::emitted::Scalar> TwoBodyOrbit<S> {
         let k0 = k7 / self.G;
         let k3 = t2 * S::from_f64(0.5) + t3 * S::from_f64(0.5);
         let k5 = -k1;
-        let minus_m1_m2_G = -m1_m2_G;
+        let minus_m1_m2_G = -(self.G * (self.m2 * self.m1));
         let k6 = -k4;
         let k8 = -t0;
         let pivots = [(0, k1, k2)];
         Prepared {
             G: self.G,
             k0,
-            m1_m2_G,
             k1,
             k2,
             k3,
@@ -125,10 +123,6 @@ pub struct Coordinates<S = f64> {
     pub phi: S,
 }
 
-/// What can be set while a [`TwoBodyOrbit`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
 /// What can be observed of a [`TwoBodyOrbit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
@@ -147,8 +141,6 @@ pub struct Prepared<S = f64> {
     G: S,
     /// `1/G/(m1 + m2)`
     k0: S,
-    /// `m1*m2*G`
-    m1_m2_G: S,
     /// `m1*m2/(m1 + m2)`
     k1: S,
     /// `m1^2*m2/(m1 + m2)^2 + m1*m2^2/(m1 + m2)^2`
@@ -221,59 +213,44 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
     let r = q[0];
     let r_dot = v[0];
     let phi_dot = v[1];
-    let t0 = phi_dot * r;
-    let f_r = t0 * (phi_dot * p.k1) - p.m1_m2_G / (r * r);
+    let t0 = r * phi_dot;
+    let f_r = p.minus_m1_m2_G / (r * r) + t0 * (phi_dot * p.k1);
     let f_phi = t0 * (p.k6 * r_dot);
     [f_r, f_phi]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 2],
-    v: &[S; 2],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 2], v: &'a [S; 2] })
+        -> Result<[S; 2], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 2],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 2],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let r = n(q[0]);
-        let r_dot = n(v[0]);
-        let phi_dot = n(v[1]);
-        let t0 = N::ONE / r;
-        let t1 = r * (r * n(p.k1));
-        let t2 = t0.mul_sub(t0 * n(p.G), r * n(p.k7) * (phi_dot * phi_dot));
-        let r_ddot = n(p.k8) * t2;
-        let phi_ddot = t0 * (phi_dot * (N::from_f64(-2.0) * r_dot));
-        let sound = PIVOTS.hold(t1, t1) & r_ddot.is_finite();
-        if !sound {
-            let pivots = [(1, t1, t1)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [r_ddot.store(), phi_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let r = n(q[0]);
+    let r_dot = n(v[0]);
+    let phi_dot = n(v[1]);
+    let t0 = N::ONE / r;
+    let t1 = r * (r * n(p.k1));
+    let t2 = t0.mul_sub(t0 * n(p.G), r * n(p.k7) * (phi_dot * phi_dot));
+    let r_ddot = n(p.k8) * t2;
+    let phi_ddot = t0 * (phi_dot * (N::from_f64(-2.0) * r_dot));
+    let sound = PIVOTS.hold(t1, t1) & r_ddot.is_finite();
+    if !sound {
+        let pivots = [(1, t1, t1)];
+        PIVOTS.check(pivots)?;
+    }
+    let accelerations = [r_ddot.store(), phi_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -390,13 +367,13 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         r: "r" "m";
         phi: "phi" "rad";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { momentum, eccentricity_x, eccentricity_y } [
         momentum: "momentum" "J*s";
         eccentricity_x: "eccentricity_x" "1";
         eccentricity_y: "eccentricity_y" "1";
     ]
-    prepared Prepared { G, k0, m1_m2_G, k1, k2, k3, k4, k5, minus_m1_m2_G, k6, k7, k8 }
+    prepared Prepared { G, k0, k1, k2, k3, k4, k5, minus_m1_m2_G, k6, k7, k8 }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {

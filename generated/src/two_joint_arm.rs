@@ -268,70 +268,71 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(
     [f_q1, f_q2]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 2],
-    v: &[S; 2],
-    u: &Inputs<S>,
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    ///
+    /// Row after row, an unknown is eliminated from the rows that follow. Comments name these
+    /// numbers where they are computed, up to signs and factors that depend on parameters alone;
+    /// sums are over the rows `k` before, in the last line over those after:
+    ///
+    /// ```text
+    /// l[i, j] = (M[i, j] - sum l[i, k]*l[j, k]*d[k])/d[j]
+    /// d[i] = M[i, i] - sum l[i, k]^2*d[k]
+    /// z[i] = f[i] - sum l[i, k]*z[k]
+    /// a[i] = z[i]/d[i] - sum l[k, i]*a[k]
+    /// ```
+    pub fn accelerations<'a, S>(Accelerations {
+        p: &'a Prepared<S>,
+        q: &'a [S; 2],
+        v: &'a [S; 2],
+        u: &'a Inputs<S>,
+    }) -> Result<[S; 2], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v, u })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 2],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 2],
-    /// As `accelerations` takes it.
-    pub u: &'a Inputs<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v, u } = self;
-        let n = N::load;
-        let q1 = n(q[0]);
-        let q2 = n(q[1]);
-        let q1_dot = n(v[0]);
-        let q2_dot = n(v[1]);
-        let t0 = q2 + q1;
-        let angles = [q2, q1, t0];
-        let circular = N::sin_cos_all(angles);
-        let (sin_q2, cos_q2) = circular[0];
-        let (_, cos_q1) = circular[1];
-        let (_, cos_t0) = circular[2];
-        let t1 = n(p.l1_c2_m2).mul_add(q2_dot, n(p.two_l1_c2_m2) * q1_dot);
-        let t2 = cos_q2.mul_add(n(p.two_l1_c2_m2), n(p.k1));
-        let t3 = cos_q2.mul_add(n(p.l1_c2_m2), n(p.J2_plus_c2_squared_m2));
-        let t4 = N::ONE / t2;
-        let t5 = n(p.c2_m2_g) * cos_t0;
-        let t6 = q1_dot * (n(p.l1_c2_m2) * q1_dot);
-        let t7 = n(u.tau1) - n(p.c1_m1_g_plus_l1_m2_g).mul_add(cos_q1, t5);
-        let t8 = sin_q2.mul_add(q2_dot * t1, t7);
-        let t9 = t4 * t3;
-        let t10 = t3.neg_mul_add(t9, n(p.J2_plus_c2_squared_m2));
-        let t11 = t9.neg_mul_add(t8, sin_q2.neg_mul_add(t6, n(u.tau2) - t5));
-        let q2_ddot = t11 / t10;
-        let q1_ddot = t9.neg_mul_add(q2_ddot, t4 * t8);
-        let sound = PIVOTS.hold(t2, t2)
-            & PIVOTS.hold(t10, n(p.J2_plus_c2_squared_m2))
-            & q1_ddot.is_finite();
-        if !sound {
-            let pivots = [(0, t2, t2), (1, t10, n(p.J2_plus_c2_squared_m2))];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [q1_ddot.store(), q2_ddot.store()];
-        Ok(accelerations)
+    let Accelerations { p, q, v, u } = call;
+    let n = N::load;
+    let q1 = n(q[0]);
+    let q2 = n(q[1]);
+    let q1_dot = n(v[0]);
+    let q2_dot = n(v[1]);
+    let t0 = q2 + q1;
+    let angles = [q2, q1, t0];
+    let circular = N::sin_cos_all(angles);
+    let (sin_q2, cos_q2) = circular[0];
+    let (_, cos_q1) = circular[1];
+    let (_, cos_t0) = circular[2];
+    let t1 = n(p.l1_c2_m2).mul_add(q2_dot, n(p.two_l1_c2_m2) * q1_dot);
+    // Row q1: pivot d[q1].
+    let t2 = cos_q2.mul_add(n(p.two_l1_c2_m2), n(p.k1));
+    let t3 = cos_q2.mul_add(n(p.l1_c2_m2), n(p.J2_plus_c2_squared_m2));
+    let t4 = N::ONE / t2;
+    let t5 = n(p.c2_m2_g) * cos_t0;
+    let t6 = q1_dot * (n(p.l1_c2_m2) * q1_dot);
+    let t7 = n(u.tau1) - n(p.c1_m1_g_plus_l1_m2_g).mul_add(cos_q1, t5);
+    let t8 = sin_q2.mul_add(q2_dot * t1, t7);
+    // Eliminates q1 from row q2: l[q2, q1].
+    let t9 = t4 * t3;
+    // Row q2: pivot d[q2].
+    let t10 = t3.neg_mul_add(t9, n(p.J2_plus_c2_squared_m2));
+    // Row q2: right-hand side z[q2].
+    let t11 = t9.neg_mul_add(t8, sin_q2.neg_mul_add(t6, n(u.tau2) - t5));
+    let q2_ddot = t11 / t10;
+    // Back substitution: a[q1].
+    let q1_ddot = t9.neg_mul_add(q2_ddot, t4 * t8);
+    let sound =
+        PIVOTS.hold(t2, t2) & PIVOTS.hold(t10, n(p.J2_plus_c2_squared_m2)) & q1_ddot.is_finite();
+    if !sound {
+        let pivots = [(0, t2, t2), (1, t10, n(p.J2_plus_c2_squared_m2))];
+        PIVOTS.check(pivots)?;
     }
+    let accelerations = [q1_ddot.store(), q2_ddot.store()];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.

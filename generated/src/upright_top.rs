@@ -68,8 +68,8 @@ pub struct UprightTop<S = f64> {
     pub C: S,
     /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
-    /// The spin with which it is let go, and how fast it is pushed over. Unit: `rad/s`. Default:
-    /// 60.
+    /// The spin with which it is let go, and how fast it is pushed over. Unit: `rad/s`.
+    /// Default: 60.
     pub spin: S,
     /// `push`. Unit: `rad/s`. Default: 1.
     pub push: S,
@@ -142,10 +142,6 @@ pub struct Coordinates<S = f64> {
     /// Unit: `1`. Members: `e[0]` to `e[3]`.
     pub e: [S; 4],
 }
-
-/// What can be set while a [`UprightTop`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
 
 /// What can be observed of a [`UprightTop`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -406,97 +402,82 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4], v: 
     [f_e_0, f_e_1, f_e_2, f_e_3]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine, factored.
-///
-/// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
-    q: &[S; 4],
-    v: &[S; 4],
+::lagrangian::emitted::fast_function! {
+    /// Accelerations `a`, the solution of `M a = f` eliminated along the machine, factored.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn accelerations<'a, S>(Accelerations { p: &'a Prepared<S>, q: &'a [S; 4], v: &'a [S; 4] })
+        -> Result<[S; 4], ::lagrangian::emitted::Singular> = accelerations_in;
+}
+
+#[inline(always)]
+fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Accelerations<'_, S>,
 ) -> Result<[S; 4], ::lagrangian::emitted::Singular> {
-    S::run(Accelerations { p, q, v })
-}
-
-/// A call of [`accelerations`], to be run with whatever instructions the processor has.
-pub struct Accelerations<'a, S> {
-    /// As `accelerations` takes it.
-    pub p: &'a Prepared<S>,
-    /// As `accelerations` takes it.
-    pub q: &'a [S; 4],
-    /// As `accelerations` takes it.
-    pub v: &'a [S; 4],
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 4], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p, q, v } = self;
-        let n = N::load;
-        let e_0 = n(q[0]);
-        let e_1 = n(q[1]);
-        let e_2 = n(q[2]);
-        let e_3 = n(q[3]);
-        let e_0_dot = n(v[0]);
-        let e_1_dot = n(v[1]);
-        let e_2_dot = n(v[2]);
-        let e_3_dot = n(v[3]);
-        let t0 = e_1.mul_add(e_1, e_0 * e_0) + e_3.mul_add(e_3, e_2 * e_2);
-        let t1 = e_3_dot.mul_add(e_3_dot, e_2_dot * e_2_dot);
-        let t2 = e_1_dot.mul_add(e_1_dot, e_0_dot * e_0_dot) + t1;
-        let t3 = e_1.mul_add(e_2_dot, e_3 * e_0_dot);
-        let t4 = e_2.mul_add(e_1_dot, e_0 * e_3_dot) - t3;
-        let t5 = e_3.mul_add(e_3_dot, e_2 * e_2_dot);
-        let t6 = e_1.mul_add(e_1_dot, e_0 * e_0_dot) + t5;
-        let t7 = N::ONE / t0;
-        let t8 = n(p.k2) * t4;
-        let t9 = n(p.k1) * t6;
-        let t10 = e_3.mul_add(e_1_dot, e_2 * e_0_dot);
-        let t11 = e_1.mul_add(e_3_dot, e_0 * e_2_dot) - t10;
-        let t12 = e_2.mul_add(e_3_dot, e_1 * e_0_dot);
-        let t13 = e_3.mul_add(e_2_dot, e_0 * e_1_dot) - t12;
-        let t14 = t7 * t6;
-        let t15 = t7 * n(p.k1);
-        let t16 = t7 * n(p.four_C);
-        let t17 = n(p.two_m_l_g) * e_3.mul_sub(e_1, e_2 * e_0);
-        let t18 = n(p.two_m_l_g) * e_1.mul_add(e_0, e_3 * e_2);
-        let t19 = t14 * N::from_f64(2.0);
-        let t20 = N::from_f64(2.0) * t2;
-        let t21 = t7 * n(p.k6);
-        let t22 = t7 * t7.mul_sub(t8.mul_add(t13, t9 * t11), t17);
-        let t23 = t7 * t7.mul_add(t13.mul_sub(t9, t8 * t11), t18);
-        let t24 = t19 * (t7 * t4);
-        let t25 = t14.neg_mul_add(t6 * N::from_f64(4.0), t20);
-        let t26 = (N::ONE - t0) * t7.mul_add(t2, N::ONE) / (t0 + N::ONE);
-        let t27 = t25 * (t7 * N::from_ratio(2, 3));
-        let t28 = N::from_ratio(4, 3).mul_sub(t26 - t19, t27);
-        let t29 = N::from_f64(0.75) * t28;
-        let t30 = n(p.k8).mul_add(e_2.mul_add(t22, e_1 * t23), e_3 * t24);
-        let t31 = n(p.k8).mul_add(e_0.mul_sub(t23, e_3 * t22), e_2 * t24);
-        let t32 = n(p.k8).mul_sub(e_3.mul_add(t23, e_0 * t22), e_1 * t24);
-        let t33 = n(p.k8).mul_add(e_1.mul_sub(t22, e_2 * t23), e_0 * t24);
-        let e_0_ddot = e_0.mul_sub(t29, t30);
-        let e_1_ddot = e_1.mul_add(t29, t31);
-        let e_2_ddot = e_2.mul_add(t29, t32);
-        let e_3_ddot = e_3.mul_add(t29, t33);
-        let sound = PIVOTS.hold(t15, t15)
-            & PIVOTS.hold(t15, t15)
-            & PIVOTS.hold(t16, t16)
-            & PIVOTS.hold(t21, t21)
-            & e_3_ddot.is_finite();
-        if !sound {
-            let pivots = [(0, t15, t15), (1, t15, t15), (2, t16, t16), (3, t21, t21)];
-            PIVOTS.check(pivots)?;
-        }
-        let accelerations = [
-            e_0_ddot.store(),
-            e_1_ddot.store(),
-            e_2_ddot.store(),
-            e_3_ddot.store(),
-        ];
-        Ok(accelerations)
+    let Accelerations { p, q, v } = call;
+    let n = N::load;
+    let e_0 = n(q[0]);
+    let e_1 = n(q[1]);
+    let e_2 = n(q[2]);
+    let e_3 = n(q[3]);
+    let e_0_dot = n(v[0]);
+    let e_1_dot = n(v[1]);
+    let e_2_dot = n(v[2]);
+    let e_3_dot = n(v[3]);
+    let t0 = e_1.mul_add(e_1, e_0 * e_0) + e_3.mul_add(e_3, e_2 * e_2);
+    let t1 = e_3_dot.mul_add(e_3_dot, e_2_dot * e_2_dot);
+    let t2 = e_1_dot.mul_add(e_1_dot, e_0_dot * e_0_dot) + t1;
+    let t3 = e_1.mul_add(e_2_dot, e_3 * e_0_dot);
+    let t4 = e_2.mul_add(e_1_dot, e_0 * e_3_dot) - t3;
+    let t5 = e_3.mul_add(e_3_dot, e_2 * e_2_dot);
+    let t6 = e_1.mul_add(e_1_dot, e_0 * e_0_dot) + t5;
+    let t7 = N::ONE / t0;
+    let t8 = n(p.k2) * t4;
+    let t9 = n(p.k1) * t6;
+    let t10 = e_3.mul_add(e_1_dot, e_2 * e_0_dot);
+    let t11 = e_1.mul_add(e_3_dot, e_0 * e_2_dot) - t10;
+    let t12 = e_2.mul_add(e_3_dot, e_1 * e_0_dot);
+    let t13 = e_3.mul_add(e_2_dot, e_0 * e_1_dot) - t12;
+    let t14 = t7 * t6;
+    let t15 = t7 * n(p.k1);
+    let t16 = t7 * n(p.four_C);
+    let t17 = n(p.two_m_l_g) * e_3.mul_sub(e_1, e_2 * e_0);
+    let t18 = n(p.two_m_l_g) * e_1.mul_add(e_0, e_3 * e_2);
+    let t19 = t14 * N::from_f64(2.0);
+    let t20 = N::from_f64(2.0) * t2;
+    let t21 = t7 * n(p.k6);
+    let t22 = t7 * t7.mul_sub(t8.mul_add(t13, t9 * t11), t17);
+    let t23 = t7 * t7.mul_add(t13.mul_sub(t9, t8 * t11), t18);
+    let t24 = t19 * (t7 * t4);
+    let t25 = t14.neg_mul_add(t6 * N::from_f64(4.0), t20);
+    let t26 = (N::ONE - t0) * t7.mul_add(t2, N::ONE) / (t0 + N::ONE);
+    let t27 = t25 * (t7 * N::from_ratio(2, 3));
+    let t28 = N::from_ratio(4, 3).mul_sub(t26 - t19, t27);
+    let t29 = N::from_f64(0.75) * t28;
+    let t30 = n(p.k8).mul_add(e_2.mul_add(t22, e_1 * t23), e_3 * t24);
+    let t31 = n(p.k8).mul_add(e_0.mul_sub(t23, e_3 * t22), e_2 * t24);
+    let t32 = n(p.k8).mul_sub(e_3.mul_add(t23, e_0 * t22), e_1 * t24);
+    let t33 = n(p.k8).mul_add(e_1.mul_sub(t22, e_2 * t23), e_0 * t24);
+    let e_0_ddot = e_0.mul_sub(t29, t30);
+    let e_1_ddot = e_1.mul_add(t29, t31);
+    let e_2_ddot = e_2.mul_add(t29, t32);
+    let e_3_ddot = e_3.mul_add(t29, t33);
+    let sound = PIVOTS.hold(t15, t15)
+        & PIVOTS.hold(t15, t15)
+        & PIVOTS.hold(t16, t16)
+        & PIVOTS.hold(t21, t21)
+        & e_3_ddot.is_finite();
+    if !sound {
+        let pivots = [(0, t15, t15), (1, t15, t15), (2, t16, t16), (3, t21, t21)];
+        PIVOTS.check(pivots)?;
     }
+    let accelerations = [
+        e_0_ddot.store(),
+        e_1_ddot.store(),
+        e_2_ddot.store(),
+        e_3_ddot.store(),
+    ];
+    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -683,7 +664,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
         e_2: "e[2]" "1";
         e_3: "e[3]" "1";
     ]
-    inputs Inputs {} []
+    inputs Inputs {} [], defined here
     outputs Outputs { vertical_momentum, axial_momentum, upright } [
         vertical_momentum: "vertical_momentum" "J*s";
         axial_momentum: "axial_momentum" "J*s";

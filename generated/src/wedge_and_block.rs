@@ -123,14 +123,6 @@ pub struct Coordinates<S = f64> {
     pub s: S,
 }
 
-/// What can be set while a [`WedgeAndBlock`] runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {}
-
-/// What can be observed of a [`WedgeAndBlock`].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outputs {}
-
 /// The parameters of a [`WedgeAndBlock`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
@@ -237,60 +229,51 @@ pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>() -> [S; 4] {
     [one, zero, zero, one]
 }
 
-/// What there is without friction, and what a unit of each friction force adds to it:
-/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
-/// coefficients of friction. A machine with contacts has this in place of accelerations and
-/// multipliers.
-///
-/// A pivot that vanishes is an error.
-pub fn friction<S: ::lagrangian::emitted::Number>(
-    p: &Prepared<S>,
+::lagrangian::emitted::fast_function! {
+    /// What there is without friction, and what a unit of each friction force adds to it:
+    /// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these
+    /// the coefficients of friction. A machine with contacts has this in place of accelerations
+    /// and multipliers.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn friction<'a, S>(Friction { p: &'a Prepared<S> })
+        -> Result<[S; 22], ::lagrangian::emitted::Singular> = friction_in;
+}
+
+#[inline(always)]
+fn friction_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: Friction<'_, S>,
 ) -> Result<[S; 22], ::lagrangian::emitted::Singular> {
-    S::run(Friction { p })
-}
-
-/// A call of [`friction`], to be run with whatever instructions the processor has.
-pub struct Friction<'a, S> {
-    /// As `friction` takes it.
-    pub p: &'a Prepared<S>,
-}
-
-impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 22], ::lagrangian::emitted::Singular>;
-
-    #[inline(always)]
-    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
-        let Self { p } = self;
-        let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
-        let friction = [
-            n(p.k12).store(),
-            n(p.k5).store(),
-            n(p.k12).store(),
-            n(p.k5).store(),
-            n(p.k7).store(),
-            n(p.k8).store(),
-            n(p.k9).store(),
-            n(p.k13).store(),
-            n(p.k9).store(),
-            n(p.k13).store(),
-            n(p.k10).store(),
-            n(p.k11).store(),
-            n(p.k13).store(),
-            n(p.k6).store(),
-            n(p.k13).store(),
-            n(p.k6).store(),
-            n(p.k14).store(),
-            n(p.k15).store(),
-            n(p.mu2).store(),
-            n(p.mu1).store(),
-            n(p.mu2).store(),
-            n(p.mu1).store(),
-        ];
-        Ok(friction)
+    let Friction { p } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
     }
+    let friction = [
+        n(p.k12).store(),
+        n(p.k5).store(),
+        n(p.k12).store(),
+        n(p.k5).store(),
+        n(p.k7).store(),
+        n(p.k8).store(),
+        n(p.k9).store(),
+        n(p.k13).store(),
+        n(p.k9).store(),
+        n(p.k13).store(),
+        n(p.k10).store(),
+        n(p.k11).store(),
+        n(p.k13).store(),
+        n(p.k6).store(),
+        n(p.k13).store(),
+        n(p.k6).store(),
+        n(p.k14).store(),
+        n(p.k15).store(),
+        n(p.mu2).store(),
+        n(p.mu1).store(),
+        n(p.mu2).store(),
+        n(p.mu1).store(),
+    ];
+    Ok(friction)
 }
 
 /// Kinetic energy `T`, in J.
@@ -330,8 +313,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         x: "x" "m";
         s: "s" "m";
     ]
-    inputs Inputs {} []
-    outputs Outputs {} []
+    inputs Inputs {} [], defined here
+    outputs Outputs {} [], defined here
     prepared Prepared {
         m, k0, k1, k2, half_M, half_m, k3, M_plus_m, k4, mu2, mu1, k5, k6, k7, k8, k9, k10, k11,
         k12, k13, k14, k15,

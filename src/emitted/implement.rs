@@ -9,7 +9,7 @@
 //! ]
 //! coordinates 1 Coordinates { theta } […]         how many; fields and rows without defaults
 //! inputs Inputs { u } […] over S                  `over S` where there are any
-//! outputs Outputs { force } […]
+//! outputs Outputs { force } […]                   without any, `Outputs {} [], defined here` if there is no struct yet
 //! prepared Prepared { k0, k1 }                    its fields
 //! series series                                   the field for Taylor series, where there is one
 //! singular singular                               the field that says whether the parameters are singular, where they can be
@@ -41,8 +41,8 @@ macro_rules! implement_machine {
         machine $Machine:ident $name:literal over $S:ident, $R:ident;
         parameters $parameters:tt $parameter_rows:tt
         coordinates $n:literal $Coordinates:ident $coordinates:tt $coordinate_rows:tt
-        inputs $Inputs:ident $inputs:tt $input_rows:tt $(over $Over:ident)?
-        outputs $Outputs:ident $outputs:tt $output_rows:tt
+        inputs $Inputs:ident $inputs:tt $input_rows:tt $(over $Over:ident)? $(, defined $inputs_here:ident)?
+        outputs $Outputs:ident $outputs:tt $output_rows:tt $(, defined $outputs_here:ident)?
         prepared $Prepared:ident { $($field:ident),* $(,)? }
         $(series $series:ident)?
         $(singular $singular:ident)?
@@ -58,6 +58,12 @@ macro_rules! implement_machine {
         $crate::implement_part! { map $Machine $parameters $parameter_rows $S $R }
         $crate::implement_part! { rows $n $Coordinates $coordinates $coordinate_rows $S }
         $crate::implement_part! { map $Coordinates $coordinates $coordinate_rows $S $R }
+        $($crate::implement_part! {
+            $inputs_here $Inputs "The inputs of a machine that has none."
+        })?
+        $($crate::implement_part! {
+            $outputs_here $Outputs "The outputs of a machine that has none."
+        })?
         $(
             $crate::implement_part! { default $Inputs $inputs $input_rows }
             $crate::implement_part! { map $Inputs $inputs $input_rows $Over $R }
@@ -119,6 +125,19 @@ macro_rules! implement_machine {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_part {
+    // A struct of no numbers.
+    (here $Type:ident $docs:literal) => {
+        #[doc = $docs]
+        #[derive(
+            ::core::clone::Clone,
+            ::core::marker::Copy,
+            ::core::fmt::Debug,
+            ::core::default::Default,
+            ::core::cmp::PartialEq,
+        )]
+        pub struct $Type {}
+    };
+
     // `Default`, if every number has a default.
     (
         default $Type:ident { $($fields:tt)* }

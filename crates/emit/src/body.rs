@@ -4,14 +4,16 @@
 //! expression that uses it, as long as the expression stays readable. The order of operations inside an expression is
 //! that of the program, so rounding is the same as if every value were a variable.
 
+use std::collections::BTreeMap;
+
 use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::layout::{Writer, width};
 use super::names::Scope;
 use lagrangian_program as program;
 use lagrangian_program::{
-    Contracted, Contraction, Contractions, Function, Guard, Op, Pack, PackedOperation, Source,
-    Statement, Value,
+    Contracted, Contraction, Contractions, EliminationStep, Function, Guard, Op, Pack,
+    PackedOperation, Source, Statement, Value,
 };
 
 mod repeats;
@@ -79,6 +81,8 @@ pub trait Language {
     }
     /// Writes sines and cosines of several angles at once, with names for those that are used.
     fn sin_cos_all(&self, _writer: &mut Writer, _angles: &[Angle]) {}
+    /// Writes a comment: the next statement computes these values of an elimination.
+    fn steps(&self, writer: &mut Writer, steps: &[EliminationStep]);
     /// Two operations of the same kind in one statement, with their operands slot by slot; `None` where the
     /// language writes them separately.
     fn pack(&self, _what: PackedOperation, _operands: &[[Expression; 2]]) -> Option<String> {
@@ -281,6 +285,8 @@ struct Body<'a, L> {
     binds_results: bool,
     /// Which products are fused into the sums that use them.
     contractions: Contractions,
+    /// The steps of an elimination that no comment has named yet, by value.
+    steps: BTreeMap<Value, Vec<EliminationStep>>,
 }
 
 impl<'a, L: Language> Body<'a, L> {
@@ -301,6 +307,10 @@ impl<'a, L: Language> Body<'a, L> {
         for (value, name) in function.results.iter().zip(wanted) {
             names[value.index()].get_or_insert(name.as_str());
         }
+        let mut steps: BTreeMap<Value, Vec<EliminationStep>> = BTreeMap::new();
+        for (value, step) in &function.steps {
+            steps.entry(*value).or_default().push(*step);
+        }
         Body {
             writer,
             language,
@@ -314,6 +324,7 @@ impl<'a, L: Language> Body<'a, L> {
             names: 0,
             binds_results: !wanted.is_empty(),
             contractions,
+            steps,
         }
     }
 
@@ -418,6 +429,11 @@ impl<'a, L: Language> Body<'a, L> {
                 .into_iter()
                 .for_each(|value| self.operation(value));
         };
+        let mut steps = Vec::new();
+        for value in pack.values {
+            self.take_steps(value, &mut steps);
+        }
+        self.comment(&steps);
         let names = pack.values.map(|value| {
             let name = self.name(value);
             self.language.identifier(&mut self.scope, &name)
@@ -565,10 +581,39 @@ impl<'a, L: Language> Body<'a, L> {
     }
 
     fn bind(&mut self, value: Value, name: &str, text: &str) -> String {
+        let mut steps = Vec::new();
+        self.take_steps(value, &mut steps);
+        self.comment(&steps);
         let name = self.language.identifier(&mut self.scope, name);
         self.language.bind(self.writer, &name, text);
         self.texts[value.index()] = Some(Expression::leaf(name.clone()));
         name
+    }
+
+    /// Takes the steps of an elimination that the expression of a value contains.
+    fn take_steps(&mut self, value: Value, steps: &mut Vec<EliminationStep>) {
+        if self.steps.is_empty() {
+            return;
+        }
+        let operands = self.function.op(value).operands();
+        for operand in operands {
+            // Another operand is a variable, which has its own statement.
+            let is_inside = match &self.texts[operand.index()] {
+                Some(text) => !text.is_leaf,
+                None => self.contractions.is_part(operand),
+            };
+            if is_inside {
+                self.take_steps(operand, steps);
+            }
+        }
+        steps.extend(self.steps.remove(&value).into_iter().flatten());
+    }
+
+    /// Writes a comment that names steps of an elimination.
+    fn comment(&mut self, steps: &[EliminationStep]) {
+        if !steps.is_empty() {
+            self.language.steps(self.writer, steps);
+        }
     }
 
     fn results(&mut self) -> Vec<Expression> {

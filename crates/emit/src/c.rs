@@ -13,7 +13,9 @@ use super::formula_names;
 use super::layout::{Writer, width};
 use super::names::{Field, Scope, ascii, fields, flat, snake_case};
 use lagrangian_mechanics::Proved;
-use lagrangian_program::{Function, Guard, Op, Program, Reads, Role, Shape, Slot, Source};
+use lagrangian_program::{
+    EliminationStep, Function, Guard, Op, Program, Reads, Role, Shape, Slot, Source,
+};
 use lagrangian_units::{rate_unit, state_of};
 
 /// Keywords of C, the functions of its library that the code calls, and macros.
@@ -619,6 +621,11 @@ impl<'a> Emitter<'a> {
 }
 
 impl Language for Emitter<'_> {
+    fn steps(&self, writer: &mut Writer, steps: &[EliminationStep]) {
+        let text = self.program.text_of_steps(steps);
+        writer.line(format!("/* {} */", comment_text(&text)));
+    }
+
     fn constant(&self, value: &Rational) -> Expression {
         number(value.to_f64())
     }

@@ -182,6 +182,11 @@ impl<'a> Cutter<'a> {
             .collect();
         kept.sort();
         let results: Vec<Value> = kept.iter().map(|value| values[value]).collect();
+        let own = function.steps.iter();
+        let own = own.filter(|(value, _)| (start..end).contains(&value.index()));
+        let steps = own.filter_map(|(value, step)| Some((*values.get(value)?, *step)));
+        let mut steps: Vec<_> = steps.collect();
+        steps.sort_unstable();
         let keeps: Vec<usize> = kept.iter().map(|&value| self.store(value)).collect();
         // Slots of values that are no longer needed become free, but only for the pieces after this one.
         let last_use = &self.last_use;
@@ -203,6 +208,7 @@ impl<'a> Cutter<'a> {
                 shape,
                 results,
                 guards,
+                steps,
             },
             result_slots: keeps,
         }
@@ -316,6 +322,7 @@ fn long_function(terms: usize) -> Function {
         shape: Shape::Vector(2),
         results,
         guards: Vec::new(),
+        steps: Vec::new(),
     }
 }
 

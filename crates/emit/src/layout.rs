@@ -258,7 +258,7 @@ impl Writer {
                 self.formula(mark, line);
                 continue;
             }
-            for piece in wrap(&words(line), columns, 0) {
+            for piece in without_widow(wrap(&words(line), columns, 0)) {
                 self.line(format!("{mark} {piece}").trim_end());
             }
         }
@@ -309,6 +309,19 @@ fn terms(line: &str) -> Vec<String> {
         depth += word.chars().map(change).sum::<i32>();
     }
     terms
+}
+
+/// These lines of prose, of which the last is not a single word: the word before it comes down to it.
+fn without_widow(mut lines: Vec<String>) -> Vec<String> {
+    if let [.., before, last] = lines.as_mut_slice()
+        && !last.contains(' ')
+        && let Some((rest, word)) = before.rsplit_once(' ')
+        && !rest.trim().is_empty()
+    {
+        *last = format!("{word} {last}");
+        *before = rest.to_owned();
+    }
+    lines
 }
 
 /// Fills lines of at most `columns` columns; all but the first are indented by `hang`. A part that is too long for a line is
@@ -383,6 +396,20 @@ mod tests {
             "fn f() {\n    let x = P { a: 12345, b: 12345 };\n}\n"
         );
         assert_eq!(written(&fields("123456")).lines().count(), 6);
+    }
+
+    #[test]
+    fn no_word_is_left_alone_on_a_line() {
+        let mut writer = Writer::default();
+        writer.comment(
+            "///",
+            &format!("{} end", "w".repeat(46) + " " + &"x".repeat(46)),
+        );
+        let lines = [
+            format!("/// {}", "w".repeat(46)),
+            format!("/// {} end", "x".repeat(46)),
+        ];
+        assert_eq!(writer.finish(), lines.join("\n") + "\n");
     }
 
     #[test]

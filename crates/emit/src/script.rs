@@ -13,7 +13,7 @@ use std::fmt;
 
 use lagrangian_mechanics::Proved;
 use lagrangian_program::quantity::{Argument, Extent};
-use lagrangian_program::{Function, Guard, Program, Role, Shape, Slot, Source};
+use lagrangian_program::{EliminationStep, Function, Guard, Program, Role, Shape, Slot, Source};
 use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::body::{self, Expression, Language, Precedence, Rounded};
@@ -273,6 +273,11 @@ impl ScriptEmitter<'_> {
 }
 
 impl Language for ScriptEmitter<'_> {
+    fn steps(&self, writer: &mut Writer, steps: &[EliminationStep]) {
+        let text = self.program.text_of_steps(steps);
+        writer.line(format!("{} {}", self.syntax.comment(), plain(&text)));
+    }
+
     fn constant(&self, value: &Rational) -> Expression {
         self.syntax.constant(value)
     }

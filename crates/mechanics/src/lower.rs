@@ -24,6 +24,7 @@ use lagrangian_program::quantity::Sizes;
 use lagrangian_program::rounding::{self, States};
 use lagrangian_program::schedule::{Code, LARGEST_FACTORED, prepared, schedule};
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution, System};
+use lagrangian_program::steps::Step;
 use lagrangian_program::{
     Constraint, Default, Fact, Function, Guard, Program, Role, Shape, Slot, Source, Unilateral,
 };
@@ -181,6 +182,7 @@ fn build<'d>(
         results: lowering.values(&starts),
         pivots: Vec::new(),
         rows: 0,
+        steps: Vec::new(),
     };
     let start = start.only(&mut lowering.graph).function;
 
@@ -197,7 +199,7 @@ fn build<'d>(
         prepare(&mut lowering.graph, drafts, model, constraints.len());
     let quaternions = model.quaternions.iter();
     let kept = model.kept.iter();
-    let program = Program {
+    let mut program = Program {
         name: model.name.clone(),
         docs: model.docs.clone(),
         parameters: slots.parameters,
@@ -220,6 +222,7 @@ fn build<'d>(
         functions,
         choices,
     };
+    program.settle_signs();
     // If there are contacts, the caller names them and verifies the program afterwards.
     if source.sliding.is_empty() && model.contacts.is_empty() {
         debug_assert_eq!(program.verify(), Ok(()));
@@ -687,6 +690,8 @@ struct PlannedFunction {
     pivots: Vec<Pivot>,
     /// The number of rows of the system that the pivots belong to.
     rows: usize,
+    /// The steps of the elimination that finds the results.
+    steps: Vec<(Scaled, Step)>,
 }
 
 /// A candidate form of a function, before one of them is chosen.
@@ -701,7 +706,9 @@ struct Draft {
 
 impl Draft {
     fn is_same(&self, other: &Draft) -> bool {
-        self.function == other.function && self.prepared == other.prepared
+        let [a, b] = [&self.function, &other.function];
+        let is_same = a.code == b.code && a.results == b.results && a.guards == b.guards;
+        is_same && self.prepared == other.prepared
     }
 }
 
@@ -728,7 +735,7 @@ impl PlannedFunction {
     fn net(&self, graph: &mut Graph, cut: bool) -> Net {
         let guarded = self.pivots.iter().flat_map(|p| [p.pivot, p.scale]);
         let values: Vec<Scaled> = self.results.iter().copied().chain(guarded).collect();
-        Net::of_values(graph, &values, cut)
+        Net::of_elimination(graph, &values, &self.steps, cut)
     }
 
     /// The function of a net. If the graph is given, values that depend on parameters alone are prepared.
@@ -744,6 +751,7 @@ impl PlannedFunction {
             code,
             roots,
             prepared,
+            steps,
         } = schedule(&net, graph);
         let (results, guarded) = roots.split_at(self.results.len());
         let guards = self
@@ -770,6 +778,7 @@ impl PlannedFunction {
                 shape: self.shape,
                 results: results.to_vec(),
                 guards,
+                steps,
             },
             prepared,
             known_pivots: Vec::new(),
@@ -820,6 +829,7 @@ fn roundings(drafts: &[&Draft], graph: &Graph, states: &States) -> Option<Vec<Ro
         shape: Shape::Vector(roots.len()),
         results: roots,
         guards: Vec::new(),
+        steps: Vec::new(),
     };
     let reading = drafts.iter().map(|draft| {
         let place = |id: &Id| ids.binary_search(id).unwrap_or(0);
@@ -842,6 +852,7 @@ fn of_quantity<'d>(
         results: lowering.values(values),
         pivots: Vec::new(),
         rows: 0,
+        steps: Vec::new(),
     };
     let derived = planned(&quantity.values, lowering);
     let other = expanded
@@ -1014,11 +1025,15 @@ fn embedded<'d>(
             },
         });
     }
+    let steps = solution.steps.into_iter();
     Solution {
         accelerations,
         multipliers: Vec::new(),
         pivots,
         columns: Vec::new(),
+        steps: steps
+            .map(|(value, step)| (value, step.with_rows(row)))
+            .collect(),
     }
 }
 
@@ -1055,6 +1070,7 @@ fn multipliers<'d>(
             results: solution.multipliers,
             pivots: pivots.filter(|pivot| !known.contains(pivot)).collect(),
             rows: system.forces.len(),
+            steps: solution.steps,
         };
         let ways = planned.drafts(&mut lowering.graph, basis);
         let shortest = ways.iter().map(|draft| draft.function.counts().ops()).min();
@@ -1111,6 +1127,7 @@ fn solved<'d>(
         shape: Shape::Vector(solution.accelerations.len()),
         results: solution.accelerations,
         pivots,
+        steps: solution.steps,
     };
     let mut drafts = planned.drafts(&mut lowering.graph, basis);
     for draft in &mut drafts {
@@ -1136,7 +1153,7 @@ fn along_the_machine<'d>(
     let Some(turned::TurnSolution {
         accelerations,
         pivots,
-        solution: articulated::Solution { names, .. },
+        solution: articulated::Solution { names, labels, .. },
         ..
     }) = turned::solve(source.model, machine, order)
     else {
@@ -1155,6 +1172,7 @@ fn along_the_machine<'d>(
     lowering.name(&names);
     lowering.lower(&accelerations);
     lowering.lower(&values);
+    let labels = labelled(lowering, &labels);
     let results = lowering.values(&accelerations);
     let pivots: Vec<(usize, Scaled)> = pivots
         .iter()
@@ -1172,6 +1190,7 @@ fn along_the_machine<'d>(
             accelerations: results.clone(),
             multipliers: Vec::new(),
             columns: Vec::new(),
+            steps: labels.clone(),
         };
         solved(lowering, source, solution, basis)
     };
@@ -1190,6 +1209,15 @@ fn along_the_machine<'d>(
     };
     let is_cheap = 100 * ops(&full) <= (100 + MOST_GUARD_COST) * ops(&lean);
     Some(if is_cheap { full } else { lean })
+}
+
+/// The values of the steps that are in the graph: those that the accelerations need.
+fn labelled(lowering: &Lowering<'_, '_>, steps: &[(Expr<'_>, Step)]) -> Vec<(Scaled, Step)> {
+    let values = steps.iter().filter_map(|(expression, step)| {
+        let value = lowering.values.get(&expression.id())?;
+        Some((*value, *step))
+    });
+    values.collect()
 }
 
 /// The largest cost, in percent of the rest, of computing the diagonal entries of `M` with which
@@ -1226,6 +1254,7 @@ fn prepare(
             .collect(),
         pivots,
         rows,
+        steps: Vec::new(),
     };
     let prepare = planned.only(graph).function;
     (prepare, formulas, functions)

@@ -36,6 +36,7 @@
 
 #[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
 mod circular;
+mod fast_function;
 mod lanes;
 #[cfg(not(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm"))))]
 mod plain;
@@ -62,6 +63,8 @@ mod tests;
 #[doc(hidden)]
 pub mod text;
 
+#[doc(hidden)]
+pub use lagrangian_scalar as scalar;
 pub use lanes::Lanes;
 
 use lagrangian_scalar::{DoubleDouble, Dual, Interval, Kernel, Residue, Scalar};

@@ -2,6 +2,8 @@
 
 /// Sines and cosines of several angles.
 pub const CIRCULAR: &str = include_str!("circular.rs");
+/// The parts that all functions for speed share.
+pub const FAST_FUNCTION: &str = include_str!("fast_function.rs");
 /// Numbers side by side.
 pub const LANES: &str = include_str!("lanes.rs");
 /// Numbers side by side, each with the arithmetic of one.

@@ -116,6 +116,7 @@ mod tests {
             shape: Shape::Scalar,
             results: vec![last],
             guards: Vec::new(),
+            steps: Vec::new(),
         })
     }
 

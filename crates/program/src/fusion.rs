@@ -202,6 +202,7 @@ mod tests {
                 .collect(),
             code,
             guards: Vec::new(),
+            steps: Vec::new(),
         }
     }
 

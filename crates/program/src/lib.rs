@@ -51,8 +51,10 @@ mod restrict;
 pub mod rounding;
 pub mod schedule;
 pub mod series;
+mod signs;
 pub mod solve;
 pub mod stages;
+pub mod steps;
 mod tangent;
 mod verify;
 
@@ -67,6 +69,7 @@ pub use quantity::Role;
 pub use repeats::{Kind, Operand, Repeat, Step, Steps, early_angles};
 pub use rounding::Rounding;
 pub use schedule::LONGEST_SCHEDULED;
+pub use steps::Step as EliminationStep;
 pub use tangent::is_differentiated;
 // The results of `Role::Friction`.
 #[doc(inline)]
@@ -279,6 +282,8 @@ pub struct Function {
     pub results: Vec<Value>,
     /// The conditions under which the results are meaningful, in the order in which they are to be reported.
     pub guards: Vec<Guard>,
+    /// Which values are steps of an elimination, in the order of the values.
+    pub steps: Vec<(Value, steps::Step)>,
 }
 
 impl Function {

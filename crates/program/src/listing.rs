@@ -200,6 +200,10 @@ impl<'a> Listing<'a> {
             }
             notes.entry(*result).or_default().push(note);
         }
+        for (value, step) in &self.function.steps {
+            let note = self.program.name_of_step(*step);
+            notes.entry(*value).or_default().push(note);
+        }
         notes
     }
 

@@ -9,6 +9,7 @@ use lagrangian_symbolic::Function;
 use rustc_hash::FxHashMap;
 
 use super::graph::{Graph, Id, Node, Scaled};
+use super::steps::Step;
 use super::{Op, Source};
 use lagrangian_units::Stages;
 
@@ -70,16 +71,24 @@ pub struct Net {
     pub separate: Stages,
     /// The requested values, with their signs.
     pub roots: Vec<Signed>,
+    /// The items that are steps of an elimination.
+    pub steps: Vec<(Index, Step)>,
 }
 
 impl Net {
     /// The items that the roots need. With `cut`, values that depend on parameters alone are arguments.
     pub fn new(graph: &Graph, roots: &[(Id, bool)], cut: bool) -> Net {
+        Net::with_steps(graph, roots, &[], cut)
+    }
+
+    /// The same with the steps of an elimination, as far as the roots need them.
+    fn with_steps(graph: &Graph, roots: &[(Id, bool)], steps: &[(Scaled, Step)], cut: bool) -> Net {
         let mut net = Net {
             items: Vec::new(),
             stages: Vec::new(),
             separate: Stages::default(),
             roots: Vec::new(),
+            steps: Vec::new(),
         };
         let mut index_of: FxHashMap<Id, Index> = FxHashMap::default();
         for id in needed(graph, roots, cut) {
@@ -90,12 +99,25 @@ impl Net {
             .iter()
             .map(|(id, negative)| (index_of[id], *negative))
             .collect();
+        let steps = steps.iter().filter(|(value, _)| !value.is_known());
+        let steps = steps.filter_map(|(value, step)| Some((*index_of.get(&value.core)?, *step)));
+        net.steps = steps.collect();
         net.share_divisions();
         net
     }
 
     /// The items that the values need; their signs are prepared together with their factors.
     pub fn of_values(graph: &mut Graph, values: &[Scaled], cut: bool) -> Net {
+        Net::of_elimination(graph, values, &[], cut)
+    }
+
+    /// The same for values that are found by an elimination with these steps.
+    pub fn of_elimination(
+        graph: &mut Graph,
+        values: &[Scaled],
+        steps: &[(Scaled, Step)],
+        cut: bool,
+    ) -> Net {
         let root = |x: &Scaled| {
             if cut && x.negative && x.factor != Id::ONE {
                 let x = graph.with_signed_factor(*x);
@@ -105,7 +127,7 @@ impl Net {
             }
         };
         let roots: Vec<(Id, bool)> = values.iter().map(root).collect();
-        Net::new(graph, &roots, cut)
+        Net::with_steps(graph, &roots, steps, cut)
     }
 
     /// The total number of operands of all items.

@@ -574,6 +574,7 @@ mod tests {
             code,
             results,
             guards: Vec::new(),
+            steps: Vec::new(),
         }
     }
 
@@ -648,6 +649,7 @@ mod tests {
             results: vec![Value(20)],
             code,
             guards: Vec::new(),
+            steps: Vec::new(),
         };
         assert_eq!(packs(&function), None);
     }

@@ -12,15 +12,30 @@ impl Program {
     pub fn restricted(&self, roles: &[Role]) -> Program {
         let mut functions: Vec<Function> = self.functions.clone();
         functions.retain(|function| roles.contains(&function.role));
+        let mut choices = self.choices.clone();
+        choices.retain(|choice| roles.contains(&choice.role()));
+        let mut restricted = Program {
+            functions,
+            choices,
+            stages: Stages::default(),
+            ..self.clone()
+        };
+        restricted.keep_read_slots();
+        restricted
+    }
+
+    /// Drops the prepared values that no function reads.
+    pub(super) fn keep_read_slots(&mut self) {
         let mut slots: Vec<Option<u32>> = vec![None; self.prepare.results.len()];
-        for op in functions.iter().flat_map(|function| &function.code) {
+        for op in self.functions.iter().flat_map(|function| &function.code) {
             if let Op::Read(Source::Prepared(slot)) = op {
                 slots[*slot as usize] = Some(0);
             }
         }
         let kept = slots.iter_mut().filter_map(Option::as_mut);
         kept.zip(0..).for_each(|(slot, number)| *slot = number);
-        for op in functions.iter_mut().flat_map(|function| &mut function.code) {
+        let functions = self.functions.iter_mut();
+        for op in functions.flat_map(|function| &mut function.code) {
             if let Op::Read(Source::Prepared(slot)) = op {
                 *slot = slots[*slot as usize].expect("what is read is kept");
             }
@@ -28,22 +43,15 @@ impl Program {
         let is_kept = |slot: usize| slots[slot].is_some();
         let results = self.prepare.results.iter().enumerate();
         let results = results.filter(|(slot, _)| is_kept(*slot));
-        let formulas = self.prepared.iter().enumerate();
+        let results: Vec<Value> = results.map(|(_, value)| *value).collect();
+        let formulas = std::mem::take(&mut self.prepared).into_iter().enumerate();
         let formulas = formulas.filter(|(slot, _)| is_kept(*slot));
-        let prepare = Function {
-            results: results.map(|(_, value)| *value).collect(),
+        self.prepared = formulas.map(|(_, formula)| formula).collect();
+        self.prepare = without_unused(Function {
+            shape: Shape::Vector(results.len()),
+            results,
             ..self.prepare.clone()
-        };
-        let mut choices = self.choices.clone();
-        choices.retain(|choice| roles.contains(&choice.role()));
-        Program {
-            prepared: formulas.map(|(_, formula)| formula.clone()).collect(),
-            prepare: without_unused(prepare),
-            functions,
-            choices,
-            stages: Stages::default(),
-            ..self.clone()
-        }
+        });
     }
 }
 
@@ -79,12 +87,14 @@ impl Program {
 }
 
 /// A function with only the operations that a result or a guard needs.
-fn without_unused(function: Function) -> Function {
+pub(super) fn without_unused(function: Function) -> Function {
     let Function {
         code,
         mut results,
         mut guards,
-        ..
+        mut steps,
+        role,
+        shape,
     } = function;
     let mut is_used = vec![false; code.len()];
     let guarded = guards.iter().flat_map(|guard| [guard.pivot, guard.scale]);
@@ -110,11 +120,18 @@ fn without_unused(function: Function) -> Function {
         guard.pivot = place[guard.pivot.index()];
         guard.scale = place[guard.scale.index()];
     }
+    steps.retain(|(value, _)| is_used[value.index()]);
+    for (value, _) in &mut steps {
+        *value = place[value.index()];
+    }
+    steps.sort_unstable();
+    steps.dedup();
     Function {
-        shape: Shape::Vector(results.len()),
+        role,
+        shape,
         code: left,
         results,
         guards,
-        ..function
+        steps,
     }
 }

@@ -19,6 +19,7 @@ use super::fusion::Contractions;
 use super::graph::{Graph, Id, Node, Scaled};
 use super::latency::latency;
 use super::net::{Index, Item, Leaf, Net, Signed, TIME, operands};
+use super::steps::{Step, is_labelled};
 use super::{Function, Op, Role, Shape, Source, Value, stages};
 
 /// The code of a function, with prepared values still identified by their nodes.
@@ -29,6 +30,8 @@ pub struct Code {
     pub roots: Vec<Value>,
     /// The nodes that `Read(Prepared(k))` refer to.
     pub prepared: Vec<Id>,
+    /// The values that are steps of an elimination.
+    pub steps: Vec<(Value, Step)>,
 }
 
 /// The largest number of operands of a function for which a second form is tried: beyond it, each
@@ -92,11 +95,24 @@ pub fn schedule(net: &Net, graph: Option<&mut Graph>) -> Code {
             }
         })
         .collect();
-    let (code, roots) = by_time(reorder(&builder.code, &roots));
+    let (code, roots, first) = reorder(&builder.code, &roots);
+    let (code, roots, second) = by_time(code, roots);
+    let place = |index: Index| {
+        let place = first[value_of[index as usize]?.index()]?;
+        second[place.index()]
+    };
+    let steps = net.steps.iter();
+    let steps = steps.filter_map(|(index, step)| Some((place(*index)?, *step)));
+    let mut steps: Vec<(Value, Step)> = steps
+        .filter(|(value, _)| is_labelled(&code[value.index()]))
+        .collect();
+    steps.sort_unstable();
+    steps.dedup();
     Code {
         code,
         roots,
         prepared: builder.prepared,
+        steps,
     }
 }
 
@@ -484,7 +500,9 @@ fn is_known(op: &Op) -> bool {
 ///
 /// R. Sethi and J. D. Ullman, *The generation of optimal code for arithmetic expressions*, J. ACM
 /// 17 (1970) 715–728: exact for trees; shared values are counted at each use here.
-fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>) {
+///
+/// The last part of the result are the new places of the operations.
+fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>, Vec<Option<Value>>) {
     let mut registers: Vec<u32> = Vec::with_capacity(code.len());
     let mut partner: FxHashMap<(Value, bool), Value> = FxHashMap::default();
     for (index, op) in code.iter().enumerate() {
@@ -540,7 +558,7 @@ fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>) {
         .iter()
         .map(|root| place[root.index()].expect("roots are reached"))
         .collect();
-    (ordered, roots)
+    (ordered, roots, place)
 }
 
 /// The operations in the order in which a processor starts them.
@@ -554,17 +572,21 @@ fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>) {
 ///
 /// Products that are contracted into sums, and reads, stay at their first use. If the total work
 /// takes longer than the longest chain, the order with the fewest live values is kept.
-fn by_time((code, roots): (Vec<Op>, Vec<Value>)) -> (Vec<Op>, Vec<Value>) {
+///
+/// The last part of the result are the new places of the operations.
+fn by_time(code: Vec<Op>, roots: Vec<Value>) -> (Vec<Op>, Vec<Value>, Vec<Option<Value>>) {
     let function = Function {
         role: Role::Output(0),
         shape: Shape::Vector(roots.len()),
         code,
         results: roots,
         guards: Vec::new(),
+        steps: Vec::new(),
     };
     let cost = function.cost();
     if cost.path <= cost.throughput || function.code.len() > LONGEST_SCHEDULED {
-        return (function.code, function.results);
+        let places = (0..function.code.len() as u32).map(|index| Some(Value(index)));
+        return (function.code, function.results, places.collect());
     }
     let rows = Dependencies::of(&function);
     let mut writer = InOrder::new(&function);
@@ -575,7 +597,7 @@ fn by_time((code, roots): (Vec<Op>, Vec<Value>)) -> (Vec<Op>, Vec<Value>) {
     roots.for_each(|root| writer.write(root.index()));
     let place = |root: &Value| writer.place[root.index()].expect("roots are written");
     let roots = function.results.iter().map(place).collect();
-    (writer.code, roots)
+    (writer.code, roots, writer.place)
 }
 
 /// The dependencies among operations.

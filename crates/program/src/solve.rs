@@ -29,6 +29,7 @@ use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_symbolic::Rational;
 
 use super::graph::{Graph, Scaled};
+use super::steps::Step;
 use super::{Shape, Source};
 
 /// A pivot must exceed this multiple of n·2⁻⁵² times its diagonal entry.
@@ -54,6 +55,8 @@ pub struct Solution {
     pub pivots: Vec<Pivot>,
     /// The elimination step of each pivot.
     pub columns: Vec<Column>,
+    /// The values of the elimination, for comments.
+    pub steps: Vec<(Scaled, Step)>,
 }
 
 /// A pivot of the elimination.
@@ -196,6 +199,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
     let mut reduced: Vec<Vec<Scaled>> = forces.iter().map(|force| vec![*force]).collect();
     let mut columns: Vec<Column> = Vec::with_capacity(n);
     let mut eliminated = vec![false; n];
+    let mut steps: Vec<(Scaled, Step)> = Vec::new();
     for k in elimination.order {
         eliminated[k] = true;
         if elimination.dependent.contains(&k) {
@@ -212,6 +216,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
             continue;
         }
         let pivot = left.total(graph, k, k);
+        steps.push((pivot, Step::Pivot(k)));
         pivots.push(if is_constraint(k) {
             Pivot {
                 coordinate: k,
@@ -232,7 +237,9 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
             let u = left.total(graph, i, k);
             if !u.is_zero() {
                 let l = graph.quotient(u, pivot);
-                column.push((i, u, graph.opaque(l)));
+                let l = graph.opaque(l);
+                steps.push((l, Step::Factor(i, k)));
+                column.push((i, u, l));
             }
         }
         // Mᵢⱼ −= lᵢ uⱼ.
@@ -247,6 +254,9 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
         }
         // fᵢ −= lᵢ fₖ.
         let force = total(graph, &reduced[k]);
+        if reduced[k].len() > 1 {
+            steps.push((force, Step::Load(k)));
+        }
         for &(i, _, l) in &column {
             reduced[i].push(graph.product(&[(l, 1), (force, 1)]).negated());
         }
@@ -267,6 +277,9 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
                 .map(|&(i, l)| graph.product(&[(l, 1), (accelerations[i], 1)]).negated()),
         );
         accelerations[*k] = total(graph, &terms);
+        if terms.len() > 1 {
+            steps.push((accelerations[*k], Step::Solution(*k)));
+        }
     }
     let multipliers = accelerations.split_off(*coordinates);
     Solution {
@@ -274,6 +287,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
         multipliers: multipliers.into_iter().map(Scaled::negated).collect(),
         pivots,
         columns,
+        steps,
     }
 }
 

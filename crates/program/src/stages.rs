@@ -172,12 +172,18 @@ pub fn split(whole: &Function, apart: Stages) -> Vec<Function> {
             &next
         };
         let results: Vec<Value> = wanted.iter().map(|&value| builder.value(value)).collect();
+        let own = whole.steps.iter();
+        let own = own.filter(|(value, _)| parts[value.index()] == number);
+        let steps = own.filter_map(|(value, step)| Some((*builder.values.get(value)?, *step)));
+        let mut steps: Vec<_> = steps.collect();
+        steps.sort_unstable();
         functions.push(Function {
             role,
             shape: Shape::Vector(results.len()),
             code: builder.code,
             results,
             guards,
+            steps,
         });
         handed = next;
     }

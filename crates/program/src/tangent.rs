@@ -516,6 +516,7 @@ impl<'p> Differentiation<'p> {
                 code,
                 roots,
                 prepared,
+                ..
             } = schedule(&net, cut.then_some(&mut self.graph));
             let (results, guarded) = roots.split_at(part.results.len());
             let guards = part.guards.iter().zip(guarded.chunks_exact(2));
@@ -531,6 +532,7 @@ impl<'p> Differentiation<'p> {
                 shape: part.shape,
                 results: results.to_vec(),
                 guards: guards.collect(),
+                steps: Vec::new(),
             };
             (function, prepared)
         });

@@ -40,6 +40,10 @@ impl Program {
         if shape.len() != results.len() {
             return Err(format!("{shape:?} has {} results", results.len()));
         }
+        let is_missing = |(value, _): &&(Value, _)| value.index() >= code.len();
+        if let Some((value, step)) = function.steps.iter().find(is_missing) {
+            return Err(format!("{step:?} is {value:?}, which does not exist"));
+        }
         let roots = || {
             results
                 .iter()

@@ -113,6 +113,7 @@ fn function(
         shape: Shape::Vector(results.len()),
         results,
         guards,
+        steps: Vec::new(),
     }
 }
 

@@ -267,6 +267,9 @@ impl<'a> Emitter<'a> {
         if self.fails(function) {
             docs.push_str("\n\nA pivot that vanishes is an error.");
         }
+        if let Some(formulas) = self.program.formulas_of_steps(&function.steps) {
+            let _ = write!(docs, "\n\n{formulas}"); // writing to a String cannot fail
+        }
         if let Some(formulas) = self
             .options
             .formulas

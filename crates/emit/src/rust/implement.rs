@@ -72,15 +72,18 @@ impl Emitter<'_> {
         let n = self.program.dimension();
         let head = format!("coordinates {n} {coordinates}");
         self.group(&head, &program.coordinates, Some(empty), "");
-        let over = if self.inputs.is_empty() {
-            String::new()
+        let over = format!(" over {scalar}");
+        let defined = |is_defined: bool| if is_defined { ", defined here" } else { "" };
+        let after = if self.inputs.is_empty() {
+            defined(self.is_defined_by_macro(&self.inputs))
         } else {
-            format!(" over {scalar}")
+            &over
         };
         let head = format!("inputs {inputs}");
-        self.group(&head, &program.inputs, None, &over);
+        self.group(&head, &program.inputs, None, after);
         let head = format!("outputs {outputs}");
-        self.group(&head, &program.outputs, None, "");
+        let after = defined(self.is_defined_by_macro(&self.outputs));
+        self.group(&head, &program.outputs, None, after);
         self.rows_of_prepared(&prepared);
         self.row_of_accelerations();
         self.writer.open("system {");

@@ -3,8 +3,10 @@
 //! ```text
 //! accelerations(p, t, q, v, u)        picks the arithmetic for numbers kept as S
 //!   Accelerations { p, t, q, v, u }   the call as a value: a Kernel
-//!     run::<N>()                      the code, on numbers N in registers, always inlined
+//!     accelerations_in::<S, N>(call)  the code, on numbers N in registers, always inlined
 //! ```
+//!
+//! The first two are written by a macro of the runtime, `fast_function!`, whose call states the arguments and the result.
 //!
 //! A function that is too long for this is cut into pieces, each a value of its own.
 
@@ -13,8 +15,24 @@ use super::language::Rust;
 use super::types::Types;
 use crate::body::{self, Plan, Precedence, Unchecked};
 use crate::cut::{self, Cut, Piece};
-use crate::layout;
+use crate::layout::{Layout, width};
 use lagrangian_program::{Function, Guard, Op, Reads, Role, Shape, Source};
+
+/// A function for speed: what the macro of the runtime is told about it.
+pub(super) struct FastFunction {
+    /// The documentation of the public function, or of the call.
+    pub(super) docs: String,
+    /// The public function, if there is one.
+    pub(super) name: Option<String>,
+    /// The type of its call.
+    pub(super) call: String,
+    /// The arguments with their types.
+    pub(super) fields: Vec<(String, String)>,
+    /// The type of the result.
+    pub(super) result: String,
+    /// The function that holds its code.
+    pub(super) code: String,
+}
 
 impl Emitter<'_> {
     /// The names of the type of a call, and of its pieces.
@@ -25,11 +43,109 @@ impl Emitter<'_> {
     /// Writes a function that is called often.
     pub(super) fn kernel(&mut self, function: &Function) {
         let (plan, cut) = self.parts(function);
-        self.choice(function);
-        self.call_as_value(function);
+        let name = self.function_name(function.role);
+        let [call, _] = self.names(function.role);
+        let fields: Vec<(String, String)> = self
+            .arguments(self.needs(function))
+            .into_iter()
+            .map(|(name, kind)| (name.to_owned(), kind))
+            .collect();
+        let fast = FastFunction {
+            docs: self.function_docs(function),
+            name: Some(name.clone()),
+            code: format!("{name}_in"),
+            result: self.returned(function),
+            call,
+            fields,
+        };
+        self.fast_function(&fast);
+        self.open_fast_function(&fast, self.loads(function));
         self.run(function, plan.as_ref(), cut.as_ref());
         if let Some(cut) = &cut {
             self.pieces(function.role, cut);
+        }
+    }
+
+    /// Writes the call of the macro that makes a function for speed from its code.
+    pub(super) fn fast_function(&mut self, fast: &FastFunction) {
+        let scalar = self.types.scalar.clone();
+        let FastFunction {
+            docs,
+            name,
+            call,
+            fields,
+            result,
+            code,
+        } = fast;
+        self.writer.gap();
+        self.writer
+            .open(format!("{}::fast_function! {{", self.options.runtime));
+        self.docs(docs);
+        let lifetime = lifetime(fields);
+        let (head, end) = match name {
+            Some(name) => (format!("pub fn {name}<{lifetime}{scalar}>({call}"), ")"),
+            None => (format!("pub struct {call}<{lifetime}{scalar}>"), ""),
+        };
+        let fields = fields
+            .iter()
+            .map(|(field, kind)| format!("{field}: {}", with_lifetime(kind)));
+        let fields: Vec<String> = fields.collect();
+        let result = format!("-> {result} = {code};");
+        if fields.is_empty() {
+            self.writer.statement(&format!("{head}{end}"), &result);
+            return self.writer.close("}");
+        }
+        let given = format!("{head} {{ {} }}{end}", fields.join(", "));
+        if width(&given) <= self.writer.columns() {
+            self.writer.statement(&given, &result);
+        } else {
+            self.writer.open(format!("{head} {{"));
+            for field in fields {
+                self.writer.line(format!("{field},"));
+            }
+            self.writer.close(&format!("}}{end} {result}"));
+        }
+        self.writer.close("}");
+    }
+
+    /// Begins the code of a function for speed: writes names for its arguments and, if it reads stored numbers, `n`, which loads
+    /// one.
+    pub(super) fn open_fast_function(&mut self, fast: &FastFunction, loads: bool) {
+        let runtime = self.options.runtime.clone();
+        let Types {
+            scalar, register, ..
+        } = self.types.clone();
+        let copy = self.types.known("Copy");
+        let FastFunction {
+            call,
+            fields,
+            result,
+            code,
+            ..
+        } = fast;
+        let anonymous = match lifetime(fields) {
+            "" => "",
+            _ => "'_, ",
+        };
+        let name = if fields.is_empty() { "_" } else { "call" };
+        self.writer.gap();
+        self.writer.line("#[inline(always)]");
+        self.writer.signature(
+            &format!(
+                "fn {code}<{scalar}: {copy}, {register}: {runtime}::Scalar<Stored = {scalar}>>"
+            ),
+            &[format!("{name}: {call}<{anonymous}{scalar}>")],
+            Some(result),
+        );
+        if !fields.is_empty() {
+            let names = fields
+                .iter()
+                .map(|(name, _)| (name.clone(), Layout::Atom(name.clone())));
+            let names = Layout::Struct(call.clone(), names.collect());
+            self.writer.expression("let ", &names, " = call;");
+        }
+        if loads {
+            self.writer.line(format!("let n = {register}::load;"));
         }
     }
 
@@ -51,91 +167,8 @@ impl Emitter<'_> {
         !matches!(self.parts(function), (None, None))
     }
 
-    /// Writes the public function, which chooses the arithmetic.
-    fn choice(&mut self, function: &Function) {
-        let runtime = self.options.runtime.clone();
-        let scalar = self.types.scalar.clone();
-        let [call, _] = self.names(function.role);
-        let needs = self.needs(function);
-        let result = self.returned(function);
-        self.writer.gap();
-        self.docs(&self.function_docs(function));
-        let name = self.function_name(function.role);
-        let head = format!("pub fn {name}<{scalar}: {runtime}::Number>");
-        let arguments: Vec<String> = self
-            .arguments(needs)
-            .iter()
-            .map(|(name, kind)| format!("{name}: {kind}"))
-            .collect();
-        self.writer.signature(&head, &arguments, Some(&result));
-        let names: Vec<&str> = self
-            .arguments(needs)
-            .iter()
-            .map(|(name, _)| *name)
-            .collect();
-        let value = if names.is_empty() {
-            format!("{call}(::core::marker::PhantomData::<{scalar}>)")
-        } else {
-            format!("{call} {{ {} }}", names.join(", "))
-        };
-        self.writer.line(format!("{scalar}::run({value})"));
-        self.writer.close("}");
-    }
-
-    /// Writes the call as a value.
-    fn call_as_value(&mut self, function: &Function) {
-        let scalar = self.types.scalar.clone();
-        let [call, _] = self.names(function.role);
-        let name = self.function_name(function.role);
-        self.writer.gap();
-        self.docs(&format!(
-            "A call of [`{name}`], to be run with whatever instructions the processor has."
-        ));
-        let arguments = self.arguments(self.needs(function));
-        if arguments.is_empty() {
-            return self.writer.line(format!(
-                "pub struct {call}<{scalar}>(::core::marker::PhantomData<{scalar}>);"
-            ));
-        }
-        let lifetime = lifetime(&arguments);
-        self.writer
-            .open(format!("pub struct {call}<{lifetime}{scalar}> {{"));
-        for (argument, kind) in &arguments {
-            self.writer.line(format!("/// As `{name}` takes it."));
-            self.writer
-                .line(format!("pub {argument}: {},", with_lifetime(kind)));
-        }
-        self.writer.close("}");
-    }
-
-    /// Writes the code.
+    /// Writes the code after the names of the arguments.
     fn run(&mut self, function: &Function, plan: Option<&Plan>, cut: Option<&Cut>) {
-        let runtime = self.options.runtime.clone();
-        let Types {
-            scalar, register, ..
-        } = self.types.clone();
-        let [call, _] = self.names(function.role);
-        let copy = self.types.known("Copy");
-        let arguments = self.arguments(self.needs(function));
-        let anonymous = if lifetime(&arguments).is_empty() {
-            ""
-        } else {
-            "'_, "
-        };
-        let result = self.returned(function);
-        self.writer.gap();
-        self.writer.open(format!(
-            "impl<{scalar}: {copy}> {runtime}::scalar::Kernel<{scalar}> for {call}<{anonymous}{scalar}> {{"
-        ));
-        self.writer.line(format!("type Output = {result};"));
-        self.writer.gap();
-        self.writer.line("#[inline(always)]");
-        self.writer.signature(
-            &format!("fn run<{register}: {runtime}::Scalar<Stored = {scalar}>>"),
-            &["self".to_owned()],
-            Some("Self::Output"),
-        );
-        self.open_arguments(self.needs(function), function);
         if self.may_be_singular_from_the_start(function) {
             self.writer.open("if let Some(singular) = p.singular {");
             self.writer.line("return Err(singular);");
@@ -143,7 +176,6 @@ impl Emitter<'_> {
         }
         if let Some(plan) = plan {
             self.run_loops(function, plan);
-            self.writer.close("}");
             return self.writer.close("}");
         }
         let texts: Vec<String> = match cut {
@@ -167,7 +199,6 @@ impl Emitter<'_> {
         } else {
             name
         });
-        self.writer.close("}");
         self.writer.close("}");
     }
 
@@ -222,10 +253,9 @@ impl Emitter<'_> {
         }
         let mut conditions = self.exceeding(function, body);
         conditions.push(format!("{}.is_finite()", results[body.latest]));
-        // The layout of rustfmt, which generated code must have: on one line of a method, on the next line, or
-        // on one line each.
+        // The layout of rustfmt, which generated code must have: on one line, on the next line, or on one line each.
         let value = format!("{};", conditions.join(" & "));
-        let fits = |line: &str| line.chars().count() <= layout::WIDTH - 8;
+        let fits = |line: &str| width(line) <= self.writer.columns();
         let [whole, next] = [format!("let sound = {value}"), format!("    {value}")];
         if fits(&whole) {
             self.writer.line(whole);
@@ -271,23 +301,6 @@ impl Emitter<'_> {
         self.writer
             .expression(&format!("let {name} = "), &value, ";");
         name
-    }
-
-    /// Writes names for the fields, and `n`, which loads a number.
-    fn open_arguments(&mut self, needs: Reads, function: &Function) {
-        let names: Vec<&str> = self
-            .arguments(needs)
-            .iter()
-            .map(|(name, _)| *name)
-            .collect();
-        if !names.is_empty() {
-            self.writer
-                .line(format!("let Self {{ {} }} = self;", names.join(", ")));
-        }
-        if self.loads(function) {
-            self.writer
-                .line(format!("let n = {}::load;", self.types.register));
-        }
     }
 
     /// Whether the code of a function reads stored numbers.
@@ -437,7 +450,7 @@ impl Emitter<'_> {
 }
 
 /// `'a, ` if any argument is a reference.
-fn lifetime(arguments: &[(&'static str, String)]) -> &'static str {
+fn lifetime(arguments: &[(String, String)]) -> &'static str {
     if arguments.iter().any(|(_, kind)| kind.starts_with('&')) {
         "'a, "
     } else {
@@ -446,7 +459,7 @@ fn lifetime(arguments: &[(&'static str, String)]) -> &'static str {
 }
 
 /// `&'a [S; 2]` for `&[S; 2]`.
-pub(super) fn with_lifetime(kind: &str) -> String {
+fn with_lifetime(kind: &str) -> String {
     match kind.strip_prefix('&') {
         Some(kind) => format!("&'a {kind}"),
         None => kind.to_owned(),

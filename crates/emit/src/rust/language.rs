@@ -6,7 +6,7 @@ use super::Emitter;
 use crate::body::{Angle, ArrayElement, Expression as Text, Language, Loops, Precedence, Rounded};
 use crate::layout::{Layout, Writer};
 use crate::names::{Scope, flat};
-use lagrangian_program::{Contracted, Guard, PackedOperation, Source};
+use lagrangian_program::{Contracted, EliminationStep, Guard, PackedOperation, Source};
 
 /// The Rust implementation of `Language`.
 pub(super) struct Rust<'a> {
@@ -154,6 +154,10 @@ impl Language for Rust<'_> {
             self.number(),
             operands.join(", ")
         ))
+    }
+
+    fn steps(&self, writer: &mut Writer, steps: &[EliminationStep]) {
+        writer.comment("//", &self.emitter.program.text_of_steps(steps));
     }
 
     fn sin_cos_all(&self, writer: &mut Writer, angles: &[Angle]) {

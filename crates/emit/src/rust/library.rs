@@ -1,7 +1,7 @@
 //! The part of a machine for a library that is called from C: its parameters, the values prepared from them, and
 //! the accelerations, with numbers in arrays as C passes them.
 
-use super::kernel::with_lifetime;
+use super::kernel::FastFunction;
 use super::language::number;
 use super::types::{Group, Types, literal};
 use super::{CONTACT_ROLES, Emitter, in_pairs};
@@ -11,8 +11,8 @@ use crate::names::Field;
 use lagrangian_program::{Function, Role, Shape, Slot, Unilateral, early_angles};
 
 impl Emitter<'_> {
-    /// The content of the module. It uses only `Scalar`, `Number`, `Singular`, `Pivots` and
-    /// `scalar::Kernel` of the runtime.
+    /// The content of the module. It uses only `Scalar`, `Number`, `Singular`, `Pivots`, `fast_function!` and
+    /// `scalar::Piece` of the runtime.
     pub(super) fn library(mut self) -> String {
         for line in &self.options.origin {
             self.writer.comment("//", line);
@@ -269,40 +269,21 @@ impl Emitter<'_> {
     /// size of the angles together with the pivots. So for compiler and processor this is straight-line code, and the
     /// failure path is in the caller, out of the way.
     fn in_place(&mut self, function: &Function) {
-        let runtime = self.options.runtime.clone();
-        let Types {
-            scalar, register, ..
-        } = self.types.clone();
-        let (bool, copy) = (self.types.known("bool"), self.types.known("Copy"));
+        let scalar = self.types.scalar.clone();
         let n = self.program.dimension();
-        let arguments = self.arguments(self.needs(function));
-        self.writer.gap();
-        self.docs("The accelerations, and where they go.");
-        self.writer.open(format!("struct InPlace<'a, {scalar}> {{"));
-        for (argument, kind) in &arguments {
-            self.writer
-                .line(format!("{argument}: {},", with_lifetime(kind)));
-        }
-        self.writer
-            .line(format!("result: &'a mut [{scalar}; {n}],"));
-        self.writer.close("}");
-        self.writer.gap();
-        self.writer.open(format!(
-            "impl<{scalar}: {copy}> {runtime}::scalar::Kernel<{scalar}> for InPlace<'_, {scalar}> {{"
-        ));
-        self.writer.line(format!("type Output = {bool};"));
-        self.writer.gap();
-        self.writer.line("#[inline(always)]");
-        self.writer.signature(
-            &format!("fn run<{register}: {runtime}::Scalar<Stored = {scalar}>>"),
-            &["self".to_owned()],
-            Some(&bool),
-        );
-        let names = arguments.iter().map(|(name, _)| *name);
-        let names: Vec<&str> = names.chain(["result"]).collect();
-        self.writer
-            .line(format!("let Self {{ {} }} = self;", names.join(", ")));
-        self.writer.line(format!("let n = {register}::load;"));
+        let arguments = self.arguments(self.needs(function)).into_iter();
+        let result = ("result", format!("&mut [{scalar}; {n}]"));
+        let fields = arguments.chain([result]);
+        let fast = FastFunction {
+            docs: "The accelerations, and where they go.".to_owned(),
+            name: None,
+            call: "InPlace".to_owned(),
+            fields: fields.map(|(name, kind)| (name.to_owned(), kind)).collect(),
+            result: self.types.known("bool"),
+            code: "in_place".to_owned(),
+        };
+        self.fast_function(&fast);
+        self.open_fast_function(&fast, true);
         let has_far = !early_angles(function).is_empty();
         self.defers_angle_check = true;
         let wanted = self.result_names(function);
@@ -325,7 +306,6 @@ impl Emitter<'_> {
         } else {
             conditions.join(" & ")
         });
-        self.writer.close("}");
         self.writer.close("}");
     }
 }

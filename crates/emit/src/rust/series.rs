@@ -25,6 +25,7 @@ use lagrangian_program::series::{
 };
 
 use super::Emitter;
+use super::kernel::FastFunction;
 use super::types::Types;
 use crate::layout::Layout;
 use arithmetic::Recorder;
@@ -243,47 +244,21 @@ impl Emitter<'_> {
         };
         let written = self.generate(&series);
         self.struct_of_lists(&written.packs);
-        let runtime = self.options.runtime.clone();
-        let Types {
-            scalar, register, ..
-        } = self.types.clone();
-        let call = self.types.series.clone();
-        let fields = self.fields_of_series(&series);
-        let copy = self.types.known("Copy");
-        let result = format!("{}<(), {runtime}::Singular>", self.types.known("Result"));
-        self.writer.gap();
-        self.docs(
-            "The Taylor series of the motion through a state, to be run with whatever instructions the processor has: row \
-             `j` of `coefficients` becomes `q⁽ʲ⁾/j!`. The time is the sum of two numbers.",
-        );
-        self.writer
-            .open(format!("pub struct {call}<'a, {scalar}> {{"));
-        for (name, kind) in &fields {
-            self.writer
-                .line(format!("{name}: {},", super::kernel::with_lifetime(kind)));
-        }
-        self.writer.close("}");
-        self.writer.gap();
-        self.writer.open(format!(
-            "impl<{scalar}: {copy}> {runtime}::scalar::Kernel<{scalar}> for {call}<'_, {scalar}> {{"
-        ));
-        self.writer.line(format!("type Output = {result};"));
-        self.writer.gap();
-        self.writer.line("#[inline(always)]");
-        self.writer.signature(
-            &format!("fn run<{register}: {runtime}::Scalar<Stored = {scalar}>>"),
-            &["self".to_owned()],
-            Some("Self::Output"),
-        );
-        let names = fields
-            .iter()
-            .map(|(name, _)| (name.clone(), Layout::Atom(name.clone())));
-        let names = Layout::Struct("Self".into(), names.collect());
-        self.writer.expression("let ", &names, " = self;");
-        self.writer.line(format!("let n = {register}::load;"));
+        let runtime = &self.options.runtime;
+        let fast = FastFunction {
+            docs: "The Taylor series of the motion through a state: row `j` of `coefficients` becomes `q⁽ʲ⁾/j!`. The time is the \
+                   sum of two numbers."
+                .to_owned(),
+            name: None,
+            call: self.types.series.clone(),
+            fields: self.fields_of_series(&series),
+            result: format!("{}<(), {runtime}::Singular>", self.types.known("Result")),
+            code: "series_in".to_owned(),
+        };
+        self.fast_function(&fast);
+        self.open_fast_function(&fast, true);
         self.series_code(&written);
         self.writer.line("Ok(())");
-        self.writer.close("}");
         self.writer.close("}");
     }
 

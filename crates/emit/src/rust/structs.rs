@@ -247,14 +247,27 @@ impl Emitter<'_> {
         self.structure(&name, &docs, &group, false);
     }
 
+    /// Whether the macro of the runtime defines the type of a group: an empty struct, unless the attributes of a user go on it.
+    pub(super) fn is_defined_by_macro(&self, group: &Group<'_>) -> bool {
+        group.is_empty() && !self.options.marks
+    }
+
+    /// Writes the struct of the inputs.
     pub(super) fn inputs(&mut self) {
+        if self.is_defined_by_macro(&self.inputs) {
+            return;
+        }
         let name = self.types.inputs.clone();
         let group = Group::new(&self.program.inputs);
         let docs = format!("What can be set while a [`{}`] runs.", self.program.name);
         self.structure(&name, &docs, &group, true);
     }
 
+    /// Writes the struct of the outputs.
     pub(super) fn outputs(&mut self) {
+        if self.is_defined_by_macro(&self.outputs) {
+            return;
+        }
         let name = self.types.outputs.clone();
         let group = Group::new(&self.program.outputs);
         let docs = format!("What can be observed of a [`{}`].", self.program.name);

@@ -59,6 +59,7 @@ fn placeholder_program(spec: &Spec) -> Program {
             shape,
             results,
             guards: Vec::new(),
+            steps: Vec::new(),
         }
     };
     let outputs = slots(&spec.outputs);

@@ -92,6 +92,7 @@ fn horner(links: u32) -> Function {
         code,
         results,
         guards: Vec::new(),
+        steps: Vec::new(),
     }
 }
 

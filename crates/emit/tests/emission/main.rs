@@ -5,3 +5,4 @@ mod c;
 mod loops;
 mod series;
 mod skipping;
+mod steps;

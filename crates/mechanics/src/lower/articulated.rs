@@ -39,6 +39,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::lower::bars::{self, Arm};
 use crate::{InertialPair, Unprojected};
+use lagrangian_program::EliminationStep;
 use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
 
@@ -65,6 +66,8 @@ pub(super) struct Solution<'d> {
     pub(super) names: Vec<(Expr<'d>, Expr<'d>)>,
     /// The steps, in order.
     pub(super) steps: Vec<Step<'d>>,
+    /// The values of the elimination of each coordinate, for comments.
+    pub(super) labels: Vec<(Expr<'d>, EliminationStep)>,
     /// The coordinates by the nodes of their velocities.
     pub(super) coordinates: BTreeMap<Id, usize>,
 }
@@ -130,6 +133,7 @@ fn eliminated<'d>(
         .enumerate()
         .map(|(index, c)| (c.v.id(), index))
         .collect();
+    let labels = labels(&front.coordinates, &velocities, &steps, &known);
     let mut accelerations = vec![model.dag.zero(); velocities.len()];
     for (id, coordinate) in &velocities {
         accelerations[*coordinate] = *known.get(id)?;
@@ -138,9 +142,39 @@ fn eliminated<'d>(
         names: front.names,
         accelerations,
         pivots,
+        labels,
         coordinates: velocities,
         steps,
     })
+}
+
+/// What the values of the elimination of each coordinate are, where `coordinates` are the coordinates by the velocities that
+/// are eliminated, and `velocities` by their own.
+fn labels<'d>(
+    coordinates: &BTreeMap<Id, usize>,
+    velocities: &BTreeMap<Id, usize>,
+    steps: &[Step<'d>],
+    known: &FxHashMap<Id, Expr<'d>>,
+) -> Vec<(Expr<'d>, EliminationStep)> {
+    let mut labels = Vec::new();
+    for step in steps {
+        let (Some(&i), Some(pivot)) = (coordinates.get(&step.of), step.pivot) else {
+            continue;
+        };
+        labels.push((pivot, EliminationStep::Inertia(i)));
+        for (_, coupling) in &step.parts {
+            labels.push((*coupling, EliminationStep::Coupling(i)));
+        }
+        if step.parts.is_empty() {
+            continue;
+        }
+        labels.push((step.offset, EliminationStep::Free(i)));
+        // Another velocity in its place has another acceleration.
+        if velocities.contains_key(&step.of) {
+            labels.push((known[&step.of], EliminationStep::Solution(i)));
+        }
+    }
+    labels
 }
 
 /// The mass matrix in the same way, without eliminating anything: the lower triangle, row by row.

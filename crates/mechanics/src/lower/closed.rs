@@ -11,9 +11,9 @@
 
 use crate::Unprojected;
 use crate::lower::{Lowering, MOST_MULTIPLICATIONS, derivatives};
-use lagrangian_program::Shape;
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution, System};
+use lagrangian_program::{EliminationStep, Shape};
 use lagrangian_spec::model::Model;
 
 /// Solves `M a = f + Gᵀ λ`, `G a = γ`; `None` if that is certainly longer than with the mass matrix,
@@ -74,6 +74,12 @@ pub(super) fn solve<'d>(
         with_products(graph, solved.accelerations[i], &by, &held.accelerations)
     });
     let accelerations: Vec<Scaled> = accelerations.collect();
+    let of_constraints = held.steps.into_iter();
+    let steps = of_constraints.map(|(value, step)| (value, step.with_rows(|row| n + row)));
+    // Without constraint forces, the solutions of the open machine are not the accelerations.
+    let open = solved.labels.into_iter();
+    let open = open.filter(|(_, step)| !matches!(step, EliminationStep::Solution(_)));
+    let steps = open.chain(steps).collect();
     let of_constraints = held.pivots.into_iter().map(|pivot| Pivot {
         coordinate: n + pivot.coordinate,
         ..pivot
@@ -83,6 +89,7 @@ pub(super) fn solve<'d>(
         multipliers: held.accelerations,
         pivots: solved.pivots.into_iter().chain(of_constraints).collect(),
         columns: Vec::new(),
+        steps,
     })
 }
 

@@ -9,10 +9,10 @@ use lagrangian_symbolic::Expr;
 
 use crate::Unprojected;
 use crate::lower::articulated::Order;
-use crate::lower::{Draft, Lowering, PlannedFunction, turned};
+use crate::lower::{Draft, Lowering, PlannedFunction, labelled, turned};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination, Pivot, System};
-use lagrangian_program::{Basis, Role, Shape};
+use lagrangian_program::{Basis, EliminationStep, Role, Shape};
 use lagrangian_spec::model::Model;
 
 /// The elimination of one unknown: `x_of = r_of/pivot + Σ c x_part`, and its load is passed on:
@@ -40,6 +40,8 @@ pub(super) struct Solved {
     /// The turns whose velocities the steps refer to.
     turns: Vec<QuaternionTurn>,
     pub pivots: Vec<Pivot>,
+    /// The values of the elimination, for comments.
+    pub labels: Vec<(Scaled, EliminationStep)>,
     /// The number of unknowns; the first are the accelerations.
     unknowns: usize,
 }
@@ -138,6 +140,7 @@ pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solv
         steps: steps.map(step).collect(),
         turns: Vec::new(),
         pivots: solution.pivots,
+        labels: solution.steps,
         unknowns: system.forces.len(),
     }
 }
@@ -204,6 +207,7 @@ pub(super) fn along_the_machine<'d>(
         });
     }
     Some(Solved {
+        labels: labelled(lowering, &solution.labels),
         accelerations: lowering.values(&accelerations),
         multipliers: Vec::new(),
         pivots,
@@ -240,6 +244,7 @@ fn function<'d>(
             .copied()
             .filter(|pivot| !asked.known_pivots.contains(pivot))
             .collect(),
+        steps: solved.labels.clone(),
     };
     let net = planned.net(graph, true);
     planned.draft(Some(graph), net, Basis::Derived, false)

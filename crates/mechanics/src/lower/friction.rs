@@ -11,7 +11,7 @@ use crate::lower::derivatives::{Solved, inverses, of_elimination, solve_by_steps
 use crate::lower::{Draft, Lowering, LoweringInput, PlannedFunction};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination};
-use lagrangian_program::{Basis, FrictionLayout, FrictionPart, Role, Shape};
+use lagrangian_program::{Basis, EliminationStep, FrictionLayout, FrictionPart, Role, Shape};
 
 /// The drafts for [`Role::Friction`], from the equations as derived and multiplied out.
 pub(super) fn friction<'d>(
@@ -47,12 +47,16 @@ pub(super) fn friction<'d>(
         let results = results(&mut lowering.graph, layout, &solved, &contacts);
         let known = |pivot: &solve::Pivot| pivot.pivot.is_known() && pivot.scale.is_known();
         let (known_pivots, pivots): (Vec<_>, Vec<_>) = solved.pivots.into_iter().partition(known);
+        // With friction forces, the accelerations are others.
+        let mut steps = solved.labels;
+        steps.retain(|(_, step)| !matches!(step, EliminationStep::Solution(_)));
         let planned = PlannedFunction {
             role: Role::Friction,
             shape: Shape::Vector(layout.len()),
             results,
             pivots,
             rows: system.forces.len(),
+            steps,
         };
         for mut draft in planned.drafts(&mut lowering.graph, basis) {
             draft.known_pivots.clone_from(&known_pivots);

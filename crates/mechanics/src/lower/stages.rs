@@ -1,6 +1,8 @@
 //! The accelerations in stages, from the elimination that leaves the least work to the repeated stage.
 
-use crate::lower::{Candidate, Choice, Draft, Lowering, LoweringInput, PlannedFunction, roundings};
+use crate::lower::{
+    Candidate, Choice, Draft, Lowering, LoweringInput, PlannedFunction, labelled, roundings,
+};
 use crate::lower::{articulated, turned};
 use lagrangian_program::rounding::States;
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution};
@@ -124,6 +126,7 @@ fn solutions<'d>(
             accelerations: lowering.values(&along.accelerations),
             multipliers: Vec::new(),
             columns: Vec::new(),
+            steps: labelled(lowering, &along.solution.labels),
         };
         solutions.push((Basis::Along, solution));
     }
@@ -157,6 +160,7 @@ fn staged_functions(
         pivots: pivots
             .filter(|pivot| !known_pivots.contains(pivot))
             .collect(),
+        steps: solution.steps.clone(),
     };
     let mut net = planned.net(&mut lowering.graph, true);
     if factored && !net.factor() {

@@ -54,7 +54,9 @@ pub(super) fn solve<'d>(
             quaternions: Vec::new(),
         });
     };
-    let solution = articulated::solve(&turned.model, &turned.machine, order)?;
+    let mut solution = articulated::solve(&turned.model, &turned.machine, order)?;
+    // Its steps are those of angular velocities, which have no names.
+    solution.labels.clear();
     let fours = model.quaternions.iter();
     Some(TurnSolution {
         accelerations: turned.accelerations(model, solution.accelerations.clone()),

@@ -15,4 +15,5 @@ mod quaternions;
 mod running;
 mod series;
 mod stages;
+mod steps;
 mod tangents;
