@@ -304,6 +304,14 @@ impl UnilateralState {
         &self.held
     }
 
+    /// For each direction that is a constraint now the greatest rate of a contact so far, and 0 for rates in other units: what resists rolling.
+    pub fn rates_of_held(&self) -> impl Iterator<Item = f64> {
+        let is_length = |k: usize| self.carrier[k].is_none() || self.across[k];
+        let rate = self.greatest_rate();
+        let of = move |d: &usize| if is_length(d / 2) { rate } else { 0.0 };
+        self.held.iter().map(of)
+    }
+
     /// Whether nothing touches.
     pub fn is_free(&self) -> bool {
         self.modes.iter().all(|mode| *mode == Mode::Open)
