@@ -160,6 +160,11 @@ impl<V: Vector> Constraints<V> {
         }
     }
 
+    /// Records how large the terms of the rate of a row have been.
+    pub fn record_rate(&mut self, k: usize, rate: f64) {
+        self.scales.record_rate(k, rate);
+    }
+
     /// Records a state that was projected onto the constraints.
     pub fn accept(&mut self, q: &V, v: &V) {
         self.scales.accept(q, v);

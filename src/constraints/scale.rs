@@ -103,6 +103,15 @@ impl<V: Vector> Scales<V> {
         }
     }
 
+    /// Records the size of the terms of the rate of a row.
+    pub fn record_rate(&mut self, k: usize, rate: f64) {
+        if let Some(greatest) = slot_mut(&mut self.terms[1], k)
+            && rate.is_finite()
+        {
+            *greatest = greatest.max(rate);
+        }
+    }
+
     /// Records how the terms of a row bend.
     pub fn record_curvature(&mut self, k: usize, curvature: f64) {
         if let Some(known) = slot_mut(&mut self.curvatures, k)

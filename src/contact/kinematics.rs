@@ -18,6 +18,8 @@ pub(super) struct ContactKinematics {
     pub coefficients: Vec<f64>,
     /// Time and state, which rounding is relative to.
     at: (f64, Vec<f64>, Vec<f64>),
+    /// How large each coordinate is at least as part of a gap: 1 rad for an angle, which turns lengths of the machine, and else its value.
+    sizes: Vec<f64>,
     /// Where contacts with faces of polygons are on these; empty where no contact is one.
     pub faces: Vec<Option<OnFace>>,
 }
@@ -60,6 +62,20 @@ pub(super) fn faces<S: System>(
         .collect()
 }
 
+/// See [`ContactKinematics`]. A gap at angles of 0 is no better known than beside it: without their lengths its rounding would be nothing where
+/// all coordinates are 0, and bounces would end nowhere.
+fn sizes<S: System>(system: &S, q: &S::Vector) -> Vec<f64> {
+    let least = (system.coordinates()).map(|coordinate| match coordinate.unit {
+        "rad" => 1.0,
+        _ => 0.0,
+    });
+    let values = q
+        .as_slice()
+        .iter()
+        .zip(least.chain(core::iter::repeat(0.0)));
+    values.map(|(q, least)| q.abs().max(least)).collect()
+}
+
 impl ContactKinematics {
     pub fn of<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> ContactKinematics {
         let (n, m) = (q.as_slice().len(), system.unilateral_contacts().len());
@@ -71,6 +87,7 @@ impl ContactKinematics {
             biases: vec![0.0; 2 * m],
             coefficients: vec![0.0; 4 * m],
             at: (t, q.as_slice().to_vec(), v.as_slice().to_vec()),
+            sizes: sizes(system, q),
             faces: faces(system, (t, q, v)),
         };
         system.gaps(t, q, &mut here.gaps);
@@ -83,9 +100,9 @@ impl ContactKinematics {
 
     /// Below which the gap of a contact is closed. Asked of few contacts: it takes the whole row of one.
     pub fn gap_rounding(&self, contact: usize) -> f64 {
-        let (t, q, _) = &self.at;
+        let (t, ..) = &self.at;
         let direction = 2 * contact;
-        let terms = terms(self.row(direction), q);
+        let terms = terms(self.row(direction), &self.sizes);
         ROUNDING * terms + 8.0 * f64::EPSILON * (t * self.rates[direction]).abs()
     }
 

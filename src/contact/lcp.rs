@@ -30,6 +30,9 @@ const GOOD: f64 = 1e-12;
 /// How many paths are tried.
 const PATHS: usize = 8;
 
+/// How often in succession a guess which numbers are positive is corrected without fewer wrong ones than ever before.
+const IN_VAIN: usize = 1;
+
 /// Solves the problem of the matrix `m`, row after row, whose entries are about as large as 1.
 ///
 /// Where contacts depend on each other, most bases are singular, and rounding may lead a path of pivots astray. Then
@@ -88,6 +91,47 @@ fn along_paths(m: &[f64], q: &[f64], size: f64) -> Option<Solution> {
         }
     }
     best
+}
+
+/// Solves the problem of [`lemke`] from a guess which numbers of `z` are positive, by principal pivoting of all wrong ones at once; none if that does not
+/// end soon, or if the numbers miss the conditions by more than rounding. `correct` is told which places are wrong, and changes the guess. Where a similar
+/// problem has been solved before, this takes a few eliminations in place of as many pivots as there are numbers.
+///
+/// (J. J. Júdice, F. M. Pires, *A block principal pivoting algorithm for large-scale strictly monotone linear complementarity problems*, Comput.
+/// Oper. Res. 21 (1994) 587–596.)
+pub(crate) fn from_guess(
+    m: &[f64],
+    q: &[f64],
+    mut is_positive: Vec<bool>,
+    correct: impl Fn(&[bool], &mut [bool]),
+) -> Option<Solution> {
+    let n = q.len();
+    let (mut fewest, mut in_vain) = (usize::MAX, 0);
+    while in_vain < IN_VAIN {
+        let (z, _) = with_positive(m, q, &is_positive);
+        let greatest = z.iter().fold(0.0_f64, |most, z| most.max(z.abs()));
+        let is_wrong = |(i, row): (usize, &[f64])| {
+            if is_positive[i] {
+                return z[i] < -ZERO * greatest;
+            }
+            let terms = row.iter().zip(&z).map(|(m, z)| m * z);
+            let [sum, size] = terms.fold([q[i], q[i].abs()], |[sum, size], term| {
+                [sum + term, size.max(term.abs())]
+            });
+            sum < -ZERO * size
+        };
+        let wrong: Vec<bool> = m.chunks_exact(n).enumerate().map(is_wrong).collect();
+        let count = wrong.iter().filter(|wrong| **wrong).count();
+        if count == 0 {
+            let z: Vec<f64> = z.iter().map(|z| z.max(0.0)).collect();
+            let residual = residual(m, q, &z);
+            return (residual <= GOOD).then_some(Solution { z, residual });
+        }
+        correct(&wrong, &mut is_positive);
+        in_vain = if count < fewest { 0 } else { in_vain + 1 };
+        fewest = fewest.min(count);
+    }
+    None
 }
 
 /// One path of pivots, by a covering vector of its own.
@@ -238,21 +282,33 @@ impl Tableau {
 /// The numbers of a basis, from the problem itself; none where rounding has made it singular.
 fn refined(m: &[f64], q: &[f64], basis: &[usize]) -> Option<Vec<f64>> {
     let n = q.len();
-    let in_basis: Vec<usize> = (0..n).filter(|i| basis.contains(&(n + i))).collect();
-    let k = in_basis.len();
+    let mut in_basis = vec![false; n];
+    basis
+        .iter()
+        .filter(|variable| (n..2 * n).contains(*variable))
+        .for_each(|variable| in_basis[variable - n] = true);
+    let (z, is_regular) = with_positive(m, q, &in_basis);
+    is_regular.then(|| z.iter().map(|z| z.max(0.0)).collect())
+}
+
+/// The numbers `z` with `w = 0` for those that are called positive, and 0 for the rest; whether they are the only ones.
+fn with_positive(m: &[f64], q: &[f64], is_positive: &[bool]) -> (Vec<f64>, bool) {
+    let n = q.len();
+    let chosen: Vec<usize> = (0..n).filter(|i| is_positive[*i]).collect();
+    let k = chosen.len();
     let (mut a, mut b) = (vec![0.0; k * k], vec![0.0; k]);
-    for (row, &i) in in_basis.iter().enumerate() {
-        for (column, &j) in in_basis.iter().enumerate() {
+    for (row, &i) in chosen.iter().enumerate() {
+        for (column, &j) in chosen.iter().enumerate() {
             a[row * k + column] = m[i * n + j];
         }
         b[row] = -q[i];
     }
     let (values, rank) = solve(&mut a, &mut b);
     let mut z = vec![0.0; n];
-    for (&i, value) in in_basis.iter().zip(&values) {
-        z[i] = value.max(0.0);
+    for (&i, value) in chosen.iter().zip(&values) {
+        z[i] = *value;
     }
-    (rank == k).then_some(z)
+    (z, rank == k)
 }
 
 /// By how much numbers miss `M z + q ≥ 0 ⊥ z ≥ 0`, relative to the greatest term of all: a row of which nothing is
@@ -315,11 +371,14 @@ pub(super) fn eliminate(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, Order) {
     while rank < n {
         let mut best = (rank, rank, 0.0_f64);
         for i in rank..n {
-            for j in rank..n {
-                let size = a[i * n + j].abs();
-                if size > best.2 {
-                    best = (i, j, size);
-                }
+            let row = &a[i * n..][rank..n];
+            let most = row.iter().fold(
+                0.0_f64,
+                |most, x| if x.abs() > most { x.abs() } else { most },
+            );
+            if most > best.2 {
+                let column = row.iter().position(|x| x.abs() == most).unwrap_or(0);
+                best = (i, rank + column, most);
             }
         }
         let (row, column, size) = best;
@@ -334,13 +393,16 @@ pub(super) fn eliminate(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, Order) {
             a.swap(i * n + rank, i * n + column);
         }
         columns.swap(rank, column);
-        for i in rank + 1..n {
-            let factor = a[i * n + rank] / a[rank * n + rank];
+        let (above, below) = a.split_at_mut((rank + 1) * n);
+        let pivot = &above[rank * n..][rank..];
+        for (i, row) in below.chunks_exact_mut(n).enumerate() {
+            let row = &mut row[rank..];
+            let factor = row[0] / pivot[0];
             if factor != 0.0 {
-                for j in rank..n {
-                    a[i * n + j] -= factor * a[rank * n + j];
+                for (x, above) in row.iter_mut().zip(pivot) {
+                    *x -= factor * above;
                 }
-                b[i] -= factor * b[rank];
+                b[rank + 1 + i] -= factor * b[rank];
             }
         }
         rank += 1;

@@ -22,7 +22,10 @@ use std::vec;
 use std::vec::Vec;
 
 use super::cone::{self, Part};
-use super::lcp::{Unsolved, lemke};
+use super::lcp::{Unsolved, from_guess, lemke};
+
+/// Friction within this of the greatest that there is, relative to that, is used up.
+pub(super) const SATURATED: f64 = 1e-10;
 
 /// What is asked of a contact.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +51,8 @@ pub(super) enum ContactUnknowns {
 }
 
 /// Solves for normal and tangential forces or impulses of each contact: finds one solution where there are several. `g` has two rows and columns
-/// for each, its normal and its tangent, and so has `b`. Where a solution is searched for, the search begins `near` these forces.
+/// for each, its normal and its tangent, and so has `b`. The search begins `near` these forces, if they are given: in the plane with the states
+/// that they imply, which contacts press, slip and stick.
 pub(super) fn solve(
     contacts: &[ContactUnknowns],
     g: &[f64],
@@ -171,7 +175,16 @@ pub(super) fn solve(
             Kind::Slip => friction * known_normal,
         };
     }
-    let solution = lemke(&matrix, &q)?;
+    let guessed = near.and_then(|near| {
+        let guess = positive_near(contacts, &unknowns, (g, b), near);
+        from_guess(&matrix, &q, guess, |wrong, guess| {
+            correct(contacts, &unknowns, wrong, guess);
+        })
+    });
+    let solution = match guessed {
+        Some(solution) => solution,
+        None => lemke(&matrix, &q)?,
+    };
     let mut forces = vec![[0.0; 2]; m];
     for (&(k, kind), value) in unknowns.iter().zip(&solution.z) {
         let value = value * unit[k] * rate;
@@ -196,6 +209,95 @@ pub(super) fn solve(
         forces,
         residual: solution.residual,
     })
+}
+
+/// Which unknowns of a problem in the plane are positive if each contact does what it does with these forces.
+fn positive_near(
+    contacts: &[ContactUnknowns],
+    unknowns: &[(usize, Kind)],
+    (g, b): (&[f64], &[f64]),
+    near: &[[f64; 2]],
+) -> Vec<bool> {
+    let width = b.len();
+    // The direction of the friction force, and whether it is used up.
+    let friction = |k: usize| {
+        let force = near[k][1];
+        let most = match contacts[k] {
+            ContactUnknowns::Both {
+                friction,
+                known_normal,
+            } => friction * (near[k][0] + known_normal),
+            ContactUnknowns::Tangent { friction, normal } => friction * normal,
+            ContactUnknowns::OnCarrier {
+                friction,
+                known_normal,
+                on,
+            } => friction * (near[on][0] + known_normal),
+            _ => 0.0,
+        };
+        let row = &g[(2 * k + 1) * width..][..width];
+        let is_forward = if force == 0.0 {
+            let by = row
+                .iter()
+                .zip(near.as_flattened())
+                .map(|(g, force)| g * force);
+            b[2 * k + 1] + by.sum::<f64>() < 0.0
+        } else {
+            force > 0.0
+        };
+        (is_forward, force.abs() >= most * (1.0 - SATURATED))
+    };
+    let is_positive = |&(k, kind): &(usize, Kind)| match kind {
+        Kind::Normal => near[k][0] > 0.0,
+        Kind::Forward => friction(k).0,
+        Kind::Backward => !friction(k).0,
+        Kind::Slip => friction(k).1,
+    };
+    unknowns.iter().map(is_positive).collect()
+}
+
+/// Corrects a guess which unknowns of a problem in the plane are positive. As long as a contact sticks or slips, one of both directions is.
+fn correct(
+    contacts: &[ContactUnknowns],
+    unknowns: &[(usize, Kind)],
+    wrong: &[bool],
+    guess: &mut [bool],
+) {
+    let mut normal_of = vec![None; contacts.len()];
+    for (i, &(k, kind)) in unknowns.iter().enumerate() {
+        match kind {
+            Kind::Normal => {
+                guess[i] ^= wrong[i];
+                normal_of[k] = Some(i);
+            }
+            Kind::Forward => {
+                let (backward, slip) = (i + 1, i + 2);
+                let (normal, known_normal) = match contacts[k] {
+                    ContactUnknowns::OnCarrier {
+                        on, known_normal, ..
+                    } => (normal_of[on], known_normal),
+                    ContactUnknowns::Both { known_normal, .. } => (normal_of[k], known_normal),
+                    _ => (None, 1.0),
+                };
+                let opens = known_normal == 0.0 && normal.is_some_and(|normal| !guess[normal]);
+                let turns = match (guess[slip], opens) {
+                    // It slips backwards, without friction that could stop it.
+                    (true, true) => wrong[slip],
+                    (true, false) => {
+                        guess[slip] ^= wrong[slip];
+                        false
+                    }
+                    (false, _) => {
+                        guess[slip] = opens || wrong[slip];
+                        (guess[i] && wrong[i]) || (guess[backward] && wrong[backward])
+                    }
+                };
+                guess[i] ^= turns;
+                guess[backward] = !guess[i];
+            }
+            Kind::Backward | Kind::Slip => {}
+        }
+    }
 }
 
 /// As [`solve`], where some contacts have a second tangent.

@@ -17,8 +17,8 @@ use std::vec::Vec;
 use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives};
 use super::kinematics::ContactKinematics;
-use super::problem::ContactUnknowns;
-use super::touching::{At, Reaction, SATURATED};
+use super::problem::{self, ContactUnknowns, SATURATED};
+use super::touching::{At, Reaction};
 use super::undetermined;
 use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, UnilateralState};
 use crate::{Singular, StepError, System, Vector};
@@ -137,7 +137,15 @@ impl UnilateralState {
             trouble: ContactTrouble::Unsettled,
             t,
         };
-        let answer = undetermined::solve(&unknowns, &g, &b).map_err(|_| unsolved())?;
+        // Most contacts do what they did in the step before.
+        let near: Vec<[f64; 2]> = (active.iter())
+            .map(|k| match self.stepped() {
+                Some(forces) => forces[*k].map(|force| h * force),
+                None => [0.0; 2],
+            })
+            .collect();
+        let answer =
+            undetermined::solve_for_motion(&unknowns, &g, &b, &near).map_err(|_| unsolved())?;
         if answer.residual > 1e-8 {
             return Err(unsolved());
         }
@@ -293,8 +301,9 @@ impl UnilateralState {
                 trouble: ContactTrouble::Unsettled,
                 t,
             };
+            // Where to move does not depend on how contacts share the displacement.
             let answer =
-                undetermined::solve(&unknowns, &matrix(&images), &gaps).map_err(unsolved)?;
+                problem::solve(&unknowns, &matrix(&images), &gaps, None).map_err(unsolved)?;
             let by = inertia.response(&images, answer.forces.iter().flatten().copied());
             for (q, by) in q.as_mut_slice().iter_mut().zip(by) {
                 *q += by;

@@ -10,7 +10,7 @@ use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives};
 use super::kinematics::{ContactKinematics, ROUNDING};
 use super::lcp;
-use super::problem::ContactUnknowns;
+use super::problem::{ContactUnknowns, SATURATED};
 use super::undetermined::{self, OpenForces};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
 use crate::balance::ContactShare;
@@ -20,9 +20,6 @@ pub(crate) use held::Held;
 
 /// Forces and accelerations below this, relative to the terms that they are the sum of, are rounding.
 const ROUNDING_OF_FORCES: f64 = 1e-11;
-
-/// Friction within this of the greatest that there is, relative to that, is used up.
-pub(super) const SATURATED: f64 = 1e-10;
 
 /// A slip that began from rest has the direction of the force that began it until it is this many times what it began with: from then on its own
 /// differs from that by no more than a thousandth.
@@ -236,6 +233,11 @@ impl UnilateralState {
         self.stepped = Some(forces);
     }
 
+    /// In time stepping the mean forces of the last step along normal and tangent, in N.
+    pub(super) fn stepped(&self) -> Option<&[[f64; 2]]> {
+        self.stepped.as_deref()
+    }
+
     /// What is closed goes on in time stepping, where none of it is a constraint.
     pub fn begin_stepping(&mut self) {
         self.held = Vec::new();
@@ -300,6 +302,14 @@ impl UnilateralState {
     /// Which directions are constraints now.
     pub(super) fn held(&self) -> &[usize] {
         &self.held
+    }
+
+    /// For each direction that is a constraint now the greatest rate of a contact so far, and 0 for rates in other units: what resists rolling.
+    pub fn rates_of_held(&self) -> impl Iterator<Item = f64> {
+        let is_length = |k: usize| self.carrier[k].is_none() || self.across[k];
+        let rate = self.greatest_rate();
+        let of = move |d: &usize| if is_length(d / 2) { rate } else { 0.0 };
+        self.held.iter().map(of)
     }
 
     /// Whether nothing touches.

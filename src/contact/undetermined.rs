@@ -40,6 +40,9 @@ const ROUNDS: usize = 40;
 /// Rates that a compliance leaves, relative to the greatest rate: no more than rounding.
 const RIGID: f64 = 1e-14;
 
+/// Rates that are 0 where a contact is held, relative to the greatest rate.
+const HELD: f64 = 1e-9;
+
 /// With rates up to this a distribution is still one.
 const TOLERABLE: f64 = 1e-11;
 
@@ -244,20 +247,26 @@ pub(super) fn without_effect(by: Vec<Vec<f64>>, effects: &[(Vec<f64>, f64)]) -> 
 }
 
 /// The least inverse mass on which the contacts act that depend on each other, for each contact of a problem whose normal force does, and 0 for the rest; none if no normal force does.
-fn inverse_masses(contacts: &[ContactUnknowns], g: &[f64]) -> Option<Vec<f64>> {
+/// Forces may be in equilibrium along directions that `may_be_held`.
+fn inverse_masses(
+    contacts: &[ContactUnknowns],
+    g: &[f64],
+    may_be_held: impl Fn(usize) -> bool,
+) -> Option<Vec<f64>> {
     let m = contacts.len();
-    let mut directions = Vec::new();
+    let (mut directions, mut has_friction) = (Vec::new(), false);
     for (k, unknowns) in contacts.iter().enumerate() {
         let (normal, tangent) = match unknowns {
             ContactUnknowns::Both { friction, .. } => (true, *friction > 0.0),
             ContactUnknowns::Normal { .. } => (true, false),
             ContactUnknowns::Tangent { friction, normal } => (false, friction * normal > 0.0),
             ContactUnknowns::OnCarrier { friction, .. } => (false, *friction > 0.0),
-            ContactUnknowns::SecondTangent => (false, directions.last() == Some(&(2 * k - 1))),
+            ContactUnknowns::SecondTangent => (false, has_friction),
             ContactUnknowns::Nothing | ContactUnknowns::ShareOfCarrier { .. } => (false, false),
         };
-        directions.extend(normal.then_some(2 * k));
-        directions.extend(tangent.then_some(2 * k + 1));
+        has_friction = tangent;
+        directions.extend((normal && may_be_held(2 * k)).then_some(2 * k));
+        directions.extend((tangent && may_be_held(2 * k + 1)).then_some(2 * k + 1));
     }
     let part: Vec<f64> = directions
         .iter()
@@ -307,28 +316,80 @@ pub(super) fn solve(
     b: &[f64],
 ) -> Result<Answer, Unsolved> {
     let some = problem::solve(contacts, g, b, None);
-    let rate = greatest(b);
-    match inverse_masses(contacts, g) {
-        Some(inverse_masses) if rate > 0.0 => {
-            let start = some.as_ref().ok().map(|answer| answer.forces.clone());
-            distributed(contacts, (g, b), &inverse_masses, start).map_or(some, Ok)
-        }
-        _ => some,
-    }
+    let Some(inverse_masses) = inverse_masses(contacts, g, |_| true) else {
+        return some;
+    };
+    let start = some.as_ref().ok().map(|answer| answer.forces.as_slice());
+    distributed(contacts, (g, b), &inverse_masses, start, TOLERABLE).map_or(some, Ok)
 }
 
-/// The solution with the distribution of the rule, if rounding permits it.
+/// As [`solve`], but with the distribution of the rule only if the motion depends on it: if a contact slips whose normal force others depend on, along
+/// the directions that are held. The search begins `near` these forces.
+pub(super) fn solve_for_motion(
+    contacts: &[ContactUnknowns],
+    g: &[f64],
+    b: &[f64],
+    near: &[[f64; 2]],
+) -> Result<Answer, Unsolved> {
+    let some = problem::solve(contacts, g, b, Some(near));
+    if let Ok(answer) = &some {
+        let (width, rate) = (b.len(), greatest(b));
+        let rates: Vec<f64> = (b.iter().zip(g.chunks_exact(width)))
+            .map(|(b, row)| b + dot(row, answer.forces.as_flattened()))
+            .collect();
+        let is_held = |direction: usize| rates[direction].abs() <= HELD * rate;
+        let following = following(contacts, is_held);
+        if following.is_empty() {
+            return some;
+        }
+        let depends = inverse_masses(contacts, g, is_held)
+            .is_some_and(|inverse_masses| following.iter().any(|k| inverse_masses[*k] > 0.0));
+        if !depends {
+            return some;
+        }
+    }
+    let Some(inverse_masses) = inverse_masses(contacts, g, |_| true) else {
+        return some;
+    };
+    let start = some.as_ref().ok().map(|answer| answer.forces.as_slice());
+    distributed(contacts, (g, b), &inverse_masses, start, HELD).map_or(some, Ok)
+}
+
+/// The contacts whose normal force a friction force follows, because something slips there or would if the contact pressed.
+fn following(contacts: &[ContactUnknowns], is_held: impl Fn(usize) -> bool) -> Vec<usize> {
+    let slips = |k: usize| !is_held(2 * k + 1);
+    let follows = |k: usize| match contacts[k] {
+        ContactUnknowns::Both { friction, .. } => (friction > 0.0 && slips(k)).then_some(k),
+        ContactUnknowns::OnCarrier { friction, on, .. } => {
+            (friction > 0.0 && slips(k)).then_some(on)
+        }
+        ContactUnknowns::Normal { share } => (share != 0.0).then_some(k),
+        ContactUnknowns::ShareOfCarrier { share, on } => (share != 0.0).then_some(on),
+        ContactUnknowns::SecondTangent => (k > 0 && slips(k)).then(|| k - 1),
+        ContactUnknowns::Tangent { .. } | ContactUnknowns::Nothing => None,
+    };
+    (0..contacts.len()).filter_map(follows).collect()
+}
+
+/// The solution with the distribution of the rule, if rounding permits it: if no rate that it leaves is above `tolerable`, relative to the greatest one.
 fn distributed(
     contacts: &[ContactUnknowns],
     (g, b): (&[f64], &[f64]),
     inverse_masses: &[f64],
-    start: Option<Vec<[f64; 2]>>,
+    start: Option<&[[f64; 2]]>,
+    tolerable: f64,
 ) -> Option<Answer> {
     let (m, width, rate) = (contacts.len(), b.len(), greatest(b));
+    if rate == 0.0 {
+        return None;
+    }
     let yields = || (0..m).filter(|k| inverse_masses[*k] > 0.0);
-    let [mut part, share, last_part] = COMPLIANCE;
+    let [first_part, share, last_part] = COMPLIANCE;
+    // Only the search on friction cones needs to be led from soft contacts to stiff ones.
+    let in_space = (contacts.iter()).any(|k| matches!(k, ContactUnknowns::SecondTangent));
+    let mut part = if in_space { first_part } else { last_part };
     let mut c = vec![0.0; m];
-    let mut forces = start;
+    let mut forces = start.map(<[_]>::to_vec);
     let mut best: Option<Answer> = None;
     for _ in 0..ROUNDS {
         let compliance = |k: usize| part * inverse_masses[k];
@@ -359,5 +420,5 @@ fn distributed(
             break;
         }
     }
-    best.filter(|answer| answer.residual <= TOLERABLE)
+    best.filter(|answer| answer.residual <= tolerable)
 }

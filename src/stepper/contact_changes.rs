@@ -470,6 +470,11 @@ pub(super) fn project_onto_closed_contacts<S: System>(
         return Ok(None);
     }
     let mut constraints = Constraints::new(&constrained, &now.q, &now.v);
+    // The rates of contacts that close are known to the round-off of those with which they closed, however small they are now.
+    let first = system.constraints().len();
+    for (place, rate) in touching.rates_of_held().enumerate() {
+        constraints.record_rate(first + place, rate);
+    }
     let begun = constraints.begin(&constrained, &mut now.place(), None);
     begun.map_err(|error| touching.explain(system, error))?;
     // Contacts that share a load stay dependent for as long as they are closed.

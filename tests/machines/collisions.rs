@@ -281,3 +281,32 @@ fn forces_that_may_be_shared_in_several_ways_are_ones_that_contacts_allow() {
         }
     }
 }
+
+/// A flat box whose coordinates are all exactly 0 where it meets the floor, by impacts of one corner after the other: it comes to rest there, and not in ever smaller
+/// impacts between coordinates that know no length.
+#[test]
+fn a_box_at_the_origin_comes_to_rest() {
+    for (falling, turning) in [(-1.0, 0.0), (-1.0, 0.7), (0.0, 0.7)] {
+        let machine = InterpretedMachine::from_text(format!(
+            "machine Box in plane {{
+                coordinates {{ x: m, y: m, theta: rad, der(y): m/s = {falling}, der(theta): rad/s = {turning} }}
+                frames {{ held = ground.shift(x, y).turn(theta) }}
+                bodies {{ box {{ mass: 1, inertia: 1/12, frame: held }} }}
+                gravity (0, -9.81);
+                contacts {{ floor {{ corners: ((-0.5, 0), (0.5, 0)), on: held, along: ground, restitution: 0.5, friction: 0.3, order: sequence }} }}
+            }}"
+        ));
+        let machine = machine.build().unwrap_or_else(|error| panic!("{error}"));
+        let run = run(&machine, 0.5);
+        is_booked(&run);
+        let end = run.end();
+        for name in ["y", "theta"] {
+            let place = [&end.q, &end.v].map(|of| of.get(name).expect("a coordinate"));
+            // What contacts allow for closed gaps and for rest: 1e-12 of lengths of 0.5 m, and of rates of at most 1.4 m/s.
+            assert!(place.iter().all(|x| x.abs() < 3e-12), "{name}: {place:?}");
+        }
+        let balance = run.energy_balance().expect("a balance");
+        let at_start = 0.5 * (falling * falling + turning * turning / 12.0);
+        assert!((balance.dissipated - at_start).abs() < 1e-9, "{balance:?}");
+    }
+}

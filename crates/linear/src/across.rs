@@ -1113,7 +1113,7 @@ struct Tangent<'t> {
 
 /// The friction along a tangent in an impact.
 enum ImpactFriction {
-    /// The slip changes to what is left of it.
+    /// The slip after the impact is that before it times −eₜ, the tangential restitution.
     Sticks(Sought),
     /// Friction is this multiple of the normal impulse.
     Slips { friction: Number, row: Vec<Number> },
