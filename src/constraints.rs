@@ -510,6 +510,24 @@ impl<V: Vector> Constraints<V> {
         self.scales.relative(k, row, left, q, v)
     }
 
+    /// The largest residual of any row, of positions or rates, relative to the scale of the guaranteed bound, and its row.
+    fn largest_guaranteed<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        workspace: &Workspace<'_, S::Matrix>,
+        (q, v): (&V, &V),
+    ) -> (f64, usize) {
+        let mut most = (0.0, 0);
+        for (k, _) in system.constraints().enumerate() {
+            let [positions, rates] = self.relative(workspace, k, q, v).map(|of| of.guaranteed);
+            let now = if positions > rates { positions } else { rates };
+            if !(now <= most.0) {
+                most = (now, k);
+            }
+        }
+        most
+    }
+
     /// Checks that the rows that were not chosen agree with the chosen ones; records the residual and the size of the terms.
     fn check_redundant_rows<S: System<Vector = V>>(
         &mut self,
@@ -518,13 +536,9 @@ impl<V: Vector> Constraints<V> {
         place: &Unprojected<'_, V>,
     ) -> Result<(), StepError> {
         let (q, v) = (&*place.q[0], &*place.v[0]);
-        let mut most = (0.0, 0);
-        for (k, _) in system.constraints().enumerate() {
-            let [positions, rates] = self.relative(workspace, k, q, v).map(|of| of.guaranteed);
-            let now = if positions > rates { positions } else { rates };
-            if !(now <= most.0) {
-                most = (now, k);
-            }
+        let mut most = self.largest_guaranteed(system, workspace, (q, v));
+        if !(most.0 <= CONTRADICTION) && self.scales.record_drive(system, place.t, q) {
+            most = self.largest_guaranteed(system, workspace, (q, v));
         }
         self.residual = most.0;
         if !(most.0 <= CONTRADICTION) {

@@ -12,6 +12,9 @@
 //!   this is never less than `Σⱼ |Gₖⱼ| |vⱼ|`, and it is 0 only if the machine is at rest.
 //! * The constraint is evaluated from terms that do not depend on the state (lengths in parameters that
 //!   cancel each other). Their size is not known beforehand: it is measured when Newton's method stagnates.
+//!   Of rates these are also velocities by explicit time: two parts that move along with one belt have none
+//!   relative to each other. Then a chosen row loses a small rate by rounding, which another row sees. The
+//!   length of all these velocities in the metric of inertia is `√(2 T)` with the kinetic energy T at v = 0.
 
 use super::algebra::{root, share};
 use super::{REDUCTION_THRESHOLD, RESIDUAL, ROUNDOFF};
@@ -217,6 +220,19 @@ impl<V: Vector> Scales<V> {
             let observed_roundoff = left.abs() / (length * ROUNDOFF);
             self.observed_roundoff[level] = self.observed_roundoff[level].max(observed_roundoff);
         }
+    }
+
+    /// Takes the velocities by explicit time into account as terms that may cancel each other. Returns whether their round-off was
+    /// unknown.
+    pub fn record_drive<S: System<Vector = V>>(&mut self, system: &S, t: f64, q: &V) -> bool {
+        let energy = system.kinetic_energy(t, q, &q.zeros_like());
+        let speed = sqrt(2.0 * energy);
+        // Not so for NaN, of a system that gives no energy.
+        let is_new = speed > self.observed_roundoff[1] && speed.is_finite();
+        if is_new {
+            self.observed_roundoff[1] = speed;
+        }
+        is_new
     }
 
     /// Whether a move is within the bound of residuals, relative to the numbers that it moves.

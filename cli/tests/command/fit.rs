@@ -877,6 +877,64 @@ fn estimated_deviations_are_those_of_the_residuals() {
 }
 
 #[test]
+fn a_quantity_that_is_known_to_rounding_does_not_hide_what_others_depend_on() {
+    // Friction acts only along x. The height is a closed form between the bounces, so that its computed values are exact to rounding,
+    // and its estimated deviation is 10⁵ times as small as that of x.
+    let spec = Scratch::new(
+        "bounced.machine",
+        "machine Bounced in plane {
+            parameters { m: kg = 0.3, e: 1 = 0.7, mu: 1 = 0.2, g: m/s^2 = 9.81, k: N/m = 20 }
+            coordinates { x: m, y: m = 0.3, der(x): m/s = 1 }
+            bodies { ball { mass: m, at: (x, y) } }
+            gravity (0, -g);
+            springs { along { stiffness: k, stretch: x } }
+            contacts { floor { gap: y, slip: der(x), restitution: e, friction: mu } }
+        }",
+    );
+    let data = Scratch::new("bounced.csv", "");
+    let call = [
+        "simulate",
+        spec.path(),
+        "--until",
+        "1",
+        "--every",
+        "0.01",
+        "--tolerance",
+        "1e-11",
+    ];
+    let written = lagrangian(&[&call[..], &["--out", data.path()]].concat());
+    assert_eq!(written.status.code(), Some(0));
+    let found = fit(&[
+        spec.path(),
+        "--data",
+        data.path(),
+        "--fit",
+        "e,mu,k",
+        "--set",
+        "e=0.6",
+        "--set",
+        "mu=0.15",
+        "--set",
+        "k=22",
+        "--sigma",
+        "auto",
+    ]);
+    let sigma = |place: usize| number(&found["columns"][place]["sigma"]);
+    assert!(sigma(0) > 1e4 * sigma(1), "{found:#}");
+    let estimates = estimates(&found);
+    for ((value, error), known) in estimates.into_iter().zip([0.7, 0.2, 20.0]) {
+        // The errors of a run at a tolerance of 1e-9.
+        assert!(
+            (value / known - 1.0).abs() < 1e-8,
+            "{value} and not {known}"
+        );
+        assert!(error < 1e-8 * known, "{error}");
+    }
+    let warnings = found["warnings"].to_string();
+    assert!(!warnings.contains("do not depend"), "{warnings}");
+}
+
+#[test]
 fn what_was_fitted_comes_back_as_a_spec_a_table_and_a_drawing() {
     let spec = Scratch::new("oscillator.machine", OSCILLATOR);
     let [out, rows, plot] =

@@ -298,7 +298,14 @@ impl Fit<'_> {
         // nearly 0.
         let scales = self.sizes().into_iter().zip(&minimum.x);
         let changes: Vec<f64> = scales.map(|(size, x)| size.max(x.abs())).collect();
-        let statistics = Statistics::of(&minimum, &self.bounds(), &changes, exact, is_scaled);
+        let in_a_class = self.effective_in_a_class(&minimum, &changes, exact);
+        let statistics = Statistics::of(
+            &minimum,
+            &self.bounds(),
+            &changes,
+            (exact, is_scaled),
+            |j| in_a_class[j],
+        );
         let mut is_stopped = false;
         let entangled = statistics.standing.contains(&Standing::Entangled);
         let combinations = if entangled {
@@ -843,6 +850,30 @@ impl Fit<'_> {
                 rows.filter_map(move |(r, value)| value.map(|value| (e, c, r, value, sigma)))
             })
         })
+    }
+
+    /// Whether each fitted number has an effect on the quantities with one standard deviation that is greater than the error of
+    /// derivatives, relative to the greatest effect on these quantities and to their values. The weights of different quantities can
+    /// differ by any factor: where one is known to round-off, the effects on all others are small in comparison.
+    fn effective_in_a_class(&self, minimum: &Minimum, changes: &[f64], exact: f64) -> Vec<bool> {
+        let mut is_effective = vec![false; changes.len()];
+        for class in 0..self.sigmas.len() {
+            let rows = self.measurements().enumerate();
+            let rows =
+                rows.filter(|(_, (e, c, ..))| self.experiments[*e].columns[*c].sigma == class);
+            let (mut effects, mut size) = (vec![0.0; changes.len()], 0.0);
+            for (i, (_, _, _, value, sigma)) in rows {
+                size += (value / sigma).powi(2);
+                for (j, effect) in effects.iter_mut().enumerate() {
+                    *effect += (minimum.jacobian[(i, j)] * changes[j]).powi(2);
+                }
+            }
+            let greatest = effects.iter().copied().fold(size, f64::max).sqrt();
+            for (is_effective, effect) in is_effective.iter_mut().zip(&effects) {
+                *is_effective |= effect.sqrt() > exact * greatest;
+            }
+        }
+        is_effective
     }
 
     /// Estimates standard deviations from the residuals of a minimum, as the root mean square of each class of columns.

@@ -47,13 +47,15 @@ pub struct Statistics {
 
 impl Statistics {
     /// The statistics of a minimum. `sizes` are the scales of the fitted numbers, `exact` is the relative error of
-    /// the derivatives, and `is_scaled` says that the weights are known only up to a factor.
+    /// the derivatives, and `is_scaled` says that the weights are known only up to a factor. The residuals depend on a number if its
+    /// effect on all of them exceeds the error of the greatest effect, or if `has_effect` says so: that they do in one of several
+    /// quantities whose weights differ by more than derivatives are exact.
     pub fn of(
         at: &Minimum,
         bounds: &[[f64; 2]],
         sizes: &[f64],
-        exact: f64,
-        is_scaled: bool,
+        (exact, is_scaled): (f64, bool),
+        has_effect: impl Fn(usize) -> bool,
     ) -> Statistics {
         let count = at.x.len();
         let norms: Vec<f64> = at.jacobian.column_iter().map(|c| c.norm()).collect();
@@ -61,10 +63,14 @@ impl Statistics {
         let greatest = (0..count).map(effect).fold(0.0, f64::max);
         let held = active_bounds(at, bounds);
         let mut standing: Vec<Standing> = (0..count)
-            .map(|j| match (held[j], effect(j) > exact * greatest) {
-                (true, _) => Standing::Bound,
-                (_, false) => Standing::Ineffective,
-                _ => Standing::Estimated,
+            .map(|j| {
+                if held[j] {
+                    Standing::Bound
+                } else if effect(j) > exact * greatest || has_effect(j) {
+                    Standing::Estimated
+                } else {
+                    Standing::Ineffective
+                }
             })
             .collect();
         let open: Vec<usize> = (0..count)

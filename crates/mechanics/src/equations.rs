@@ -241,6 +241,7 @@ impl<'d> Equations<'d> {
         let refused = refusal::refuse_undefined(model, &equations, report) || {
             let (matrix, constraints) = (&equations.mass_matrix, &equations.constraints);
             refusal::refuse_massless(model, matrix, constraints, report)
+                || refusal::refuse_massless_contacts(model, matrix, report)
         };
         (!refused).then_some(equations)
     }

@@ -127,7 +127,13 @@ fn check(name: &'static str, model: fn(&[D], f64) -> D, starts: &[usize]) {
         );
         println!("{told}");
         assert!(found.ending.is_minimum(), "{told}");
-        let said = Statistics::of(&found, &free, &set.certified, options.derivatives, true);
+        let said = Statistics::of(
+            &found,
+            &free,
+            &set.certified,
+            (options.derivatives, true),
+            |_| false,
+        );
         let p = set.certified.len() as f64;
         assert_eq!(said.freedom, set.data.len() - set.certified.len(), "{told}");
         for (j, b) in set.certified.iter().enumerate() {

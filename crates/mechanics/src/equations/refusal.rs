@@ -454,3 +454,44 @@ pub(super) fn refuse_massless<'d>(
     }
     !free.is_empty()
 }
+
+/// Refuses contacts of a machine with coordinates that move no mass and that constraints determine: what contact forces do follows from
+/// the inverse of the mass matrix alone, which does not exist. Returns true if refused.
+pub(super) fn refuse_massless_contacts<'d>(
+    model: &Model<'d>,
+    mass_matrix: &Symmetric<Expr<'d>>,
+    report: &mut Report,
+) -> bool {
+    let Some(contact) = model.contacts.first() else {
+        return false;
+    };
+    let n = model.coordinates.len();
+    let row = |i: usize| (0..n).map(move |j| *mass_matrix.get(i, j)).collect();
+    let rows: Vec<Vec<Expr<'d>>> = (0..n).map(row).collect();
+    let free = identity::null_space(model.dag, &rows).unwrap_or_default();
+    let moves = |i: &usize| free.iter().any(|direction| direction[*i] != Residue::ZERO);
+    let moving: Vec<usize> = (0..n).filter(moves).collect();
+    let Some(last) = moving.last() else {
+        return false;
+    };
+    let names = moving
+        .iter()
+        .map(|i| format!("`{}`", model.coordinates[*i].name));
+    let names: Vec<String> = names.collect();
+    let all = names.join(", ");
+    let (subject, them) = match names.len() {
+        1 => (format!("the coordinate {all}, which moves no mass,"), "it"),
+        _ => (
+            format!("the coordinates {all}, which can change without moving any mass,"),
+            "them",
+        ),
+    };
+    let message = format!("`contacts` of a machine with {subject} cannot be derived yet");
+    let help = format!(
+        "give an inertia to what {all} turns or moves, or describe the machine without {them}"
+    );
+    let diagnostic = Diagnostic::new(Code::NotSupported, contact.span, message).help(help);
+    let place = model.coordinates[*last].span;
+    report.push(diagnostic.note(place, "constraints determine it, but no mass"));
+    true
+}
