@@ -14,7 +14,7 @@ mod timing;
 use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
-use lagrangian::{Machine, System, UnilateralForce, unilateral_forces};
+use lagrangian::{At, Machine, System, UnilateralForce, unilateral_forces};
 use timing::median_of;
 
 const GRAVITY: f64 = 9.81;
@@ -117,7 +117,12 @@ fn row(what: &str, n: usize, text: &str) {
     };
     let (system, start) = (machine.prepare(), machine.start());
     let inputs = system.default_inputs();
-    let at = (0.0, &start.q.values, &start.v.values, &inputs);
+    let at = At {
+        t: 0.0,
+        q: &start.q.values,
+        v: &start.v.values,
+        u: &inputs,
+    };
     let mut a = vec![0.0; start.q.values.len()];
     let (time, solved) = median_of(5, || unilateral_forces(&system, at, &mut a));
     match solved {

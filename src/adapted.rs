@@ -2,6 +2,7 @@
 
 use core::fmt::{self, Debug};
 
+use crate::at::At;
 use crate::constraints::algebra::{backward, cholesky, forward as solve_lower};
 use crate::forward::forward;
 use crate::{
@@ -178,7 +179,7 @@ where
     /// All accelerations and multipliers, if constraints take up a part of the force.
     fn constrained(
         &self,
-        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         a: &mut S::Vector,
         multipliers: &mut [f64],
     ) -> Result<(), Singular> {
@@ -198,7 +199,7 @@ where
     /// along `v` these are `T₁` and `2 T₂`, with the parts `T₂` and `T₁` of `T` of second and first order in `v`.
     fn work_rate_includes_reactions(
         &self,
-        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         a: &S::Vector,
         work_rate: f64,
     ) -> bool {
@@ -286,7 +287,7 @@ where
         let m = self.system.constraints().len();
         if m != 0 {
             return self.with_workspace(m, |multipliers| match multipliers {
-                Some(multipliers) => self.constrained((t, q, v, u), a, &mut multipliers[..m]),
+                Some(multipliers) => self.constrained(At { t, q, v, u }, a, &mut multipliers[..m]),
                 None => Err(NO_WORKSPACE),
             });
         }
@@ -328,7 +329,7 @@ where
         let force = self.additional_force(t, q, v, u);
         let own = self.system.work_rate(t, q, v, a, u);
         if self.system.constraints().len() != 0
-            && self.work_rate_includes_reactions((t, q, v, u), a, own)
+            && self.work_rate_includes_reactions(At { t, q, v, u }, a, own)
         {
             return own;
         }
@@ -347,7 +348,7 @@ where
         if multipliers.is_empty() {
             return Ok(());
         }
-        self.constrained((t, q, v, u), &mut q.zeros_like(), multipliers)
+        self.constrained(At { t, q, v, u }, &mut q.zeros_like(), multipliers)
     }
 
     fn check_series(&self) -> Result<(), &str> {

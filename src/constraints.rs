@@ -21,6 +21,7 @@ mod scale;
 mod start;
 mod workspace;
 
+use crate::at::At;
 use crate::compensated::two_sum;
 use crate::math::sqrt;
 use crate::{Singular, StepError, System, Vector};
@@ -96,7 +97,7 @@ pub fn least_multipliers<S: System>(
     constraints.choose_again(system, t, q)?;
     constraints.accelerations(system, t, q, v, u, a)?;
     constraints.multipliers(system, t, q, v, u, multipliers)?;
-    constraints.check_accelerations(system, (t, q, v, u), a)
+    constraints.check_accelerations(system, At { t, q, v, u }, a)
 }
 
 /// State of the constraints of a machine during a run.
@@ -569,7 +570,7 @@ impl<V: Vector> Constraints<V> {
     pub fn check_accelerations<S: System<Vector = V>>(
         &self,
         system: &S,
-        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         a: &V,
     ) -> Result<(), StepError> {
         in_workspace(system, t, q.as_slice().len(), |workspace| {
@@ -678,20 +679,20 @@ impl<V: Vector> Constraints<V> {
         a: &mut V,
     ) -> Result<(), StepError> {
         if self.at_fork {
-            return self.accelerations_at_fork(system, (t, q, v, u), a);
+            return self.accelerations_at_fork(system, At { t, q, v, u }, a);
         }
-        self.accelerations_here(system, (t, q, v, u), a)
+        self.accelerations_here(system, At { t, q, v, u }, a)
     }
 
     fn accelerations_here<S: System<Vector = V>>(
         &self,
         system: &S,
-        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         a: &mut V,
     ) -> Result<(), StepError> {
         let choice = self.best_choice_at(system, t, q)?;
         in_workspace(system, t, q.as_slice().len(), |workspace| {
-            reactions_along(system, workspace, &choice, (t, q, v, u), a)?;
+            reactions_along(system, workspace, &choice, At { t, q, v, u }, a)?;
             let metric = workspace.metric.as_slice();
             for (j, along) in workspace
                 .basis
@@ -735,9 +736,9 @@ impl<V: Vector> Constraints<V> {
         let mut z = q.zeros_like();
         let choice = self.best_choice_at(system, t, q)?;
         in_workspace(system, t, q.as_slice().len(), |workspace| {
-            reactions_along(system, workspace, &choice, (t, q, v, u), &mut z)?;
+            reactions_along(system, workspace, &choice, At { t, q, v, u }, &mut z)?;
             if workspace.is_augmented {
-                reactions_of_inertia(system, workspace, choice.rank, (t, q, v, u), &mut z);
+                reactions_of_inertia(system, workspace, choice.rank, At { t, q, v, u }, &mut z);
             }
             multipliers.fill(0.0);
             workspace.least_norm(multipliers, |j| choice.row(j), choice.rank);
@@ -788,7 +789,7 @@ fn reactions_along<S: System>(
     system: &S,
     workspace: &mut Workspace<'_, S::Matrix>,
     choice: &Choice<S::Vector>,
-    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    At { t, q, v, u }: At<'_, S>,
     z: &mut S::Vector,
 ) -> Result<(), StepError> {
     prepare(system, workspace, (t, q), (choice, None))?;
@@ -816,7 +817,7 @@ fn reactions_of_inertia<S: System>(
     system: &S,
     workspace: &mut Workspace<'_, S::Matrix>,
     rank: usize,
-    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    At { t, q, v, u }: At<'_, S>,
     z: &mut S::Vector,
 ) {
     let n = workspace.n;

@@ -23,6 +23,7 @@ use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
+use crate::at::At;
 use crate::error::constraint_name;
 use crate::math::sqrt;
 use crate::{
@@ -48,15 +49,12 @@ const NEARBY_STATES: (f64, usize) = (1e-3, 4);
 /// # Errors
 /// [`Error::EquationsViolated`], which indicates a mistake in the functions of the machine and not in
 /// its description.
-pub fn check_equations<S: System>(
-    system: &S,
-    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
-) -> Result<(), Error> {
+pub fn check_equations<S: System>(system: &S, At { t, q, v, u }: At<'_, S>) -> Result<(), Error> {
     let n = system.equations();
     if n == 0 || n != q.as_slice().len() || S::Matrix::zeros(n * n).as_slice().len() != n * n {
         return Ok(());
     }
-    let Some(here) = worst(system, (t, q, v, u)) else {
+    let Some(here) = worst(system, At { t, q, v, u }) else {
         return Ok(());
     };
     if here.share <= here.tolerance {
@@ -64,7 +62,7 @@ pub fn check_equations<S: System>(
     }
     let nearby = (1..=NEARBY_STATES.1).filter_map(|number| {
         let (q, v) = state_beside(system, q, v, number);
-        worst(system, (t, &q, &v, u))
+        worst(system, At { t, q: &q, v: &v, u })
     });
     let shares: Vec<bool> = nearby.map(|there| there.share > there.tolerance).collect();
     if shares.len() < 2 || shares.contains(&false) {
@@ -91,10 +89,7 @@ struct Worst {
 }
 
 /// Returns `None` if there is nothing to check: no accelerations, or none that are finite.
-fn worst<S: System>(
-    system: &S,
-    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
-) -> Option<Worst> {
+fn worst<S: System>(system: &S, At { t, q, v, u }: At<'_, S>) -> Option<Worst> {
     let n = q.as_slice().len();
     let (m, k) = (system.constraints().len(), system.contacts().len());
     let mut a = q.zeros_like();
@@ -102,7 +97,7 @@ fn worst<S: System>(
     let mut contacts = [ContactForce::default(); MOST_CONTACTS];
     solve(
         system,
-        (t, q, v, u),
+        At { t, q, v, u },
         &mut a,
         &mut multipliers,
         &mut contacts[..k],
@@ -206,13 +201,13 @@ fn worst<S: System>(
 /// Accelerations, multipliers and friction forces, as a run finds them.
 fn solve<S: System>(
     system: &S,
-    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    At { t, q, v, u }: At<'_, S>,
     a: &mut S::Vector,
     multipliers: &mut [f64],
     contacts: &mut [ContactForce],
 ) -> Option<()> {
     if S::MAY_SLIDE && !contacts.is_empty() {
-        let at = (t, q, v, u);
+        let at = At { t, q, v, u };
         return contact_forces(system, at, a.as_mut_slice(), multipliers, contacts).ok();
     }
     let result = system

@@ -3,6 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
+use crate::at::At;
 use crate::{
     ContactForce, Pivot, StepError, System, UnilateralForce, Vector, contact_forces,
     least_multipliers, unilateral_forces,
@@ -50,7 +51,7 @@ impl<O> Evaluation<O> {
     /// If the machine has no accelerations.
     pub fn of<S: System<Outputs = O>>(
         system: &S,
-        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
     ) -> Result<Self, StepError> {
         let n = q.as_slice().len();
         let (mut bias, mut applied) = (q.zeros_like(), q.zeros_like());
@@ -72,7 +73,7 @@ impl<O> Evaluation<O> {
         }
         let unilateral = match system.unilateral_contacts().len() {
             0 => Vec::new(),
-            _ => unilateral_forces(system, (t, q, v, u), &mut a)?,
+            _ => unilateral_forces(system, At { t, q, v, u }, &mut a)?,
         };
         let mut rows = vec![0.0; multipliers.len() * n];
         system.constraint_matrix(t, q, &mut rows);
@@ -88,7 +89,7 @@ impl<O> Evaluation<O> {
         let mut contacts = vec![ContactForce::default(); system.contacts().len()];
         if !contacts.is_empty() {
             // If they have no value, the accelerations have none either.
-            let _ = contact_forces(system, (t, q, v, u), &mut [], &mut [], &mut contacts);
+            let _ = contact_forces(system, At { t, q, v, u }, &mut [], &mut [], &mut contacts);
         }
         system.mass_matrix(t, q, &mut matrix);
         system.bias(t, q, v, &mut bias);

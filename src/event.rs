@@ -635,6 +635,7 @@ fn report<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
     events: &mut Vec<Event<Coordinates<M>>>,
 ) -> Result<Option<Terminal>, Error> {
     let system = observed_system.system;
+    let roundoff = theta_roundoff(stepper);
     let forward = stepper.t() > stepper.t_before();
     for SignChange {
         watch: index,

@@ -41,6 +41,7 @@ pub(crate) use law::{Mode, Motion};
 #[cfg(feature = "std")]
 use shares::Limit;
 
+use crate::at::At;
 use crate::scalar::friction::FrictionLayout;
 use crate::system::MOST_CONTACTS;
 use crate::{Pivot, Singular, StepError, System, Vector};
@@ -172,7 +173,7 @@ pub(crate) enum Cause {
 /// machine has no workspace ([`Pivot::NoWorkspace`]).
 pub fn contact_forces<S: System>(
     system: &S,
-    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    At { t, q, v, u }: At<'_, S>,
     accelerations: &mut [f64],
     multipliers: &mut [f64],
     forces: &mut [ContactForce],
@@ -198,7 +199,7 @@ pub fn accelerations_with_friction<S: System>(
 ) -> Result<(), Singular> {
     contact_forces(
         system,
-        (t, q, v, u),
+        At { t, q, v, u },
         a.as_mut_slice(),
         &mut [],
         &mut [ContactForce::default(); MOST_CONTACTS],
@@ -216,7 +217,7 @@ pub fn multipliers_with_friction<S: System>(
 ) -> Result<(), Singular> {
     contact_forces(
         system,
-        (t, q, v, u),
+        At { t, q, v, u },
         &mut [],
         multipliers,
         &mut [ContactForce::default(); MOST_CONTACTS],
@@ -429,7 +430,7 @@ impl Contacts {
     pub fn accelerations<S: System>(
         &self,
         system: &S,
-        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         a: &mut S::Vector,
     ) -> Result<(), Singular> {
         let mode = self.mode_at(system, t, q, v);
@@ -448,7 +449,7 @@ impl Contacts {
     pub fn forces<S: System>(
         &self,
         system: &S,
-        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         multipliers: &mut [f64],
         forces: &mut [ContactForce],
     ) -> Result<(), Singular> {
@@ -464,11 +465,7 @@ impl Contacts {
 
     /// The powers of the friction forces, in W: the work that prescribed motion does through them, and the loss, `−Σ Fₖ wₖ`. Their
     /// difference is the power on the coordinates, `Σ Fₖ τₖ v`.
-    pub fn power<S: System>(
-        &self,
-        system: &S,
-        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
-    ) -> [f64; 2] {
+    pub fn power<S: System>(&self, system: &S, At { t, q, v, u }: At<'_, S>) -> [f64; 2] {
         let slips = slips(system, t, q, v);
         let power = with_parts(system, t, q, v, u, |parts, workspace| {
             let friction_forces = friction_forces(parts, &self.mode_of(&slips))?;
@@ -495,7 +492,7 @@ impl Contacts {
     pub fn margins<S: System>(
         &self,
         system: &S,
-        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
     ) -> Result<[[Margin; 2]; MOST_CONTACTS], StepError> {
         let slips = slips(system, t, q, v);
         let margins = with_parts(system, t, q, v, u, |parts, _| {
@@ -581,7 +578,7 @@ impl Contacts {
     pub fn check<S: System>(
         &self,
         system: &S,
-        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
     ) -> Result<(), StepError> {
         let mode = self.mode_at(system, t, q, v);
         let open_states = OpenStates {
@@ -615,7 +612,7 @@ impl Contacts {
         let k = change.contact;
         let veers = match (self.mode.motion[k], change.cause) {
             (Motion::SlidesAlong, Cause::Stopped) => {
-                !self.has_stopped(system, (t, q, v[0], u), k)?
+                !self.has_stopped(system, At { t, q, v: v[0], u }, k)?
             }
             (_, cause) => cause == Cause::Veered,
         };
@@ -747,7 +744,7 @@ impl Contacts {
     fn has_stopped<S: System>(
         &self,
         system: &S,
-        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         contact: usize,
     ) -> Result<bool, StepError> {
         let slips = slips(system, t, q, v);

@@ -53,6 +53,7 @@
 extern crate std;
 
 mod adapted;
+mod at;
 mod attempt;
 mod balance;
 #[cfg(feature = "std")]
@@ -127,6 +128,7 @@ mod solution;
 mod table;
 
 pub use adapted::{Adapted, AdaptedSystem, HasFriction};
+pub use at::At;
 pub use balance::{
     ContactEnergies, Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures,
 };

@@ -3,6 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
+use crate::at::At;
 use crate::constraints::Constraints;
 use crate::contact::UnilateralState;
 use crate::friction::{ContactForce, Contacts};
@@ -79,14 +80,6 @@ impl<S: System, L: InputLaw<S>> ObservedSystem<'_, S, L> {
     }
 }
 
-/// Time, coordinates, rates and inputs.
-type At<'x, S> = (
-    f64,
-    &'x <S as System>::Vector,
-    &'x <S as System>::Vector,
-    &'x <S as System>::Inputs,
-);
-
 impl<'x, V: Vector> ConstraintState<'x, V> {
     /// The constraints and contacts of a stepper during its last step.
     pub fn of<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
@@ -106,7 +99,7 @@ impl<'x, V: Vector> ConstraintState<'x, V> {
         at: At<'_, S>,
         a: &mut V,
     ) -> Result<(), StepError> {
-        let (t, q, v, u) = at;
+        let At { t, q, v, u } = at;
         if S::MAY_COLLIDE
             && let Some(touching) = self.touching
         {
@@ -128,7 +121,7 @@ impl<'x, V: Vector> ConstraintState<'x, V> {
         system: &S,
         at: At<'_, S>,
     ) -> Result<Vec<f64>, StepError> {
-        let (t, q, v, u) = at;
+        let At { t, q, v, u } = at;
         if S::MAY_COLLIDE
             && let Some(touching) = self.touching
         {
@@ -172,7 +165,12 @@ impl<'x, V: Vector> ConstraintState<'x, V> {
         let t = state.t;
         let (q, v) = (system.to_vector(&state.q), system.to_vector(&state.v));
         let mut a = q.zeros_like();
-        let at = (t, &q, &v, &u);
+        let at = At {
+            t,
+            q: &q,
+            v: &v,
+            u: &u,
+        };
         self.accelerations(system, at, &mut a)?;
         let (mut multipliers, mut contacts);
         if M::System::MAY_SLIDE

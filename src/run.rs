@@ -15,6 +15,7 @@ use std::string::String;
 use std::time::Instant;
 use std::vec::Vec;
 
+use crate::at::At;
 use crate::balance::{Energies, EnergyBalance, EnergyIntegrals, Quadratures};
 use crate::constraints::{Constraints, Violation, closest};
 use crate::contact::Mode;
@@ -241,7 +242,15 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         }
         let mut stepper = begun_by.map_err(|error| model.explain(error, q, v))?;
         if !*is_resumed {
-            check_equations(system, (start.t, q, v, stepper.inputs()))?;
+            check_equations(
+                system,
+                At {
+                    t: start.t,
+                    q,
+                    v,
+                    u: stepper.inputs(),
+                },
+            )?;
         }
         stepper.set_longest_step(settings.longest_step);
         if let Some(step) = settings.first_step {
@@ -739,7 +748,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let margins = |(t, q, v): &Triple<VectorOf<M>>| {
             let inputs = model.inputs(*t, q, v);
             contacts
-                .margins(model.system, (*t, q, v, &inputs))
+                .margins(
+                    model.system,
+                    At {
+                        t: *t,
+                        q,
+                        v,
+                        u: &inputs,
+                    },
+                )
                 .map_err(|error| model.explain(error, q, v))
         };
         let mut earliest: Option<(f64, f64, Change)> = None;
@@ -778,7 +795,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
         let inputs = model.inputs(t, q, v);
         contacts
-            .check(model.system, (t, q, v, &inputs))
+            .check(
+                model.system,
+                At {
+                    t,
+                    q,
+                    v,
+                    u: &inputs,
+                },
+            )
             .map_err(|error| model.explain(error, q, v))?;
         Ok(None)
     }
@@ -1267,7 +1292,7 @@ where
     ) -> Result<(), Error> {
         let system = self.model.system;
         ConstraintState::of(self.stepper)
-            .accelerations(system, (t, q, v, u), a)
+            .accelerations(system, At { t, q, v, u }, a)
             .map_err(|error| Error::of_step(error, system))
     }
 }

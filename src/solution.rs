@@ -12,6 +12,7 @@ use core::fmt::{self, Debug};
 use std::string::String;
 use std::vec::Vec;
 
+use crate::at::At;
 use crate::constraints::Constraints;
 use crate::contact::Mode;
 use crate::event::{Event, state};
@@ -346,7 +347,7 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     ) -> Result<Inputs<M>, StepError> {
         let u = self.inputs(t, q, v);
         self.constraint_state_at(t)
-            .accelerations(&self.system, (t, q, v, &u), a)?;
+            .accelerations(&self.system, At { t, q, v, u: &u }, a)?;
         Ok(u)
     }
 
@@ -657,14 +658,30 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             if M::System::MAY_SLIDE
                 && let Some(contacts) = run.contacts_at(t)
             {
-                let [work, lost] = contacts.power(&run.system, (t, &q, &v, &u));
+                let [work, lost] = contacts.power(
+                    &run.system,
+                    At {
+                        t,
+                        q: &q,
+                        v: &v,
+                        u: &u,
+                    },
+                );
                 energies.work += half * weight * work;
                 energies.dissipated += half * weight * lost;
             }
             if M::System::MAY_COLLIDE
                 && let Some(phase) = run.phase_at(t)
             {
-                let powers = phase.touching.powers(&run.system, (t, &q, &v, &u));
+                let powers = phase.touching.powers(
+                    &run.system,
+                    At {
+                        t,
+                        q: &q,
+                        v: &v,
+                        u: &u,
+                    },
+                );
                 energies.work += half * weight * powers.work;
                 energies.dissipated += half * weight * powers.lost;
             }

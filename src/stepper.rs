@@ -29,6 +29,7 @@ pub(crate) use contact_changes::{Cause, ContactChanges};
 pub(crate) use owned::BorrowedOrOwned;
 pub use owned::{ControlledStepper, StepperBuilder};
 
+use crate::at::At;
 use crate::attempt::{self, not_finite};
 use crate::balance::{NoBalance, Quadratures};
 #[cfg(feature = "std")]
@@ -305,7 +306,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             && let Some(constraints) = &model.constraints
             && constraints.redundant
         {
-            let at = (now.t, &now.q, &now.v, &model.inputs);
+            let at = At {
+                t: now.t,
+                q: &now.q,
+                v: &now.v,
+                u: &model.inputs,
+            };
             constraints.check_accelerations(model.system.get(), at, &k[0])?;
         }
         model.take_rates(quadratures, 0, (now.t, &now.q, &now.v, &k[0]));
@@ -1168,7 +1174,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         work.evaluations += 1;
         self.law.set(self.system.get(), t, q, v, &mut self.inputs);
         let known = (&self.constraints, &self.contacts);
-        let at = (t, q, v, &self.inputs);
+        let at = At {
+            t,
+            q,
+            v,
+            u: &self.inputs,
+        };
         #[cfg(feature = "std")]
         if S::MAY_COLLIDE
             && let Some(touching) = &self.touching
@@ -1283,13 +1294,19 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         at: (f64, &S::Vector, &S::Vector, &S::Vector),
     ) {
         quadratures.stage(stage, self.system.get(), at, &self.inputs);
+        let (t, q, v, _) = at;
+        let here = At {
+            t,
+            q,
+            v,
+            u: &self.inputs,
+        };
         if S::MAY_SLIDE
             && self.system.contacts().len() != 0
             && let Some(contacts) = &self.contacts
             && quadratures.integrals().is_some()
         {
-            let (t, q, v, _) = at;
-            let [work, lost] = contacts.power(self.system.get(), (t, q, v, &self.inputs));
+            let [work, lost] = contacts.power(self.system.get(), here);
             quadratures.add(stage, work, lost);
         }
         #[cfg(feature = "std")]
@@ -1298,8 +1315,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             && let Some(touching) = &self.touching
             && quadratures.integrals().is_some()
         {
-            let (t, q, v, _) = at;
-            let powers = touching.powers(self.system.get(), (t, q, v, &self.inputs));
+            let powers = touching.powers(self.system.get(), here);
             quadratures.add(stage, powers.work, powers.lost);
             quadratures.set_contact_shares(stage, &powers.of_each);
         }
@@ -1336,7 +1352,7 @@ impl Stiffness {
 pub(crate) fn accelerations<S: System>(
     system: &S,
     (constraints, contacts): (&Option<Constraints<S::Vector>>, &Option<Contacts>),
-    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    At { t, q, v, u }: At<'_, S>,
     a: &mut S::Vector,
 ) -> Result<(), StepError> {
     if S::MAY_SLIDE
@@ -1344,7 +1360,7 @@ pub(crate) fn accelerations<S: System>(
         && let Some(contacts) = contacts
     {
         return contacts
-            .accelerations(system, (t, q, v, u), a)
+            .accelerations(system, At { t, q, v, u }, a)
             .map_err(|singular| StepError::Singular { singular, t });
     }
     if S::MAY_BE_CONSTRAINED

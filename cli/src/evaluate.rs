@@ -6,7 +6,7 @@ use std::io::Read;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{
-    ContactForce, Error, Evaluation, Machine, Simulation, State, System, check_equations,
+    At, ContactForce, Error, Evaluation, Machine, Simulation, State, System, check_equations,
     penetrations,
 };
 use lagrangian_spec::model::Model;
@@ -214,7 +214,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     let (t, q, v) = (*t, &q.values, &v.values);
     let u = system.default_inputs();
     let n = q.len();
-    let evaluated = Evaluation::of(system, (t, q, v, &u));
+    let evaluated = Evaluation::of(system, At { t, q, v, u: &u });
     let Evaluation {
         mass_matrix: matrix,
         bias,
@@ -242,7 +242,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             coordinate.name
         ));
     }
-    check_equations(system, (t, q, v, &u)).map_err(|error| {
+    check_equations(system, At { t, q, v, u: &u }).map_err(|error| {
         // The program takes a coordinate that a constraint determines from the others, so away from the constraints its
         // accelerations are not those of the point.
         let apart = off_constraints(system, state);

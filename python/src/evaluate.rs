@@ -6,7 +6,7 @@ use std::sync::PoisonError;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lagrangian::interpreted::{InterpretedSystem, Named};
-use lagrangian::{Evaluation, Linearize, Machine as _, Pivot, Singular, StepError, System};
+use lagrangian::{At, Evaluation, Linearize, Machine as _, Pivot, Singular, StepError, System};
 use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -288,7 +288,7 @@ pub fn evaluate<'py>(
     py.detach(|| {
         batch.each(machine, 0..batch.t.len(), |k, system, scratch| {
             let Scratch { q, v, u, .. } = scratch;
-            results.push(Evaluation::of(system, (batch.t[k], q, v, u)));
+            results.push(Evaluation::of(system, At { t: batch.t[k], q, v, u }));
         });
     });
     let (n, system) = (machine.dimension(), machine.system());

@@ -17,6 +17,7 @@ use super::algebra::{backward, remove};
 use super::choice::Rank;
 use super::workspace::{Workspace, in_workspace};
 use super::{Constraints, Level, Unprojected};
+use crate::at::At;
 use crate::{Singular, StepError, System, Vector};
 
 /// Below this strength, rows no longer move a state.
@@ -132,15 +133,15 @@ impl<V: Vector> Constraints<V> {
     pub(super) fn accelerations_at_fork<S: System<Vector = V>>(
         &self,
         system: &S,
-        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         a: &mut V,
     ) -> Result<(), StepError> {
         if self.strength(system, t, q) < INTERPOLATED_BELOW {
-            return self.accelerations_across(system, (t, q, v, u), a);
+            return self.accelerations_across(system, At { t, q, v, u }, a);
         }
         let (mut q, mut v) = (q.clone(), v.clone());
         self.project_onto_chosen(system, t, &mut q, &mut v)?;
-        self.accelerations_here(system, (t, &q, &v, u), a)
+        self.accelerations_here(system, At { t, q: &q, v: &v, u }, a)
     }
 
     /// Accelerations interpolated between states on both sides of a pose, two before and two after it.
@@ -150,7 +151,7 @@ impl<V: Vector> Constraints<V> {
     fn accelerations_across<S: System<Vector = V>>(
         &self,
         system: &S,
-        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         a: &mut V,
     ) -> Result<(), StepError> {
         let mut times = [0.0; 4];
@@ -158,7 +159,7 @@ impl<V: Vector> Constraints<V> {
         for (pair, direction) in [1.0, -1.0].into_iter().enumerate() {
             let mut far = INTERPOLATED_BELOW;
             for k in [2 * pair, 2 * pair + 1] {
-                let at = (t, q, v, u);
+                let at = At { t, q, v, u };
                 let (by, was) =
                     self.accelerations_beside(system, at, (direction, far), &mut beside[k])?;
                 times[k] = by;
@@ -183,7 +184,7 @@ impl<V: Vector> Constraints<V> {
     fn accelerations_beside<S: System<Vector = V>>(
         &self,
         system: &S,
-        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         (direction, mut far): (f64, f64),
         a: &mut V,
     ) -> Result<(f64, f64), StepError> {
@@ -198,7 +199,16 @@ impl<V: Vector> Constraints<V> {
             if self.strength(system, t + by, &ahead) >= 2.0 * INTERPOLATED_BELOW {
                 let mut rates = v.clone();
                 self.project_onto_chosen(system, t + by, &mut ahead, &mut rates)?;
-                self.accelerations_here(system, (t + by, &ahead, &rates, u), a)?;
+                self.accelerations_here(
+                    system,
+                    At {
+                        t: t + by,
+                        q: &ahead,
+                        v: &rates,
+                        u,
+                    },
+                    a,
+                )?;
                 return Ok((by, far));
             }
             far *= 1.5;

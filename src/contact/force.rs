@@ -4,6 +4,7 @@ use std::vec::Vec;
 
 use super::kinematics::ContactKinematics;
 use super::{Mode, UnilateralState};
+use crate::at::At;
 use crate::{StepError, System};
 
 /// A unilateral contact at a state.
@@ -40,10 +41,10 @@ pub struct UnilateralForce {
 /// Where the machine has no accelerations, or the friction of the contacts leaves none.
 pub fn unilateral_forces<S: System>(
     system: &S,
-    at: (f64, &S::Vector, &S::Vector, &S::Inputs),
+    at: At<'_, S>,
     a: &mut S::Vector,
 ) -> Result<Vec<UnilateralForce>, StepError> {
-    let (t, q, v, _) = at;
+    let At { t, q, v, .. } = at;
     let mut touching = UnilateralState::new(system);
     let (touches, _) = touching.near(system, (t, q, v), true, &[]);
     let closed = touching.persisting(system, (t, q, v), &touches, true);
@@ -79,7 +80,7 @@ impl UnilateralState {
     pub(crate) fn forces<S: System>(
         &self,
         system: &S,
-        at: (f64, &S::Vector, &S::Vector, &S::Inputs),
+        at: At<'_, S>,
         a: &mut S::Vector,
     ) -> Result<Vec<UnilateralForce>, StepError> {
         self.forces_shared(system, at, a, None)
@@ -89,12 +90,12 @@ impl UnilateralState {
     fn forces_shared<S: System>(
         &self,
         system: &S,
-        at: (f64, &S::Vector, &S::Vector, &S::Inputs),
+        at: At<'_, S>,
         a: &mut S::Vector,
         shares: Option<&[[f64; 2]]>,
     ) -> Result<Vec<UnilateralForce>, StepError> {
         use crate::Vector;
-        let (t, q, v, _) = at;
+        let At { t, q, v, .. } = at;
         let here = ContactKinematics::of(system, t, q, v);
         let mut reaction = self.reaction(system, at)?;
         a.as_mut_slice().copy_from_slice(&reaction.a);

@@ -11,6 +11,7 @@ use super::routh::{self, Expansion, SingleImpact};
 use super::touching::UnilateralState;
 use super::undetermined;
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Mode, Painleve};
+use crate::at::At;
 use crate::{Singular, StepError, System, Vector};
 
 /// Inverse masses below this, relative to the terms that they are the sum of, are rounding.
@@ -163,13 +164,13 @@ impl UnilateralState {
     pub fn resolve_paradox<S: System>(
         &self,
         system: &S,
-        at: super::touching::At<'_, S>,
+        at: At<'_, S>,
         closed: &[bool],
         resting: &[bool],
     ) -> Result<Option<ParadoxResolution>, StepError> {
         let may = |k: usize| closed[k] && self.has_friction(k) && !self.is_compliant(k);
         let may = |k: usize| may(k) && !resting[k] && self.painleve[k] == Painleve::Impact;
-        let (t, q, v, _) = at;
+        let At { t, q, v, .. } = at;
         let Some(first) = (0..closed.len()).find(|k| may(*k)) else {
             return Ok(None);
         };
@@ -524,13 +525,13 @@ impl UnilateralState {
     pub fn has_stopped<S: System>(
         &self,
         system: &S,
-        at: super::touching::At<'_, S>,
+        at: At<'_, S>,
         contact: usize,
     ) -> Result<bool, StepError> {
         let Mode::SlidesAlong(_) = self.modes()[contact] else {
             return Ok(true);
         };
-        let (t, q, v, _) = at;
+        let At { t, q, v, .. } = at;
         let here = ContactKinematics::of(system, t, q, v);
         if self.is_slow(system, (t, q, v), contact) {
             return Ok(true);

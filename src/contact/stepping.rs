@@ -18,9 +18,10 @@ use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives};
 use super::kinematics::ContactKinematics;
 use super::problem::{self, ContactUnknowns, SATURATED};
-use super::touching::{At, Reaction};
+use super::touching::Reaction;
 use super::undetermined;
 use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, UnilateralState};
+use crate::at::At;
 use crate::{Singular, StepError, System, Vector};
 
 /// How often a penetration is moved out of, at most: each time squares the remainder.
@@ -317,7 +318,7 @@ impl UnilateralState {
     /// Accelerations with the forces of the last step.
     pub(super) fn reaction_stepped<S: System>(
         system: &S,
-        (t, q, v, _): At<'_, S>,
+        At { t, q, v, .. }: At<'_, S>,
         mut a: Vec<f64>,
         forces: &[[f64; 2]],
     ) -> Result<Reaction, StepError> {

@@ -13,6 +13,7 @@ use super::lcp;
 use super::problem::{ContactUnknowns, SATURATED};
 use super::undetermined::{self, OpenForces};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
+use crate::at::At;
 use crate::balance::ContactShare;
 use crate::{Pivot, Singular, StepError, System, Vector};
 use compliant::ComplianceState;
@@ -172,14 +173,6 @@ pub(crate) struct Powers {
     pub of_each: Vec<ContactShare>,
 }
 
-/// Time, state and inputs.
-pub(crate) type At<'a, S> = (
-    f64,
-    &'a <S as System>::Vector,
-    &'a <S as System>::Vector,
-    &'a <S as System>::Inputs,
-);
-
 impl UnilateralState {
     /// All contacts open.
     pub fn new<S: System>(system: &S) -> UnilateralState {
@@ -281,7 +274,7 @@ impl UnilateralState {
 
     /// By how much the forces of now speed up the closing of gaps at the most, were nothing closed, in m/s²; 0 where they close none.
     pub fn pull<S: System>(&self, system: &S, at: At<'_, S>) -> f64 {
-        let (t, q, v, _) = at;
+        let At { t, q, v, .. } = at;
         let Ok(free) = Self::free(system, at) else {
             return 0.0;
         };
@@ -500,7 +493,7 @@ impl UnilateralState {
     /// What the machine would do without any contact.
     pub(super) fn free<S: System>(
         system: &S,
-        (t, q, v, u): At<'_, S>,
+        At { t, q, v, u }: At<'_, S>,
     ) -> Result<Vec<f64>, StepError> {
         let mut a = q.zeros_like();
         match system.accelerations(t, q, v, u, &mut a) {
@@ -518,7 +511,7 @@ impl UnilateralState {
 
     /// Accelerations and forces while everything stays as it is.
     pub fn reaction<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Reaction, StepError> {
-        let (t, q, v, _) = at;
+        let At { t, q, v, .. } = at;
         let is_asked = !self.is_free() && self.stepped.is_none();
         let here = is_asked.then(|| ContactKinematics::of(system, t, q, v));
         self.reaction_here(system, at, here.as_ref())
@@ -531,7 +524,7 @@ impl UnilateralState {
         at: At<'_, S>,
         here: Option<&ContactKinematics>,
     ) -> Result<Reaction, StepError> {
-        let (t, q, _, _) = at;
+        let At { t, q, .. } = at;
         let a = Self::free(system, at)?;
         if let Some(forces) = &self.stepped {
             return Self::reaction_stepped(system, at, a, forces);
@@ -884,7 +877,7 @@ impl UnilateralState {
         let mut touching = self.clone();
         touching.set_modes(held);
         let reaction = touching.reaction_here(system, at, Some(here)).ok()?;
-        let load = touching.shared_load(here, &reaction, at.0).ok()??;
+        let load = touching.shared_load(here, &reaction, at.t).ok()??;
         let free = Self::free(system, at).ok()?;
         let is_still = |direction: &usize| {
             // Its round-off is that of the terms that the forces cancel.
@@ -916,7 +909,7 @@ impl UnilateralState {
         system: &S,
         at: At<'_, S>,
     ) -> Result<Vec<(usize, Mode)>, StepError> {
-        let (t, q, v, _) = at;
+        let At { t, q, v, .. } = at;
         let here = ContactKinematics::of(system, t, q, v);
         let reaction = self.reaction_here(system, at, Some(&here))?;
         let shared = self.shared_load(&here, &reaction, t)?;
@@ -981,7 +974,7 @@ impl UnilateralState {
     ///
     /// They are those of `M a = f + Σ wᵀλ + Gᵀ λ_G`; of constraints that depend on each other, one of the sets that do.
     pub fn multipliers<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Vec<f64>, StepError> {
-        let (t, q, v, u) = at;
+        let At { t, q, v, u } = at;
         let m = system.constraints().len();
         if m == 0 {
             return Ok(Vec::new());
@@ -1024,7 +1017,7 @@ impl UnilateralState {
 
     /// What the contacts do and take.
     pub fn powers<S: System>(&self, system: &S, at: At<'_, S>) -> Powers {
-        let (t, q, v, _) = at;
+        let At { t, q, v, .. } = at;
         // What impulses did is booked with each step.
         if self.is_free() || self.stepped.is_some() {
             return Powers::default();
@@ -1100,7 +1093,7 @@ impl UnilateralState {
                 shares: vec![false; self.modes.len()],
             });
         }
-        let (t, q, v, _) = at;
+        let At { t, q, v, .. } = at;
         let here = ContactKinematics::of(system, t, q, v);
         let reaction = self.reaction_here(system, at, Some(&here))?;
         // The same allowance as in `resting`: a contact that is at rest there does not stop once more here.
@@ -1252,7 +1245,7 @@ impl UnilateralState {
         resting: &[bool],
         known_modes: &[(usize, Mode)],
     ) -> Result<(Vec<Mode>, Vec<[f64; 2]>), StepError> {
-        let (t, q, v, _) = at;
+        let At { t, q, v, .. } = at;
         let mut modes = vec![Mode::Open; closed.len()];
         let mut forces = vec![[0.0; 2]; closed.len()];
         let solved_contacts: Vec<usize> = (0..closed.len())

@@ -5,6 +5,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{LastInterpolant, Run, VectorOf};
+use crate::at::At;
 use crate::balance::Quadratures;
 use crate::contact::{Impact, Mode};
 use crate::event::{self, Crossing, Event, Triple, state, step_motion};
@@ -718,13 +719,30 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 let margins = |(t, q, v): &Triple<VectorOf<M>>| {
                     let inputs = model.inputs(*t, q, v);
                     touching
-                        .margins(system, (*t, q, v, &inputs))
+                        .margins(
+                            system,
+                            At {
+                                t: *t,
+                                q,
+                                v,
+                                u: &inputs,
+                            },
+                        )
                         .map_err(|error| model.explain(error, q, v))
                 };
                 let pull = |k: usize, (t, q, v): &Triple<VectorOf<M>>| {
                     let inputs = model.inputs(*t, q, v);
                     touching
-                        .pull_along(system, (*t, q, v, &inputs), k)
+                        .pull_along(
+                            system,
+                            At {
+                                t: *t,
+                                q,
+                                v,
+                                u: &inputs,
+                            },
+                            k,
+                        )
                         .map_err(|error| model.explain(error, q, v))
                 };
                 let seen = margins(&looked)?;

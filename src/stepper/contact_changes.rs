@@ -3,6 +3,7 @@
 use std::vec::Vec;
 
 use super::{Model, Stepper, move_by_rounding};
+use crate::at::At;
 use crate::balance::{ContactShare, Quadratures};
 use crate::constraints::Constraints;
 use crate::contact::{Impact, Mode, ParadoxResolution, UnilateralState};
@@ -88,7 +89,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         // A slip in space that has become perpendicular to its earlier direction may have turned instead of stopped.
         let cause = match cause {
             Cause::Stops(k) => {
-                let at = (t, &now.q, &now.v, &model.inputs);
+                let at = At {
+                    t,
+                    q: &now.q,
+                    v: &now.v,
+                    u: &model.inputs,
+                };
                 if touching.has_stopped(model.system.get(), at, k)? {
                     cause
                 } else {
@@ -135,7 +141,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             for (k, resting) in resting.iter_mut().enumerate() {
                 *resting |= stops(k) || cause == Cause::Lifts(k);
             }
-            let at = (t, &now.q, &now.v, &model.inputs);
+            let at = At {
+                t,
+                q: &now.q,
+                v: &now.v,
+                u: &model.inputs,
+            };
             match touching.resolve_paradox(model.system.get(), at, &closed, &resting)? {
                 Some(ParadoxResolution::Opens(k)) => closed[k] = false,
                 Some(ParadoxResolution::Impact { impact, change }) => {
@@ -162,7 +173,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let is_hit = !changes_at_instant.impacts.is_empty();
         model.hold_closed(&mut touching, now, (&closed, &stopped, is_hit))?;
         let resting = resting_or_stopped(model.system.get(), &touching, now, (&closed, &stopped));
-        let at = (t, &now.q, &now.v, &model.inputs);
+        let at = At {
+            t,
+            q: &now.q,
+            v: &now.v,
+            u: &model.inputs,
+        };
         let known: Vec<(usize, Mode)> = known.into_iter().collect();
         let system = model.system.get();
         let mut modes = touching.settled(system, at, &closed, &resting, &known)?;
@@ -300,7 +316,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 .map(|(closed, mode)| if *closed { *mode } else { Mode::Open })
                 .collect();
             flying.set_modes(modes);
-            let at = (now.t, &now.q, &now.v, &self.inputs);
+            let at = At {
+                t: now.t,
+                q: &now.q,
+                v: &now.v,
+                u: &self.inputs,
+            };
             flying.accelerations(system, at, &mut free)?;
         }
         let mut hit: Vec<usize> = changes.impacts.iter().map(|i| i.contact).collect();
@@ -382,7 +403,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         touching.set_modes(with_slip);
         project_onto_closed_contacts(system, touching, now)?;
         let resting = resting_or_stopped(system, touching, now, (closed, stopped));
-        let at = (now.t, &now.q, &now.v, &self.inputs);
+        let at = At {
+            t: now.t,
+            q: &now.q,
+            v: &now.v,
+            u: &self.inputs,
+        };
         let goes_on = touching.settled(system, at, closed, &resting, &[])?;
         let mut pairs = goes_on.iter().zip(stopped);
         Ok(!pairs.any(|(mode, stops)| *stops && *mode == Mode::Sticks))

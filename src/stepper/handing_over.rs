@@ -2,6 +2,7 @@
 
 use super::contact_changes::{Cause, ContactChanges, project_onto_closed_contacts};
 use super::{InImpulses, Stepper};
+use crate::at::At;
 use crate::balance::Quadratures;
 use crate::constraints::Constraints;
 use crate::contact::UnilateralState;
@@ -51,7 +52,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let Some(touching) = &model.touching else {
             return [0.0; 2];
         };
-        let at = (now.t, &now.q, &now.v, &model.inputs);
+        let at = At {
+            t: now.t,
+            q: &now.q,
+            v: &now.v,
+            u: &model.inputs,
+        };
         [touching.speed(), touching.pull(model.system.get(), at)]
     }
 
@@ -64,7 +70,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return true;
         };
         touching.end_stepping();
-        let at = (now.t, &now.q, &now.v, &model.inputs);
+        let at = At {
+            t: now.t,
+            q: &now.q,
+            v: &now.v,
+            u: &model.inputs,
+        };
         let reaction = touching.reaction(model.system.get(), at);
         reaction.is_ok_and(|reaction| reaction.is_only)
     }

@@ -3,7 +3,7 @@
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{
-    ContactEventKind, Crossing, Error, Machine, Method, Simulation, Solution, System, Vector,
+    At, ContactEventKind, Crossing, Error, Machine, Method, Simulation, Solution, System, Vector,
     unilateral_forces,
 };
 
@@ -254,7 +254,17 @@ fn forces_that_may_be_shared_in_several_ways_are_ones_that_contacts_allow() {
     let (q, v) = (&start.q.values, &start.v.values);
     let mut a = vec![0.0; q.len()];
     let inputs = system.default_inputs();
-    let forces = unilateral_forces(&system, (0.0, q, v, &inputs), &mut a).expect("forces");
+    let forces = unilateral_forces(
+        &system,
+        At {
+            t: 0.0,
+            q,
+            v,
+            u: &inputs,
+        },
+        &mut a,
+    )
+    .expect("forces");
     // The accuracy to which the contact problem is solved, relative to the weight.
     let rounding = 1e-10 * 2.0 * 9.81;
     assert!(a.iter().all(|a| a.abs() < rounding), "{a:?}");

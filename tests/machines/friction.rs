@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 use crate::support::library::{interpreted, machine};
 use crate::support::random::SplitMix;
 use lagrangian::interpreted::{InterpretedMachine, Named};
-use lagrangian::{Crossing, Error, Machine, Simulation, Solution, State, System};
+use lagrangian::{At, Crossing, Error, Machine, Simulation, Solution, State, System};
 
 /// Runs a machine with the given parameters, coordinates and rates.
 fn run(
@@ -277,8 +277,19 @@ fn a_rod_slides_with_the_reaction_of_its_equations_typed_by_hand() {
         let (q, v) = (vec![0.0, theta], vec![sign, omega]);
         let mut a = vec![0.0; 2];
         let mut forces = [lagrangian::ContactForce::default()];
-        lagrangian::contact_forces(&system, (0.0, &q, &v, &u), &mut a, &mut [], &mut forces)
-            .expect("it moves");
+        lagrangian::contact_forces(
+            &system,
+            At {
+                t: 0.0,
+                q: &q,
+                v: &v,
+                u: &u,
+            },
+            &mut a,
+            &mut [],
+            &mut forces,
+        )
+        .expect("it moves");
         let normal = rest / by_n;
         assert_near(forces[0].normal, normal, 1e-13 * normal.abs());
         assert_near(
@@ -566,7 +577,12 @@ fn what_rests_within_rounding_rests() {
         let (q, mut a) = (vec![place], vec![0.0]);
         let mut force = |v: f64| {
             let mut forces = [lagrangian::ContactForce::default()];
-            let at = (t, &q, &vec![v], &inputs);
+            let at = At {
+                t,
+                q: &q,
+                v: &vec![v],
+                u: &inputs,
+            };
             let found = lagrangian::contact_forces(&system, at, &mut a, &mut [], &mut forces);
             found.map(|()| forces[0])
         };

@@ -5,7 +5,7 @@ use crate::by_hand::double_pendulum::DoublePendulum;
 use crate::by_hand::tampered::{Slip, Tampered};
 use crate::by_hand::toy::{Toy, ball, oscillator, pendulum};
 use lagrangian::{
-    Error, METHODS, Machine, Method, Pivot, Simulation, Solution, State, StepError, Stepper,
+    At, Error, METHODS, Machine, Method, Pivot, Simulation, Solution, State, StepError, Stepper,
     System, UnknownName, Warning, check_equations,
 };
 
@@ -683,7 +683,15 @@ fn violated<const N: usize, const M: usize, const NN: usize>(
     for (i, v) in start.v.iter_mut().enumerate() {
         *v += 0.3 + 0.1 * i as f64;
     }
-    match check_equations(&machine, (0.0, &start.q, &start.v, &())) {
+    match check_equations(
+        &machine,
+        At {
+            t: 0.0,
+            q: &start.q,
+            v: &start.v,
+            u: &(),
+        },
+    ) {
         Ok(()) => None,
         Err(Error::EquationsViolated {
             row,
@@ -757,7 +765,12 @@ fn honest_machines_are_run_however_ill_conditioned() {
     for tilt in [0.0, 1e-17, 1e-12, 3e-9] {
         let system = pendulum.prepare();
         let u = system.default_inputs();
-        let at = (0.0, &[tilt, -tilt], &[0.0, 0.0], &u);
+        let at = At {
+            t: 0.0,
+            q: &[tilt, -tilt],
+            v: &[0.0, 0.0],
+            u: &u,
+        };
         assert_eq!(check_equations(&system, at), Ok(()));
     }
 }

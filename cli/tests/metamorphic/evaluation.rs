@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{ContactForce, Machine as _, System as _, contact_forces, least_multipliers};
+use lagrangian::{At, ContactForce, Machine as _, System as _, contact_forces, least_multipliers};
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{Arguments, Interpreter, Program, Role};
@@ -491,7 +491,20 @@ impl Held<'_> {
             return;
         }
         let mut forces = vec![ContactForce::default(); program.contacts.len()];
-        if contact_forces(&system, (t, &q, &v, &u), &mut [], &mut [], &mut forces).is_err() {
+        if contact_forces(
+            &system,
+            At {
+                t,
+                q: &q,
+                v: &v,
+                u: &u,
+            },
+            &mut [],
+            &mut [],
+            &mut forces,
+        )
+        .is_err()
+        {
             self.failures
                 .push("the forces in contacts are not known".into());
             return;

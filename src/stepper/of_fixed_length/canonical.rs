@@ -20,6 +20,7 @@
 
 use std::vec::Vec;
 
+use crate::at::At;
 use crate::constraints::algebra::{backward, cholesky, forward};
 use crate::{Singular, StepError, System, Vector};
 
@@ -111,7 +112,7 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
     pub fn force<S: System<Vector = V, Matrix = M>>(
         &mut self,
         system: &S,
-        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        At { t, q, v, u }: At<'_, S>,
         force: &mut V,
     ) {
         let Self {

@@ -13,6 +13,7 @@ use std::vec::Vec;
 
 use super::canonical::{Canonical, ConvergenceTest};
 use super::{Fixed, Stepper, add, check_finite};
+use crate::at::At;
 use crate::balance::Quadratures;
 use crate::methods::Method;
 use crate::stages::Point;
@@ -104,7 +105,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 }
                 let t = time(i + 1);
                 model.set_inputs(t, place, &rates[i]);
-                let at = (t, &*place, &rates[i], &model.inputs);
+                let at = At {
+                    t,
+                    q: &*place,
+                    v: &rates[i],
+                    u: &model.inputs,
+                };
                 canonical.force(model.system.get(), at, force);
             }
             control.work.evaluations += stages - 1;

@@ -14,6 +14,7 @@ use std::vec::Vec;
 use super::canonical::{Canonical, ConvergenceTest};
 use super::gauss::dot;
 use super::{Fixed, Stepper, add};
+use crate::at::At;
 use crate::balance::Quadratures;
 use crate::constraints::algebra::{backward, cholesky, forward};
 use crate::stages::Point;
@@ -192,7 +193,16 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         loop {
             model.set_inputs(before.t, &before.q, here);
             let system = model.system.get();
-            start.force(system, (before.t, &before.q, here, &model.inputs), force);
+            start.force(
+                system,
+                At {
+                    t: before.t,
+                    q: &before.q,
+                    v: here,
+                    u: &model.inputs,
+                },
+                force,
+            );
             control.work.evaluations += 1;
             half_way.clone_from(momenta);
             for (p, force) in half_way.as_mut_slice().iter_mut().zip(force.as_slice()) {
@@ -247,7 +257,16 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
         model.set_inputs(now.t, &now.q, there);
         let system = model.system.get();
-        ahead.force(system, (now.t, &now.q, there, &model.inputs), force);
+        ahead.force(
+            system,
+            At {
+                t: now.t,
+                q: &now.q,
+                v: there,
+                u: &model.inputs,
+            },
+            force,
+        );
         control.work.evaluations += 1;
         for (p, force) in half_way.as_mut_slice().iter_mut().zip(force.as_slice()) {
             *p += half * force;

@@ -5,7 +5,7 @@ use super::{assert_near, events, run, value};
 use crate::support::library::{interpreted, machine};
 use crate::support::random::SplitMix;
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{ContactForce, Error, Machine, System, contact_forces};
+use lagrangian::{At, ContactForce, Error, Machine, System, contact_forces};
 
 /// The distance that a bead travels on a helix from rest to a given speed, or from a speed to rest. With `κ = r/L²` and
 /// `L² = r² + h²` the wire presses on it with `|N| = m √(κ²w⁴ + g² cos²β)`, so that
@@ -130,7 +130,12 @@ fn at(machine: &InterpretedMachine, t: f64, q: f64, v: f64) -> Result<(f64, Cont
     let system = machine.prepare();
     let mut a = vec![0.0];
     let mut forces = [ContactForce::default()];
-    let state = (t, &vec![q], &vec![v], &system.default_inputs());
+    let state = At {
+        t,
+        q: &vec![q],
+        v: &vec![v],
+        u: &system.default_inputs(),
+    };
     contact_forces(&system, state, &mut a, &mut [], &mut forces).map_err(|_| ())?;
     Ok((a[0], forces[0]))
 }
@@ -220,7 +225,12 @@ fn prisms_in_space_are_those_in_the_plane() {
             let system = machine.prepare();
             let mut a = vec![0.0; 2];
             let mut forces = [ContactForce::default(); 2];
-            let state = (0.0, &q, &v, &system.default_inputs());
+            let state = At {
+                t: 0.0,
+                q: &q,
+                v: &v,
+                u: &system.default_inputs(),
+            };
             contact_forces(&system, state, &mut a, &mut [], &mut forces).expect("it moves");
             (a, forces)
         };
@@ -316,7 +326,12 @@ fn two_guides_that_press_on_each_other_through_a_rod_share_it_as_typed_by_hand()
         let tension = 0.5 * (low + high);
         let mut a = vec![0.0; 2];
         let mut forces = [ContactForce::default(); 2];
-        let state = (0.0, &vec![x, y], &vec![vx, vy], &system.default_inputs());
+        let state = At {
+            t: 0.0,
+            q: &vec![x, y],
+            v: &vec![vx, vy],
+            u: &system.default_inputs(),
+        };
         contact_forces(&system, state, &mut a, &mut [0.0], &mut forces).expect("it moves");
         let size = 50.0 + tension.abs();
         for (found, expected) in a.iter().zip(accelerations(tension)) {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::ops::{Add, Mul};
 
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{ContactForce, Machine, System, contact_forces};
+use lagrangian::{At, ContactForce, Machine, System, contact_forces};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::{Code, Report};
 use lagrangian_spec::source::{Disk, Sources};
@@ -389,7 +389,18 @@ fn a_machine_has_the_reactions_of_newton_however_it_is_written_or_is_refused() {
             let (q, v): (Vec<f64>, Vec<f64>) = (number(), number());
             let mut a = vec![0.0; q.len()];
             let mut forces = vec![ContactForce::default(); drawn.guides.len()];
-            let found = contact_forces(&system, (t, &q, &v, &u), &mut a, &mut [], &mut forces);
+            let found = contact_forces(
+                &system,
+                At {
+                    t,
+                    q: &q,
+                    v: &v,
+                    u: &u,
+                },
+                &mut a,
+                &mut [],
+                &mut forces,
+            );
             // A guide may jam; Coulomb's law then permits no motion.
             if found.is_err() {
                 continue;

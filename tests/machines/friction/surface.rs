@@ -5,7 +5,7 @@ use super::{assert_near, events, run, value};
 use crate::support::library::{interpreted, machine};
 use crate::support::random::SplitMix;
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{ContactForce, Machine, System, contact_forces};
+use lagrangian::{At, ContactForce, Machine, System, contact_forces};
 
 const G: f64 = 9.81;
 
@@ -135,7 +135,12 @@ fn at(
     let mut a = vec![0.0; q.len()];
     let mut multipliers = vec![0.0; system.constraints().len()];
     let mut forces = [ContactForce::default(); 2];
-    let state = (0.0, &q.to_vec(), &v.to_vec(), &system.default_inputs());
+    let state = At {
+        t: 0.0,
+        q: &q.to_vec(),
+        v: &v.to_vec(),
+        u: &system.default_inputs(),
+    };
     contact_forces(&system, state, &mut a, &mut multipliers, &mut forces).map_err(|_| ())?;
     Ok((a, forces))
 }
