@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rustc_hash::FxHashMap;
 
 use super::restrict::without_unused;
-use super::{Function, Guard, Op, Program, Source, Value};
+use super::{Function, Guard, Op, Program, Role, Source, Value};
 
 /// Longer functions are left as they are: they are written as loops or in pieces, for which related operations must stay alike.
 const LONGEST: usize = 2000;
@@ -36,17 +36,31 @@ impl Program {
     }
 
     /// Reads one prepared value instead of two that are opposites.
+    ///
+    /// What a spec asks for besides changes nothing here: functions that it requests keep what they read, and values that only
+    /// they read are not considered.
     fn replace_prepared_opposites(&mut self) {
+        let functions = self.functions.iter().filter(|f| !is_requested(f.role));
+        let reads = functions.flat_map(|function| &function.code);
+        let read: BTreeSet<u32> = reads
+            .filter_map(|op| match op {
+                Op::Read(Source::Prepared(slot)) => Some(*slot),
+                _ => None,
+            })
+            .collect();
         let prepare = &self.prepare;
         let mut slot_of: BTreeMap<Value, u32> = BTreeMap::new();
         for (value, slot) in prepare.results.iter().zip(0..) {
-            slot_of.entry(*value).or_insert(slot);
+            if read.contains(&slot) {
+                slot_of.entry(*value).or_insert(slot);
+            }
         }
         let opposites = prepare.results.iter().zip(0..).filter_map(|(value, slot)| {
             let Op::Neg(of) = prepare.op(*value) else {
                 return None;
             };
-            Some((slot, *slot_of.get(of)?))
+            let positive = *slot_of.get(of)?;
+            read.contains(&slot).then_some((slot, positive))
         });
         let opposites: Vec<(u32, u32)> = opposites.collect();
         let mut gone: BTreeSet<u32> = BTreeSet::new();
@@ -70,7 +84,8 @@ impl Program {
     fn without(&self, dropped: u32, kept: u32) -> Option<Vec<(usize, Function)>> {
         let read = Op::Read(Source::Prepared(dropped));
         let mut changed = Vec::new();
-        for (index, function) in self.functions.iter().enumerate() {
+        let functions = self.functions.iter().enumerate();
+        for (index, function) in functions.filter(|(_, f)| !is_requested(f.role)) {
             let Some(place) = function.code.iter().position(|op| *op == read) else {
                 continue;
             };
@@ -82,6 +97,14 @@ impl Program {
         }
         Some(changed)
     }
+}
+
+/// Whether a program has a function only if its spec asks for it.
+fn is_requested(role: Role) -> bool {
+    matches!(
+        role,
+        Role::Derivatives | Role::AtTime | Role::AtPosition | Role::AccelerationsAt
+    )
 }
 
 /// What takes the place of a value: its opposite.
@@ -248,7 +271,7 @@ fn signs_of(op: &Op, negative: &BTreeSet<Value>) -> [bool; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Role, Shape};
+    use super::super::Shape;
     use super::*;
 
     /// A function of coordinates 0 to 3, which are its first operations.

@@ -109,10 +109,14 @@ fn a_wrong_sign_in_what_friction_does_is_found() {
             axes: 1,
         };
         assert_eq!(function.results.len(), layout.len());
-        for (place, op) in function.code.iter().enumerate().step_by(7) {
+        // Rounding errors are 0 in exact arithmetic, which sees no wrong sign of them.
+        let is_error =
+            |value| matches!(function.op(value), Op::ProductError(..) | Op::SumError(..));
+        let corrects = |value| is_error(value) || function.op(value).operands().any(is_error);
+        for (place, op) in function.code.iter().enumerate().step_by(4) {
             let turned = match *op {
-                Op::Add(a, b) => Op::Sub(a, b),
-                Op::Sub(a, b) => Op::Add(a, b),
+                Op::Add(a, b) if !corrects(a) && !corrects(b) => Op::Sub(a, b),
+                Op::Sub(a, b) if !corrects(a) && !corrects(b) => Op::Add(a, b),
                 _ => continue,
             };
             let mut wrong = machine.program.clone().into_program();
