@@ -617,7 +617,7 @@ fn numbers_over_a_divisor_are_quotients() {
     let mut random = Random(0x6c07_8965_9b13_77f1);
     let orders = (2..=40).flat_map(|j| [j, j * (j - 1)]);
     for n in orders.chain([1_000_003, (1 << 40) - 1]) {
-        let mut numbers = vec![0.0];
+        let mut numbers = Vec::new();
         for _ in 0..500 {
             let mantissa = 1.0 + random.uniform();
             numbers.push(mantissa * 2_f64.powi((random.bits() % 600) as i32 - 300));
@@ -629,6 +629,9 @@ fn numbers_over_a_divisor_are_quotients() {
         }
         let negative: Vec<f64> = numbers.iter().map(|x| -x).collect();
         numbers.extend(negative);
+        for x in f64::run(Over(&[0.0, -0.0], n)) {
+            assert_eq!(x, 0.0, "{n}");
+        }
         for x in f64::run(Over(&[f64::INFINITY, f64::NAN], n)) {
             assert!(!x.is_finite(), "{n}: {x}");
         }

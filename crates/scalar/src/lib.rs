@@ -79,7 +79,8 @@ pub trait Scalar:
     fn divisor(n: i64) -> [Self; 2] {
         [Self::from_ratio(n, 1), Self::ZERO]
     }
-    /// `self / n` for a [`divisor`](Scalar::divisor), rounded like a quotient unless it is subnormal; not finite if `self` is not.
+    /// `self / n` for a [`divisor`](Scalar::divisor), rounded like a quotient unless that is subnormal; 0 of either sign if
+    /// `self` is 0, and not finite if `self` is not.
     #[inline(always)]
     fn over(self, [n, _]: [Self; 2]) -> Self {
         self / n
