@@ -1413,12 +1413,15 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         }
         let mut power = h;
         for (k, row) in coefficients.iter().enumerate().skip(1) {
-            let next = coefficients.get(k + 1);
-            for (i, c) in row.as_slice().iter().enumerate() {
-                q.as_mut_slice()[i] += c * power;
-                if let Some(next) = next {
-                    v.as_mut_slice()[i] += (k + 1) as f64 * next.as_slice()[i] * power;
+            let add = |sum: &mut S::Vector, row: &S::Vector, by: f64| {
+                let (sum, row) = (sum.as_mut_slice(), row.as_slice());
+                for i in 0..sum.len().min(row.len()) {
+                    sum[i] += by * row[i];
                 }
+            };
+            add(&mut q, row, power);
+            if let Some(next) = coefficients.get(k + 1) {
+                add(&mut v, next, (k + 1) as f64 * power);
             }
             if !holds(t, &q, &v) {
                 return false;

@@ -12,9 +12,10 @@ use std::vec::Vec;
 
 use crate::compensated::two_sum;
 use crate::math::{rough_exp2, rough_log2};
+use crate::scalar::Kernel;
 use crate::stages::{Point, in_blocks};
 use crate::tolerance::Tolerance;
-use crate::{Real, Scalar, Singular, System, Vector};
+use crate::{Lanes, Number, Real, Scalar, Singular, System, Vector};
 
 /// How large the [`defect`] of a step is at most if the motion is its series. Both last terms of a rate are at most their bound. Those that follow
 /// fall by the ratio r of the step to the radius of convergence, and the derivative of the term of power j, times the step, is j times
@@ -167,15 +168,18 @@ impl<V: Vector> Taylor<V> {
         let coefficients = &self.coefficients[self.of_now()];
         let last = coefficients.len() - 1;
         let powers = [last - 1, last];
-        let mut worst = [0.0_f64; 2];
+        let [mut one, mut other] = [0.0_f64; 2];
         let (q, v) = (coefficients[0].as_slice(), coefficients[1].as_slice());
-        let rows = powers.map(|j| coefficients[j].as_slice());
+        let rows = [
+            coefficients[last - 1].as_slice(),
+            coefficients[last].as_slice(),
+        ];
         for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
             let over = 1.0 / bound(size_of_rate(q[i], v[i]), *absolute, tolerance.relative);
-            for (worst, (row, j)) in worst.iter_mut().zip(rows.iter().zip(powers)) {
-                *worst = larger_ratio(*worst, row[i], j as f64, over);
-            }
+            one = larger_ratio(one, rows[0][i], (last - 1) as f64, over);
+            other = larger_ratio(other, rows[1][i], last as f64, over);
         }
+        let worst = [one, other];
         let by_rates = length(worst, powers);
         if !is_slow(by_rates, last) {
             return by_rates;
@@ -185,21 +189,177 @@ impl<V: Vector> Taylor<V> {
         length_in_slow_motion(by_rates, last, (0..q.len()).map(of), tolerance.relative)
     }
 
-    /// The state at the end of a step of length `h`, as compensated sums.
-    pub fn advance(&self, h: f64, before: &Point<V>, now: &mut Point<V>) {
+    /// Goes to the end of a step of length `h`, as compensated sums; `to` is the end of the run, and whether the step ends there. Puts the
+    /// accelerations by the series there into `a`. Returns whether the state is finite.
+    pub fn advance(
+        &self,
+        h: f64,
+        before: &Point<V>,
+        now: &mut Point<V>,
+        to: (f64, bool),
+        a: &mut V,
+    ) -> bool {
+        now.set_time(before, h, (to.0, &[to.1]));
+        let n = before.q.as_slice().len();
         let coefficients = self.of_step();
-        in_blocks!(before.q.as_slice().len(), |start, B| {
-            let [q, v] = increments::<B, f64>(&Rows(coefficients), start, h);
-            for k in 0..B {
-                let i = start + k;
-                let low = before.v_low.as_slice()[i];
-                let q_low = before.q_low.as_slice()[i] + h * low;
-                (now.q.as_mut_slice()[i], now.q_low.as_mut_slice()[i]) =
-                    two_sum(before.q.as_slice()[i], q_low + q[k]);
-                (now.v.as_mut_slice()[i], now.v_low.as_mut_slice()[i]) =
-                    two_sum(before.v.as_slice()[i], low + v[k]);
-            }
-        });
+        macro_rules! part {
+            ($start:expr, $end:expr) => {
+                Advance {
+                    coefficients,
+                    h,
+                    before,
+                    now: &mut *now,
+                    a: &mut *a,
+                    start: $start,
+                    end: $end,
+                }
+            };
+        }
+        let (fours, twos) = (n / 4 * 4, n / 2 * 2);
+        let mut is_fine = true;
+        if fours > 0 {
+            is_fine &= Lanes::<4>::run(part!(0, fours));
+        }
+        if twos > fours {
+            is_fine &= Lanes::<2>::run(part!(fours, twos));
+        }
+        if n > twos {
+            is_fine &= f64::run(part!(twos, n));
+        }
+        is_fine
+    }
+}
+
+/// Numbers that lie side by side in memory and fill a register.
+trait Block: Copy {
+    /// How many.
+    const COUNT: usize;
+    /// Those from an index on; NaN if there are fewer.
+    fn read(from: &[f64], start: usize) -> Self;
+    /// Writes them from an index on, if there is room for them.
+    fn write(self, to: &mut [f64], start: usize);
+    /// The same number several times.
+    fn each(x: f64) -> Self;
+    /// Whether all of them are finite.
+    fn are_finite(self) -> bool;
+}
+
+impl Block for f64 {
+    const COUNT: usize = 1;
+    #[inline(always)]
+    fn read(from: &[f64], start: usize) -> Self {
+        from.get(start).copied().unwrap_or(f64::NAN)
+    }
+    #[inline(always)]
+    fn write(self, to: &mut [f64], start: usize) {
+        if let Some(to) = to.get_mut(start) {
+            *to = self;
+        }
+    }
+    #[inline(always)]
+    fn each(x: f64) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn are_finite(self) -> bool {
+        self.is_finite()
+    }
+}
+
+impl<const W: usize> Block for Lanes<W> {
+    const COUNT: usize = W;
+    #[inline(always)]
+    fn read(from: &[f64], start: usize) -> Self {
+        let block = from.get(start..).and_then(|from| from.first_chunk::<W>());
+        Lanes(block.copied().unwrap_or([f64::NAN; W]))
+    }
+    #[inline(always)]
+    fn write(self, to: &mut [f64], start: usize) {
+        if let Some(to) = to.get_mut(start..).and_then(|to| to.first_chunk_mut::<W>()) {
+            *to = self.0;
+        }
+    }
+    #[inline(always)]
+    fn each(x: f64) -> Self {
+        Lanes([x; W])
+    }
+    #[inline(always)]
+    fn are_finite(self) -> bool {
+        let mut fine = true;
+        for x in self.0 {
+            fine &= x.is_finite();
+        }
+        fine
+    }
+}
+
+/// [`Taylor::advance`] for the coordinates from `start` to `end`, whose number is a multiple of that of a block, as a kernel. The
+/// coordinates of one trajectory fill registers as several trajectories do elsewhere: with the same bits, and a compiler does not
+/// put them into registers by itself.
+struct Advance<'a, V> {
+    coefficients: &'a [V],
+    h: f64,
+    before: &'a Point<V>,
+    now: &'a mut Point<V>,
+    a: &'a mut V,
+    start: usize,
+    end: usize,
+}
+
+/// Coefficients of one trajectory, of as many coordinates at once as a register holds.
+struct Blocks<'a, V>(&'a [V]);
+
+impl<N: Scalar<Stored: Block>, V: Vector> Coefficients<N> for Blocks<'_, V> {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    #[inline(always)]
+    fn block<const B: usize>(&self, j: usize, start: usize) -> [N; B] {
+        let mut block = [N::ZERO; B];
+        for (i, number) in block.iter_mut().enumerate() {
+            *number = N::load(N::Stored::read(
+                self.0[j].as_slice(),
+                start + i * N::Stored::COUNT,
+            ));
+        }
+        block
+    }
+}
+
+impl<T: Block, V: Vector> Kernel<T> for Advance<'_, V> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(self) -> bool {
+        let Self {
+            coefficients,
+            before,
+            now,
+            a,
+            mut start,
+            end,
+            ..
+        } = self;
+        let h = N::load(T::each(self.h));
+        let mut is_fine = true;
+        while start < end {
+            let [[q], [v], [accelerations]] = motion::<1, 3, N>(&Blocks(coefficients), start, h);
+            let low = N::load(T::read(before.v_low.as_slice(), start));
+            let q_low = N::load(T::read(before.q_low.as_slice(), start)) + h * low;
+            let (high, rest) = two_sum(N::load(T::read(before.q.as_slice(), start)), q_low + q);
+            high.store().write(now.q.as_mut_slice(), start);
+            rest.store().write(now.q_low.as_mut_slice(), start);
+            is_fine &= high.store().are_finite();
+            let (high, rest) = two_sum(N::load(T::read(before.v.as_slice(), start)), low + v);
+            high.store().write(now.v.as_mut_slice(), start);
+            rest.store().write(now.v_low.as_mut_slice(), start);
+            is_fine &= high.store().are_finite();
+            accelerations.store().write(a.as_mut_slice(), start);
+            start += T::COUNT;
+        }
+        is_fine
     }
 }
 
@@ -284,6 +444,13 @@ pub(crate) fn larger_ratio(worst: f64, c: f64, j: f64, over_bound: f64) -> f64 {
     }
 }
 
+/// The power of the size of a rate's term, in a step of 1 s, that the tolerable length of a step is, for this power of the time in the coordinate's
+/// term. Known before the series is, so that its division delays nothing.
+#[inline(always)]
+fn exponent(j: usize) -> f64 {
+    1.0 / (1.0 - j as f64)
+}
+
 /// The length of a step in which the terms of these two powers are at most their bounds, from their values in a step of 1 s;
 /// infinite if both are 0.
 #[inline(always)]
@@ -294,7 +461,7 @@ pub(crate) fn length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
         if worst == f64::INFINITY {
             return 0.0;
         } else if worst > 0.0 {
-            length = length.min(rough_log2(worst) / (1.0 - j as f64));
+            length = length.min(rough_log2(worst) * exponent(j));
         } else if worst.is_nan() {
             return f64::NAN;
         }
@@ -308,12 +475,12 @@ pub(crate) fn length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
 /// [`length`] for two terms that are positive and finite: the same arithmetic without branches, for several at once.
 #[inline(always)]
 pub(crate) fn usual_length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
-    let one = rough_log2(worst[0]) / (1.0 - powers[0] as f64);
-    let other = rough_log2(worst[1]) / (1.0 - powers[1] as f64);
+    let one = rough_log2(worst[0]) * exponent(powers[0]);
+    let other = rough_log2(worst[1]) * exponent(powers[1]);
     rough_exp2(if one < other { one } else { other })
 }
 
-/// Access to the coefficients of coordinates for [`increments`].
+/// Access to the coefficients of coordinates for [`motion`].
 pub(crate) trait Coefficients<N> {
     /// The number of coefficients of each coordinate.
     fn count(&self) -> usize;
@@ -340,59 +507,110 @@ impl<N: Real, V: Vector<N>> Coefficients<N> for Rows<'_, V> {
     }
 }
 
-/// Adds one term by Horner's rule.
+/// `a·factor + c` for each number.
 #[inline(always)]
-fn add_term<const B: usize, N: Scalar>(
-    coefficients: &impl Coefficients<N>,
-    [j, start]: [usize; 2],
-    square: N,
-    q: &mut [N; B],
-    v: &mut [N; B],
+fn horner<const B: usize, N: Scalar>(mut a: [N; B], factor: N, c: [N; B]) -> [N; B] {
+    for i in 0..B {
+        a[i] = a[i].mul_add(factor, c[i]);
+    }
+    a
+}
+
+/// A number times each of several.
+#[inline(always)]
+fn times<const B: usize, N: Scalar>(factor: N, mut a: [N; B]) -> [N; B] {
+    for a in &mut a {
+        *a = factor * *a;
+    }
+    a
+}
+
+/// Adds the terms of one power of the time by Horner's rule to the sums of coordinates, of rates, and with `D` = 3 of accelerations.
+/// `step` is the ratio of the powers of successive terms.
+#[inline(always)]
+fn add_terms<const B: usize, const D: usize, N: Scalar>(
+    sums: &mut [[N; B]; D],
+    step: N,
+    power: N,
+    terms: [N; B],
 ) {
-    let (row, power) = (coefficients.block::<B>(j, start), N::from_f64(j as f64));
-    for k in 0..B {
-        q[k] = q[k] * square + row[k];
-        v[k] = v[k] * square + power * row[k];
+    sums[0] = horner(sums[0], step, terms);
+    let weighted = times(power, terms);
+    sums[1] = horner(sums[1], step, weighted);
+    if D == 3 {
+        sums[D - 1] = horner(sums[D - 1], step, times(power - N::ONE, weighted));
     }
 }
 
-/// The changes of `B` coordinates from `start` on, and of their rates, in a time `tau`. They are computed side by side so that the
-/// processor can work on several sums at once.
+/// The changes of `B` coordinates from `start` on, and of their rates, in a time `tau`, and with `D` = 3 their accelerations then.
+///
+/// Every fourth term belongs to the same sum, so no sum waits for another, and the dependency chain is a quarter as long as with one.
 #[inline(always)]
-pub(crate) fn increments<const B: usize, N: Scalar>(
+pub(crate) fn motion<const B: usize, const D: usize, N: Scalar>(
     coefficients: &impl Coefficients<N>,
     start: usize,
     tau: N,
-) -> [[N; B]; 2] {
-    // Terms of even and of odd powers, each by Horner's rule, so that the two sums are independent of each other.
-    let zeros = [N::ZERO; B];
-    let (mut q, mut v) = ([zeros; 2], [zeros; 2]);
+) -> [[N; B]; D] {
+    const {
+        assert!(
+            D == 2 || D == 3,
+            "coordinates and rates, or accelerations too"
+        )
+    };
     let square = tau * tau;
-    let mut end = coefficients.count();
-    if end % 2 == 1 {
-        end -= 1;
-        add_term(coefficients, [end, start], square, &mut q[0], &mut v[0]);
+    let step = square * square;
+    let terms = coefficients.count().saturating_sub(2);
+    let mut j = 2 + terms / 4 * 4;
+    let rest = terms % 4;
+    // The sums are four variables and not an array, so that a compiler keeps them in registers.
+    let (mut sums_0, mut sums_1) = ([[N::ZERO; B]; D], [[N::ZERO; B]; D]);
+    let (mut sums_2, mut sums_3) = ([[N::ZERO; B]; D], [[N::ZERO; B]; D]);
+    let mut power = N::from_f64(j as f64);
+    let [two, three] = [N::from_f64(2.0), N::from_f64(3.0)];
+    macro_rules! add {
+        ($sums:ident, $k:literal, $power:expr) => {
+            add_terms(
+                &mut $sums,
+                step,
+                $power,
+                coefficients.block::<B>(j + $k, start),
+            )
+        };
     }
-    let ([q_even, q_odd], [v_even, v_odd]) = (&mut q, &mut v);
-    while end > 2 {
-        end -= 2;
-        add_term(coefficients, [end + 1, start], square, q_odd, v_odd);
-        add_term(coefficients, [end, start], square, q_even, v_even);
+    if rest > 0 {
+        add!(sums_0, 0, power);
+    }
+    if rest > 1 {
+        add!(sums_1, 1, power + N::ONE);
+    }
+    if rest > 2 {
+        add!(sums_2, 2, power + two);
+    }
+    while j > 2 {
+        j -= 4;
+        power = power - N::from_f64(4.0);
+        add!(sums_0, 0, power);
+        add!(sums_1, 1, power + N::ONE);
+        add!(sums_2, 2, power + two);
+        add!(sums_3, 3, power + three);
+    }
+    let mut motion = sums_0;
+    for d in 0..D {
+        let near = horner(sums_1[d], tau, sums_0[d]);
+        let beyond = horner(sums_3[d], tau, sums_2[d]);
+        motion[d] = horner(beyond, square, near);
     }
     let first = coefficients.block::<B>(1, start);
-    let (mut by_q, mut by_v) = (zeros, zeros);
-    for k in 0..B {
-        by_q[k] = (first[k] + (q[0][k] + q[1][k] * tau) * tau) * tau;
-        by_v[k] = (v[0][k] + v[1][k] * tau) * tau;
-    }
-    [by_q, by_v]
+    motion[0] = times(tau, horner(motion[0], tau, first));
+    motion[1] = times(tau, motion[1]);
+    motion
 }
 
 /// Coordinates and rates at a time `tau` after the state that was expanded.
 pub(crate) fn state<N: Real, V: Vector<N>>(coefficients: &[V], tau: N) -> (V, V) {
     let (mut q, mut v) = (coefficients[0].clone(), coefficients[1].clone());
     in_blocks!(q.as_slice().len(), |start, B| {
-        let [by_q, by_v] = increments::<B, N>(&Rows(coefficients), start, tau);
+        let [by_q, by_v] = motion::<B, 2, N>(&Rows(coefficients), start, tau);
         for k in 0..B {
             let i = start + k;
             q.as_mut_slice()[i] = q.as_slice()[i] + by_q[k];
@@ -408,6 +626,68 @@ pub(crate) fn accelerations<V: Vector>(coefficients: &[V], tau: f64, a: &mut V) 
         *a = 0.0;
         for j in (2..coefficients.len()).rev() {
             *a = *a * tau + (j * (j - 1)) as f64 * coefficients[j].as_slice()[i];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::vec::Vec;
+
+    use lagrangian_scalar::{DoubleDouble, Scalar};
+
+    use super::Taylor;
+    use crate::stages::Point;
+
+    /// The sum of terms in double-double, and the sum of their sizes.
+    fn sum(terms: impl Iterator<Item = DoubleDouble>) -> [f64; 2] {
+        let (mut sum, mut size) = (DoubleDouble::ZERO, 0.0);
+        for term in terms {
+            sum = sum + term;
+            size += term.to_f64().abs();
+        }
+        [sum.to_f64(), size]
+    }
+
+    #[test]
+    fn steps_of_every_order_end_where_their_polynomials_do() {
+        // Blocks of four, of two and of one coordinate, and each remainder of the order divided by four.
+        const N: usize = 7;
+        let h = 0.7;
+        for rows in 3..=24 {
+            let number = |j: usize, i: usize| (1.0 + (j * N + i) as f64 * 0.618).sin();
+            let coefficients: Vec<[f64; N]> = (0..rows)
+                .map(|j| std::array::from_fn(|i| number(j, i)))
+                .collect();
+            let taylor = Taylor::of(&coefficients);
+            let before = Point::new(0.0, coefficients[0], coefficients[1]);
+            let (mut now, mut a) = (before.clone(), [0.0; N]);
+            assert!(taylor.advance(h, &before, &mut now, (1.0, false), &mut a));
+            for (i, a) in a.into_iter().enumerate() {
+                let term = |j: usize, derivative: usize| {
+                    let factor: f64 = (0..derivative).map(|d| j as f64 - d as f64).product();
+                    let c = DoubleDouble::from_f64(coefficients[j][i]);
+                    let power = DoubleDouble::from_f64(h).powi(j as i32 - derivative as i32);
+                    c * power * DoubleDouble::from_f64(factor)
+                };
+                let found = [[now.q[i], now.q_low[i]], [now.v[i], now.v_low[i]], [a, 0.0]];
+                for (derivative, [high, low]) in found.into_iter().enumerate() {
+                    let [exact, size] = sum((derivative..rows).map(|j| term(j, derivative)));
+                    // A term is rounded up to 20 times, with its weight, its powers of `h` and the sums that contain it, by half an epsilon each.
+                    let error = (high + low - exact).abs();
+                    assert!(
+                        error <= 10.0 * f64::EPSILON * size,
+                        "{rows} {i} {derivative}: {error:e}"
+                    );
+                }
+            }
+            // Not finite in one block alone.
+            for i in 0..N {
+                let mut broken = coefficients.clone();
+                broken[rows - 1][i] = f64::INFINITY;
+                let taylor = Taylor::of(&broken);
+                assert!(!taylor.advance(h, &before, &mut now, (1.0, false), &mut a));
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Functions that emitted Taylor series call.
 
-pub use lagrangian_scalar::series::{Vanished, apply, factor, keep, solve, sweep};
+pub use lagrangian_scalar::series::{Vanished, apply, factor, keep, solve, solved, sweep};
 
 use crate::system::SERIES_ROWS;
 use crate::{Scalar, Singular};

@@ -318,7 +318,7 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Advance<'_, V, W> {
         ahead.set_time(now, h, to);
         let h = N::load(h);
         in_blocks!(now.q.as_ref().len(), |start, B| {
-            let [q, v] = taylor::increments::<B, N>(&Rows(coefficients), start, h);
+            let [q, v] = taylor::motion::<B, 2, N>(&Rows(coefficients), start, h);
             for k in 0..B {
                 let i = start + k;
                 let low = N::load(now.v_low.as_ref()[i]);

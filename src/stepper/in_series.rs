@@ -1,11 +1,12 @@
 //! Steps by the Taylor series of the motion.
 
 use super::Stepper;
-use crate::attempt::not_finite;
+use crate::attempt::{are_finite, not_finite};
 use crate::balance::Quadratures;
 use crate::control::{Control, shortest_step};
+use crate::stages::Point;
 use crate::taylor::{
-    GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, defect, size_of_rate,
+    GREATEST_DEFECT, ROUNDING_UNITS, ROUNDINGS, SHORTEST_STEPS, bound, defect, size_of_rate,
 };
 use crate::{InputLaw, StepError, System, Vector};
 
@@ -81,9 +82,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return Ok(f64::INFINITY);
         };
         let stages = method.tableau.stages;
-        taylor.advance(h, before, now);
-        now.set_time(before, h, (*end, &[last]));
-        if let Some(coordinate) = not_finite(&now.q, &now.v, 0) {
+        let is_fine = taylor.advance(h, before, now, (*end, last), &mut stage.0);
+        if !is_fine && let Some(coordinate) = not_finite(&now.q, &now.v, 0) {
             return Err(StepError::NotFinite {
                 coordinate,
                 t: now.t,
@@ -99,57 +99,112 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 let t = before.t + (before.t_low + tau);
                 model.take_rates(quadratures, i, (t, &stage.0, &stage.1, k));
             }
+            crate::taylor::accelerations(taylor.of_step(), h, &mut stage.0);
         }
         work.evaluations += 1;
         taylor
             .expand(model.system.get(), now, &model.inputs, true)
             .map_err(|singular| StepError::Singular { singular, t: now.t })?;
-        taylor.accelerations(true, &mut k[stages]);
-        if let Some(coordinate) = not_finite(&k[stages], &k[stages], 0) {
+        let accelerations = &mut k[stages];
+        taylor.accelerations(true, accelerations);
+        if are_finite(accelerations, accelerations) == [false]
+            && let Some(coordinate) = not_finite(accelerations, accelerations, 0)
+        {
             return Err(StepError::NotFinite {
                 coordinate,
                 t: now.t,
             });
         }
-        let accelerations = &k[stages];
+        let rounding = ROUNDING_UNITS * f64::EPSILON;
+        let ends = [&*before, &*now];
+        let mut may_be_off = false;
+        let all = [
+            accelerations.as_slice(),
+            stage.0.as_slice(),
+            tolerance.absolute.as_slice(),
+        ];
+        for i in 0..all[0].len() {
+            let [acceleration, by_series, absolute] = [all[0][i], all[1][i], all[2][i]];
+            let counted = (acceleration - by_series).abs() - rounding * acceleration.abs();
+            let bound = bound(size_of_rates(ends, i), absolute, tolerance.relative);
+            may_be_off |= counted * h.abs() > 0.5 * GREATEST_DEFECT * bound;
+        }
+        if may_be_off && self.is_off(h)? {
+            return Ok(f64::INFINITY);
+        }
+        let Self {
+            model,
+            quadratures,
+            now,
+            k,
+            ..
+        } = self;
+        model.take_rates(quadratures, stages, (now.t, &now.q, &now.v, &k[stages]));
+        Ok(0.0)
+    }
+
+    /// Whether the motion is not its series at the end of a step of length `h`, which was expanded there.
+    #[cold]
+    fn is_off(&mut self, h: f64) -> Result<bool, StepError> {
+        let Self {
+            method,
+            model,
+            before,
+            now,
+            k,
+            stage,
+            control: Control { work, .. },
+            taylor,
+            tolerance,
+            ..
+        } = self;
+        let Some(taylor) = taylor else {
+            return Ok(false);
+        };
+        let accelerations = &k[method.tableau.stages];
         let defect_to = |other: &S::Vector, rounding: f64| {
-            let absolute = tolerance.absolute.as_slice().iter().enumerate();
-            let coordinates = absolute.map(|(i, absolute)| {
-                let size =
-                    |q: &S::Vector, v: &S::Vector| size_of_rate(q.as_slice()[i], v.as_slice()[i]);
-                let size = size(&before.q, &before.v).max(size(&now.q, &now.v));
-                let [one, other] = [accelerations, other].map(|a| a.as_slice()[i]);
-                [size, one, one - other, *absolute]
+            let absolute = tolerance.absolute.as_slice();
+            let pairs = accelerations.as_slice().iter().zip(other.as_slice());
+            let coordinates = pairs.enumerate().map(|(i, (one, other))| {
+                let size = size_of_rates([before, now], i);
+                [size, *one, one - other, absolute[i]]
             });
             defect(h, coordinates, [tolerance.relative, rounding])
         };
         crate::taylor::accelerations(taylor.of_step(), h, &mut stage.0);
         let found = defect_to(&stage.0, ROUNDING_UNITS * f64::EPSILON);
-        if found > GREATEST_DEFECT && h.abs() > SHORTEST_STEPS * shortest_step::<f64>(now.t) {
-            // Round-off may change the accelerations as much, where large forces cancel.
-            let mut beside = now.clone();
-            let numbers = beside.q.as_mut_slice().iter_mut();
-            for (i, x) in numbers.chain(beside.v.as_mut_slice()).enumerate() {
-                *x = if i % 2 == 0 {
-                    x.next_up()
-                } else {
-                    x.next_down()
-                };
-            }
-            work.evaluations += 1;
-            let expanded = taylor.expand(model.system.get(), &beside, &model.inputs, true);
-            taylor.accelerations(true, &mut stage.0);
-            if expanded.is_ok() && found > ROUNDINGS * defect_to(&stage.0, 0.0) {
-                return Ok(f64::INFINITY);
-            }
-            work.evaluations += 1;
-            taylor
-                .expand(model.system.get(), now, &model.inputs, true)
-                .map_err(|singular| StepError::Singular { singular, t: now.t })?;
+        if !(found > GREATEST_DEFECT && h.abs() > SHORTEST_STEPS * shortest_step::<f64>(now.t)) {
+            return Ok(false);
         }
-        model.take_rates(quadratures, stages, (now.t, &now.q, &now.v, &k[stages]));
-        Ok(0.0)
+        // Round-off may change the accelerations as much, where large forces cancel.
+        let mut beside = now.clone();
+        let numbers = beside.q.as_mut_slice().iter_mut();
+        for (i, x) in numbers.chain(beside.v.as_mut_slice()).enumerate() {
+            *x = if i % 2 == 0 {
+                x.next_up()
+            } else {
+                x.next_down()
+            };
+        }
+        work.evaluations += 1;
+        let expanded = taylor.expand(model.system.get(), &beside, &model.inputs, true);
+        taylor.accelerations(true, &mut stage.0);
+        if expanded.is_ok() && found > ROUNDINGS * defect_to(&stage.0, 0.0) {
+            return Ok(true);
+        }
+        work.evaluations += 1;
+        taylor
+            .expand(model.system.get(), now, &model.inputs, true)
+            .map_err(|singular| StepError::Singular { singular, t: now.t })?;
+        Ok(false)
     }
+}
+
+/// The size of the rate of a coordinate in a step with these ends.
+#[inline(always)]
+fn size_of_rates<V: Vector>([before, now]: [&Point<V>; 2], i: usize) -> f64 {
+    let size = |at: &Point<V>| size_of_rate(at.q.as_slice()[i], at.v.as_slice()[i]);
+    size(before).max(size(now))
 }
 
 /// The first coordinate with a coefficient that is not finite.

@@ -45,6 +45,12 @@ pub trait Sines: Vector {
         (all, Self::all(are_near))
     }
 
+    /// [`Scalar::store_all`](lagrangian_scalar::Scalar::store_all).
+    #[inline(always)]
+    fn store_all<const P: usize>(row: &mut [Self::Stored; P], numbers: [Self::Stored; P]) {
+        *row = numbers;
+    }
+
     /// [`Scalar::convolve_all`](lagrangian_scalar::Scalar::convolve_all).
     #[inline(always)]
     fn convolve_all<const P: usize>(

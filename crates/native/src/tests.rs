@@ -594,3 +594,123 @@ fn two_at_once_have_the_bits_of_each_by_itself() {
     check(Each(lists).run::<Fused>());
     check(Each(lists).run::<f64>());
 }
+
+/// Numbers over a divisor.
+struct Over<'a, T>(&'a [T], i64);
+
+impl<T: Copy> Kernel<T> for Over<'_, T> {
+    type Output = Vec<T>;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(self) -> Vec<T> {
+        let divisor = N::divisor(self.1);
+        let mut all = Vec::with_capacity(self.0.len());
+        for x in self.0 {
+            all.push(N::load(*x).over(divisor).store());
+        }
+        all
+    }
+}
+
+#[test]
+fn numbers_over_a_divisor_are_quotients() {
+    let mut random = Random(0x6c07_8965_9b13_77f1);
+    let orders = (2..=40).flat_map(|j| [j, j * (j - 1)]);
+    for n in orders.chain([1_000_003, (1 << 40) - 1]) {
+        let mut numbers = Vec::new();
+        for _ in 0..500 {
+            let mantissa = 1.0 + random.uniform();
+            numbers.push(mantissa * 2_f64.powi((random.bits() % 600) as i32 - 300));
+            // Multiples of numbers halfway between two neighbours, and what is next to these: the quotients that are the
+            // hardest to round.
+            let halfway = u128::from(random.bits() >> 11 | 1 << 53 | 1);
+            let multiple = (n as u128 * halfway) as f64;
+            numbers.extend([multiple, multiple.next_up(), multiple.next_down()]);
+        }
+        let negative: Vec<f64> = numbers.iter().map(|x| -x).collect();
+        numbers.extend(negative);
+        for x in f64::run(Over(&[0.0, -0.0], n)) {
+            assert_eq!(x, 0.0, "{n}");
+        }
+        for x in f64::run(Over(&[f64::INFINITY, f64::NAN], n)) {
+            assert!(!x.is_finite(), "{n}: {x}");
+        }
+        let found = f64::run(Over(&numbers, n));
+        for (x, found) in numbers.iter().zip(found) {
+            let quotient = x / n as f64;
+            assert!(same(found, quotient), "{x:e}/{n}: {found:e} {quotient:e}");
+        }
+        let lanes: Vec<Lanes<4>> = (numbers.chunks_exact(4))
+            .map(|x| Lanes([x[0], x[1], x[2], x[3]]))
+            .collect();
+        for (x, found) in lanes.iter().zip(Lanes::run(Over(&lanes, n))) {
+            for lane in 0..4 {
+                let quotient = x[lane] / n as f64;
+                assert!(same(found[lane], quotient), "{:e}/{n}", x[lane]);
+            }
+        }
+    }
+}
+
+/// A solution with the factors of a matrix of `K` rows: in registers, and in memory.
+struct Solution<'a, const K: usize> {
+    factors: &'a [f64],
+    right: [f64; K],
+}
+
+impl<const K: usize> Kernel<f64> for Solution<'_, K> {
+    type Output = [[f64; K]; 2];
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = f64>>(self) -> [[f64; K]; 2] {
+        let mut right = [N::ZERO; K];
+        for (x, right) in right.iter_mut().zip(self.right) {
+            *x = N::load(right);
+        }
+        let found = series::solved::<N, K>(self.factors, right);
+        let mut in_registers = [0.0; K];
+        for (x, found) in in_registers.iter_mut().zip(found) {
+            *x = found.store();
+        }
+        let (mut in_memory, mut scratch) = (self.right, [0.0; K]);
+        series::solve::<N>(K, self.factors, &mut in_memory, &mut scratch);
+        [in_registers, in_memory]
+    }
+}
+
+fn solutions_agree<const K: usize>(random: &mut Random) {
+    // Dominated by its diagonal, so that it is well conditioned.
+    let mut matrix = [[0.0; K]; K];
+    for i in 0..K {
+        for j in 0..i {
+            matrix[i][j] = random.uniform() - 0.5;
+            matrix[j][i] = matrix[i][j];
+        }
+        matrix[i][i] = K as f64 + random.uniform();
+    }
+    let mut factors = matrix.concat();
+    series::factor::<f64>(K, K, &mut factors).unwrap();
+    let mut right = [0.0; K];
+    right.fill_with(|| random.uniform() - 0.5);
+    let factors = &factors;
+    let [in_registers, in_memory] = f64::run(Solution { factors, right });
+    assert_eq!(in_registers, in_memory, "{K}");
+    for (row, right) in matrix.iter().zip(right) {
+        let product: f64 = row.iter().zip(in_registers).map(|(m, x)| m * x).sum();
+        // K rounding errors each of the inverse, of the solution and of the product here, of terms whose sum is below 3.
+        let bound = 9.0 * K as f64 * f64::EPSILON;
+        assert!((product - right).abs() < bound, "{K}: {product} {right}");
+    }
+}
+
+#[test]
+fn solutions_in_registers_have_the_bits_of_those_in_memory() {
+    let mut random = Random(0x27d4_eb2f_1656_67c5);
+    for _ in 0..20 {
+        solutions_agree::<4>(&mut random);
+        solutions_agree::<5>(&mut random);
+        solutions_agree::<7>(&mut random);
+        solutions_agree::<12>(&mut random);
+        solutions_agree::<24>(&mut random);
+    }
+}

@@ -561,6 +561,24 @@ impl Sines for One {
     fn sin_cos_all_near<const K: usize>(angles: [Register<One>; K]) -> (Circular<One, K>, bool) {
         (Self::sin_cos_all(angles), true)
     }
+    /// In whole registers, as they are read: a register that is read soon after its numbers were stored one by one waits until all of
+    /// them have reached the cache. A series with few products is bound by its dependency chain, which this lengthened.
+    #[inline(always)]
+    fn store_all<const P: usize>(row: &mut [f64; P], numbers: [f64; P]) {
+        macro_rules! registers {
+            ($($start:literal)*) => {$(
+                if const { $start + 4 <= P } {
+                    store_four(row, &numbers, $start);
+                }
+            )*};
+        }
+        match const { P } {
+            12 | 16 | 20 | 24 => {
+                registers!(0 4 8 12 16 20);
+            }
+            _ => *row = numbers,
+        }
+    }
     /// Each register holds up to four of the lists side by side. A compiler left to vectorize this splits them.
     #[inline(always)]
     fn convolve_all<const P: usize>(a: &[[f64; P]], b: &[[f64; P]]) -> [Register<One>; P] {
@@ -734,6 +752,16 @@ fn convolve<V: SideBySide, const G: usize, const P: usize>(
         unsafe { down[g].add(up[g]).write(to.add(start + g * V::COUNT)) };
         g += 1;
     }
+}
+
+/// Stores four of the numbers of a row from an index on.
+#[inline(always)]
+fn store_four<const P: usize>(row: &mut [f64; P], numbers: &[f64; P], start: usize) {
+    assert!(start + 4 <= P, "the row is long enough");
+    let (a, b) = (numbers[start], numbers[start + 1]);
+    let (c, d) = (numbers[start + 2], numbers[start + 3]);
+    // SAFETY: the processor has been checked (see the module), and the row has four numbers there.
+    unsafe { _mm256_storeu_pd(row.as_mut_ptr().add(start), _mm256_set_pd(d, c, b, a)) };
 }
 
 /// Sine and cosine of all numbers of a register.

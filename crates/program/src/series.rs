@@ -27,6 +27,7 @@ use lagrangian_symbolic::{Function as Call, Rational};
 use crate::Cost;
 
 pub use expand::Expander;
+pub use lagrangian_scalar::series::{MOST_IN_ONE_SUM, is_inverse};
 pub use recurrence::{Arithmetic, Coefficient, Convolution, Order, Stream, TermOrder};
 
 /// The index of a row in [`Series::rows`].

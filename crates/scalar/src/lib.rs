@@ -74,6 +74,17 @@ pub trait Scalar:
     fn from_ratio(numerator: i64, denominator: i64) -> Self;
     /// π.
     fn pi() -> Self;
+    /// A whole number `n`, `0 < n < 2⁴⁰`, as the divisor of many numbers, for [`over`](Scalar::over).
+    #[inline(always)]
+    fn divisor(n: i64) -> [Self; 2] {
+        [Self::from_ratio(n, 1), Self::ZERO]
+    }
+    /// `self / n` for a [`divisor`](Scalar::divisor), rounded like a quotient unless that is subnormal; 0 of either sign if
+    /// `self` is 0, and not finite if `self` is not.
+    #[inline(always)]
+    fn over(self, [n, _]: [Self; 2]) -> Self {
+        self / n
+    }
 
     /// `self·b + c`; rounded once in types that say so, and like separate operations in all others.
     #[inline(always)]
@@ -164,6 +175,11 @@ pub trait Scalar:
     #[inline(always)]
     fn convolve_all<const P: usize>(a: &[[Self::Stored; P]], b: &[[Self::Stored; P]]) -> [Self; P] {
         series::convolve_all(a, b)
+    }
+    /// Stores a row of numbers that [`convolve_all`](Scalar::convolve_all) reads.
+    #[inline(always)]
+    fn store_all<const P: usize>(row: &mut [Self::Stored; P], numbers: [Self::Stored; P]) {
+        *row = numbers;
     }
     /// Sine.
     #[inline(always)]

@@ -55,7 +55,7 @@ pub fn keep<N: Scalar, const P: usize, const L: usize>(
         return;
     };
     if N::PAIRS_AT_ONCE == 0 {
-        *row = numbers;
+        N::store_all(row, numbers);
         return;
     }
     for p in 0..L {
@@ -81,12 +81,12 @@ pub fn convolve_all<N: Scalar, const P: usize>(
             down[p] = N::load(a[half][p]).mul_add(N::load(b[half][p]), N::ZERO);
         }
     }
-    let below = a[..half].iter().zip(&b[..half]).rev();
-    let above = a[count - half..].iter().zip(&b[count - half..]);
-    for ((low_a, low_b), (high_a, high_b)) in below.zip(above) {
+    // Indices, since functions of iterators would be called, for which all registers would be saved.
+    for step in 0..half {
+        let [low, high] = [half - 1 - step, count - half + step];
         for p in 0..P {
-            down[p] = N::load(low_a[p]).mul_add(N::load(high_b[p]), down[p]);
-            up[p] = N::load(high_a[p]).mul_add(N::load(low_b[p]), up[p]);
+            down[p] = N::load(a[low][p]).mul_add(N::load(b[high][p]), down[p]);
+            up[p] = N::load(a[high][p]).mul_add(N::load(b[low][p]), up[p]);
         }
     }
     for p in 0..P {
@@ -114,9 +114,9 @@ fn convolve_some<N: Scalar, const G: usize, const P: usize, const L: usize>(
             down[p] = N::load(a[half][i]).mul_add(N::load(b[half][k]), N::ZERO);
         }
     }
-    let below = a[..half].iter().zip(&b[..half]).rev();
-    let above = a[count - half..].iter().zip(&b[count - half..]);
-    for ((low_a, low_b), (high_a, high_b)) in below.zip(above) {
+    for step in 0..half {
+        let [low, high] = [half - 1 - step, count - half + step];
+        let ([low_a, high_a], [low_b, high_b]) = ([&a[low], &a[high]], [&b[low], &b[high]]);
         for p in 0..end {
             let [i, k] = [of_a[start + p], of_b[start + p]];
             down[p] = N::load(low_a[i]).mul_add(N::load(high_b[k]), down[p]);
@@ -232,6 +232,34 @@ fn invert<N: Scalar>(n: usize, m: &mut [N::Stored]) {
     }
 }
 
+/// Up to this number of unknowns, a solution is a product with the inverse in which each unknown is one sum.
+pub const MOST_IN_ONE_SUM: usize = 3;
+
+/// Whether the result of [`factor`] for this number of unknowns is an inverse.
+pub const fn is_inverse(unknowns: usize) -> bool {
+    unknowns <= MOST_INVERTED
+}
+
+/// [`solve`] for a number of unknowns that is known when it is compiled and whose matrix [is an inverse](is_inverse): the same
+/// arithmetic, in registers.
+///
+/// Each unknown is two sums, of the columns with even and with odd indices, so that the dependency chain is half as long.
+#[inline(always)]
+pub fn solved<N: Scalar, const K: usize>(inverse: &[N::Stored], right: [N; K]) -> [N; K] {
+    let m = &inverse[..K * K];
+    let (mut even, mut odd) = ([N::ZERO; K], [N::ZERO; K]);
+    for j in 0..K {
+        let sums = if j % 2 == 0 { &mut even } else { &mut odd };
+        for i in 0..K {
+            sums[i] = N::load(m[j * K + i]).mul_add(right[j], sums[i]);
+        }
+    }
+    for i in 0..K {
+        even[i] = even[i] + odd[i];
+    }
+    even
+}
+
 /// Solves for `x`, which initially holds the right-hand side, with the result of [`factor`]; `scratch` has the same length.
 #[inline(always)]
 pub fn solve<N: Scalar>(
@@ -242,14 +270,22 @@ pub fn solve<N: Scalar>(
 ) {
     let (m, x, scratch) = (&matrix[..n * n], &mut x[..n], &mut scratch[..n]);
     if n <= MOST_INVERTED {
-        scratch.fill(N::ZERO.store());
-        for j in 0..n {
-            let known = N::load(x[j]);
-            for i in 0..n {
-                scratch[i] = N::load(m[j * n + i])
-                    .mul_add(known, N::load(scratch[i]))
-                    .store();
+        for i in 0..n {
+            let (mut even, mut odd) = (N::ZERO, N::ZERO);
+            for j in 0..n {
+                let (element, known) = (N::load(m[j * n + i]), N::load(x[j]));
+                if n <= MOST_IN_ONE_SUM || j % 2 == 0 {
+                    even = element.mul_add(known, even);
+                } else {
+                    odd = element.mul_add(known, odd);
+                }
             }
+            let sum = if n <= MOST_IN_ONE_SUM {
+                even
+            } else {
+                even + odd
+            };
+            scratch[i] = sum.store();
         }
         x.copy_from_slice(scratch);
         return;
@@ -277,9 +313,10 @@ pub fn apply<N: Scalar, const R: usize, const C: usize>(
     x: &[N; C],
 ) -> [N; R] {
     let mut sums = [N::ZERO; R];
-    for (column, x) in columns.iter().zip(x) {
+    for c in 0..C {
+        let column = &columns[c];
         for r in 0..R {
-            sums[r] = N::load(column[r]).mul_add(*x, sums[r]);
+            sums[r] = N::load(column[r]).mul_add(x[c], sums[r]);
         }
     }
     sums

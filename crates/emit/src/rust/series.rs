@@ -37,9 +37,6 @@ const WIDTH: usize = 24;
 /// Above this number of products, the effect of accelerations on forces is computed by a matrix.
 const FEWEST_APPLIED: usize = 32;
 
-/// Above this number of coupled unknowns, a loop solves for the accelerations.
-const MOST_STRAIGHT: usize = 3;
-
 /// A variable that one order passes to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 enum Carried {
@@ -49,8 +46,9 @@ enum Carried {
     Weighted(RowId),
     /// The value of one of these two one order before.
     Older(RowId, bool),
-    /// The newest coefficient of a rate.
-    Rate(u32),
+    /// The newest coefficient of an acceleration. That of the rate follows in the next order, since a product here would lengthen the
+    /// dependency chain by a move of its result into another register.
+    Acceleration(u32),
 }
 
 impl Carried {
@@ -60,7 +58,7 @@ impl Carried {
             Carried::Weighted(row) => format!("z{}", row.0),
             Carried::Older(row, false) => format!("older_y{}", row.0),
             Carried::Older(row, true) => format!("older_z{}", row.0),
-            Carried::Rate(i) => format!("r{i}"),
+            Carried::Acceleration(i) => format!("acceleration{i}"),
         }
     }
 }
@@ -489,7 +487,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
     let a = to.accelerations(&matrices);
     let over_v = to.constructed("from_ratio(1, order as i64 - 1)");
     let over_q = to.constructed("from_ratio(1, order as i64)");
-    let product = to.constructed("from_ratio(order as i64 * (order as i64 - 1), 1)");
+    let product = to.constructed("divisor(order as i64 * (order as i64 - 1))");
     let over = [over_v, over_q];
     let later = to.final_coefficients(&a, over, Some(product), applied.is_some());
     for (kind, sides) in kept.iter_mut().enumerate() {
@@ -539,9 +537,10 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
     }
 }
 
-/// Final coefficients: of rows, and of coordinates and their rates.
+/// Final coefficients: of rows, and of coordinates, their rates and their accelerations.
 struct FinalCoefficients {
     rows: Vec<Option<Operand>>,
+    accelerations: Vec<Operand>,
     motion: Vec<Operand>,
     rates: Vec<Operand>,
 }

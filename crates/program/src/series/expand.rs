@@ -501,7 +501,7 @@ impl<T: Copy> Expander<T> {
             self.reciprocal::<N>(round + 2),
         ];
         let share = over_v * over_q;
-        let product = N::load(self.numbers[round + 1][0]) * N::load(self.numbers[round + 2][0]);
+        let product = N::divisor((round as i64 + 1) * (round as i64 + 2));
         for at in 0..self.changed_by_newest[1].len() {
             let index = self.changed_by_newest[1][at] as usize;
             let change = self.change::<N>(index);
@@ -516,7 +516,7 @@ impl<T: Copy> Expander<T> {
             let acceleration = N::load(self.unknowns[i]);
             self.rates[i * width + round + 1] = (acceleration * over_v).store();
             // A quotient: products with rounded reciprocals have errors of a fixed sign, which add up over the steps of a long run.
-            self.motion[i * width + round + 2] = (acceleration / product).store();
+            self.motion[i * width + round + 2] = acceleration.over(product).store();
         }
         for at in 0..self.changed_by_newest[0].len() {
             let index = self.changed_by_newest[0][at] as usize;

@@ -3,12 +3,13 @@
 use std::collections::{BTreeSet, HashMap};
 
 use lagrangian_program::series::{
-    Arithmetic, Coefficient, Convolution, Level, Order, Row, RowId, Series, Stream, TermOrder,
+    Arithmetic, Coefficient, Convolution, Level, MOST_IN_ONE_SUM, Order, Row, RowId, Series,
+    Stream, TermOrder, is_inverse,
 };
 use lagrangian_symbolic::{Function as Call, Rational};
 
 use super::code::{Code, Op, Operand, Part};
-use super::{Carried, FEWEST_APPLIED, FinalCoefficients, MOST_STRAIGHT, WIDTH};
+use super::{Carried, FEWEST_APPLIED, FinalCoefficients, WIDTH};
 use crate::rust::language;
 
 /// A recorder of the code of a series.
@@ -111,11 +112,12 @@ impl<'s> Recorder<'s> {
     }
 
     pub fn carry(&mut self, Stream { row, weighted }: Stream) {
-        self.carried.insert(if weighted {
-            Carried::Weighted(row)
-        } else {
-            Carried::Plain(row)
-        });
+        self.carried
+            .insert(match (weighted, &self.series.rows[row.index()]) {
+                (true, Row::Coordinate(i)) => Carried::Acceleration(*i),
+                (true, _) => Carried::Weighted(row),
+                (false, _) => Carried::Plain(row),
+            });
     }
 
     fn push(&mut self, op: Op) -> Operand {
@@ -134,8 +136,20 @@ impl<'s> Recorder<'s> {
     }
 
     fn variable(&mut self, carried: Carried) -> Operand {
+        if let Carried::Weighted(row) = carried
+            && let Row::Coordinate(i) = self.series.rows[row.index()]
+        {
+            return self.rate_before(i);
+        }
         self.carried.insert(carried);
         self.existing_value(carried.name())
+    }
+
+    /// The newest coefficient of a rate, one order before.
+    fn rate_before(&mut self, coordinate: u32) -> Operand {
+        let a = self.variable(Carried::Acceleration(coordinate));
+        let over = self.constructed("from_ratio(1, order as i64 - 2)");
+        self.multiply(a, over)
     }
 
     /// The current order plus `more`, as a number.
@@ -338,7 +352,7 @@ impl<'s> Recorder<'s> {
             }
             let count = members.len();
             let found: Vec<Operand> = match count {
-                ..=MOST_STRAIGHT => (0..count)
+                ..=MOST_IN_ONE_SUM => (0..count)
                     .map(|i| {
                         let mut sum = Operand::Zero;
                         for (j, known) in right.iter().enumerate() {
@@ -352,9 +366,12 @@ impl<'s> Recorder<'s> {
                     .collect(),
                 _ => {
                     let solved = self.push(Op::Solved(*matrix, right));
-                    (0..count)
-                        .map(|i| self.push(Op::Element(solved, i)))
-                        .collect()
+                    let element = if is_inverse(count) {
+                        Op::OfRegisters
+                    } else {
+                        Op::Element
+                    };
+                    (0..count).map(|i| self.push(element(solved, i))).collect()
                 }
             };
             for (member, x) in members.iter().zip(found) {
@@ -388,7 +405,7 @@ impl<'s> Recorder<'s> {
     }
 
     /// The final coefficients of an order, once the accelerations are known: `[over_v, over_q]` are the reciprocals of the orders
-    /// of rates and coordinates, and `product` is the product of both orders, if it is not the reciprocal of `over_q`.
+    /// of rates and coordinates, and `product` is the product of both orders as a divisor, if it is not the reciprocal of `over_q`.
     pub fn final_coefficients(
         &mut self,
         a: &[Operand],
@@ -399,6 +416,7 @@ impl<'s> Recorder<'s> {
         let series = self.series;
         let mut finals = FinalCoefficients {
             rows: self.newest.clone(),
+            accelerations: a.to_vec(),
             motion: Vec::new(),
             rates: Vec::new(),
         };
@@ -407,7 +425,10 @@ impl<'s> Recorder<'s> {
             finals.rates.push(rate);
             // A quotient: products with rounded reciprocals have errors of a fixed sign, which add up over the steps of a long run.
             finals.motion.push(match product {
-                Some(product) => self.divide(a, product),
+                Some(product) => match a {
+                    Operand::Zero => a,
+                    _ => self.push(Op::Method("over", vec![a, product])),
+                },
                 None => self.multiply(rate, over_q),
             });
         }
@@ -419,7 +440,7 @@ impl<'s> Recorder<'s> {
         };
         for (at, row) in self.forces.clone().into_iter().enumerate() {
             let change = match applied {
-                Some(applied) => self.push(Op::OfApplied(applied, at)),
+                Some(applied) => self.push(Op::OfRegisters(applied, at)),
                 None => self.change(row, a),
             };
             let known = self.newest(row);
@@ -508,7 +529,7 @@ impl Recorder<'_> {
             } else {
                 Carried::Plain(row)
             }),
-            Carried::Rate(i) => finals.rates[i as usize],
+            Carried::Acceleration(i) => finals.accelerations[i as usize],
         }
     }
 }
@@ -554,7 +575,7 @@ impl Arithmetic for Recorder<'_> {
             (0, false) => self.existing_value(format!("n(q[{coordinate}])")),
             (0, true) | (1, false) => self.existing_value(format!("n(v[{coordinate}])")),
             (_, false) => Operand::Zero,
-            (_, true) => self.variable(Carried::Rate(coordinate)),
+            (_, true) => self.rate_before(coordinate),
         }
     }
     fn first(&mut self, row: RowId) -> Operand {

@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use lagrangian_program::series::is_inverse;
+
 use crate::layout::{Layout, Writer};
 
 /// A number in the code.
@@ -46,12 +48,12 @@ pub enum Op {
     Factored(Vec<Operand>, usize, Vec<u32>),
     /// The solution for a matrix and right-hand sides.
     Solved(Operand, Vec<Operand>),
-    /// An element of a matrix or of a solution.
+    /// An element of a matrix, or of a solution without an inverse: an array of stored numbers.
     Element(Operand, usize),
     /// The matrix of forces times numbers, and the length of its columns.
     Applied(usize, Vec<Operand>),
-    /// An element of that product.
-    OfApplied(Operand, usize),
+    /// An element of such a product, or of a solution by an inverse: an array of numbers in registers.
+    OfRegisters(Operand, usize),
 }
 
 impl Op {
@@ -59,7 +61,7 @@ impl Op {
         match self {
             Op::Given(_) => Vec::new(),
             Op::Infix(_, a, b) => vec![*a, *b],
-            Op::Negative(a) | Op::Member(a, ..) | Op::Element(a, _) | Op::OfApplied(a, _) => {
+            Op::Negative(a) | Op::Member(a, ..) | Op::Element(a, _) | Op::OfRegisters(a, _) => {
                 vec![*a]
             }
             Op::Method(_, all)
@@ -209,6 +211,19 @@ impl Code {
                 }
                 Op::Solved(matrix, right) => {
                     let matrix = text(matrix);
+                    if is_inverse(right.len()) {
+                        let count = right.len();
+                        let call = Layout::List(
+                            format!("{runtime}::series::solved::<{number}, {count}>("),
+                            vec![
+                                Layout::Atom(format!("&{matrix}")),
+                                Layout::array(list(right)),
+                            ],
+                            ")",
+                        );
+                        writer.expression(&format!("let {name} = "), &call, ";");
+                        continue;
+                    }
                     let sides = self.kept(right, 0);
                     writer.expression(&format!("let mut {name} = "), &sides, ";");
                     writer.line(format!("let mut scratch{id} = {name};"));
@@ -222,7 +237,7 @@ impl Code {
                     continue;
                 }
                 Op::Element(of, at) => format!("n({}[{at}])", text(of)),
-                Op::OfApplied(of, at) => format!("{}[{at}]", text(of)),
+                Op::OfRegisters(of, at) => format!("{}[{at}]", text(of)),
                 Op::Applied(length, all) => {
                     let arguments = Layout::array(list(all));
                     writer.expression(&format!("let factors{id} = "), &arguments, ";");
