@@ -62,7 +62,7 @@ impl Charts {
     /// `stated` in those of the spec.
     ///
     /// # Errors
-    /// If the call keeps a start value of a coordinate that the run does not have.
+    /// If a distance is negative at the start, or the call keeps a start value of a coordinate that the run does not have.
     pub fn new(
         model: &Model<'_>,
         machine: &InterpretedMachine,
@@ -95,24 +95,31 @@ impl Charts {
         start.q.values.clone_from(&stated.q.values);
         start.v.values.clone_from(&stated.v.values);
         let mut turned = Vec::new();
-        for Point { places: [i, j], .. } in &points {
+        for Point {
+            places: [i, j],
+            polar,
+            ..
+        } in &points
+        {
             let (q, v) = (&stated.q.values, &stated.v.values);
             let (s, phi) = (q[*i], q[*j]);
+            if s < 0.0 {
+                // The opposite point, with a positive distance, is the same place, but a force of `s` would be another one there.
+                let [(distance, unit), (angle, _)] = polar;
+                return Err(Failure::Call(format!(
+                    "the distance `{distance}` is {s:?} {unit} at the start: the run is in the Cartesian coordinates that `charts` names, in which \
+                     it is not negative; start from the positive distance with `{angle}` changed by pi, or leave `charts` out of the spec"
+                )));
+            }
             let (sin, cos) = phi.sin_cos();
             start.q.values[*i] = s * cos;
             start.q.values[*j] = s * sin;
             start.v.values[*i] = v[*i] * cos - s * v[*j] * sin;
             start.v.values[*j] = v[*i] * sin + s * v[*j] * cos;
-            // A negative distance is a positive one in the opposite direction.
-            let (sign, angle) = if s < 0.0 {
-                (-1.0, phi + std::f64::consts::PI)
-            } else {
-                (1.0, phi)
-            };
             turned.push(Turned {
-                direction: [sign * cos, sign * sin],
-                angle,
-                marks: vec![(stated.t, angle)],
+                direction: [cos, sin],
+                angle: phi,
+                marks: vec![(stated.t, phi)],
             });
         }
         let charts = Charts {

@@ -1329,25 +1329,17 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     let x295 = -x170;
     let x296 = -x179;
     let x297 = -x184;
-    let mut x298 = [
-        x291.store(),
-        x292.store(),
-        x293.store(),
-        x294.store(),
-        x295.store(),
-        x296.store(),
-        x297.store(),
-    ];
-    let mut scratch298 = x298;
-    let (x, scratch) = (&mut x298, &mut scratch298);
-    ::lagrangian::emitted::series::solve::<N>(7, &x288, x, scratch);
-    let x299 = n(x298[0]);
-    let x300 = n(x298[1]);
-    let x301 = n(x298[2]);
-    let x302 = n(x298[3]);
-    let x303 = n(x298[4]);
-    let x304 = n(x298[5]);
-    let x305 = n(x298[6]);
+    let x298 = ::lagrangian::emitted::series::solved::<N, 7>(
+        &x288,
+        [x291, x292, x293, x294, x295, x296, x297],
+    );
+    let x299 = x298[0];
+    let x300 = x298[1];
+    let x301 = x298[2];
+    let x302 = x298[3];
+    let x303 = x298[4];
+    let x304 = x298[5];
+    let x305 = x298[6];
     let x308 = x299 * x70;
     let x309 = x300 * x70;
     let x310 = x301 * x70;
@@ -1505,18 +1497,17 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     let mut y79 = x344;
     let mut y88 = x373;
     let mut y102 = x374;
-    let mut z14 = x301;
-    let mut z34 = x303;
-    let mut z41 = x305;
     let mut older_y18 = x41;
     let mut older_y56 = x64;
     let mut older_y88 = x48;
     let mut older_y102 = x55;
-    let mut r0 = x299;
-    let mut r1 = x300;
-    let mut r2 = x301;
-    let mut r3 = x302;
-    let mut r6 = x304;
+    let mut acceleration0 = x299;
+    let mut acceleration1 = x300;
+    let mut acceleration2 = x301;
+    let mut acceleration3 = x302;
+    let mut acceleration4 = x303;
+    let mut acceleration6 = x304;
+    let mut acceleration7 = x305;
     let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
     for order in 3..count {
         let w0 = ::lagrangian::emitted::series::sweep::<N, 20, 20>(
@@ -1533,274 +1524,269 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
         let x381 = -x380;
         let x382 = x377 * x381;
         let x383 = w0[0];
-        let x384 = z14;
-        let x385 = x384.mul_add(x47, x383);
-        let x386 = y28;
-        let x387 = x40.mul_add(x386, x385);
-        let x388 = N::from_f64(order as f64);
-        let x389 = x377 * x387;
-        let x390 = w0[1];
-        let x391 = x384.mul_add(x45, x390);
-        let x392 = y27;
-        let x393 = x40.mul_add(x392, x391);
-        let x394 = -x393;
-        let x395 = x377 * x394;
-        let x396 = w0[2];
-        let x397 = z34;
-        let x398 = x397.mul_add(x52, x396);
-        let x399 = y36;
-        let x400 = x49.mul_add(x399, x398);
-        let x401 = x377 * x400;
-        let x402 = w0[3];
-        let x403 = x397.mul_add(x50, x402);
-        let x404 = y35;
-        let x405 = x49.mul_add(x404, x403);
-        let x406 = -x405;
-        let x407 = x377 * x406;
-        let x408 = w0[4];
-        let x409 = y33;
-        let x410 = x409.mul_add(x52, x408);
-        let x411 = x48.mul_add(x399, x410);
-        let x412 = x10.mul_add(x407, x411);
-        let x413 = w0[5];
-        let x414 = z41;
-        let x415 = x414.mul_add(x59, x413);
-        let x416 = y43;
-        let x417 = x56.mul_add(x416, x415);
-        let x418 = x377 * x417;
-        let x419 = w0[6];
-        let x420 = x414.mul_add(x57, x419);
-        let x421 = y42;
-        let x422 = x56.mul_add(x421, x420);
-        let x423 = -x422;
-        let x424 = x377 * x423;
-        let x425 = w0[7];
-        let x426 = y40;
-        let x427 = x426.mul_add(x59, x425);
-        let x428 = x55.mul_add(x416, x427);
-        let x429 = x12.mul_add(x424, x428);
-        let x430 = w0[8];
-        let x431 = x409.mul_add(x50, x430);
-        let x432 = x48.mul_add(x404, x431);
-        let x433 = x10.mul_add(x401, x432);
-        let x434 = w0[9];
-        let x435 = x426.mul_add(x57, x434);
-        let x436 = x55.mul_add(x421, x435);
-        let x437 = x12.mul_add(x418, x436);
-        let x438 = r0;
-        let x439 = r2;
-        let x440 = x99.mul_add(x439, x438);
-        let x441 = r1;
-        let x442 = x101 * x439;
-        let x443 = x442 + x441;
-        let x444 = r3;
-        let x445 = r6;
-        let x446 = N::from_f64((order - 1) as f64);
-        let x450 = x104 * x446;
-        let x451 = x450 * x387;
-        let x452 = x106 * x446;
-        let x453 = x452.mul_add(x394, x451);
-        let x454 = x108 * x446;
-        let x455 = x454.mul_add(x381, x453);
-        let x458 = x446 * x388;
-        let x459 = x458 * x412;
-        let x462 = x458.mul_add(x429, x459);
-        let x463 = x113 * x459;
-        let x464 = x115.mul_add(x462, x463);
-        let x465 = older_y18;
-        let x466 = x117 * x465;
-        let x467 = x119.mul_add(x440, x466);
-        let x468 = x122.mul_add(x455, x467);
-        let x469 = x468 + x464;
-        let x471 = x452 * x387;
-        let x472 = x126 * x446;
-        let x473 = x472.mul_add(x394, x471);
-        let x474 = x454.mul_add(x376, x473);
-        let x477 = x458 * x433;
-        let x480 = x458.mul_add(x437, x477);
-        let x481 = x113 * x477;
-        let x482 = x115.mul_add(x480, x481);
-        let x483 = older_y56;
-        let x484 = x134 * x483;
-        let x485 = x136.mul_add(x443, x484);
-        let x486 = x122.mul_add(x474, x485);
-        let x487 = x486 + x482;
-        let x488 = x140 * x474;
-        let x489 = x142.mul_add(x455, x488);
-        let x490 = w0[10];
-        let x491 = y77;
-        let x492 = x491.mul_add(x47, x490);
-        let x493 = x489.mul_add(x30, x492);
-        let x494 = x145 * x474;
-        let x495 = x140.mul_add(x455, x494);
-        let x496 = w0[11];
-        let x497 = y79;
-        let x498 = x497.mul_add(x45, x496);
-        let x499 = x495.mul_add(x29, x498);
-        let x500 = x149 * x465;
-        let x501 = x151.mul_add(x483, x500);
-        let x502 = x153.mul_add(x440, x501);
-        let x503 = x155.mul_add(x443, x502);
-        let x504 = x503 + x493;
-        let x505 = x504 - x499;
-        let x506 = w0[12];
-        let x507 = y66;
-        let x508 = x507.mul_add(x50, x506);
-        let x509 = x482.mul_add(x31, x508);
-        let x510 = w0[13];
-        let x511 = y47;
-        let x512 = x511.mul_add(x52, x510);
-        let x513 = x464.mul_add(x32, x512);
-        let x514 = older_y88;
-        let x515 = x162 * x514;
-        let x516 = x164.mul_add(x444, x515);
-        let x517 = x516 + x509;
-        let x518 = x517 + x513;
-        let x519 = w0[14];
-        let x520 = x507.mul_add(x54, x519);
-        let x521 = x482.mul_add(x35, x520);
-        let x522 = w0[15];
-        let x523 = x511.mul_add(x66, x522);
-        let x524 = x464.mul_add(x37, x523);
-        let x525 = x521 - x524;
-        let x526 = w0[16];
-        let x527 = y65;
-        let x528 = x527.mul_add(x57, x526);
-        let x529 = x480.mul_add(x33, x528);
-        let x530 = w0[17];
-        let x531 = y46;
-        let x532 = x531.mul_add(x59, x530);
-        let x533 = x462.mul_add(x34, x532);
-        let x534 = older_y102;
-        let x535 = x174 * x534;
-        let x536 = x176.mul_add(x445, x535);
-        let x537 = x115.mul_add(x529, x536);
-        let x538 = x115.mul_add(x533, x537);
-        let x539 = w0[18];
-        let x540 = x527.mul_add(x61, x539);
-        let x541 = x480.mul_add(x36, x540);
-        let x542 = w0[19];
-        let x543 = x531.mul_add(x68, x542);
-        let x544 = x462.mul_add(x38, x543);
-        let x545 = x115 * x541;
-        let x546 = x183.mul_add(x544, x545);
-        let x547 = -x469;
-        let x548 = -x487;
-        let x549 = -x505;
-        let x550 = -x518;
-        let x551 = -x525;
-        let x552 = -x538;
-        let x553 = -x546;
-        let mut x554 = [
-            x547.store(),
-            x548.store(),
-            x549.store(),
-            x550.store(),
-            x551.store(),
-            x552.store(),
-            x553.store(),
-        ];
-        let mut scratch554 = x554;
-        let (x, scratch) = (&mut x554, &mut scratch554);
-        ::lagrangian::emitted::series::solve::<N>(7, &x288, x, scratch);
-        let x555 = n(x554[0]);
-        let x556 = n(x554[1]);
-        let x557 = n(x554[2]);
-        let x558 = n(x554[3]);
-        let x559 = n(x554[4]);
-        let x560 = n(x554[5]);
-        let x561 = n(x554[6]);
-        let x562 = N::from_ratio(1, order as i64 - 1);
-        let x563 = N::from_ratio(order as i64 * (order as i64 - 1), 1);
-        let x564 = x555 * x562;
-        let x565 = x555 / x563;
-        let x566 = x556 * x562;
-        let x567 = x556 / x563;
-        let x568 = x557 * x562;
-        let x569 = x557 / x563;
-        let x570 = x558 * x562;
-        let x571 = x558 / x563;
-        let x572 = x559 * x562;
-        let x573 = x559 / x563;
-        let x574 = x560 * x562;
-        let x575 = x560 / x563;
-        let x576 = x561 * x562;
-        let x577 = x561 / x563;
-        let x578 = x562 * x377;
-        let x579 = x32.mul_add(x558, x555);
-        let x580 = x190.mul_add(x559, x579);
-        let x581 = x34.mul_add(x560, x580);
-        let x582 = x192.mul_add(x561, x581);
-        let x583 = x462 + x582;
-        let x584 = x195 * x555;
-        let x585 = x196.mul_add(x558, x584);
-        let x586 = x197.mul_add(x559, x585);
-        let x587 = x198.mul_add(x560, x586);
-        let x588 = x199.mul_add(x561, x587);
-        let x589 = x464 + x588;
-        let x590 = x31.mul_add(x558, x556);
-        let x591 = x35.mul_add(x559, x590);
-        let x592 = x33.mul_add(x560, x591);
-        let x593 = x36.mul_add(x561, x592);
-        let x594 = x480 + x593;
-        let x595 = x195 * x556;
-        let x596 = x207.mul_add(x558, x595);
-        let x597 = x208.mul_add(x559, x596);
-        let x598 = x209.mul_add(x560, x597);
-        let x599 = x210.mul_add(x561, x598);
-        let x600 = x482 + x599;
-        let x601 = x142 * x555;
-        let x602 = x140.mul_add(x556, x601);
-        let x603 = x213.mul_add(x557, x602);
-        let x604 = x489 + x603;
-        let x605 = x140 * x555;
-        let x606 = x145.mul_add(x556, x605);
-        let x607 = x218.mul_add(x557, x606);
-        let x608 = x495 + x607;
-        let x609 = x2.mul_add(x557, x555);
-        let x610 = x578 * x609;
-        let x611 = x30 * x578;
-        let x612 = x611.mul_add(x557, x389);
-        let x613 = x186 * x578;
-        let x614 = x613.mul_add(x557, x395);
-        let x615 = x32 * x578;
-        let x616 = x615.mul_add(x559, x401);
-        let x617 = x189 * x578;
-        let x618 = x617.mul_add(x559, x407);
-        let x619 = x32 * x558;
-        let x620 = x190.mul_add(x559, x619);
-        let x621 = x578.mul_add(x620, x412);
-        let x622 = x34 * x578;
-        let x623 = x622.mul_add(x561, x418);
-        let x624 = x191 * x578;
-        let x625 = x624.mul_add(x561, x424);
-        let x626 = x34 * x560;
-        let x627 = x192.mul_add(x561, x626);
-        let x628 = x578.mul_add(x627, x429);
-        let x629 = x15.mul_add(x557, x556);
-        let x630 = x578 * x629;
-        let x631 = x31 * x558;
-        let x632 = x35.mul_add(x559, x631);
-        let x633 = x578.mul_add(x632, x433);
-        let x634 = x33 * x560;
-        let x635 = x36.mul_add(x561, x634);
-        let x636 = x578.mul_add(x635, x437);
-        let x637 = x578 * x558;
-        let x638 = x578 * x560;
-        let x639 = y18;
-        let x640 = y56;
-        let x641 = y88;
-        let x642 = y102;
+        let x384 = acceleration2;
+        let x385 = N::from_ratio(1, order as i64 - 2);
+        let x386 = x384 * x385;
+        let x387 = x386.mul_add(x47, x383);
+        let x388 = y28;
+        let x389 = x40.mul_add(x388, x387);
+        let x390 = N::from_f64(order as f64);
+        let x391 = x377 * x389;
+        let x392 = w0[1];
+        let x393 = x386.mul_add(x45, x392);
+        let x394 = y27;
+        let x395 = x40.mul_add(x394, x393);
+        let x396 = -x395;
+        let x397 = x377 * x396;
+        let x398 = w0[2];
+        let x399 = acceleration4;
+        let x400 = x399 * x385;
+        let x401 = x400.mul_add(x52, x398);
+        let x402 = y36;
+        let x403 = x49.mul_add(x402, x401);
+        let x404 = x377 * x403;
+        let x405 = w0[3];
+        let x406 = x400.mul_add(x50, x405);
+        let x407 = y35;
+        let x408 = x49.mul_add(x407, x406);
+        let x409 = -x408;
+        let x410 = x377 * x409;
+        let x411 = w0[4];
+        let x412 = y33;
+        let x413 = x412.mul_add(x52, x411);
+        let x414 = x48.mul_add(x402, x413);
+        let x415 = x10.mul_add(x410, x414);
+        let x416 = w0[5];
+        let x417 = acceleration7;
+        let x418 = x417 * x385;
+        let x419 = x418.mul_add(x59, x416);
+        let x420 = y43;
+        let x421 = x56.mul_add(x420, x419);
+        let x422 = x377 * x421;
+        let x423 = w0[6];
+        let x424 = x418.mul_add(x57, x423);
+        let x425 = y42;
+        let x426 = x56.mul_add(x425, x424);
+        let x427 = -x426;
+        let x428 = x377 * x427;
+        let x429 = w0[7];
+        let x430 = y40;
+        let x431 = x430.mul_add(x59, x429);
+        let x432 = x55.mul_add(x420, x431);
+        let x433 = x12.mul_add(x428, x432);
+        let x434 = w0[8];
+        let x435 = x412.mul_add(x50, x434);
+        let x436 = x48.mul_add(x407, x435);
+        let x437 = x10.mul_add(x404, x436);
+        let x438 = w0[9];
+        let x439 = x430.mul_add(x57, x438);
+        let x440 = x55.mul_add(x425, x439);
+        let x441 = x12.mul_add(x422, x440);
+        let x442 = acceleration0;
+        let x443 = x442 * x385;
+        let x444 = x99.mul_add(x386, x443);
+        let x445 = acceleration1;
+        let x446 = x445 * x385;
+        let x447 = x101 * x386;
+        let x448 = x447 + x446;
+        let x449 = acceleration3;
+        let x450 = x449 * x385;
+        let x451 = acceleration6;
+        let x452 = x451 * x385;
+        let x453 = N::from_f64((order - 1) as f64);
+        let x457 = x104 * x453;
+        let x458 = x457 * x389;
+        let x459 = x106 * x453;
+        let x460 = x459.mul_add(x396, x458);
+        let x461 = x108 * x453;
+        let x462 = x461.mul_add(x381, x460);
+        let x465 = x453 * x390;
+        let x466 = x465 * x415;
+        let x469 = x465.mul_add(x433, x466);
+        let x470 = x113 * x466;
+        let x471 = x115.mul_add(x469, x470);
+        let x472 = older_y18;
+        let x473 = x117 * x472;
+        let x474 = x119.mul_add(x444, x473);
+        let x475 = x122.mul_add(x462, x474);
+        let x476 = x475 + x471;
+        let x478 = x459 * x389;
+        let x479 = x126 * x453;
+        let x480 = x479.mul_add(x396, x478);
+        let x481 = x461.mul_add(x376, x480);
+        let x484 = x465 * x437;
+        let x487 = x465.mul_add(x441, x484);
+        let x488 = x113 * x484;
+        let x489 = x115.mul_add(x487, x488);
+        let x490 = older_y56;
+        let x491 = x134 * x490;
+        let x492 = x136.mul_add(x448, x491);
+        let x493 = x122.mul_add(x481, x492);
+        let x494 = x493 + x489;
+        let x495 = x140 * x481;
+        let x496 = x142.mul_add(x462, x495);
+        let x497 = w0[10];
+        let x498 = y77;
+        let x499 = x498.mul_add(x47, x497);
+        let x500 = x496.mul_add(x30, x499);
+        let x501 = x145 * x481;
+        let x502 = x140.mul_add(x462, x501);
+        let x503 = w0[11];
+        let x504 = y79;
+        let x505 = x504.mul_add(x45, x503);
+        let x506 = x502.mul_add(x29, x505);
+        let x507 = x149 * x472;
+        let x508 = x151.mul_add(x490, x507);
+        let x509 = x153.mul_add(x444, x508);
+        let x510 = x155.mul_add(x448, x509);
+        let x511 = x510 + x500;
+        let x512 = x511 - x506;
+        let x513 = w0[12];
+        let x514 = y66;
+        let x515 = x514.mul_add(x50, x513);
+        let x516 = x489.mul_add(x31, x515);
+        let x517 = w0[13];
+        let x518 = y47;
+        let x519 = x518.mul_add(x52, x517);
+        let x520 = x471.mul_add(x32, x519);
+        let x521 = older_y88;
+        let x522 = x162 * x521;
+        let x523 = x164.mul_add(x450, x522);
+        let x524 = x523 + x516;
+        let x525 = x524 + x520;
+        let x526 = w0[14];
+        let x527 = x514.mul_add(x54, x526);
+        let x528 = x489.mul_add(x35, x527);
+        let x529 = w0[15];
+        let x530 = x518.mul_add(x66, x529);
+        let x531 = x471.mul_add(x37, x530);
+        let x532 = x528 - x531;
+        let x533 = w0[16];
+        let x534 = y65;
+        let x535 = x534.mul_add(x57, x533);
+        let x536 = x487.mul_add(x33, x535);
+        let x537 = w0[17];
+        let x538 = y46;
+        let x539 = x538.mul_add(x59, x537);
+        let x540 = x469.mul_add(x34, x539);
+        let x541 = older_y102;
+        let x542 = x174 * x541;
+        let x543 = x176.mul_add(x452, x542);
+        let x544 = x115.mul_add(x536, x543);
+        let x545 = x115.mul_add(x540, x544);
+        let x546 = w0[18];
+        let x547 = x534.mul_add(x61, x546);
+        let x548 = x487.mul_add(x36, x547);
+        let x549 = w0[19];
+        let x550 = x538.mul_add(x68, x549);
+        let x551 = x469.mul_add(x38, x550);
+        let x552 = x115 * x548;
+        let x553 = x183.mul_add(x551, x552);
+        let x554 = -x476;
+        let x555 = -x494;
+        let x556 = -x512;
+        let x557 = -x525;
+        let x558 = -x532;
+        let x559 = -x545;
+        let x560 = -x553;
+        let x561 = ::lagrangian::emitted::series::solved::<N, 7>(
+            &x288,
+            [x554, x555, x556, x557, x558, x559, x560],
+        );
+        let x562 = x561[0];
+        let x563 = x561[1];
+        let x564 = x561[2];
+        let x565 = x561[3];
+        let x566 = x561[4];
+        let x567 = x561[5];
+        let x568 = x561[6];
+        let x569 = N::from_ratio(1, order as i64 - 1);
+        let x570 = N::divisor(order as i64 * (order as i64 - 1));
+        let x572 = x562.over(x570);
+        let x574 = x563.over(x570);
+        let x575 = x564 * x569;
+        let x576 = x564.over(x570);
+        let x578 = x565.over(x570);
+        let x579 = x566 * x569;
+        let x580 = x566.over(x570);
+        let x582 = x567.over(x570);
+        let x583 = x568 * x569;
+        let x584 = x568.over(x570);
+        let x585 = x569 * x377;
+        let x586 = x32.mul_add(x565, x562);
+        let x587 = x190.mul_add(x566, x586);
+        let x588 = x34.mul_add(x567, x587);
+        let x589 = x192.mul_add(x568, x588);
+        let x590 = x469 + x589;
+        let x591 = x195 * x562;
+        let x592 = x196.mul_add(x565, x591);
+        let x593 = x197.mul_add(x566, x592);
+        let x594 = x198.mul_add(x567, x593);
+        let x595 = x199.mul_add(x568, x594);
+        let x596 = x471 + x595;
+        let x597 = x31.mul_add(x565, x563);
+        let x598 = x35.mul_add(x566, x597);
+        let x599 = x33.mul_add(x567, x598);
+        let x600 = x36.mul_add(x568, x599);
+        let x601 = x487 + x600;
+        let x602 = x195 * x563;
+        let x603 = x207.mul_add(x565, x602);
+        let x604 = x208.mul_add(x566, x603);
+        let x605 = x209.mul_add(x567, x604);
+        let x606 = x210.mul_add(x568, x605);
+        let x607 = x489 + x606;
+        let x608 = x142 * x562;
+        let x609 = x140.mul_add(x563, x608);
+        let x610 = x213.mul_add(x564, x609);
+        let x611 = x496 + x610;
+        let x612 = x140 * x562;
+        let x613 = x145.mul_add(x563, x612);
+        let x614 = x218.mul_add(x564, x613);
+        let x615 = x502 + x614;
+        let x616 = x2.mul_add(x564, x562);
+        let x617 = x585 * x616;
+        let x618 = x30 * x585;
+        let x619 = x618.mul_add(x564, x391);
+        let x620 = x186 * x585;
+        let x621 = x620.mul_add(x564, x397);
+        let x622 = x32 * x585;
+        let x623 = x622.mul_add(x566, x404);
+        let x624 = x189 * x585;
+        let x625 = x624.mul_add(x566, x410);
+        let x626 = x32 * x565;
+        let x627 = x190.mul_add(x566, x626);
+        let x628 = x585.mul_add(x627, x415);
+        let x629 = x34 * x585;
+        let x630 = x629.mul_add(x568, x422);
+        let x631 = x191 * x585;
+        let x632 = x631.mul_add(x568, x428);
+        let x633 = x34 * x567;
+        let x634 = x192.mul_add(x568, x633);
+        let x635 = x585.mul_add(x634, x433);
+        let x636 = x15.mul_add(x564, x563);
+        let x637 = x585 * x636;
+        let x638 = x31 * x565;
+        let x639 = x35.mul_add(x566, x638);
+        let x640 = x585.mul_add(x639, x437);
+        let x641 = x33 * x567;
+        let x642 = x36.mul_add(x568, x641);
+        let x643 = x585.mul_add(x642, x441);
+        let x644 = x585 * x565;
+        let x645 = x585 * x567;
+        let x646 = y18;
+        let x647 = y56;
+        let x648 = y88;
+        let x649 = y102;
         if let Some(row) = coefficients.get_mut(order) {
             *row = [
-                x565.store(),
-                x567.store(),
-                x569.store(),
-                x571.store(),
-                x573.store(),
+                x572.store(),
+                x574.store(),
+                x576.store(),
+                x578.store(),
+                x580.store(),
                 N::ZERO.store(),
-                x575.store(),
-                x577.store(),
+                x582.store(),
+                x584.store(),
                 N::ZERO.store(),
             ];
         }
@@ -1808,26 +1794,26 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             &mut lists.a0.0,
             order,
             [
-                x568.store(),
-                x568.store(),
-                x572.store(),
-                x572.store(),
-                x571.store(),
-                x576.store(),
-                x576.store(),
                 x575.store(),
-                x571.store(),
                 x575.store(),
-                x604.store(),
-                x608.store(),
-                x600.store(),
-                x589.store(),
-                x600.store(),
-                x589.store(),
-                x594.store(),
+                x579.store(),
+                x579.store(),
+                x578.store(),
                 x583.store(),
-                x594.store(),
                 x583.store(),
+                x582.store(),
+                x578.store(),
+                x582.store(),
+                x611.store(),
+                x615.store(),
+                x607.store(),
+                x596.store(),
+                x607.store(),
+                x596.store(),
+                x601.store(),
+                x590.store(),
+                x601.store(),
+                x590.store(),
             ],
             &A0,
         );
@@ -1835,61 +1821,60 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             &mut lists.b0.0,
             order,
             [
-                x614.store(),
-                x612.store(),
-                x618.store(),
-                x616.store(),
-                x618.store(),
-                x625.store(),
-                x623.store(),
-                x625.store(),
-                x616.store(),
-                x623.store(),
-                x614.store(),
-                x612.store(),
-                x616.store(),
-                x618.store(),
                 x621.store(),
-                x633.store(),
+                x619.store(),
+                x625.store(),
+                x623.store(),
+                x625.store(),
+                x632.store(),
+                x630.store(),
+                x632.store(),
+                x623.store(),
+                x630.store(),
+                x621.store(),
+                x619.store(),
                 x623.store(),
                 x625.store(),
                 x628.store(),
-                x636.store(),
+                x640.store(),
+                x630.store(),
+                x632.store(),
+                x635.store(),
+                x643.store(),
             ],
             &B0,
         );
-        y18 = x610;
+        y18 = x617;
         y24 = x378;
         y25 = x382;
-        y27 = x612;
-        y28 = x614;
-        y33 = x571;
-        y35 = x616;
-        y36 = x618;
-        y40 = x575;
-        y42 = x623;
-        y43 = x625;
-        y46 = x583;
-        y47 = x589;
-        y56 = x630;
-        y65 = x594;
-        y66 = x600;
-        y77 = x604;
-        y79 = x608;
-        y88 = x637;
-        y102 = x638;
-        z14 = x568;
-        z34 = x572;
-        z41 = x576;
-        older_y18 = x639;
-        older_y56 = x640;
-        older_y88 = x641;
-        older_y102 = x642;
-        r0 = x564;
-        r1 = x566;
-        r2 = x568;
-        r3 = x570;
-        r6 = x574;
+        y27 = x619;
+        y28 = x621;
+        y33 = x578;
+        y35 = x623;
+        y36 = x625;
+        y40 = x582;
+        y42 = x630;
+        y43 = x632;
+        y46 = x590;
+        y47 = x596;
+        y56 = x637;
+        y65 = x601;
+        y66 = x607;
+        y77 = x611;
+        y79 = x615;
+        y88 = x644;
+        y102 = x645;
+        older_y18 = x646;
+        older_y56 = x647;
+        older_y88 = x648;
+        older_y102 = x649;
+        acceleration0 = x562;
+        acceleration1 = x563;
+        acceleration2 = x564;
+        acceleration3 = x565;
+        acceleration4 = x566;
+        acceleration6 = x567;
+        acceleration7 = x568;
     }
     Ok(())
 }

@@ -538,8 +538,8 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     let mut y22 = x101;
     let mut y25 = x104;
     let mut y26 = x107;
-    let mut z5 = x89;
-    let mut z14 = x93;
+    let mut acceleration0 = x89;
+    let mut acceleration1 = x93;
     let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
     for order in 3..count {
         let w0 = ::lagrangian::emitted::series::sweep::<N, 8, 8>(
@@ -548,112 +548,115 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             [&A0, &B0],
         );
         let x116 = w0[0];
-        let x117 = z5;
-        let x118 = x117.mul_add(x10, x116);
-        let x119 = y7;
-        let x120 = x7.mul_add(x119, x118);
-        let x122 = N::from_ratio(1, order as i64);
-        let x123 = x122 * x120;
-        let x124 = w0[1];
-        let x125 = x117.mul_add(x8, x124);
-        let x126 = y6;
-        let x127 = x7.mul_add(x126, x125);
-        let x128 = -x127;
-        let x129 = x122 * x128;
-        let x130 = w0[2];
-        let x131 = z14;
-        let x132 = x131.mul_add(x14, x130);
-        let x133 = y16;
-        let x134 = x11.mul_add(x133, x132);
-        let x135 = x122 * x134;
-        let x136 = w0[3];
-        let x137 = x131.mul_add(x12, x136);
-        let x138 = y15;
-        let x139 = x11.mul_add(x138, x137);
-        let x140 = -x139;
-        let x141 = x122 * x140;
-        let x142 = N::from_f64((order - 1) as f64);
-        let x145 = x28 * x142;
-        let x146 = x145 * x128;
-        let x148 = x30 * x142;
-        let x149 = x148 * x120;
-        let x150 = x32 * x142;
-        let x151 = x150.mul_add(x134, x149);
-        let x153 = x35 * x142;
-        let x154 = x153.mul_add(x140, x146);
-        let x155 = x38 * x146;
-        let x156 = x40.mul_add(x154, x155);
-        let x157 = x42 * x142;
-        let x158 = x157 * x120;
-        let x159 = x44.mul_add(x151, x158);
-        let x160 = w0[4];
-        let x161 = y25;
-        let x162 = x161.mul_add(x8, x160);
-        let x163 = x156.mul_add(x3, x162);
-        let x164 = w0[5];
-        let x165 = y26;
-        let x166 = x165.mul_add(x10, x164);
-        let x167 = x159.mul_add(x4, x166);
-        let x168 = x30 * x167;
-        let x169 = x28.mul_add(x163, x168);
-        let x170 = w0[6];
-        let x171 = y22;
-        let x172 = x171.mul_add(x12, x170);
-        let x173 = x154.mul_add(x5, x172);
-        let x174 = w0[7];
-        let x175 = y18;
-        let x176 = x175.mul_add(x14, x174);
-        let x177 = x151.mul_add(x6, x176);
-        let x178 = x52 * x177;
-        let x179 = x52.mul_add(x173, x178);
-        let x180 = -x169;
-        let x181 = -x179;
-        let x182 = x86 * x180;
-        let x183 = x88.mul_add(x181, x182);
-        let x184 = x90 * x180;
-        let x185 = x92.mul_add(x181, x184);
-        let x186 = N::from_ratio(1, order as i64 - 1);
-        let x187 = N::from_ratio(order as i64 * (order as i64 - 1), 1);
-        let x188 = x183 * x186;
-        let x189 = x183 / x187;
-        let x190 = x185 * x186;
-        let x191 = x185 / x187;
-        let x192 = x186 * x122;
-        let x193 = x58 * x183;
-        let x194 = x59.mul_add(x185, x193);
-        let x195 = x151 + x194;
-        let x196 = x56 * x183;
-        let x197 = x60.mul_add(x185, x196);
+        let x117 = acceleration0;
+        let x118 = N::from_ratio(1, order as i64 - 2);
+        let x119 = x117 * x118;
+        let x120 = x119.mul_add(x10, x116);
+        let x121 = y7;
+        let x122 = x7.mul_add(x121, x120);
+        let x124 = N::from_ratio(1, order as i64);
+        let x125 = x124 * x122;
+        let x126 = w0[1];
+        let x127 = x119.mul_add(x8, x126);
+        let x128 = y6;
+        let x129 = x7.mul_add(x128, x127);
+        let x130 = -x129;
+        let x131 = x124 * x130;
+        let x132 = w0[2];
+        let x133 = acceleration1;
+        let x134 = x133 * x118;
+        let x135 = x134.mul_add(x14, x132);
+        let x136 = y16;
+        let x137 = x11.mul_add(x136, x135);
+        let x138 = x124 * x137;
+        let x139 = w0[3];
+        let x140 = x134.mul_add(x12, x139);
+        let x141 = y15;
+        let x142 = x11.mul_add(x141, x140);
+        let x143 = -x142;
+        let x144 = x124 * x143;
+        let x145 = N::from_f64((order - 1) as f64);
+        let x148 = x28 * x145;
+        let x149 = x148 * x130;
+        let x151 = x30 * x145;
+        let x152 = x151 * x122;
+        let x153 = x32 * x145;
+        let x154 = x153.mul_add(x137, x152);
+        let x156 = x35 * x145;
+        let x157 = x156.mul_add(x143, x149);
+        let x158 = x38 * x149;
+        let x159 = x40.mul_add(x157, x158);
+        let x160 = x42 * x145;
+        let x161 = x160 * x122;
+        let x162 = x44.mul_add(x154, x161);
+        let x163 = w0[4];
+        let x164 = y25;
+        let x165 = x164.mul_add(x8, x163);
+        let x166 = x159.mul_add(x3, x165);
+        let x167 = w0[5];
+        let x168 = y26;
+        let x169 = x168.mul_add(x10, x167);
+        let x170 = x162.mul_add(x4, x169);
+        let x171 = x30 * x170;
+        let x172 = x28.mul_add(x166, x171);
+        let x173 = w0[6];
+        let x174 = y22;
+        let x175 = x174.mul_add(x12, x173);
+        let x176 = x157.mul_add(x5, x175);
+        let x177 = w0[7];
+        let x178 = y18;
+        let x179 = x178.mul_add(x14, x177);
+        let x180 = x154.mul_add(x6, x179);
+        let x181 = x52 * x180;
+        let x182 = x52.mul_add(x176, x181);
+        let x183 = -x172;
+        let x184 = -x182;
+        let x185 = x86 * x183;
+        let x186 = x88.mul_add(x184, x185);
+        let x187 = x90 * x183;
+        let x188 = x92.mul_add(x184, x187);
+        let x189 = N::from_ratio(1, order as i64 - 1);
+        let x190 = N::divisor(order as i64 * (order as i64 - 1));
+        let x191 = x186 * x189;
+        let x192 = x186.over(x190);
+        let x193 = x188 * x189;
+        let x194 = x188.over(x190);
+        let x195 = x189 * x124;
+        let x196 = x58 * x186;
+        let x197 = x59.mul_add(x188, x196);
         let x198 = x154 + x197;
-        let x199 = x62 * x183;
-        let x200 = x63.mul_add(x185, x199);
-        let x201 = x156 + x200;
-        let x202 = x65 * x183;
-        let x203 = x66.mul_add(x185, x202);
+        let x199 = x56 * x186;
+        let x200 = x60.mul_add(x188, x199);
+        let x201 = x157 + x200;
+        let x202 = x62 * x186;
+        let x203 = x63.mul_add(x188, x202);
         let x204 = x159 + x203;
-        let x205 = x4 * x192;
-        let x206 = x205.mul_add(x183, x123);
-        let x207 = x55 * x192;
-        let x208 = x207.mul_add(x183, x129);
-        let x209 = x6 * x192;
-        let x210 = x209.mul_add(x185, x135);
-        let x211 = x57 * x192;
-        let x212 = x211.mul_add(x185, x141);
+        let x205 = x65 * x186;
+        let x206 = x66.mul_add(x188, x205);
+        let x207 = x162 + x206;
+        let x208 = x4 * x195;
+        let x209 = x208.mul_add(x186, x125);
+        let x210 = x55 * x195;
+        let x211 = x210.mul_add(x186, x131);
+        let x212 = x6 * x195;
+        let x213 = x212.mul_add(x188, x138);
+        let x214 = x57 * x195;
+        let x215 = x214.mul_add(x188, x144);
         if let Some(row) = coefficients.get_mut(order) {
-            *row = [x189.store(), x191.store()];
+            *row = [x192.store(), x194.store()];
         }
         ::lagrangian::emitted::series::keep::<N, 8, 8>(
             &mut lists.a0.0,
             order,
             [
-                x188.store(),
-                x188.store(),
-                x190.store(),
-                x190.store(),
-                x201.store(),
+                x191.store(),
+                x191.store(),
+                x193.store(),
+                x193.store(),
                 x204.store(),
+                x207.store(),
+                x201.store(),
                 x198.store(),
-                x195.store(),
             ],
             &A0,
         );
@@ -661,27 +664,27 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             &mut lists.b0.0,
             order,
             [
-                x208.store(),
-                x206.store(),
-                x212.store(),
-                x210.store(),
-                x206.store(),
-                x208.store(),
-                x210.store(),
-                x212.store(),
+                x211.store(),
+                x209.store(),
+                x215.store(),
+                x213.store(),
+                x209.store(),
+                x211.store(),
+                x213.store(),
+                x215.store(),
             ],
             &B0,
         );
-        y6 = x206;
-        y7 = x208;
-        y15 = x210;
-        y16 = x212;
-        y18 = x195;
-        y22 = x198;
-        y25 = x201;
-        y26 = x204;
-        z5 = x188;
-        z14 = x190;
+        y6 = x209;
+        y7 = x211;
+        y15 = x213;
+        y16 = x215;
+        y18 = x198;
+        y22 = x201;
+        y25 = x204;
+        y26 = x207;
+        acceleration0 = x186;
+        acceleration1 = x188;
     }
     Ok(())
 }

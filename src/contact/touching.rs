@@ -396,7 +396,7 @@ impl UnilateralState {
         }
     }
 
-    /// Takes note of the directions in which contacts slide where a step begins.
+    /// Takes note of the directions in which contacts slide where a step begins, and of how fast.
     pub fn record_headings<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
         if !self
             .modes
@@ -411,6 +411,9 @@ impl UnilateralState {
                 && let Some(direction) = self.known_direction(&here, k)
             {
                 self.modes[k] = Mode::SlidesAlong(direction);
+                let [slip, _] = self.slip(&here, k);
+                // What starts from rest slips no faster than rounding at the instants at which contacts change.
+                self.slip = self.slip.max(slip[0].hypot(slip[1]));
             }
         }
     }
