@@ -118,15 +118,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let rounding = ROUNDING_UNITS * f64::EPSILON;
         let ends = [&*before, &*now];
         let mut may_be_off = false;
-        let all = [
-            accelerations.as_slice(),
-            stage.0.as_slice(),
-            tolerance.absolute.as_slice(),
-        ];
-        for i in 0..all[0].len() {
-            let [acceleration, by_series, absolute] = [all[0][i], all[1][i], all[2][i]];
-            let counted = (acceleration - by_series).abs() - rounding * acceleration.abs();
-            let bound = bound(size_of_rates(ends, i), absolute, tolerance.relative);
+        let (by_series, absolute) = (stage.0.as_slice(), tolerance.absolute.as_slice());
+        for (i, acceleration) in accelerations.as_slice().iter().enumerate() {
+            let counted = (acceleration - by_series[i]).abs() - rounding * acceleration.abs();
+            let bound = bound(size_of_rates(ends, i), absolute[i], tolerance.relative);
             may_be_off |= counted * h.abs() > 0.5 * GREATEST_DEFECT * bound;
         }
         if may_be_off && self.is_off(h)? {
