@@ -288,7 +288,15 @@ pub fn evaluate<'py>(
     py.detach(|| {
         batch.each(machine, 0..batch.t.len(), |k, system, scratch| {
             let Scratch { q, v, u, .. } = scratch;
-            results.push(Evaluation::of(system, At { t: batch.t[k], q, v, u }));
+            results.push(Evaluation::of(
+                system,
+                At {
+                    t: batch.t[k],
+                    q,
+                    v,
+                    u,
+                },
+            ));
         });
     });
     let (n, system) = (machine.dimension(), machine.system());

@@ -3,7 +3,7 @@
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine as _, Simulation, System};
 use lagrangian_linear::model::{self, Label, Model, NoModel, Observed, Request};
-use lagrangian_linear::motion::Motion;
+use lagrangian_linear::motion::SteadyMotion;
 use lagrangian_linear::poles::poles;
 use lagrangian_linear::search::{MOST_STEPS, Wanted};
 use lagrangian_linear::spectrum::damping;
@@ -85,7 +85,7 @@ fn find_motion(
     machine: &InterpretedMachine,
     (_, q, v): Start,
     (steady, solved): Steady,
-) -> Result<Motion, String> {
+) -> Result<SteadyMotion, String> {
     let wanted = Wanted {
         steady,
         solved,
