@@ -8,6 +8,9 @@ use crate::{System, Vector};
 /// A gap within this of its scale is closed, and a rate within this of its scale is rest.
 pub(crate) const ROUNDING: f64 = 1e-12;
 
+/// A gap whose terms are smaller than those of this turn, in rad, has terms without coordinates that cancel.
+const LEAST_TURN: f64 = 1.0 / 16.0;
+
 /// Gaps, rates and all that belongs to them at a state.
 pub(super) struct ContactKinematics {
     pub n: usize,
@@ -18,8 +21,8 @@ pub(super) struct ContactKinematics {
     pub coefficients: Vec<f64>,
     /// Time and state, which rounding is relative to.
     at: (f64, Vec<f64>, Vec<f64>),
-    /// How large each coordinate is at least as part of a gap: 1 rad for an angle, which turns lengths of the machine, and else its value.
-    sizes: Vec<f64>,
+    /// How large each coordinate is at least as part of a gap: [`LEAST_TURN`] for an angle, which turns lengths of the machine, and else 0.
+    least: Vec<f64>,
     /// Where contacts with faces of polygons are on these; empty where no contact is one.
     pub faces: Vec<Option<OnFace>>,
 }
@@ -64,16 +67,12 @@ pub(super) fn faces<S: System>(
 
 /// See [`ContactKinematics`]. A gap at angles of 0 is no better known than beside it: without their lengths its rounding would be nothing where
 /// all coordinates are 0, and bounces would end nowhere.
-fn sizes<S: System>(system: &S, q: &S::Vector) -> Vec<f64> {
-    let least = (system.coordinates()).map(|coordinate| match coordinate.unit {
-        "rad" => 1.0,
-        _ => 0.0,
-    });
-    let values = q
-        .as_slice()
-        .iter()
-        .zip(least.chain(core::iter::repeat(0.0)));
-    values.map(|(q, least)| q.abs().max(least)).collect()
+fn least_sizes<S: System>(system: &S) -> Vec<f64> {
+    let least = |unit| if unit == "rad" { LEAST_TURN } else { 0.0 };
+    let coordinates = system.coordinates();
+    coordinates
+        .map(|coordinate| least(coordinate.unit))
+        .collect()
 }
 
 impl ContactKinematics {
@@ -87,7 +86,7 @@ impl ContactKinematics {
             biases: vec![0.0; 2 * m],
             coefficients: vec![0.0; 4 * m],
             at: (t, q.as_slice().to_vec(), v.as_slice().to_vec()),
-            sizes: sizes(system, q),
+            least: least_sizes(system),
             faces: faces(system, (t, q, v)),
         };
         system.gaps(t, q, &mut here.gaps);
@@ -100,9 +99,10 @@ impl ContactKinematics {
 
     /// Below which the gap of a contact is closed. Asked of few contacts: it takes the whole row of one.
     pub fn gap_rounding(&self, contact: usize) -> f64 {
-        let (t, ..) = &self.at;
+        let (t, q, _) = &self.at;
         let direction = 2 * contact;
-        let terms = terms(self.row(direction), &self.sizes);
+        let row = self.row(direction);
+        let terms = terms(row, q).max(terms(row, &self.least));
         ROUNDING * terms + 8.0 * f64::EPSILON * (t * self.rates[direction]).abs()
     }
 
