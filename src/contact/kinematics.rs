@@ -8,7 +8,8 @@ use crate::{System, Vector};
 /// A gap within this of its scale is closed, and a rate within this of its scale is rest.
 pub(crate) const ROUNDING: f64 = 1e-12;
 
-/// A gap whose terms are smaller than those of this turn, in rad, has terms without coordinates that cancel.
+/// The terms of a gap count at least as much as a turn by this angle, in rad, changes it: lengths that no coordinate multiplies cancel in a closed gap, and
+/// those that an angle turns tell how large they are.
 const LEAST_TURN: f64 = 1.0 / 16.0;
 
 /// Gaps, rates and all that belongs to them at a state.
