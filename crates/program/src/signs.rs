@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rustc_hash::FxHashMap;
 
 use super::restrict::without_unused;
+use super::verify::check_prepared_operations;
 use super::{Function, Guard, Op, Program, Role, Source, Value};
 
 /// Longer functions are left as they are: they are written as loops or in pieces, for which related operations must stay alike.
@@ -140,7 +141,8 @@ fn settle(function: &mut Function) {
     }
 }
 
-/// The function with a value replaced by its opposite; `None` if a sign cannot be absorbed, or if it gets longer or slower.
+/// The function with a value replaced by its opposite; `None` if a sign cannot be absorbed, if it gets longer or slower, or if an
+/// operation would only combine prepared values, as the product of one with its opposite does.
 fn with_opposite(function: &Function, value: Value, other: Replacement) -> Option<Function> {
     let mut signs = Signs {
         function,
@@ -157,7 +159,8 @@ fn with_opposite(function: &Function, value: Value, other: Replacement) -> Optio
     let changed = signs.rebuilt();
     let [before, after] = [function, &changed].map(|function| function.counts().ops());
     let is_slower = function.cost().compare(changed.cost()).is_lt();
-    (after <= before && !is_slower).then_some(changed)
+    let prepared = check_prepared_operations(&changed.code);
+    (after <= before && !is_slower && prepared.is_ok()).then_some(changed)
 }
 
 /// A function in which some values are replaced by their opposites.
@@ -326,6 +329,26 @@ mod tests {
         settle(&mut twins);
         assert_eq!(values(&twins), before.0);
         assert_eq!(twins.counts().ops(), before.1 - 1);
+    }
+
+    #[test]
+    fn a_prepared_value_is_not_multiplied_by_itself() {
+        // p (−p) + c, where −p of a prepared p is an operation, and p² would be one that could be prepared.
+        let c = Value(2);
+        let before = function(
+            vec![
+                Op::Read(Source::Prepared(0)),
+                Op::Neg(Value(4)),
+                Op::Mul(Value(4), Value(5)),
+                Op::Add(c, Value(6)),
+            ],
+            &[7],
+        );
+        assert_eq!(check_prepared_operations(&before.code), Ok(()));
+        let mut after = before.clone();
+        settle(&mut after);
+        assert_eq!(check_prepared_operations(&after.code), Ok(()));
+        assert_eq!(after, before);
     }
 
     #[test]

@@ -131,7 +131,7 @@ impl Program {
 
 /// Checks that no operation has only constants and prepared values as operands. The sign for the
 /// error of a rounded difference is exempt: it costs less than one more prepared value.
-fn check_prepared_operations(code: &[Op]) -> Result<(), String> {
+pub(crate) fn check_prepared_operations(code: &[Op]) -> Result<(), String> {
     let known = |value: Value| {
         matches!(
             code[value.index()],
