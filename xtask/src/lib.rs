@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use lagrangian_emit::rust;
 use lagrangian_mechanics::Compiled;
-use lagrangian_program::quantity::{Extent, Kind, Needs, Role, Row};
+use lagrangian_program::quantity::{Extent, ItemKind, Needs, Role, Row};
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::Dag;
@@ -205,14 +205,14 @@ fn quantities() -> String {
             docs,
             ..
         } = role.row();
-        let member = |kind: &Kind| match kind {
-            Kind::Coordinate => "coordinate",
-            Kind::Constraint => "constraint",
-            Kind::Contact => "contact",
-            Kind::Unilateral => "contact",
-            Kind::Face => "number of a corner on a face",
-            Kind::Direction => "direction",
-            Kind::Coefficient => "coefficient",
+        let member = |kind: &ItemKind| match kind {
+            ItemKind::Coordinate => "coordinate",
+            ItemKind::Constraint => "constraint",
+            ItemKind::Contact => "contact",
+            ItemKind::Unilateral => "contact",
+            ItemKind::Face => "number of a corner on a face",
+            ItemKind::Direction => "direction",
+            ItemKind::Coefficient => "coefficient",
         };
         let numbers = match extent {
             Extent::Number => "one".to_owned(),

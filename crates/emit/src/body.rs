@@ -13,7 +13,7 @@ use super::names::Scope;
 use lagrangian_program as program;
 use lagrangian_program::{
     Contracted, Contraction, Contractions, EliminationStep, Function, Guard, Op, Pack,
-    PackedOperation, Source, Statement, Value,
+    PackedOperation, PackedStatement, Source, Value,
 };
 
 mod repeats;
@@ -233,7 +233,7 @@ pub fn unchecked(
     function: &Function,
     scope: Scope,
     wanted: &[String],
-    packs: Option<&[Statement]>,
+    packs: Option<&[PackedStatement]>,
 ) -> Unchecked {
     let mut body = Body::new(writer, language, function, scope, wanted);
     body.read_arguments();
@@ -398,7 +398,7 @@ impl<'a, L: Language> Body<'a, L> {
     }
 
     /// Writes the operations of a function in pairs.
-    fn in_pairs(&mut self, statements: &[Statement]) {
+    fn in_pairs(&mut self, statements: &[PackedStatement]) {
         for (index, op) in self.function.code.iter().enumerate() {
             if matches!(op, Op::Constant(_) | Op::Pi) {
                 self.operation(Value(index as u32));
@@ -406,8 +406,8 @@ impl<'a, L: Language> Body<'a, L> {
         }
         for statement in statements {
             match statement {
-                Statement::One(value) => self.operation(*value),
-                Statement::Two(pack) => self.pack(pack),
+                PackedStatement::One(value) => self.operation(*value),
+                PackedStatement::Two(pack) => self.pack(pack),
             }
         }
     }

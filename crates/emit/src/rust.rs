@@ -26,7 +26,7 @@ use super::names::{Field, Scope, identifier, snake_case};
 use docs::prose;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_mechanics::{Proved, Unproved};
-use lagrangian_program::{Counts, Function, Op, Program, Role, Statement, packs};
+use lagrangian_program::{Counts, Function, Op, PackedStatement, Program, Role, packs};
 use types::{Group, Types};
 
 pub use stub::stub;
@@ -117,7 +117,7 @@ pub fn library(program: &Proved, options: &Options) -> Result<String, Unproved> 
 }
 
 /// The operations of a library's accelerations in pairs, if they are written in this way.
-pub fn in_pairs(function: &Function, options: &Options) -> Option<Vec<Statement>> {
+pub fn in_pairs(function: &Function, options: &Options) -> Option<Vec<PackedStatement>> {
     let is_long = function.code.len() >= options.shortest_packed;
     is_long.then(|| packs(function)).flatten()
 }

@@ -15,6 +15,7 @@ use rustc_hash::FxHashMap;
 use crate::equations::UnilateralEquation;
 use crate::{ConstraintEquation, Equations, Reduction, SlidingEquation, Unprojected};
 use articulated::Order;
+use lagrangian_program::EliminationStep;
 use lagrangian_program::Rounding;
 use lagrangian_program::choose::{Basis, Candidate, Choice, Form, best};
 use lagrangian_program::formula::formula;
@@ -24,7 +25,6 @@ use lagrangian_program::quantity::Sizes;
 use lagrangian_program::rounding::{self, States};
 use lagrangian_program::schedule::{Code, LARGEST_FACTORED, prepared, schedule};
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution, System};
-use lagrangian_program::steps::Step;
 use lagrangian_program::{
     Constraint, Default, Fact, Function, Guard, Program, Role, Shape, Slot, Source, Unilateral,
 };
@@ -691,7 +691,7 @@ struct PlannedFunction {
     /// The number of rows of the system that the pivots belong to.
     rows: usize,
     /// The steps of the elimination that finds the results.
-    steps: Vec<(Scaled, Step)>,
+    steps: Vec<(Scaled, EliminationStep)>,
 }
 
 /// A candidate form of a function, before one of them is chosen.
@@ -1153,7 +1153,7 @@ fn along_the_machine<'d>(
     let Some(turned::TurnSolution {
         accelerations,
         pivots,
-        solution: articulated::Solution { names, labels, .. },
+        solution: articulated::ArticulatedSolution { names, labels, .. },
         ..
     }) = turned::solve(source.model, machine, order)
     else {
@@ -1212,7 +1212,10 @@ fn along_the_machine<'d>(
 }
 
 /// The values of the steps that are in the graph: those that the accelerations need.
-fn labelled(lowering: &Lowering<'_, '_>, steps: &[(Expr<'_>, Step)]) -> Vec<(Scaled, Step)> {
+fn labelled(
+    lowering: &Lowering<'_, '_>,
+    steps: &[(Expr<'_>, EliminationStep)],
+) -> Vec<(Scaled, EliminationStep)> {
     let values = steps.iter().filter_map(|(expression, step)| {
         let value = lowering.values.get(&expression.id())?;
         Some((*value, *step))

@@ -318,7 +318,7 @@ const IS_CONSTANT: Register = 1 << 31;
 
 /// One operation on registers.
 #[derive(Clone, Copy, Debug)]
-enum Step {
+enum Instruction {
     Add {
         to: Register,
         a: Register,
@@ -400,50 +400,50 @@ struct Check {
 struct Tape {
     role: Role,
     reads: super::Reads,
-    steps: Vec<Step>,
+    steps: Vec<Instruction>,
     results: Vec<Register>,
     checks: Vec<Check>,
     temporaries: usize,
 }
 
-impl Step {
+impl Instruction {
     /// The step of an operation whose operands are in registers; `None` if it takes no step, as a constant or an argument.
-    fn of(op: &Op, to: Register, at: impl Fn(Value) -> Register) -> Option<Step> {
+    fn of(op: &Op, to: Register, at: impl Fn(Value) -> Register) -> Option<Instruction> {
         let binary = |a: &Value, b: &Value| (at(*a), at(*b));
         Some(match op {
             Op::Constant(_) | Op::Pi | Op::Read(_) => return None,
             Op::Add(a, b) => {
                 let (a, b) = binary(a, b);
-                Step::Add { to, a, b }
+                Instruction::Add { to, a, b }
             }
             Op::Sub(a, b) => {
                 let (a, b) = binary(a, b);
-                Step::Sub { to, a, b }
+                Instruction::Sub { to, a, b }
             }
             Op::Mul(a, b) => {
                 let (a, b) = binary(a, b);
-                Step::Mul { to, a, b }
+                Instruction::Mul { to, a, b }
             }
             Op::Div(a, b) => {
                 let (a, b) = binary(a, b);
-                Step::Div { to, a, b }
+                Instruction::Div { to, a, b }
             }
             Op::ProductError(a, b) => {
                 let (a, b) = binary(a, b);
-                Step::ProductError { to, a, b }
+                Instruction::ProductError { to, a, b }
             }
             Op::SumError(a, b) => {
                 let (a, b) = binary(a, b);
-                Step::SumError { to, a, b }
+                Instruction::SumError { to, a, b }
             }
             &Op::Binary(call, ref a, ref b) => {
                 let (a, b) = binary(a, b);
-                Step::Binary { call, to, a, b }
+                Instruction::Binary { call, to, a, b }
             }
-            &Op::Neg(a) => Step::Neg { to, a: at(a) },
-            &Op::Sin(a) => Step::Sin { to, a: at(a) },
-            &Op::Cos(a) => Step::Cos { to, a: at(a) },
-            &Op::Unary(call, a) => Step::Unary { call, to, a: at(a) },
+            &Op::Neg(a) => Instruction::Neg { to, a: at(a) },
+            &Op::Sin(a) => Instruction::Sin { to, a: at(a) },
+            &Op::Cos(a) => Instruction::Cos { to, a: at(a) },
+            &Op::Unary(call, a) => Instruction::Unary { call, to, a: at(a) },
         })
     }
 }
@@ -463,22 +463,24 @@ impl Constants {
 /// Steps in their order, where the sine and the cosine of the same register are one step.
 #[derive(Default)]
 struct Steps {
-    steps: Vec<Step>,
+    steps: Vec<Instruction>,
     /// The step that computes the sine or the cosine of each register.
     circular: FxHashMap<Register, usize>,
 }
 
 impl Steps {
-    fn push(&mut self, step: Step) {
-        if let Step::Sin { a, .. } | Step::Cos { a, .. } = step {
+    fn push(&mut self, step: Instruction) {
+        if let Instruction::Sin { a, .. } | Instruction::Cos { a, .. } = step {
             let earlier = self.circular.get(&a).copied();
             let destinations = match (earlier.map(|earlier| self.steps[earlier]), step) {
-                (Some(Step::Sin { to: sin, .. }), Step::Cos { to: cos, .. })
-                | (Some(Step::Cos { to: cos, .. }), Step::Sin { to: sin, .. }) => Some((sin, cos)),
+                (Some(Instruction::Sin { to: sin, .. }), Instruction::Cos { to: cos, .. })
+                | (Some(Instruction::Cos { to: cos, .. }), Instruction::Sin { to: sin, .. }) => {
+                    Some((sin, cos))
+                }
                 _ => None,
             };
             if let (Some(earlier), Some((sin, cos))) = (earlier, destinations) {
-                self.steps[earlier] = Step::SinCos { sin, cos, a };
+                self.steps[earlier] = Instruction::SinCos { sin, cos, a };
                 return;
             }
             self.circular.insert(a, self.steps.len());
@@ -507,9 +509,9 @@ impl Tape {
                 Some(sum) => {
                     let ([a, b], c) = (sum.factors.map(at), at(sum.term));
                     let kind = sum.kind;
-                    Some(Step::Contracted { kind, to, a, b, c })
+                    Some(Instruction::Contracted { kind, to, a, b, c })
                 }
-                None => Step::of(op, to, at),
+                None => Instruction::of(op, to, at),
             };
             register.push(match (step, op) {
                 (Some(step), _) => {
@@ -546,26 +548,26 @@ impl Tape {
         };
         for step in &mut self.steps {
             match step {
-                Step::Add { a, b, .. }
-                | Step::Sub { a, b, .. }
-                | Step::Mul { a, b, .. }
-                | Step::Div { a, b, .. }
-                | Step::ProductError { a, b, .. }
-                | Step::SumError { a, b, .. }
-                | Step::Binary { a, b, .. } => {
+                Instruction::Add { a, b, .. }
+                | Instruction::Sub { a, b, .. }
+                | Instruction::Mul { a, b, .. }
+                | Instruction::Div { a, b, .. }
+                | Instruction::ProductError { a, b, .. }
+                | Instruction::SumError { a, b, .. }
+                | Instruction::Binary { a, b, .. } => {
                     place(a);
                     place(b);
                 }
-                Step::Contracted { a, b, c, .. } => {
+                Instruction::Contracted { a, b, c, .. } => {
                     place(a);
                     place(b);
                     place(c);
                 }
-                Step::Neg { a, .. }
-                | Step::Sin { a, .. }
-                | Step::Cos { a, .. }
-                | Step::SinCos { a, .. }
-                | Step::Unary { a, .. } => place(a),
+                Instruction::Neg { a, .. }
+                | Instruction::Sin { a, .. }
+                | Instruction::Cos { a, .. }
+                | Instruction::SinCos { a, .. }
+                | Instruction::Unary { a, .. } => place(a),
             }
         }
         self.results.iter_mut().for_each(place);
@@ -581,12 +583,12 @@ impl Tape {
         for step in &self.steps {
             let at = |register: Register| N::load(registers[register as usize]);
             let (to, value) = match *step {
-                Step::Add { to, a, b } => (to, at(a) + at(b)),
-                Step::Sub { to, a, b } => (to, at(a) - at(b)),
-                Step::Mul { to, a, b } => (to, at(a) * at(b)),
-                Step::Div { to, a, b } => (to, at(a) / at(b)),
-                Step::Neg { to, a } => (to, -at(a)),
-                Step::Contracted { kind, to, a, b, c } => {
+                Instruction::Add { to, a, b } => (to, at(a) + at(b)),
+                Instruction::Sub { to, a, b } => (to, at(a) - at(b)),
+                Instruction::Mul { to, a, b } => (to, at(a) * at(b)),
+                Instruction::Div { to, a, b } => (to, at(a) / at(b)),
+                Instruction::Neg { to, a } => (to, -at(a)),
+                Instruction::Contracted { kind, to, a, b, c } => {
                     let value = match kind {
                         Contracted::Add => at(a).mul_add(at(b), at(c)),
                         Contracted::Sub => at(a).mul_sub(at(b), at(c)),
@@ -594,17 +596,17 @@ impl Tape {
                     };
                     (to, value)
                 }
-                Step::ProductError { to, a, b } => (to, at(a).product_error(at(b))),
-                Step::SumError { to, a, b } => (to, at(a).sum_error(at(b))),
-                Step::Sin { to, a } => (to, at(a).sin()),
-                Step::Cos { to, a } => (to, at(a).cos()),
-                Step::SinCos { sin, cos, a } => {
+                Instruction::ProductError { to, a, b } => (to, at(a).product_error(at(b))),
+                Instruction::SumError { to, a, b } => (to, at(a).sum_error(at(b))),
+                Instruction::Sin { to, a } => (to, at(a).sin()),
+                Instruction::Cos { to, a } => (to, at(a).cos()),
+                Instruction::SinCos { sin, cos, a } => {
                     let (of_sin, of_cos) = at(a).sin_cos();
                     registers[sin as usize] = of_sin.store();
                     (cos, of_cos)
                 }
-                Step::Unary { call, to, a } => (to, unary(call, at(a))),
-                Step::Binary { call, to, a, b } => (to, binary(call, at(a), at(b))),
+                Instruction::Unary { call, to, a } => (to, unary(call, at(a))),
+                Instruction::Binary { call, to, a, b } => (to, binary(call, at(a), at(b))),
             };
             registers[to as usize] = value.store();
         }

@@ -64,12 +64,12 @@ pub use count::Counts;
 pub use fusion::{Contracted, Contraction, Contractions, Side, fused, ready_times, uses};
 pub use interpret::{Arguments, Interpreter};
 pub use mutate::{Mutant, mutants};
-pub use packs::{Pack, PackedOperation, Statement, packs};
+pub use packs::{Pack, PackedOperation, PackedStatement, packs};
 pub use quantity::Role;
-pub use repeats::{Kind, Operand, Repeat, Step, Steps, early_angles};
+pub use repeats::{Operand, Repeat, Statement, StatementKind, Statements, early_angles};
 pub use rounding::Rounding;
 pub use schedule::LONGEST_SCHEDULED;
-pub use steps::Step as EliminationStep;
+pub use steps::EliminationStep;
 pub use tangent::is_differentiated;
 // The results of `Role::Friction`.
 #[doc(inline)]
@@ -283,7 +283,7 @@ pub struct Function {
     /// The conditions under which the results are meaningful, in the order in which they are to be reported.
     pub guards: Vec<Guard>,
     /// Which values are steps of an elimination, in the order of the values.
-    pub steps: Vec<(Value, steps::Step)>,
+    pub steps: Vec<(Value, EliminationStep)>,
 }
 
 impl Function {

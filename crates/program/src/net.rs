@@ -9,7 +9,7 @@ use lagrangian_symbolic::Function;
 use rustc_hash::FxHashMap;
 
 use super::graph::{Graph, Id, Node, Scaled};
-use super::steps::Step;
+use super::steps::EliminationStep;
 use super::{Op, Source};
 use lagrangian_units::Stages;
 
@@ -72,7 +72,7 @@ pub struct Net {
     /// The requested values, with their signs.
     pub roots: Vec<Signed>,
     /// The items that are steps of an elimination.
-    pub steps: Vec<(Index, Step)>,
+    pub steps: Vec<(Index, EliminationStep)>,
 }
 
 impl Net {
@@ -82,7 +82,12 @@ impl Net {
     }
 
     /// The same with the steps of an elimination, as far as the roots need them.
-    fn with_steps(graph: &Graph, roots: &[(Id, bool)], steps: &[(Scaled, Step)], cut: bool) -> Net {
+    fn with_steps(
+        graph: &Graph,
+        roots: &[(Id, bool)],
+        steps: &[(Scaled, EliminationStep)],
+        cut: bool,
+    ) -> Net {
         let mut net = Net {
             items: Vec::new(),
             stages: Vec::new(),
@@ -115,7 +120,7 @@ impl Net {
     pub fn of_elimination(
         graph: &mut Graph,
         values: &[Scaled],
-        steps: &[(Scaled, Step)],
+        steps: &[(Scaled, EliminationStep)],
         cut: bool,
     ) -> Net {
         let root = |x: &Scaled| {

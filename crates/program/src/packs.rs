@@ -17,7 +17,7 @@ use std::hash::{Hash, Hasher};
 
 use rustc_hash::{FxHashMap, FxHasher};
 
-use super::repeats::{Kind, early_angles};
+use super::repeats::{StatementKind, early_angles};
 use super::{Contracted, Contractions, Function, Op, Source, Value};
 
 /// The distance that colors cover.
@@ -35,7 +35,7 @@ const LEAST_SHARE: usize = 8;
 
 /// A statement of the emitted code.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Statement {
+pub enum PackedStatement {
     /// One operation; for the sine and cosine of one angle, either of them.
     One(Value),
     /// Two operations of one kind.
@@ -77,7 +77,7 @@ impl PackedOperation {
 
 /// The operations of a function in pairs, each after its operands; `None` if that does not pay. Products are
 /// contracted, and angles that are [early](early_angles) are known before.
-pub fn packs(function: &Function) -> Option<Vec<Statement>> {
+pub fn packs(function: &Function) -> Option<Vec<PackedStatement>> {
     let mut finder = Finder::new(function);
     finder.find();
     finder.prune();
@@ -351,7 +351,7 @@ impl<'a> Finder<'a> {
     }
 
     /// The operations that results and guards need, in depth-first order.
-    fn statements(&self) -> Vec<Statement> {
+    fn statements(&self) -> Vec<PackedStatement> {
         let mut statements = Vec::new();
         let mut is_entered = vec![false; self.nodes.len()];
         let results = self.function.results.iter().copied();
@@ -368,7 +368,7 @@ impl<'a> Finder<'a> {
             }
             let pack = self.pack(value);
             if is_ready {
-                statements.push(pack.map_or(Statement::One(value), Statement::Two));
+                statements.push(pack.map_or(PackedStatement::One(value), PackedStatement::Two));
                 continue;
             }
             if std::mem::replace(&mut is_entered[value.index()], true) {
@@ -432,7 +432,7 @@ fn nodes(function: &Function) -> Vec<Node> {
         let kind = match value_kind {
             ValueKind::Argument(which) => u64::from(which),
             ValueKind::Known => 0,
-            _ => hash(Kind::Operation(op.with_operands(|_| Value(0)))),
+            _ => hash(StatementKind::Operation(op.with_operands(|_| Value(0)))),
         };
         let below = operands.iter().map(|operand| nodes[operand.index()].depth);
         nodes.push(Node {
@@ -579,7 +579,7 @@ mod tests {
     }
 
     /// Checks that each operation occurs once, after its operands.
-    fn check(function: &Function, statements: &[Statement]) {
+    fn check(function: &Function, statements: &[PackedStatement]) {
         let contractions = Contractions::of(function);
         let is_read = |value: &Value| matches!(function.op(*value), Op::Read(_) | Op::Constant(_));
         let mut is_known: Vec<bool> = (0..function.code.len())
@@ -587,13 +587,13 @@ mod tests {
             .collect();
         for statement in statements {
             let all: Vec<(Value, Vec<Value>)> = match statement {
-                Statement::One(value) => {
+                PackedStatement::One(value) => {
                     let sum = contractions.sum(*value);
                     let operands = sum.map(|sum| vec![sum.factors[0], sum.factors[1], sum.term]);
                     let own = || function.op(*value).operands().collect();
                     vec![(*value, operands.unwrap_or_else(own))]
                 }
-                Statement::Two(pack) => (0..2)
+                PackedStatement::Two(pack) => (0..2)
                     .map(|lane| {
                         let operands = pack.operands.iter().map(|pair| pair[lane]);
                         (pack.values[lane], operands.collect())
@@ -617,8 +617,8 @@ mod tests {
         let statements = packs(&function).expect("all but one are alike");
         check(&function, &statements);
         let pairs = statements.iter().filter_map(|statement| match statement {
-            Statement::Two(pack) => Some(pack.operation),
-            Statement::One(_) => None,
+            PackedStatement::Two(pack) => Some(pack.operation),
+            PackedStatement::One(_) => None,
         });
         let contractions = [PackedOperation::Contraction(Contracted::Add); 6];
         let expected = [
@@ -635,7 +635,7 @@ mod tests {
         let function = limbs(Op::Mul);
         let statements = packs(&function).expect("most are alike");
         check(&function, &statements);
-        let is_pair = |statement: &&Statement| matches!(statement, Statement::Two(_));
+        let is_pair = |statement: &&PackedStatement| matches!(statement, PackedStatement::Two(_));
         assert_eq!(statements.iter().filter(is_pair).count(), 8);
     }
 

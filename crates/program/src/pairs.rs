@@ -28,7 +28,7 @@ const COUNTING_LIMIT: usize = CHANGE_LIMIT / 2;
 impl Net {
     /// Finds common pairs of factors, then of terms.
     pub fn share_pairs(&mut self) {
-        for kind in [Kind::Products, Kind::Sums] {
+        for kind in [PairKind::Products, PairKind::Sums] {
             let mut bags = Bags::new(self, kind);
             bags.run(self);
             bags.write_back(self);
@@ -37,7 +37,7 @@ impl Net {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum PairKind {
     Products,
     Sums,
 }
@@ -86,7 +86,7 @@ struct Uses {
 type Rank = (u32, Reverse<Stage>, Reverse<Pair>);
 
 struct Bags {
-    kind: Kind,
+    kind: PairKind,
     bags: Vec<Bag>,
     pairs: FxHashMap<Pair, Uses>,
     queue: BinaryHeap<Rank>,
@@ -94,14 +94,14 @@ struct Bags {
 }
 
 impl Bags {
-    fn new(net: &mut Net, kind: Kind) -> Bags {
+    fn new(net: &mut Net, kind: PairKind) -> Bags {
         let mut uses = vec![0_u32; net.items.len()];
         for item in &net.items {
             match (item, kind) {
-                (Item::Product { factors: up, .. }, Kind::Products) => {
+                (Item::Product { factors: up, .. }, PairKind::Products) => {
                     up.iter().for_each(|&factor| uses[factor as usize] += 1);
                 }
-                (Item::Sum(terms), Kind::Sums) => {
+                (Item::Sum(terms), PairKind::Sums) => {
                     terms.iter().for_each(|term| uses[term.0 as usize] += 1);
                 }
                 _ => {}
@@ -113,14 +113,14 @@ impl Bags {
             // An item with fewer than two shared members has no pair in common with any other; its shared member is
             // placed last, as in the others.
             let members = match (item, kind) {
-                (Item::Product { factors: up, .. }, Kind::Products) => {
+                (Item::Product { factors: up, .. }, PairKind::Products) => {
                     if up.iter().filter(|&&factor| is_shared(factor)).count() < 2 {
                         up.sort_unstable_by_key(|&factor| (is_shared(factor), factor));
                         continue;
                     }
                     count_factors(up)
                 }
-                (Item::Sum(terms), Kind::Sums) => {
+                (Item::Sum(terms), PairKind::Sums) => {
                     if terms.iter().filter(|term| is_shared(term.0)).count() < 2 {
                         terms.sort_by_key(|term| is_shared(term.0));
                         continue;
@@ -205,11 +205,11 @@ impl Bags {
         let item = match definition {
             Some(bag) => self.bags[bag as usize].item,
             None => net.add(match self.kind {
-                Kind::Products => Item::Product {
+                PairKind::Products => Item::Product {
                     factors: vec![first, second],
                     divisors: vec![],
                 },
-                Kind::Sums => Item::Sum(vec![(first, false), (second, opposite)]),
+                PairKind::Sums => Item::Sum(vec![(first, false), (second, opposite)]),
             }),
         };
         for bag in users {

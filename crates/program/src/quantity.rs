@@ -10,7 +10,7 @@ use lagrangian_units::Variable;
 
 /// The kinds of items that a quantity can have one number for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ItemKind {
     /// The generalized coordinates.
     Coordinate,
     /// The bilateral constraints.
@@ -34,11 +34,11 @@ pub enum Extent {
     /// One number.
     Number,
     /// One number for each item of a kind.
-    Each(Kind),
+    Each(ItemKind),
     /// A symmetric matrix with a row for each item of a kind.
-    Symmetric(Kind),
+    Symmetric(ItemKind),
     /// A matrix with a row for each of one kind and a column for each of another, row by row.
-    Rows(Kind, Kind),
+    Rows(ItemKind, ItemKind),
     /// For each coordinate its acceleration, then the derivatives of that by each variable.
     Differentials,
     /// The response to friction forces, see [`FrictionLayout`].
@@ -210,7 +210,7 @@ macro_rules! quantities {
 }
 
 use Extent::{Chosen, Differentials, Each, Number, Responses, Rows, State, Symmetric};
-use Kind::{Coefficient, Constraint, Contact, Coordinate, Direction, Face, Unilateral};
+use ItemKind::{Coefficient, Constraint, Contact, Coordinate, Direction, Face, Unilateral};
 
 quantities! {
     /// Prepared values: what parameters alone decide.
@@ -384,15 +384,15 @@ impl Sizes {
     }
 
     /// The number of items of a kind.
-    pub fn of(self, kind: Kind) -> usize {
+    pub fn of(self, kind: ItemKind) -> usize {
         match kind {
-            Kind::Coordinate => self.coordinates,
-            Kind::Constraint => self.constraints,
-            Kind::Contact => self.contacts,
-            Kind::Unilateral => self.unilateral,
-            Kind::Face => 3 * self.faces,
-            Kind::Direction => 2 * self.unilateral,
-            Kind::Coefficient => 4 * self.unilateral,
+            ItemKind::Coordinate => self.coordinates,
+            ItemKind::Constraint => self.constraints,
+            ItemKind::Contact => self.contacts,
+            ItemKind::Unilateral => self.unilateral,
+            ItemKind::Face => 3 * self.faces,
+            ItemKind::Direction => 2 * self.unilateral,
+            ItemKind::Coefficient => 4 * self.unilateral,
         }
     }
 }
@@ -418,9 +418,9 @@ pub enum Entry {
     /// The whole machine: there is only one result.
     Whole,
     /// An item of a kind.
-    Of(Kind, usize),
+    Of(ItemKind, usize),
     /// An entry of a matrix, by an item of one kind and an item of another.
-    At((Kind, usize), (Kind, usize)),
+    At((ItemKind, usize), (ItemKind, usize)),
     /// The rate of a coordinate.
     Rate(usize),
     /// The derivative of the acceleration of a coordinate by a variable.
@@ -473,7 +473,7 @@ impl Program {
     }
 
     /// The name of an item as the spec writes it, or its number if it has no name.
-    pub fn member(&self, (kind, index): (Kind, usize)) -> String {
+    pub fn member(&self, (kind, index): (ItemKind, usize)) -> String {
         let name = match kind {
             Coordinate => self
                 .coordinates

@@ -2,8 +2,8 @@
 //!
 //! Links of a chain, equal arms of a tree, or mechanisms in a row give code with the same body
 //! once for each of them. Nothing here knows about links. A function is a sequence of
-//! [`Step`]s; a *repeat* of period p is a stretch in which each step has the same kind as the
-//! step p before it, and in which every operand is related to its counterpart p steps before in
+//! [`Statement`]s; a *repeat* of period p is a stretch in which each statement has the same kind as the
+//! statement p before it, and in which every operand is related to its counterpart p statements before in
 //! the same way throughout:
 //!
 //! * it is a value of the same iteration, or of the preceding one (*carried*);
@@ -12,7 +12,7 @@
 //!
 //! This is the converse of loop unrolling (as in M. Stepp, R. Tate, S. Lerner, *Equality-based
 //! translation validator for LLVM*, and LLVM's loop rerolling pass), applied to code that never was
-//! a loop. Contraction of a product into a sum is part of the kind of a step, so a loop gives the
+//! a loop. Contraction of a product into a sum is part of the kind of a statement, so a loop gives the
 //! same bits as the straight-line code.
 
 use rustc_hash::FxHashMap;
@@ -22,10 +22,10 @@ use super::{Contracted, Contractions, Function, Op, Value};
 /// The smallest number of iterations of a repeat: fewer are shorter written out.
 const FEWEST: usize = 4;
 
-/// The longest body that is searched for, in steps. The search takes time proportional to it.
+/// The longest body that is searched for, in statements. The search takes time proportional to it.
 const LONGEST_BODY: usize = 1500;
 
-/// The smallest number of steps that a repeat must save to be worth its loop header, its arrays and
+/// The smallest number of statements that a repeat must save to be worth its loop header, its arrays and
 /// its final statements, and the smallest part of a function if values must be copied into arrays
 /// for it. The links of a machine are most of the function; smaller repeats are sums of products
 /// that look alike by chance, and copying their operands into arrays costs more than it saves.
@@ -37,9 +37,9 @@ const MOST_PHASES: usize = 64;
 
 /// The smallest unit that an emitter writes as a statement.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Step {
+pub struct Statement {
     /// Its kind.
-    pub kind: Kind,
+    pub kind: StatementKind,
     /// The values that it computes: one, or a sine and a cosine, as far as they exist.
     pub defines: [Option<Value>; 2],
     /// Its operands.
@@ -48,9 +48,9 @@ pub struct Step {
     pub guard: usize,
 }
 
-/// The kind of a step, independent of its operands.
+/// The kind of a statement, independent of its operands.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum StatementKind {
     /// An operation; the operands stored in it are meaningless.
     Operation(Op),
     /// A contracted product and sum: two factors and a term.
@@ -63,20 +63,20 @@ pub enum Kind {
     Guard(u64),
 }
 
-/// A stretch of steps that repeats itself.
+/// A stretch of statements that repeats itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Repeat {
-    /// The first step.
+    /// The first statement.
     pub start: usize,
-    /// The number of steps of an iteration.
+    /// The number of statements of an iteration.
     pub period: usize,
     /// The number of iterations.
     pub count: usize,
-    /// For each step of the first iteration the kinds of its operands.
+    /// For each statement of the first iteration the kinds of its operands.
     pub operands: Vec<Vec<Operand>>,
 }
 
-/// The kind of an operand of a step in a repeat.
+/// The kind of an operand of a statement in a repeat.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Operand {
     /// A value of the same iteration, by its index in the first.
@@ -91,25 +91,25 @@ pub enum Operand {
 }
 
 impl Repeat {
-    /// The step after the last.
+    /// The statement after the last.
     pub fn end(&self) -> usize {
         self.start + self.period * self.count
     }
 }
 
-/// A function as steps.
+/// A function as statements.
 #[derive(Clone, Debug)]
-pub struct Steps {
-    /// The steps, in the order in which they are to be written.
-    pub steps: Vec<Step>,
-    /// The angles of [`Kind::AllCircular`], with the values of their sines and cosines.
+pub struct Statements {
+    /// The statements, in the order in which they are to be written.
+    pub statements: Vec<Statement>,
+    /// The angles of [`StatementKind::AllCircular`], with the values of their sines and cosines.
     pub angles: Vec<(Value, [Option<Value>; 2])>,
 }
 
-impl Steps {
-    /// The steps of a function. With `is_for_speed`, products are contracted, and all possible
+impl Statements {
+    /// The statements of a function. With `is_for_speed`, products are contracted, and all possible
     /// angles are computed at once, as soon as they are known.
-    pub fn of(function: &Function, is_for_speed: bool) -> Steps {
+    pub fn of(function: &Function, is_for_speed: bool) -> Statements {
         let contractions = if is_for_speed {
             Contractions::of(function)
         } else {
@@ -129,8 +129,8 @@ impl Steps {
         } else {
             Vec::new()
         };
-        let mut steps = Steps {
-            steps: Vec::with_capacity(function.code.len()),
+        let mut statements = Statements {
+            statements: Vec::with_capacity(function.code.len()),
             angles: Vec::new(),
         };
         let mut is_done = vec![false; function.code.len()];
@@ -146,17 +146,17 @@ impl Steps {
                 }
             }
             for index in (0..function.code.len()).filter(|&index| is_needed[index]) {
-                steps.operation(function, &contractions, &circular, index, &mut is_done);
+                statements.operation(function, &contractions, &circular, index, &mut is_done);
             }
             for angle in angles {
                 let pair = circular[&angle];
                 for value in pair.into_iter().flatten() {
                     is_done[value.index()] = true;
                 }
-                steps.angles.push((angle, pair));
+                statements.angles.push((angle, pair));
             }
-            steps.steps.push(Step {
-                kind: Kind::AllCircular,
+            statements.statements.push(Statement {
+                kind: StatementKind::AllCircular,
                 defines: [None, None],
                 operands: Vec::new(),
                 guard: 0,
@@ -164,21 +164,21 @@ impl Steps {
         }
         let mut guards = function.guards.iter().enumerate().peekable();
         for index in 0..function.code.len() {
-            steps.operation(function, &contractions, &circular, index, &mut is_done);
+            statements.operation(function, &contractions, &circular, index, &mut is_done);
             let is_there =
                 |value: Value| value.index() <= index || matches!(function.op(value), Op::Read(_));
             while let Some((guard, what)) =
                 guards.next_if(|(_, guard)| is_there(guard.pivot) && is_there(guard.scale))
             {
-                steps.steps.push(Step {
-                    kind: Kind::Guard(what.tolerance.to_bits()),
+                statements.statements.push(Statement {
+                    kind: StatementKind::Guard(what.tolerance.to_bits()),
                     defines: [None, None],
                     operands: vec![what.pivot, what.scale],
                     guard,
                 });
             }
         }
-        steps
+        statements
     }
 
     fn operation(
@@ -199,21 +199,21 @@ impl Steps {
         let (kind, operands) = match (contractions.sum(value), op) {
             (Some(sum), _) => {
                 let [a, b] = sum.factors;
-                (Kind::Contraction(sum.kind), vec![a, b, sum.term])
+                (StatementKind::Contraction(sum.kind), vec![a, b, sum.term])
             }
             (_, Op::Sin(angle) | Op::Cos(angle)) => {
                 defines = circular[angle];
                 for value in defines.into_iter().flatten() {
                     is_done[value.index()] = true;
                 }
-                (Kind::Circular, vec![*angle])
+                (StatementKind::Circular, vec![*angle])
             }
             _ => (
-                Kind::Operation(op.with_operands(|_| Value(0))),
+                StatementKind::Operation(op.with_operands(|_| Value(0))),
                 op.operands().collect(),
             ),
         };
-        self.steps.push(Step {
+        self.statements.push(Statement {
             kind,
             defines,
             operands,
@@ -221,14 +221,14 @@ impl Steps {
         });
     }
 
-    /// The repeats, in order and without overlap. Steps are reordered if two repeats are fused.
+    /// The repeats, in order and without overlap. Statements are reordered if two repeats are fused.
     pub fn repeats(&mut self, function: &Function) -> Vec<Repeat> {
         let mut repeats = Finder::new(self, function).repeats();
         let mut at = 0;
         while at + 1 < repeats.len() {
             match self.fused(function, &repeats[at], &repeats[at + 1]) {
-                Some((steps, fused)) => {
-                    self.steps = steps;
+                Some((statements, fused)) => {
+                    self.statements = statements;
                     repeats.splice(at..at + 2, [fused]);
                 }
                 None => at += 1,
@@ -237,7 +237,7 @@ impl Steps {
         repeats
     }
 
-    /// Fuses two repeats into one, if the steps between them can be moved before or after both.
+    /// Fuses two repeats into one, if the statements between them can be moved before or after both.
     ///
     /// Two sweeps along a chain in the same direction then no longer wait for each other, and
     /// values that the first leaves for the second need not be stored (loop fusion, K. Kennedy and
@@ -247,13 +247,14 @@ impl Steps {
         function: &Function,
         first: &Repeat,
         second: &Repeat,
-    ) -> Option<(Vec<Step>, Repeat)> {
+    ) -> Option<(Vec<Statement>, Repeat)> {
         let finder = Finder::new(self, function);
-        let place = |value: Value| finder.places[value.index()].map(|(step, _)| step);
+        let place = |value: Value| finder.places[value.index()].map(|(statement, _)| statement);
         // The number of iterations by which the first is ahead of the second.
         let of_first = |value: &Value| {
-            let step = place(*value).filter(|step| (first.start..first.end()).contains(step))?;
-            Some(((step - first.start) / first.period) as isize)
+            let statement =
+                place(*value).filter(|statement| (first.start..first.end()).contains(statement))?;
+            Some(((statement - first.start) / first.period) as isize)
         };
         let ahead = second.operands.iter().flatten().filter_map(|operand| {
             let Operand::Column(column) = operand else {
@@ -270,7 +271,7 @@ impl Steps {
         if count < FEWEST || count + FEWEST < first.count.max(second.count) {
             return None;
         }
-        // In the loop: these bodies. Before it, the steps that do not depend on the loop; after it,
+        // In the loop: these bodies. Before it, the statements that do not depend on the loop; after it,
         // those that do.
         let body = |repeat: &Repeat, skip: usize, i: usize| {
             let start = repeat.start + (skip + i) * repeat.period;
@@ -279,33 +280,37 @@ impl Steps {
         let range = first.start..second.end();
         let mut in_loop = vec![false; range.len()];
         for i in 0..count {
-            for step in body(first, skip_first, i).chain(body(second, skip_second, i)) {
-                in_loop[step - range.start] = true;
+            for statement in body(first, skip_first, i).chain(body(second, skip_second, i)) {
+                in_loop[statement - range.start] = true;
             }
         }
         let mut needs_loop = vec![false; range.len()];
         let (mut before, mut after) = (Vec::new(), Vec::new());
-        for step in range.clone() {
-            let mut operands = self.steps[step].operands.iter().filter_map(|x| place(*x));
-            let at = step - range.start;
+        for statement in range.clone() {
+            let mut operands = self.statements[statement]
+                .operands
+                .iter()
+                .filter_map(|x| place(*x));
+            let at = statement - range.start;
             needs_loop[at] =
                 in_loop[at] || operands.any(|x| x >= range.start && needs_loop[x - range.start]);
             match (in_loop[at], needs_loop[at]) {
                 (true, _) => {}
-                (_, true) => after.push(step),
-                (_, false) => before.push(step),
+                (_, true) => after.push(statement),
+                (_, false) => before.push(statement),
             }
         }
         // Guards keep their order.
-        let is_guard = |step: &usize| matches!(self.steps[*step].kind, Kind::Guard(_));
+        let is_guard =
+            |statement: &usize| matches!(self.statements[*statement].kind, StatementKind::Guard(_));
         let mut bodies_of_second = body(second, skip_second, 0);
-        if self.steps[range.clone()]
+        if self.statements[range.clone()]
             .iter()
-            .any(|step| step.kind == Kind::AllCircular)
-            || bodies_of_second.any(|step| is_guard(&step))
+            .any(|statement| statement.kind == StatementKind::AllCircular)
+            || bodies_of_second.any(|statement| is_guard(&statement))
             || before
                 .iter()
-                .any(|step| is_guard(step) && *step >= first.end())
+                .any(|statement| is_guard(statement) && *statement >= first.end())
         {
             return None;
         }
@@ -316,25 +321,28 @@ impl Steps {
             .chain(before)
             .chain(loops)
             .chain(after)
-            .chain(range.end..self.steps.len());
-        let steps = Steps {
-            steps: order.map(|step| self.steps[step].clone()).collect(),
+            .chain(range.end..self.statements.len());
+        let statements = Statements {
+            statements: order
+                .map(|statement| self.statements[statement].clone())
+                .collect(),
             angles: self.angles.clone(),
         };
-        let finder = Finder::new(&steps, function);
-        let is_in_order = steps.steps[..range.end]
-            .iter()
-            .enumerate()
-            .all(|(at, step)| {
-                let known =
-                    |value: &Value| finder.places[value.index()].is_none_or(|(x, _)| x < at);
-                step.operands.iter().all(known)
-            });
+        let finder = Finder::new(&statements, function);
+        let is_in_order =
+            statements.statements[..range.end]
+                .iter()
+                .enumerate()
+                .all(|(at, statement)| {
+                    let known =
+                        |value: &Value| finder.places[value.index()].is_none_or(|(x, _)| x < at);
+                    statement.operands.iter().all(known)
+                });
         let period = first.period + second.period;
         let (found, _) = finder.count_iterations(start, period, start + period * count);
         let fused = finder.repeat(start, period, count);
         let fused = fused.filter(|_| is_in_order && found == count)?;
-        Some((steps.steps, fused))
+        Some((statements.statements, fused))
     }
 }
 
@@ -370,14 +378,14 @@ pub fn early_angles(function: &Function) -> Vec<Value> {
 type Origin = (u32, i64);
 
 struct Finder<'a> {
-    steps: &'a [Step],
+    statements: &'a [Statement],
     function: &'a Function,
-    /// The kinds of the steps, by number.
+    /// The kinds of the statements, by number.
     kinds: Vec<u32>,
-    /// For each value the step that computes it, and which of its two results it is; nothing for
+    /// For each value the statement that computes it, and which of its two results it is; nothing for
     /// arguments, and for sines and cosines that are known before.
     places: Vec<Option<(usize, usize)>>,
-    /// For each value that no step computes by itself, its origin.
+    /// For each value that no statement computes by itself, its origin.
     origins: Vec<Option<Origin>>,
 }
 
@@ -391,16 +399,16 @@ struct Candidate {
 }
 
 impl<'a> Finder<'a> {
-    fn new(steps: &'a Steps, function: &'a Function) -> Finder<'a> {
-        let mut numbers: FxHashMap<&Kind, u32> = FxHashMap::default();
-        let kinds = steps.steps.iter().map(|step| {
+    fn new(statements: &'a Statements, function: &'a Function) -> Finder<'a> {
+        let mut numbers: FxHashMap<&StatementKind, u32> = FxHashMap::default();
+        let kinds = statements.statements.iter().map(|statement| {
             let next = numbers.len() as u32;
-            *numbers.entry(&step.kind).or_insert(next)
+            *numbers.entry(&statement.kind).or_insert(next)
         });
         let kinds = kinds.collect();
         let mut places = vec![None; function.code.len()];
-        for (index, step) in steps.steps.iter().enumerate() {
-            for (which, value) in step.defines.iter().enumerate() {
+        for (index, statement) in statements.statements.iter().enumerate() {
+            for (which, value) in statement.defines.iter().enumerate() {
                 if let Some(value) = value {
                     places[value.index()] = Some((index, which));
                 }
@@ -424,7 +432,7 @@ impl<'a> Finder<'a> {
                 _ => None,
             };
         }
-        for (index, (_, pair)) in steps.angles.iter().enumerate() {
+        for (index, (_, pair)) in statements.angles.iter().enumerate() {
             for (which, value) in pair.iter().enumerate() {
                 if let Some(value) = value {
                     origins[value.index()] = Some((7 + which as u32, index as i64));
@@ -432,7 +440,7 @@ impl<'a> Finder<'a> {
             }
         }
         Finder {
-            steps: &steps.steps,
+            statements: &statements.statements,
             function,
             kinds,
             places,
@@ -460,7 +468,7 @@ impl<'a> Finder<'a> {
             .filter_map(|c| self.repeat(c.start, c.period, c.count))
             .collect();
         // A small repeat may read arrays that exist already, but needs no others.
-        let least = self.steps.len() / LEAST_SHARE as usize;
+        let least = self.statements.len() / LEAST_SHARE as usize;
         while let Some(worst) = repeats.iter().position(|repeat| {
             let is_small = repeat.period * (repeat.count - 1) < least;
             let mut operands = repeat.operands.iter().flatten();
@@ -478,18 +486,18 @@ impl<'a> Finder<'a> {
     /// Whether a column is already an array, without copying.
     fn is_array(&self, column: &[Value], repeats: &[Repeat]) -> bool {
         let origin = |value: &Value| {
-            let Some((step, which)) = self.places[value.index()] else {
+            let Some((statement, which)) = self.places[value.index()] else {
                 return self.origins[value.index()];
             };
             let (number, repeat) = repeats
                 .iter()
                 .enumerate()
-                .find(|(_, repeat)| (repeat.start..repeat.end()).contains(&step))?;
+                .find(|(_, repeat)| (repeat.start..repeat.end()).contains(&statement))?;
             let (iteration, offset) = (
-                (step - repeat.start) / repeat.period,
-                (step - repeat.start) % repeat.period,
+                (statement - repeat.start) / repeat.period,
+                (statement - repeat.start) % repeat.period,
             );
-            let array = 16 + 2 * (number * self.steps.len() + offset) + which;
+            let array = 16 + 2 * (number * self.statements.len() + offset) + which;
             Some((array as u32, iteration as i64))
         };
         column
@@ -500,7 +508,7 @@ impl<'a> Finder<'a> {
     }
 
     fn candidates(&self) -> Vec<Candidate> {
-        let n = self.steps.len();
+        let n = self.statements.len();
         let mut candidates: Vec<Candidate> = Vec::new();
         for period in 1..=LONGEST_BODY.min(n / FEWEST) {
             let mut first = period;
@@ -509,7 +517,7 @@ impl<'a> Finder<'a> {
                     first += 1;
                     continue;
                 }
-                // Steps `start..end` have the same kind as those a period before or after.
+                // Statements `start..end` have the same kind as those a period before or after.
                 let mut end = first;
                 while end < n && self.kinds[end] == self.kinds[end - period] {
                     end += 1;
@@ -561,12 +569,12 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Whether a value is known before a step.
+    /// Whether a value is known before a statement.
     fn is_before(&self, value: Value, start: usize) -> bool {
-        self.places[value.index()].is_none_or(|(step, _)| step < start)
+        self.places[value.index()].is_none_or(|(statement, _)| statement < start)
     }
 
-    /// The number of iterations from a step on, and where to search next if there are too few.
+    /// The number of iterations from a statement on, and where to search next if there are too few.
     fn count_iterations(&self, start: usize, period: usize, limit: usize) -> (usize, usize) {
         let mut end = start + period;
         let mut next = start + 1;
@@ -575,7 +583,7 @@ impl<'a> Finder<'a> {
                 break;
             }
             let iteration = (end - start) / period;
-            let (this, before) = (&self.steps[end], &self.steps[end - period]);
+            let (this, before) = (&self.statements[end], &self.statements[end - period]);
             let operands = this.operands.iter().zip(&before.operands);
             let mut unlike = operands
                 .filter(|(a, b)| !self.matches_previous(**a, **b, start, period, iteration));
@@ -583,7 +591,7 @@ impl<'a> Finder<'a> {
                 // The later operand may be carried as soon as the earlier one is known before the
                 // stretch; if that is known before already, it must be so in the first iteration.
                 next = match self.places[before.index()] {
-                    Some((step, _)) if step >= start => step + 1,
+                    Some((statement, _)) if statement >= start => statement + 1,
                     _ => (end + 1).saturating_sub(2 * period),
                 };
                 break;
@@ -608,24 +616,27 @@ impl<'a> Finder<'a> {
         period: usize,
         iteration: usize,
     ) -> bool {
-        let place = |value: Value| self.places[value.index()].filter(|(step, _)| *step >= start);
+        let place =
+            |value: Value| self.places[value.index()].filter(|(statement, _)| *statement >= start);
         match (place(this), place(before)) {
             (None, None) => true,
             (None, Some(_)) => false,
-            (Some((step, _)), None) => iteration == 1 && step < start + period,
+            (Some((statement, _)), None) => iteration == 1 && statement < start + period,
             (Some(this), Some(before)) => this.0 == before.0 + period && this.1 == before.1,
         }
     }
 
     /// Whether the coordinates of guards form an arithmetic progression over the iterations.
-    fn has_even_coordinates(&self, step: usize, start: usize, period: usize) -> bool {
-        let coordinate = |step: usize| match self.steps[step].kind {
-            Kind::Guard(_) => self.function.guards[self.steps[step].guard].coordinate as i64,
+    fn has_even_coordinates(&self, statement: usize, start: usize, period: usize) -> bool {
+        let coordinate = |statement: usize| match self.statements[statement].kind {
+            StatementKind::Guard(_) => {
+                self.function.guards[self.statements[statement].guard].coordinate as i64
+            }
             _ => 0,
         };
-        step < start + 2 * period
-            || coordinate(step) - coordinate(step - period)
-                == coordinate(step - period) - coordinate(step - 2 * period)
+        statement < start + 2 * period
+            || coordinate(statement) - coordinate(statement - period)
+                == coordinate(statement - period) - coordinate(statement - 2 * period)
     }
 
     /// The repeat with `count` iterations.
@@ -633,8 +644,9 @@ impl<'a> Finder<'a> {
         if count < FEWEST {
             return None;
         }
-        let operand = |step: usize, which: usize| {
-            let at = |iteration: usize| self.steps[step + iteration * period].operands[which];
+        let operand = |statement: usize, which: usize| {
+            let at =
+                |iteration: usize| self.statements[statement + iteration * period].operands[which];
             let (first, second) = (at(0), at(1));
             if !self.is_before(first, start) {
                 return Some(Operand::Same(first));
@@ -642,7 +654,7 @@ impl<'a> Finder<'a> {
             if !self.is_before(second, start) {
                 let (place, of) = self.places[second.index()]?;
                 // In the first iteration, as `follow` has checked.
-                let carried = self.steps[place].defines[of]?;
+                let carried = self.statements[place].defines[of]?;
                 return Some(Operand::Carried(carried, first)).filter(|_| place < start + period);
             }
             let column: Vec<Value> = (0..count).map(at).collect();
@@ -653,22 +665,24 @@ impl<'a> Finder<'a> {
             })
         };
         let mut operands = Vec::with_capacity(period);
-        for step in start..start + period {
-            let of_step = (0..self.steps[step].operands.len()).map(|which| operand(step, which));
-            let of_step: Vec<Operand> = of_step.collect::<Option<_>>()?;
+        for statement in start..start + period {
+            let of_statement = (0..self.statements[statement].operands.len())
+                .map(|which| operand(statement, which));
+            let of_statement: Vec<Operand> = of_statement.collect::<Option<_>>()?;
             // If a pivot vanishes in one of several lanes, the guard makes it undefined there, so it
             // must be a variable of the body.
             let is_argument = |value: &Value| matches!(self.function.op(*value), Op::Read(_));
-            let can_be_guarded = match of_step.first() {
+            let can_be_guarded = match of_statement.first() {
                 Some(Operand::Same(_)) => true,
                 Some(Operand::Invariant(value)) => is_argument(value),
                 Some(Operand::Column(column)) => column.iter().all(is_argument),
                 _ => false,
             };
-            if matches!(self.steps[step].kind, Kind::Guard(_)) && !can_be_guarded {
+            if matches!(self.statements[statement].kind, StatementKind::Guard(_)) && !can_be_guarded
+            {
                 return None;
             }
-            operands.push(of_step);
+            operands.push(of_statement);
         }
         Some(Repeat {
             start,
@@ -678,7 +692,7 @@ impl<'a> Finder<'a> {
         })
     }
 
-    /// Rates a repeat by the steps that it saves, minus those that it adds.
+    /// Rates a repeat by the statements that it saves, minus those that it adds.
     fn rate(&self, repeat: &Repeat) -> Candidate {
         let Repeat {
             start,
@@ -709,7 +723,7 @@ impl<'a> Finder<'a> {
     /// Whether a column is evenly spaced in one array, or can be stored in one.
     fn is_evenly_spaced(&self, column: &[Value]) -> bool {
         let origin = |value: &Value| match self.places[value.index()] {
-            Some((step, which)) => Some((16 + which as u32, step as i64)),
+            Some((statement, which)) => Some((16 + which as u32, statement as i64)),
             None => self.origins[value.index()],
         };
         let Some(origins) = column.iter().map(origin).collect::<Option<Vec<Origin>>>() else {

@@ -128,14 +128,14 @@ impl States {
             u: Vec::new(),
             a: Vec::new(),
         };
-        let mut before = Run::default();
+        let mut before = ErrorPropagation::default();
         prepare.run(&mut before, |source| match source {
             Source::Parameter(index) => self.parameters[index as usize],
             _ => no_state.read(source),
         });
         let prepared = prepare.function.results.iter();
         let prepared: Vec<f64> = prepared.map(|value| before.values[value.index()]).collect();
-        let mut run = Run::default();
+        let mut run = ErrorPropagation::default();
         let mut errors: Vec<Vec<f64>> =
             vec![Vec::with_capacity(self.states.len()); functions.len()];
         for (state, seed) in self.states.iter().zip(1..) {
@@ -223,7 +223,7 @@ struct Linear<'f> {
 
 /// The values of a function's operations, and the propagation of errors in them.
 #[derive(Default)]
-struct Run {
+struct ErrorPropagation {
     values: Vec<f64>,
     /// The derivatives of each operation with respect to its operands.
     slopes: Vec<[f64; 2]>,
@@ -266,8 +266,8 @@ impl<'f> Linear<'f> {
     }
 
     /// Values and slopes of all operations.
-    fn run(&self, run: &mut Run, read: impl Fn(Source) -> f64) {
-        let Run { values, slopes, .. } = run;
+    fn run(&self, run: &mut ErrorPropagation, read: impl Fn(Source) -> f64) {
+        let ErrorPropagation { values, slopes, .. } = run;
         values.clear();
         slopes.clear();
         for op in &self.function.code {
@@ -318,8 +318,8 @@ impl<'f> Linear<'f> {
     /// `prepare` and the function must have been run.
     fn error(
         &self,
-        run: &mut Run,
-        (prepare, before, places): (&Linear<'_>, &mut Run, &[usize]),
+        run: &mut ErrorPropagation,
+        (prepare, before, places): (&Linear<'_>, &mut ErrorPropagation, &[usize]),
         random: &mut SplitMix,
     ) -> Option<f64> {
         let function = self.function;
@@ -359,8 +359,8 @@ impl<'f> Linear<'f> {
 
     /// Propagates derivatives from the results to all operations, and returns the variance of a
     /// weighted sum of the results, averaged over the sweeps, in units of 2⁻¹⁰⁶.
-    fn sweep(&self, run: &mut Run) -> f64 {
-        let Run {
+    fn sweep(&self, run: &mut ErrorPropagation) -> f64 {
+        let ErrorPropagation {
             values,
             slopes,
             adjoints,

@@ -19,7 +19,7 @@ use super::fusion::Contractions;
 use super::graph::{Graph, Id, Node, Scaled};
 use super::latency::latency;
 use super::net::{Index, Item, Leaf, Net, Signed, TIME, operands};
-use super::steps::{Step, is_labelled};
+use super::steps::{EliminationStep, is_labelled};
 use super::{Function, Op, Role, Shape, Source, Value, stages};
 
 /// The code of a function, with prepared values still identified by their nodes.
@@ -31,7 +31,7 @@ pub struct Code {
     /// The nodes that `Read(Prepared(k))` refer to.
     pub prepared: Vec<Id>,
     /// The values that are steps of an elimination.
-    pub steps: Vec<(Value, Step)>,
+    pub steps: Vec<(Value, EliminationStep)>,
 }
 
 /// The largest number of operands of a function for which a second form is tried: beyond it, each
@@ -103,7 +103,7 @@ pub fn schedule(net: &Net, graph: Option<&mut Graph>) -> Code {
     };
     let steps = net.steps.iter();
     let steps = steps.filter_map(|(index, step)| Some((place(*index)?, *step)));
-    let mut steps: Vec<(Value, Step)> = steps
+    let mut steps: Vec<(Value, EliminationStep)> = steps
         .filter(|(value, _)| is_labelled(&code[value.index()]))
         .collect();
     steps.sort_unstable();

@@ -29,7 +29,7 @@ use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_symbolic::Rational;
 
 use super::graph::{Graph, Scaled};
-use super::steps::Step;
+use super::steps::EliminationStep;
 use super::{Shape, Source};
 
 /// A pivot must exceed this multiple of n·2⁻⁵² times its diagonal entry.
@@ -56,7 +56,7 @@ pub struct Solution {
     /// The elimination step of each pivot.
     pub columns: Vec<Column>,
     /// The values of the elimination, for comments.
-    pub steps: Vec<(Scaled, Step)>,
+    pub steps: Vec<(Scaled, EliminationStep)>,
 }
 
 /// A pivot of the elimination.
@@ -199,7 +199,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
     let mut reduced: Vec<Vec<Scaled>> = forces.iter().map(|force| vec![*force]).collect();
     let mut columns: Vec<Column> = Vec::with_capacity(n);
     let mut eliminated = vec![false; n];
-    let mut steps: Vec<(Scaled, Step)> = Vec::new();
+    let mut steps: Vec<(Scaled, EliminationStep)> = Vec::new();
     for k in elimination.order {
         eliminated[k] = true;
         if elimination.dependent.contains(&k) {
@@ -216,7 +216,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
             continue;
         }
         let pivot = left.total(graph, k, k);
-        steps.push((pivot, Step::Pivot(k)));
+        steps.push((pivot, EliminationStep::Pivot(k)));
         pivots.push(if is_constraint(k) {
             Pivot {
                 coordinate: k,
@@ -238,7 +238,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
             if !u.is_zero() {
                 let l = graph.quotient(u, pivot);
                 let l = graph.opaque(l);
-                steps.push((l, Step::Factor(i, k)));
+                steps.push((l, EliminationStep::Factor(i, k)));
                 column.push((i, u, l));
             }
         }
@@ -255,7 +255,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
         // fᵢ −= lᵢ fₖ.
         let force = total(graph, &reduced[k]);
         if reduced[k].len() > 1 {
-            steps.push((force, Step::Load(k)));
+            steps.push((force, EliminationStep::Load(k)));
         }
         for &(i, _, l) in &column {
             reduced[i].push(graph.product(&[(l, 1), (force, 1)]).negated());
@@ -278,7 +278,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
         );
         accelerations[*k] = total(graph, &terms);
         if terms.len() > 1 {
-            steps.push((accelerations[*k], Step::Solution(*k)));
+            steps.push((accelerations[*k], EliminationStep::Solution(*k)));
         }
     }
     let multipliers = accelerations.split_off(*coordinates);
@@ -337,7 +337,7 @@ impl Entries {
 
 /// The kind of an entry.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
+enum EntryKind {
     Zero,
     /// Dependent on parameters alone: operations on such entries are done once.
     Known,
@@ -346,16 +346,16 @@ enum Kind {
 
 /// The kinds of all entries, and the remaining rows.
 struct Pattern {
-    kinds: Vec<Vec<Kind>>,
+    kinds: Vec<Vec<EntryKind>>,
     remaining: Vec<usize>,
 }
 
 impl Pattern {
     fn new(entries: &Entries) -> Pattern {
         let kind = |i, j| match entries.terms[Shape::index(i, j)].first() {
-            None => Kind::Zero,
-            Some(entry) if entry.is_known() => Kind::Known,
-            Some(_) => Kind::Varying,
+            None => EntryKind::Zero,
+            Some(entry) if entry.is_known() => EntryKind::Known,
+            Some(_) => EntryKind::Varying,
         };
         let kinds = (0..entries.n)
             .map(|i| (0..entries.n).map(|j| kind(i, j)).collect())
@@ -374,7 +374,7 @@ impl Pattern {
                 .filter(|&&i| i != k && self.kinds[i][k] == kind)
                 .count()
         };
-        (count(Kind::Known), count(Kind::Varying))
+        (count(EntryKind::Known), count(EntryKind::Varying))
     }
 
     /// The multiplications that eliminating k takes at run time: for the multipliers, for the rest
@@ -383,7 +383,7 @@ impl Pattern {
         let (known, varying) = self.neighbours(k);
         let all = known + varying;
         let pairs = |m: usize| m * (m + 1) / 2;
-        if self.kinds[k][k] == Kind::Varying {
+        if self.kinds[k][k] == EntryKind::Varying {
             all + pairs(all) + 2 * all
         } else {
             varying + pairs(all) - pairs(known) + 2 * all
@@ -396,14 +396,18 @@ impl Pattern {
             .remaining
             .iter()
             .copied()
-            .filter(|&i| self.kinds[i][k] != Kind::Zero)
+            .filter(|&i| self.kinds[i][k] != EntryKind::Zero)
             .collect();
         for &i in &touched {
             for &j in &touched {
                 let known = [(k, k), (i, k), (j, k)]
                     .iter()
-                    .all(|&(a, b)| self.kinds[a][b] == Kind::Known);
-                let change = if known { Kind::Known } else { Kind::Varying };
+                    .all(|&(a, b)| self.kinds[a][b] == EntryKind::Known);
+                let change = if known {
+                    EntryKind::Known
+                } else {
+                    EntryKind::Varying
+                };
                 self.kinds[i][j] = self.kinds[i][j].max(change);
             }
         }
@@ -462,7 +466,7 @@ impl Elimination {
         let kinds = pattern.kinds.clone();
         // A constraint waits for all its coordinates.
         let is_ready = |k: usize, left: &[usize]| {
-            let waits_for = |&&i: &&usize| i < system.coordinates && kinds[k][i] != Kind::Zero;
+            let waits_for = |&&i: &&usize| i < system.coordinates && kinds[k][i] != EntryKind::Zero;
             k < system.coordinates || left.iter().find(waits_for).is_none()
         };
         let mut elimination = Elimination {

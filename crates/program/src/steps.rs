@@ -11,7 +11,7 @@ use super::{Op, Program, Value};
 /// What a value of an elimination is, up to its sign and a factor that depends on parameters alone. Rows are coordinates; those
 /// beyond them are constraints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Step {
+pub enum EliminationStep {
     /// `d[i]`, the pivot of row i.
     Pivot(usize),
     /// `l[i, j]`, the multiple of row j that is subtracted from row i.
@@ -28,23 +28,26 @@ pub enum Step {
     Solution(usize),
 }
 
-impl Step {
+impl EliminationStep {
     /// Whether it belongs to an elimination along the machine.
     fn is_along(self) -> bool {
-        matches!(self, Step::Inertia(_) | Step::Coupling(_) | Step::Free(_))
+        matches!(
+            self,
+            EliminationStep::Inertia(_) | EliminationStep::Coupling(_) | EliminationStep::Free(_)
+        )
     }
 
     /// The same step with other rows.
     #[must_use]
-    pub fn with_rows(self, row: impl Fn(usize) -> usize) -> Step {
+    pub fn with_rows(self, row: impl Fn(usize) -> usize) -> EliminationStep {
         match self {
-            Step::Pivot(i) => Step::Pivot(row(i)),
-            Step::Factor(i, j) => Step::Factor(row(i), row(j)),
-            Step::Load(i) => Step::Load(row(i)),
-            Step::Inertia(i) => Step::Inertia(row(i)),
-            Step::Coupling(i) => Step::Coupling(row(i)),
-            Step::Free(i) => Step::Free(row(i)),
-            Step::Solution(i) => Step::Solution(row(i)),
+            EliminationStep::Pivot(i) => EliminationStep::Pivot(row(i)),
+            EliminationStep::Factor(i, j) => EliminationStep::Factor(row(i), row(j)),
+            EliminationStep::Load(i) => EliminationStep::Load(row(i)),
+            EliminationStep::Inertia(i) => EliminationStep::Inertia(row(i)),
+            EliminationStep::Coupling(i) => EliminationStep::Coupling(row(i)),
+            EliminationStep::Free(i) => EliminationStep::Free(row(i)),
+            EliminationStep::Solution(i) => EliminationStep::Solution(row(i)),
         }
     }
 }
@@ -92,9 +95,13 @@ So far these are the accelerations `a0` without constraint forces. The multiplie
 
 impl Program {
     /// The formulas of the steps of a function, as documentation; `None` if it has no elimination.
-    pub fn formulas_of_steps(&self, steps: &[(Value, Step)]) -> Option<String> {
-        let is_by_rows =
-            |step: Step| matches!(step, Step::Pivot(_) | Step::Factor(..) | Step::Load(_));
+    pub fn formulas_of_steps(&self, steps: &[(Value, EliminationStep)]) -> Option<String> {
+        let is_by_rows = |step: EliminationStep| {
+            matches!(
+                step,
+                EliminationStep::Pivot(_) | EliminationStep::Factor(..) | EliminationStep::Load(_)
+            )
+        };
         let along = steps.iter().any(|(_, step)| step.is_along());
         let by_rows = steps.iter().any(|(_, step)| is_by_rows(*step));
         match (along, by_rows) {
@@ -109,40 +116,48 @@ impl Program {
     }
 
     /// Whether a step eliminates the multiplier of a constraint.
-    fn is_of_constraint(&self, step: Step) -> bool {
-        matches!(step, Step::Pivot(row) if row >= self.dimension())
+    fn is_of_constraint(&self, step: EliminationStep) -> bool {
+        matches!(step, EliminationStep::Pivot(row) if row >= self.dimension())
     }
 
     /// What a statement computes, as a comment: `Row theta2: pivot d[theta2].`
-    pub fn text_of_steps(&self, steps: &[Step]) -> String {
+    pub fn text_of_steps(&self, steps: &[EliminationStep]) -> String {
         let texts = steps.iter().map(|step| {
             let name = self.name_of_step(*step);
             match *step {
-                Step::Pivot(i) => format!("Row {}: pivot {name}", self.row_name(i)),
-                Step::Factor(i, j) => {
+                EliminationStep::Pivot(i) => format!("Row {}: pivot {name}", self.row_name(i)),
+                EliminationStep::Factor(i, j) => {
                     let (row, from) = (self.row_name(j), self.row_name(i));
                     format!("Eliminates {row} from row {from}: {name}")
                 }
-                Step::Load(i) => format!("Row {}: right-hand side {name}", self.row_name(i)),
-                Step::Inertia(i) => format!("Eliminates {}: inertia {name}", self.row_name(i)),
-                Step::Coupling(i) => format!("Eliminates {}: coupling {name}", self.row_name(i)),
-                Step::Free(i) => format!("Eliminates {}: alone {name}", self.row_name(i)),
-                Step::Solution(_) => format!("Back substitution: {name}"),
+                EliminationStep::Load(i) => {
+                    format!("Row {}: right-hand side {name}", self.row_name(i))
+                }
+                EliminationStep::Inertia(i) => {
+                    format!("Eliminates {}: inertia {name}", self.row_name(i))
+                }
+                EliminationStep::Coupling(i) => {
+                    format!("Eliminates {}: coupling {name}", self.row_name(i))
+                }
+                EliminationStep::Free(i) => {
+                    format!("Eliminates {}: alone {name}", self.row_name(i))
+                }
+                EliminationStep::Solution(_) => format!("Back substitution: {name}"),
             }
         });
         texts.collect::<Vec<_>>().join("; ") + "."
     }
 
     /// The name of a value in the formulas: `l[theta2, theta1]`.
-    pub fn name_of_step(&self, step: Step) -> String {
+    pub fn name_of_step(&self, step: EliminationStep) -> String {
         let name = |i: usize| self.row_name(i);
         match step {
-            Step::Pivot(i) | Step::Inertia(i) => format!("d[{}]", name(i)),
-            Step::Factor(i, j) => format!("l[{}, {}]", name(i), name(j)),
-            Step::Coupling(i) => format!("l[{}]", name(i)),
-            Step::Load(i) | Step::Free(i) => format!("z[{}]", name(i)),
-            Step::Solution(i) if i < self.dimension() => format!("a[{}]", name(i)),
-            Step::Solution(i) => format!("lambda[{}]", name(i)),
+            EliminationStep::Pivot(i) | EliminationStep::Inertia(i) => format!("d[{}]", name(i)),
+            EliminationStep::Factor(i, j) => format!("l[{}, {}]", name(i), name(j)),
+            EliminationStep::Coupling(i) => format!("l[{}]", name(i)),
+            EliminationStep::Load(i) | EliminationStep::Free(i) => format!("z[{}]", name(i)),
+            EliminationStep::Solution(i) if i < self.dimension() => format!("a[{}]", name(i)),
+            EliminationStep::Solution(i) => format!("lambda[{}]", name(i)),
         }
     }
 

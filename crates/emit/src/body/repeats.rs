@@ -14,7 +14,7 @@ use super::{Body, Expression, Language};
 use crate::layout::{Layout, Writer};
 use crate::names::Scope;
 use lagrangian_program::{
-    Contraction, Function, Guard, Kind, Op, Operand, Repeat, Source, Steps, Value,
+    Contraction, Function, Guard, Op, Operand, Repeat, Source, StatementKind, Statements, Value,
 };
 
 /// The smallest number of elements that are copied by a loop; fewer are written out.
@@ -57,7 +57,7 @@ impl ArrayElement {
 
 /// Elements of one array at equal distances.
 #[derive(Clone, Debug)]
-pub struct Run {
+pub struct StridedElements {
     /// The number of elements of a list before it.
     pub start: usize,
     /// The number of its elements.
@@ -66,7 +66,7 @@ pub struct Run {
     pub first: Option<(ArrayElement, i64)>,
 }
 
-impl Run {
+impl StridedElements {
     /// The element for a counter that starts at 0.
     pub fn text(&self, counter: &str) -> Option<String> {
         let (first, step) = self.first.as_ref()?;
@@ -89,24 +89,24 @@ fn counted(first: usize, step: i64, counter: &str) -> String {
 }
 
 /// Splits a list of elements into runs, each the longest that starts at its first element.
-pub fn runs(list: &[Vec<ArrayElement>]) -> Vec<Run> {
+pub fn runs(list: &[Vec<ArrayElement>]) -> Vec<StridedElements> {
     let mut runs = Vec::new();
     let mut start = 0;
     while start < list.len() {
         let longest = longest(&list[start..]).filter(|run| run.count >= FEWEST_COPIES);
-        let run = longest.unwrap_or(Run {
+        let run = longest.unwrap_or(StridedElements {
             start: 0,
             count: 1,
             first: None,
         });
-        runs.push(Run { start, ..run });
+        runs.push(StridedElements { start, ..run });
         start += runs.last().map_or(1, |run| run.count);
     }
     runs
 }
 
 /// The longest run at the beginning of a list, with at least two elements.
-fn longest(list: &[Vec<ArrayElement>]) -> Option<Run> {
+fn longest(list: &[Vec<ArrayElement>]) -> Option<StridedElements> {
     let (first, second) = (list.first()?, list.get(1)?);
     let pairs = first
         .iter()
@@ -119,7 +119,7 @@ fn longest(list: &[Vec<ArrayElement>]) -> Option<Run> {
                 .any(|place| a.to(place) == Some(step * i as i64))
         };
         let count = list.iter().enumerate().take_while(|&x| is_next(x)).count();
-        Some(Run {
+        Some(StridedElements {
             start: 0,
             count,
             first: Some((a.clone(), step)),
@@ -158,33 +158,36 @@ pub trait Loops: Language {
 /// The loops of a function.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    steps: Steps,
+    statements: Statements,
     repeats: Vec<Repeat>,
 }
 
 impl Plan {
-    /// The loops of a function with at least `shortest` steps, if it has any.
+    /// The loops of a function with at least `shortest` statements, if it has any.
     pub fn of(function: &Function, is_for_speed: bool, shortest: usize) -> Option<Plan> {
         if function.code.len() < shortest {
             return None;
         }
-        let mut steps = Steps::of(function, is_for_speed);
-        if steps.steps.len() < shortest {
+        let mut statements = Statements::of(function, is_for_speed);
+        if statements.statements.len() < shortest {
             return None;
         }
-        let repeats = steps.repeats(function);
-        (!repeats.is_empty()).then_some(Plan { steps, repeats })
+        let repeats = statements.repeats(function);
+        (!repeats.is_empty()).then_some(Plan {
+            statements,
+            repeats,
+        })
     }
 
-    /// The number of steps that are written.
+    /// The number of statements that are written.
     pub fn len(&self) -> usize {
         let saved = self.repeats.iter().map(|r| r.period * (r.count - 1));
-        self.steps.steps.len() - saved.sum::<usize>()
+        self.statements.statements.len() - saved.sum::<usize>()
     }
 
-    /// The number of steps without loops.
+    /// The number of statements without loops.
     pub fn len_straight(&self) -> usize {
-        self.steps.steps.len()
+        self.statements.statements.len()
     }
 
     /// The prepared values that loops count through, each list in the order of a loop.
@@ -219,14 +222,14 @@ pub fn statements_with_loops(
     let used_outside = plan.used_outside(function);
     let mut repeats = plan.repeats.iter().peekable();
     let mut index = 0;
-    while index < plan.steps.steps.len() {
+    while index < plan.statements.statements.len() {
         match repeats.next_if(|repeat| repeat.start == index) {
             Some(repeat) => {
                 body.repeat(plan, repeat, &used_outside);
                 index = repeat.end();
             }
             None => {
-                body.step(plan, index);
+                body.statement(plan, index);
                 index += 1;
             }
         }
@@ -247,23 +250,23 @@ impl Plan {
             used[value.index()] = true;
         }
         let mut home = vec![None; function.code.len()];
-        let of_step = |step: usize| {
+        let of_statement = |statement: usize| {
             let mut repeats = self.repeats.iter();
-            repeats.position(|repeat| (repeat.start..repeat.end()).contains(&step))
+            repeats.position(|repeat| (repeat.start..repeat.end()).contains(&statement))
         };
-        for (index, step) in self.steps.steps.iter().enumerate() {
-            for value in step.defines.into_iter().flatten() {
-                home[value.index()] = of_step(index);
+        for (index, statement) in self.statements.statements.iter().enumerate() {
+            for value in statement.defines.into_iter().flatten() {
+                home[value.index()] = of_statement(index);
             }
         }
-        for (index, step) in self.steps.steps.iter().enumerate() {
-            for operand in &step.operands {
-                if home[operand.index()] != of_step(index) {
+        for (index, statement) in self.statements.statements.iter().enumerate() {
+            for operand in &statement.operands {
+                if home[operand.index()] != of_statement(index) {
                     used[operand.index()] = true;
                 }
             }
         }
-        for (angle, _) in &self.steps.angles {
+        for (angle, _) in &self.statements.angles {
             used[angle.index()] = true;
         }
         used
@@ -292,19 +295,19 @@ impl<L: Loops> Body<'_, L> {
         }
     }
 
-    /// Writes a step that is not part of a loop.
-    fn step(&mut self, plan: &Plan, index: usize) {
-        let step = &plan.steps.steps[index];
-        match step.kind {
-            Kind::AllCircular => self.all_circular(&plan.steps.angles),
-            Kind::Guard(_) => {
-                let guard = &self.function.guards[step.guard];
+    /// Writes a statement that is not part of a loop.
+    fn statement(&mut self, plan: &Plan, index: usize) {
+        let statement = &plan.statements.statements[index];
+        match statement.kind {
+            StatementKind::AllCircular => self.all_circular(&plan.statements.angles),
+            StatementKind::Guard(_) => {
+                let guard = &self.function.guards[statement.guard];
                 let names = [guard.pivot, guard.scale].map(|value| self.bound(value));
                 let [pivot, scale] = names.each_ref().map(String::as_str);
                 self.language.guard(self.writer, guard, [pivot, scale]);
             }
             _ => {
-                let value = step.defines.into_iter().flatten().next();
+                let value = statement.defines.into_iter().flatten().next();
                 self.operation(value.expect("an operation defines a value"));
             }
         }
@@ -368,14 +371,16 @@ impl<L: Loops> Body<'_, L> {
             count,
             ref operands,
         } = *repeat;
-        let body = &plan.steps.steps[start..start + period];
+        let body = &plan.statements.statements[start..start + period];
         let language = self.language;
         let counter = language.identifier(&mut self.scope.clone(), "i");
         let names = self.names_of_operands(repeat, &counter);
         let stored = self.storage(plan, repeat, used_outside, &names.carried);
         let is_counted = names.is_counted
             || (stored.iter()).any(|(_, stored)| matches!(stored, StoredValue::All(..)))
-            || body.iter().any(|step| matches!(step.kind, Kind::Guard(_)));
+            || body
+                .iter()
+                .any(|statement| matches!(statement.kind, StatementKind::Guard(_)));
         // A value that is set at the end of the body becomes a variable as soon as it is known.
         let set: BTreeSet<Value> = (names.carried.iter())
             .map(|(value, _)| *value)
@@ -458,14 +463,14 @@ impl<L: Loops> Body<'_, L> {
             count,
             ..
         } = *repeat;
-        let steps = &plan.steps.steps;
+        let statements = &plan.statements.statements;
         let language = self.language;
         let mut stored: Vec<(Value, StoredValue)> = Vec::new();
-        for (offset, step) in steps[start..start + period].iter().enumerate() {
-            for (which, value) in step.defines.iter().enumerate() {
+        for (offset, statement) in statements[start..start + period].iter().enumerate() {
+            for (which, value) in statement.defines.iter().enumerate() {
                 let Some(value) = *value else { continue };
                 let at = |iteration: usize| {
-                    steps[start + iteration * period + offset].defines[which]
+                    statements[start + iteration * period + offset].defines[which]
                         .expect("iterations are alike")
                 };
                 let is_used = |iteration: &usize| used_outside[at(*iteration).index()];
@@ -498,7 +503,7 @@ impl<L: Loops> Body<'_, L> {
         stored
     }
 
-    /// Writes a step of a loop, with these operands.
+    /// Writes a statement of a loop, with these operands.
     fn step_in_loop(
         &mut self,
         plan: &Plan,
@@ -507,12 +512,12 @@ impl<L: Loops> Body<'_, L> {
         of: &[Value],
         counter: &str,
     ) {
-        let (steps, first) = (&plan.steps.steps, repeat.start + offset);
-        let step = &steps[first];
-        match &step.kind {
-            Kind::Guard(_) => {
+        let (statements, first) = (&plan.statements.statements, repeat.start + offset);
+        let statement = &statements[first];
+        match &statement.kind {
+            StatementKind::Guard(_) => {
                 let at = |iteration: usize| {
-                    &self.function.guards[steps[first + iteration * repeat.period].guard]
+                    &self.function.guards[statements[first + iteration * repeat.period].guard]
                 };
                 let coordinates = [at(0), at(1)].map(|guard| guard.coordinate);
                 let stride = coordinates[1] as i64 - coordinates[0] as i64;
@@ -522,16 +527,16 @@ impl<L: Loops> Body<'_, L> {
                 let [pivot, scale] = names.each_ref().map(String::as_str);
                 (self.language).guard_of(self.writer, guard, [pivot, scale], &coordinate);
             }
-            Kind::Contraction(kind) => {
+            StatementKind::Contraction(kind) => {
                 let sum = Contraction {
                     kind: *kind,
                     factors: [of[0], of[1]],
                     term: of[2],
                 };
                 let expression = self.contraction(sum);
-                self.define_in_loop(step.defines[0], expression);
+                self.define_in_loop(statement.defines[0], expression);
             }
-            Kind::Operation(op) => {
+            StatementKind::Operation(op) => {
                 let mut operands = of.iter();
                 let op = op.with_operands(|_| {
                     *operands
@@ -539,10 +544,10 @@ impl<L: Loops> Body<'_, L> {
                         .expect("as many operands as the operation has")
                 });
                 let expression = self.expression(op);
-                self.define_in_loop(step.defines[0], expression);
+                self.define_in_loop(statement.defines[0], expression);
             }
-            Kind::Circular => self.circular_in_loop(of[0], step.defines),
-            Kind::AllCircular => unreachable!("what happens once is in no loop"),
+            StatementKind::Circular => self.circular_in_loop(of[0], statement.defines),
+            StatementKind::AllCircular => unreachable!("what happens once is in no loop"),
         }
     }
 
@@ -639,7 +644,7 @@ pub fn fill(
     writer: &mut Writer,
     language: &impl Loops,
     name: &str,
-    runs: &[Run],
+    runs: &[StridedElements],
     texts: &[String],
     wrap: &dyn Fn(&str) -> String,
     scope: &mut Scope,

@@ -10,8 +10,8 @@ use crate::body::{self, Expression as Text, Language, Unchecked};
 use crate::cut::{self, Cut, CutResult, Piece};
 use crate::layout::{Layout, Writer};
 use crate::names::{Scope, flat};
-use lagrangian_program::quantity::{Entry, Extent, Kind};
-use lagrangian_program::{Function, Op, Reads, Role, Shape, Source, Statement};
+use lagrangian_program::quantity::{Entry, Extent, ItemKind};
+use lagrangian_program::{Function, Op, PackedStatement, Reads, Role, Shape, Source};
 
 impl<'a> Emitter<'a> {
     /// Whether a function computes anything: one whose results are zero has no code.
@@ -239,7 +239,7 @@ impl<'a> Emitter<'a> {
         };
         let name = |index: usize| {
             let entry = match self.program.entry(function.role, index) {
-                Entry::Of(Kind::Coordinate, i) if extent != Extent::Differentials => {
+                Entry::Of(ItemKind::Coordinate, i) if extent != Extent::Differentials => {
                     flat(&self.program.coordinates[i].name)
                 }
                 Entry::Of(_, i) if extent != Extent::Differentials => (i + 1).to_string(),
@@ -298,7 +298,7 @@ impl<'a> Emitter<'a> {
         &mut self,
         function: &Function,
         wanted: &[String],
-        packs: Option<&[Statement]>,
+        packs: Option<&[PackedStatement]>,
     ) -> Unchecked {
         self.in_scope(true, |writer, language, scope| {
             body::unchecked(writer, language, function, scope, wanted, packs)

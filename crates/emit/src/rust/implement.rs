@@ -5,7 +5,7 @@ use super::Emitter;
 use super::types::{Group, Types};
 use crate::layout::{Layout, width};
 use crate::names::{Scope, flat};
-use lagrangian_program::quantity::{Extent, Kind, Needs};
+use lagrangian_program::quantity::{Extent, ItemKind, Needs};
 use lagrangian_program::{Fact, FrictionLayout, Reads, Role};
 use lagrangian_units::{Compliance, ImpactLaw, ImpactOrder, Painleve};
 
@@ -305,7 +305,7 @@ impl Emitter<'_> {
             let kind = match row.extent {
                 Extent::Number => "number",
                 Extent::Symmetric(_) => "matrix",
-                Extent::Each(Kind::Coordinate) => "vector",
+                Extent::Each(ItemKind::Coordinate) => "vector",
                 _ => "numbers",
             };
             let letters = row.of.iter().map(|of| of.letter());

@@ -59,13 +59,13 @@ const MOST_SIZE: usize = 10_000_000;
 const LONGEST_ARM: usize = 64;
 
 /// Accelerations in the order of the coordinates, and pivots with their coordinates in the order of elimination.
-pub(super) struct Solution<'d> {
+pub(super) struct ArticulatedSolution<'d> {
     pub(super) accelerations: Vec<Expr<'d>>,
     pub(super) pivots: Vec<(usize, Expr<'d>)>,
     /// Symbols in all of these with their meanings, values that are computed once.
     pub(super) names: Vec<(Expr<'d>, Expr<'d>)>,
     /// The steps, in order.
-    pub(super) steps: Vec<Step<'d>>,
+    pub(super) steps: Vec<EliminatedVelocity<'d>>,
     /// The values of the elimination of each coordinate, for comments.
     pub(super) labels: Vec<(Expr<'d>, EliminationStep)>,
     /// The coordinates by the nodes of their velocities.
@@ -77,7 +77,7 @@ pub(super) fn solve<'d>(
     model: &Model<'d>,
     machine: &Unprojected<'d>,
     order: Order,
-) -> Option<Solution<'d>> {
+) -> Option<ArticulatedSolution<'d>> {
     within_bounds(model.dag, || eliminated(model, machine, order))
 }
 
@@ -94,7 +94,7 @@ fn eliminated<'d>(
     model: &Model<'d>,
     machine: &Unprojected<'d>,
     order: Order,
-) -> Option<Solution<'d>> {
+) -> Option<ArticulatedSolution<'d>> {
     let mut front = Front::of(model, machine, true);
     front.order = order;
     let mut steps = front.replaced_velocities();
@@ -102,7 +102,7 @@ fn eliminated<'d>(
         steps.append(&mut left);
     }
     let mut known: FxHashMap<Id, Expr<'d>> = FxHashMap::default();
-    for Step {
+    for EliminatedVelocity {
         of,
         offset: alone,
         parts,
@@ -138,7 +138,7 @@ fn eliminated<'d>(
     for (id, coordinate) in &velocities {
         accelerations[*coordinate] = *known.get(id)?;
     }
-    Some(Solution {
+    Some(ArticulatedSolution {
         names: front.names,
         accelerations,
         pivots,
@@ -153,7 +153,7 @@ fn eliminated<'d>(
 fn labels<'d>(
     coordinates: &BTreeMap<Id, usize>,
     velocities: &BTreeMap<Id, usize>,
-    steps: &[Step<'d>],
+    steps: &[EliminatedVelocity<'d>],
     known: &FxHashMap<Id, Expr<'d>>,
 ) -> Vec<(Expr<'d>, EliminationStep)> {
     let mut labels = Vec::new();
@@ -220,7 +220,7 @@ fn composite_inertia<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option
 ///
 /// For another right-hand side at zero velocities, `Σ G ẍ = r`, it is `r/pivot + Σ c·part`, where
 /// the first term is 0 without a pivot; and `c r` is added to the load on each part.
-pub(super) struct Step<'d> {
+pub(super) struct EliminatedVelocity<'d> {
     pub(super) of: Id,
     offset: Expr<'d>,
     pub(super) parts: Vec<(Id, Expr<'d>)>,
@@ -509,12 +509,12 @@ impl<'d> Front<'d> {
     }
 
     /// The velocities whose places others took, in terms of these: `v = ±(u − Σ c·part − rest)`.
-    fn replaced_velocities(&mut self) -> Vec<Step<'d>> {
+    fn replaced_velocities(&mut self) -> Vec<EliminatedVelocity<'d>> {
         let places = std::mem::take(&mut self.substitutes);
         let steps = places.iter().flatten().map(|place| {
             let sign = self.dag.constant(place.sign.clone());
             let parts = place.parts.iter().map(|(part, c)| (*part, -(sign * *c)));
-            Step {
+            EliminatedVelocity {
                 of: place.velocity,
                 offset: -(sign
                     * (self.bias_acceleration(&[], place.rest)
@@ -692,7 +692,7 @@ impl<'d> Front<'d> {
     }
 
     /// The next step; the inner `None` means that the front is empty.
-    fn next(&mut self) -> Option<Option<Vec<Step<'d>>>> {
+    fn next(&mut self) -> Option<Option<Vec<EliminatedVelocity<'d>>>> {
         if self.is_too_long() {
             return None;
         }
@@ -729,7 +729,7 @@ impl<'d> Front<'d> {
             .copied()
     }
 
-    fn eliminate(&mut self, id: Id) -> Option<Step<'d>> {
+    fn eliminate(&mut self, id: Id) -> Option<EliminatedVelocity<'d>> {
         let (mut pivot, mut row, load) = self.take(id);
         self.apply_pending_updates(id, &mut pivot, &mut row);
         if pivot.is_zero() {
@@ -750,7 +750,7 @@ impl<'d> Front<'d> {
             Order::Ahead => self.pending.push(update),
         }
         let parts = ratios.into_iter().map(|(x, ratio)| (x, -ratio)).collect();
-        Some(Step {
+        Some(EliminatedVelocity {
             of: id,
             offset: load / pivot,
             parts,
@@ -855,7 +855,7 @@ impl<'d> Front<'d> {
 
     /// Replaces velocities `u = C w + e` by their parts `w`, all at once: with `B = G C`, the rows
     /// and columns `G` become `Cᵀ B`, so that common parts of columns are computed once.
-    fn replace(&mut self, mut group: Vec<(Id, Composition<'d>)>) -> Vec<Step<'d>> {
+    fn replace(&mut self, mut group: Vec<(Id, Composition<'d>)>) -> Vec<EliminatedVelocity<'d>> {
         let mut drifts: Vec<Expr<'d>> = group
             .iter()
             .map(|(id, Composition { parts, rest })| {
@@ -902,12 +902,14 @@ impl<'d> Front<'d> {
         self.replace_in_pending(&group, &drifts, &position);
         let steps = group.into_iter().zip(drifts);
         steps
-            .map(|((of, Composition { parts, .. }), alone)| Step {
-                of,
-                offset: alone,
-                parts,
-                pivot: None,
-            })
+            .map(
+                |((of, Composition { parts, .. }), alone)| EliminatedVelocity {
+                    of,
+                    offset: alone,
+                    parts,
+                    pivot: None,
+                },
+            )
             .collect()
     }
 

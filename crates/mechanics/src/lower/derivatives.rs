@@ -1,6 +1,6 @@
 //! The accelerations with their derivatives: `M ∂a/∂x = ∂r/∂x`, eq. (E26), a column for each variable.
 //!
-//! The elimination that gives the accelerations is one list of [`Step`]s, whether it runs along the
+//! The elimination that gives the accelerations is one list of [`EliminatedUnknown`]s, whether it runs along the
 //! machine or over the mass matrix. A right-hand side passes through it forwards, and its solution
 //! comes back; nothing is factored again. The accelerations in the right-hand sides are the values
 //! that the same function computes.
@@ -17,7 +17,7 @@ use lagrangian_spec::model::Model;
 
 /// The elimination of one unknown: `x_of = r_of/pivot + Σ c x_part`, and its load is passed on:
 /// `r_part += c r_of`. A step without a pivot only replaces the unknown by its parts.
-struct Step {
+struct EliminatedUnknown {
     of: usize,
     pivot: Option<Scaled>,
     parts: Vec<(usize, Scaled)>,
@@ -36,7 +36,7 @@ struct QuaternionTurn {
 pub(super) struct Solved {
     pub accelerations: Vec<Scaled>,
     pub multipliers: Vec<Scaled>,
-    steps: Vec<Step>,
+    steps: Vec<EliminatedUnknown>,
     /// The turns whose velocities the steps refer to.
     turns: Vec<QuaternionTurn>,
     pub pivots: Vec<Pivot>,
@@ -117,7 +117,7 @@ fn by_matrix(
 
 /// The steps of an elimination of the system's matrix.
 pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solved {
-    let step = |(pivot, column): (&Pivot, &solve::Column)| Step {
+    let step = |(pivot, column): (&Pivot, &solve::Column)| EliminatedUnknown {
         of: pivot.coordinate,
         // Pivots of constraints are guarded as positive numbers; a row without a pivot depends on others.
         pivot: (!pivot.pivot.is_zero()).then(|| {
@@ -175,7 +175,7 @@ pub(super) fn along_the_machine<'d>(
         lowering.lower(step.pivot.as_slice());
         let coefficients = lowering.values(&coefficients);
         let parts = step.parts.iter().map(|(part, _)| number(*part));
-        steps.push(Step {
+        steps.push(EliminatedUnknown {
             parts: parts.zip(coefficients).collect(),
             of: number(step.of),
             pivot: step.pivot.map(|pivot| lowering.values(&[pivot])[0]),
@@ -285,7 +285,7 @@ fn right_hand_sides<'d>(
 
 /// The reciprocals of the pivots, step by step.
 pub(super) fn inverses(graph: &mut Graph, solved: &Solved) -> Vec<Scaled> {
-    let inverse = |step: &Step| match step.pivot {
+    let inverse = |step: &EliminatedUnknown| match step.pivot {
         Some(pivot) => {
             let inverse = graph.product(&[(pivot, -1)]);
             graph.opaque(inverse)

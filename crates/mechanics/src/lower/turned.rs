@@ -14,7 +14,7 @@
 use lagrangian_symbolic::{Dag, Expr, Id, Node, Symbol, Tangent, reachable, substitute};
 use rustc_hash::FxHashMap;
 
-use crate::lower::articulated::{self, Order, Solution};
+use crate::lower::articulated::{self, ArticulatedSolution, Order};
 use crate::{InertialPair, Unprojected};
 use lagrangian_spec::model::quaternion;
 use lagrangian_spec::model::{Model, stage};
@@ -34,7 +34,7 @@ pub(super) struct TurnSolution<'d> {
     /// The pivots of the mass matrix, each with its coordinate.
     pub pivots: Vec<(usize, Expr<'d>)>,
     /// The steps, in those velocities.
-    pub solution: Solution<'d>,
+    pub solution: ArticulatedSolution<'d>,
     /// The quaternions whose rates were replaced: their coordinates, and their components.
     pub quaternions: Vec<([usize; 4], [Expr<'d>; 4])>,
 }

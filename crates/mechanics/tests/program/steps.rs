@@ -3,12 +3,12 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use lagrangian_program::{Arguments, EliminationStep as Step, Interpreter, Program, Role, Shape};
+use lagrangian_program::{Arguments, EliminationStep, Interpreter, Program, Role, Shape};
 use lagrangian_scalar::{DoubleDouble, Scalar};
 
 use crate::harness::{machine, smooth_machines};
 
-type Steps = BTreeMap<Step, DoubleDouble>;
+type Steps = BTreeMap<EliminationStep, DoubleDouble>;
 
 /// A state and the inputs.
 struct State {
@@ -96,7 +96,7 @@ fn eliminated(program: &Program, state: &State, order: &[usize]) -> Steps {
         for &(i, u) in &column[1..] {
             let x = u / d[j];
             l[i][j] = x;
-            steps.insert(Step::Factor(i, j), x);
+            steps.insert(EliminationStep::Factor(i, j), x);
         }
     }
     for (place, &i) in order.iter().enumerate().rev() {
@@ -104,10 +104,10 @@ fn eliminated(program: &Program, state: &State, order: &[usize]) -> Steps {
         a[i] = later
             .iter()
             .fold(z[i] / d[i], |sum, &k| sum - l[k][i] * a[k]);
-        steps.insert(Step::Solution(i), a[i]);
-        steps.insert(Step::Load(i), z[i]);
-        steps.insert(Step::Pivot(i), d[i]);
-        steps.insert(Step::Inertia(i), d[i]);
+        steps.insert(EliminationStep::Solution(i), a[i]);
+        steps.insert(EliminationStep::Load(i), z[i]);
+        steps.insert(EliminationStep::Pivot(i), d[i]);
+        steps.insert(EliminationStep::Inertia(i), d[i]);
     }
     steps
 }
@@ -128,15 +128,20 @@ fn orders(rows: &[usize]) -> Vec<Vec<usize>> {
 }
 
 /// The labels whose values are not those of an elimination in this order, up to a factor that is the same at all states.
-fn wrong(program: &Program, states: &[State], order: &[usize]) -> Vec<Step> {
+fn wrong(program: &Program, states: &[State], order: &[usize]) -> Vec<EliminationStep> {
     let all: Vec<[Steps; 2]> = states
         .iter()
         .map(|state| [labelled(program, state), eliminated(program, state, order)])
         .collect();
     // The velocities that couplings and loads along the machine refer to are not all those of coordinates.
-    let is_tested = |step: &&Step| !matches!(step, Step::Coupling(_) | Step::Free(_));
+    let is_tested = |step: &&EliminationStep| {
+        !matches!(
+            step,
+            EliminationStep::Coupling(_) | EliminationStep::Free(_)
+        )
+    };
     let steps = all[0][0].keys().filter(is_tested);
-    let is_wrong = |step: &&Step| {
+    let is_wrong = |step: &&EliminationStep| {
         // A factor of a row that this order eliminates later has no true value.
         let ratio =
             |[label, truth]: &[Steps; 2]| truth.get(*step).map(|truth| label[*step] / *truth);

@@ -1,0 +1,317 @@
+//! Comparison of slips, gaps, friction and reactions with the literal equations.
+
+use super::number::Number;
+use super::{Computed, Prover, Sum, Verdict, equal, first_difference};
+use crate::Disagreement;
+use crate::equations::guide::{guides_of, occurs_in_equation};
+use crate::equations::literal::{Lagrange, Literal, LiteralSliding, State};
+use lagrangian_program::{FrictionLayout, FrictionResponse, Role};
+use lagrangian_spec::model::Space;
+
+impl<R: Number> Prover<'_, '_, R> {
+    /// Compares the slips, and finds for each whether the program has the same sign as the literal
+    /// equations; in a field it may be opposite, since a length there has no sign.
+    pub(super) fn check_slips(
+        &mut self,
+        at: &State<R>,
+        w: &[R],
+        literal: &Literal<R>,
+    ) -> Result<Vec<R>, Verdict> {
+        let (n, count) = (w.len(), literal.sliding.len());
+        if count != self.parts.program.contacts.len() {
+            return Err(self.disagreement_at(Role::Slips, 0));
+        }
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        let slips = self.call(Role::Slips, at, count)?;
+        let rows = self.call(Role::SlipMatrix, at, count * n)?;
+        let biases = self.call(Role::SlipBias, at, count)?;
+        let mut signs = Vec::with_capacity(count);
+        for (k, contact) in literal.sliding.iter().enumerate() {
+            let sign = if equal(slips[k], contact.slip)? {
+                R::ONE
+            } else if !R::IS_ORDERED {
+                -R::ONE
+            } else {
+                return Err(self.disagreement_at(Role::Slips, k));
+            };
+            self.compare(Role::Slips, k, slips[k], sign * contact.slip)?;
+            let row = &rows[k * n..][..n];
+            let along = Sum::products(row, w).plus(-(sign * contact.slip_along));
+            if !along.vanishes()? {
+                let entry = |j: usize| (row[j], sign * self.literal(at, j).sliding[k].slip_along);
+                let j = first_difference(n, entry);
+                return Err(self.disagreement_at(Role::SlipMatrix, k * n + j));
+            }
+            let rate = Sum::products(row, &at.a).plus(biases[k]);
+            self.compare_difference(Role::SlipBias, k, rate.plus(-(sign * contact.slip_rate)))?;
+            signs.push(sign);
+        }
+        Ok(signs)
+    }
+
+    /// Compares the unilateral contacts: gaps; the rates, rows and biases of both directions, each
+    /// like those of a constraint that would hold the contact; and the coefficients.
+    pub(super) fn check_unilateral(
+        &mut self,
+        at: &State<R>,
+        w: &[R],
+        literal: &Literal<R>,
+    ) -> Result<(), Verdict> {
+        let (n, count) = (w.len(), literal.unilateral.len());
+        if count != self.parts.program.unilateral.len() {
+            return Err(self.disagreement_at(Role::Gaps, 0));
+        }
+        if count == 0 {
+            return Ok(());
+        }
+        let gaps = self.call(Role::Gaps, at, count)?;
+        let rates = self.call(Role::ContactRates, at, 2 * count)?;
+        let rows = self.call(Role::ContactMatrix, at, 2 * count * n)?;
+        let biases = self.call(Role::ContactBias, at, 2 * count)?;
+        let coefficients = self.call(Role::ContactCoefficients, at, 4 * count)?;
+        let of_faces: Vec<R> = (literal.unilateral.iter())
+            .filter_map(|contact| contact.face)
+            .flatten()
+            .collect();
+        if self.parts.program.sizes().faces * 3 != of_faces.len() {
+            return Err(self.disagreement_at(Role::ContactFaces, 0));
+        }
+        if !of_faces.is_empty() {
+            let faces = self.call(Role::ContactFaces, at, of_faces.len())?;
+            for (i, (&found, &expected)) in faces.iter().zip(&of_faces).enumerate() {
+                self.compare(Role::ContactFaces, i, found, expected)?;
+            }
+        }
+        for (k, contact) in literal.unilateral.iter().enumerate() {
+            self.compare(Role::Gaps, k, gaps[k], contact.opening.position)?;
+            // Positions must not depend on rates.
+            self.compare(Role::Gaps, k, contact.opening.by_rates, R::ZERO)?;
+            self.compare(Role::Gaps, k, contact.gap.by_rates, R::ZERO)?;
+            for (i, direction) in [contact.gap, contact.slip].into_iter().enumerate() {
+                let i = 2 * k + i;
+                self.compare(Role::ContactRates, i, rates[i], direction.rate)?;
+                let row = &rows[i * n..][..n];
+                let along = Sum::products(row, w).plus(-direction.along);
+                self.compare_difference(Role::ContactMatrix, i * n, along)?;
+                let rate = Sum::products(row, &at.a).plus(biases[i]);
+                self.compare_difference(Role::ContactBias, i, rate.plus(-direction.acceleration))?;
+            }
+            for (i, &expected) in contact.coefficients.iter().enumerate() {
+                let i = 4 * k + i;
+                self.compare(Role::ContactCoefficients, i, coefficients[i], expected)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that for any friction forces the accelerations, multipliers and normal reactions obey the
+    /// equations of motion, of the constraints, and of the displacements that would open the guides.
+    pub(super) fn check_friction(
+        &mut self,
+        at: &State<R>,
+        computed: &Computed<R>,
+        signs: &[R],
+    ) -> Result<(), Verdict> {
+        let (n, count) = (at.q.len(), signs.len());
+        let layout = FrictionLayout {
+            coordinates: n,
+            constraints: self.parts.program.constraints.len(),
+            contacts: count,
+            axes: self.parts.program.reaction_axes,
+        };
+        let values = self.call(Role::Friction, at, layout.len())?;
+        let response = FrictionResponse {
+            layout,
+            values: &values,
+        };
+        let friction_forces = self.random_numbers(2, count);
+        let total = |place: usize| response.with(place, &friction_forces);
+        let total: Vec<R> = (0..layout.part()).map(total).collect();
+        let total = layout.split(&total);
+        let rows = self.call(Role::SlipMatrix, at, count * n)?;
+        let biases = self.call(Role::SlipBias, at, count)?;
+        let mut forces = computed.forces.clone();
+        for (row, &friction) in rows.chunks(n).zip(&friction_forces) {
+            for (force, &tau) in forces.iter_mut().zip(row) {
+                *force = *force + tau * friction;
+            }
+        }
+        let (a, multipliers) = (total.accelerations, total.multipliers);
+        self.check_balance(computed, a, multipliers, &forces)?;
+        for (k, row) in rows.chunks(n).enumerate() {
+            let rate = Sum::products(row, a).plus(biases[k]);
+            let rate = rate.plus(-total.slip_rates[k]);
+            self.compare_difference(Role::Friction, layout.slip_rate(k), rate)?;
+        }
+
+        let moving = State {
+            a: a.to_vec(),
+            ..at.clone()
+        };
+        let contacts = self.parts.machine.at(&moving, &vec![R::ZERO; n]).sliding;
+        self.check_guides(response, &contacts)?;
+        let pressed = GuideForces {
+            multipliers,
+            friction_forces: &friction_forces,
+            normals: total.normals,
+            axes: layout.axes,
+            signs,
+        };
+        self.check_reactions(&moving, &contacts, &pressed)
+    }
+
+    /// Checks the coefficients of friction of the guides, and in space their directions.
+    fn check_guides(
+        &mut self,
+        response: FrictionResponse<'_, R>,
+        contacts: &[LiteralSliding<R>],
+    ) -> Result<(), Verdict> {
+        let layout = response.layout;
+        for (k, contact) in contacts.iter().enumerate() {
+            let places = [layout.friction(k), layout.static_friction(k)];
+            for (place, expected) in places.into_iter().zip(contact.coefficients) {
+                self.compare(Role::Friction, place, response.values[place], expected)?;
+            }
+        }
+        if layout.axes == 1 {
+            return Ok(());
+        }
+        for (k, contact) in contacts.iter().enumerate() {
+            let (first, direction) = (layout.direction(k).start, response.direction(k));
+            // Compared up to sign, because square roots in a field have none.
+            for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)] {
+                let expected = contact.reference_direction[i] * contact.reference_direction[j];
+                let found = direction[i] * direction[j];
+                self.compare(Role::Friction, first + j, found, expected)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that the normal reactions balance the forces that would open the guides: the
+    /// equations of the relaxed machine along their normals.
+    fn check_reactions(
+        &self,
+        at: &State<R>,
+        contacts: &[LiteralSliding<R>],
+        pressed: &GuideForces<'_, R>,
+    ) -> Result<(), Verdict> {
+        let Some(relaxed) = self.parts.relaxed else {
+            return Err(Verdict::Undefined);
+        };
+        let guides = guides_of(relaxed.model);
+        // The side of each guide on which the body is.
+        let mut sides = Vec::with_capacity(contacts.len());
+        for contact in contacts {
+            let side = contact.side.sign();
+            sides.push(if R::IS_ORDERED { side } else { R::ONE });
+        }
+        if !sides.iter().all(|side| side.is_finite()) {
+            return Err(Verdict::Undefined);
+        }
+        let openings = openings(relaxed, at, contacts, (&guides, &sides));
+        // The side is unknown in a field, where any combination is accepted. In space there are no sides.
+        let patterns = if R::IS_ORDERED || relaxed.model.space == Space::Space {
+            1
+        } else {
+            1u32 << contacts.len()
+        };
+        let mut wrong = 0;
+        for pattern in 0..patterns {
+            let normal = |(i, &normal): (usize, &R)| match pattern >> (i / pressed.axes) & 1 {
+                0 => normal,
+                _ => -normal,
+            };
+            let normals: Vec<R> = pressed.normals.iter().enumerate().map(normal).collect();
+            let pressed = GuideForces {
+                normals: &normals,
+                ..*pressed
+            };
+            match pressed.first_unbalanced(&openings, &guides, &sides)? {
+                None => return Ok(()),
+                Some(contact) => wrong = wrong.max(contact),
+            }
+        }
+        let (contact, point) = (wrong, self.number);
+        Err(Disagreement::Reaction { contact, point }.into())
+    }
+}
+
+/// The equations of the relaxed machine along the displacements that open its guides, one for each component of a reaction,
+/// with the contact that it belongs to.
+fn openings<R: Number>(
+    relaxed: &Lagrange<'_, '_>,
+    at: &State<R>,
+    contacts: &[LiteralSliding<R>],
+    (guides, sides): (&[usize], &[R]),
+) -> Vec<(usize, Literal<R>)> {
+    let n = at.q.len();
+    let all = relaxed.model.coordinates.len();
+    let mut at = at.clone();
+    for list in [&mut at.q, &mut at.v, &mut at.a] {
+        list.resize(all, R::ZERO);
+    }
+    let dimension = relaxed.model.space.dimension();
+    let along = |k: usize, axis: &Vec<R>| {
+        let mut w = vec![R::ZERO; all];
+        for (i, &component) in axis.iter().enumerate() {
+            w[n + dimension * guides[k] + i] = sides[k] * component;
+        }
+        (k, relaxed.at(&at, &w))
+    };
+    let mut openings = Vec::new();
+    for (k, contact) in contacts.iter().enumerate() {
+        openings.extend(contact.axes.iter().map(|axis| along(k, axis)));
+    }
+    openings
+}
+
+/// The forces in the guides.
+#[derive(Clone, Copy)]
+struct GuideForces<'a, R> {
+    multipliers: &'a [R],
+    friction_forces: &'a [R],
+    /// The components of the normal reactions, contact after contact.
+    normals: &'a [R],
+    /// The number of components of a reaction.
+    axes: usize,
+    /// Whether the signs of the program's slips agree with the spec.
+    signs: &'a [R],
+}
+
+impl<R: Number> GuideForces<'_, R> {
+    /// The first contact with an opening displacement along which these forces are not balanced.
+    fn first_unbalanced(
+        &self,
+        openings: &[(usize, Literal<R>)],
+        guides: &[usize],
+        sides: &[R],
+    ) -> Result<Option<usize>, Verdict> {
+        for (k, literal) in openings {
+            let mut open = Sum::of([literal.inertia, -literal.applied]);
+            for (constraint, &multiplier) in literal.constraints.iter().zip(self.multipliers) {
+                open = open.plus(-(constraint.along * multiplier));
+            }
+            let normals = self.normals.chunks_exact(self.axes);
+            for ((j, contact), normals) in literal.sliding.iter().enumerate().zip(normals) {
+                let friction = self.signs[j] * self.friction_forces[j];
+                open = open.plus(-(contact.slip_along * friction));
+                if !occurs_in_equation(guides, *k, j) {
+                    continue;
+                }
+                for (&off, &normal) in contact.off_along.iter().zip(normals) {
+                    open = open.plus(-(sides[j] * off * normal));
+                }
+            }
+            if !open.value.is_finite() {
+                return Err(Verdict::Undefined);
+            }
+            if !open.vanishes()? {
+                return Ok(Some(*k));
+            }
+        }
+        Ok(None)
+    }
+}

@@ -1,0 +1,156 @@
+//! What is said of a program that could not be proved.
+
+use std::fmt;
+
+use super::Disagreement;
+use lagrangian_program::quantity::{Entry, ItemKind};
+use lagrangian_program::{Program, Role};
+use lagrangian_spec::diagnostic::{Code, Diagnostic};
+use lagrangian_spec::model::Model;
+
+/// Why a program is not emitted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unproved {
+    /// What is wrong.
+    pub disagreement: Disagreement,
+    /// Where it was seen.
+    pub witness: Witness,
+    /// What is wrong, in the names of the spec.
+    pub(super) description: String,
+}
+
+/// The numbers in which a program was found wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Witness {
+    /// The numbers of the prime field.
+    Field,
+    /// Double-doubles with a bound of their error.
+    States,
+}
+
+impl Unproved {
+    /// The message for the user, at the name of the machine.
+    pub fn diagnostic(&self, model: &Model<'_>) -> Diagnostic {
+        match self.disagreement {
+            Disagreement::Undefined => Diagnostic::new(
+                Code::Undefined,
+                model.span,
+                "no state was found at which the equations of motion have a value",
+            )
+            .help("something divides by zero, or takes a root or a logarithm that does not exist; if there are such states, give the coordinates start values near one of them"),
+            Disagreement::Exhausted { comparisons } => Diagnostic::new(
+                Code::TooLarge,
+                model.span,
+                format!("this machine could not be proved: {comparisons} states were compared, and too few of them have accelerations"),
+            )
+            .help("the size of its equations limits the number of states that are compared; if it is singular at most states, state what holds it, or make it smaller"),
+            _ => Diagnostic::new(Code::Internal, model.span, self.to_string()).help(
+                "this is a defect of lagrangian, not of the spec: nothing was emitted; please report it together with the spec",
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Unproved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let witness = match self.witness {
+            Witness::Field => "point",
+            Witness::States => "state",
+        };
+        let seed = match self.disagreement {
+            Disagreement::Result { point, .. }
+            | Disagreement::Motion { point, .. }
+            | Disagreement::Constraint { point, .. }
+            | Disagreement::Reaction { point, .. }
+            | Disagreement::Eliminated { point, .. }
+            | Disagreement::Pivots { point } => format!(" (random {witness} {point})"),
+            Disagreement::Singular(_)
+            | Disagreement::Undefined
+            | Disagreement::NotCompared { .. }
+            | Disagreement::Exhausted { .. } => String::new(),
+        };
+        write!(
+            f,
+            "the program generated for this machine is wrong: {} what Lagrange's equations say{seed}",
+            self.description
+        )
+    }
+}
+
+impl std::error::Error for Unproved {}
+
+/// The subject of the sentence that a message completes with what Lagrange's equations say.
+pub(super) fn subject_text(disagreement: &Disagreement, program: &Program) -> String {
+    let member = |(kind, index): (ItemKind, usize)| {
+        let name = program.member((kind, index));
+        match kind {
+            ItemKind::Coordinate => format!("`{name}`"),
+            ItemKind::Constraint => format!("the constraint `{name}`"),
+            ItemKind::Contact => format!("the guide `{name}`"),
+            ItemKind::Unilateral | ItemKind::Face | ItemKind::Direction | ItemKind::Coefficient => {
+                format!("the contact `{name}`")
+            }
+        }
+    };
+    let coordinate = |i: usize| member((ItemKind::Coordinate, i));
+    let constraint = |k: usize| member((ItemKind::Constraint, k));
+    let contact = |k: usize| member((ItemKind::Contact, k));
+    match *disagreement {
+        Disagreement::Result { role, index, .. } => {
+            let of = match program.entry(role, index) {
+                Entry::Whole => match role {
+                    Role::Output(_) | Role::Assumption(_) => {
+                        format!(" (`{}`)", program.title(role))
+                    }
+                    _ => String::new(),
+                },
+                Entry::Of(ItemKind::Coordinate, i) => format!(", in {},", coordinate(i)),
+                Entry::Of(kind, i) => format!(", of {},", member((kind, i))),
+                Entry::At(row @ (ItemKind::Coordinate, _), column) => {
+                    format!(", in {} and {},", member(row), member(column))
+                }
+                Entry::At(row, column) => {
+                    format!(", of {} by {},", member(row), member(column))
+                }
+                Entry::Rate(i) => format!(", the rate of {},", coordinate(i)),
+                Entry::Derivative(i, variable) => {
+                    let by = program.variable_name(variable);
+                    format!(", in {}, by `{by}`,", coordinate(i))
+                }
+                Entry::Index(index) => format!(", result {index},"),
+            };
+            format!("`{}`{of} is not", role.name())
+        }
+        Disagreement::Motion { coordinate: i, .. } => format!(
+            "`{}` violates the equation of motion of {}, contrary to",
+            program.solving().name(),
+            coordinate(i)
+        ),
+        Disagreement::Constraint { constraint: k, .. } => format!(
+            "`{}` violates {}, contrary to",
+            program.solving().name(),
+            constraint(k)
+        ),
+        Disagreement::Reaction { contact: k, .. } => {
+            format!("the normal reaction of {} is not", contact(k))
+        }
+        Disagreement::Eliminated {
+            coordinate: i,
+            constraint: k,
+            ..
+        } => format!(
+            "{} was taken to settle {}, which is not",
+            constraint(k),
+            coordinate(i)
+        ),
+        Disagreement::Pivots { .. } => "the guard of the elimination is not".into(),
+        Disagreement::Singular(singular) => format!(
+            "the elimination stops at {}, contrary to",
+            coordinate(singular.coordinate)
+        ),
+        Disagreement::NotCompared { role } => format!("nothing compares `{}` with", role.name()),
+        Disagreement::Undefined | Disagreement::Exhausted { .. } => {
+            "no state was found to compare it with".into()
+        }
+    }
+}
