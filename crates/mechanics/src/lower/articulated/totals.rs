@@ -33,9 +33,9 @@ impl Expansion {
 
 /// Adds up the remaining entries and loads.
 pub(super) struct Totals<'d> {
-    dag: &'d Dag,
+    pub(super) dag: &'d Dag,
     /// The sums made here.
-    own_sums: FxHashSet<Id>,
+    pub(super) own_sums: FxHashSet<Id>,
     /// Whether any are multiplied out.
     pub(super) expands: bool,
 }
