@@ -162,6 +162,7 @@ impl<V: Vector> Constraints<V> {
     }
 
     /// Records how large the terms of the rate of a row have been.
+    #[cfg(feature = "std")]
     pub fn record_rate(&mut self, k: usize, rate: f64) {
         self.scales.record_rate(k, rate);
     }

@@ -107,6 +107,7 @@ impl<V: Vector> Scales<V> {
     }
 
     /// Records the size of the terms of the rate of a row.
+    #[cfg(feature = "std")]
     pub fn record_rate(&mut self, k: usize, rate: f64) {
         if let Some(greatest) = slot_mut(&mut self.terms[1], k)
             && rate.is_finite()

@@ -3,7 +3,7 @@
 use lagrangian_emit::rust;
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Proved;
-use lagrangian_program::{Function, Op, Repeat, Role, Shape, Source, Steps, Value};
+use lagrangian_program::{Function, Op, Repeat, Role, Shape, Source, Statements, Value};
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::{Dag, Rational};
@@ -97,7 +97,7 @@ fn horner(links: u32) -> Function {
 }
 
 fn repeats(function: &Function) -> Vec<Repeat> {
-    Steps::of(function, false).repeats(function)
+    Statements::of(function, false).repeats(function)
 }
 
 #[test]
