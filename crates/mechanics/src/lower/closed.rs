@@ -10,7 +10,8 @@
 //! SIGGRAPH 1996; R. Featherstone, *Rigid Body Dynamics Algorithms*, 2008, section 8.)
 
 use crate::Unprojected;
-use crate::lower::{Lowering, MOST_MULTIPLICATIONS, derivatives};
+use crate::lower::accelerations::MOST_MULTIPLICATIONS;
+use crate::lower::{Lowering, derivatives};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution, System};
 use lagrangian_program::{EliminationStep, Shape};

@@ -8,8 +8,10 @@
 use lagrangian_symbolic::Expr;
 
 use crate::Unprojected;
+use crate::lower::accelerations::labelled;
 use crate::lower::articulated::Order;
-use crate::lower::{Draft, Lowering, PlannedFunction, labelled, turned};
+use crate::lower::choosing::{Draft, PlannedFunction};
+use crate::lower::{Lowering, turned};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination, Pivot, System};
 use lagrangian_program::{Basis, EliminationStep, Role, Shape};

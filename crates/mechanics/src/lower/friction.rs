@@ -7,8 +7,9 @@
 //! pivot that depends on one.
 
 use crate::SlidingEquation;
+use crate::lower::choosing::{Draft, PlannedFunction};
 use crate::lower::derivatives::{Solved, inverses, of_elimination, solve_by_steps};
-use crate::lower::{Draft, Lowering, LoweringInput, PlannedFunction};
+use crate::lower::{Lowering, LoweringInput};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination};
 use lagrangian_program::{Basis, EliminationStep, FrictionLayout, FrictionPart, Role, Shape};

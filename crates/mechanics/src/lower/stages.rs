@@ -1,8 +1,8 @@
 //! The accelerations in stages, from the elimination that leaves the least work to the repeated stage.
 
-use crate::lower::{
-    Candidate, Choice, Draft, Lowering, LoweringInput, PlannedFunction, labelled, roundings,
-};
+use crate::lower::accelerations::labelled;
+use crate::lower::choosing::{Draft, PlannedFunction, roundings};
+use crate::lower::{Candidate, Choice, Lowering, LoweringInput};
 use crate::lower::{articulated, turned};
 use lagrangian_program::rounding::States;
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution};

@@ -79,7 +79,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// Multiplies or divides a product by the value of a factor; returns false if an error was reported.
-    pub(super) fn multiply(
+    fn multiply(
         &mut self,
         product: &mut Product<'d>,
         value: Value<'d>,
