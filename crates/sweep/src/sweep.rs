@@ -320,7 +320,7 @@ impl Sweep {
     }
 
     /// Whether several runs may execute at once in the lanes of the processor: this requires machine code and no
-    /// contacts. With [`Engine::Auto`] it is true only once machine code has paid off for one run.
+    /// guides (`sliding`). With [`Engine::Auto`] it is true only once machine code has paid off for one run.
     pub fn may_run_in_lanes(&self) -> bool {
         self.machine.may_run_in_lanes()
     }
