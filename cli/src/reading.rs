@@ -202,6 +202,13 @@ impl Reading {
             return Err(self.failure());
         };
         let cartesian = model.cartesian.take();
+        let uncharted = cartesian.as_ref().map(|machine| &machine.uncharted);
+        if let Some(formulas) = uncharted.filter(|formulas| !formulas.is_empty()) {
+            for diagnostic in formulas {
+                self.report.push(diagnostic.clone());
+            }
+            return Err(self.failure());
+        }
         let Some(compiled) = Compiled::new(model, &mut self.report) else {
             return Err(self.failure());
         };

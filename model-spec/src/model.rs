@@ -13,6 +13,7 @@
 
 use lagrangian_symbolic::{Dag, Expr};
 
+use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::SectionKind;
 use crate::unit::Unit;
@@ -119,6 +120,9 @@ pub struct Model<'d> {
     /// This machine in the other charts, with the same coordinates in the same order except for the replaced ones; `None` if the spec
     /// names no other chart.
     pub cartesian: Option<Box<Model<'d>>>,
+    /// The formulas of the caller that contain an angle of the other charts and have no meaning there: in the machine in the other
+    /// charts, the errors that a run in them must report. In the coordinates of the spec they are valid.
+    pub uncharted: Vec<Diagnostic>,
     /// The start values, coordinates and rates, that are kept when a start that violates the
     /// constraints is corrected; each once.
     pub kept: Vec<Variable>,

@@ -131,6 +131,7 @@ pub(crate) fn resolve<'d>(
     report: &mut Report,
 ) -> Option<Model<'d>> {
     let mut layers = Layers::load(spec, language.sections, files, sources, report);
+    let formula_count = formulas.len();
     if !formulas.is_empty() {
         formulas::add(formulas, &mut layers.specs, sources);
     }
@@ -150,7 +151,8 @@ pub(crate) fn resolve<'d>(
         model.relaxed = resolver.resolve(&layers.specs).map(Box::new);
     }
     if !model.charts.is_empty() {
-        model.cartesian = Some(Box::new(in_cartesian(&model, report)?));
+        let cartesian = in_cartesian(&model, formula_count, report)?;
+        model.cartesian = Some(Box::new(cartesian));
     }
     Some(model)
 }
@@ -361,6 +363,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             taylor: methods.into_iter().next(),
             charts,
             cartesian: None,
+            uncharted: Vec::new(),
             kept,
             destination,
             published,

@@ -423,3 +423,82 @@ fn what_the_other_chart_cannot_say_is_refused() {
         assert!(found.contains(words), "{part}: {found}");
     }
 }
+
+#[test]
+fn formulas_with_the_angle_are_refused_only_by_runs_in_the_other_chart() {
+    let spec = Scratch::new(
+        "driven.machine",
+        "machine Driven in plane {
+            parameters { m: kg = 2, k: N/m = 8 }
+            coordinates { s: m = 1, phi: rad = 0.25, z: m, der(phi): rad/s = 2 }
+            inputs { F: N }
+            bodies { p { mass: m, at: polar(s, phi) }, q { mass: m, at: (z, 0) } }
+            gravity none;
+            springs { origin { stiffness: k, from: (0, 0), to: p.at } }
+            forces { push { on: z, value: F } }
+            charts { p: polar(s, phi) | cartesian(x, y) }
+        }",
+    );
+    let input = ["--input", "F=4*N*phi"];
+    // s = 1 m and φ = 0.25 + 2t on a circle, since k/m is the square of 2 rad/s; z̈ = 2φ.
+    let table = Scratch::new("rows.csv", "");
+    let swept = lagrangian(
+        &[
+            &[
+                "sweep",
+                spec.path(),
+                "--until",
+                "1",
+                "--vary",
+                "m=2",
+                "--event",
+                "low=phi - 1.25",
+            ][..],
+            &[
+                "--record",
+                "event=low",
+                "--tolerance",
+                "1e-12",
+                "--fresh",
+                "--out",
+                table.path(),
+            ],
+            &input,
+        ]
+        .concat(),
+    );
+    let said = String::from_utf8_lossy(&swept.stderr).into_owned();
+    assert_eq!(swept.status.code(), Some(0), "{said}");
+    let row = columns(table.path());
+    close(column(&row, "phi")[0], 2.25, 1e-10, "phi");
+    close(column(&row, "z")[0], 0.25 + 2.0 / 3.0, 1e-10, "z");
+    // Without the force on it, which is another equation: φ = 1.25 at t = 0.5 s.
+    let points = Scratch::new("points.csv", "");
+    let section = [
+        "section",
+        spec.path(),
+        "--until",
+        "1",
+        "--tolerance",
+        "1e-12",
+    ];
+    let crossing = ["--crossing", "phi - 1.25", "--out", points.path()];
+    let output = lagrangian(&[&section[..], &crossing].concat());
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let times = columns(points.path());
+    let [time] = column(&times, "t")[..] else {
+        panic!("one crossing: {times:?}")
+    };
+    close(time, 0.5, 1e-10, "t");
+    // The run of `simulate` cannot have it.
+    let call = [&["simulate", spec.path(), "--until", "1"][..], &input].concat();
+    let refused = lagrangian(&call);
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("--input F: the run is in the Cartesian coordinates"),
+        "{said}"
+    );
+    assert!(said.contains("in `4*N*phi`"), "{said}");
+}

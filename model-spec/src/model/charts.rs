@@ -120,8 +120,13 @@ impl<'d> Pair<'d> {
     }
 }
 
-/// Writes a machine in the Cartesian coordinates of all its pairs; nothing if an error was reported.
-pub fn in_cartesian<'d>(model: &Model<'d>, report: &mut Report) -> Option<Model<'d>> {
+/// Writes a machine in the Cartesian coordinates of all its pairs; nothing if an error was reported. The last outputs are this many
+/// formulas of the caller.
+pub fn in_cartesian<'d>(
+    model: &Model<'d>,
+    formulas: usize,
+    report: &mut Report,
+) -> Option<Model<'d>> {
     let pairs: Option<Vec<Pair<'d>>> = (model.charts.iter())
         .map(|charts| Pair::new(model, charts))
         .collect();
@@ -130,11 +135,14 @@ pub fn in_cartesian<'d>(model: &Model<'d>, report: &mut Report) -> Option<Model<
         dag: model.dag,
         meanings: pairs.iter().flat_map(Pair::meanings).collect(),
         pairs: &pairs,
+        formulas,
         report,
+        uncharted: Vec::new(),
         is_refused: false,
     };
     rewriting.check_names(model);
-    let machine = rewriting.machine(model);
+    let mut machine = rewriting.machine(model);
+    machine.uncharted = rewriting.uncharted;
     (!rewriting.is_refused).then_some(machine)
 }
 
@@ -143,7 +151,11 @@ struct Rewriting<'p, 'd, 'r> {
     dag: &'d Dag,
     pairs: &'p [Pair<'d>],
     meanings: BTreeMap<Symbol, Expr<'d>>,
+    /// How many of the last outputs are formulas of the caller.
+    formulas: usize,
     report: &'r mut Report,
+    /// The errors of a run whose formulas contain an angle.
+    uncharted: Vec<Diagnostic>,
     is_refused: bool,
 }
 
@@ -269,9 +281,16 @@ impl<'d> Rewriting<'_, 'd, '_> {
             places.extend(&mut contact.rolling_resistance);
             self.put(places, &what, contact.span);
         }
-        for output in &mut machine.outputs {
+        let own = machine.outputs.len().saturating_sub(self.formulas);
+        let (outputs, formulas) = machine.outputs.split_at_mut(own);
+        for output in outputs {
             let what = format!("the output `{}`", output.name);
             self.put([&mut output.value], &what, output.span);
+        }
+        for formula in formulas {
+            if let Some((pair, angle)) = self.place([&mut formula.value]) {
+                self.refuse_formula(pair, &angle, formula.span);
+            }
         }
         if let Some(relaxed) = machine.relaxed.take()
             && !self.is_refused
@@ -368,6 +387,43 @@ impl<'d> Rewriting<'_, 'd, '_> {
     ) where
         'd: 'e,
     {
+        let Some((pair, angle)) = self.place(places) else {
+            return;
+        };
+        let message = format!(
+            "{what} contains the angle `{angle}` other than in a sine or cosine: it is not a function of Cartesian coordinates, \
+             for it grows with every turn"
+        );
+        let help = format!(
+            "leave out `charts` if the distance never becomes 0; otherwise write positions as `polar(s, {angle})`, and frames, \
+             springs and outputs without the angle"
+        );
+        self.refuse(pair, message, (span, "here"), &help);
+    }
+
+    /// Notes that a formula of the caller contains an angle itself, which is an error only of a run in the Cartesian coordinates.
+    fn refuse_formula(&mut self, pair: usize, angle: &str, span: Span) {
+        if self.uncharted.iter().any(|other| other.span == span) {
+            return;
+        }
+        let message = format!(
+            "the run is in the Cartesian coordinates that `charts` names, of which the angle `{angle}` is no function, for it grows \
+             with every turn; only its sine and cosine are"
+        );
+        let diagnostic = Diagnostic::new(Code::NotSupported, span, message);
+        let diagnostic = diagnostic.note(self.pairs[pair].charts.span, "the charts");
+        let help = "write the formula without the angle, or leave `charts` out of the spec";
+        self.uncharted.push(diagnostic.help(help));
+    }
+
+    /// Rewrites the expressions of one part of the machine. If one contains an angle itself, returns its pair and its name.
+    fn place<'e>(
+        &mut self,
+        places: impl IntoIterator<Item = &'e mut Expr<'d>>,
+    ) -> Option<(usize, String)>
+    where
+        'd: 'e,
+    {
         let places: Vec<&mut Expr<'d>> = places.into_iter().collect();
         let before: Vec<Expr<'d>> = places.iter().map(|place| **place).collect();
         let after = self.rewritten(&before);
@@ -375,22 +431,13 @@ impl<'d> Rewriting<'_, 'd, '_> {
             let angle = pair.angle.as_symbol();
             angle.is_some_and(|angle| after.iter().any(|e| e.depends_on(angle)))
         };
-        if let Some(k) = self.pairs.iter().position(contains) {
-            let [_, angle] = self.pairs[k].polar;
-            let angle = self.dag.name(angle[0]);
-            let message = format!(
-                "{what} contains the angle `{angle}` other than in a sine or cosine: it is not a function of Cartesian coordinates, \
-                 for it grows with every turn"
-            );
-            let help = format!(
-                "leave out `charts` if the distance never becomes 0; otherwise write positions as `polar(s, {angle})`, and frames, \
-                 springs and outputs without the angle"
-            );
-            self.refuse(k, message, (span, "here"), &help);
-        }
+        let found = self.pairs.iter().position(contains);
         for (place, value) in places.into_iter().zip(after) {
             *place = value;
         }
+        let pair = found?;
+        let [_, angle] = self.pairs[pair].polar;
+        Some((pair, self.dag.name(angle[0])))
     }
 
     /// The expressions in the Cartesian charts.
