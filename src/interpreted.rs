@@ -32,8 +32,7 @@ mod runs;
 mod signals;
 mod table_file;
 
-use crate::inputs::Law;
-use crate::settings::Task;
+use crate::settings::TaskWithStart;
 use crate::shared_workspace::SharedWorkspace;
 
 pub use crate::error::{Diagnostic, MissingParameters, NoMachineCode, NoNumbers, Note};
@@ -74,10 +73,7 @@ pub struct Named {
 }
 
 /// The settings and the start of a run.
-type RunTask<'a, 'l> = (
-    Task<'a, InterpretedMachine, Law<'l, InterpretedSystem>>,
-    State<Named>,
-);
+type RunTask<'a, 'l> = TaskWithStart<'a, 'l, InterpretedMachine>;
 
 /// Name and unit of a number.
 #[derive(Debug, PartialEq, Eq)]
@@ -219,14 +215,9 @@ impl InterpretedMachine {
 
     /// Whether [`run_interpreted_in_lanes`](crate::Simulation::run_interpreted_in_lanes) makes runs of this machine in lanes,
     /// with any parameters, by an explicit method and with constant inputs: it does if the machine has machine code and no
-    /// contacts. With [`Engine::Auto`] it does so once code has paid off for one run.
+    /// guides (`sliding`). With [`Engine::Auto`] it does so once code has paid off for one run.
     pub fn may_run_in_lanes(&self) -> bool {
-        let Program {
-            contacts,
-            unilateral,
-            ..
-        } = &*self.program;
-        contacts.is_empty() && unilateral.is_empty() && self.machine_code.pays_in_lanes()
+        self.program.contacts.is_empty() && self.machine_code.pays_in_lanes()
     }
 
     /// The program that is interpreted.

@@ -2,10 +2,10 @@
 
 mod choosing;
 mod comparing;
+mod compiled_in_lanes;
 pub(crate) mod contacts;
 mod explained;
 mod handing_over;
-#[cfg(feature = "jit")]
 pub(crate) mod in_lanes;
 pub(crate) mod sampled;
 mod stepping;

@@ -6,6 +6,7 @@ use std::vec::Vec;
 
 use crate::callbacks::{Condition, Controller, Shared};
 use crate::event::Watch;
+use crate::inputs::Law;
 use crate::methods::Method;
 use crate::{Coordinates, Error, Machine, State, StepMotion};
 
@@ -18,6 +19,12 @@ pub(crate) struct Task<'a, M: Machine, L> {
     /// The end of the run that this one resumes, if any.
     pub resumed: Option<Resumed>,
 }
+
+/// A run with its start.
+pub(crate) type TaskWithStart<'a, 'l, M> = (
+    Task<'a, M, Law<'l, <M as Machine>::System>>,
+    State<Coordinates<M>>,
+);
 
 /// The machine or system to be run.
 pub(crate) enum Subject<'a, M: Machine> {

@@ -10,7 +10,7 @@ use crate::methods::Method;
 use crate::observation::Observation;
 use crate::run;
 use crate::settings::{
-    Callbacks, Progress, Resumed, Sampled, Settings, StateStream, Subject, Task,
+    Callbacks, Progress, Resumed, Sampled, Settings, StateStream, Subject, Task, TaskWithStart,
 };
 use crate::solution::{Ending, RunResult, Solution};
 use crate::table::{Table, TableInputs};
@@ -675,6 +675,45 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         let (solution, error) = make(task, start)?;
         Ok((solution.with_law(self.law), error))
     }
+}
+
+/// A run as far as it went, with the error that ended it early, if any; or an error if it could not begin.
+pub(crate) type RunAsFar<M, L> = Result<(Solution<M, L>, Option<Error>), Error>;
+
+/// Runs many simulations with `make`.
+pub(crate) fn run_many_by<'a, M: Machine, L: InputLaw<M::System>>(
+    simulations: Vec<(Simulation<'a, M, L>, State<Coordinates<M>>)>,
+    make: impl FnOnce(Vec<TaskWithStart<'a, '_, M>>) -> Vec<RunResult<M>>,
+) -> Vec<RunAsFar<M, L>> {
+    let (mut laws, mut rest) = (Vec::new(), Vec::new());
+    for (simulation, start) in simulations {
+        let (subject, settings) = (simulation.subject, simulation.settings);
+        laws.push(simulation.law);
+        rest.push((
+            subject,
+            settings,
+            simulation.callbacks,
+            simulation.resumed,
+            start,
+        ));
+    }
+    let tasks = rest.into_iter().zip(&laws).map(|(rest, law)| {
+        let (subject, settings, callbacks, resumed, start) = rest;
+        let law = Law::of(law);
+        let task = Task {
+            subject,
+            law,
+            settings,
+            callbacks,
+            resumed,
+        };
+        (task, start)
+    });
+    let results = make(tasks.collect());
+    let with_law = |(made, law): (RunResult<M>, L)| {
+        made.map(|(solution, error)| (solution.with_law(law), error))
+    };
+    results.into_iter().zip(laws).map(with_law).collect()
 }
 
 impl<M: Machine, L> Solution<M, L> {

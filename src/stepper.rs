@@ -15,7 +15,7 @@ mod handing_over;
 mod implicitly;
 #[cfg(feature = "std")]
 mod in_impulses;
-#[cfg(feature = "jit")]
+#[cfg(feature = "std")]
 pub(crate) mod in_lanes;
 #[cfg(feature = "std")]
 mod in_series;
@@ -59,7 +59,7 @@ use crate::{ContactTrouble, Number, System, Vector};
 #[cfg(feature = "std")]
 use in_impulses::InImpulses;
 use kernels::Attempt;
-#[cfg(feature = "jit")]
+#[cfg(feature = "std")]
 use kernels::Finish;
 #[cfg(feature = "std")]
 use of_fixed_length::Fixed;
@@ -850,7 +850,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// Completes a try whose stages are done and whose new point is in `now`: projects it onto the constraints and returns the error
     /// relative to the tolerance.
-    #[cfg(feature = "jit")]
+    #[cfg(feature = "std")]
     fn finish(&mut self, h: f64) -> Result<f64, StepError> {
         let stepper = self;
         f64::run(Finish { stepper, h })

@@ -1,5 +1,9 @@
 //! Error bounds of the quantities of a run within a step.
 
+use lagrangian::State;
+use lagrangian::interpreted::Named;
+use lagrangian_sweep::charts::{self, Charts};
+
 use crate::recording::{Recording, Run};
 
 /// The approximate number of evaluations of the quantities.
@@ -11,9 +15,15 @@ pub struct Exactness {
     pub run: Run,
     /// The relative and absolute tolerance of each step.
     pub tolerance: f64,
+    /// How the run is shown in the coordinates of the spec, if it is in others.
+    pub charts: Option<Charts>,
 }
 
 impl Exactness {
+    fn record(&self, states: &[State<Named>]) -> Recording {
+        charts::record(&self.run, states, self.charts.as_ref())
+    }
+
     /// The error of the quantities of the run within a step, in their units.
     ///
     /// A step may have an error of the tolerance, absolute plus relative, in every coordinate and rate. Every other quantity
@@ -31,7 +41,7 @@ impl Exactness {
         let samples = run.samples();
         let stride = samples.len().div_ceil(most).max(1);
         let states: Vec<_> = samples.iter().step_by(stride).cloned().collect();
-        let recorded = Recording::of(run, &states);
+        let recorded = self.record(&states);
         // For each column and each state the sum of the changes.
         let mut sums = vec![vec![0.0; states.len()]; recorded.columns.len()];
         for place in 0..2 * n {
@@ -45,7 +55,7 @@ impl Exactness {
                     };
                     *number += sign * bound(*number);
                 }
-                Recording::of(run, &states)
+                self.record(&states)
             };
             let (above, below) = (moved(1.0), moved(-1.0));
             for (column, sums) in sums.iter_mut().enumerate() {

@@ -8,7 +8,6 @@
 
 mod brachistochrone;
 mod call;
-mod charts;
 mod check;
 mod collisions;
 mod compare;

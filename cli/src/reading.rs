@@ -226,6 +226,31 @@ impl Reading {
         Ok((compiled, cartesian))
     }
 
+    /// [`compile_in_charts`](Self::compile_in_charts) for a run that is made in the coordinates of the spec if the other charts cannot
+    /// express the formulas of the call.
+    ///
+    /// # Errors
+    /// As [`compile_beside`](Self::compile_beside).
+    pub fn compile_in_charts_if_possible<'d, 'a>(
+        mut self,
+        dag: &'d Dag,
+        destinations: impl IntoIterator<Item = &'a Destination>,
+    ) -> Result<(Compiled<'d>, Option<Compiled<'d>>), Failure> {
+        let model = self.model(dag);
+        self.keep_from(destinations)?;
+        let Some(mut model) = model else {
+            return Err(self.failure());
+        };
+        let cartesian = model.cartesian.take();
+        let Some(compiled) = Compiled::new(model, &mut self.report) else {
+            return Err(self.failure());
+        };
+        self.warn();
+        let cartesian = cartesian.filter(|machine| machine.uncharted.is_empty());
+        let cartesian = cartesian.and_then(|model| Compiled::new(*model, &mut Report::new()));
+        Ok((compiled, cartesian))
+    }
+
     /// Prints the warnings of a valid spec.
     pub fn warn(&mut self) {
         if !std::mem::replace(&mut self.is_warned, true) {

@@ -2,15 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use lagrangian::interpreted::{InterpretedMachine, TableFile};
+use lagrangian::interpreted::{InterpretedMachine, Named, TableFile};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{Crossing, InputLaw, Machine, Simulation, Solution, State, System};
 use lagrangian_analysis::Curve;
 use lagrangian_analysis::curve::Interpolation;
+use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::{Report, most_similar};
 use lagrangian_spec::model::stage;
 use lagrangian_spec::resolve::value_in;
 use lagrangian_spec::source::Sources;
+use lagrangian_sweep::charts::{self, ChartedPoints, Charts};
 use lagrangian_sweep::{signals, verdict};
 use lagrangian_symbolic::{Dag, Stage};
 
@@ -350,12 +352,63 @@ pub fn spec(
     run_spec(options, looks, files).map(|(_, recording)| Columns::of(recording))
 }
 
-/// Runs a spec; returns the run and its recording.
+/// The machine of a run with its start, in the Cartesian coordinates that `charts` of the spec names, if it names any and they can express
+/// all that the call gives.
+struct MachineInChart<'d> {
+    compiled: Compiled<'d>,
+    machine: InterpretedMachine,
+    start: State<Named>,
+    /// How the run is shown in the coordinates of the spec, if it is in others.
+    charts: Option<Charts>,
+}
+
+impl<'d> MachineInChart<'d> {
+    fn new(
+        (compiled, cartesian): (Compiled<'d>, Option<Compiled<'d>>),
+        start: &call::Start,
+        keep: &call::Keep,
+    ) -> Result<MachineInChart<'d>, Failure> {
+        let machine = reading::machine(&compiled, start)?;
+        reading::check_parameters(&machine)?;
+        let mut stated = machine.start();
+        set_start(&mut stated, start)?;
+        reading::check_kept(&stated, keep)?;
+        if let Some(cartesian) = cartesian {
+            let parameters_alone = call::Start {
+                parameters: start.parameters.clone(),
+                coordinates: Vec::new(),
+                rates: Vec::new(),
+                running: start.running,
+            };
+            let machine = reading::machine(&cartesian, &parameters_alone)?;
+            // A negative distance at the start, or a distance or an angle that is kept there, exists only in the chart of the spec.
+            let points = ChartedPoints::of(&compiled.model);
+            if points.check_kept(&keep.names).is_ok()
+                && let Ok((charts, start)) = Charts::begin(&points, machine.start(), &stated)
+            {
+                return Ok(MachineInChart {
+                    compiled: cartesian,
+                    machine,
+                    start,
+                    charts: Some(charts),
+                });
+            }
+        }
+        Ok(MachineInChart {
+            compiled,
+            machine,
+            start: stated,
+            charts: None,
+        })
+    }
+}
+
+/// Runs a spec; returns the run with its chart, and its recording in the coordinates of the spec.
 fn run_spec(
     options: &Options<'_>,
     looks: &SampleInstants<'_>,
     files: &[&Destination],
-) -> Result<(Run, Recording), Failure> {
+) -> Result<((Run, Option<Charts>), Recording), Failure> {
     let runs = options.runs;
     let method = methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
     if std::ptr::eq(method, &TAYLOR) {
@@ -392,18 +445,19 @@ fn run_spec(
         SampleInstants::Even | SampleInstants::At(_) => {}
     }
     let formulas = reading.formulas();
-    let compiled = reading.compile_beside(&dag, files.iter().copied());
+    let compiled = reading.compile_in_charts_if_possible(&dag, files.iter().copied());
     let compiled = compiled.map_err(inputs::as_call_failure)?;
-    let machine = reading::machine(&compiled, &options.start)?;
-    reading::check_parameters(&machine)?;
+    let MachineInChart {
+        compiled,
+        machine,
+        start,
+        charts,
+    } = MachineInChart::new(compiled, &options.start, &runs.keep)?;
     let output_count = compiled.model.outputs.len() - formulas;
     let mut numbers = output_count..;
     let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(output_count));
     let signals = signals.map_err(Failure::Call)?;
     let quantity_count = output_count + driving;
-    let mut start = machine.start();
-    set_start(&mut start, &options.start)?;
-    reading::check_kept(&start, &runs.keep)?;
     let mut simulation = signals
         .drive(Simulation::new(&machine), &machine)
         .tolerance(options.tolerance.unwrap_or(TOLERANCE))
@@ -453,6 +507,14 @@ fn run_spec(
         }
         _ => None,
     };
+    if let Some(charts) = &charts {
+        let marked_every = match looks {
+            SampleInstants::Even => interval,
+            // At instants that are not known before: then every mark is kept.
+            _ => 0.0,
+        };
+        simulation = simulation.each_step(move |step| charts.follow(step, marked_every));
+    }
     let ran = simulation
         .run_interpreted(start)
         .map_err(|error| Failure::Run(verdict::message_of(&error)))?;
@@ -460,8 +522,9 @@ fn run_spec(
         return Err(Failure::Run(objection));
     }
     warn(&ran);
-    let recording = recording(&ran, looks, period.unwrap_or(f64::INFINITY))?;
-    Ok((ran, recording))
+    let states = states(&ran, looks, period.unwrap_or(f64::INFINITY))?;
+    let recording = charts::record(&ran, &states, charts.as_ref());
+    Ok(((ran, charts), recording))
 }
 
 /// Checks that a formula that depends on values of this stage may cross 0 at an instant.
@@ -480,24 +543,27 @@ fn check_crossing(formula: &str, stage: Stage) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The record of a run at the requested instants; `period` is the interval of those in periods, in s.
-fn recording(run: &Run, looks: &SampleInstants<'_>, period: f64) -> Result<Recording, Failure> {
-    let at = |times: Vec<f64>| -> Result<Recording, Failure> {
-        let states = run.at_each(times).map_err(Failure::run)?;
-        Ok(Recording::of(run, &states))
-    };
+/// The states of a run at the requested instants; `period` is the interval of those in periods, in s.
+fn states(
+    run: &Run,
+    looks: &SampleInstants<'_>,
+    period: f64,
+) -> Result<Vec<State<Named>>, Failure> {
     let end = run.end().t;
     match looks {
-        SampleInstants::Even => Ok(simulate::record(run)),
+        SampleInstants::Even => Ok(simulate::recorded_states(run).to_vec()),
         SampleInstants::At(times) => {
             let within = times.iter().copied().filter(|t| (0.0..=end).contains(t));
-            at(within.collect())
+            run.at_each(within).map_err(Failure::run)
         }
-        SampleInstants::Crossing(..) => Ok(crossings(run)),
+        SampleInstants::Crossing(..) => {
+            let events = run.events().iter().filter(|event| event.name == "crossing");
+            Ok(events.map(|event| event.state.clone()).collect())
+        }
         SampleInstants::Period(_) => {
             let count = (end / period * (1.0 + 1e-12)).floor() as usize;
             let times = (0..=count).map(|k| (k as f64 * period).min(end));
-            at(times.collect())
+            run.at_each(times).map_err(Failure::run)
         }
     }
 }
@@ -530,20 +596,13 @@ where
     }
 }
 
-/// The states at the events of a run that the call requested.
-fn crossings(run: &Run) -> Recording {
-    let events = run.events().iter().filter(|event| event.name == "crossing");
-    let states: Vec<State<_>> = events.map(|event| event.state.clone()).collect();
-    Recording::of(run, &states)
-}
-
 /// The value of the output with this index, a formula of parameters that is a period.
 ///
 /// # Errors
 /// If the value is not a valid period.
 pub fn period_of(
     machine: &InterpretedMachine,
-    start: &State<lagrangian::interpreted::Named>,
+    start: &State<Named>,
     output: usize,
     option: &str,
     formula: &str,
@@ -581,14 +640,18 @@ pub fn one_with_run(
     keep_apart(files.iter().copied(), &[(part.run.as_path(), "the run")])?;
     let (columns, exactness) = if is_spec(&part.run)? {
         let options = Options::of(&part.run, &part.runs, None)?;
-        let (run, recording) = run_spec(&options, &SampleInstants::Even, files)?;
+        let ((run, charts), recording) = run_spec(&options, &SampleInstants::Even, files)?;
         let method = methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
         let tolerance = if method.has_fixed_steps() {
             ROUNDING
         } else {
             options.tolerance.unwrap_or(TOLERANCE)
         };
-        let exactness = Exactness { run, tolerance };
+        let exactness = Exactness {
+            run,
+            tolerance,
+            charts,
+        };
         (Columns::of(recording), Some(exactness))
     } else {
         refuse_without_spec(&part.runs)?;

@@ -10,6 +10,7 @@ use lagrangian::{
 };
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_sweep::charts::{self, ChartedPoints, Charts};
 use lagrangian_sweep::signals::{self, InputArgument};
 use lagrangian_sweep::verdict;
 use lagrangian_symbolic::Dag;
@@ -17,7 +18,6 @@ use lagrangian_units::state_of;
 use serde_json::{Value, json};
 
 use crate::call;
-use crate::charts::Charts;
 use crate::collisions;
 use crate::contacts::{self, ContactSummary, Contacts};
 use crate::evaluate::set_start;
@@ -287,7 +287,10 @@ impl<'d> Prepared<'d> {
                 running: call.start.running,
             };
             machine = reading::machine(&cartesian, &parameters_alone)?;
-            let (made, begun) = Charts::new(&compiled.model, &machine, &start, &call.keep)?;
+            let points = ChartedPoints::of(&compiled.model);
+            points.check_kept(&call.keep.names).map_err(Failure::Call)?;
+            let begun = Charts::begin(&points, machine.start(), &start);
+            let (made, begun) = begun.map_err(Failure::Call)?;
             (start, charts) = (begun, Some(made));
             compiled = cartesian;
         }
@@ -336,10 +339,7 @@ impl<'d> Prepared<'d> {
 
     /// A state of the run in the coordinates of the spec.
     fn shown(&self, state: &State<Named>) -> State<Named> {
-        match &self.charts {
-            Some(charts) => charts.shown(state),
-            None => state.clone(),
-        }
+        charts::shown(self.charts.as_ref(), state)
     }
 
     /// By which factor the run is recorded more densely than requested, as the page of the run needs it.
@@ -610,7 +610,7 @@ pub fn record(run: &Run) -> Recording {
 }
 
 /// The samples of a run; a run of length zero has only its start.
-fn recorded_states(run: &Run) -> &[State<Named>] {
+pub fn recorded_states(run: &Run) -> &[State<Named>] {
     match run.samples() {
         [] => std::slice::from_ref(run.start()),
         states => states,

@@ -291,6 +291,6 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     }
     absent [MAY_BE_CONSTRAINED MAY_SLIDE]
     intervals []
-    lanes []
+    lanes [N]
     numbers []
 }

@@ -1254,6 +1254,6 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     }
     absent [MAY_BE_CONSTRAINED MAY_SLIDE]
     intervals []
-    lanes []
+    lanes [N]
     numbers []
 }

@@ -310,6 +310,11 @@ impl UnilateralState {
         self.modes.iter().all(|mode| *mode == Mode::Open)
     }
 
+    /// Whether the accelerations are those without contacts.
+    pub fn leaves_accelerations(&self) -> bool {
+        self.is_free() && self.stepped.is_none()
+    }
+
     /// The contact on which another leans, if that is the rolling of one.
     pub fn carrier(&self, contact: usize) -> Option<usize> {
         self.carrier[contact]
@@ -499,17 +504,26 @@ impl UnilateralState {
         At { t, q, v, u }: At<'_, S>,
     ) -> Result<Vec<f64>, StepError> {
         let mut a = q.zeros_like();
-        match system.accelerations(t, q, v, u, &mut a) {
-            Ok(()) => {}
+        Self::free_into(system, At { t, q, v, u }, &mut a)?;
+        Ok(a.as_slice().to_vec())
+    }
+
+    /// [`free`](Self::free), into a vector.
+    fn free_into<S: System>(
+        system: &S,
+        At { t, q, v, u }: At<'_, S>,
+        a: &mut S::Vector,
+    ) -> Result<(), StepError> {
+        match system.accelerations(t, q, v, u, a) {
+            Ok(()) => Ok(()),
             Err(singular) if system.constraints().len() == 0 => {
-                return Err(StepError::Singular { singular, t });
+                Err(StepError::Singular { singular, t })
             }
             Err(_) => {
                 let mut multipliers = vec![0.0; system.constraints().len()];
-                crate::least_multipliers(system, t, q, v, u, &mut a, &mut multipliers)?;
+                crate::least_multipliers(system, t, q, v, u, a, &mut multipliers)
             }
         }
-        Ok(a.as_slice().to_vec())
     }
 
     /// Accelerations and forces while everything stays as it is.
@@ -1013,6 +1027,9 @@ impl UnilateralState {
         at: At<'_, S>,
         a: &mut S::Vector,
     ) -> Result<(), StepError> {
+        if self.leaves_accelerations() {
+            return Self::free_into(system, at, a);
+        }
         let reaction = self.reaction(system, at)?;
         a.as_mut_slice().copy_from_slice(&reaction.a);
         Ok(())

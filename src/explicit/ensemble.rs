@@ -18,7 +18,8 @@ use crate::{Batch, Batched, LaneVector, Machine, Singular, State, System, Vector
 /// can be mixed. A trajectory has the bits that a [`Stepper`](crate::Stepper) with the same method gives it alone, whatever its
 /// neighbours do. Nothing is allocated, except the coefficients of the lanes for [`Method::TAYLOR`], once.
 ///
-/// It supports machines without constraints and contacts, with constant inputs for each trajectory. If a machine has its Taylor
+/// It supports machines without constraints and contacts, with constant inputs for each trajectory; others, with their events, are run by
+/// [`Simulation::run_in_lanes`](crate::Simulation::run_in_lanes). If a machine has its Taylor
 /// series (`methods { taylor }` in its spec), that is the fastest method at tolerances below 10⁻⁵.
 ///
 /// ```

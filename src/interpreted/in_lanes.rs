@@ -8,8 +8,7 @@ use lagrangian_native::Lanes;
 use lagrangian_program::{Function, Op, Program, Role};
 
 use super::{InterpretedMachine, InterpretedSystem, Named, RunTask};
-use crate::run::Prepared;
-use crate::run::in_lanes::{Machines, run_all};
+use crate::run::in_lanes::{self, Machines};
 use crate::run::run;
 use crate::settings::Subject;
 use crate::solution::RunResult;
@@ -57,25 +56,7 @@ pub(super) fn run_tasks(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<Interprete
         inputs: Vec::new(),
         has_powers: [Role::WorkRate, Role::DissipationRate].map(has),
     };
-    let mut all = Vec::new();
-    let mut results: Vec<Option<RunResult<InterpretedMachine>>> = Vec::new();
-    for (task, start) in tasks {
-        match Prepared::new(task, start) {
-            Ok(prepared) => {
-                all.push(prepared);
-                results.push(None);
-            }
-            Err(error) => results.push(Some(Err(error))),
-        }
-    }
-    let ended = run_all(&mut all, &mut machines);
-    let solutions = all.into_iter().zip(ended);
-    let mut solutions =
-        solutions.map(|(prepared, ended)| ended.map(|finished| prepared.solution(finished)));
-    let results = results.into_iter();
-    results
-        .filter_map(|made| made.or_else(|| solutions.next()))
-        .collect()
+    in_lanes::run_tasks(tasks, &mut machines)
 }
 
 fn run_one_by_one(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {

@@ -7,6 +7,7 @@ use crate::inputs::{InputLaw, Law};
 use crate::run::run;
 use crate::sensitivities::{Sensitive, SensitiveSystem};
 use crate::settings::Task;
+use crate::simulation::run_many_by;
 use crate::solution::{RunResult, Solution};
 use crate::{Coordinates, Error, Simulation, State};
 
@@ -48,8 +49,8 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
     /// next one, and each has its own steps, events and end. Returns the results in the order of the runs.
     ///
     /// All of them must be runs of one machine with any parameters, by one method with one relative tolerance; other runs are made
-    /// alone, and so are runs by methods that are not explicit, with contacts, or with inputs that change. While constraints depend
-    /// on each other, the steps of a run are tried alone. Every run has the bits that it has alone. Callbacks are called by all
+    /// alone, and so are runs by methods that are not explicit, with guides, or with inputs that change. While constraints depend
+    /// on each other or a unilateral contact is closed, the steps of a run are tried alone. Every run has the bits that it has alone. Callbacks are called by all
     /// runs alternately, and [`Statistics::seconds`](crate::Statistics::seconds) of each is the time of all.
     ///
     /// ```
@@ -88,35 +89,7 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
     pub fn run_interpreted_in_lanes(
         simulations: Vec<(Self, Start<InterpretedMachine>)>,
     ) -> Vec<RunAsFar<L>> {
-        let (mut laws, mut rest) = (Vec::new(), Vec::new());
-        for (simulation, start) in simulations {
-            let (subject, settings) = (simulation.subject, simulation.settings);
-            laws.push(simulation.law);
-            rest.push((
-                subject,
-                settings,
-                simulation.callbacks,
-                simulation.resumed,
-                start,
-            ));
-        }
-        let tasks = rest.into_iter().zip(&laws).map(|(rest, law)| {
-            let (subject, settings, callbacks, resumed, start) = rest;
-            let law = Law::of(law);
-            let task = Task {
-                subject,
-                law,
-                settings,
-                callbacks,
-                resumed,
-            };
-            (task, start)
-        });
-        let results = run_in_lanes(tasks.collect());
-        let with_law = |(made, law): (RunResult<InterpretedMachine>, L)| {
-            made.map(|(solution, error)| (solution.with_law(law), error))
-        };
-        results.into_iter().zip(laws).map(with_law).collect()
+        run_many_by(simulations, run_in_lanes)
     }
 }
 

@@ -1,12 +1,15 @@
 //! Makes many runs, several at a time in vector lanes: a lane whose run is over takes the next one.
 //!
 //! A run in a lane is the same as alone, step by step; only the tries of steps are made for all lanes together
-//! (`src/stepper/in_lanes.rs`). So a run has the bits that it has alone, whatever its neighbours do.
+//! (`src/stepper/in_lanes.rs`). So a run has the bits that it has alone, whatever its neighbours do. Each has its own events and contacts.
 
+use std::iter::Enumerate;
+use std::slice::IterMut;
 use std::vec::Vec;
 
 use super::{BetweenSteps, Finished, Prepared, RunOf};
-use crate::solution::Ending;
+use crate::settings::TaskWithStart;
+use crate::solution::{Ending, RunResult};
 use crate::step_error::StepError;
 use crate::stepper::in_lanes::{Evaluate, LaneMask, Tries, Try, WIDTH};
 use crate::{Error, Inputs, Machine};
@@ -34,84 +37,142 @@ type End = Result<Ending, Error>;
 /// A run that has ended, or the error for which it could not begin.
 type Ended<M> = Result<Finished<M>, Error>;
 
+/// Prepares and makes all these runs, and returns their results in the same order.
+pub(crate) fn run_tasks<M: Machine>(
+    tasks: Vec<TaskWithStart<'_, '_, M>>,
+    machines: &mut impl Machines<M>,
+) -> Vec<RunResult<M>> {
+    let mut all = Vec::new();
+    let mut results: Vec<Option<RunResult<M>>> = Vec::new();
+    for (task, start) in tasks {
+        match Prepared::new(task, start) {
+            Ok(prepared) => {
+                all.push(prepared);
+                results.push(None);
+            }
+            Err(error) => results.push(Some(Err(error))),
+        }
+    }
+    let ended = run_all(&mut all, machines);
+    let solutions = all.into_iter().zip(ended);
+    let mut solutions =
+        solutions.map(|(prepared, ended)| ended.map(|finished| prepared.solution(finished)));
+    let results = results.into_iter();
+    results
+        .filter_map(|made| made.or_else(|| solutions.next()))
+        .collect()
+}
+
+/// The runs that have not begun, and the results of those that have ended.
+struct Runs<'r, 'a, 'l, M: Machine> {
+    queue: Enumerate<IterMut<'r, Prepared<'a, 'l, M>>>,
+    ended: Vec<Option<Ended<M>>>,
+    tries: Option<Tries>,
+}
+
 /// Makes all these runs, and returns their results in the same order.
-pub(crate) fn run_all<'a, 'l, M: Machine>(
-    prepared: &mut [Prepared<'a, 'l, M>],
+fn run_all<M: Machine>(
+    prepared: &mut [Prepared<'_, '_, M>],
     machines: &mut impl Machines<M>,
 ) -> Vec<Ended<M>> {
-    let mut ended: Vec<Option<Ended<M>>> = prepared.iter().map(|_| None).collect();
-    let mut queue = prepared.iter_mut().enumerate();
-    let mut lanes: [Option<Lane<'_, 'a, 'l, M>>; WIDTH] = std::array::from_fn(|_| None);
-    let mut tries: Option<Tries> = None;
+    let mut runs = Runs {
+        ended: prepared.iter().map(|_| None).collect(),
+        queue: prepared.iter_mut().enumerate(),
+        tries: None,
+    };
+    let mut lanes: [_; WIDTH] = std::array::from_fn(|_| None);
     loop {
-        let mut is_any_under_way = false;
         for (number, lane) in lanes.iter_mut().enumerate() {
-            while lane.is_none()
-                && let Some((index, prepared)) = queue.next()
-            {
-                let mut run = match prepared.begin() {
-                    Ok(run) => run,
-                    Err(error) => {
-                        ended[index] = Some(Err(error));
-                        continue;
-                    }
-                };
-                let is_plain = run.sampling.is_none() && !run.settings.automatic;
-                let steps = &run.stepper;
-                let goes = is_plain && steps.may_run_in_lanes() && {
-                    let tries = tries.get_or_insert_with(|| Tries::new(steps));
-                    tries.is_compatible_with(steps)
-                        && machines.put(number, run.model.system, steps.inputs())
-                };
-                if !goes {
-                    let ending = run.go_to_end();
-                    ended[index] = Some(Ok(run.end(ending)));
-                    continue;
-                }
-                let mut lane_begun = Lane {
-                    index,
-                    run,
-                    between: BetweenSteps::new(),
-                    next: None,
-                };
-                match lane_begun.begin_step() {
-                    Some(ending) => ended[index] = Some(Ok(lane_begun.run.end(ending))),
-                    None => *lane = Some(lane_begun),
-                }
-            }
-            is_any_under_way |= lane.is_some();
+            runs.refill((number, lane), machines);
         }
-        let Some(tries) = tries.as_mut().filter(|_| is_any_under_way) else {
+        let Some(tries) = runs.tries.as_mut() else {
             break;
         };
         let mut together: LaneMask = 0;
         for (number, lane) in lanes.iter().enumerate() {
             if let Some(Lane { run, next, .. }) = lane
                 && let Some(next) = next
-                && run.stepper.may_try_in_lanes()
             {
                 tries.put(number, &run.stepper, *next);
                 together |= 1 << number;
             }
         }
-        if together.count_ones() < FEWEST_RUNS {
-            tries.skip()
-        } else {
-            tries.attempt(together, machines)
+        match together.count_ones() {
+            0 => break,
+            few if few < FEWEST_RUNS => tries.skip(),
+            _ => tries.attempt(together, machines),
         }
         for (number, lane) in lanes.iter_mut().enumerate() {
-            let ending = lane
-                .as_mut()
-                .and_then(|lane_begun| lane_begun.finish_try(number, tries));
-            if let Some(ending) = ending
-                && let Some(Lane { index, run, .. }) = lane.take()
-            {
-                ended[index] = Some(Ok(run.end(ending)));
+            let tried = |lane: &mut Lane<'_, '_, '_, M>| lane.finish_try(number, tries);
+            if let Some(ending) = lane.as_mut().and_then(tried) {
+                end(lane, ending, &mut runs.ended);
             }
         }
     }
     // Each run was begun, and a lane is empty only if its run has ended.
-    ended.into_iter().flatten().collect()
+    runs.ended.into_iter().flatten().collect()
+}
+
+/// Empties a lane whose run has ended.
+fn end<M: Machine>(
+    lane: &mut Option<Lane<'_, '_, '_, M>>,
+    ending: End,
+    ended: &mut [Option<Ended<M>>],
+) {
+    if let Some(Lane { index, run, .. }) = lane.take() {
+        ended[index] = Some(Ok(run.end(ending)));
+    }
+}
+
+impl<'r, 'a, 'l, M: Machine> Runs<'r, 'a, 'l, M> {
+    /// Brings the run in a lane, or else the next ones, to a try that can be made together with others. Tries that have to be made alone are
+    /// made at once, so that lanes stay full. The lane is empty if no run is left.
+    fn refill(
+        &mut self,
+        (number, lane): (usize, &mut Option<Lane<'r, 'a, 'l, M>>),
+        machines: &mut impl Machines<M>,
+    ) {
+        loop {
+            if let Some(begun) = lane {
+                match begun.go_on_alone() {
+                    None => return,
+                    Some(ending) => end(lane, ending, &mut self.ended),
+                }
+            }
+            let Some((index, prepared)) = self.queue.next() else {
+                return;
+            };
+            let mut run = match prepared.begin() {
+                Ok(run) => run,
+                Err(error) => {
+                    self.ended[index] = Some(Err(error));
+                    continue;
+                }
+            };
+            let is_plain =
+                run.sampling.is_none() && !run.settings.automatic && !run.settings.hands_over;
+            let steps = &run.stepper;
+            let goes = is_plain && steps.may_run_in_lanes() && {
+                let tries = self.tries.get_or_insert_with(|| Tries::new(steps));
+                tries.is_compatible_with(steps)
+                    && machines.put(number, run.model.system, steps.inputs())
+            };
+            if !goes {
+                let ending = run.go_to_end();
+                self.ended[index] = Some(Ok(run.end(ending)));
+                continue;
+            }
+            let begun = lane.insert(Lane {
+                index,
+                run,
+                between: BetweenSteps::new(),
+                next: None,
+            });
+            if let Some(ending) = begun.begin_step() {
+                end(lane, ending, &mut self.ended);
+            }
+        }
+    }
 }
 
 impl<M: Machine> Lane<'_, '_, '_, M> {
@@ -139,18 +200,35 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
         }
     }
 
-    /// Continues after a try of its step.
+    /// Makes tries for as long as they have to be made alone; returns how the run ended if it did.
+    fn go_on_alone(&mut self) -> Option<End> {
+        while !self.run.stepper.may_try_in_lanes()
+            && let Some(of) = self.next.take()
+        {
+            let tried = self.run.stepper.end_alone(of);
+            if let Some(ending) = self.continue_after(tried) {
+                return Some(ending);
+            }
+        }
+        None
+    }
+
+    /// Ends a try that was made in lanes; returns how the run ended if it did.
     fn finish_try(&mut self, lane: usize, tries: &Tries) -> Option<End> {
-        let stepped = match self.next.take() {
-            None => Ok(()),
-            Some(of) => match self.run.stepper.end_in_lanes(lane, of, tries) {
-                Ok(Some(next)) => {
-                    self.next = Some(next);
-                    return None;
-                }
-                Ok(None) => Ok(()),
-                Err(error) => Err(error),
-            },
+        let of = self.next.take()?;
+        let tried = self.run.stepper.end_in_lanes(lane, of, tries);
+        self.continue_after(tried)
+    }
+
+    /// Continues after a try: with the next one, or the next step if this one was taken.
+    fn continue_after(&mut self, tried: Result<Option<Try>, StepError>) -> Option<End> {
+        let stepped = match tried {
+            Ok(Some(next)) => {
+                self.next = Some(next);
+                return None;
+            }
+            Ok(None) => Ok(()),
+            Err(error) => Err(error),
         };
         self.observe_step(stepped).or_else(|| self.begin_step())
     }

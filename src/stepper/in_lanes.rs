@@ -4,13 +4,15 @@
 //! together, by the same sums as in a single stepper. So each has the bits that it has alone. A lane in which something is exceptional
 //! (accelerations without a value or an infinite error) is tried again alone, which then gives the error.
 //!
-//! With constraints, each new point is projected alone, and its error is estimated there.
+//! With constraints, each new point is projected alone, and its error is estimated there. While a unilateral contact is closed, which
+//! other equations describe, a stepper tries its steps alone.
 
 use std::vec::Vec;
 
 use super::{StepLimits, Stepper};
 use crate::attempt;
 use crate::balance::Quadratures;
+use crate::contact::UnilateralState;
 use crate::inputs::InputLaw;
 use crate::methods::{MAX_STAGES, Method, MethodKind};
 use crate::scalar::{Kernel, Scalar};
@@ -71,18 +73,20 @@ pub(crate) struct Tries {
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Whether its steps consist of explicit stages only, with constant inputs.
     pub(crate) fn may_run_in_lanes(&self) -> bool {
-        let system = self.model.system.get();
-        system.contacts().len() + system.unilateral_contacts().len() == 0
+        self.model.system.get().contacts().len() == 0
             && self.method.kind == MethodKind::RungeKutta
             && self.implicit.is_none()
             && self.taylor.is_none()
             && self.model.law.is_constant()
     }
 
-    /// Whether its next try may be made in lanes: not while constraints are dependent, which requires other equations.
+    /// Whether its next try may be made in lanes: not while constraints are dependent or a unilateral contact is closed, which requires
+    /// other equations.
     pub(crate) fn may_try_in_lanes(&self) -> bool {
         let constraints = self.model.constraints.as_ref();
-        constraints.is_none_or(|constraints| !constraints.redundant && !constraints.at_fork)
+        let touching = self.model.touching.as_ref();
+        touching.is_none_or(UnilateralState::leaves_accelerations)
+            && constraints.is_none_or(|constraints| !constraints.redundant && !constraints.at_fork)
     }
 
     /// Begins a step and its first try.
@@ -111,8 +115,32 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             Some(error) => Ok(error),
             None => self.attempt(of.h, of.last),
         };
+        self.decide_on(of, tried)
+    }
+
+    /// Makes a try alone and ends it like [`end_in_lanes`](Self::end_in_lanes).
+    pub(crate) fn end_alone(&mut self, of: Try) -> Result<Option<Try>, StepError> {
+        let tried = self.attempt(of.h, of.last);
+        self.decide_on(of, tried)
+    }
+
+    fn decide_on(
+        &mut self,
+        of: Try,
+        tried: Result<f64, StepError>,
+    ) -> Result<Option<Try>, StepError> {
         let is_taken = self.decide((of.h, of.limits), tried)?;
         Ok((!is_taken).then(|| self.next_try(of.limits)))
+    }
+
+    /// Takes the powers of a stage that were evaluated in lanes. Contacts, which are open then, have none.
+    fn take_powers(&mut self, stage: usize, [work, lost]: [f64; 2]) {
+        self.quadratures.take(stage, work, lost);
+        if self.model.touching.is_some() {
+            // As alone: -0 becomes 0, and earlier shares of the contacts end.
+            self.quadratures.add(stage, 0.0, 0.0);
+            self.quadratures.set_contact_shares(stage, &[]);
+        }
     }
 }
 
@@ -218,7 +246,7 @@ impl Tries {
         take(&mut to.stage.1, lane, &self.stage.1);
         if let Some(powers) = &self.powers {
             for (stage, [work, lost]) in powers.iter().enumerate().take(known).skip(1) {
-                to.quadratures.take(stage, work[lane], lost[lane]);
+                to.take_powers(stage, [work[lane], lost[lane]]);
             }
         }
         to.control.work.evaluations += known - 1;

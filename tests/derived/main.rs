@@ -7,6 +7,7 @@ mod contacts;
 mod derivatives;
 mod ensembles;
 mod examples;
+mod lanes;
 mod sensitivities;
 mod stages;
 mod steps_in_numbers;

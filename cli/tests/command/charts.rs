@@ -502,3 +502,230 @@ fn formulas_with_the_angle_are_refused_only_by_runs_in_the_other_chart() {
     );
     assert!(said.contains("in `4*N*phi`"), "{said}");
 }
+
+/// A particle on equal springs, let go at rest at the angle α: it goes back and forth through the centre, `x = cos α cos 2t` and
+/// `y = sin α cos 2t`, which no run in polar coordinates passes.
+const THROUGH_CENTRE: [&str; 8] = [
+    "--set",
+    "ky=8",
+    "--rate",
+    "phi=0",
+    "--tolerance",
+    "1e-12",
+    "--start",
+    "phi=0.7",
+];
+
+#[test]
+fn every_command_that_records_a_run_goes_through_the_centre() {
+    let spec = particle();
+    let call = |command: &str, more: &[&str]| {
+        json(
+            &[
+                &[command, spec.path(), "--json"][..],
+                &THROUGH_CENTRE[..],
+                more,
+            ]
+            .concat(),
+        )
+    };
+    let values = |found: &Value, place: usize| -> Vec<f64> {
+        let values = found["quantities"][place]["values"].as_array();
+        values.expect("values").iter().map(number).collect()
+    };
+    // At equal intervals of time the distance is |cos 2t|, and the angle α or half a turn from it.
+    let period = [
+        "--until",
+        "6",
+        "--every-period",
+        "1",
+        "--of",
+        "s,phi,height",
+    ];
+    let found = call("section", &period);
+    let (s, phi, height) = (values(&found, 0), values(&found, 1), values(&found, 2));
+    assert_eq!(s.len(), 7);
+    for (t, ((s, phi), height)) in s.iter().zip(phi).zip(height).enumerate() {
+        let x = (2.0 * t as f64).cos();
+        close(*s, x.abs(), 1e-10, "s");
+        let turns = (phi - if x > 0.0 { 0.7 } else { 0.7 + PI }) / TAU;
+        close(turns - turns.round(), 0.0, 1e-9, "phi");
+        close(height, 0.7_f64.sin() * x, 1e-10, "height");
+    }
+    // The height falls through 0.3 m where cos 2t = 0.3/sin α.
+    let crossing = [
+        "--until",
+        "6",
+        "--crossing",
+        "height=0.3",
+        "--direction",
+        "down",
+        "--of",
+        "s",
+    ];
+    let found = call("section", &crossing);
+    let level = 0.3 / 0.7_f64.sin();
+    let times: Vec<f64> = found["t"]
+        .as_array()
+        .expect("times")
+        .iter()
+        .map(number)
+        .collect();
+    assert_eq!(times.len(), 2, "{found}");
+    for (k, t) in times.iter().enumerate() {
+        close(*t, 0.5 * level.acos() + k as f64 * PI, 1e-10, "time");
+    }
+    close(values(&found, 0)[1], level, 1e-9, "s");
+    // Past the centre at a distance of 1e-9 m: y = 1e-9 m sin 3t, for 15 periods. Both equations are linear, with the same relative errors.
+    let past = [
+        "--rate",
+        "phi=3e-9",
+        "--tolerance",
+        "1e-12",
+        "--of",
+        "height",
+    ];
+    let end = format!("{}", 10.0 * PI);
+    let past = |command: &str| {
+        let call = [command, spec.path(), "--json", "--until", &end];
+        json(&[&call[..], &past].concat())["quantities"][0].clone()
+    };
+    let found = past("peaks");
+    close(number(&found["period"]), TAU / 3.0, 1e-6, "period");
+    close(number(&found["decrement"]), 0.0, 1e-10, "decrement");
+    let line = past("spectrum")["lines"][0].clone();
+    close(number(&line["frequency"]), 3.0 / TAU, 1e-6, "frequency");
+    close(1e9 * number(&line["amplitude"]), 1.0, 1e-5, "amplitude");
+    // Against a table of the closed form.
+    let mut text = String::from("t [s],s [m],height [m]\n");
+    for k in 0..=60 {
+        let t = 0.1 * f64::from(k);
+        let x = (2.0 * t).cos();
+        text.push_str(&format!("{t:e},{:e},{:e}\n", x.abs(), 0.7_f64.sin() * x));
+    }
+    let table = Scratch::new("closed.csv", &text);
+    let found = call("compare", &[table.path()]);
+    let compared = found["quantities"].as_array().expect("quantities");
+    assert_eq!(compared.len(), 2, "{found}");
+    for one in compared {
+        assert!(number(&one["largest"]) < 1e-9, "{one}");
+    }
+}
+
+#[test]
+fn a_sweep_goes_through_the_centre() {
+    let (spec, rows) = (particle(), Scratch::new("rows.csv", ""));
+    let samples = rows.path().replace(".csv", ".samples.csv");
+    let swept = lagrangian(
+        &[
+            &[
+                "sweep",
+                spec.path(),
+                "--until",
+                "2",
+                "--fresh",
+                "--out",
+                rows.path(),
+            ][..],
+            &THROUGH_CENTRE[..6],
+            &[
+                "--vary",
+                "start(phi)=-1,0.2,0.7,4",
+                "--vary",
+                "start(s)=1,2",
+            ],
+            &[
+                "--reduce",
+                "low = min(abs(height))",
+                "--reduce",
+                "far = max(s)",
+            ],
+            &["--record", "at=1", "--record", "every=0.25"],
+        ]
+        .concat(),
+    );
+    let said = String::from_utf8_lossy(&swept.stderr).into_owned();
+    assert_eq!(swept.status.code(), Some(0), "{said}");
+    let all = columns(rows.path());
+    let of = |name| column(&all, name);
+    assert_eq!(of("run").len(), 8);
+    for row in 0..8 {
+        let (angle, length) = (of("start(phi)")[row], of("start(s)")[row]);
+        // cos 2t is negative at t = 1 and 2.
+        let what = format!("from {angle} and {length}");
+        for (t, s, phi) in [(1.0, "s@1", "phi@1"), (2.0, "s", "phi")] {
+            let x = length * (2.0_f64 * t).cos();
+            close(of(s)[row], x.abs(), 1e-10, &what);
+            close((of(phi)[row] - angle).abs(), PI, 1e-9, &what);
+        }
+        close(of("far")[row], length, 1e-10, &what);
+        close(of("low")[row], 0.0, 1e-9, &what);
+    }
+    let all = columns(&samples);
+    let of = |name| column(&all, name);
+    assert_eq!(of("run").len(), 8 * 9);
+    for (row, t) in of("t").iter().enumerate() {
+        let length = 1.0 + f64::from(row as u32 / 9 % 2);
+        close(of("s")[row], length * (2.0 * t).cos().abs(), 1e-10, "s");
+    }
+    std::fs::remove_file(samples).expect("samples");
+}
+
+/// What the Cartesian chart cannot express is run in the coordinates of the spec, in which a distance may be negative.
+#[test]
+fn other_commands_fall_back_on_the_coordinates_of_the_spec() {
+    let spec = particle();
+    // From s = −1 m the spring forces are those at the opposite point, and nothing passes the centre within 0.5 s.
+    let from = [
+        "--until",
+        "0.5",
+        "--every-period",
+        "0.5",
+        "--of",
+        "s,phi",
+        "--json",
+    ];
+    let start = ["--start", "s=-1", "--rate", "phi=0", "--tolerance", "1e-12"];
+    let found = json(&[&["section", spec.path()][..], &from, &start].concat());
+    close(
+        number(&found["quantities"][0]["values"][1]),
+        -(1.0_f64).cos(),
+        1e-10,
+        "s",
+    );
+    let kept = ["--keep", "phi", "--rate", "phi=0"];
+    let found = json(&[&["section", spec.path()][..], &from, &kept].concat());
+    close(
+        number(&found["quantities"][1]["values"][1]),
+        0.0,
+        1e-12,
+        "phi",
+    );
+    let rows = Scratch::new("rows.csv", "");
+    let swept = lagrangian(
+        &[
+            &[
+                "sweep",
+                spec.path(),
+                "--until",
+                "0.5",
+                "--fresh",
+                "--out",
+                rows.path(),
+            ][..],
+            &[
+                "--vary",
+                "start(s)=-1,1",
+                "--rate",
+                "phi=0",
+                "--tolerance",
+                "1e-12",
+            ],
+        ]
+        .concat(),
+    );
+    assert_eq!(swept.status.code(), Some(0));
+    let all = columns(rows.path());
+    close(column(&all, "s")[0], -(1.0_f64).cos(), 1e-10, "s");
+    close(column(&all, "s")[1], 1.0_f64.cos(), 1e-10, "s");
+}

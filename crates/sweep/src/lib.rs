@@ -4,6 +4,7 @@
 //! runs: row i depends only on the plan and on i, not on the thread, host or order of execution. [`Folder`] stores chunks on
 //! disk, so that a sweep that was killed can be resumed.
 
+pub mod charts;
 pub mod design;
 mod folder;
 mod normal;

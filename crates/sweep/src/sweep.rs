@@ -17,6 +17,7 @@ use lagrangian_spec::source::Sources;
 use lagrangian_spec::unit::{integral_name, rate_name, rate_unit, state_of};
 use lagrangian_symbolic::{Dag, Rational};
 
+use crate::charts::{self, ChartedPoints, Charts};
 use crate::design;
 use crate::plan::{Function, Plan, RecordedFiles, Reduction};
 use crate::reduce::{Formula, StateCache, StepStates, Tracker};
@@ -49,6 +50,8 @@ pub enum PlanError {
 pub struct Sweep {
     plan: Plan,
     machine: InterpretedMachine,
+    /// The machine in the Cartesian coordinates that `charts` of the spec names, if it names any and they can express the plan.
+    cartesian: Option<Cartesian>,
     method: &'static Method,
     /// Why another method is used than the plan asks for, as a sentence.
     warning: Option<String>,
@@ -62,6 +65,13 @@ pub struct Sweep {
     sample_columns: Option<Vec<Column>>,
     /// How many runs are started together where they may run in lanes.
     group: u64,
+}
+
+/// A machine in Cartesian coordinates, in which runs are made that are shown in the coordinates of the spec.
+#[derive(Debug)]
+struct Cartesian {
+    machine: InterpretedMachine,
+    points: ChartedPoints,
 }
 
 /// How a reduction is computed.
@@ -208,6 +218,8 @@ impl Sweep {
             [] => Some(plain),
             asked => model(&plan, &constants, &dag, asked, &mut sources, &mut report),
         };
+        let mut with = with;
+        let cartesian = with.as_mut().and_then(|model| model.cartesian.take());
         let compiled = with.and_then(|model| Compiled::new(model, &mut report));
         let Some(compiled) = compiled else {
             return Err(PlanError::Spec(Box::new((report, sources))));
@@ -245,6 +257,14 @@ impl Sweep {
             machine = machine.with_series(series);
         }
         set_all(&mut machine, &plan.set).map_err(PlanError::Plan)?;
+        let points = ChartedPoints::of(&compiled.model);
+        let cartesian = cartesian
+            .filter(|_| {
+                plan.keep
+                    .as_ref()
+                    .is_none_or(|names| points.check_kept(names).is_ok())
+            })
+            .and_then(|model| in_cartesian(&plan, (*model, points), engine, method));
         let mut probe = machine.clone();
         for place in &places {
             if let VariedQuantity::Set(name) = place {
@@ -296,6 +316,7 @@ impl Sweep {
         Ok(Sweep {
             group,
             machine,
+            cartesian,
             method,
             warning,
             constants,
@@ -320,9 +341,11 @@ impl Sweep {
     }
 
     /// Whether several runs may execute at once in the lanes of the processor: this requires machine code and no
-    /// contacts. With [`Engine::Auto`] it is true only once machine code has paid off for one run.
+    /// guides (`sliding`). With [`Engine::Auto`] it is true only once machine code has paid off for one run.
     pub fn may_run_in_lanes(&self) -> bool {
-        self.machine.may_run_in_lanes()
+        let cartesian = self.cartesian.as_ref();
+        let machine = cartesian.map_or(&self.machine, |cartesian| &cartesian.machine);
+        machine.may_run_in_lanes()
     }
 
     /// A warning about the sweep, if there is one.
@@ -431,14 +454,16 @@ impl Sweep {
         let mut made = made.into_iter();
         let outcomes = runs.iter().zip(begun).map(|((run, _), begun)| {
             let (instants, reductions) = (begun.recorder.at.len(), self.reductions.len());
-            let failed = Outcome::failed(begun.start, instants, reductions);
+            let charts = begun.charts.as_ref();
+            let start = charts::shown(charts, &begun.start);
+            let failed = Outcome::failed(start, instants, reductions);
             if let Some(error) = begun.refused {
                 let error = Some(error);
                 return Some(Outcome { error, ..failed });
             }
             match made.next()? {
                 Ok((solution, error)) => {
-                    self.outcome(*run, (&solution, error), begun.recorder, failed)
+                    self.outcome(*run, (&solution, error), (begun.recorder, charts), failed)
                 }
                 Err(error) => {
                     let error = Some(verdict::message_of(&error));
@@ -453,13 +478,21 @@ impl Sweep {
     fn prepare_run(&self, values: &[f64], refuses: Option<&Model<'_>>) -> PreparedRun {
         let plan = &self.plan;
         let mut machine = self.machine.clone();
+        let mut cartesian = self.cartesian.as_ref().map(|of| of.machine.clone());
         let mut coordinates = [(&plan.start, Vec::new()), (&plan.rate, Vec::new())];
         for is_member in [false, true] {
             let varied = self.varied.iter().zip(values);
             for (place, value) in varied.filter(|(place, _)| place.is_member() == is_member) {
                 match place {
                     // All names were checked.
-                    VariedQuantity::Set(name) => drop(machine.set(name, *value)),
+                    VariedQuantity::Set(name) => {
+                        for machine in [Some(&mut machine), cartesian.as_mut()]
+                            .into_iter()
+                            .flatten()
+                        {
+                            drop(machine.set(name, *value));
+                        }
+                    }
                     VariedQuantity::Start(name) => coordinates[0].1.push((name, *value)),
                     VariedQuantity::Rate(name) => coordinates[1].1.push((name, *value)),
                 }
@@ -495,10 +528,18 @@ impl Sweep {
                 .find(|diagnostic| diagnostic.code.severity() == Severity::Error)?;
             Some(format!("{} [{}]", error.message, error.code))
         });
+        let mut charts = None;
+        // A start at a negative distance exists only in the coordinates of the spec.
+        if let (Some(in_other), Some(of)) = (cartesian, &self.cartesian)
+            && let Ok((made, begun)) = Charts::begin(&of.points, in_other.start(), &start)
+        {
+            (machine, start, charts) = (in_other, begun, Some(made));
+        }
         PreparedRun {
             system: machine.prepare(),
             machine,
             start,
+            charts,
             recorder,
             refused,
         }
@@ -516,9 +557,10 @@ impl Sweep {
             machine,
             system,
             recorder,
+            charts,
             ..
         } = begun;
-        let (machine, system) = (&*machine, &*system);
+        let (machine, system, charts) = (&*machine, &*system, charts.as_ref());
         let function = move |output: usize, state: &State<Named>| {
             let mut u = system.default_inputs();
             let State { t, q, v } = state;
@@ -573,9 +615,16 @@ impl Sweep {
             .any(|made| matches!(made, ReductionSource::Along(_)))
             || !plan.at.is_empty()
             || plan.every.is_some();
-        if records_steps {
-            simulation =
-                simulation.each_step(move |step| recorder.record_step(plan, run, system, step));
+        if records_steps || charts.is_some() {
+            // States are shown at instants that are not known before, or only at the end.
+            let is_recorded = plan.has_samples() || !plan.at.is_empty();
+            let marked_every = if is_recorded { 0.0 } else { f64::INFINITY };
+            simulation = simulation.each_step(move |step| {
+                if let Some(charts) = charts {
+                    charts.follow(step, marked_every)?;
+                }
+                recorder.record_step(plan, run, (system, charts), step)
+            });
         }
         simulation.stop_if(|_| stop.load(Ordering::Relaxed))
     }
@@ -588,7 +637,7 @@ impl Sweep {
             &Solution<InterpretedMachine, Signals>,
             Option<lagrangian::Error>,
         ),
-        mut recorder: Recorder,
+        (mut recorder, charts): (Recorder, Option<&Charts>),
         mut outcome: Outcome,
     ) -> Option<Outcome> {
         let plan = &self.plan;
@@ -602,10 +651,11 @@ impl Sweep {
             (None, Ending::Event(name)) => format!("event {name}"),
             (None, _) => "ended".to_owned(),
         };
-        outcome.end = solution.end().clone();
+        outcome.end = charts::shown(charts, solution.end());
         outcome.steps = solution.statistics().steps as u64;
         outcome.residual = solution.energy_balance().map(|balance| balance.residual());
-        recorder.record_ends(plan, (run, solution.start(), solution.end()));
+        let start = charts::shown(charts, solution.start());
+        recorder.record_ends(plan, (run, &start, &outcome.end));
         let after = |t: f64| {
             plan.after
                 .is_none_or(|after| (t - after) * plan.until.signum() >= 0.0)
@@ -615,7 +665,7 @@ impl Sweep {
             for event in
                 events.filter(|event| plan.at_events.contains(&event.name) && after(event.state.t))
             {
-                let mut cells = sample(run, &event.state);
+                let mut cells = sample(run, &charts::shown(charts, &event.state));
                 cells.push(Cell::Text(Some(event.name.clone())));
                 samples.push(cells);
             }
@@ -668,6 +718,8 @@ struct PreparedRun {
     /// Evaluates formulas while the run uses its own system.
     system: InterpretedSystem,
     start: State<Named>,
+    /// How the run is shown in the coordinates of the spec, if it is in others.
+    charts: Option<Charts>,
     recorder: Recorder,
     /// Why the spec refuses these numbers, if it does.
     refused: Option<String>,
@@ -691,13 +743,13 @@ impl Recorder {
         &mut self,
         plan: &Plan,
         run: u64,
-        system: &InterpretedSystem,
+        (system, charts): (&InterpretedSystem, Option<&Charts>),
         step: &mut dyn lagrangian::StepMotion<InterpretedMachine>,
     ) -> Result<(), lagrangian::Error> {
         let [from, to] = step.span();
         for (t, state) in plan.at.iter().zip(&mut self.at) {
             if (t - from) * (to - t) >= 0.0 && *t != from {
-                *state = Some(step.state(*t)?);
+                *state = Some(charts::shown(charts, &step.state(*t)?));
             }
         }
         if let (Some(every), Some(samples)) = (plan.every, &mut self.samples) {
@@ -706,7 +758,7 @@ impl Recorder {
                 if (t - to) * plan.until.signum() > 0.0 || is_end(t, plan.until) {
                     break;
                 }
-                let state = step.state(t)?;
+                let state = charts::shown(charts, &step.state(t)?);
                 samples.push(sample(run, &state));
                 self.due += 1;
             }
@@ -815,6 +867,30 @@ fn model<'d>(
     let spec = spec.with_given(plan.spec.given.iter().cloned().chain(plan.given()));
     let files = &mut RecordedFiles(&text.files);
     Model::resolve_with(spec, dag, constants, formulas, files, sources, report)
+}
+
+/// The machine of a plan in Cartesian coordinates; `None` if they cannot express the plan.
+fn in_cartesian(
+    plan: &Plan,
+    (model, points): (Model<'_>, ChartedPoints),
+    engine: Engine,
+    method: &Method,
+) -> Option<Cartesian> {
+    if !model.uncharted.is_empty() {
+        return None;
+    }
+    let compiled = Compiled::new(model, &mut Report::new())?;
+    let mut machine = InterpretedMachine::new(compiled.program.clone());
+    machine.set_engine(engine).ok()?;
+    if std::ptr::eq(method, &TAYLOR) {
+        let series = ProvedSeries::derive(&compiled.model);
+        if series.is_err() {
+            return None;
+        }
+        machine = machine.with_series(series);
+    }
+    set_all(&mut machine, &plan.set).ok()?;
+    Some(Cartesian { machine, points })
 }
 
 /// The argument of a reduction, and whether its absolute value is reduced.

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use lagrangian::interpreted::Engine;
-use lagrangian_sweep::design::Factor;
+use lagrangian_sweep::design::{Distribution, Factor, Sampling};
 use lagrangian_sweep::plan::{Function, Law, Reduction, SpecText, Watch};
 use lagrangian_sweep::{Plan, Sweep};
 
@@ -74,12 +74,16 @@ fn rows(sweep: &Sweep, piece: u64) -> (String, u64) {
 /// Compares lanes, in pieces of several sizes, with the interpreter, and returns how many runs failed. Without
 /// machine code it compares nothing.
 fn compare(plan: &Plan) -> u64 {
+    // One run alone, too few for lanes, fewer than lanes, as many, more, and lanes that are filled again.
+    compare_in_pieces(plan, &[1, 2, 5, 8, 13, plan.runs()])
+}
+
+fn compare_in_pieces(plan: &Plan, pieces: &[u64]) -> u64 {
     let alone = Sweep::new(plan.clone(), Engine::Interpreter).expect("a plan");
     let (truth, failed) = rows(&alone, plan.runs());
     if let Ok(in_lanes) = Sweep::new(plan.clone(), Engine::Jit) {
         assert!(in_lanes.may_run_in_lanes(), "{plan:?}");
-        // One run alone, too few for lanes, fewer than lanes, as many, more, and lanes that are filled again.
-        for piece in [1, 2, 5, 8, 13, plan.runs()] {
+        for &piece in pieces {
             let (found, also_failed) = rows(&in_lanes, piece);
             assert!(found == truth, "pieces of {piece}: {plan:?}");
             assert_eq!(also_failed, failed);
@@ -142,6 +146,113 @@ fn constraints_hold_in_lanes() {
             plan.tolerance = 1e-7;
             plan.at = vec![0.3 * until, until];
             compare(&plan);
+        }
+    }
+}
+
+/// Random values of these names, each between two ends.
+fn random(seed: u64, count: u64, of: &[(&str, f64, f64)]) -> Factor {
+    let variable = |&(name, from, to): &(&str, f64, f64)| {
+        let name: String = name.into();
+        (name, Distribution::Uniform(from, to))
+    };
+    Factor::Sample {
+        design: Sampling::Random,
+        count,
+        seed,
+        variables: of.iter().map(variable).collect(),
+    }
+}
+
+/// A block that a spring drives against a layer, which it crushes, and a compliant wall.
+const LAYER: &str = "machine Layer in plane {
+    parameters { m: kg = 1, k: N/m = 5000, k1: N/m = 2e4, k2: N/m = 8e4, w: rad/s = 60, A: m = 0.02 }
+    coordinates { x: m = 0 }
+    bodies { block { mass: m, at: (x, 0) } }
+    gravity none;
+    springs { drive { stiffness: k, stretch: x - A*sin(w*t) } }
+    contacts {
+        bed { gap: x + 0.01, compliance: layer(k1, k2) },
+        wall { gap: 0.03 - x, compliance: linear(2e4, 5) },
+    }
+}";
+
+/// A pendulum in Cartesian coordinates that swings against a wall and rests there.
+const ROD: &str = "machine Rod in plane {
+    parameters { m: kg = 1, l: m = 1, e: 1 = 0.5, mu: 1 = 0.2, g: m/s^2 = 9.81 }
+    coordinates { x: m = 1, y: m = 0 }
+    bodies { bob { mass: m, at: (x, y) } }
+    gravity (0, -g);
+    constraints { rod: x^2 + y^2 = l^2 }
+    contacts { wall { gap: x + 0.3, slip: der(y), restitution: e, friction: mu } }
+}";
+
+/// Each run has its own impacts, and contacts that stay closed for a while or for good: bounces that end, friction that sticks and slips,
+/// compliance, layers, polygons, contacts of machines with constraints.
+#[test]
+fn contacts_hold_in_lanes() {
+    for (name, varied, contact, until) in [
+        (
+            "bouncing_ball",
+            vec![("start(y)", 0.1, 1.0), ("e", 0.3, 0.9)],
+            "floor",
+            3.0,
+        ),
+        (
+            "shaken_box",
+            vec![("w", 20.0, 60.0), ("e", 0.5, 1.0)],
+            "left",
+            1.0,
+        ),
+        (
+            "impact_pair",
+            vec![("w", 5.0, 20.0), ("e", 0.5, 0.9)],
+            "left",
+            2.0,
+        ),
+        (
+            "impact_oscillator",
+            vec![("w", 2.0, 4.0), ("F", 0.1, 1.0), ("d", 0.01, 0.4)],
+            "stop",
+            10.0,
+        ),
+        (
+            "colliding_crusher",
+            vec![("w", 80.0, 160.0), ("mu", 0.1, 0.5)],
+            "outer",
+            0.08,
+        ),
+        (
+            "woodpecker",
+            vec![("rate(y)", -0.4, -0.2), ("mu", 0.2, 0.4)],
+            "beak",
+            0.3,
+        ),
+        (
+            "slider_crank_clearance",
+            vec![("e", 0.3, 0.9)],
+            "upper_left",
+            0.04,
+        ),
+        ("dropped_box", vec![("pitch", 0.05, 0.6)], "", 0.3),
+        ("cue_ball", vec![("mu", 0.1, 0.4)], "cloth", 0.2),
+        ("layer", vec![("w", 30.0, 90.0)], "bed", 0.3),
+        ("rod", vec![("e", 0.3, 0.9), ("mu", 0.0, 0.5)], "wall", 4.0),
+    ] {
+        let text = match name {
+            "layer" => LAYER.into(),
+            "rod" => ROD.into(),
+            name => library(&format!("contacts/{name}")),
+        };
+        for method in ["dop853", "bs32"] {
+            let mut plan = plan(&text, until, vec![random(16, 13, &varied)]);
+            plan.method = method.into();
+            plan.tolerance = if method == "bs32" { 1e-5 } else { 1e-8 };
+            plan.at = vec![0.3 * until, until];
+            if !contact.is_empty() {
+                plan.reduce = vec![reduce("power", Function::Power, contact)];
+            }
+            assert_eq!(compare_in_pieces(&plan, &[5, 13]), 0, "{name}");
         }
     }
 }
@@ -211,6 +322,28 @@ fn one_run_is_far_longer_than_the_others() {
     }];
     let mut plan = plan(&text, 60.0, design);
     plan.events = vec![watch("over", "theta2^2 - 9.8", true)];
+    assert_eq!(compare(&plan), 0);
+}
+
+/// Events of the call, samples at them and reductions along runs with impacts; some runs end at an event just when a contact closes.
+#[test]
+fn events_between_impacts() {
+    let mut plan = plan(
+        &library("contacts/bouncing_ball"),
+        3.0,
+        vec![random(7, 37, &[("start(y)", 0.1, 1.0), ("e", 0.3, 0.9)])],
+    );
+    plan.events = vec![
+        watch("rises or falls", "der(y)", false),
+        watch("fast", "der(y) - 3.5", true),
+    ];
+    plan.reduce = vec![
+        reduce("highest", Function::Max, "y"),
+        reduce("mean", Function::Mean, "abs(der(y))"),
+        reduce("bounces", Function::Count, "rises or falls"),
+    ];
+    plan.after = Some(0.5);
+    plan.at_events = vec!["rises or falls".into()];
     assert_eq!(compare(&plan), 0);
 }
 

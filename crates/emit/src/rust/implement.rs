@@ -90,11 +90,12 @@ impl Emitter<'_> {
         self.rows_of_system();
         self.writer.close("}");
         let is_free = program.constraints.is_empty();
-        let has_lanes = program.contacts.is_empty() && program.unilateral.is_empty();
+        let has_lanes = program.contacts.is_empty();
+        let never_collides = program.unilateral.is_empty();
         let absent = [
             ("MAY_BE_CONSTRAINED", is_free),
             ("MAY_SLIDE", program.contacts.is_empty()),
-            ("MAY_COLLIDE", program.unilateral.is_empty()),
+            ("MAY_COLLIDE", never_collides),
         ];
         let absent = absent.iter().filter(|(_, is_absent)| *is_absent);
         let absent: Vec<&str> = absent.map(|(name, _)| *name).collect();
@@ -105,7 +106,10 @@ impl Emitter<'_> {
         let rounds_prepared = slips.is_some_and(|function| self.needs(function).prepared);
         self.writer.line(format!("absent [{}]", absent.join(" ")));
         self.writer.line(flag("intervals", rounds_prepared, "yes"));
-        if let Some(call) = self.call_of_series("lists").filter(|_| has_lanes) {
+        if let Some(call) = self
+            .call_of_series("lists")
+            .filter(|_| has_lanes && never_collides)
+        {
             let runtime = &self.options.runtime;
             let lists = self.lists_of_series(&format!("{runtime}::Lanes<{register}>"));
             self.writer.open("batch_series {");
@@ -115,8 +119,11 @@ impl Emitter<'_> {
             self.writer.close("}");
         }
         self.writer.line(flag("lanes", has_lanes, &register));
-        self.writer
-            .line(flag("numbers", has_lanes && is_free, "yes"));
+        self.writer.line(flag(
+            "numbers",
+            has_lanes && never_collides && is_free,
+            "yes",
+        ));
         self.writer.close("}");
     }
 

@@ -1,18 +1,17 @@
 //! Runs of machines for which the spec names a second chart: they are made in Cartesian coordinates, in which nothing is singular at
-//! the centre, and shown in the polar coordinates of the spec.
+//! the centre, and shown in the polar coordinates of the spec. Commands and sweeps share it.
 //!
 //! A distance and the direction of an angle follow from the components at each instant. How often the angle has turned does not, so
 //! an observer follows it through every step.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use lagrangian::interpreted::{Column, ColumnKind, InterpretedMachine, Named, Recording};
-use lagrangian::{Error, Machine, State, StepMotion};
+use lagrangian::interpreted::{
+    Column, ColumnKind, InterpretedMachine, InterpretedSystem, Named, Recording,
+};
+use lagrangian::{Error, InputLaw, Solution, State, StepMotion};
 use lagrangian_spec::model::Model;
 use lagrangian_spec::unit::{rate_name, rate_unit};
-
-use crate::call;
-use crate::failure::Failure;
 
 /// The parts of a step between which the angle is looked at, at least; a step by series is longer.
 const PARTS: u32 = 8;
@@ -27,9 +26,14 @@ const SHORTEST: f64 = 1e-15;
 /// The largest turn from a mark to an instant that is referred to it, in rad.
 const BETWEEN_MARKS: f64 = 1.0;
 
+/// The points of a machine that are given in two charts.
+#[derive(Clone, Debug)]
+pub struct ChartedPoints(Arc<[Point]>);
+
 /// The points of a machine that are given in two charts, and how far each has turned in a run.
+#[derive(Debug)]
 pub struct Charts {
-    points: Vec<Point>,
+    points: ChartedPoints,
     /// The start as the call gives it, in the coordinates of the spec, and the same in those of the run.
     stated: State<Named>,
     start: State<Named>,
@@ -37,6 +41,7 @@ pub struct Charts {
 }
 
 /// A point in two charts.
+#[derive(Debug)]
 struct Point {
     /// The indices of its coordinates, in both charts.
     places: [usize; 2],
@@ -47,7 +52,7 @@ struct Point {
 }
 
 /// How far a point has turned about its centre.
-#[derive(Clone)]
+#[derive(Debug)]
 struct Turned {
     /// The direction in which it was seen last; the centre itself is in none.
     direction: [f64; 2],
@@ -57,18 +62,9 @@ struct Turned {
     marks: Vec<(f64, f64)>,
 }
 
-impl Charts {
-    /// The charts of a machine for a run that is recorded every so often, and the start of this run. `machine` is in Cartesian coordinates,
-    /// `stated` in those of the spec.
-    ///
-    /// # Errors
-    /// If a distance is negative at the start, or the call keeps a start value of a coordinate that the run does not have.
-    pub fn new(
-        model: &Model<'_>,
-        machine: &InterpretedMachine,
-        stated: &State<Named>,
-        keep: &call::Keep,
-    ) -> Result<(Charts, State<Named>), Failure> {
+impl ChartedPoints {
+    /// Those of a machine in the coordinates of the spec.
+    pub fn of(model: &Model<'_>) -> ChartedPoints {
         let points = model.charts.iter().map(|charts| Point {
             places: charts.polar,
             polar: charts.polar.map(|index| {
@@ -77,20 +73,41 @@ impl Charts {
             }),
             cartesian: [0, 1].map(|k| charts.cartesian[k].to_string()),
         });
-        let points: Vec<Point> = points.collect();
-        for name in &keep.names {
+        ChartedPoints(points.collect())
+    }
+
+    /// Checks the names of start values that are kept, coordinates and `der(…)` of these.
+    ///
+    /// # Errors
+    /// If one is a polar coordinate, which the run does not have: which.
+    pub fn check_kept(&self, names: &[String]) -> Result<(), String> {
+        for name in names {
             let rate = name.strip_prefix("der(");
             let coordinate = rate.and_then(|rest| rest.strip_suffix(')'));
             let coordinate = coordinate.unwrap_or(name);
-            let mut polar = points.iter().flat_map(|point| &point.polar);
+            let mut polar = self.0.iter().flat_map(|point| &point.polar);
             if polar.any(|(polar, _)| polar == coordinate) {
-                return Err(Failure::Call(format!(
+                return Err(format!(
                     "--keep {name}: the run is in the Cartesian coordinates that `charts` names, so it cannot keep this value alone; \
                      keep others, or leave `charts` out of the spec"
-                )));
+                ));
             }
         }
-        let mut start = machine.start();
+        Ok(())
+    }
+}
+
+impl Charts {
+    /// The charts of a run that begins at `stated` in the coordinates of the spec, and the same start in those of the run. `start` is any
+    /// state of the machine in Cartesian coordinates.
+    ///
+    /// # Errors
+    /// If a distance is negative at the start.
+    pub fn begin(
+        points: &ChartedPoints,
+        mut start: State<Named>,
+        stated: &State<Named>,
+    ) -> Result<(Charts, State<Named>), String> {
         start.t = stated.t;
         start.q.values.clone_from(&stated.q.values);
         start.v.values.clone_from(&stated.v.values);
@@ -99,17 +116,17 @@ impl Charts {
             places: [i, j],
             polar,
             ..
-        } in &points
+        } in &*points.0
         {
             let (q, v) = (&stated.q.values, &stated.v.values);
             let (s, phi) = (q[*i], q[*j]);
             if s < 0.0 {
                 // The opposite point, with a positive distance, is the same place, but a force of `s` would be another one there.
                 let [(distance, unit), (angle, _)] = polar;
-                return Err(Failure::Call(format!(
+                return Err(format!(
                     "the distance `{distance}` is {s:?} {unit} at the start: the run is in the Cartesian coordinates that `charts` names, in which \
                      it is not negative; start from the positive distance with `{angle}` changed by pi, or leave `charts` out of the spec"
-                )));
+                ));
             }
             let (sin, cos) = phi.sin_cos();
             start.q.values[*i] = s * cos;
@@ -123,7 +140,7 @@ impl Charts {
             });
         }
         let charts = Charts {
-            points,
+            points: points.clone(),
             stated: stated.clone(),
             start: start.clone(),
             turned: Mutex::new(turned),
@@ -160,7 +177,7 @@ impl Charts {
             .collect();
         while let Some(theta) = ends.pop() {
             let t = step.state_at(theta, &mut q, &mut v)?;
-            let pairs = self.points.iter().zip(&*turned);
+            let pairs = self.points.0.iter().zip(&*turned);
             let turns: Vec<f64> = pairs
                 .map(|(point, turned)| turned.turn_to(point.components(&q)))
                 .collect();
@@ -171,7 +188,7 @@ impl Charts {
                 continue;
             }
             let begin = self.start.t;
-            for ((point, turned), turn) in self.points.iter().zip(&mut *turned).zip(turns) {
+            for ((point, turned), turn) in self.points.0.iter().zip(&mut *turned).zip(turns) {
                 turned.advance(point.components(&q), turn, t, (begin, interval));
             }
             at = theta;
@@ -185,13 +202,13 @@ impl Charts {
         let mut shown = self.stated.clone();
         let is_start = *state == self.start;
         let is_positive = |point: &Point| shown.q.values[point.places[0]] > 0.0;
-        if is_start && self.points.iter().all(is_positive) {
+        if is_start && self.points.0.iter().all(is_positive) {
             return shown;
         }
         shown.t = state.t;
         shown.q.values.clone_from(&state.q.values);
         shown.v.values.clone_from(&state.v.values);
-        for (point, turned) in self.points.iter().zip(&*self.turned()) {
+        for (point, turned) in self.points.0.iter().zip(&*self.turned()) {
             let [i, j] = point.places;
             let ([x, y], [vx, vy]) = (
                 point.components(&state.q.values),
@@ -221,7 +238,7 @@ impl Charts {
     pub fn in_polar(&self, recording: &Recording, states: &[State<Named>]) -> Recording {
         let mut shown = recording.clone();
         let polar: Vec<State<Named>> = states.iter().map(|state| self.shown(state)).collect();
-        for point in &self.points {
+        for point in &*self.points.0 {
             for ((name, unit), (of, place)) in
                 (point.polar.iter()).zip(point.cartesian.iter().zip(point.places))
             {
@@ -261,7 +278,7 @@ impl Charts {
         let after = after.or(shown.columns.iter().rposition(rates));
         let mut place = after.map_or(0, |place| place + 1);
         let polar: Vec<State<Named>> = states.iter().map(|state| self.shown(state)).collect();
-        for point in &self.points {
+        for point in &*self.points.0 {
             for ((name, unit), index) in point.polar.iter().zip(point.places) {
                 let column = Column {
                     name: name.clone(),
@@ -274,6 +291,27 @@ impl Charts {
             }
         }
         shown
+    }
+}
+
+/// A state of a run in the coordinates of the spec.
+pub fn shown(charts: Option<&Charts>, state: &State<Named>) -> State<Named> {
+    match charts {
+        Some(charts) => charts.shown(state),
+        None => state.clone(),
+    }
+}
+
+/// The recording of a run at these states, in the coordinates of the spec.
+pub fn record<L: InputLaw<InterpretedSystem>>(
+    run: &Solution<InterpretedMachine, L>,
+    states: &[State<Named>],
+    charts: Option<&Charts>,
+) -> Recording {
+    let recording = Recording::of(run, states);
+    match charts {
+        Some(charts) => charts.in_polar(&recording, states),
+        None => recording,
     }
 }
 
