@@ -14,13 +14,14 @@ from pydrake.multibody.tree import PlanarJoint, RotationalInertia, SpatialInerti
 from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 from pydrake.systems.framework import DiagramBuilder, EventStatus, LeafSystem, UnrestrictedUpdateEvent, WitnessFunctionDirection
 
+from collisions.heap import BOWL, RADIUS, SIDES
 from collisions.truths import GRAVITY, HALF_HEIGHT, HALF_WIDTH, TILT
 
 NAME = f"Drake {version('drake')}"
 SETTINGS = {
     "ball": [1e-3, 1e-6, 1e-9],
     "block": [(1e-3, 1e8), (1e-4, 1e9)],
-    "pile": [(1e-2, 1e4), (2e-3, 1e5)],
+    "pile": [(5e-2, 1e4), (1e-2, 1e4), (2e-3, 1e5)],
 }
 # It warns that half spaces do not touch deformable bodies.
 logging.getLogger("drake").setLevel(logging.ERROR)
@@ -118,11 +119,11 @@ def block(setting):
 def pile(setting, count, until):
     """Spheres in a plane; the bowl is a polygon about its circle, as for MuJoCo."""
     step, stiffness = setting
-    mass, radius, apart, bowl, sides = 0.05, 0.05, 0.07, 0.5, 90
+    mass, radius, apart, bowl = 0.05, RADIUS, 0.07, BOWL
     builder, plant, _scene = flat_plant(step)
     material = touching(stiffness, 0.3)
-    for k in range(sides):
-        angle = math.pi * (1 + (k + 0.5) / sides)
+    for k in range(SIDES):
+        angle = math.pi * (1 + (k + 0.5) / SIDES)
         # Half spaces would do, but Drake 1.51.1 ends with a segmentation fault when it gets the fifteenth.
         pose = RigidTransform(RotationMatrix.MakeZRotation(angle), (bowl + 0.05) * np.array([math.cos(angle), math.sin(angle), 0.0]))
         plant.RegisterCollisionGeometry(plant.world_body(), pose, Box(0.1, 0.02, 0.4), f"side{k}", material)

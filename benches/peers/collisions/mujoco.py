@@ -7,11 +7,12 @@ import mujoco
 import numpy as np
 
 from collisions import truths
+from collisions.heap import BOWL, RADIUS, SIDES
 from collisions.truths import GRAVITY, HALF_HEIGHT, HALF_WIDTH, TILT
 
 NAME = f"MuJoCo {mujoco.__version__}"
 SETTINGS = {
-    "ball": [(1e-3, 1e5), (2.5e-4, 1e6), (1e-4, 1e7), (2.5e-5, 1e8)],
+    "ball": [(1e-3, 1e5), (2.5e-4, 1e6), (1e-4, 1e6), (2.5e-5, 1e8)],
     "block": [(1e-3, 1e5), (1e-4, 1e7), (1e-5, 1e9)],
     "slider": [(1e-5, 1e8), (1e-6, 1e10), (1e-7, 1e12)],
     "pile": [(2e-3, 1e5), (5e-4, 1e6), (1e-4, 1e7)],
@@ -105,12 +106,12 @@ def slider(setting):
 
 
 def pile(setting, count, until):
-    """Spheres in a plane; the bowl is a polygon about its circle, which is as deep as it between two of its 90 sides by 0.15 mm."""
+    """Spheres in a plane; the bowl is a polygon about its circle."""
     step, stiffness = setting
-    mass, radius, apart, bowl, sides = 0.05, 0.05, 0.07, 0.5, 90
+    mass, radius, apart, bowl = 0.05, RADIUS, 0.07, BOWL
     world = []
-    for k in range(sides):
-        angle = math.pi * (1 + (k + 0.5) / sides)
+    for k in range(SIDES):
+        angle = math.pi * (1 + (k + 0.5) / SIDES)
         x, z = math.cos(angle), math.sin(angle)
         # Boxes are sorted by place, planes are not; the face of each is a side of the polygon.
         world.append(f'<geom type="box" size="0.01 0.2 0.05" pos="{(bowl + 0.05) * x!r} 0 {(bowl + 0.05) * z!r}" zaxis="{x!r} 0 {z!r}"/>')

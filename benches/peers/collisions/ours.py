@@ -14,7 +14,7 @@ SETTINGS = {
     "ball": ["--tolerance 1e-6", "--tolerance 1e-12"],
     "block": ["--tolerance 1e-6", "--tolerance 1e-9", "--tolerance 1e-12"],
     "slider": ["--tolerance 1e-6", "--tolerance 1e-9", "--tolerance 1e-12"],
-    "pile": [f"--method moreau --longest-step {step}" for step in ("1e-2", "2e-3", "1e-3")],
+    "pile": [f"--method moreau --longest-step {step}" for step in ("5e-2", "1e-2", "2e-3")],
 }
 
 

@@ -20,7 +20,7 @@ import numpy as np  # noqa: E402
 import siconos  # noqa: E402
 import siconos.kernel as kernel  # noqa: E402
 import siconos.numerics as numerics  # noqa: E402
-from collisions.heap import measured  # noqa: E402
+from collisions.heap import RADIUS, measured  # noqa: E402
 
 GRAVITY = 9.81
 
@@ -106,7 +106,7 @@ def slider(step):
 
 
 def pile(step, count=12, until=2.5):
-    mass, radius, apart = 0.05, 0.05, 0.07
+    mass, radius, apart = 0.05, RADIUS, 0.07
     discs = []
     for i in range(1, count + 1):
         at = [apart * math.sqrt(i) * of(2.4 * i) for of in (math.cos, math.sin)]
