@@ -9,8 +9,8 @@ lengths). Each round runs all settings in turn, so that other load on the comput
 of each setting counts.
 
 Peers that integrate equations get those of tests/data/references/equations.py, solved by LDLᵀ without square roots; those of the double
-pendulum, the crusher and the chains are simplified by hand (motions.py). heyoka and diffsol compile them and CasADi interprets them, and
-SciPy calls the function that heyoka has compiled. IDAS solves for accelerations and multipliers itself. MuJoCo, Drake and Exudyn get
+pendulum, the crusher and the chains are simplified by hand (motions.py). heyoka, diffsol and gcc (around a DOP853 in C) compile them and CasADi
+interprets them, and SciPy calls the function that heyoka has compiled. IDAS solves for accelerations and multipliers itself. MuJoCo, Drake and Exudyn get
 bodies and hinges (runs/bodies.py) of the machines that they can describe, and derive the equations themselves.
 
 Each peer is one module of runs/. One that is not installed is left out with a word.
@@ -35,7 +35,7 @@ LONG = 1.0
 REPEATS, SHORT = 5, 0.2
 ERRORS = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13)
 # Modules of runs/, each with the class `Peer` of one program.
-PEERS = ("heyoka", "sundials", "scipy", "diffsol", "mujoco", "drake", "exudyn")
+PEERS = ("heyoka", "dop853", "sundials", "scipy", "diffsol", "mujoco", "drake", "exudyn")
 
 
 def peer_of(name):
