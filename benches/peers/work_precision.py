@@ -9,9 +9,9 @@ lengths). Each round runs all settings in turn, so that other load on the comput
 of each setting counts.
 
 Peers that integrate equations get those of tests/data/references/equations.py, solved by LDLᵀ without square roots; those of the double
-pendulum, the crusher and the chains are simplified by hand (motions.py). heyoka, diffsol and gcc (around a DOP853 in C) compile them and CasADi
-interprets them, and SciPy calls the function that heyoka has compiled. IDAS solves for accelerations and multipliers itself. MuJoCo, Drake and Exudyn get
-bodies and hinges (runs/bodies.py) of the machines that they can describe, and derive the equations themselves.
+pendulum, the crusher and the chains are simplified by hand (motions.py). heyoka, diffsol and gcc (around a DOP853 in C) compile them and
+CasADi interprets them, and SciPy calls the function that heyoka has compiled. IDAS solves for accelerations and multipliers itself.
+MuJoCo, Drake and Exudyn get bodies and hinges (runs/bodies.py) of the machines that they can describe, and derive the equations themselves.
 
 Each peer is one module of runs/. One that is not installed is left out with a word.
 
@@ -131,6 +131,31 @@ def tables(results):
         print()
 
 
+def is_of_many(tool):
+    """Whether its time is a share of that of several trajectories at once."""
+    return "lanes" in tool or "batch" in tool
+
+
+def summary(results):
+    """For each run and error the time of every program's fastest single method over that of our fastest one."""
+    program = lambda tool: tool.split(",")[0]
+    print("| time over ours, at error | program | " + " | ".join(f"{error:.0e}" for error in ERRORS) + " |")
+    print("| --- | --- |" + " --: |" * len(ERRORS))
+    for name, tools in results.items():
+        best = {}
+        for tool, points in tools.items():
+            if not is_of_many(tool):
+                best.setdefault(program(tool), []).extend(points)
+        ours = [seconds_at(best.pop("lagrangian", []), error) for error in ERRORS]
+        for who, points in best.items():
+            cells = []
+            for error, mine in zip(ERRORS, ours):
+                theirs = seconds_at(points, error)
+                cells.append("" if theirs is None and mine is None else "–" if theirs is None else "alone" if mine is None else f"{theirs / mine:.3g}")
+            print(f"| {name} | {who} | " + " | ".join(cells) + " |")
+    print()
+
+
 PANEL, MARGIN, IN_A_ROW = (330.0, 270.0), (56.0, 44.0), 3
 # Error to the right, from 1 to 10⁻¹⁶; time upward, from 10 µs to 10 s; both logarithmic. Lower right is better.
 OURS = ("#0b5394", "#c8553d", "#588157", "#8a5a9e", "#b8860b", "#008b8b", "#a0522d")
@@ -212,6 +237,7 @@ def main():
         if call.json:
             Path(call.json).write_text(json.dumps(results))
     tables(results)
+    summary(results)
     if call.svg:
         Path(call.svg).write_text(drawing(results))
 
