@@ -29,9 +29,9 @@ from pathlib import Path
 import numpy as np
 from runs.problem import PROBLEMS, ROOT, Run
 
-# A setting that takes longer is run once, and finer settings of the same tool are skipped.
-LONG = 1.0
-# Runs of a setting per round, for us and for peers alike, if they take at most SHORT.
+# If a setting takes longer, finer settings of the same tool are skipped.
+LONG = 0.4
+# Runs of a setting per round, for us and for peers alike, if they take at most SHORT; others are run in the first round alone.
 REPEATS, SHORT = 5, 0.2
 ERRORS = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13)
 # Modules of runs/, each with the class `Peer` of one program.
@@ -80,6 +80,8 @@ def race(name, program, rounds, wanted):
                 for setting in peer.settings(tool):
                     if (tool, setting) in slow:
                         break
+                    if count and best.get(tool, {}).get(setting, (0.0, 0.0))[0] > SHORT:
+                        continue
                     try:
                         seconds, end = peer.call(tool, setting)
                         for _ in range(REPEATS - 1 if seconds < SHORT else 0):

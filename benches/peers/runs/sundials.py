@@ -13,7 +13,7 @@ MOST = 1_000_000
 class Expressions:
     """CasADi's expressions by the names of heyoka."""
 
-    sin, cos, sqrt = casadi.sin, casadi.cos, casadi.sqrt
+    sin, cos, sqrt = map(staticmethod, (casadi.sin, casadi.cos, casadi.sqrt))
 
     def __init__(self):
         self.time = casadi.SX.sym("t")
