@@ -19,11 +19,12 @@ REPEATS = 9
 TOLERANCES = (1e-6, 1e-9, 1e-12, 1e-14, 1e-16)
 
 
-def pendulum():
-    a, b, u, v = hy.make_vars("a", "b", "u", "v")
+def pendulum(of=hy):
+    """Its rates in the expressions `of` heyoka, or of another module with the same names."""
+    a, b, u, v = of.make_vars("a", "b", "u", "v")
     g = 9.81
-    s, c = hy.sin(a - b), hy.cos(a - b)
-    f, h = -s * v**2 - 2.0 * g * hy.sin(a), s * u**2 - g * hy.sin(b)
+    s, c = of.sin(a - b), of.cos(a - b)
+    f, h = -s * v**2 - 2.0 * g * of.sin(a), s * u**2 - g * of.sin(b)
     over = 1.0 / (2.0 - c * c)
     system = [(a, u), (b, v), (u, (f - c * h) * over), (v, (2.0 * h - c * f) * over)]
     end = [0.1568362029256774608952189535, 0.1549800061482846913584054161,
@@ -31,16 +32,16 @@ def pendulum():
     return system, [0.3, 0.5, 0.0, 0.0], 100.0, end, [1.0] * 4
 
 
-def crusher(stiffer=1):
+def crusher(stiffer=1, of=hy):
     """Newton's law for each body, as in expert/crusher.c; the springs of the platform are `stiffer` by this factor."""
     m, J, m0, e, x0, y0, w = 450.0, 60.0, 25.0, 0.04, 0.10, -0.25, 100.0
     m1, m2 = 120.0, 60.0
     cx, cy, xc, yc, bx_, by_, xb, yb = 2e5 * stiffer, 1.6e5 * stiffer, 0.35, -0.05, 400.0, 350.0, 0.35, 0.04
     k1, d1, r1, k2, d2, r2 = 5e4, 60.0, 0.15, 2e4, 30.0, 0.10
     names = ["x", "y", "t", "s1", "f1", "g1", "s2", "f2", "g2"]
-    q = hy.make_vars(*names)
-    v = hy.make_vars(*["v" + name for name in names])
-    st, ct, n1, c1, n2, c2 = (of(angle) for angle in (q[2], q[4], q[7]) for of in (hy.sin, hy.cos))
+    q = of.make_vars(*names)
+    v = of.make_vars(*["v" + name for name in names])
+    st, ct, n1, c1, n2, c2 = (wave(angle) for angle in (q[2], q[4], q[7]) for wave in (of.sin, of.cos))
     s1, s2, om, vs1, vf1, vs2, vf2 = q[3], q[6], v[2], v[3], v[4], v[6], v[7]
     share = m0 / (m + m0)
     by_inertia = 1.0 / (J + (x0 * x0 + y0 * y0) * m * share)
@@ -49,7 +50,7 @@ def crusher(stiffer=1):
     damp_x, damp_y = bx_ * (v[0] - yb * om), by_ * (v[1] + xb * om)
     F1, F2 = k1 * (r1 - s1) - d1 * vs1, k2 * (r2 - s2) - d2 * vs2
     f1x, f1y, f2x, f2y = F1 * c1, F1 * n1, F2 * c2, F2 * n2
-    ux, uy = m0 * e * w * w * hy.cos(w * hy.time), m0 * e * w * w * hy.sin(w * hy.time)
+    ux, uy = m0 * e * w * w * of.cos(w * of.time), m0 * e * w * w * of.sin(w * of.time)
     spin = m0 * (om * om)
     gx, gy = (ux + spin * bx) - (f1x + (along + damp_x)), (uy + spin * by) - (f1y + (across + damp_y))
     torque = (yc * along - xc * across) + (yb * damp_x - xb * damp_y)
@@ -59,7 +60,7 @@ def crusher(stiffer=1):
     ax, ay = gx / (m + m0) + turn * by, gy / (m + m0) - turn * bx
     mx, my = (f1x - f2x) / m1, (f1y - f2y) / m1
     Bx, By, Cx, Cy = mx - ax, my - ay, f2x / m2 - mx, f2y / m2 - my
-    zero = hy.expression(0.0)
+    zero = of.expression(0.0)
     a = [ax, ay, alpha, (Bx * c1 + By * n1) + s1 * (vf1 * vf1), ((By * c1 - Bx * n1) - 2.0 * vs1 * vf1) / s1, zero,
          (Cx * c2 + Cy * n2) + s2 * (vf2 * vf2), ((Cy * c2 - Cx * n2) - 2.0 * vs2 * vf2) / s2, zero]
     system = [*zip(q, v), *zip(v, a)]
@@ -74,20 +75,20 @@ def crusher(stiffer=1):
     return system, start, 5.0, end, scales
 
 
-def chain(n, with_end=True):
+def chain(n, with_end=True, of=hy):
     """The chain of machines/chain.machine, solved by L D Lᵀ, and, if requested, its end by a run with 64-bit mantissas."""
     l, m, g = 0.2, 0.5, 9.81
     J = 0.5 * 0.04 / 12
-    q = hy.make_vars(*[f"q{i}" for i in range(n)])
-    v = hy.make_vars(*[f"v{i}" for i in range(n)])
+    q = of.make_vars(*[f"q{i}" for i in range(n)])
+    v = of.make_vars(*[f"v{i}" for i in range(n)])
     reach = lambda k, i: l if i < k else l / 2 if i == k else 0.0
     A = [[sum(m * reach(k, i) * reach(k, j) for k in range(n)) for j in range(n)] for i in range(n)]
-    M = [[A[i][j] * hy.cos(q[i] - q[j]) if i != j else hy.expression(A[i][i] + J) for j in range(i + 1)] for i in range(n)]
+    M = [[A[i][j] * of.cos(q[i] - q[j]) if i != j else of.expression(A[i][i] + J) for j in range(i + 1)] for i in range(n)]
     f = []
     for i in range(n):
-        turning = [A[i][j] * hy.sin(q[j] - q[i]) * v[j] * v[j] for j in range(n) if j != i]
+        turning = [A[i][j] * of.sin(q[j] - q[i]) * v[j] * v[j] for j in range(n) if j != i]
         weight = g * sum(m * reach(k, i) for k in range(n))
-        f.append(hy.sum([*turning, -weight * hy.sin(q[i])]))
+        f.append(of.sum([*turning, -weight * of.sin(q[i])]))
     D, L = [], [[None] * n for _ in range(n)]
     for i in range(n):
         left = M[i][i]
