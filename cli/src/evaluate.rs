@@ -106,12 +106,26 @@ fn at(
     point: Point,
 ) -> Result<Value, String> {
     let mut machine = machine.clone();
-    for (name, entry) in point.parameters.iter().chain(&point.inputs) {
-        for (name, value) in named(name, entry) {
-            machine
-                .set(&name, value)
-                .map_err(|unknown| format!("not a parameter or an input: {unknown}"))?;
-        }
+    let parameters = model.parameters.iter().map(|p| p.name.to_string());
+    let parameters: Vec<String> = parameters.collect();
+    let inputs = model.inputs.iter().map(|input| input.name.to_string());
+    let inputs: Vec<String> = inputs.collect();
+    refuse_others(
+        &point.parameters,
+        ("parameters", "inputs", "an input"),
+        &inputs,
+    )?;
+    refuse_others(
+        &point.inputs,
+        ("inputs", "parameters", "a parameter"),
+        &parameters,
+    )?;
+    let sets = assignments(&point.parameters, &parameters)?;
+    let sets = sets.into_iter().chain(assignments(&point.inputs, &inputs)?);
+    for (name, value) in sets {
+        machine
+            .set(&name, value)
+            .map_err(|unknown| format!("not a parameter or an input: {unknown}"))?;
     }
     machine
         .check_parameters()
@@ -149,13 +163,61 @@ fn at(
     Ok(result)
 }
 
-fn named(name: &str, entry: &Entry) -> Vec<(String, f64)> {
-    match entry {
-        Entry::One(value) => vec![(name.to_owned(), *value)],
-        Entry::Family(values) => (1..)
-            .zip(values)
-            .map(|(index, value)| (format!("{name}[{index}]"), *value))
-            .collect(),
+/// What entries set, those of whole families before those of members; `known` are the names that exist.
+///
+/// # Errors
+/// If a list has another length than its family, or belongs to none.
+fn assignments(
+    entries: &[(String, Entry)],
+    known: &[String],
+) -> Result<Vec<(String, f64)>, String> {
+    let mut sets = Vec::new();
+    for (name, entry) in entries {
+        let values = match entry {
+            Entry::One(value) => {
+                sets.push((name.clone(), *value));
+                continue;
+            }
+            Entry::Family(values) => values,
+        };
+        let is_member = |known: &&String| {
+            let index = known.strip_prefix(name.as_str());
+            index.is_some_and(|index| index.starts_with('['))
+        };
+        let members: Vec<&String> = known.iter().filter(is_member).collect();
+        if members.is_empty() && !known.contains(name) {
+            sets.push((name.clone(), f64::NAN)); // whoever sets it reports that it does not exist
+        } else if members.len() == values.len() {
+            sets.extend(members.into_iter().cloned().zip(values.iter().copied()));
+        } else if members.is_empty() {
+            return Err(format!("`{name}` is not a family, and is one number"));
+        } else {
+            return Err(format!(
+                "`{name}` has {} numbers, and the family has {} members",
+                values.len(),
+                members.len()
+            ));
+        }
+    }
+    sets.sort_by_key(|(name, _)| name.contains('['));
+    Ok(sets)
+}
+
+/// Refuses names that belong to the other one of two fields.
+fn refuse_others(
+    entries: &[(String, Entry)],
+    (field, other, kind): (&str, &str, &str),
+    others: &[String],
+) -> Result<(), String> {
+    let base = |name: &str| name.split('[').next().map(str::to_owned);
+    let misplaced = entries
+        .iter()
+        .find(|(name, _)| others.iter().any(|other| base(other) == base(name)));
+    match misplaced {
+        Some((name, _)) => Err(format!(
+            "\"{field}\": `{name}` is {kind}, which \"{other}\" sets"
+        )),
+        None => Ok(()),
     }
 }
 
@@ -190,7 +252,13 @@ fn fill(
             if is_states { "states" } else { "coordinates" }
         )),
         Some(Numbers::ByName(entries)) => {
-            for (name, value) in entries.iter().flat_map(|(name, entry)| named(name, entry)) {
+            let names = numbers.iter().map(|(name, _)| name);
+            let names = names.filter_map(|name| match state_of(name) {
+                Some(state) => is_states.then(|| state.to_owned()),
+                None => (!is_states).then(|| name.to_owned()),
+            });
+            let names: Vec<String> = names.collect();
+            for (name, value) in assignments(&entries, &names)? {
                 let set = if is_states {
                     numbers.set(&integral_name(&name), value)
                 } else {

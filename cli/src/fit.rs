@@ -130,9 +130,6 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     }
     let sought = sought(call, &machine, &compiled, &given, &experiments)?;
     check_values(&machine, &sought)?;
-    if files.out.is_some() {
-        variant::check(&sought, given.len())?;
-    }
     let (sigmas, values) = sigmas(call, &classes, &experiments)?;
     let refusal = |parameters: &[f64]| {
         let diagnostics = compiled.model.parameter_diagnostics(parameters);

@@ -33,6 +33,9 @@ const MOST_CURVES: usize = 12;
 /// The most dots of a drawing, and of a page.
 const MOST_DOTS: [usize; 2] = [200_000, 4_000_000];
 
+/// How far the values of a grid are from those of its formula, relative to the greatest: a few units of round-off.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// The height of a heat map, and the width of its color scale.
 const HEAT: u32 = 480 * UNIT;
 const SCALE: u32 = 120 * UNIT;
@@ -271,18 +274,21 @@ impl Rows {
         }
     }
 
-    /// Removes all rows with a different value.
+    /// Removes all rows with a different value. Values of a grid are rounded, so that 0.3 may stand as 0.30000000000000004.
     fn keep_only(&mut self, name: &str, value: &str) -> Result<(), Failure> {
         let place = self.place(name)?;
         let wanted = call::number(value)
             .map_err(|why| Failure::Call(format!("--only {name}={value}: {why}")))?;
-        let is_wanted = |row: &Vec<String>| row[place].parse() == Ok(wanted);
-        if !self.rows.iter().any(is_wanted) {
+        let number = |row: &Vec<String>| row[place].parse::<f64>().ok();
+        let numbers = || self.rows.iter().filter_map(number);
+        let greatest = numbers().fold(0.0, |greatest: f64, x| greatest.max(x.abs()));
+        let nearest = numbers().min_by(|a, b| (a - wanted).abs().total_cmp(&(b - wanted).abs()));
+        let Some(nearest) = nearest.filter(|x| (x - wanted).abs() <= ROUNDING * greatest) else {
             return Err(Failure::Call(format!(
                 "--only {name}={value}: no row has this value"
             )));
-        }
-        self.rows.retain(is_wanted);
+        };
+        self.rows.retain(|row| number(row) == Some(nearest));
         Ok(())
     }
 

@@ -88,18 +88,7 @@ pub fn prepare(
     (option, vary): (&str, Option<&call::Vary>),
 ) -> Result<InterpretedMachine, Failure> {
     let mut machine = reading::machine(compiled, &search.start)?;
-    if let Some(vary) = vary
-        && let Some(unit) = machine.unit(&vary.name).map(str::to_owned)
-        && search
-            .start
-            .parameters
-            .iter()
-            .all(|set| set.name != vary.name)
-    {
-        let first = vary.ends[0].value(option, &unit).map_err(Failure::Call)?;
-        // A name that is neither a parameter nor an input is refused later.
-        let _ = machine.set(&vary.name, first);
-    }
+    reading::set_first(&mut machine, &search.start, (option, vary))?;
     reading::check_parameters(&machine)?;
     reading::check_kept(&machine.start(), &search.keep)?;
     Ok(machine)

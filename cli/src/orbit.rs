@@ -167,7 +167,8 @@ fn prepare<'d>(
         },
     );
     let compiled = compiled.map_err(inputs::as_call_failure)?;
-    let machine = reading::machine(&compiled, &call.start)?;
+    let mut machine = reading::machine(&compiled, &call.start)?;
+    reading::set_first(&mut machine, &call.start, ("--along", call.along.as_ref()))?;
     reading::check_parameters(&machine)?;
     reading::check_kept(&machine.start(), &call.keep)?;
     let period = call

@@ -86,6 +86,7 @@ pub fn run(call: &call::Peaks) -> Result<(), Failure> {
     }
     let chosen = columns.chosen(&call.part.of, &call.part.run)?;
     for quantity in &chosen {
+        columns.warn_of_gaps(quantity);
         warn_of_sparse_rows(&columns, quantity);
     }
     let errors = match (&exactness, call.ripple) {

@@ -340,6 +340,26 @@ pub fn machine(
     Ok(machine)
 }
 
+/// Gives a parameter that an option varies its first value, unless the call sets it: it may have no other.
+///
+/// # Errors
+/// If the value is not one in the unit of the parameter.
+pub fn set_first(
+    machine: &mut InterpretedMachine,
+    start: &call::Start,
+    (option, vary): (&str, Option<&call::Vary>),
+) -> Result<(), Failure> {
+    if let Some(vary) = vary
+        && let Some(unit) = machine.unit(&vary.name).map(str::to_owned)
+        && start.parameters.iter().all(|set| set.name != vary.name)
+    {
+        let first = vary.ends[0].value(option, &unit).map_err(Failure::Call)?;
+        // A name that is neither a parameter nor an input is refused later.
+        let _ = machine.set(&vary.name, first);
+    }
+    Ok(())
+}
+
 /// Applies `--start` and `--rate`.
 ///
 /// # Errors

@@ -171,6 +171,24 @@ impl Columns {
         self
     }
 
+    /// Warns if a quantity has instants without a value, beside which nothing of it is found. Before its first value and after its
+    /// last one it has simply not been measured.
+    pub fn warn_of_gaps(&self, quantity: &Quantity) {
+        let values = &quantity.values;
+        let first = values.iter().position(|value| value.is_finite());
+        let last = values.iter().rposition(|value| value.is_finite());
+        let between = first.zip(last).map(|(first, last)| &values[first..last]);
+        let missing = between.unwrap_or_default().iter();
+        let missing = missing.filter(|value| !value.is_finite()).count();
+        if missing > 0 {
+            let plural = if missing == 1 { "" } else { "s" };
+            output::print_error(format_args!(
+                "warning: `{}` has no value at {missing} instant{plural} between others: what it does beside them is not found",
+                quantity.name
+            ));
+        }
+    }
+
     /// Warns if a quantity oscillates more than once in two rows, so that it seems to have other frequencies. Returns whether it does.
     pub fn warn_if_undersampled(&self, quantity: &Quantity) -> bool {
         let rates = self.rates(&quantity.name);

@@ -156,6 +156,7 @@ fn crossings(call: &call::Section, columns: &Columns, crossing: &str) -> Result<
     };
     let level = set.value("--crossing", column.unit.as_deref().unwrap_or("1"));
     let level = level.map_err(Failure::Call)?;
+    columns.warn_of_gaps(column);
     let rates = columns.rates(name);
     let curve = columns.curve(column, rates.as_deref(), call::Interpolation::Cubic);
     let found = curve.crossings(level).into_iter();

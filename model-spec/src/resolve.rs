@@ -133,7 +133,7 @@ pub(crate) fn resolve<'d>(
     let mut layers = Layers::load(spec, language.sections, files, sources, report);
     let formula_count = formulas.len();
     if !formulas.is_empty() {
-        formulas::add(formulas, &mut layers.specs, sources);
+        formulas::add(formulas, &mut layers.specs, report);
     }
     let tables = Tables::load(&layers.specs, files, sources);
     let mut resolver = Resolver::new(&layers, language, dag, constants, report);

@@ -3,13 +3,122 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use lagrangian_fit::motion::{Sought, Subject};
+use lagrangian::{Machine, System};
+use lagrangian_fit::motion::Subject;
+use lagrangian_program::Slot;
 use lagrangian_spec::unit::{self, state_of};
 
-use super::{Fitted, findings};
+use super::Fitted;
 use crate::failure::Failure;
 use crate::numbers::shortest;
 use crate::output::Destination;
+
+/// The declarations of a variant, by section.
+#[derive(Default)]
+struct Lines {
+    parameters: String,
+    inputs: String,
+    coordinates: String,
+    states: String,
+}
+
+impl Lines {
+    /// The start of a coordinate, or of its rate, or of a state, whose integral is the coordinate. Writing to a String cannot fail.
+    fn start(&mut self, coordinate: &Slot, is_rate: bool, value: f64, remark: &str) {
+        let (name, unit) = (coordinate.name.to_string(), &coordinate.unit_text);
+        let (remark, value) = (format!("        /// {remark}\n"), shortest(value));
+        let _ = match (state_of(&name), is_rate) {
+            (Some(state), true) => {
+                let unit = unit::rate_unit(&name, unit);
+                writeln!(self.states, "{remark}        {state}: {unit} = {value},")
+            }
+            (Some(_), false) => Ok(()),
+            (None, true) => {
+                let unit = match unit.as_str() {
+                    "1" => "1/s".to_owned(),
+                    unit => format!("({unit})/s"),
+                };
+                writeln!(self.coordinates, "        der({name}): {unit} = {value},")
+            }
+            (None, false) => {
+                writeln!(
+                    self.coordinates,
+                    "{remark}        {name}: {unit} = {value},"
+                )
+            }
+        };
+    }
+
+    fn value(lines: &mut String, slot: &Slot, value: f64, remark: &str) {
+        let (name, unit, value) = (&slot.name, &slot.unit_text, shortest(value));
+        let _ = writeln!(
+            lines,
+            "        /// {remark}\n        {name}: {unit} = {value},"
+        );
+    }
+
+    /// The values that the call sets and does not fit, with which the fitted values are determined. Of several experiments these
+    /// are the values of parameters that all of them share.
+    fn held(&mut self, result: &Fitted<'_, '_>) {
+        const REMARK: &str = "Set in the call of the fit.";
+        let program = result.machine.program();
+        let sought = |slot: &Slot| {
+            let name = slot.name.to_string();
+            result.fit.sought.iter().any(|one| one.name == name)
+        };
+        let only = match result.given {
+            [only] => Some(only),
+            _ => None,
+        };
+        let own = |name: &str| {
+            let mut own = result.given.iter().flat_map(|given| &given.sets);
+            only.is_none() && own.any(|set| is_of(name, &set.name))
+        };
+        let is_set = |slot: &Slot| {
+            let name = slot.name.to_string();
+            let alone = only.into_iter().flat_map(|given| &given.sets);
+            let mut sets = result.call.start.parameters.iter().chain(alone);
+            sets.any(|set| is_of(&name, &set.name)) && !own(&name) && !sought(slot)
+        };
+        let machine = match result.fit.experiments.as_slice() {
+            [only] => &only.machine,
+            _ => result.machine,
+        };
+        let values = program.parameters.iter().zip(machine.parameter_values());
+        for (slot, value) in values.filter(|(slot, _)| is_set(slot)) {
+            Lines::value(&mut self.parameters, slot, *value, REMARK);
+        }
+        let values = machine.prepare().default_inputs().values;
+        let values = program.inputs.iter().zip(values);
+        for (slot, value) in values.filter(|(slot, _)| is_set(slot)) {
+            Lines::value(&mut self.inputs, slot, value, REMARK);
+        }
+        let [experiment] = result.fit.experiments.as_slice() else {
+            return;
+        };
+        let is_sought = |level: usize, place: usize| {
+            let mut all = result.fit.sought.iter();
+            all.any(|one| match one.subject {
+                Subject::Start(_, other) => level == 0 && other == place,
+                Subject::Rate(_, other) => level == 1 && other == place,
+                Subject::Parameter(_) => false,
+            })
+        };
+        for (level, starts) in experiment.start.iter().enumerate() {
+            for (place, start) in starts.iter().enumerate() {
+                if let (Some(value), false) = (start, is_sought(level, place)) {
+                    self.start(&program.coordinates[place], level == 1, *value, REMARK);
+                }
+            }
+        }
+    }
+}
+
+/// Whether a name is the same as another, or that of a member of the family with the other name.
+fn is_of(name: &str, other: &str) -> bool {
+    let rest = name.strip_prefix(other);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
+}
 
 /// The text of the variant.
 ///
@@ -18,57 +127,29 @@ use crate::output::Destination;
 pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failure> {
     let program = result.machine.program();
     let minimum = &result.found.minimum;
-    let (mut parameters, mut coordinates) = (String::new(), String::new());
-    let mut states = String::new();
+    let mut lines = Lines::default();
     let several = result.given.len() > 1;
     let mut left = Vec::new();
     for (j, (one, x)) in result.fit.sought.iter().zip(&minimum.x).enumerate() {
-        let error = match result.found.statistics.standard_error(j) {
+        let remark = match result.found.statistics.standard_error(j) {
             Some(error) => format!("Fitted, with a standard error of {}.", shortest(error)),
             None => "Not determined by the measurements.".to_owned(),
         };
-        let value = shortest(*x);
-        // Writing to a String cannot fail.
-        let _ = match one.subject {
+        match one.subject {
             Subject::Parameter(index) => {
-                let unit = &program.parameters[index].unit_text;
-                writeln!(
-                    parameters,
-                    "        /// {error}\n        {}: {unit} = {value},",
-                    one.name
-                )
+                let slot = &program.parameters[index];
+                Lines::value(&mut lines.parameters, slot, *x, &remark);
             }
-            Subject::Start(..) | Subject::Rate(..) if several => {
-                left.push(one.name.clone());
-                Ok(())
+            Subject::Start(..) | Subject::Rate(..) if several => left.push(one.name.clone()),
+            Subject::Start(_, place) => {
+                lines.start(&program.coordinates[place], false, *x, &remark);
             }
-            Subject::Start(e, place) => {
-                let name = findings::coordinate(result, e, place);
-                let unit = &program.coordinates[place].unit_text;
-                writeln!(
-                    coordinates,
-                    "        /// {error}\n        {name}: {unit} = {value},"
-                )
+            Subject::Rate(_, place) => {
+                lines.start(&program.coordinates[place], true, *x, &remark);
             }
-            Subject::Rate(e, place) => {
-                let name = findings::coordinate(result, e, place);
-                let unit = &program.coordinates[place].unit_text;
-                if let Some(state) = state_of(&name) {
-                    let unit = unit::rate_unit(&name, unit);
-                    let _ = writeln!(
-                        states,
-                        "        /// {error}\n        {state}: {unit} = {value},"
-                    );
-                    continue;
-                }
-                let unit = match unit.as_str() {
-                    "1" => "1/s".to_owned(),
-                    unit => format!("({unit})/s"),
-                };
-                writeln!(coordinates, "        der({name}): {unit} = {value},")
-            }
-        };
+        }
     }
+    lines.held(result);
     let files: Vec<&str> = result
         .given
         .iter()
@@ -84,7 +165,7 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
             left.join(", ")
         );
     }
-    let name = lagrangian::Machine::name(result.machine);
+    let name = result.machine.name();
     let _ = writeln!(text, "machine {name}Fitted extends \"{base}\" {{");
     for (name, value) in &result.call.spec.constants {
         // A derived parameter that was fitted becomes a parameter with this value.
@@ -97,34 +178,18 @@ pub fn spec(result: &Fitted<'_, '_>, file: &Destination) -> Result<String, Failu
         }
         let _ = writeln!(text, "    constants {{ {name} = {value} }}");
     }
-    if !parameters.is_empty() {
-        let _ = write!(text, "    parameters {{\n{parameters}    }}\n");
-    }
-    if !coordinates.is_empty() {
-        let _ = write!(text, "    coordinates {{\n{coordinates}    }}\n");
-    }
-    if !states.is_empty() {
-        let _ = write!(text, "    states {{\n{states}    }}\n");
+    for (section, lines) in [
+        ("parameters", &lines.parameters),
+        ("inputs", &lines.inputs),
+        ("coordinates", &lines.coordinates),
+        ("states", &lines.states),
+    ] {
+        if !lines.is_empty() {
+            let _ = write!(text, "    {section} {{\n{lines}    }}\n");
+        }
     }
     text.push_str("}\n");
     Ok(text)
-}
-
-/// Checks that the fitted numbers can be expressed in a variant: a member of a family has no declaration of its own.
-///
-/// # Errors
-/// If the call is invalid.
-pub fn check(sought: &[Sought], experiments: usize) -> Result<(), Failure> {
-    let has_statement =
-        |one: &&Sought| matches!(one.subject, Subject::Parameter(_)) || experiments == 1;
-    let mut stated = sought.iter().filter(has_statement);
-    match stated.find(|one| one.name.contains('[')) {
-        None => Ok(()),
-        Some(one) => Err(Failure::Call(format!(
-            "--out: `{}` is a member of a family, and a variant of a spec cannot set it separately; --json prints its value",
-            one.name
-        ))),
-    }
 }
 
 /// The relative path of a spec from the folder of a file.

@@ -217,6 +217,50 @@ fn evaluate_answers_every_point_and_keeps_their_order() {
     assert_eq!(results[5]["multipliers"], serde_json::json!({}));
 }
 
+/// A list gives a family its members in their order, whatever their first index is, and a name belongs to one field of a point.
+#[test]
+fn evaluate_refuses_what_would_go_to_another_name() {
+    let spec = Scratch::new(
+        "row.machine",
+        "machine Row in plane {
+            parameters { k[0..2]: N/m = 1, m: kg = 1 }
+            coordinates { x[0..2]: m = 1 }
+            inputs { F: N }
+            bodies { block[i in 0..2] { mass: m, at: (x[i], 0) } }
+            gravity none;
+            springs { spring[i in 0..2] { stiffness: k[i], stretch: x[i] } }
+            forces { push { on: x[0], value: F } }
+        }",
+    );
+    let points = r#"[
+        {"parameters": {"k": [10, 20, 30]}, "q": {"x": [1, 2, 3]}},
+        {"parameters": {"k[2]": 7, "k": 5}},
+        {"parameters": {"k": [10, 20]}},
+        {"q": {"x": [1, 2]}},
+        {"parameters": {"m": [1]}},
+        {"inputs": {"m": 2}},
+        {"parameters": {"F": 2}},
+        {"inputs": {"F": 2}}
+    ]"#;
+    let output = with_input(&["evaluate", spec.path(), "--at", "-"], points);
+    assert_eq!(status(&output), 0, "{}", err(&output));
+    let results = json(&output);
+    let forces = |index: usize| results[index]["forces"].clone();
+    assert_eq!(forces(0), serde_json::json!([-10.0, -40.0, -90.0]));
+    assert_eq!(forces(1), serde_json::json!([-5.0, -5.0, -7.0]));
+    for (index, words) in [
+        (2, "`k` has 2 numbers, and the family has 3 members"),
+        (3, "`x` has 2 numbers, and the family has 3 members"),
+        (4, "`m` is not a family"),
+        (5, "`m` is a parameter, which \"parameters\" sets"),
+        (6, "`F` is an input, which \"inputs\" sets"),
+    ] {
+        let error = results[index]["error"].as_str().unwrap_or_default();
+        assert!(error.contains(words), "{}", results[index]);
+    }
+    assert_eq!(forces(7), serde_json::json!([1.0, -1.0, -1.0]));
+}
+
 #[test]
 fn evaluate_gives_multipliers_by_name_and_reactions_by_coordinate() {
     let spec = Scratch::new(

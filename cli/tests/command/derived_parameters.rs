@@ -189,6 +189,22 @@ fn what_others_follow_is_fitted() {
     assert!((fitted("J", &["--set", "J=0.3"]) - 0.375).abs() < 1e-6);
 }
 
+/// The period of the disc is 2π √(J/c). The range gives J its values, so that no other is needed.
+#[test]
+fn orbits_along_a_derived_parameter() {
+    let spec = Scratch::new("disc.machine", DISC);
+    let range = ["--near", "1.6", "--along", "J=0.25..0.36:2"];
+    let found = answer(&[&["orbit", spec.path()][..], &range].concat());
+    for (k, inertia) in [0.25_f64, 0.36].into_iter().enumerate() {
+        let period = number(&found["points"][k]["period"]);
+        let expected = std::f64::consts::TAU * (inertia / 4.0).sqrt();
+        assert!(
+            (period - expected).abs() < CLOSE,
+            "{period}, not {expected}"
+        );
+    }
+}
+
 #[test]
 fn what_cannot_be_is_told() {
     let spec = Scratch::new("disc.machine", DISC);

@@ -265,3 +265,28 @@ fn sympy_gives_the_formulas_of_a_pendulum() {
         t = m['kinetic_energy'](m['prepare'](x), 0, [q], [v])\nassert sp.simplify(t - x[0]*x[1]**2*v**2/2) == 0, t";
     run(Command::new(&python).args(["-c", script, file.path()]), "");
 }
+
+/// Two outputs whose names are the same with `_` in place of brackets have two functions, in every language.
+#[test]
+fn outputs_with_similar_names_have_different_functions() {
+    let spec = Scratch::new(
+        "row.machine",
+        "machine Row in plane {
+            coordinates { x: m, y: m }
+            bodies { block { mass: 1, at: (x, y) } }
+            gravity none;
+            outputs { o[1..2]: m = x, o_1: m = y }
+        }",
+    );
+    for form in ["sympy", "matlab", "julia", "javascript", "c", "rust"] {
+        let text = text(spec.path(), form);
+        let calls = |name: &str| {
+            let of_function = format!("{name}(");
+            text.matches(&of_function).count()
+        };
+        let own = calls("output_o_1");
+        assert!(own > 0, "{form}");
+        assert_eq!(calls("output_o_1_"), own, "{form}");
+        assert_eq!(calls("output_o_2"), own, "{form}");
+    }
+}

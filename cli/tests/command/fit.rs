@@ -1208,3 +1208,70 @@ fn what_is_wrong_is_said() {
         "{said}"
     );
 }
+
+/// Two masses on springs, each x₀ cos ωt about F/k. The fitted values, one of which is that of a member of a family, belong to the
+/// values that the call sets, so the variant has these too: by itself it is the machine that was measured.
+#[test]
+fn a_variant_has_the_values_with_which_it_was_fitted() {
+    let spec = "machine Pair in plane {
+        parameters { m: g = 1000, k[1..2]: N/m = 10, e: N/m = 3 }
+        coordinates { x[1..2]: m = 0.1 }
+        inputs { F: N }
+        bodies { block[i in 1..2] { mass: m, at: (x[i], 0) } }
+        gravity none;
+        springs { spring[i in 1..2] { stiffness: k[i] + e, stretch: x[i] } }
+        forces { push { on: x[1], value: F } }
+    }";
+    let spec = Scratch::new("pair.machine", spec);
+    // m = 2.5 kg, k = (40, 90) N/m, e = 0, F = 4 N, x₀ = (0.3, 0.2) m, v₀ = (0, 0.6) m/s
+    let motion = |t: f64| {
+        let first = 0.1 + 0.2 * (4.0 * t).cos();
+        let second = 0.2 * (6.0 * t).cos() + 0.1 * (6.0 * t).sin();
+        (first, second)
+    };
+    let mut rows = String::from("t,x[1],x[2]\n");
+    for k in 0..=20 {
+        let t = f64::from(k) / 10.0;
+        let (first, second) = motion(t);
+        let _ = writeln!(rows, "{t},{first:e},{second:e}");
+    }
+    let data = Scratch::new("run.csv", &rows);
+    let out = spec.0.with_file_name("fitted.machine");
+    let out = out.to_str().expect("text");
+    let experiment = format!("{},e=0*N/m,start(x[1])=0.3", data.path());
+    let call = [
+        "fit",
+        spec.path(),
+        "--data",
+        &experiment,
+        "--fit",
+        "m,k[2]",
+        "--out",
+        out,
+        "--set",
+        "k=40",
+        "--set",
+        "k[2]=85",
+        "--set",
+        "F=4",
+        "--set",
+        "m=2400",
+        "--start",
+        "x[2]=0.2",
+        "--rate",
+        "x[2]=0.6",
+    ];
+    let output = lagrangian(&call);
+    assert!(output.status.success(), "{output:?}");
+    let run = ["simulate", out, "--until", "2", "--tolerance", "1e-12"];
+    let found = json(&[&run[..], &["--json"]].concat());
+    let (first, second) = motion(2.0);
+    // The fitted mass is known to the tolerance of the fit's runs, 1e-9 of the motion in each of some twenty steps.
+    for (name, expected) in [("x[1]", first), ("x[2]", second)] {
+        let value = number(&found["q"][name]);
+        assert!(
+            (value - expected).abs() < 1e-6,
+            "{name}: {value}, not {expected}"
+        );
+    }
+}

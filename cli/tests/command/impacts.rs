@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use serde_json::Value;
 
 use crate::collisions::{close, events, is_good, number, simulate};
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, json, lagrangian};
 
 /// With sequential impacts and e = 1 three equal balls in a row leave with (0, 0, 1), and with e = ½ with (0.203125, 0.234375, 0.5625): by
 /// hand, and in quadruple precision elsewhere.
@@ -334,5 +334,57 @@ fn an_impact_pair_keeps_its_period() {
         }
         // The impacts dissipate the work of the carriage.
         close(number(&run["work"]), number(&run["impact_loss"]), 1e-12);
+    }
+}
+
+/// A ball that is thrown slips in two impacts; in the second one its slip stops, but for rounding, and in those that follow it sticks.
+/// The derivatives are those of the closed form.
+#[test]
+fn derivatives_go_on_after_an_impact_has_stopped_a_slip() {
+    let spec = "machine Thrown in plane {
+        parameters { m: kg = 0.05, h: m = 1, e: 1 = 0.8, mu: 1 = 0.1, g: m/s^2 = 9.81 }
+        coordinates { y: m = h, x: m, der(x): m/s = 1 }
+        bodies { ball { mass: m, at: (x, y) } }
+        gravity (0, -g);
+        contacts { floor { gap: y, slip: der(x), restitution: e, friction: mu } }
+    }";
+    let end = |[h, e, g]: [f64; 3]| {
+        let (mut t, mut speed) = ((2.0 * h / g).sqrt(), (2.0 * g * h).sqrt());
+        let (mut slip, mut x) = (1.0, t);
+        loop {
+            slip = f64::max(0.0, slip - 0.1 * (1.0 + e) * speed);
+            speed *= e;
+            let flight = 2.0 * speed / g;
+            let rest = 2.0 - t;
+            if flight > rest {
+                return [speed * rest - g * rest * rest / 2.0, x + slip * rest];
+            }
+            (t, x) = (t + flight, x + slip * flight);
+        }
+    };
+    let spec = Scratch::new("thrown.machine", spec);
+    let by = ["--by", "h,e,g", "--of", "y,x", "--tolerance", "1e-12"];
+    let call = ["sensitivities", spec.path(), "--until", "2", "--json"];
+    let found = json(&[&call[..], &by].concat());
+    let derivatives = found["derivatives"].as_array().expect("a list");
+    for (j, name) in ["h", "e", "g"].into_iter().enumerate() {
+        // Central differences of the closed form: h² of the third derivative, and the round-off divided by h.
+        let moved = |by: f64| {
+            let mut at = [1.0, 0.8, 9.81];
+            at[j] += by;
+            end(at)
+        };
+        let (above, below) = (moved(1e-5), moved(-1e-5));
+        for (i, of) in ["y", "x"].into_iter().enumerate() {
+            let expected = (above[i] - below[i]) / 2e-5;
+            let name = format!("{of} by {name}");
+            let one = derivatives.iter().find(|one| one["name"] == *name);
+            let values = one.expect("a derivative")["values"].as_array();
+            let value = number(values.and_then(|all| all.last()).expect("a value"));
+            assert!(
+                (value - expected).abs() < 1e-7,
+                "{name}: {value}, not {expected}"
+            );
+        }
     }
 }

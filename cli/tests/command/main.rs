@@ -16,6 +16,7 @@ mod derived_parameters;
 mod exported;
 mod fit;
 mod fmu;
+mod formulas;
 mod host;
 mod impacts;
 mod import;

@@ -257,3 +257,24 @@ fn a_page_holds_the_values_of_the_table() {
         "{error}"
     );
 }
+
+/// A value of a grid is selected as it is said, not as it is rounded: 0.1 + 0.4·2/4 is 0.30000000000000004.
+#[test]
+fn a_value_of_a_grid_is_selected_by_its_decimals() {
+    let mut text = "run,a,b,status,error,t,product\n".to_owned();
+    for (run, (a, b)) in ["0.1", "0.30000000000000004", "0.5"]
+        .iter()
+        .flat_map(|a| [1, 2].map(|b| (a, b)))
+        .enumerate()
+    {
+        text += &format!("{run},{a},{b}.0,ended,,1.0,{run}.0\n");
+    }
+    let table = Scratch::new("rows.csv", &text);
+    let only = |value: &str| map(&table, &["--of", "product", "--over", "b", "--only", value]);
+    let (status, svg, error) = only("a=0.3");
+    assert_eq!(status, 0, "{error}");
+    assert_eq!(svg.matches("<circle").count(), 2);
+    let (status, _, error) = only("a=0.3000001");
+    assert_eq!(status, 2, "{error}");
+    assert!(error.contains("no row has this value"), "{error}");
+}

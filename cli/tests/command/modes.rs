@@ -1600,3 +1600,42 @@ fn a_formula_gives_way_to_a_range_and_assumptions_are_asked_along_it() {
         close(row[3], (9.81_f64 / row[0]).sqrt());
     }
 }
+
+/// A pendulum on a cart, in Cartesian coordinates. By the second spelling of a constraint the bob has no part along the rod's normal:
+/// (x − X) cos φ + y sin φ = 0, which follows from the other constraint where φ = 0, and there says nothing about y. So the constraints
+/// have no linear approximation at the equilibrium: the modes that were printed decayed, for a pendulum that swings.
+#[test]
+fn constraints_that_depend_on_each_other_at_the_equilibrium_are_refused() {
+    let pendulum = |along: &str| {
+        let text = format!(
+            "machine Pendulum in plane {{
+                parameters {{
+                    m: kg = 1, M: kg = 2, l: m = 0.5, g: m/s^2 = 9.81, k: N/m = 20, b: N*s/m = 1.5, c: N*m*s = 0.05,
+                }}
+                coordinates {{ x: m = l*sin(0.2), y: m = -l*cos(0.2), X: m, phi: rad = 0.2 }}
+                bodies {{
+                    cart {{ mass: M, at: (X, 0) }},
+                    bob {{ mass: m, inertia: 0.02, at: (x, y), angle: phi }},
+                }}
+                gravity (0, -g);
+                springs {{ spring {{ stiffness: k, stretch: X }} }}
+                dampers {{ rail {{ damping: b, stretch: X }}, hinge {{ damping: c, stretch: phi }} }}
+                constraints {{ across: x - X = l*sin(phi), along: {along} }}
+            }}"
+        );
+        Scratch::new("pendulum.machine", &text)
+    };
+    let good = pendulum("y = -l*cos(phi)");
+    let output = lagrangian(&["modes", good.path()]);
+    assert!(output.status.success(), "{output:?}");
+    let bad = pendulum("(x - X)*cos(phi) + y*sin(phi) = 0");
+    for call in [["modes", bad.path()], ["linearize", bad.path()]] {
+        let output = lagrangian(&call);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(
+            said.contains("depends on the others where the search ends"),
+            "{said}"
+        );
+    }
+}

@@ -853,3 +853,37 @@ fn what_cannot_be_is_said() {
         }
     }
 }
+
+/// A sine of which the samples about its maximum are missing: neither the maximum nor the crossings there can be found, which is said.
+#[test]
+fn what_gaps_of_a_table_hide_is_told() {
+    let mut text = "t,x,y\n".to_owned();
+    for k in 0..=24 {
+        let t = f64::from(k) / 4.0;
+        // y has not been measured before the first second.
+        let x = if (4..=8).contains(&k) {
+            String::new()
+        } else {
+            t.sin().to_string()
+        };
+        let y = if k < 4 {
+            "nan".to_owned()
+        } else {
+            t.cos().to_string()
+        };
+        let _ = writeln!(text, "{t},{x},{y}");
+    }
+    let table = Scratch::new("gaps.csv", &text);
+    let peaks = ["peaks", table.path()];
+    let section = ["section", table.path(), "--crossing", "x=0.9"];
+    for call in [&peaks[..], &section[..]] {
+        let output = lagrangian(call);
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert!(output.status.success(), "{said}");
+        assert!(
+            said.contains("`x` has no value at 5 instants between others"),
+            "{said}"
+        );
+        assert!(!said.contains("`y` has no value"), "{said}");
+    }
+}

@@ -11,7 +11,7 @@ use super::body::{self, Expression, Language, Precedence, Rounded};
 use super::cut::{self, Cut, CutResult, Piece};
 use super::formula_names;
 use super::layout::{Writer, width};
-use super::names::{Field, Scope, ascii, fields, flat, snake_case};
+use super::names::{Field, Scope, ascii, fields, flat, output_functions, snake_case};
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{
     EliminationStep, Function, Guard, Op, Program, Reads, Role, Shape, Slot, Source,
@@ -181,6 +181,8 @@ struct Emitter<'a> {
     parameters: Vec<String>,
     inputs: Vec<String>,
     prepared: Vec<String>,
+    /// The name of the function of each output, without the prefix.
+    output_functions: Vec<String>,
 }
 
 impl<'a> Emitter<'a> {
@@ -191,6 +193,10 @@ impl<'a> Emitter<'a> {
         Emitter {
             prepared: prepared.collect(),
             prefix: ascii(&snake_case(&program.name)),
+            output_functions: output_functions(
+                program.outputs.iter().map(|output| &output.name),
+                ascii,
+            ),
             parameters: paths(&program.parameters),
             inputs: paths(&program.inputs),
             program,
@@ -457,7 +463,7 @@ impl<'a> Emitter<'a> {
 
     fn function_name(&self, role: Role) -> String {
         match role {
-            Role::Output(i) => format!("output_{}", ascii(&flat(&self.program.outputs[i].name))),
+            Role::Output(i) => self.output_functions[i].clone(),
             role => role.name(),
         }
     }

@@ -117,6 +117,19 @@ impl Scope {
     }
 }
 
+/// The names of the functions of outputs, `output_tip`, in a language whose names are written in the given form. Outputs whose names
+/// are the same in this form, such as `o[1]` and `o_1`, have different functions.
+pub fn output_functions<'a>(
+    outputs: impl IntoIterator<Item = &'a Name>,
+    form: impl Fn(&str) -> String,
+) -> Vec<String> {
+    let mut scope = Scope::default();
+    let names = outputs.into_iter().map(|name| form(&flat(name)));
+    names
+        .map(|name| scope.take_plain(&format!("output_{name}")))
+        .collect()
+}
+
 /// A field of a struct: one slot, or a family of them as an array.
 #[derive(Clone, Debug)]
 pub struct Field {
@@ -185,6 +198,25 @@ mod tests {
         assert_eq!(snake_case("Arm6R"), "arm6_r");
         assert_eq!(snake_case("RRArm"), "rr_arm");
         assert_eq!(snake_case("chain"), "chain");
+    }
+
+    #[test]
+    fn outputs_with_similar_names_have_different_functions() {
+        let name = |base: &str, index| Name {
+            base: base.into(),
+            index,
+        };
+        let names = [
+            name("o", Some(1)),
+            name("o_1", None),
+            name("ξ", None),
+            name("xi", None),
+        ];
+        let functions = output_functions(&names, ascii);
+        assert_eq!(
+            functions,
+            ["output_o_1", "output_o_1_", "output_xi", "output_xi_"]
+        );
     }
 
     #[test]

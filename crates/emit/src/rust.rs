@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 
 use super::body::Plan;
 use super::layout::Writer;
-use super::names::{Field, Scope, identifier, snake_case};
+use super::names::{Field, Scope, identifier, output_functions, snake_case};
 use docs::prose;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_mechanics::{Proved, Unproved};
@@ -167,6 +167,8 @@ struct Emitter<'a> {
     coordinates: Group<'a>,
     inputs: Group<'a>,
     outputs: Group<'a>,
+    /// The name of the function of each output.
+    output_functions: Vec<String>,
     /// The path to each prepared value in its struct: `k3`, `k7[2]`.
     prepared: Vec<String>,
     /// Prepared values that loops count through, as arrays. A value may be in several of them.
@@ -237,6 +239,10 @@ impl<'a> Emitter<'a> {
             coordinates: Group::new(&program.coordinates),
             inputs: Group::new(&program.inputs),
             outputs: Group::new(&program.outputs),
+            output_functions: output_functions(
+                program.outputs.iter().map(|output| &output.name),
+                str::to_owned,
+            ),
             writer: Writer::default(),
             program,
             options,

@@ -18,7 +18,7 @@ use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::body::{self, Expression, Language, Precedence, Rounded};
 use super::layout::Writer;
-use super::names::{Scope, ascii, flat, snake_case};
+use super::names::{Scope, ascii, flat, output_functions, snake_case};
 
 pub use javascript::JAVASCRIPT;
 
@@ -114,7 +114,12 @@ pub fn file(
     formulas: &BTreeMap<Role, Vec<String>>,
 ) -> String {
     let syntax = dialect.syntax;
-    let speaker = ScriptEmitter { program, syntax };
+    let outputs = program.outputs.iter().map(|output| &output.name);
+    let speaker = ScriptEmitter {
+        program,
+        syntax,
+        output_functions: output_functions(outputs, ascii),
+    };
     let mut writer = Writer::default();
     let comment = syntax.comment();
     for line in origin
@@ -187,12 +192,14 @@ fn tables(program: &Program) -> Vec<Table> {
 struct ScriptEmitter<'a> {
     program: &'a Program,
     syntax: &'static dyn Syntax,
+    /// The name of the function of each output.
+    output_functions: Vec<String>,
 }
 
 impl ScriptEmitter<'_> {
     fn name(&self, role: Role) -> String {
         match role {
-            Role::Output(i) => format!("output_{}", ascii(&flat(&self.program.outputs[i].name))),
+            Role::Output(i) => self.output_functions[i].clone(),
             role => role.name(),
         }
     }

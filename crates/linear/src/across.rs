@@ -1140,9 +1140,11 @@ impl Tangent<'_> {
             after.modes[j] == ContactMode::Sticks
         } else {
             // The friction of an impact that is far weaker than its slip is fast is known only to the round-off of that slip, and so
-            // whether it is saturated. What still slips has not stuck.
+            // whether it is saturated. What still slips has not stuck. A slip that an earlier impact has stopped is rounding alone,
+            // and is so small only beside the rates of the gap, from which that impact computed it.
             let terms = row.iter().zip(&place.v);
-            let terms: f64 = terms.map(|(w, v)| (w.value * v.value).abs()).sum();
+            let terms = terms.map(|(w, v)| (w.value * v.value).abs());
+            let terms: f64 = terms.chain(own.gap_rate.map(f64::abs)).sum();
             let goes_on = left.abs() > (ROUNDING * size).max(ROUND_OFF_OF_SLIP * terms);
             !goes_on && own.impulse[1].abs() < most * (1.0 - SATURATED)
         };

@@ -316,6 +316,7 @@ pub fn about(
     reduced.project(&mut wide, &|_| true)?;
     let near: Vec<f64> = wide.iter().map(|x| x.hi()).collect();
     let n = near.len();
+    reduced.check_independence(&near)?;
     let choice = reduced.choose(&near, &vec![false; n])?;
     let place = ReducedState {
         s: choice.independent.iter().map(|j| v[*j].into()).collect(),

@@ -32,6 +32,10 @@ pub(crate) type Number = Dual<DoubleDouble>;
 /// coordinate in which its entry is smaller than this.
 const INDEPENDENT: f64 = 1e-8;
 
+/// A row that is independent of the others by less than this depends on them at a position nearby, where constraints have no
+/// linear approximation; a search that ends there has come only so near to it.
+const BARELY_INDEPENDENT: f64 = 1e-6;
+
 /// Among coordinates that a row could determine, one on which nothing depends is preferred if its share of the row
 /// is at least this.
 const PREFERRED: f64 = 1e-2;
@@ -90,6 +94,8 @@ pub enum Fault {
     Follows(usize),
     /// The constraints cannot be met near the state; the index of the one with the largest residual.
     Unmet(usize),
+    /// This constraint depends on the others at the state, but not near it.
+    Dependent(usize),
 }
 
 /// A state: the coordinates, and the rates of I.
@@ -411,6 +417,29 @@ impl<'a> Reduced<'a> {
         lower
             .filter(|l| l.iter().all(|x| x.is_finite()))
             .unwrap_or_else(|| DMatrix::from_diagonal(&DVector::from_fn(q.len(), |i, _| own(i))))
+    }
+
+    /// Checks that no constraint is all but dependent on the others at a position.
+    ///
+    /// # Errors
+    /// If one is.
+    pub fn check_independence(&self, q: &[f64]) -> Result<(), Fault> {
+        let (rows, lower) = (self.rows(q), self.metric(q));
+        let mut known: Vec<DVector<f64>> = Vec::new();
+        for is_position in [true, false] {
+            for k in (0..rows.nrows()).filter(|k| self.holonomic[*k] == is_position) {
+                let row = lower.solve_lower_triangular(&rows.row(k).transpose());
+                let row = row.ok_or(Fault::Singular(0))?;
+                let Some(unit) = across(&known, &row, INDEPENDENT) else {
+                    continue;
+                };
+                if across(&known, &row, BARELY_INDEPENDENT).is_none() {
+                    return Err(Fault::Dependent(k));
+                }
+                known.push(unit);
+            }
+        }
+        Ok(())
     }
 
     /// Chooses the coordinates that follow at a position, among those whose rates are not `given`.

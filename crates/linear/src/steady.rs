@@ -44,6 +44,8 @@ pub fn motion(
         Some(unsteady) => NoMotion::Unsteady(unsteady),
         None => NoMotion::Lost(lost),
     })?;
+    let independence = reduced.check_independence(&equilibrium.place.q());
+    independence.map_err(|fault| NoMotion::Lost(fault.into()))?;
     let motion = motion::near(&mut reduced, equilibrium, &wanted.steady);
     motion.map_err(NoMotion::Unsteady)
 }
@@ -180,6 +182,10 @@ impl Fault {
     /// The reason in one sentence.
     pub fn in_words(&self, system: &InterpretedSystem, options: Options) -> String {
         let name = |index: &usize| name(system, *index);
+        let constraint = |index: &usize| {
+            let constraint = system.constraints().nth(*index);
+            constraint.map_or_else(|| "?".to_owned(), |c| c.name.to_owned())
+        };
         let Options { start, steady } = options;
         match self {
             Fault::Singular(index) => format!(
@@ -195,13 +201,15 @@ impl Fault {
                 "{steady} {0}: by the constraints, the rate of `{0}` follows from the others; leave it or one of those out",
                 name(index)
             ),
-            Fault::Unmet(index) => {
-                let constraint = system.constraints().nth(*index);
-                let name = constraint.map_or_else(|| "?".to_owned(), |c| c.name.to_owned());
-                format!(
-                    "the constraint `{name}` cannot be met near the start; {start} sets another start of the search"
-                )
-            }
+            Fault::Unmet(index) => format!(
+                "the constraint `{}` cannot be met near the start; {start} sets another start of the search",
+                constraint(index)
+            ),
+            Fault::Dependent(index) => format!(
+                "the constraint `{}` depends on the others where the search ends, and not near it, so that they have no linear \
+                 approximation there; write them such that none follows from the others, or set another start by {start}",
+                constraint(index)
+            ),
         }
     }
 }

@@ -1,9 +1,15 @@
 //! Output formulas supplied by the caller: `max(abs(x))` for a sweep.
 
-use crate::diagnostic::Report;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::names::RESERVED_VALUES;
+use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::Sources;
-use crate::syntax::{Declared, Ident, Index, Item, Quantity, Spec};
-use crate::token::{lex, normalized};
+use crate::syntax::{
+    Call, Declared, Expression, ExpressionKind, Factor, Ident, Index, Item, Quantity, Spec,
+};
+use crate::token::lex;
+use crate::unit::Measure;
 
 /// A formula that is computed in addition to the outputs of a spec.
 #[derive(Clone, Copy, Debug)]
@@ -55,34 +61,140 @@ pub(crate) fn items(
 }
 
 /// Appends formulas to the outputs of the last layer, and lets them use the outputs that they name.
-pub(super) fn add(formulas: Vec<Item<Quantity>>, layers: &mut [Spec], sources: &Sources) {
-    let text = |item: &Item<Quantity>| {
-        let span = item.content.value.as_ref().map(|value| value.span);
-        span.map_or("", |span| sources.text(span.source))
-    };
-    let is_part = |c: char| c.is_alphanumeric() || c == '_';
-    let words = formulas
-        .iter()
-        .flat_map(|item| text(item).split(|c: char| !is_part(c)));
-    let words: Vec<String> = words.map(|word| normalized(word).into_owned()).collect();
+///
+/// These become definitions under names that no text can contain, because a definition under the name of an output would also have
+/// a meaning in the spec: there `planet` may be the angle of a frame, and `10*N` ten newtons.
+pub(super) fn add(mut formulas: Vec<Item<Quantity>>, layers: &mut [Spec], report: &mut Report) {
+    let mut outputs = Outputs::of(layers);
+    for formula in &mut formulas {
+        if let Some(value) = &mut formula.content.value {
+            outputs.redirect(value, report);
+        }
+    }
     for layer in &mut *layers {
-        let named = layer
-            .outputs
-            .iter()
-            .filter(|item| words.contains(&item.name.base.text));
-        let shared = named.filter_map(|item| {
-            let content = item.content.value.clone()?;
-            Some(Item {
-                docs: String::new(),
-                name: item.name.clone(),
-                content,
-                span: item.span,
-            })
+        let shared = layer.outputs.iter().filter_map(|item| {
+            let name = outputs.used.get(&item.name.base.text)?;
+            let mut shared = item.clone();
+            shared.name.base.text.clone_from(name);
+            Some(shared)
         });
-        let shared: Vec<_> = shared.collect();
-        layer.define.extend(shared);
+        layer.shared_outputs = shared.collect();
     }
     if let Some(last) = layers.last_mut() {
         last.outputs.extend(formulas);
+    }
+}
+
+/// The outputs of a spec, as formulas of the caller refer to them.
+struct Outputs {
+    /// For the name of each output the name of its definition. This is the same if something else that formulas may contain has
+    /// this name, so that the definition is reported as a duplicate.
+    names: BTreeMap<String, String>,
+    /// Those of them that formulas contain.
+    used: BTreeMap<String, String>,
+}
+
+impl Outputs {
+    fn of(layers: &[Spec]) -> Outputs {
+        let named = |items: &[Item<Quantity>]| -> Vec<String> {
+            let names = items.iter().map(|item| item.name.base.text.clone());
+            names.collect()
+        };
+        let others = layers.iter().flat_map(|layer| {
+            let definitions = layer.define.iter();
+            let definitions = definitions.map(|item| item.name.base.text.clone());
+            let quantities = [&layer.parameters, &layer.constants, &layer.inputs];
+            let quantities = quantities.into_iter().flat_map(|items| named(items));
+            quantities.chain(definitions)
+        });
+        let reserved = RESERVED_VALUES.iter().map(|(word, _)| (*word).to_owned());
+        let others: BTreeSet<String> = others.chain(reserved).collect();
+        let outputs = layers.iter().flat_map(|layer| named(&layer.outputs));
+        let names = outputs.map(|name| {
+            let definition = if others.contains(&name) {
+                name.clone()
+            } else {
+                format!("{name} (output)")
+            };
+            (name, definition)
+        });
+        Outputs {
+            names: names.collect(),
+            used: BTreeMap::new(),
+        }
+    }
+
+    /// Makes an expression refer to definitions where it contains outputs.
+    fn redirect(&mut self, expression: &mut Expression, report: &mut Report) {
+        match &mut expression.kind {
+            ExpressionKind::Number(_) | ExpressionKind::Text(_) | ExpressionKind::Error => {}
+            ExpressionKind::Name(reference) => self.redirect_name(&mut reference.base),
+            ExpressionKind::Sum(terms) => {
+                let values = terms.iter_mut().map(|term| &mut term.value);
+                values.for_each(|value| self.redirect(value, report));
+            }
+            ExpressionKind::Product(factors) => {
+                self.refuse_units(factors, report);
+                let values = factors.iter_mut().map(|factor| &mut factor.value);
+                values.for_each(|value| self.redirect(value, report));
+            }
+            ExpressionKind::Negative(value) => self.redirect(value, report),
+            ExpressionKind::Power(base, exponent) => {
+                self.redirect(base, report);
+                self.redirect(exponent, report);
+            }
+            ExpressionKind::Call(Call { arguments, .. }) | ExpressionKind::Tuple(arguments) => {
+                let arguments = arguments.iter_mut();
+                arguments.for_each(|argument| self.redirect(argument, report));
+            }
+            ExpressionKind::Chain(chain) => {
+                // A name before a dot is that of a frame or a body.
+                if !matches!(chain.root.kind, ExpressionKind::Name(_)) {
+                    self.redirect(&mut chain.root, report);
+                }
+                let links = chain.links.iter_mut();
+                let arguments = links.flat_map(|link| link.arguments.iter_mut().flatten());
+                arguments.for_each(|argument| self.redirect(argument, report));
+            }
+        }
+    }
+
+    fn redirect_name(&mut self, name: &mut Ident) {
+        if let Some(definition) = self.names.get(&name.text) {
+            self.used.insert(name.text.clone(), definition.clone());
+            name.text.clone_from(definition);
+        }
+    }
+
+    /// Refuses an output after a number if a unit has the same name: either could be meant.
+    fn refuse_units(&self, factors: &[Factor], report: &mut Report) {
+        let unit_in = |factor: &Factor| -> Option<Ident> {
+            let value = match &factor.value.kind {
+                ExpressionKind::Power(base, _) => &base.kind,
+                other => other,
+            };
+            let ExpressionKind::Name(reference) = value else {
+                return None;
+            };
+            Measure::named(&reference.base.text).map(|_| reference.base.clone())
+        };
+        let is_number = |factor: &&Factor| match &factor.value.kind {
+            ExpressionKind::Number(_) => true,
+            ExpressionKind::Name(reference) => reference.base.text == "pi",
+            _ => false,
+        };
+        let numbers = factors.iter().take_while(is_number).count();
+        if numbers == 0 {
+            return;
+        }
+        let units = factors[numbers..].iter().map_while(unit_in);
+        for unit in units.filter(|unit| self.names.contains_key(&unit.text)) {
+            let name = &unit.text;
+            let message = format!("`{name}` is an output, and a unit that may stand here too");
+            let diagnostic = Diagnostic::new(Code::ReservedName, unit.span, message);
+            report.push(diagnostic.help(format!(
+                "write `{name}*…` if the output is meant, or else the number without this unit, in SI units"
+            )));
+        }
     }
 }

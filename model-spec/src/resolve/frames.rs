@@ -680,6 +680,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             (SectionKind::Parameters, Content::Quantity(quantity)) => {
                 self.derived_value(member, quantity)
             }
+            (SectionKind::Define, Content::Quantity(quantity)) => {
+                self.shared_output(member, quantity)
+            }
             (SectionKind::Define, Content::Expression(expression)) => {
                 let scope = self.scope(member, &limits::DEFINITION);
                 match self.value(expression, scope) {

@@ -240,6 +240,24 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
+    /// The value of an output in formulas of the caller, in SI units. A bare number is in the unit of the output.
+    pub fn shared_output(&mut self, member: MemberId, quantity: &'a Quantity) -> Value<'d> {
+        let scope = self.scope(member, &limits::DEFINITION);
+        let scalar = quantity
+            .value
+            .as_ref()
+            .and_then(|value| self.scalar(value, scope));
+        let Some(mut scalar) = scalar else {
+            return Value::Unknown;
+        };
+        if let (None, Some(measure)) = (scalar.unit, declared_measure(quantity)) {
+            scalar.expr = measure.in_si(self.dag) * scalar.expr;
+            scalar.number = scalar.number.map(|number| number * measure.to_f64());
+            scalar.unit = Some(measure.unit);
+        }
+        Value::Scalar(scalar)
+    }
+
     /// Resolves a definition even if nothing uses it, so that errors in it are reported.
     pub fn definition(&mut self, member: MemberId) {
         if let Value::Scalar(scalar) = self.value_of(member, self.span(member)) {

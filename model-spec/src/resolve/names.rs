@@ -32,7 +32,7 @@ const LISTED: usize = 12;
 const COMPARED: usize = 1000;
 
 /// Names with a fixed meaning in every expression.
-const RESERVED_VALUES: [(&str, &str); 2] = [("t", "the time"), ("pi", "the number π")];
+pub(super) const RESERVED_VALUES: [(&str, &str); 2] = [("t", "the time"), ("pi", "the number π")];
 
 /// The advice for a branch.
 pub(super) const NO_BRANCHES: &str = crate::syntax::NO_BRANCHES;
@@ -151,6 +151,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             (States, &spec.states),
             (Inputs, &spec.inputs),
             (Outputs, &spec.outputs),
+            (Define, &spec.shared_outputs),
         ] {
             self.declare_section(layer, section, items, Content::Quantity);
         }

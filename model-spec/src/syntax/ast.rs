@@ -44,6 +44,8 @@ pub struct Spec {
 
     /// `name = expression`
     pub define: Vec<Item<Expression>>,
+    /// Outputs that formulas of the program that reads the spec contain, as definitions. No text in the spec can set this.
+    pub shared_outputs: Vec<Item<Quantity>>,
     /// `name = frame`
     pub frames: Vec<Item<Expression>>,
 

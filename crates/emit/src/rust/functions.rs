@@ -30,7 +30,7 @@ impl<'a> Emitter<'a> {
 
     pub(super) fn function_name(&self, role: Role) -> String {
         match role {
-            Role::Output(i) => format!("output_{}", flat(&self.program.outputs[i].name)),
+            Role::Output(i) => self.output_functions[i].clone(),
             role => role.name(),
         }
     }
