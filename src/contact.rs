@@ -17,7 +17,8 @@
 //!
 //! In time stepping contacts are asked once in each step for their impulses, whenever in it they meet (`stepping`).
 //!
-//! All of it is for runs, which may allocate.
+//! All of it is for runs, which may allocate. What is evaluated in every step does so only once, in memory of its own (`ContactMemory`), unless contacts
+//! share their load in several ways.
 
 mod cone;
 mod delassus;
@@ -39,6 +40,6 @@ pub(crate) use impact::{Impact, ParadoxResolution};
 pub(crate) use kinematics::ROUNDING;
 pub(crate) use stepping::SteppedContacts;
 pub use touching::Mode;
-pub(crate) use touching::UnilateralState;
+pub(crate) use touching::{Clearance, ContactMemory, Margin, Margins, UnilateralState};
 
 use crate::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};

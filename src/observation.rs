@@ -5,7 +5,7 @@ use std::vec::Vec;
 
 use crate::at::At;
 use crate::constraints::Constraints;
-use crate::contact::UnilateralState;
+use crate::contact::{ContactMemory, UnilateralState};
 use crate::friction::{ContactForce, Contacts};
 use crate::inputs::{InputLaw, LawInPiece};
 use crate::step_error::StepError;
@@ -103,7 +103,8 @@ impl<'x, V: Vector> ConstraintState<'x, V> {
         if S::MAY_COLLIDE
             && let Some(touching) = self.touching
         {
-            return touching.accelerations(system, at, a);
+            let mut memory = ContactMemory::new(touching, at.q);
+            return touching.accelerations(system, at, &mut memory, a);
         }
         if S::MAY_BE_CONSTRAINED
             && let Some(known) = self.constraints

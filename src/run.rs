@@ -3,6 +3,7 @@
 mod choosing;
 mod comparing;
 mod compiled_in_lanes;
+mod contact_search;
 pub(crate) mod contacts;
 mod explained;
 mod handing_over;
@@ -47,6 +48,7 @@ use crate::{
     System, Vector, Warning,
 };
 use choosing::{Beginning, CANDIDATES, Choosing};
+use contact_search::ContactLooks;
 use contacts::PendingChange;
 use explained::ExplainedResidual;
 use handing_over::ContactActivity;
@@ -289,6 +291,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             sampling,
             next_step: None,
             activity,
+            contact_looks: ContactLooks::default(),
             choosing,
             record: Record {
                 sampled_inputs: sampled_inputs
@@ -486,6 +489,8 @@ pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures
     next_step: Option<f64>,
     /// How frequently contacts change.
     activity: ContactActivity,
+    /// Memory for looks at unilateral contacts.
+    contact_looks: ContactLooks<VectorOf<M>, <M::System as System>::Matrix>,
     /// The choice of the method, if the run makes it.
     choosing: Choosing,
     record: Record<M>,
@@ -776,10 +781,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 let mut root =
                     event::last_positive([theta_before, theta], theta_roundoff, &mut &margin)?;
                 let mut change = change;
-                if root > contacts::LEAST_APPROACH {
+                if root > contact_search::LEAST_APPROACH {
                     let (t, q, v) = at(root)?;
                     if contacts.still_slips(model.system, (t, &q, &v), change) {
-                        root *= contacts::APPROACH;
+                        root *= contact_search::APPROACH;
                         change.cause = Cause::Veered;
                     }
                 }

@@ -14,7 +14,7 @@ use std::vec::Vec;
 
 use crate::at::At;
 use crate::constraints::Constraints;
-use crate::contact::Mode;
+use crate::contact::{ContactMemory, Mode};
 use crate::event::{Event, state};
 use crate::friction::Contacts;
 use crate::inputs::{DefaultInputs, InputLaw};
@@ -673,15 +673,14 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             if M::System::MAY_COLLIDE
                 && let Some(phase) = run.phase_at(t)
             {
-                let powers = phase.touching.powers(
-                    &run.system,
-                    At {
-                        t,
-                        q: &q,
-                        v: &v,
-                        u: &u,
-                    },
-                );
+                let at = At {
+                    t,
+                    q: &q,
+                    v: &v,
+                    u: &u,
+                };
+                let mut memory = ContactMemory::new(&phase.touching, &q);
+                let powers = phase.touching.powers(&run.system, at, &mut memory);
                 energies.work += half * weight * powers.work;
                 energies.dissipated += half * weight * powers.lost;
             }

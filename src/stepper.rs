@@ -36,7 +36,7 @@ use crate::balance::{NoBalance, Quadratures};
 use crate::compensated::Sum;
 use crate::constraints::Constraints;
 #[cfg(feature = "std")]
-use crate::contact::UnilateralState;
+use crate::contact::{ContactMemory, UnilateralState};
 use crate::control::{self, Control, MAX_STEPS, Work};
 #[cfg(feature = "std")]
 use crate::friction::Change;
@@ -141,6 +141,9 @@ struct Model<'s, S: System, L> {
     /// `None` if it has no unilateral contacts. The closed ones are among `constraints`.
     #[cfg(feature = "std")]
     touching: Option<UnilateralState>,
+    /// Memory for evaluations of these; `None` before the first one.
+    #[cfg(feature = "std")]
+    contact_memory: Option<Box<ContactMemory<S::Vector, S::Matrix>>>,
 }
 
 /// State of the stiffness test of DOP853 (section IV.2 of the second volume).
@@ -233,6 +236,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 contacts: None,
                 #[cfg(feature = "std")]
                 touching: None,
+                #[cfg(feature = "std")]
+                contact_memory: None,
             },
             quadratures,
             end,
@@ -1184,7 +1189,11 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         if S::MAY_COLLIDE
             && let Some(touching) = &self.touching
         {
-            touching.accelerations(self.system.get(), at, a)?;
+            let memory = self.contact_memory.get_or_insert_with(|| {
+                let memory = ContactMemory::new(touching, q);
+                Box::new(memory)
+            });
+            touching.accelerations(self.system.get(), at, memory, a)?;
         } else {
             accelerations(self.system.get(), known, at, a)?;
         }
@@ -1288,7 +1297,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
 
     #[inline(always)]
     fn take_rates<A: Quadratures<S>>(
-        &self,
+        &mut self,
         quadratures: &mut A,
         stage: usize,
         at: (f64, &S::Vector, &S::Vector, &S::Vector),
@@ -1315,9 +1324,13 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             && let Some(touching) = &self.touching
             && quadratures.integrals().is_some()
         {
-            let powers = touching.powers(self.system.get(), here);
+            let memory = self.contact_memory.get_or_insert_with(|| {
+                let memory = ContactMemory::new(touching, q);
+                Box::new(memory)
+            });
+            let powers = touching.powers(self.system.get(), here, memory);
             quadratures.add(stage, powers.work, powers.lost);
-            quadratures.set_contact_shares(stage, &powers.of_each);
+            quadratures.set_contact_shares(stage, powers.of_each);
         }
     }
 }

@@ -57,6 +57,7 @@ pub(crate) fn backward(l: &[f64], x: &mut [f64]) {
 /// The first nonzero column of each row of a symmetric matrix, and so of its Cholesky factor. (A. George, J. W. Liu, *Computer Solution
 /// of Large Sparse Positive Definite Systems*, 1981, chapter 4.) Results have the same bits with and without a profile.
 #[cfg(feature = "std")]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Profile {
     first: std::vec::Vec<usize>,
 }
@@ -64,13 +65,13 @@ pub(crate) struct Profile {
 #[cfg(feature = "std")]
 impl Profile {
     /// The profile of a matrix, row after row.
-    pub fn of(a: &[f64]) -> Profile {
+    /// Takes the profile of a matrix, row after row.
+    pub fn read(&mut self, a: &[f64]) {
         let n = root(a.len());
         let row = |i: usize| &a[i * n..][..i];
         let first = |i: usize| row(i).iter().position(|a| *a != 0.0).unwrap_or(i);
-        Profile {
-            first: (0..n).map(first).collect(),
-        }
+        self.first.clear();
+        self.first.extend((0..n).map(first));
     }
 
     /// Like [`cholesky`], without the remainders of the diagonal.
@@ -196,7 +197,8 @@ mod tests {
                 }
                 let (mut whole, mut within) = (a.clone(), a.clone());
                 cholesky(&mut whole, &mut std::vec![0.0; n]).expect("positive definite");
-                let profile = Profile::of(&a);
+                let mut profile = Profile::default();
+                profile.read(&a);
                 profile.cholesky(&mut within).expect("positive definite");
                 for i in 0..n {
                     assert_eq!(
@@ -227,6 +229,8 @@ mod tests {
         // A matrix that is not positive definite stops at the same place.
         let flat = [1.0, 1.0, 1.0, 1.0];
         let stops = cholesky(&mut flat.clone(), &mut [0.0; 2]);
-        assert_eq!(Profile::of(&flat).cholesky(&mut flat.clone()), stops);
+        let mut profile = Profile::default();
+        profile.read(&flat);
+        assert_eq!(profile.cholesky(&mut flat.clone()), stops);
     }
 }

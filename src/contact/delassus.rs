@@ -3,7 +3,6 @@
 //! With the Cholesky factor `M = L Lᵀ`, a row `w` becomes `y = L⁻¹ wᵀ`, without what of it lies along the rows of the
 //! constraints; `Gᵢⱼ = yᵢ·yⱼ`, and a force along `w` adds `L⁻ᵀ y` to the accelerations.
 
-use std::vec;
 use std::vec::Vec;
 
 use crate::constraints::algebra::{Profile, dot, length, remove};
@@ -16,84 +15,133 @@ const INDEPENDENT: f64 = 1e-10;
 const MANY: usize = 16;
 
 /// Inertia at a state.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Inertia {
     factor: Vec<f64>,
     /// Where the rows of the factor begin: bodies that move by themselves have few entries.
     profile: Profile,
-    /// Orthonormal vectors along the constraints of the machine.
+    /// Orthonormal vectors along the constraints of the machine, so many of these.
     held: Vec<Vec<f64>>,
+    independent: usize,
+    /// The rows of the constraints, and an image of one.
+    rows: Vec<f64>,
+    whole: Vec<f64>,
 }
 
 impl Inertia {
     pub fn new<S: System>(system: &S, t: f64, q: &S::Vector) -> Result<Inertia, Singular> {
         let n = q.as_slice().len();
-        let mut matrix = S::Matrix::zeros(n * n);
-        system.mass_matrix(t, q, &mut matrix);
-        let mut factor = matrix.as_slice().to_vec();
-        let profile = Profile::of(&factor);
-        profile.cholesky(&mut factor)?;
-        let mut inertia = Inertia {
-            factor,
-            profile,
-            held: Vec::new(),
-        };
+        let mut inertia = Inertia::default();
+        inertia.evaluate(system, (t, q), &mut S::Matrix::zeros(n * n))?;
+        Ok(inertia)
+    }
+
+    /// Evaluates it at another state. `matrix` is memory for the mass matrix.
+    pub fn evaluate<S: System>(
+        &mut self,
+        system: &S,
+        (t, q): (f64, &S::Vector),
+        matrix: &mut S::Matrix,
+    ) -> Result<(), Singular> {
+        let n = q.as_slice().len();
+        system.mass_matrix(t, q, matrix);
+        self.factor.clear();
+        self.factor.extend_from_slice(matrix.as_slice());
+        self.profile.read(&self.factor);
+        self.profile.cholesky(&mut self.factor)?;
+        self.independent = 0;
         let m = system.constraints().len();
-        let mut rows = vec![0.0; m * n];
-        if m > 0 {
-            system.constraint_matrix(t, q, &mut rows);
+        if m == 0 {
+            return Ok(());
         }
-        for row in rows.chunks_exact(n.max(1)) {
-            let whole = {
-                let mut y = row.to_vec();
-                inertia.profile.forward(&inertia.factor, &mut y);
-                length(&y)
-            };
-            let mut y = inertia.image(row);
-            let left = length(&y);
-            if left > INDEPENDENT * whole {
+        self.rows.resize(m * n, 0.0);
+        system.constraint_matrix(t, q, &mut self.rows);
+        for k in 0..m {
+            let row = &self.rows[k * n..][..n];
+            self.whole.clear();
+            self.whole.extend_from_slice(row);
+            self.profile.forward(&self.factor, &mut self.whole);
+            if self.held.len() == self.independent {
+                self.held.push(Vec::with_capacity(n));
+            }
+            let (known, rest) = self.held.split_at_mut(self.independent);
+            let y = &mut rest[0];
+            y.clone_from(&self.whole);
+            without(known, y);
+            let left = length(y);
+            if left > INDEPENDENT * length(&self.whole) {
                 y.iter_mut().for_each(|y| *y /= left);
-                inertia.held.push(y);
+                self.independent += 1;
             }
         }
-        Ok(inertia)
+        Ok(())
+    }
+
+    /// Writes `y` of a row.
+    pub fn write_image(&self, row: &[f64], y: &mut Vec<f64>) {
+        y.clear();
+        y.extend_from_slice(row);
+        self.profile.forward(&self.factor, y);
+        without(&self.held[..self.independent], y);
     }
 
     /// `y` of a row.
     pub fn image(&self, row: &[f64]) -> Vec<f64> {
-        let mut y = row.to_vec();
-        self.profile.forward(&self.factor, &mut y);
-        // Twice is enough: W. Kahan, in B. N. Parlett, The Symmetric Eigenvalue Problem, 1998, section 6.9.
-        for _ in 0..2 {
-            for unit in &self.held {
-                remove(unit, &mut y);
-            }
-        }
+        let mut y = Vec::new();
+        self.write_image(row, &mut y);
         y
     }
 
     /// What forces along images add to accelerations, or impulses to rates.
     pub fn response(&self, images: &[Vec<f64>], forces: impl IntoIterator<Item = f64>) -> Vec<f64> {
-        let n = self.factor.len().isqrt();
-        let mut sum = vec![0.0; n];
+        let mut sum = Vec::new();
+        self.write_response(images, forces, &mut sum);
+        sum
+    }
+
+    /// Writes what [`response`](Self::response) says.
+    pub fn write_response(
+        &self,
+        images: &[Vec<f64>],
+        forces: impl IntoIterator<Item = f64>,
+        sum: &mut Vec<f64>,
+    ) {
+        sum.clear();
+        sum.resize(self.factor.len().isqrt(), 0.0);
         for (image, force) in images.iter().zip(forces) {
             for (sum, y) in sum.iter_mut().zip(image) {
                 *sum += force * y;
             }
         }
-        self.profile.backward(&self.factor, &mut sum);
-        sum
+        self.profile.backward(&self.factor, sum);
+    }
+}
+
+/// Removes what lies along unit vectors. Twice is enough: W. Kahan, in B. N. Parlett, The Symmetric Eigenvalue Problem, 1998, section 6.9.
+fn without(units: &[Vec<f64>], y: &mut [f64]) {
+    for _ in 0..2 {
+        for unit in units {
+            remove(unit, y);
+        }
     }
 }
 
 /// `G`, row after row.
 pub(super) fn matrix(images: &[Vec<f64>]) -> Vec<f64> {
+    let mut g = Vec::new();
+    write_matrix(images, &mut g, &mut Vec::new());
+    g
+}
+
+/// Writes `G`, row after row. `entries` is memory for this.
+pub(super) fn write_matrix(images: &[Vec<f64>], g: &mut Vec<f64>, entries: &mut Vec<usize>) {
     let width = images.len();
-    let mut g = vec![0.0; width * width];
+    g.clear();
+    g.resize(width * width, 0.0);
     let is_long = images.first().is_some_and(|image| image.len() >= MANY);
-    let mut entries: Vec<usize> = Vec::new();
     for (i, a) in images.iter().enumerate() {
+        entries.clear();
         if is_long {
-            entries.clear();
             entries.extend((0..a.len()).filter(|k| a[*k] != 0.0));
         }
         let is_sparse = is_long && 2 * entries.len() < a.len();
@@ -106,7 +154,6 @@ pub(super) fn matrix(images: &[Vec<f64>]) -> Vec<f64> {
             (g[i * width + j], g[j * width + i]) = (entry, entry);
         }
     }
-    g
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
-use super::drives::{ActingContact, Drives};
+use super::drives::{ActingContact, Drives, DrivesMemory};
 use super::kinematics::ContactKinematics;
 use super::problem::{Answer, ContactUnknowns};
 use super::routh::{self, Expansion, SingleImpact};
@@ -85,7 +85,7 @@ impl UnilateralState {
         as_held: bool,
         touched: &[bool],
     ) -> (Vec<bool>, Vec<bool>) {
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let touches: Vec<bool> = (0..here.gaps.len())
             .map(|k| {
                 let has_touched = touched.get(k).copied().unwrap_or(false);
@@ -116,7 +116,7 @@ impl UnilateralState {
         q: &S::Vector,
         v: &S::Vector,
     ) -> Option<usize> {
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         // What yields may be pressed at the start, but for a layer: what it went through is not known.
         let is_free =
             |k: usize| self.carrier(k).is_some() || self.is_compliant(k) && !self.is_layer(k);
@@ -131,7 +131,7 @@ impl UnilateralState {
         (t, q, v): (f64, &S::Vector, &S::Vector),
         contact: usize,
     ) -> f64 {
-        KNOWN_HEIGHT * ContactKinematics::of(system, t, q, v).gap_roundoff(contact)
+        KNOWN_HEIGHT * self.kinematics(system, (t, q, v)).gap_roundoff(contact)
     }
 
     /// Which of the contacts that touch take part in the next impact: all, or the one that closes fastest.
@@ -144,7 +144,7 @@ impl UnilateralState {
         if self.order == ImpactOrder::AtOnce {
             return touches.to_vec();
         }
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let rate = |k: &usize| here.rates[2 * k];
         let may = |k: &usize| touches[*k] && !self.is_compliant(*k) && self.carrier(*k).is_none();
         let closing = (0..touches.len()).filter(may);
@@ -174,7 +174,7 @@ impl UnilateralState {
         let Some(first) = (0..closed.len()).find(|k| may(*k)) else {
             return Ok(None);
         };
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let singular = |singular: Singular| StepError::Singular { singular, t };
         let inertia = Inertia::new(system, t, q).map_err(singular)?;
         let free = Self::free(system, at)?;
@@ -223,7 +223,12 @@ impl UnilateralState {
                 slip,
                 impulse,
                 loss,
-                work: Drives::new(system, (t, q)).work(&here, &acting, &mean, || change.clone()),
+                work: Drives::new(system, (t, q), &mut DrivesMemory::new(q)).work(
+                    &here,
+                    &acting,
+                    &mean,
+                    || &change,
+                ),
             };
             return Ok(Some(ParadoxResolution::Impact { impact, change }));
         }
@@ -240,7 +245,7 @@ impl UnilateralState {
         touches: &[bool],
         as_held: bool,
     ) -> Result<Vec<Impact>, StepError> {
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let singular = |singular: Singular| StepError::Singular { singular, t };
         let inertia = Inertia::new(system, t, q).map_err(singular)?;
         // What opens already has no part in it, nor has what yields: its force is finite.
@@ -262,7 +267,8 @@ impl UnilateralState {
         let width = directions.len();
         let change = inertia.response(&images, impulses.iter().flatten().copied());
         let mean = between(v, &change);
-        let drives = Drives::new(system, (t, q));
+        let mut memory = DrivesMemory::new(q);
+        let mut drives = Drives::new(system, (t, q), &mut memory);
         let mut impacts = Vec::with_capacity(colliding.len());
         for (place, &k) in colliding.iter().enumerate() {
             let [gap_rate, slip] = [0, 1].map(|part| {
@@ -433,7 +439,7 @@ impl UnilateralState {
         contact: usize,
         gap_acceleration: f64,
     ) -> Option<f64> {
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let opening = here.rates[2 * contact];
         let last = core::mem::replace(&mut self.openings[contact], opening);
         let share = opening / last;
@@ -448,12 +454,14 @@ impl UnilateralState {
 
     /// How fast the rate of a gap changes while the machine has these accelerations.
     pub fn gap_acceleration<S: System>(
+        &self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
         contact: usize,
         a: &[f64],
     ) -> f64 {
-        ContactKinematics::of(system, t, q, v).acceleration(2 * contact, a)[0]
+        self.kinematics(system, (t, q, v))
+            .acceleration(2 * contact, a)[0]
     }
 
     /// Which of the contacts that are closed are at rest along their tangents.
@@ -463,12 +471,18 @@ impl UnilateralState {
         (t, q, v): (f64, &S::Vector, &S::Vector),
         closed: &[bool],
     ) -> Vec<bool> {
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let rest = self.rest(&here, self.greatest_rate(), |k| closed[k]);
+        let rest_of_turning = self.rest_of_turning(&here, |k| closed[k]);
         let rests = |k: usize| {
             if !closed[k] {
                 return false;
             }
+            let rest = if self.is_turning(k) {
+                rest_of_turning
+            } else {
+                rest
+            };
             if self.has_two_tangents(k) {
                 let [slip, rounding] = self.slip(&here, k);
                 return slip[0].hypot(slip[1]) <= rounding[0].hypot(rounding[1]).max(rest);
@@ -489,7 +503,11 @@ impl UnilateralState {
         if !self.modes().iter().any(slides) {
             return;
         }
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
+        let turns = |k: &usize| slides(&self.modes()[*k]) && self.is_turning(*k);
+        let turning = (0..self.modes().len()).filter(turns);
+        let turning = turning.map(|k| here.rates[2 * k + 1].abs());
+        let turning = turning.fold(self.turning, f64::max);
         let own = self.modes().iter().enumerate();
         let own = own.filter(|(k, mode)| slides(mode) && self.carrier(*k).is_none());
         let slips = own.map(|(k, mode)| match mode {
@@ -500,6 +518,7 @@ impl UnilateralState {
             _ => here.rates[2 * k + 1].abs(),
         });
         self.slip = slips.fold(self.slip, f64::max);
+        self.turning = turning;
     }
 
     /// Whether the slip of a contact is rounding, if that has two directions.
@@ -512,7 +531,7 @@ impl UnilateralState {
         if !self.has_two_tangents(contact) {
             return true;
         }
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let [slip, rounding] = self.slip(&here, contact);
         let least = rounding[0]
             .hypot(rounding[1])
@@ -532,7 +551,7 @@ impl UnilateralState {
             return Ok(true);
         };
         let At { t, q, v, .. } = at;
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         if self.is_slow(system, (t, q, v), contact) {
             return Ok(true);
         }
@@ -553,7 +572,7 @@ impl UnilateralState {
         touches: &[bool],
         as_held: bool,
     ) -> Vec<bool> {
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let rest = self.rest(&here, self.speed, |k| touches[k]);
         let mut persisting: Vec<bool> = (touches.iter().enumerate())
             .map(|(k, touches)| {

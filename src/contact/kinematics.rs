@@ -1,6 +1,6 @@
 //! Gaps, rates, and what they are made of: the kinematics of contacts at one state.
 
-use std::vec;
+use std::sync::Arc;
 use std::vec::Vec;
 
 use crate::{System, Vector};
@@ -13,6 +13,7 @@ pub(crate) const ROUNDING: f64 = 1e-12;
 const LEAST_TURN: f64 = 1.0 / 16.0;
 
 /// Gaps, rates and all that belongs to them at a state.
+#[derive(Clone, Debug)]
 pub(super) struct ContactKinematics {
     pub n: usize,
     pub gaps: Vec<f64>,
@@ -23,7 +24,11 @@ pub(super) struct ContactKinematics {
     /// Time and state, which rounding is relative to.
     at: (f64, Vec<f64>, Vec<f64>),
     /// How large each coordinate is at least as part of a gap: [`LEAST_TURN`] for an angle, which turns lengths of the machine, and else 0.
-    least: Vec<f64>,
+    least: Arc<[f64]>,
+    /// Bound on what squares of rates that cancel add to an acceleration.
+    most_of_squares: f64,
+    /// The numbers of faces, three each.
+    face_numbers: Vec<f64>,
     /// Where contacts with faces of polygons are on these; empty where no contact is one.
     pub faces: Vec<Option<OnFace>>,
 }
@@ -38,20 +43,21 @@ pub(super) struct OnFace {
     pub beyond_rate: f64,
 }
 
-/// Where the contacts that are with faces of polygons are on these; nothing where no contact is one.
-pub(super) fn faces<S: System>(
+/// Writes where the contacts that are with faces of polygons are on these; nothing where no contact is one. `numbers` is memory for this.
+pub(super) fn write_faces<S: System>(
     system: &S,
     (t, q, v): (f64, &S::Vector, &S::Vector),
-) -> Vec<Option<OnFace>> {
-    let count = system
-        .unilateral_contacts()
-        .filter(|one| one.has_face)
-        .count();
+    numbers: &mut Vec<f64>,
+    faces: &mut Vec<Option<OnFace>>,
+) {
+    faces.clear();
+    let with_face = |one: &crate::UnilateralContact<'_>| one.has_face;
+    let count = system.unilateral_contacts().filter(with_face).count();
     if count == 0 {
-        return Vec::new();
+        return;
     }
-    let mut numbers = vec![0.0; 3 * count];
-    system.contact_faces(t, q, v, &mut numbers);
+    numbers.resize(3 * count, 0.0);
+    system.contact_faces(t, q, v, numbers);
     let mut all = numbers.chunks_exact(3);
     let mut next = || {
         let own = all.next()?;
@@ -61,14 +67,13 @@ pub(super) fn faces<S: System>(
             beyond_rate: own[2],
         })
     };
-    (system.unilateral_contacts())
-        .map(|contact| if contact.has_face { next() } else { None })
-        .collect()
+    let contacts = system.unilateral_contacts();
+    faces.extend(contacts.map(|contact| if contact.has_face { next() } else { None }));
 }
 
-/// See [`ContactKinematics`]. A gap at angles of 0 is no better known than beside it: without their lengths its rounding would be nothing where
-/// all coordinates are 0, and bounces would end nowhere.
-fn least_sizes<S: System>(system: &S) -> Vec<f64> {
+/// How large each coordinate is at least as part of a gap: see [`LEAST_TURN`]. A gap at angles of 0 is no better known than beside it: without their
+/// lengths its rounding would be nothing where all coordinates are 0, and bounces would end nowhere.
+pub(super) fn least_sizes<S: System>(system: &S) -> Arc<[f64]> {
     let least = |unit| if unit == "rad" { LEAST_TURN } else { 0.0 };
     let coordinates = system.coordinates();
     coordinates
@@ -77,25 +82,48 @@ fn least_sizes<S: System>(system: &S) -> Vec<f64> {
 }
 
 impl ContactKinematics {
-    pub fn of<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> ContactKinematics {
-        let (n, m) = (q.as_slice().len(), system.unilateral_contacts().len());
-        let mut here = ContactKinematics {
+    /// Memory for evaluations. `least` are the [`least_sizes`].
+    pub fn new(least: &Arc<[f64]>, contacts: usize) -> ContactKinematics {
+        let (n, m) = (least.len(), contacts);
+        let zeros = |count: usize| std::vec![0.0; count];
+        ContactKinematics {
             n,
-            gaps: vec![0.0; m],
-            rates: vec![0.0; 2 * m],
-            rows: vec![0.0; 2 * m * n],
-            biases: vec![0.0; 2 * m],
-            coefficients: vec![0.0; 4 * m],
-            at: (t, q.as_slice().to_vec(), v.as_slice().to_vec()),
-            least: least_sizes(system),
-            faces: faces(system, (t, q, v)),
-        };
-        system.gaps(t, q, &mut here.gaps);
-        system.contact_rates(t, q, v, &mut here.rates);
-        system.contact_matrix(t, q, &mut here.rows);
-        system.contact_bias(t, q, v, &mut here.biases);
-        system.contact_coefficients(t, q, v, &mut here.coefficients);
-        here
+            gaps: zeros(m),
+            rates: zeros(2 * m),
+            rows: zeros(2 * m * n),
+            biases: zeros(2 * m),
+            coefficients: zeros(4 * m),
+            at: (0.0, zeros(n), zeros(n)),
+            least: least.clone(),
+            most_of_squares: 0.0,
+            face_numbers: Vec::new(),
+            faces: Vec::new(),
+        }
+    }
+
+    /// Evaluates gaps and rates at a state, and where contacts are on faces.
+    pub fn evaluate_gaps<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+        system.gaps(t, q, &mut self.gaps);
+        system.contact_rates(t, q, v, &mut self.rates);
+        write_faces(system, (t, q, v), &mut self.face_numbers, &mut self.faces);
+    }
+
+    /// Evaluates all of it at a state.
+    pub fn evaluate<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+        self.evaluate_gaps(system, t, q, v);
+        system.contact_matrix(t, q, &mut self.rows);
+        system.contact_bias(t, q, v, &mut self.biases);
+        system.contact_coefficients(t, q, v, &mut self.coefficients);
+        self.at.0 = t;
+        self.at.1.copy_from_slice(q.as_slice());
+        self.at.2.copy_from_slice(v.as_slice());
+        let squares = self.biases.iter().step_by(2).map(|bias| bias.abs());
+        self.most_of_squares = 16.0 * squares.sum::<f64>();
+    }
+
+    /// Whether this is the state that was evaluated.
+    pub fn is_at(&self, t: f64, q: &[f64], v: &[f64]) -> bool {
+        self.at.0 == t && self.at.1 == q && self.at.2 == v
     }
 
     /// Below which the gap of a contact is closed. Asked of few contacts: it takes the whole row of one.
@@ -192,12 +220,10 @@ impl ContactKinematics {
         if length == 0.0 {
             return 0.0;
         }
-        let squares = self.biases.iter().step_by(2).map(|bias| bias.abs());
-        let most = 16.0 * squares.sum::<f64>();
         // The square of a rate at rest, and the round-off of squares of rates that cancel.
         let left = ROUNDING * rate * (ROUNDING * rate / length);
         let cancelled = 64.0 * f64::EPSILON * own * (own / length);
-        (left + cancelled).min(most)
+        (left + cancelled).min(self.most_of_squares)
     }
 
     /// What walls that move by themselves do against the forces of a contact, in W, or against its impulses, in J, if nothing else moves by itself.

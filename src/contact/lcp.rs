@@ -340,6 +340,7 @@ pub(super) fn solve(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, usize) {
 }
 
 /// The order of the unknowns after [`eliminate`]: first those that are determined, then the undetermined ones, which have been set to 0.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Order {
     columns: Vec<usize>,
     pub rank: usize,
@@ -364,8 +365,21 @@ impl Order {
 
 /// Eliminates `A x = b` like [`solve`], and returns the order of the unknowns in the triangular matrix that `a` then holds.
 pub(super) fn eliminate(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, Order) {
+    let (mut x, mut order) = (Vec::new(), Order::default());
+    eliminate_into(a, b, (&mut x, &mut order));
+    (x, order)
+}
+
+/// Like [`eliminate`], into memory that is there.
+pub(super) fn eliminate_into(
+    a: &mut [f64],
+    b: &mut [f64],
+    (x, order): (&mut Vec<f64>, &mut Order),
+) {
     let n = b.len();
-    let mut columns: Vec<usize> = (0..n).collect();
+    let columns = &mut order.columns;
+    columns.clear();
+    columns.extend(0..n);
     let greatest = a.iter().fold(0.0_f64, |size, a| size.max(a.abs()));
     let mut rank = 0;
     while rank < n {
@@ -407,12 +421,13 @@ pub(super) fn eliminate(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, Order) {
         }
         rank += 1;
     }
-    let mut x = vec![0.0; n];
+    x.clear();
+    x.resize(n, 0.0);
     for i in (0..rank).rev() {
         let known: f64 = (i + 1..rank).map(|j| a[i * n + j] * x[columns[j]]).sum();
         x[columns[i]] = (b[i] - known) / a[i * n + i];
     }
-    (x, Order { columns, rank })
+    order.rank = rank;
 }
 
 #[cfg(test)]

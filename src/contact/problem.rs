@@ -89,7 +89,29 @@ pub(super) fn solve(
             unknowns.extend([(k, Kind::Forward), (k, Kind::Backward), (k, Kind::Slip)]);
         }
     }
-    let rate = b.iter().fold(0.0_f64, |size, b| size.max(b.abs()));
+    // By what rates are multiplied along tangents: a rate of rotation becomes one in the units of the contact that rolls, with the same energy.
+    let along_tangents: Vec<f64> = (contacts.iter().enumerate())
+        .map(|(k, unknowns)| match unknowns {
+            ContactUnknowns::OnCarrier { on, .. } | ContactUnknowns::ShareOfCarrier { on, .. } => {
+                let (own, of_carrier) = (entry(2 * k + 1, 2 * k + 1), entry(2 * on, 2 * on));
+                if own > 0.0 && of_carrier > 0.0 {
+                    (of_carrier / own).sqrt()
+                } else {
+                    1.0
+                }
+            }
+            _ => 1.0,
+        })
+        .collect();
+    let scale = |row: usize| {
+        if row % 2 == 0 {
+            1.0
+        } else {
+            along_tangents[row / 2]
+        }
+    };
+    let rate =
+        (b.iter().enumerate()).fold(0.0_f64, |size, (row, b)| size.max((scale(row) * b).abs()));
     if rate == 0.0 || unknowns.is_empty() {
         return Ok(Answer {
             forces: vec![[0.0; 2]; m],
@@ -100,13 +122,16 @@ pub(super) fn solve(
         .map(|k| {
             // A contact and its tangent have one unit; what leans has a direction of its own.
             let own = match contacts[k] {
-                ContactUnknowns::OnCarrier { .. } => entry(2 * k + 1, 2 * k + 1),
+                ContactUnknowns::OnCarrier { .. } => {
+                    along_tangents[k] * entry(2 * k + 1, 2 * k + 1)
+                }
                 _ => entry(2 * k, 2 * k),
             };
             if own > 0.0 { 1.0 / own } else { 1.0 }
         })
         .collect();
     // What a unit of an unknown does to the rate of a direction.
+    let entry = |i: usize, j: usize| scale(i) * entry(i, j);
     let effect = |row: usize, (k, kind): (usize, Kind)| match kind {
         Kind::Normal => {
             let share = match contacts[k] {
@@ -170,8 +195,8 @@ pub(super) fn solve(
         }
         q[i] = match kind {
             Kind::Normal => b[2 * k] / rate,
-            Kind::Forward => b[2 * k + 1] / rate,
-            Kind::Backward => -b[2 * k + 1] / rate,
+            Kind::Forward => scale(2 * k + 1) * b[2 * k + 1] / rate,
+            Kind::Backward => -scale(2 * k + 1) * b[2 * k + 1] / rate,
             Kind::Slip => friction * known_normal,
         };
     }
@@ -271,7 +296,6 @@ fn correct(
                 normal_of[k] = Some(i);
             }
             Kind::Forward => {
-                let (backward, slip) = (i + 1, i + 2);
                 let (normal, known_normal) = match contacts[k] {
                     ContactUnknowns::OnCarrier {
                         on, known_normal, ..
@@ -280,24 +304,30 @@ fn correct(
                     _ => (None, 1.0),
                 };
                 let opens = known_normal == 0.0 && normal.is_some_and(|normal| !guess[normal]);
-                let turns = match (guess[slip], opens) {
-                    // It slips backwards, without friction that could stop it.
-                    (true, true) => wrong[slip],
-                    (true, false) => {
-                        guess[slip] ^= wrong[slip];
-                        false
-                    }
-                    (false, _) => {
-                        guess[slip] = opens || wrong[slip];
-                        (guess[i] && wrong[i]) || (guess[backward] && wrong[backward])
-                    }
-                };
-                guess[i] ^= turns;
-                guess[backward] = !guess[i];
+                correct_friction(opens, &wrong[i..i + 3], &mut guess[i..i + 3]);
             }
             Kind::Backward | Kind::Slip => {}
         }
     }
+}
+
+/// Corrects the guess of a contact in the plane: whether its friction acts forwards, backwards, and is used up so that it slips. `opens` if it presses nothing.
+fn correct_friction(opens: bool, wrong: &[bool], guess: &mut [bool]) {
+    let (forward, backward, slip) = (0, 1, 2);
+    let turns = if !guess[slip] {
+        // It sticks, and does not any more if it opens or its friction exceeds the limit.
+        guess[slip] = opens || wrong[slip];
+        (guess[forward] && wrong[forward]) || (guess[backward] && wrong[backward])
+    } else if opens {
+        // It slips backwards, without friction that could stop it.
+        wrong[slip]
+    } else {
+        // It slips; if that is wrong, it sticks, and its friction acts as before.
+        guess[slip] = !wrong[slip];
+        false
+    };
+    guess[forward] ^= turns;
+    guess[backward] = !guess[forward];
 }
 
 /// As [`solve`], where some contacts have a second tangent.

@@ -15,8 +15,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
-use super::drives::{ActingContact, Drives};
-use super::kinematics::ContactKinematics;
+use super::drives::{ActingContact, Drives, DrivesMemory};
 use super::problem::{self, ContactUnknowns, SATURATED};
 use super::touching::Reaction;
 use super::undetermined;
@@ -54,7 +53,7 @@ impl UnilateralState {
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
     ) -> Result<(), StepError> {
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let is_known = |k: usize| {
             let [kinetic, at_rest] = here.friction(k);
             !self.is_compliant(k) && kinetic == at_rest
@@ -87,7 +86,7 @@ impl UnilateralState {
         v: &mut S::Vector,
         h: f64,
     ) -> Result<SteppedContacts, StepError> {
-        let here = ContactKinematics::of(system, t, q, before);
+        let here = self.kinematics(system, (t, q, before));
         let count = self.modes().len();
         let mut free = vec![0.0; 2 * count];
         system.contact_rates(t, q, v, &mut free);
@@ -171,7 +170,8 @@ impl UnilateralState {
         for (mean, after) in mean.as_mut_slice().iter_mut().zip(v.as_slice()) {
             *mean = 0.5 * (*mean + after);
         }
-        let drives = Drives::new(system, (t, q));
+        let mut memory = DrivesMemory::new(q);
+        let mut drives = Drives::new(system, (t, q), &mut memory);
         let mut stepped = SteppedContacts::default();
         let width = directions.len();
         let slip_after = |place: usize| {
@@ -266,7 +266,7 @@ impl UnilateralState {
     ) -> Result<Vec<usize>, StepError> {
         let mut penetrated = Vec::new();
         for _ in 0..CORRECTIONS {
-            let here = ContactKinematics::of(system, t, q, v);
+            let here = self.kinematics(system, (t, q, v));
             let is_deep = |k: &usize| {
                 let gap = here.gaps[*k];
                 self.carrier(*k).is_none() && gap < 0.0 && gap < -0.5 * here.gap_rounding(*k)
@@ -317,13 +317,14 @@ impl UnilateralState {
 
     /// Accelerations with the forces of the last step.
     pub(super) fn reaction_stepped<S: System>(
+        &self,
         system: &S,
         At { t, q, v, .. }: At<'_, S>,
         mut a: Vec<f64>,
         forces: &[[f64; 2]],
     ) -> Result<Reaction, StepError> {
         if forces.as_flattened().iter().any(|force| *force != 0.0) {
-            let here = ContactKinematics::of(system, t, q, v);
+            let here = self.kinematics(system, (t, q, v));
             let singular = |singular: Singular| StepError::Singular { singular, t };
             let inertia = Inertia::new(system, t, q).map_err(singular)?;
             let acting = forces.as_flattened().iter().enumerate();

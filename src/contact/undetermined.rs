@@ -98,14 +98,13 @@ impl OpenForces<'_> {
     pub fn distribute(&self, forces: &mut [f64]) -> Vec<bool> {
         let n = forces.len();
         let mut opens = vec![false; n];
-        let all = self.pressing(&opens);
-        if all.is_empty() {
+        let mut pressing = self.pressing(&opens);
+        if pressing.is_empty() {
             return opens;
         }
         let given = forces.to_vec();
         // Each contact opens or presses; as in principal pivoting one state at a time is corrected, the worst one.
         for _ in 0..4 * n + 8 {
-            let pressing = self.pressing(&opens);
             forces.copy_from_slice(&given);
             self.put(forces, &pressing, &opens);
             let size = greatest(forces);
@@ -116,6 +115,7 @@ impl OpenForces<'_> {
                 .min_by(|a, b| forces[*a].total_cmp(&forces[*b]));
             if let Some(i) = pulling.filter(|i| forces[*i] < -PRESSES * size) {
                 opens[i] = true;
+                pressing = self.pressing(&opens);
                 continue;
             }
             // What the small motion of the others makes of the penetration of an open one.
@@ -135,7 +135,10 @@ impl OpenForces<'_> {
                 .filter_map(|i| Some((penetration(i)?, i)))
                 .max_by(|a, b| a.0.total_cmp(&b.0));
             match pressed {
-                Some((depth, i)) if depth > PRESSES * size => opens[i] = false,
+                Some((depth, i)) if depth > PRESSES * size => {
+                    opens[i] = false;
+                    pressing = self.pressing(&opens);
+                }
                 _ => break,
             }
         }

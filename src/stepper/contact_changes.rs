@@ -1,12 +1,13 @@
 //! Lets unilateral contacts close, open, stick and slip at the end of a step.
 
+use std::boxed::Box;
 use std::vec::Vec;
 
 use super::{Model, Stepper, move_by_rounding};
 use crate::at::At;
 use crate::balance::{ContactShare, Quadratures};
 use crate::constraints::Constraints;
-use crate::contact::{Impact, Mode, ParadoxResolution, UnilateralState};
+use crate::contact::{ContactMemory, Impact, Mode, ParadoxResolution, UnilateralState};
 use crate::inputs::InputLaw;
 use crate::stages::Point;
 use crate::unilateral::ContactTrouble;
@@ -295,7 +296,11 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     /// Records the beginning of a step.
     pub(super) fn begin_contacts(&mut self, now: &Point<S::Vector>) {
         if let Some(touching) = &mut self.touching {
-            touching.record_headings(self.system.get(), now.t, &now.q, &now.v);
+            let memory = self.contact_memory.get_or_insert_with(|| {
+                let memory = ContactMemory::new(touching, &now.q);
+                Box::new(memory)
+            });
+            touching.record_headings(self.system.get(), (now.t, &now.q, &now.v), memory);
         }
     }
 
@@ -322,7 +327,8 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 v: &now.v,
                 u: &self.inputs,
             };
-            flying.accelerations(system, at, &mut free)?;
+            let mut memory = ContactMemory::new(&flying, &now.q);
+            flying.accelerations(system, at, &mut memory, &mut free)?;
         }
         let mut hit: Vec<usize> = changes.impacts.iter().map(|i| i.contact).collect();
         hit.sort_unstable();
@@ -331,7 +337,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         for contact in hit {
             let place = (now.t, &now.q, &now.v);
             let gap_acceleration =
-                UnilateralState::gap_acceleration(system, place, contact, free.as_slice());
+                touching.gap_acceleration(system, place, contact, free.as_slice());
             let left = touching.remaining_bounce_time(system, place, contact, gap_acceleration);
             if let Some(left) = left {
                 closed[contact] = true;

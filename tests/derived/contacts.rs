@@ -1,6 +1,6 @@
 //! Machines from the macro whose parts collide or press on compliant walls.
 
-use lagrangian::{Compliance, ContactEventKind, METHODS, Simulation, System};
+use lagrangian::{Compliance, ContactEventKind, METHODS, Machine, Method, Simulation, System};
 
 lagrangian::machine! {
     /// A mass between a compliant wall and a wall from which it bounces.
@@ -180,5 +180,133 @@ fn a_box_of_a_macro_lands_on_a_polygon() {
         );
         let balance = run.energy_balance().expect("it was kept");
         assert!(balance.residual().abs() < 1e-6, "{name}: {balance:?}");
+    }
+}
+
+lagrangian::machine! {
+    /// A block that slips on a belt, joined by a spring to one that sticks on the floor and to a driven one whose constraint moves.
+    machine Conveyed in plane {
+        parameters { m: kg = 2, k: N/m = 800, mu: 1 = 0.4, g: m/s^2 = 9.81, speed: m/s = 5, reach: m = 0.1, length: m = 1, beat: rad/s = 3 }
+        coordinates { x: m, y: m, u: m = 1, w: m, z: m = 0, der(x): m/s = 0.3 }
+        bodies {
+            block  { mass: m, at: (x, y) },
+            other  { mass: m, at: (u, w) },
+            driven { mass: 1, at: (z, 0) },
+            shaken { mass: 1, at: (0, reach*sin(beat*t)) },
+        }
+        potentials { link: k/2*((x - u + length)^2 + (x - z)^2) }
+        gravity (0, -g);
+        constraints { drive: z = reach/10*sin(beat*t) }
+        contacts {
+            belt  { gap: y, slip: der(x) - speed, restitution: 0, friction: mu },
+            floor { gap: w, slip: der(u), restitution: 0, friction: 20 },
+        }
+    }
+}
+
+lagrangian::machine! {
+    /// A puck that slips on a moving table, held by a spring.
+    machine Puck in space {
+        parameters { m: kg = 2, k: N/m = 80, mu: 1 = 0.2, g: m/s^2 = 9.81, speed: m/s = 5 }
+        coordinates { x: m, y: m, z: m, der(y): m/s = 0.4 }
+        bodies { puck { mass: m, at: (x, y, z) } }
+        potentials { link: k/2*(x^2 + y^2) }
+        gravity (0, 0, -g);
+        contacts { table { gap: z, slip: (der(x) - speed, der(y)), restitution: 0, friction: mu } }
+    }
+}
+
+/// With closed contacts that slip and stick, constraints that move and bodies that are driven, steps allocate nothing, and with an energy balance only
+/// what an entry of energies takes.
+#[test]
+fn closed_contacts_allocate_nothing() {
+    fn allocations<M: Machine>(machine: &M, method: &'static Method, balance: bool) -> [u64; 2] {
+        let [(short, few), (long, many)] = [2.0, 12.0].map(|until| {
+            let mut steps = 0;
+            let counted = allocation_counter::measure(|| {
+                let run = Simulation::new(machine)
+                    .method(method)
+                    .tolerance(1e-7)
+                    .energy_balance(balance)
+                    .forget_steps()
+                    .until(until)
+                    .run(machine.start())
+                    .expect("it runs");
+                assert!(run.contact_events().is_empty());
+                steps = run.statistics().steps as u64;
+            });
+            (counted.count_total, steps)
+        });
+        assert!(many > few + 20);
+        [long - short, many - few]
+    }
+    for method in [&Method::DOP853, &Method::DOPRI5] {
+        let name = method.tableau.name;
+        let (conveyed, puck) = (Conveyed::default(), Puck::default());
+        assert_eq!(allocations(&conveyed, method, false)[0], 0, "{name}");
+        assert_eq!(allocations(&puck, method, false)[0], 0, "{name}");
+        for [count, steps] in [
+            allocations(&conveyed, method, true),
+            allocations(&puck, method, true),
+        ] {
+            assert!(
+                count <= ALLOCATIONS_OF_ENTRY * steps,
+                "{name}: {count} in {steps} steps"
+            );
+        }
+    }
+}
+
+/// The energies of each contact and their rates, and the crushing works that they are made of.
+const ALLOCATIONS_OF_ENTRY: u64 = 3;
+
+lagrangian::machine! {
+    /// A disc that falls onto the floor while it turns as if it rolled, and is slowed down by rolling resistance.
+    machine Rolling in plane {
+        parameters { m: kg = 2, r: m = 0.1, speed: m/s = 1, rho: m = 0.004, h: m = 0.05, g: m/s^2 = 9.81 }
+        coordinates { x: m, y: m = r + h, theta: rad, der(x): m/s = speed, der(theta): rad/s = -speed/r }
+        bodies { disc { mass: m, inertia: m*r^2/2, at: (x, y), angle: theta } }
+        circles { rim { on: disc, center: (0, 0), radius: r } }
+        gravity (0, -g);
+        contacts { floor { circle: rim, along: ground, restitution: 0, friction: 0.5, rolling_resistance: rho } }
+    }
+}
+
+/// The same disc in other units of length comes to rest at the same place. With `k = 2 ρ/(3 r)` the impact takes `k √(2 g h)` of its speed, and it then slows
+/// down by `k g`.
+#[test]
+fn a_disc_rolls_alike_in_all_units_of_length() {
+    for unit in [1.0, 1e-3, 1e-6, 1e-9, 1e6] {
+        let mut machine = Rolling::default();
+        for (name, value) in [
+            ("r", 0.1),
+            ("speed", 1.0),
+            ("rho", 0.004),
+            ("h", 0.05),
+            ("g", 9.81),
+        ] {
+            machine.set(name, value * unit).expect("a parameter");
+        }
+        let run = Simulation::new(&machine)
+            .tolerance(1e-10)
+            .until(5.0)
+            .run(machine.start())
+            .unwrap_or_else(|error| panic!("{unit}: {error}"));
+        let k = 2.0 * 0.004 / (3.0 * 0.1);
+        let fall = (2.0 * 0.05 / 9.81_f64).sqrt();
+        let speed = 1.0 - k * 9.81 * fall;
+        let expected = fall + speed * speed / (2.0 * k * 9.81);
+        let found = run.end().q.x / unit;
+        assert!(
+            (found - expected).abs() < 1e-9,
+            "{unit}: {found} {expected}"
+        );
+        let kinds: Vec<_> = run
+            .contact_events()
+            .iter()
+            .map(|event| event.kind)
+            .collect();
+        use ContactEventKind::{Closes, Impact, Sticks};
+        assert_eq!(kinds, [Impact, Closes, Sticks], "{unit}");
     }
 }

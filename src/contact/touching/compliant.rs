@@ -10,13 +10,13 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::super::kinematics::{ContactKinematics, faces};
-use super::{Margin, Mode, UnilateralState};
+use super::super::kinematics::ContactKinematics;
+use super::{ContactMemory, Margin, Mode, UnilateralState};
 use crate::balance::ContactShare;
 use crate::{Compliance, ContactEnergies, System};
 
 /// The law of a contact that yields, and what it remembers.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ComplianceState {
     law: Compliance,
     /// Of a layer: how deep it was pressed at most, in m, and whether it is loaded further now.
@@ -147,23 +147,15 @@ impl UnilateralState {
         here: &ContactKinematics,
         contact: usize,
     ) -> Clearance {
-        let gap = here.gaps[contact];
-        let rate = match here.on_face(contact) {
-            Some(face) if face.beyond > face.height => face.beyond_rate,
-            _ => here.rates[2 * contact],
-        };
+        let of_gap = here.clearance(contact);
         let Some(own) = self.compliance[contact] else {
-            return Clearance {
-                value: gap,
-                rate,
-                is_rate_of_value: true,
-            };
+            return of_gap;
         };
-        let value = own.missing(here.restitution(contact), here.depth(contact));
+        let is_open = of_gap.value >= -here.gap_rounding(contact);
         Clearance {
-            value,
-            rate,
-            is_rate_of_value: gap >= -here.gap_rounding(contact) || own.law == Compliance::Layer,
+            value: own.missing(here.restitution(contact), here.depth(contact)),
+            rate: of_gap.rate,
+            is_rate_of_value: is_open || own.law == Compliance::Layer,
         }
     }
 
@@ -171,31 +163,39 @@ impl UnilateralState {
     pub fn clearances<S: System>(
         &self,
         system: &S,
-        (t, q, v): (f64, &S::Vector, &S::Vector),
+        place: (f64, &S::Vector, &S::Vector),
     ) -> Vec<Clearance> {
-        if !self.any_is_compliant() {
-            let m = self.compliance.len();
-            let (mut gaps, mut rates) = (vec![0.0; m], vec![0.0; 2 * m]);
-            system.gaps(t, q, &mut gaps);
-            system.contact_rates(t, q, v, &mut rates);
-            let pairs = gaps.into_iter().zip(rates.chunks_exact(2));
-            let of_gap = |(value, rates): (f64, &[f64])| Clearance {
-                value,
-                rate: rates[0],
-                is_rate_of_value: true,
-            };
-            let mut all: Vec<Clearance> = pairs.map(of_gap).collect();
-            for (own, face) in all.iter_mut().zip(faces(system, (t, q, v))) {
-                if let Some(face) = face.filter(|face| face.beyond > face.height) {
-                    own.rate = face.beyond_rate;
-                }
-            }
-            return all;
+        let mut all = Vec::new();
+        self.write_clearances_with(system, place, &mut self.memory_for_kinematics(), &mut all);
+        all
+    }
+
+    /// Writes what [`clearances`](Self::clearances) says, in memory that is there.
+    pub fn write_clearances<S: System>(
+        &self,
+        system: &S,
+        place: (f64, &S::Vector, &S::Vector),
+        memory: &mut ContactMemory<S::Vector, S::Matrix>,
+        all: &mut Vec<Clearance>,
+    ) {
+        self.write_clearances_with(system, place, memory.kinematics(), all);
+    }
+
+    fn write_clearances_with<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        here: &mut ContactKinematics,
+        all: &mut Vec<Clearance>,
+    ) {
+        all.clear();
+        if self.any_is_compliant() {
+            here.evaluate(system, t, q, v);
+            all.extend((0..here.gaps.len()).map(|k| self.clearance(here, k)));
+            return;
         }
-        let here = ContactKinematics::of(system, t, q, v);
-        (0..here.gaps.len())
-            .map(|k| self.clearance(&here, k))
-            .collect()
+        here.evaluate_gaps(system, t, q, v);
+        all.extend((0..here.gaps.len()).map(|k| here.clearance(k)));
     }
 
     /// Whether any contact yields.
@@ -219,7 +219,7 @@ impl UnilateralState {
         if !self.any_is_compliant() || self.is_free() {
             return Vec::new();
         }
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let of_each = (0..self.compliance.len()).map(|k| self.compliant_force(&here, k));
         of_each
             .map(|pressed| pressed.map_or(0.0, |pressed| pressed.stored))
@@ -276,7 +276,7 @@ impl UnilateralState {
         if !(0..self.compliance.len()).any(|k| self.is_layer(k)) {
             return vec![0.0; self.compliance.len()];
         }
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         (0..self.compliance.len())
             .map(|k| self.crushing_work(&here, k))
             .collect()
@@ -318,7 +318,7 @@ impl UnilateralState {
     /// Layers that are penetrated have been loaded to where they are, those that close now are loaded from where they
     /// were left.
     pub fn load_layers<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         for k in 0..self.compliance.len() {
             let is_closed = self.modes()[k] != Mode::Open;
             let Some(own) = &mut self.compliance[k] else {
@@ -346,7 +346,7 @@ impl UnilateralState {
         (t, q, v): (f64, &S::Vector, &S::Vector),
         contact: usize,
     ) -> bool {
-        let here = ContactKinematics::of(system, t, q, v);
+        let here = self.kinematics(system, (t, q, v));
         let Some(own) = &mut self.compliance[contact] else {
             return false;
         };
@@ -364,6 +364,19 @@ impl UnilateralState {
 }
 
 impl ContactKinematics {
+    /// How far a rigid contact is from closing.
+    fn clearance(&self, contact: usize) -> Clearance {
+        let rate = match self.on_face(contact) {
+            Some(face) if face.beyond > face.height => face.beyond_rate,
+            _ => self.rates[2 * contact],
+        };
+        Clearance {
+            value: self.gaps[contact],
+            rate,
+            is_rate_of_value: true,
+        }
+    }
+
     /// How deep a contact is penetrated, and how fast that grows.
     fn depth(&self, contact: usize) -> [f64; 2] {
         [-self.gaps[contact], -self.rates[2 * contact]]

@@ -1,11 +1,11 @@
 //! A machine with its closed contacts as further constraints.
 
-use std::vec;
 use std::vec::Vec;
 
-use super::super::kinematics::faces;
+use super::super::kinematics::{OnFace, write_faces};
 use super::{Mode, UnilateralState};
 use crate::forward::forward;
+use crate::shared_workspace::SharedWorkspace;
 use crate::{Constraint, System, UnilateralContact, Vector};
 
 /// A machine whose closed contacts are constraints: a gap that stays 0, and where a contact sticks, a slip that does.
@@ -14,6 +14,30 @@ pub(crate) struct Held<'a, S> {
     system: &'a S,
     /// Which directions of contacts are held: two of each contact.
     directions: &'a [usize],
+    memory: &'a SharedWorkspace<HeldMemory>,
+}
+
+/// Memory for values of all contacts, of which those of closed ones are taken.
+#[derive(Debug, Default)]
+pub(super) struct HeldMemory {
+    of_directions: Vec<f64>,
+    gaps: Gaps,
+    workspace: Vec<f64>,
+}
+
+impl Clone for HeldMemory {
+    /// New memory: states of contacts that a run keeps are seldom evaluated.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+/// Memory for gaps.
+#[derive(Debug, Default)]
+struct Gaps {
+    gaps: Vec<f64>,
+    face_numbers: Vec<f64>,
+    faces: Vec<Option<OnFace>>,
 }
 
 impl<'a, S: System> Held<'a, S> {
@@ -21,6 +45,7 @@ impl<'a, S: System> Held<'a, S> {
         Held {
             system,
             directions: touching.held(),
+            memory: &touching.held_memory,
         }
     }
 
@@ -47,7 +72,7 @@ impl<'a, S: System> Held<'a, S> {
         width: usize,
         to: &mut [f64],
         own: impl FnOnce(&mut [f64]),
-        contacts: impl FnOnce(&mut [f64]),
+        contacts: impl FnOnce(&mut [f64], &mut Gaps),
         sign: f64,
     ) {
         let at = self.system.constraints().len() * width;
@@ -57,8 +82,15 @@ impl<'a, S: System> Held<'a, S> {
             return;
         }
         let count = 2 * self.system.unilateral_contacts().len();
-        let mut all = vec![0.0; count * width];
-        contacts(&mut all);
+        let mut memory = self.memory.lock();
+        let HeldMemory {
+            of_directions: all,
+            gaps,
+            ..
+        } = &mut *memory;
+        all.clear();
+        all.resize(count * width, 0.0);
+        contacts(all, gaps);
         for (to, &direction) in rest.chunks_mut(width.max(1)).zip(self.directions) {
             let from = &all[direction * width..][..width];
             for (to, from) in to.iter_mut().zip(from) {
@@ -149,16 +181,24 @@ impl<S: System> System for Held<'_, S> {
 
     fn constraint_positions(&self, t: f64, q: &S::Vector, residuals: &mut [f64]) {
         let own = |to: &mut [f64]| self.system.constraint_positions(t, q, to);
-        let gaps = |to: &mut [f64]| {
-            let mut gaps = vec![0.0; to.len() / 2];
-            self.system.gaps(t, q, &mut gaps);
-            // A corner stays on the line of its face, wherever that ends: that it does is for the run to see.
-            let faces = faces(self.system, (t, q, &q.zeros_like()));
-            for (gap, face) in gaps.iter_mut().zip(faces) {
-                *gap = face.map_or(*gap, |face| face.height);
-            }
+        let gaps = |to: &mut [f64], memory: &mut Gaps| {
+            let Gaps {
+                gaps,
+                face_numbers,
+                faces,
+            } = memory;
+            gaps.clear();
+            gaps.resize(to.len() / 2, 0.0);
+            self.system.gaps(t, q, gaps);
             for (to, gap) in to.chunks_exact_mut(2).zip(gaps) {
-                to[0] = gap;
+                to[0] = *gap;
+            }
+            // A corner stays on the line of its face, wherever that ends: that it does is for the run to see.
+            if self.system.unilateral_contacts().any(|one| one.has_face) {
+                write_faces(self.system, (t, q, &q.zeros_like()), face_numbers, faces);
+                for (to, face) in to.chunks_exact_mut(2).zip(faces) {
+                    to[0] = face.map_or(to[0], |face| face.height);
+                }
             }
         };
         self.with_contacts(1, residuals, own, gaps, 1.0);
@@ -166,20 +206,30 @@ impl<S: System> System for Held<'_, S> {
 
     fn constraint_rates(&self, t: f64, q: &S::Vector, v: &S::Vector, residuals: &mut [f64]) {
         let own = |to: &mut [f64]| self.system.constraint_rates(t, q, v, to);
-        let contacts = |to: &mut [f64]| self.system.contact_rates(t, q, v, to);
+        let contacts = |to: &mut [f64], _: &mut Gaps| self.system.contact_rates(t, q, v, to);
         self.with_contacts(1, residuals, own, contacts, 1.0);
     }
 
     fn constraint_matrix(&self, t: f64, q: &S::Vector, matrix: &mut [f64]) {
         let own = |to: &mut [f64]| self.system.constraint_matrix(t, q, to);
-        let contacts = |to: &mut [f64]| self.system.contact_matrix(t, q, to);
+        let contacts = |to: &mut [f64], _: &mut Gaps| self.system.contact_matrix(t, q, to);
         self.with_contacts(q.as_slice().len(), matrix, own, contacts, 1.0);
     }
 
     fn constraint_bias(&self, t: f64, q: &S::Vector, v: &S::Vector, drift: &mut [f64]) {
         let own = |to: &mut [f64]| self.system.constraint_bias(t, q, v, to);
-        let contacts = |to: &mut [f64]| self.system.contact_bias(t, q, v, to);
+        let contacts = |to: &mut [f64], _: &mut Gaps| self.system.contact_bias(t, q, v, to);
         // A constraint says what `G a` is to be, a contact what its rate is without it.
         self.with_contacts(1, drift, own, contacts, -1.0);
+    }
+
+    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        // It is not locked meanwhile: the constraints are evaluated.
+        let mut workspace = core::mem::take(&mut self.memory.lock().workspace);
+        workspace.clear();
+        workspace.resize(length, 0.0);
+        let result = work(Some(&mut workspace));
+        self.memory.lock().workspace = workspace;
+        result
     }
 }

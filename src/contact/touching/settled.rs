@@ -1,0 +1,581 @@
+//! What contacts that touch do next.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::super::delassus::{Inertia, matrix};
+use super::super::kinematics::ContactKinematics;
+use super::super::problem::{ContactUnknowns, SATURATED};
+use super::super::{ContactTrouble, undetermined};
+use super::shared::ShareOfLoad;
+use super::{Mode, ROUNDING_OF_FORCES, UnilateralState};
+use crate::at::At;
+use crate::friction::shares::Limit;
+use crate::{Singular, StepError, System};
+
+/// How large the residual of a solution may be.
+const MOST_RESIDUAL: f64 = 1e-8;
+
+/// Contacts that touch, of which it is asked together what they do next.
+struct Settling<'a> {
+    touching: &'a UnilateralState,
+    here: &'a ContactKinematics,
+    t: f64,
+    resting: &'a [bool],
+    /// What is known of some contacts.
+    known_modes: &'a [(usize, Mode)],
+    /// The contacts that are asked.
+    asked: Vec<usize>,
+    /// For each direction of these the acceleration without any contact, and the size of its terms.
+    accelerations: Vec<[f64; 2]>,
+    /// The products of their images, row after row.
+    g: Vec<f64>,
+    /// The normal forces that are known, of contacts that yield.
+    pressing: Vec<Option<f64>>,
+    /// How each slips: from its rate, or found out; none where it may stick.
+    slipping: Vec<Option<f64>>,
+    /// Which contacts with two tangents are at rest and will slide: in which direction is for their friction to say.
+    breaks: Vec<bool>,
+    /// What contacts do, of all that there are.
+    modes: Vec<Mode>,
+    /// A contact that began to slip last.
+    unsettled: usize,
+}
+
+/// Forces of the contacts that are asked.
+struct SettlingForces {
+    /// Those that are known beforehand.
+    known: Vec<[f64; 2]>,
+    /// The accelerations with these.
+    b: Vec<f64>,
+    /// Those that have been solved for.
+    found: Vec<[f64; 2]>,
+}
+
+impl UnilateralState {
+    /// What contacts that touch do next: which of `closed` stay so, and what those of them that are at rest do.
+    ///
+    /// A contact that slips has a direction, and friction along it. One at rest sticks if it can with its static
+    /// friction; if not it slips, with its friction, in the direction in which it is pulled. Of some contacts it may
+    /// be known what they do: where a force has just vanished, or friction is used up, nothing else says so.
+    pub fn settled<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        closed: &[bool],
+        resting: &[bool],
+        known: &[(usize, Mode)],
+    ) -> Result<Vec<Mode>, StepError> {
+        let settled = self.settled_by_forces(system, at, closed, resting, known);
+        settled.map(|(modes, _)| modes)
+    }
+
+    /// The same, with the forces by which they do it, along normal and tangent: where a load may be shared in several ways, in one that
+    /// every contact allows.
+    pub fn settled_by_forces<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        closed: &[bool],
+        resting: &[bool],
+        known_modes: &[(usize, Mode)],
+    ) -> Result<(Vec<Mode>, Vec<[f64; 2]>), StepError> {
+        let At { t, q, v, .. } = at;
+        let is_asked = |k: &usize| {
+            let pressing = self.carrier[*k].unwrap_or(*k);
+            closed[*k] && !known_modes.contains(&(pressing, Mode::Open))
+        };
+        let asked: Vec<usize> = (0..closed.len()).filter(is_asked).collect();
+        let mut forces = vec![[0.0; 2]; closed.len()];
+        if asked.is_empty() {
+            return Ok((vec![Mode::Open; closed.len()], forces));
+        }
+        let free = Self::free(system, at)?;
+        let here = self.kinematics(system, (t, q, v));
+        let singular = |singular: Singular| StepError::Singular { singular, t };
+        let inertia = Inertia::new(system, t, q).map_err(singular)?;
+        let mut settling = Settling::new(
+            (self, &here, t),
+            (&inertia, &free),
+            asked,
+            (resting, known_modes),
+        );
+        for _ in 0..=settling.asked.len() {
+            let solved = settling.solve()?;
+            if settling.take_modes(&solved) {
+                continue;
+            }
+            let parts = solved.known.iter().zip(&solved.found);
+            for (&k, (known, found)) in settling.asked.iter().zip(parts) {
+                forces[k] = [known[0] + found[0], known[1] + found[1]];
+            }
+            let modes = settling.modes;
+            let lets_go = |k: usize| match modes[k] {
+                Mode::Open => closed[k],
+                Mode::Slides(sign) => self.has_friction[k] && sign != 0.0,
+                Mode::SlidesAlong(_) => true,
+                Mode::Sticks => false,
+            };
+            let some_let_go =
+                known_modes.is_empty() && (0..modes.len()).any(|k| resting[k] && lets_go(k));
+            if some_let_go
+                && let Some(held) = self.rests_together(system, at, &here, resting, &modes)
+            {
+                return Ok(held);
+            }
+            return Ok((modes, forces));
+        }
+        Err(StepError::Contact {
+            contact: self.first(settling.unsettled),
+            trouble: ContactTrouble::Unsettled,
+            t,
+        })
+    }
+
+    /// The states and forces with which all contacts at rest stay at rest, if some distribution of the forces that they share permits it. The
+    /// solution of the complementarity problem is one distribution, and may release some of them.
+    fn rests_together<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        here: &ContactKinematics,
+        resting: &[bool],
+        modes: &[Mode],
+    ) -> Option<(Vec<Mode>, Vec<[f64; 2]>)> {
+        let at_rest = |k: usize| {
+            if self.has_friction[k] {
+                Mode::Sticks
+            } else {
+                Mode::Slides(0.0)
+            }
+        };
+        let held: Vec<Mode> = (modes.iter().enumerate())
+            .map(|(k, mode)| if resting[k] { at_rest(k) } else { *mode })
+            .collect();
+        let mut touching = self.clone();
+        touching.set_modes(held);
+        let reaction = touching.reaction_here(system, at, here).ok()?;
+        let load = touching.shared_load(here, &reaction, at.t).ok()??;
+        let free = Self::free(system, at).ok()?;
+        let is_still = |direction: &usize| {
+            // Its round-off is that of the terms that the forces cancel.
+            let [rate, terms] = here.acceleration(*direction, &reaction.a);
+            let [_, of_free] = here.acceleration(*direction, &free);
+            rate.abs() <= ROUNDING_OF_FORCES * (terms + of_free)
+        };
+        let holds = |k: usize| match &load.margins[k] {
+            Some(ShareOfLoad { margin, .. }) => margin.value > margin.rounding,
+            None if touching.modes[k] == Mode::Open || self.across[k] => true,
+            None => {
+                let normal = load.forces[self.carrier[k].unwrap_or(k)][0];
+                let rounding = ROUNDING_OF_FORCES * reaction.sizes[k];
+                let used = match (touching.modes[k], self.second(k)) {
+                    (Mode::Sticks, None) => load.forces[k][1].abs(),
+                    (Mode::Sticks, Some(second)) => load.forces[k][1].hypot(load.forces[second][1]),
+                    _ => 0.0,
+                };
+                normal >= -rounding && used <= here.friction(k)[1] * normal + rounding
+            }
+        };
+        let is_held = touching.held.iter().all(is_still) && (0..modes.len()).all(holds);
+        is_held.then_some((touching.modes, load.forces))
+    }
+
+    /// The new states of contacts that share forces and no longer hold: of those that limit the shared margin.
+    pub fn let_go<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+    ) -> Result<Vec<(usize, Mode)>, StepError> {
+        let At { t, q, v, .. } = at;
+        let here = self.kinematics(system, (t, q, v));
+        let reaction = self.reaction_here(system, at, &here)?;
+        let shared = self.shared_load(&here, &reaction, t)?;
+        let shared = shared.map_or_else(Vec::new, |load| load.margins);
+        let limits = |(k, shared): (usize, Option<ShareOfLoad>)| {
+            let ShareOfLoad { margin, limit, .. } = shared?;
+            let mode = match limit? {
+                Limit::Friction([along, across]) if self.second(k).is_some() => {
+                    Mode::SlidesAlong([-along, -across])
+                }
+                Limit::Friction([along, _]) => Mode::Slides(-along),
+                Limit::Pressing => Mode::Open,
+            };
+            (margin.value < 0.0).then_some((k, mode))
+        };
+        let mut known: Vec<(usize, Mode)> =
+            shared.into_iter().enumerate().filter_map(limits).collect();
+        // If some slip, contacts whose normal force has vanished move with them, or lift later.
+        if known.iter().any(|(_, mode)| *mode != Mode::Open) {
+            known.retain(|(_, mode)| *mode != Mode::Open);
+        }
+        Ok(known)
+    }
+
+    /// These states, but open for those of some contacts that press no more than rounding, and for what leans on these.
+    pub fn without_unpressed<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        mut modes: Vec<Mode>,
+        may_open: impl Fn(usize) -> bool,
+    ) -> Result<Vec<Mode>, StepError> {
+        let closing: Vec<usize> = (0..modes.len())
+            .filter(|k| modes[*k] != Mode::Open && self.carrier[*k].is_none() && may_open(*k))
+            .collect();
+        if closing.is_empty() {
+            return Ok(modes);
+        }
+        let mut touching = self.clone();
+        touching.set_modes(modes.clone());
+        let margins = touching.margins(system, at)?.each;
+        for k in closing {
+            let [presses, ..] = margins[k];
+            if presses.value <= presses.rounding {
+                modes[k] = Mode::Open;
+            }
+        }
+        self.copy_openings_from_carriers(&mut modes);
+        Ok(modes)
+    }
+
+    /// Opens what leans on an open contact.
+    fn copy_openings_from_carriers(&self, modes: &mut [Mode]) {
+        for (k, on) in self.carrier.iter().enumerate() {
+            if on.is_some_and(|on| modes[on] == Mode::Open) {
+                modes[k] = Mode::Open;
+            }
+        }
+    }
+}
+
+impl<'a> Settling<'a> {
+    fn new(
+        (touching, here, t): (&'a UnilateralState, &'a ContactKinematics, f64),
+        (inertia, free): (&Inertia, &[f64]),
+        asked: Vec<usize>,
+        (resting, known_modes): (&'a [bool], &'a [(usize, Mode)]),
+    ) -> Self {
+        let directions: Vec<usize> = asked.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
+        let images: Vec<Vec<f64>> = (directions.iter())
+            .map(|direction| inertia.image(here.row(*direction)))
+            .collect();
+        let accelerations = directions.iter();
+        let accelerations = accelerations.map(|direction| here.acceleration(*direction, free));
+        let pressing = asked.iter().map(|k| {
+            let pressing = touching.carrier[*k].unwrap_or(*k);
+            let pressed = touching.compliant_force_at_closing(here, pressing);
+            pressed.map(|pressed| pressed.force.max(0.0))
+        });
+        let mut settling = Self {
+            touching,
+            here,
+            t,
+            resting,
+            known_modes,
+            accelerations: accelerations.collect(),
+            g: matrix(&images),
+            pressing: pressing.collect(),
+            slipping: Vec::new(),
+            breaks: Vec::new(),
+            modes: vec![Mode::Open; resting.len()],
+            unsettled: asked[0],
+            asked,
+        };
+        let places = 0..settling.asked.len();
+        settling.slipping = places.map(|place| settling.slip_by_rate(place)).collect();
+        let slides = |k: &usize| matches!(settling.known_mode(*k), Some(Mode::SlidesAlong(_)));
+        settling.breaks = settling.asked.iter().map(slides).collect();
+        settling
+    }
+
+    fn known_mode(&self, contact: usize) -> Option<Mode> {
+        let mut known = self.known_modes.iter();
+        let own = known.find(|(known, _)| *known == contact);
+        own.map(|(_, mode)| *mode)
+    }
+
+    /// Where among the contacts what one leans on stands: before it.
+    fn carrier(&self, place: usize) -> Option<usize> {
+        self.touching.carrier[self.asked[place]].map(|_| place - 1)
+    }
+
+    /// The row of the products of a direction.
+    fn row(&self, row: usize) -> &[f64] {
+        let width = self.accelerations.len();
+        &self.g[row * width..][..width]
+    }
+
+    /// How a contact slips, by its rate or because it is known; none where it may stick.
+    fn slip_by_rate(&self, place: usize) -> Option<f64> {
+        let Self { touching, here, .. } = self;
+        let k = self.asked[place];
+        if !touching.has_friction[k] {
+            return Some(0.0);
+        }
+        match self.known_mode(k) {
+            Some(Mode::Slides(sign)) => return Some(sign),
+            Some(_) => return None,
+            None => {}
+        }
+        if self.resting[k] {
+            return None;
+        }
+        if touching.has_two_tangents(k) {
+            let [slip, _] = touching.slip(here, k);
+            return Some(slip[usize::from(touching.across[k])] / slip[0].hypot(slip[1]));
+        }
+        let slip = here.rates[2 * k + 1];
+        let [_, terms] = self.accelerations[2 * place + 1];
+        match touching.modes[k] {
+            // The sign of a slip that is rounding says nothing: it slips as it did.
+            Mode::Slides(sign)
+                if sign != 0.0 && slip.abs() <= here.rate_rounding_in_time(2 * k + 1, terms) =>
+            {
+                Some(sign)
+            }
+            _ => Some(slip.signum()),
+        }
+    }
+
+    /// What is asked of a contact.
+    ///
+    /// # Errors
+    /// Where its slip leaves no motion, or several.
+    fn unknowns(&self, place: usize) -> Result<ContactUnknowns, StepError> {
+        let k = self.asked[place];
+        let [kinetic, at_rest] = self.here.friction(k);
+        let static_friction = if self.breaks[place] { kinetic } else { at_rest };
+        let (slipping, pressing) = (self.slipping[place], self.pressing[place]);
+        if self.touching.across[k] && slipping.is_none() {
+            return Ok(ContactUnknowns::SecondTangent);
+        }
+        if let (Some(on), None) = (self.carrier(place), pressing) {
+            return Ok(match slipping {
+                Some(sign) => ContactUnknowns::ShareOfCarrier {
+                    share: -sign * kinetic,
+                    on,
+                },
+                None => ContactUnknowns::OnCarrier {
+                    friction: static_friction,
+                    known_normal: 0.0,
+                    on,
+                },
+            });
+        }
+        Ok(match (slipping, pressing) {
+            (Some(_), Some(_)) => ContactUnknowns::Nothing,
+            (None, Some(normal)) => ContactUnknowns::Tangent {
+                friction: static_friction,
+                normal,
+            },
+            (None, None) => ContactUnknowns::Both {
+                friction: static_friction,
+                known_normal: 0.0,
+            },
+            (Some(sign), None) => ContactUnknowns::Normal {
+                share: self.share_of_slip(place, sign)?,
+            },
+        })
+    }
+
+    /// The tangential force of a contact that slips, as a share of its normal force.
+    ///
+    /// # Errors
+    /// Where the normal force accelerates the contact towards closing.
+    fn share_of_slip(&self, place: usize, sign: f64) -> Result<f64, StepError> {
+        let k = self.asked[place];
+        let [friction, _] = self.here.friction(k);
+        let trouble = |trouble| StepError::Contact {
+            contact: k,
+            trouble,
+            t: self.t,
+        };
+        let share = -sign * friction;
+        let row = self.row(2 * place);
+        let own = row[2 * place];
+        let mut coupled = share * row[2 * place + 1];
+        let across = self.slipping.get(place + 1).copied().flatten();
+        if let (Some(_), Some(sign)) = (self.touching.second(k), across) {
+            coupled -= sign * friction * row[2 * place + 3];
+        }
+        if own == 0.0 {
+            return Err(trouble(ContactTrouble::NotHeld));
+        }
+        // Pressed, it would be pressed the more: none or several motions.
+        if own + coupled <= ROUNDING_OF_FORCES * own {
+            return Err(trouble(ContactTrouble::Paradox));
+        }
+        Ok(share)
+    }
+
+    /// The forces of a contact that are known.
+    fn known_forces(&self, place: usize) -> [f64; 2] {
+        let normal = self.pressing[place].unwrap_or(0.0);
+        let [friction, _] = self.here.friction(self.asked[place]);
+        let share = self.slipping[place].map_or(0.0, |sign| -sign * friction);
+        match self.carrier(place) {
+            None => [normal, share * normal],
+            Some(_) => [0.0, share * normal],
+        }
+    }
+
+    /// Solves for the forces with what is known of slips by now.
+    fn solve(&self) -> Result<SettlingForces, StepError> {
+        let places = 0..self.asked.len();
+        let unknowns = places.clone().map(|place| self.unknowns(place));
+        let unknowns = unknowns.collect::<Result<Vec<_>, _>>()?;
+        let known: Vec<[f64; 2]> = places.map(|place| self.known_forces(place)).collect();
+        let b: Vec<f64> = (self.accelerations.iter().enumerate())
+            .map(|(row, [value, _])| {
+                let by = self.row(row).iter().zip(known.iter().flatten());
+                by.fold(*value, |sum, (g, force)| sum + g * force)
+            })
+            .collect();
+        let answer = undetermined::solve(&unknowns, &self.g, &b).ok();
+        match answer.filter(|answer| answer.residual <= MOST_RESIDUAL) {
+            Some(answer) => Ok(SettlingForces {
+                known,
+                b,
+                found: answer.forces,
+            }),
+            None => Err(self.touching.unsolved(&self.asked, self.t)),
+        }
+    }
+
+    /// The acceleration along a direction with all forces, and its rounding.
+    fn after(&self, solved: &SettlingForces, row: usize) -> (f64, f64) {
+        let of = |forces: &[[f64; 2]]| {
+            let terms = self.row(row).iter().zip(forces.as_flattened());
+            terms.fold([0.0; 2], |[sum, size], (g, force)| {
+                [sum + g * force, size + (g * force).abs()]
+            })
+        };
+        let ([by, size], [_, of_known]) = (of(&solved.found), of(&solved.known));
+        let size = self.accelerations[row][1] + size + of_known;
+        (solved.b[row] + by, ROUNDING_OF_FORCES * size)
+    }
+
+    /// Takes what contacts do from their forces. The answer is whether one begins to slip whose friction is less then, so that the forces are others.
+    fn take_modes(&mut self, solved: &SettlingForces) -> bool {
+        let mut breaks_away = false;
+        for place in 0..self.asked.len() {
+            let k = self.asked[place];
+            self.modes[k] = if self.opens(solved, place) {
+                Mode::Open
+            } else if self.touching.across[k] {
+                // It is said with the first tangent what is done along both.
+                self.modes[k - 1]
+            } else {
+                match (self.slipping[place], self.touching.second(k)) {
+                    (Some(sign), Some(_)) => {
+                        Mode::SlidesAlong([sign, self.slipping[place + 1].unwrap_or(0.0)])
+                    }
+                    (Some(sign), None) => Mode::Slides(sign),
+                    (None, Some(_)) => self.rest_in_space(solved, place, &mut breaks_away),
+                    (None, None) => self.rest_in_plane(solved, place, &mut breaks_away),
+                }
+            };
+        }
+        breaks_away
+    }
+
+    /// Whether a contact opens with these forces.
+    fn opens(&self, solved: &SettlingForces, place: usize) -> bool {
+        if let Some(on) = self.carrier(place) {
+            return self.modes[self.asked[on]] == Mode::Open;
+        }
+        if self.pressing[place].is_some() {
+            return false;
+        }
+        let (opens, rounding) = self.after(solved, 2 * place);
+        let rate = self.touching.greatest_rate();
+        let rounding = rounding + self.here.acceleration_rounding(self.asked[place], rate);
+        // One of both is 0, as far as the problem could be solved: what is pressed more than it opens is closed.
+        let pressed = self.row(2 * place)[2 * place] * solved.found[place][0];
+        opens > rounding.max(pressed)
+    }
+
+    /// What a contact in the plane does that is at rest and stays closed.
+    fn rest_in_plane(
+        &mut self,
+        solved: &SettlingForces,
+        place: usize,
+        breaks_away: &mut bool,
+    ) -> Mode {
+        let k = self.asked[place];
+        let tangential = solved.found[place][1];
+        let normal = solved.found[self.carrier(place).unwrap_or(place)][0];
+        let normal = self.pressing[place].unwrap_or(normal);
+        let [kinetic, at_rest] = self.here.friction(k);
+        let most = at_rest * normal;
+        let (slips, rounding) = self.after(solved, 2 * place + 1);
+        // What does not begin to slip sticks, although its friction is used up: contacts that share a load may share it so
+        // while others hold it; and if it has just stopped, or starts exactly at its limit, what follows decides. A slip
+        // that begins later is found by its friction, one that is assumed here and does not begin would stop at once.
+        let is_held = slips.abs() <= rounding;
+        // What has friction left sticks, whatever rounding makes of its slip.
+        if is_held || tangential.abs() < most * (1.0 - SATURATED) {
+            return Mode::Sticks;
+        }
+        let sign = if most > 0.0 {
+            -tangential.signum()
+        } else {
+            slips.signum()
+        };
+        self.slipping[place] = Some(sign);
+        if kinetic != at_rest {
+            *breaks_away = true;
+            self.unsettled = k;
+        }
+        Mode::Slides(sign)
+    }
+
+    /// What a contact in space does that is at rest and stays closed.
+    fn rest_in_space(
+        &mut self,
+        solved: &SettlingForces,
+        place: usize,
+        breaks_away: &mut bool,
+    ) -> Mode {
+        let k = self.asked[place];
+        let used = [0, 1].map(|part| solved.found[place + part][1]);
+        let normal = self.pressing[place].unwrap_or(solved.found[place][0]);
+        let [kinetic, at_rest] = self.here.friction(k);
+        let breaks = self.breaks[place];
+        let most = normal * if breaks { kinetic } else { at_rest };
+        let slips = [1, 3].map(|part| self.after(solved, 2 * place + part));
+        let size = used[0].hypot(used[1]);
+        let speeds_up = slips[0].0.hypot(slips[1].0);
+        let is_still = speeds_up <= slips[0].1.hypot(slips[1].1);
+        let has_friction_left = size < most * (1.0 - SATURATED);
+        // Without any friction that is used up, only who says that it begins to slip can say in which direction.
+        let known_direction = match self.known_mode(k) {
+            Some(Mode::SlidesAlong(direction)) => direction,
+            _ => [0.0; 2],
+        };
+        let sticks = if breaks {
+            // What would let go with others may have friction left once these slip, as where a body begins to turn about it.
+            kinetic < at_rest && has_friction_left && is_still && most > 0.0
+        } else {
+            // What does not begin to slip sticks, also where others could hold it: contacts that share a load may
+            // share it so that the friction of one is used up.
+            has_friction_left || is_still
+        };
+        if sticks || (size == 0.0 && is_still && known_direction == [0.0; 2]) {
+            return Mode::Sticks;
+        }
+        if kinetic != at_rest && !breaks {
+            *breaks_away = true;
+            (self.breaks[place], self.breaks[place + 1]) = (true, true);
+            self.unsettled = k;
+        }
+        if size > 0.0 {
+            Mode::SlidesAlong(used.map(|used| -used / size))
+        } else if is_still {
+            Mode::SlidesAlong(known_direction)
+        } else {
+            Mode::SlidesAlong(slips.map(|(slip, _)| slip / speeds_up))
+        }
+    }
+}
