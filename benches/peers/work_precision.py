@@ -154,7 +154,10 @@ def summary(results):
             cells = []
             for error, least in zip(ERRORS, ours):
                 theirs = seconds_at(points, error)
-                cells.append("" if theirs is None and least is None else "–" if theirs is None else "alone" if least is None else f"{theirs / least:.3g}")
+                if theirs is None:
+                    cells.append("" if least is None else "–")
+                else:
+                    cells.append("alone" if least is None else f"{theirs / least:.3g}")
             print(f"| {name} | {who} | " + " | ".join(cells) + " |")
     print()
 
