@@ -148,12 +148,16 @@ def summary(results):
         for tool, points in tools.items():
             if not is_of_many(tool):
                 best.setdefault(program(tool), []).extend(points)
-        ours = [seconds_at(best.pop("lagrangian", []), error) for error in ERRORS]
+        mine = best.pop("lagrangian", [])
+        ours = [seconds_at(mine, error) for error in ERRORS]
         for who, points in best.items():
             cells = []
-            for error, mine in zip(ERRORS, ours):
+            for error, least in zip(ERRORS, ours):
                 theirs = seconds_at(points, error)
-                cells.append("" if theirs is None and mine is None else "–" if theirs is None else "alone" if mine is None else f"{theirs / mine:.3g}")
+                if theirs is None:
+                    cells.append("" if least is None else "–")
+                else:
+                    cells.append("alone" if least is None else f"{theirs / least:.3g}")
             print(f"| {name} | {who} | " + " | ".join(cells) + " |")
     print()
 

@@ -78,14 +78,18 @@ def flat_plant(step):
 
 def touching(stiffness, friction):
     material = ProximityProperties()
-    AddContactMaterial(dissipation=0.0, point_stiffness=stiffness, friction=CoulombFriction(friction, friction), properties=material)
+    AddContactMaterial(
+        dissipation=0.0, point_stiffness=stiffness, friction=CoulombFriction(friction, friction), properties=material
+    )
     # Its discrete mode dissipates by this time, in s, instead of by the coefficient above.
     material.AddProperty("material", "relaxation_time", 0.0)
     return material
 
 
 def flat_body(plant, name, mass, inertia):
-    body = plant.AddRigidBody(name, SpatialInertia.MakeFromCentralInertia(mass, np.zeros(3), RotationalInertia(inertia, inertia, inertia)))
+    body = plant.AddRigidBody(
+        name, SpatialInertia.MakeFromCentralInertia(mass, np.zeros(3), RotationalInertia(inertia, inertia, inertia))
+    )
     joint = plant.AddJoint(PlanarJoint(f"{name} joint", plant.world_frame(), body.body_frame(), np.zeros(3)))
     return body, joint
 
@@ -125,7 +129,9 @@ def pile(setting, count, until):
     for k in range(SIDES):
         angle = math.pi * (1 + (k + 0.5) / SIDES)
         # Half spaces would do, but Drake 1.51.1 ends with a segmentation fault when it gets the fifteenth.
-        pose = RigidTransform(RotationMatrix.MakeZRotation(angle), (bowl + 0.05) * np.array([math.cos(angle), math.sin(angle), 0.0]))
+        pose = RigidTransform(
+            RotationMatrix.MakeZRotation(angle), (bowl + 0.05) * np.array([math.cos(angle), math.sin(angle), 0.0])
+        )
         plant.RegisterCollisionGeometry(plant.world_body(), pose, Box(0.1, 0.02, 0.4), f"side{k}", material)
     places, bodies = [], []
     for i in range(1, count + 1):

@@ -12,7 +12,11 @@ from collisions.heap import BOWL, RADIUS, SIDES, measured
 from collisions.truths import GRAVITY, HALF_HEIGHT, HALF_WIDTH, TILT
 
 NAME = f"Exudyn {exudyn.__version__}"
-SETTINGS = {"ball": [(1e-3, 1e5), (1e-4, 1e7)], "block": [(5e-5, 1e7, 1e-3, 1e-3), (1e-5, 1e8, 1e-4, 1e-3), (5e-6, 1e8, 1e-4, 1e-4)], "pile": [(1e-4, 1e4), (5e-5, 1e5)]}
+SETTINGS = {
+    "ball": [(1e-3, 1e5), (1e-4, 1e7)],
+    "block": [(5e-5, 1e7, 1e-3, 1e-3), (1e-5, 1e8, 1e-4, 1e-3), (5e-6, 1e8, 1e-4, 1e-4)],
+    "pile": [(1e-4, 1e4), (5e-5, 1e5)],
+}
 
 
 def said(setting):
@@ -102,8 +106,12 @@ def block(setting):
         contact.AddSphereWithMarker(marker, radius=tip, contactStiffness=stiffness, contactDamping=damping, frictionMaterialIndex=0)
     points, triangles = strip([(-1.0, 0.0), (1.0, 0.0)])
     contact.AddTrianglesRigidBodyBased(
-        rigidBodyMarkerIndex=ground, contactStiffness=stiffness, contactDamping=damping, frictionMaterialIndex=0,
-        pointList=points, triangleList=triangles,
+        rigidBodyMarkerIndex=ground,
+        contactStiffness=stiffness,
+        contactDamping=damping,
+        frictionMaterialIndex=0,
+        pointList=points,
+        triangleList=triangles,
     )
     machine.Assemble()
     fall = [TILT, math.nan]
@@ -134,14 +142,20 @@ def pile(setting, count, until):
         x, y = (apart * math.sqrt(i) * of(2.4 * i) for of in (math.cos, math.sin))
         node, body = flat_body(machine, mass, mass * radius**2 / 2, [x, y, 0.0])
         marker = machine.AddMarker(items.MarkerBodyRigid(bodyNumber=body))
-        contact.AddSphereWithMarker(marker, radius=radius, contactStiffness=stiffness, contactDamping=damping, frictionMaterialIndex=0)
+        contact.AddSphereWithMarker(
+            marker, radius=radius, contactStiffness=stiffness, contactDamping=damping, frictionMaterialIndex=0
+        )
         nodes.append(node)
     out = BOWL / math.cos(math.pi / (2 * SIDES))
     corners = [math.pi * (1 + k / SIDES) for k in range(SIDES + 1)]
     points, triangles = strip([(out * math.cos(angle), out * math.sin(angle)) for angle in corners])
     contact.AddTrianglesRigidBodyBased(
-        rigidBodyMarkerIndex=ground, contactStiffness=stiffness, contactDamping=damping, frictionMaterialIndex=0,
-        pointList=points, triangleList=triangles,
+        rigidBodyMarkerIndex=ground,
+        contactStiffness=stiffness,
+        contactDamping=damping,
+        frictionMaterialIndex=0,
+        pointList=points,
+        triangleList=triangles,
     )
     machine.Assemble()
     clock = time.process_time()

@@ -114,7 +114,9 @@ def pile(setting, count, until):
         angle = math.pi * (1 + (k + 0.5) / SIDES)
         x, z = math.cos(angle), math.sin(angle)
         # Boxes are sorted by place, planes are not; the face of each is a side of the polygon.
-        world.append(f'<geom type="box" size="0.01 0.2 0.05" pos="{(bowl + 0.05) * x!r} 0 {(bowl + 0.05) * z!r}" zaxis="{x!r} 0 {z!r}"/>')
+        world.append(
+            f'<geom type="box" size="0.01 0.2 0.05" pos="{(bowl + 0.05) * x!r} 0 {(bowl + 0.05) * z!r}" zaxis="{x!r} 0 {z!r}"/>'
+        )
     inertia = mass * radius**2 / 2
     for i in range(1, count + 1):
         x, z = (apart * math.sqrt(i) * of(2.4 * i) for of in (math.cos, math.sin))

@@ -119,7 +119,9 @@ def pile(step, count=12, until=2.5):
         links += [(kernel.Interaction(law, relation("pair")), disc, other) for other in discs[i + 1 :]]
     run = simulation(discs, links, until + 1.0, step, frictional(1e-10))
     seconds = stepped(run, round(until / step))
-    x, y, u, v = ([float(of(disc)[i]) for disc in discs] for of in (kernel.LagrangianDS.q, kernel.LagrangianDS.velocity) for i in (0, 1))
+    x, y, u, v = (
+        [float(of(disc)[i]) for disc in discs] for of in (kernel.LagrangianDS.q, kernel.LagrangianDS.velocity) for i in (0, 1)
+    )
     return seconds, measured(x, y, u, v)
 
 

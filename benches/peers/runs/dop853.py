@@ -44,7 +44,19 @@ class Peer:
             (at / "coefficients.h").write_text(coefficients())
             (at / "rates.h").write_text(rates(run))
             names = [f'-D{name}="{at / file}"' for name, file in (("COEFFICIENTS", "coefficients.h"), ("RATES", "rates.h"))]
-            words = ["gcc", "-O3", "-march=native", "-fno-math-errno", "-shared", "-fPIC", *names, "-o", at / "run.so", SOURCE, "-lm"]
+            words = [
+                "gcc",
+                "-O3",
+                "-march=native",
+                "-fno-math-errno",
+                "-shared",
+                "-fPIC",
+                *names,
+                "-o",
+                at / "run.so",
+                SOURCE,
+                "-lm",
+            ]
             subprocess.run([str(word) for word in words], check=True)
             self.integrate = ctypes.CDLL(str(at / "run.so")).integrate
         self.integrate.restype = ctypes.c_long

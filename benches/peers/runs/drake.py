@@ -36,7 +36,9 @@ def plant_of(of, step):
         plant.AddBallConstraint(place(one), at, place(other), point)
     if of.spring:
         on = of.spring
-        plant.AddForceElement(LinearSpringDamper(bodies[on.body], on.at, plant.world_body(), on.ground, on.length, on.stiffness, 0.0))
+        plant.AddForceElement(
+            LinearSpringDamper(bodies[on.body], on.at, plant.world_body(), on.ground, on.length, on.stiffness, 0.0)
+        )
     if of.torque:
         plant.AddJointActuator("motor", joints[of.torque[0]])
     if step:

@@ -48,7 +48,8 @@ def sites(of, body):
 def text_of(of, step):
     constraints = "" if of.loops else 'constraint="disable"'
     ties = "".join(
-        f'<connect site1="one{i}" site2="other{i}" solref="{2 * step!r} 1" solimp="0.9999 0.9999 0.001 0.5 2"/>' for i in range(len(of.loops))
+        f'<connect site1="one{i}" site2="other{i}" solref="{2 * step!r} 1" solimp="0.9999 0.9999 0.001 0.5 2"/>'
+        for i in range(len(of.loops))
     )
     # The spring pulls along the line of a tendon.
     spring = of.spring and (
