@@ -454,7 +454,10 @@ fn run_spec(
     let laws = reading.drive(&spec, &written)?;
     let driving = reading.formulas();
     match looks {
-        SampleInstants::Crossing(formula, ..) => {
+        SampleInstants::Crossing(formula, _, level) => {
+            // A level is a number in the unit of its output, which the formula would not know.
+            let output = level.filter(|(name, value)| has_level(&spec, name, value));
+            let formula = output.map_or(*formula, |(name, _)| name);
             reading.add_formula("--crossing FORMULA", formula, None)
         }
         SampleInstants::Period(formula) => {
@@ -584,6 +587,30 @@ fn states(
             run.at_each(times).map_err(Failure::run)
         }
     }
+}
+
+/// Whether the spec has an output with this name, and the value is one of numbers and units in its unit.
+fn has_level(spec: &call::Spec, name: &str, value: &str) -> bool {
+    let dag = Dag::new();
+    let model = Reading::open(spec).ok();
+    let model = model.and_then(|mut reading| reading.model(&dag));
+    let outputs = model.map(|model| model.outputs).unwrap_or_default();
+    let output = outputs
+        .iter()
+        .find(|output| output.name.to_string() == name);
+    let set = Assignment {
+        name: name.to_owned(),
+        value: value.to_owned(),
+    };
+    output.is_some_and(|output| {
+        // As `level_of` reads it.
+        let unit = if output.unit.is_scaled() {
+            output.unit_text.clone()
+        } else {
+            output.unit.to_string()
+        };
+        set.value("--crossing", &unit).is_ok()
+    })
 }
 
 /// The index of the output with this name, among the outputs of the spec, and a value of numbers and units in its unit.

@@ -73,12 +73,12 @@ fn outputs_in_formulas_leave_frames_of_the_same_name() {
 
 /// A block on a spring; outputs with names of units, and one that is a bare number in its unit.
 const BLOCK: &str = "machine Block in plane {
-    parameters { M: kg = 2 }
+    parameters { M: kg = 2, l: mm = 20 }
     coordinates { x: m = 30*mm }
     bodies { block { mass: M, at: (x, 0) } }
     gravity none;
     springs { spring { stiffness: 8*N/m, stretch: x } }
-    outputs { N: N = 8*N/m*x, mm: 1 = x/(20*mm), level: mm = 12 }
+    outputs { N: N = 8*N/m*x, mm: 1 = x/(20*mm), level: mm = 12, part: mm = l*x/(20*mm) }
 }
 ";
 
@@ -117,6 +117,10 @@ fn outputs_in_formulas_leave_units_of_the_same_name() {
 #[test]
 fn outputs_in_formulas_have_their_units() {
     let spec = Scratch::new("block.machine", BLOCK);
-    let t = crossing(&spec, "x - level").unwrap_or_else(|why| panic!("{why}"));
-    assert!((t - falls_to(12.0)).abs() < 1e-7, "{t}");
+    for formula in ["x - level", "part = 12", "part=1.2*cm"] {
+        let t = crossing(&spec, formula).unwrap_or_else(|why| panic!("{formula}: {why}"));
+        assert!((t - falls_to(12.0)).abs() < 1e-7, "{formula}: {t}");
+    }
+    let why = crossing(&spec, "part = 12*kg").expect_err("a mass is no length");
+    assert!(why.contains("kg"), "{why}");
 }
