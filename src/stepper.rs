@@ -1090,6 +1090,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         let is_first = self.control.is_first;
         #[cfg(feature = "std")]
         {
+            if self.taylor.is_some() {
+                // The series at the end of the step gives the length of the next one.
+                return 1.0;
+            }
             if let Some(implicit) = &mut self.implicit {
                 let exponent = control::error_exponent(self.method, is_first);
                 return implicit.accept(_h, error, exponent, self.method.tableau.step_change);

@@ -1322,100 +1322,100 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
         let singular = ::lagrangian::emitted::series::singular(vanished, &members288, 9);
         return Err(singular);
     }
-    let x291 = -x124;
-    let x292 = -x139;
-    let x293 = -x159;
-    let x294 = -x167;
-    let x295 = -x170;
-    let x296 = -x179;
-    let x297 = -x184;
-    let x298 = ::lagrangian::emitted::series::solved::<N, 7>(
+    let x297 = -x124;
+    let x298 = -x139;
+    let x299 = -x159;
+    let x300 = -x167;
+    let x301 = -x170;
+    let x302 = -x179;
+    let x303 = -x184;
+    let x304 = ::lagrangian::emitted::series::solved::<N, 7>(
         &x288,
-        [x291, x292, x293, x294, x295, x296, x297],
+        [x297, x298, x299, x300, x301, x302, x303],
     );
-    let x299 = x298[0];
-    let x300 = x298[1];
-    let x301 = x298[2];
-    let x302 = x298[3];
-    let x303 = x298[4];
-    let x304 = x298[5];
-    let x305 = x298[6];
-    let x308 = x299 * x70;
-    let x309 = x300 * x70;
-    let x310 = x301 * x70;
-    let x311 = x302 * x70;
-    let x312 = x303 * x70;
-    let x313 = x304 * x70;
-    let x314 = x305 * x70;
-    let x315 = x32.mul_add(x302, x299);
-    let x316 = x190.mul_add(x303, x315);
-    let x317 = x34.mul_add(x304, x316);
-    let x318 = x192.mul_add(x305, x317);
-    let x319 = x112 + x318;
-    let x320 = x195 * x299;
-    let x321 = x196.mul_add(x302, x320);
-    let x322 = x197.mul_add(x303, x321);
-    let x323 = x198.mul_add(x304, x322);
-    let x324 = x199.mul_add(x305, x323);
-    let x325 = x116 + x324;
-    let x326 = x31.mul_add(x302, x300);
-    let x327 = x35.mul_add(x303, x326);
-    let x328 = x33.mul_add(x304, x327);
-    let x329 = x36.mul_add(x305, x328);
-    let x330 = x131 + x329;
-    let x331 = x195 * x300;
-    let x332 = x207.mul_add(x302, x331);
-    let x333 = x208.mul_add(x303, x332);
-    let x334 = x209.mul_add(x304, x333);
-    let x335 = x210.mul_add(x305, x334);
-    let x336 = x133 + x335;
-    let x337 = x142 * x299;
-    let x338 = x140.mul_add(x300, x337);
-    let x339 = x213.mul_add(x301, x338);
-    let x340 = x143 + x339;
-    let x341 = x140 * x299;
-    let x342 = x145.mul_add(x300, x341);
-    let x343 = x218.mul_add(x301, x342);
-    let x344 = x147 + x343;
-    let x345 = x2.mul_add(x301, x299);
-    let x346 = x70 * x345;
-    let x347 = x30 * x70;
-    let x348 = x347.mul_add(x301, x77);
-    let x349 = x186 * x70;
-    let x350 = x349.mul_add(x301, x80);
-    let x351 = x32 * x70;
-    let x352 = x351.mul_add(x303, x82);
-    let x353 = x189 * x70;
-    let x354 = x353.mul_add(x303, x85);
-    let x355 = x32 * x302;
-    let x356 = x190.mul_add(x303, x355);
-    let x357 = x70.mul_add(x356, x87);
-    let x358 = x34 * x70;
-    let x359 = x358.mul_add(x305, x89);
-    let x360 = x191 * x70;
-    let x361 = x360.mul_add(x305, x92);
-    let x362 = x34 * x304;
-    let x363 = x192.mul_add(x305, x362);
-    let x364 = x70.mul_add(x363, x94);
-    let x365 = x15.mul_add(x301, x300);
-    let x366 = x70 * x365;
-    let x367 = x31 * x302;
-    let x368 = x35.mul_add(x303, x367);
-    let x369 = x70.mul_add(x368, x96);
-    let x370 = x33 * x304;
-    let x371 = x36.mul_add(x305, x370);
-    let x372 = x70.mul_add(x371, x98);
-    let x373 = x70 * x302;
-    let x374 = x70 * x304;
+    let x305 = x304[0];
+    let x306 = x304[1];
+    let x307 = x304[2];
+    let x308 = x304[3];
+    let x309 = x304[4];
+    let x310 = x304[5];
+    let x311 = x304[6];
+    let x312 = x305 * x70;
+    let x313 = x306 * x70;
+    let x314 = x307 * x70;
+    let x315 = x308 * x70;
+    let x316 = x309 * x70;
+    let x317 = x310 * x70;
+    let x318 = x311 * x70;
+    let x319 = x32.mul_add(x308, x305);
+    let x320 = x190.mul_add(x309, x319);
+    let x321 = x34.mul_add(x310, x320);
+    let x322 = x192.mul_add(x311, x321);
+    let x323 = x112 + x322;
+    let x324 = x195 * x305;
+    let x325 = x196.mul_add(x308, x324);
+    let x326 = x197.mul_add(x309, x325);
+    let x327 = x198.mul_add(x310, x326);
+    let x328 = x199.mul_add(x311, x327);
+    let x329 = x116 + x328;
+    let x330 = x31.mul_add(x308, x306);
+    let x331 = x35.mul_add(x309, x330);
+    let x332 = x33.mul_add(x310, x331);
+    let x333 = x36.mul_add(x311, x332);
+    let x334 = x131 + x333;
+    let x335 = x195 * x306;
+    let x336 = x207.mul_add(x308, x335);
+    let x337 = x208.mul_add(x309, x336);
+    let x338 = x209.mul_add(x310, x337);
+    let x339 = x210.mul_add(x311, x338);
+    let x340 = x133 + x339;
+    let x341 = x142 * x305;
+    let x342 = x140.mul_add(x306, x341);
+    let x343 = x213.mul_add(x307, x342);
+    let x344 = x143 + x343;
+    let x345 = x140 * x305;
+    let x346 = x145.mul_add(x306, x345);
+    let x347 = x218.mul_add(x307, x346);
+    let x348 = x147 + x347;
+    let x349 = x2.mul_add(x307, x305);
+    let x350 = x70 * x349;
+    let x351 = x30 * x70;
+    let x352 = x351.mul_add(x307, x77);
+    let x353 = x186 * x70;
+    let x354 = x353.mul_add(x307, x80);
+    let x355 = x32 * x70;
+    let x356 = x355.mul_add(x309, x82);
+    let x357 = x189 * x70;
+    let x358 = x357.mul_add(x309, x85);
+    let x359 = x32 * x308;
+    let x360 = x190.mul_add(x309, x359);
+    let x361 = x70.mul_add(x360, x87);
+    let x362 = x34 * x70;
+    let x363 = x362.mul_add(x311, x89);
+    let x364 = x191 * x70;
+    let x365 = x364.mul_add(x311, x92);
+    let x366 = x34 * x310;
+    let x367 = x192.mul_add(x311, x366);
+    let x368 = x70.mul_add(x367, x94);
+    let x369 = x15.mul_add(x307, x306);
+    let x370 = x70 * x369;
+    let x371 = x31 * x308;
+    let x372 = x35.mul_add(x309, x371);
+    let x373 = x70.mul_add(x372, x96);
+    let x374 = x33 * x310;
+    let x375 = x36.mul_add(x311, x374);
+    let x376 = x70.mul_add(x375, x98);
+    let x377 = x70 * x308;
+    let x378 = x70 * x310;
     let second = [
-        x308.store(),
-        x309.store(),
-        x310.store(),
-        x311.store(),
         x312.store(),
-        N::ZERO.store(),
         x313.store(),
         x314.store(),
+        x315.store(),
+        x316.store(),
+        N::ZERO.store(),
+        x317.store(),
+        x318.store(),
         N::ZERO.store(),
     ];
     for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
@@ -1427,26 +1427,26 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
         &mut lists.a0.0,
         2,
         [
-            x301.store(),
-            x301.store(),
-            x303.store(),
-            x303.store(),
+            x307.store(),
+            x307.store(),
+            x309.store(),
+            x309.store(),
+            x315.store(),
             x311.store(),
-            x305.store(),
-            x305.store(),
-            x313.store(),
             x311.store(),
-            x313.store(),
-            x340.store(),
+            x317.store(),
+            x315.store(),
+            x317.store(),
             x344.store(),
-            x336.store(),
-            x325.store(),
-            x336.store(),
-            x325.store(),
-            x330.store(),
-            x319.store(),
-            x330.store(),
-            x319.store(),
+            x348.store(),
+            x340.store(),
+            x329.store(),
+            x340.store(),
+            x329.store(),
+            x334.store(),
+            x323.store(),
+            x334.store(),
+            x323.store(),
         ],
         &A0,
     );
@@ -1454,60 +1454,60 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
         &mut lists.b0.0,
         2,
         [
-            x350.store(),
-            x348.store(),
             x354.store(),
             x352.store(),
+            x358.store(),
+            x356.store(),
+            x358.store(),
+            x365.store(),
+            x363.store(),
+            x365.store(),
+            x356.store(),
+            x363.store(),
             x354.store(),
-            x361.store(),
-            x359.store(),
-            x361.store(),
             x352.store(),
-            x359.store(),
-            x350.store(),
-            x348.store(),
-            x352.store(),
-            x354.store(),
-            x357.store(),
-            x369.store(),
-            x359.store(),
+            x356.store(),
+            x358.store(),
             x361.store(),
-            x364.store(),
-            x372.store(),
+            x373.store(),
+            x363.store(),
+            x365.store(),
+            x368.store(),
+            x376.store(),
         ],
         &B0,
     );
-    let mut y18 = x346;
+    let mut y18 = x350;
     let mut y24 = x71;
     let mut y25 = x74;
-    let mut y27 = x348;
-    let mut y28 = x350;
-    let mut y33 = x311;
-    let mut y35 = x352;
-    let mut y36 = x354;
-    let mut y40 = x313;
-    let mut y42 = x359;
-    let mut y43 = x361;
-    let mut y46 = x319;
-    let mut y47 = x325;
-    let mut y56 = x366;
-    let mut y65 = x330;
-    let mut y66 = x336;
-    let mut y77 = x340;
-    let mut y79 = x344;
-    let mut y88 = x373;
-    let mut y102 = x374;
+    let mut y27 = x352;
+    let mut y28 = x354;
+    let mut y33 = x315;
+    let mut y35 = x356;
+    let mut y36 = x358;
+    let mut y40 = x317;
+    let mut y42 = x363;
+    let mut y43 = x365;
+    let mut y46 = x323;
+    let mut y47 = x329;
+    let mut y56 = x370;
+    let mut y65 = x334;
+    let mut y66 = x340;
+    let mut y77 = x344;
+    let mut y79 = x348;
+    let mut y88 = x377;
+    let mut y102 = x378;
     let mut older_y18 = x41;
     let mut older_y56 = x64;
     let mut older_y88 = x48;
     let mut older_y102 = x55;
-    let mut acceleration0 = x299;
-    let mut acceleration1 = x300;
-    let mut acceleration2 = x301;
-    let mut acceleration3 = x302;
-    let mut acceleration4 = x303;
-    let mut acceleration6 = x304;
-    let mut acceleration7 = x305;
+    let mut acceleration0 = x305;
+    let mut acceleration1 = x306;
+    let mut acceleration2 = x307;
+    let mut acceleration3 = x308;
+    let mut acceleration4 = x309;
+    let mut acceleration6 = x310;
+    let mut acceleration7 = x311;
     let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
     for order in 3..count {
         let w0 = ::lagrangian::emitted::series::sweep::<N, 20, 20>(
@@ -1515,278 +1515,278 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             order - 2,
             [&A0, &B0],
         );
-        let x375 = y25;
-        let x376 = x6 * x375;
-        let x377 = N::from_ratio(1, order as i64);
-        let x378 = x377 * x376;
-        let x379 = y24;
+        let x379 = y25;
         let x380 = x6 * x379;
-        let x381 = -x380;
-        let x382 = x377 * x381;
-        let x383 = w0[0];
-        let x384 = acceleration2;
-        let x385 = N::from_ratio(1, order as i64 - 2);
-        let x386 = x384 * x385;
-        let x387 = x386.mul_add(x47, x383);
-        let x388 = y28;
-        let x389 = x40.mul_add(x388, x387);
-        let x390 = N::from_f64(order as f64);
-        let x391 = x377 * x389;
-        let x392 = w0[1];
-        let x393 = x386.mul_add(x45, x392);
-        let x394 = y27;
-        let x395 = x40.mul_add(x394, x393);
-        let x396 = -x395;
-        let x397 = x377 * x396;
-        let x398 = w0[2];
-        let x399 = acceleration4;
-        let x400 = x399 * x385;
-        let x401 = x400.mul_add(x52, x398);
-        let x402 = y36;
-        let x403 = x49.mul_add(x402, x401);
-        let x404 = x377 * x403;
-        let x405 = w0[3];
-        let x406 = x400.mul_add(x50, x405);
-        let x407 = y35;
-        let x408 = x49.mul_add(x407, x406);
-        let x409 = -x408;
-        let x410 = x377 * x409;
-        let x411 = w0[4];
-        let x412 = y33;
-        let x413 = x412.mul_add(x52, x411);
-        let x414 = x48.mul_add(x402, x413);
-        let x415 = x10.mul_add(x410, x414);
-        let x416 = w0[5];
-        let x417 = acceleration7;
-        let x418 = x417 * x385;
-        let x419 = x418.mul_add(x59, x416);
-        let x420 = y43;
-        let x421 = x56.mul_add(x420, x419);
-        let x422 = x377 * x421;
-        let x423 = w0[6];
-        let x424 = x418.mul_add(x57, x423);
-        let x425 = y42;
-        let x426 = x56.mul_add(x425, x424);
-        let x427 = -x426;
-        let x428 = x377 * x427;
-        let x429 = w0[7];
-        let x430 = y40;
-        let x431 = x430.mul_add(x59, x429);
-        let x432 = x55.mul_add(x420, x431);
-        let x433 = x12.mul_add(x428, x432);
-        let x434 = w0[8];
-        let x435 = x412.mul_add(x50, x434);
-        let x436 = x48.mul_add(x407, x435);
-        let x437 = x10.mul_add(x404, x436);
-        let x438 = w0[9];
-        let x439 = x430.mul_add(x57, x438);
-        let x440 = x55.mul_add(x425, x439);
-        let x441 = x12.mul_add(x422, x440);
-        let x442 = acceleration0;
-        let x443 = x442 * x385;
-        let x444 = x99.mul_add(x386, x443);
-        let x445 = acceleration1;
-        let x446 = x445 * x385;
-        let x447 = x101 * x386;
-        let x448 = x447 + x446;
-        let x449 = acceleration3;
-        let x450 = x449 * x385;
-        let x451 = acceleration6;
-        let x452 = x451 * x385;
-        let x453 = N::from_f64((order - 1) as f64);
-        let x457 = x104 * x453;
-        let x458 = x457 * x389;
-        let x459 = x106 * x453;
-        let x460 = x459.mul_add(x396, x458);
-        let x461 = x108 * x453;
-        let x462 = x461.mul_add(x381, x460);
-        let x465 = x453 * x390;
-        let x466 = x465 * x415;
-        let x469 = x465.mul_add(x433, x466);
-        let x470 = x113 * x466;
-        let x471 = x115.mul_add(x469, x470);
-        let x472 = older_y18;
-        let x473 = x117 * x472;
-        let x474 = x119.mul_add(x444, x473);
-        let x475 = x122.mul_add(x462, x474);
-        let x476 = x475 + x471;
-        let x478 = x459 * x389;
-        let x479 = x126 * x453;
-        let x480 = x479.mul_add(x396, x478);
-        let x481 = x461.mul_add(x376, x480);
-        let x484 = x465 * x437;
-        let x487 = x465.mul_add(x441, x484);
-        let x488 = x113 * x484;
-        let x489 = x115.mul_add(x487, x488);
-        let x490 = older_y56;
-        let x491 = x134 * x490;
-        let x492 = x136.mul_add(x448, x491);
-        let x493 = x122.mul_add(x481, x492);
-        let x494 = x493 + x489;
-        let x495 = x140 * x481;
-        let x496 = x142.mul_add(x462, x495);
-        let x497 = w0[10];
-        let x498 = y77;
-        let x499 = x498.mul_add(x47, x497);
-        let x500 = x496.mul_add(x30, x499);
-        let x501 = x145 * x481;
-        let x502 = x140.mul_add(x462, x501);
-        let x503 = w0[11];
-        let x504 = y79;
-        let x505 = x504.mul_add(x45, x503);
-        let x506 = x502.mul_add(x29, x505);
-        let x507 = x149 * x472;
-        let x508 = x151.mul_add(x490, x507);
-        let x509 = x153.mul_add(x444, x508);
-        let x510 = x155.mul_add(x448, x509);
-        let x511 = x510 + x500;
-        let x512 = x511 - x506;
-        let x513 = w0[12];
-        let x514 = y66;
-        let x515 = x514.mul_add(x50, x513);
-        let x516 = x489.mul_add(x31, x515);
-        let x517 = w0[13];
-        let x518 = y47;
-        let x519 = x518.mul_add(x52, x517);
-        let x520 = x471.mul_add(x32, x519);
-        let x521 = older_y88;
-        let x522 = x162 * x521;
-        let x523 = x164.mul_add(x450, x522);
-        let x524 = x523 + x516;
-        let x525 = x524 + x520;
-        let x526 = w0[14];
-        let x527 = x514.mul_add(x54, x526);
-        let x528 = x489.mul_add(x35, x527);
-        let x529 = w0[15];
-        let x530 = x518.mul_add(x66, x529);
-        let x531 = x471.mul_add(x37, x530);
-        let x532 = x528 - x531;
-        let x533 = w0[16];
-        let x534 = y65;
-        let x535 = x534.mul_add(x57, x533);
-        let x536 = x487.mul_add(x33, x535);
-        let x537 = w0[17];
-        let x538 = y46;
-        let x539 = x538.mul_add(x59, x537);
-        let x540 = x469.mul_add(x34, x539);
-        let x541 = older_y102;
-        let x542 = x174 * x541;
-        let x543 = x176.mul_add(x452, x542);
-        let x544 = x115.mul_add(x536, x543);
-        let x545 = x115.mul_add(x540, x544);
-        let x546 = w0[18];
-        let x547 = x534.mul_add(x61, x546);
-        let x548 = x487.mul_add(x36, x547);
-        let x549 = w0[19];
-        let x550 = x538.mul_add(x68, x549);
-        let x551 = x469.mul_add(x38, x550);
-        let x552 = x115 * x548;
-        let x553 = x183.mul_add(x551, x552);
-        let x554 = -x476;
-        let x555 = -x494;
-        let x556 = -x512;
-        let x557 = -x525;
-        let x558 = -x532;
-        let x559 = -x545;
-        let x560 = -x553;
-        let x561 = ::lagrangian::emitted::series::solved::<N, 7>(
+        let x381 = N::from_ratio(1, order as i64);
+        let x382 = x381 * x380;
+        let x383 = y24;
+        let x384 = x6 * x383;
+        let x385 = -x384;
+        let x386 = x381 * x385;
+        let x387 = w0[0];
+        let x388 = acceleration2;
+        let x389 = N::from_ratio(1, order as i64 - 2);
+        let x390 = x388 * x389;
+        let x391 = x390.mul_add(x47, x387);
+        let x392 = y28;
+        let x393 = x40.mul_add(x392, x391);
+        let x394 = N::from_f64(order as f64);
+        let x395 = x381 * x393;
+        let x396 = w0[1];
+        let x397 = x390.mul_add(x45, x396);
+        let x398 = y27;
+        let x399 = x40.mul_add(x398, x397);
+        let x400 = -x399;
+        let x401 = x381 * x400;
+        let x402 = w0[2];
+        let x403 = acceleration4;
+        let x404 = x403 * x389;
+        let x405 = x404.mul_add(x52, x402);
+        let x406 = y36;
+        let x407 = x49.mul_add(x406, x405);
+        let x408 = x381 * x407;
+        let x409 = w0[3];
+        let x410 = x404.mul_add(x50, x409);
+        let x411 = y35;
+        let x412 = x49.mul_add(x411, x410);
+        let x413 = -x412;
+        let x414 = x381 * x413;
+        let x415 = w0[4];
+        let x416 = y33;
+        let x417 = x416.mul_add(x52, x415);
+        let x418 = x48.mul_add(x406, x417);
+        let x419 = x10.mul_add(x414, x418);
+        let x420 = w0[5];
+        let x421 = acceleration7;
+        let x422 = x421 * x389;
+        let x423 = x422.mul_add(x59, x420);
+        let x424 = y43;
+        let x425 = x56.mul_add(x424, x423);
+        let x426 = x381 * x425;
+        let x427 = w0[6];
+        let x428 = x422.mul_add(x57, x427);
+        let x429 = y42;
+        let x430 = x56.mul_add(x429, x428);
+        let x431 = -x430;
+        let x432 = x381 * x431;
+        let x433 = w0[7];
+        let x434 = y40;
+        let x435 = x434.mul_add(x59, x433);
+        let x436 = x55.mul_add(x424, x435);
+        let x437 = x12.mul_add(x432, x436);
+        let x438 = w0[8];
+        let x439 = x416.mul_add(x50, x438);
+        let x440 = x48.mul_add(x411, x439);
+        let x441 = x10.mul_add(x408, x440);
+        let x442 = w0[9];
+        let x443 = x434.mul_add(x57, x442);
+        let x444 = x55.mul_add(x429, x443);
+        let x445 = x12.mul_add(x426, x444);
+        let x446 = acceleration0;
+        let x447 = x446 * x389;
+        let x448 = x99.mul_add(x390, x447);
+        let x449 = acceleration1;
+        let x450 = x449 * x389;
+        let x451 = x101 * x390;
+        let x452 = x451 + x450;
+        let x453 = acceleration3;
+        let x454 = x453 * x389;
+        let x455 = acceleration6;
+        let x456 = x455 * x389;
+        let x457 = N::from_f64((order - 1) as f64);
+        let x461 = x104 * x457;
+        let x462 = x461 * x393;
+        let x463 = x106 * x457;
+        let x464 = x463.mul_add(x400, x462);
+        let x465 = x108 * x457;
+        let x466 = x465.mul_add(x385, x464);
+        let x469 = x457 * x394;
+        let x470 = x469 * x419;
+        let x473 = x469.mul_add(x437, x470);
+        let x474 = x113 * x470;
+        let x475 = x115.mul_add(x473, x474);
+        let x476 = older_y18;
+        let x477 = x117 * x476;
+        let x478 = x119.mul_add(x448, x477);
+        let x479 = x122.mul_add(x466, x478);
+        let x480 = x479 + x475;
+        let x482 = x463 * x393;
+        let x483 = x126 * x457;
+        let x484 = x483.mul_add(x400, x482);
+        let x485 = x465.mul_add(x380, x484);
+        let x488 = x469 * x441;
+        let x491 = x469.mul_add(x445, x488);
+        let x492 = x113 * x488;
+        let x493 = x115.mul_add(x491, x492);
+        let x494 = older_y56;
+        let x495 = x134 * x494;
+        let x496 = x136.mul_add(x452, x495);
+        let x497 = x122.mul_add(x485, x496);
+        let x498 = x497 + x493;
+        let x499 = x140 * x485;
+        let x500 = x142.mul_add(x466, x499);
+        let x501 = w0[10];
+        let x502 = y77;
+        let x503 = x502.mul_add(x47, x501);
+        let x504 = x500.mul_add(x30, x503);
+        let x505 = x145 * x485;
+        let x506 = x140.mul_add(x466, x505);
+        let x507 = w0[11];
+        let x508 = y79;
+        let x509 = x508.mul_add(x45, x507);
+        let x510 = x506.mul_add(x29, x509);
+        let x511 = x149 * x476;
+        let x512 = x151.mul_add(x494, x511);
+        let x513 = x153.mul_add(x448, x512);
+        let x514 = x155.mul_add(x452, x513);
+        let x515 = x514 + x504;
+        let x516 = x515 - x510;
+        let x517 = w0[12];
+        let x518 = y66;
+        let x519 = x518.mul_add(x50, x517);
+        let x520 = x493.mul_add(x31, x519);
+        let x521 = w0[13];
+        let x522 = y47;
+        let x523 = x522.mul_add(x52, x521);
+        let x524 = x475.mul_add(x32, x523);
+        let x525 = older_y88;
+        let x526 = x162 * x525;
+        let x527 = x164.mul_add(x454, x526);
+        let x528 = x527 + x520;
+        let x529 = x528 + x524;
+        let x530 = w0[14];
+        let x531 = x518.mul_add(x54, x530);
+        let x532 = x493.mul_add(x35, x531);
+        let x533 = w0[15];
+        let x534 = x522.mul_add(x66, x533);
+        let x535 = x475.mul_add(x37, x534);
+        let x536 = x532 - x535;
+        let x537 = w0[16];
+        let x538 = y65;
+        let x539 = x538.mul_add(x57, x537);
+        let x540 = x491.mul_add(x33, x539);
+        let x541 = w0[17];
+        let x542 = y46;
+        let x543 = x542.mul_add(x59, x541);
+        let x544 = x473.mul_add(x34, x543);
+        let x545 = older_y102;
+        let x546 = x174 * x545;
+        let x547 = x176.mul_add(x456, x546);
+        let x548 = x115.mul_add(x540, x547);
+        let x549 = x115.mul_add(x544, x548);
+        let x550 = w0[18];
+        let x551 = x538.mul_add(x61, x550);
+        let x552 = x491.mul_add(x36, x551);
+        let x553 = w0[19];
+        let x554 = x542.mul_add(x68, x553);
+        let x555 = x473.mul_add(x38, x554);
+        let x556 = x115 * x552;
+        let x557 = x183.mul_add(x555, x556);
+        let x558 = -x480;
+        let x559 = -x498;
+        let x560 = -x516;
+        let x561 = -x529;
+        let x562 = -x536;
+        let x563 = -x549;
+        let x564 = -x557;
+        let x565 = ::lagrangian::emitted::series::solved::<N, 7>(
             &x288,
-            [x554, x555, x556, x557, x558, x559, x560],
+            [x558, x559, x560, x561, x562, x563, x564],
         );
-        let x562 = x561[0];
-        let x563 = x561[1];
-        let x564 = x561[2];
-        let x565 = x561[3];
-        let x566 = x561[4];
-        let x567 = x561[5];
-        let x568 = x561[6];
-        let x569 = N::from_ratio(1, order as i64 - 1);
-        let x570 = N::divisor(order as i64 * (order as i64 - 1));
-        let x572 = x562.over(x570);
-        let x574 = x563.over(x570);
-        let x575 = x564 * x569;
-        let x576 = x564.over(x570);
-        let x578 = x565.over(x570);
-        let x579 = x566 * x569;
-        let x580 = x566.over(x570);
-        let x582 = x567.over(x570);
-        let x583 = x568 * x569;
-        let x584 = x568.over(x570);
-        let x585 = x569 * x377;
-        let x586 = x32.mul_add(x565, x562);
-        let x587 = x190.mul_add(x566, x586);
-        let x588 = x34.mul_add(x567, x587);
-        let x589 = x192.mul_add(x568, x588);
-        let x590 = x469 + x589;
-        let x591 = x195 * x562;
-        let x592 = x196.mul_add(x565, x591);
-        let x593 = x197.mul_add(x566, x592);
-        let x594 = x198.mul_add(x567, x593);
-        let x595 = x199.mul_add(x568, x594);
-        let x596 = x471 + x595;
-        let x597 = x31.mul_add(x565, x563);
-        let x598 = x35.mul_add(x566, x597);
-        let x599 = x33.mul_add(x567, x598);
-        let x600 = x36.mul_add(x568, x599);
-        let x601 = x487 + x600;
-        let x602 = x195 * x563;
-        let x603 = x207.mul_add(x565, x602);
-        let x604 = x208.mul_add(x566, x603);
-        let x605 = x209.mul_add(x567, x604);
-        let x606 = x210.mul_add(x568, x605);
-        let x607 = x489 + x606;
-        let x608 = x142 * x562;
-        let x609 = x140.mul_add(x563, x608);
-        let x610 = x213.mul_add(x564, x609);
-        let x611 = x496 + x610;
-        let x612 = x140 * x562;
-        let x613 = x145.mul_add(x563, x612);
-        let x614 = x218.mul_add(x564, x613);
-        let x615 = x502 + x614;
-        let x616 = x2.mul_add(x564, x562);
-        let x617 = x585 * x616;
-        let x618 = x30 * x585;
-        let x619 = x618.mul_add(x564, x391);
-        let x620 = x186 * x585;
-        let x621 = x620.mul_add(x564, x397);
-        let x622 = x32 * x585;
-        let x623 = x622.mul_add(x566, x404);
-        let x624 = x189 * x585;
-        let x625 = x624.mul_add(x566, x410);
-        let x626 = x32 * x565;
-        let x627 = x190.mul_add(x566, x626);
-        let x628 = x585.mul_add(x627, x415);
-        let x629 = x34 * x585;
-        let x630 = x629.mul_add(x568, x422);
-        let x631 = x191 * x585;
-        let x632 = x631.mul_add(x568, x428);
-        let x633 = x34 * x567;
-        let x634 = x192.mul_add(x568, x633);
-        let x635 = x585.mul_add(x634, x433);
-        let x636 = x15.mul_add(x564, x563);
-        let x637 = x585 * x636;
-        let x638 = x31 * x565;
-        let x639 = x35.mul_add(x566, x638);
-        let x640 = x585.mul_add(x639, x437);
-        let x641 = x33 * x567;
-        let x642 = x36.mul_add(x568, x641);
-        let x643 = x585.mul_add(x642, x441);
-        let x644 = x585 * x565;
-        let x645 = x585 * x567;
-        let x646 = y18;
-        let x647 = y56;
-        let x648 = y88;
-        let x649 = y102;
+        let x566 = x565[0];
+        let x567 = x565[1];
+        let x568 = x565[2];
+        let x569 = x565[3];
+        let x570 = x565[4];
+        let x571 = x565[5];
+        let x572 = x565[6];
+        let x573 = N::from_ratio(1, order as i64 - 1);
+        let x574 = N::divisor(order as i64 * (order as i64 - 1));
+        let x576 = x566.over(x574);
+        let x578 = x567.over(x574);
+        let x579 = x568 * x573;
+        let x580 = x568.over(x574);
+        let x582 = x569.over(x574);
+        let x583 = x570 * x573;
+        let x584 = x570.over(x574);
+        let x586 = x571.over(x574);
+        let x587 = x572 * x573;
+        let x588 = x572.over(x574);
+        let x589 = x573 * x381;
+        let x590 = x32.mul_add(x569, x566);
+        let x591 = x190.mul_add(x570, x590);
+        let x592 = x34.mul_add(x571, x591);
+        let x593 = x192.mul_add(x572, x592);
+        let x594 = x473 + x593;
+        let x595 = x195 * x566;
+        let x596 = x196.mul_add(x569, x595);
+        let x597 = x197.mul_add(x570, x596);
+        let x598 = x198.mul_add(x571, x597);
+        let x599 = x199.mul_add(x572, x598);
+        let x600 = x475 + x599;
+        let x601 = x31.mul_add(x569, x567);
+        let x602 = x35.mul_add(x570, x601);
+        let x603 = x33.mul_add(x571, x602);
+        let x604 = x36.mul_add(x572, x603);
+        let x605 = x491 + x604;
+        let x606 = x195 * x567;
+        let x607 = x207.mul_add(x569, x606);
+        let x608 = x208.mul_add(x570, x607);
+        let x609 = x209.mul_add(x571, x608);
+        let x610 = x210.mul_add(x572, x609);
+        let x611 = x493 + x610;
+        let x612 = x142 * x566;
+        let x613 = x140.mul_add(x567, x612);
+        let x614 = x213.mul_add(x568, x613);
+        let x615 = x500 + x614;
+        let x616 = x140 * x566;
+        let x617 = x145.mul_add(x567, x616);
+        let x618 = x218.mul_add(x568, x617);
+        let x619 = x506 + x618;
+        let x620 = x2.mul_add(x568, x566);
+        let x621 = x589 * x620;
+        let x622 = x30 * x589;
+        let x623 = x622.mul_add(x568, x395);
+        let x624 = x186 * x589;
+        let x625 = x624.mul_add(x568, x401);
+        let x626 = x32 * x589;
+        let x627 = x626.mul_add(x570, x408);
+        let x628 = x189 * x589;
+        let x629 = x628.mul_add(x570, x414);
+        let x630 = x32 * x569;
+        let x631 = x190.mul_add(x570, x630);
+        let x632 = x589.mul_add(x631, x419);
+        let x633 = x34 * x589;
+        let x634 = x633.mul_add(x572, x426);
+        let x635 = x191 * x589;
+        let x636 = x635.mul_add(x572, x432);
+        let x637 = x34 * x571;
+        let x638 = x192.mul_add(x572, x637);
+        let x639 = x589.mul_add(x638, x437);
+        let x640 = x15.mul_add(x568, x567);
+        let x641 = x589 * x640;
+        let x642 = x31 * x569;
+        let x643 = x35.mul_add(x570, x642);
+        let x644 = x589.mul_add(x643, x441);
+        let x645 = x33 * x571;
+        let x646 = x36.mul_add(x572, x645);
+        let x647 = x589.mul_add(x646, x445);
+        let x648 = x589 * x569;
+        let x649 = x589 * x571;
+        let x650 = y18;
+        let x651 = y56;
+        let x652 = y88;
+        let x653 = y102;
         if let Some(row) = coefficients.get_mut(order) {
             *row = [
-                x572.store(),
-                x574.store(),
                 x576.store(),
                 x578.store(),
                 x580.store(),
-                N::ZERO.store(),
                 x582.store(),
                 x584.store(),
+                N::ZERO.store(),
+                x586.store(),
+                x588.store(),
                 N::ZERO.store(),
             ];
         }
@@ -1794,26 +1794,26 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             &mut lists.a0.0,
             order,
             [
-                x575.store(),
-                x575.store(),
                 x579.store(),
                 x579.store(),
-                x578.store(),
                 x583.store(),
                 x583.store(),
                 x582.store(),
-                x578.store(),
+                x587.store(),
+                x587.store(),
+                x586.store(),
                 x582.store(),
-                x611.store(),
+                x586.store(),
                 x615.store(),
-                x607.store(),
-                x596.store(),
-                x607.store(),
-                x596.store(),
-                x601.store(),
-                x590.store(),
-                x601.store(),
-                x590.store(),
+                x619.store(),
+                x611.store(),
+                x600.store(),
+                x611.store(),
+                x600.store(),
+                x605.store(),
+                x594.store(),
+                x605.store(),
+                x594.store(),
             ],
             &A0,
         );
@@ -1821,60 +1821,60 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             &mut lists.b0.0,
             order,
             [
-                x621.store(),
-                x619.store(),
                 x625.store(),
                 x623.store(),
+                x629.store(),
+                x627.store(),
+                x629.store(),
+                x636.store(),
+                x634.store(),
+                x636.store(),
+                x627.store(),
+                x634.store(),
                 x625.store(),
-                x632.store(),
-                x630.store(),
-                x632.store(),
                 x623.store(),
-                x630.store(),
-                x621.store(),
-                x619.store(),
-                x623.store(),
-                x625.store(),
-                x628.store(),
-                x640.store(),
-                x630.store(),
+                x627.store(),
+                x629.store(),
                 x632.store(),
-                x635.store(),
-                x643.store(),
+                x644.store(),
+                x634.store(),
+                x636.store(),
+                x639.store(),
+                x647.store(),
             ],
             &B0,
         );
-        y18 = x617;
-        y24 = x378;
-        y25 = x382;
-        y27 = x619;
-        y28 = x621;
-        y33 = x578;
-        y35 = x623;
-        y36 = x625;
-        y40 = x582;
-        y42 = x630;
-        y43 = x632;
-        y46 = x590;
-        y47 = x596;
-        y56 = x637;
-        y65 = x601;
-        y66 = x607;
-        y77 = x611;
-        y79 = x615;
-        y88 = x644;
-        y102 = x645;
-        older_y18 = x646;
-        older_y56 = x647;
-        older_y88 = x648;
-        older_y102 = x649;
-        acceleration0 = x562;
-        acceleration1 = x563;
-        acceleration2 = x564;
-        acceleration3 = x565;
-        acceleration4 = x566;
-        acceleration6 = x567;
-        acceleration7 = x568;
+        y18 = x621;
+        y24 = x382;
+        y25 = x386;
+        y27 = x623;
+        y28 = x625;
+        y33 = x582;
+        y35 = x627;
+        y36 = x629;
+        y40 = x586;
+        y42 = x634;
+        y43 = x636;
+        y46 = x594;
+        y47 = x600;
+        y56 = x641;
+        y65 = x605;
+        y66 = x611;
+        y77 = x615;
+        y79 = x619;
+        y88 = x648;
+        y102 = x649;
+        older_y18 = x650;
+        older_y56 = x651;
+        older_y88 = x652;
+        older_y102 = x653;
+        acceleration0 = x566;
+        acceleration1 = x567;
+        acceleration2 = x568;
+        acceleration3 = x569;
+        acceleration4 = x570;
+        acceleration6 = x571;
+        acceleration7 = x572;
     }
     Ok(())
 }

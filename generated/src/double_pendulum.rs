@@ -462,39 +462,71 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
         let singular = ::lagrangian::emitted::series::singular(vanished, &members83, 2);
         return Err(singular);
     }
-    let x84 = -x49;
-    let x85 = -x54;
-    let x86 = n(x83[0]);
-    let x87 = x86 * x84;
-    let x88 = n(x83[2]);
-    let x89 = x88.mul_add(x85, x87);
-    let x90 = n(x83[1]);
-    let x91 = x90 * x84;
-    let x92 = n(x83[3]);
-    let x93 = x92.mul_add(x85, x91);
-    let x94 = x89 * x17;
-    let x95 = x93 * x17;
-    let x96 = x58 * x89;
-    let x97 = x59.mul_add(x93, x96);
-    let x98 = x33 + x97;
-    let x99 = x56 * x89;
-    let x100 = x60.mul_add(x93, x99);
-    let x101 = x37 + x100;
-    let x102 = x62 * x89;
-    let x103 = x63.mul_add(x93, x102);
-    let x104 = x41 + x103;
-    let x105 = x65 * x89;
-    let x106 = x66.mul_add(x93, x105);
-    let x107 = x45 + x106;
-    let x108 = x4 * x17;
-    let x109 = x108.mul_add(x89, x18);
-    let x110 = x55 * x17;
-    let x111 = x110.mul_add(x89, x21);
-    let x112 = x6 * x17;
-    let x113 = x112.mul_add(x93, x23);
-    let x114 = x57 * x17;
-    let x115 = x114.mul_add(x93, x26);
-    let second = [x94.store(), x95.store()];
+    let x84 = n(x83[0]);
+    let x85 = -x84;
+    let x86 = n(x83[2]);
+    let x87 = -x86;
+    let x88 = x52 * x87;
+    let x89 = x6 * x88;
+    let x90 = x5 * x88;
+    let x91 = x30 * x85;
+    let x92 = x28 * x85;
+    let x93 = x4 * x91;
+    let x94 = x3 * x92;
+    let x95 = x42 * x93;
+    let x96 = x44.mul_add(x93, x89);
+    let x97 = x38 * x94;
+    let x98 = x40.mul_add(x94, x90);
+    let x99 = x28 * x98;
+    let x100 = x35 * x98;
+    let x101 = x30.mul_add(x96, x95);
+    let x102 = x32 * x96;
+    let x103 = x28.mul_add(x97, x99);
+    let x104 = n(x83[1]);
+    let x105 = -x104;
+    let x106 = n(x83[3]);
+    let x107 = -x106;
+    let x108 = x52 * x107;
+    let x109 = x6 * x108;
+    let x110 = x5 * x108;
+    let x111 = x30 * x105;
+    let x112 = x28 * x105;
+    let x113 = x4 * x111;
+    let x114 = x3 * x112;
+    let x115 = x42 * x113;
+    let x116 = x44.mul_add(x113, x109);
+    let x117 = x38 * x114;
+    let x118 = x40.mul_add(x114, x110);
+    let x119 = x28 * x118;
+    let x120 = x35 * x118;
+    let x121 = x30.mul_add(x116, x115);
+    let x122 = x32 * x116;
+    let x123 = x28.mul_add(x117, x119);
+    let x124 = -x49;
+    let x125 = -x54;
+    let x126 = x84 * x124;
+    let x127 = x86.mul_add(x125, x126);
+    let x128 = x104 * x124;
+    let x129 = x106.mul_add(x125, x128);
+    let x130 = x127 * x17;
+    let x131 = x129 * x17;
+    let x132 = x58.mul_add(x127, x33);
+    let x133 = x59.mul_add(x129, x132);
+    let x134 = x56.mul_add(x127, x37);
+    let x135 = x60.mul_add(x129, x134);
+    let x136 = x62.mul_add(x127, x41);
+    let x137 = x63.mul_add(x129, x136);
+    let x138 = x65.mul_add(x127, x45);
+    let x139 = x66.mul_add(x129, x138);
+    let x140 = x4 * x17;
+    let x141 = x140.mul_add(x127, x18);
+    let x142 = x55 * x17;
+    let x143 = x142.mul_add(x127, x21);
+    let x144 = x6 * x17;
+    let x145 = x144.mul_add(x129, x23);
+    let x146 = x57 * x17;
+    let x147 = x146.mul_add(x129, x26);
+    let second = [x130.store(), x131.store()];
     for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
         *row = x;
     }
@@ -504,14 +536,14 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
         &mut lists.a0.0,
         2,
         [
-            x89.store(),
-            x89.store(),
-            x93.store(),
-            x93.store(),
-            x104.store(),
-            x107.store(),
-            x101.store(),
-            x98.store(),
+            x127.store(),
+            x127.store(),
+            x129.store(),
+            x129.store(),
+            x137.store(),
+            x139.store(),
+            x135.store(),
+            x133.store(),
         ],
         &A0,
     );
@@ -519,27 +551,27 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
         &mut lists.b0.0,
         2,
         [
-            x111.store(),
-            x109.store(),
-            x115.store(),
-            x113.store(),
-            x109.store(),
-            x111.store(),
-            x113.store(),
-            x115.store(),
+            x143.store(),
+            x141.store(),
+            x147.store(),
+            x145.store(),
+            x141.store(),
+            x143.store(),
+            x145.store(),
+            x147.store(),
         ],
         &B0,
     );
-    let mut y6 = x109;
-    let mut y7 = x111;
-    let mut y15 = x113;
-    let mut y16 = x115;
-    let mut y18 = x98;
-    let mut y22 = x101;
-    let mut y25 = x104;
-    let mut y26 = x107;
-    let mut acceleration0 = x89;
-    let mut acceleration1 = x93;
+    let mut y6 = x141;
+    let mut y7 = x143;
+    let mut y15 = x145;
+    let mut y16 = x147;
+    let mut y18 = x133;
+    let mut y22 = x135;
+    let mut y25 = x137;
+    let mut y26 = x139;
+    let mut acceleration0 = x127;
+    let mut acceleration1 = x129;
     let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
     for order in 3..count {
         let w0 = ::lagrangian::emitted::series::sweep::<N, 8, 8>(
@@ -547,116 +579,123 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             order - 2,
             [&A0, &B0],
         );
-        let x116 = w0[0];
-        let x117 = acceleration0;
-        let x118 = N::from_ratio(1, order as i64 - 2);
-        let x119 = x117 * x118;
-        let x120 = x119.mul_add(x10, x116);
-        let x121 = y7;
-        let x122 = x7.mul_add(x121, x120);
-        let x124 = N::from_ratio(1, order as i64);
-        let x125 = x124 * x122;
-        let x126 = w0[1];
-        let x127 = x119.mul_add(x8, x126);
-        let x128 = y6;
-        let x129 = x7.mul_add(x128, x127);
-        let x130 = -x129;
-        let x131 = x124 * x130;
-        let x132 = w0[2];
-        let x133 = acceleration1;
-        let x134 = x133 * x118;
-        let x135 = x134.mul_add(x14, x132);
-        let x136 = y16;
-        let x137 = x11.mul_add(x136, x135);
-        let x138 = x124 * x137;
-        let x139 = w0[3];
-        let x140 = x134.mul_add(x12, x139);
-        let x141 = y15;
-        let x142 = x11.mul_add(x141, x140);
-        let x143 = -x142;
-        let x144 = x124 * x143;
-        let x145 = N::from_f64((order - 1) as f64);
-        let x148 = x28 * x145;
-        let x149 = x148 * x130;
-        let x151 = x30 * x145;
-        let x152 = x151 * x122;
-        let x153 = x32 * x145;
-        let x154 = x153.mul_add(x137, x152);
-        let x156 = x35 * x145;
-        let x157 = x156.mul_add(x143, x149);
-        let x158 = x38 * x149;
-        let x159 = x40.mul_add(x157, x158);
-        let x160 = x42 * x145;
-        let x161 = x160 * x122;
-        let x162 = x44.mul_add(x154, x161);
-        let x163 = w0[4];
-        let x164 = y25;
-        let x165 = x164.mul_add(x8, x163);
-        let x166 = x159.mul_add(x3, x165);
-        let x167 = w0[5];
-        let x168 = y26;
-        let x169 = x168.mul_add(x10, x167);
-        let x170 = x162.mul_add(x4, x169);
-        let x171 = x30 * x170;
-        let x172 = x28.mul_add(x166, x171);
-        let x173 = w0[6];
-        let x174 = y22;
-        let x175 = x174.mul_add(x12, x173);
-        let x176 = x157.mul_add(x5, x175);
-        let x177 = w0[7];
-        let x178 = y18;
-        let x179 = x178.mul_add(x14, x177);
-        let x180 = x154.mul_add(x6, x179);
-        let x181 = x52 * x180;
-        let x182 = x52.mul_add(x176, x181);
-        let x183 = -x172;
-        let x184 = -x182;
-        let x185 = x86 * x183;
-        let x186 = x88.mul_add(x184, x185);
-        let x187 = x90 * x183;
-        let x188 = x92.mul_add(x184, x187);
-        let x189 = N::from_ratio(1, order as i64 - 1);
-        let x190 = N::divisor(order as i64 * (order as i64 - 1));
-        let x191 = x186 * x189;
-        let x192 = x186.over(x190);
-        let x193 = x188 * x189;
-        let x194 = x188.over(x190);
-        let x195 = x189 * x124;
-        let x196 = x58 * x186;
-        let x197 = x59.mul_add(x188, x196);
-        let x198 = x154 + x197;
-        let x199 = x56 * x186;
-        let x200 = x60.mul_add(x188, x199);
-        let x201 = x157 + x200;
-        let x202 = x62 * x186;
-        let x203 = x63.mul_add(x188, x202);
-        let x204 = x159 + x203;
-        let x205 = x65 * x186;
-        let x206 = x66.mul_add(x188, x205);
-        let x207 = x162 + x206;
-        let x208 = x4 * x195;
-        let x209 = x208.mul_add(x186, x125);
-        let x210 = x55 * x195;
-        let x211 = x210.mul_add(x186, x131);
-        let x212 = x6 * x195;
-        let x213 = x212.mul_add(x188, x138);
-        let x214 = x57 * x195;
-        let x215 = x214.mul_add(x188, x144);
+        let x148 = w0[0];
+        let x149 = acceleration0;
+        let x150 = N::from_ratio(1, order as i64 - 2);
+        let x151 = x149 * x150;
+        let x152 = x151.mul_add(x10, x148);
+        let x153 = y7;
+        let x154 = x7.mul_add(x153, x152);
+        let x156 = N::from_ratio(1, order as i64);
+        let x157 = x156 * x154;
+        let x158 = w0[1];
+        let x159 = x151.mul_add(x8, x158);
+        let x160 = y6;
+        let x161 = x7.mul_add(x160, x159);
+        let x162 = -x161;
+        let x163 = x156 * x162;
+        let x164 = w0[2];
+        let x165 = acceleration1;
+        let x166 = x165 * x150;
+        let x167 = x166.mul_add(x14, x164);
+        let x168 = y16;
+        let x169 = x11.mul_add(x168, x167);
+        let x170 = x156 * x169;
+        let x171 = w0[3];
+        let x172 = x166.mul_add(x12, x171);
+        let x173 = y15;
+        let x174 = x11.mul_add(x173, x172);
+        let x175 = -x174;
+        let x176 = x156 * x175;
+        let x177 = N::from_f64((order - 1) as f64);
+        let x180 = x28 * x177;
+        let x181 = x180 * x162;
+        let x183 = x30 * x177;
+        let x184 = x183 * x154;
+        let x185 = x32 * x177;
+        let x186 = x185.mul_add(x169, x184);
+        let x188 = x35 * x177;
+        let x189 = x188.mul_add(x175, x181);
+        let x190 = x38 * x181;
+        let x191 = x40.mul_add(x189, x190);
+        let x192 = x42 * x177;
+        let x193 = x192 * x154;
+        let x194 = x44.mul_add(x186, x193);
+        let x195 = w0[4];
+        let x196 = y25;
+        let x197 = x196.mul_add(x8, x195);
+        let x199 = w0[5];
+        let x200 = y26;
+        let x201 = x200.mul_add(x10, x199);
+        let x205 = w0[6];
+        let x206 = y22;
+        let x207 = x206.mul_add(x12, x205);
+        let x209 = w0[7];
+        let x210 = y18;
+        let x211 = x210.mul_add(x14, x209);
+        let x215 = x92 * x197;
+        let x216 = x91 * x201;
+        let x217 = x207 + x211;
+        let x218 = x88.mul_add(x217, x215);
+        let x219 = x101 * x177;
+        let x220 = x219.mul_add(x154, x216);
+        let x221 = x103 * x177;
+        let x222 = x221.mul_add(x162, x218);
+        let x223 = x102 * x177;
+        let x224 = x223.mul_add(x169, x220);
+        let x225 = x100 * x177;
+        let x226 = x225.mul_add(x175, x222);
+        let x227 = x226 + x224;
+        let x228 = x112 * x197;
+        let x229 = x111 * x201;
+        let x230 = x108.mul_add(x217, x228);
+        let x231 = x121 * x177;
+        let x232 = x231.mul_add(x154, x229);
+        let x233 = x123 * x177;
+        let x234 = x233.mul_add(x162, x230);
+        let x235 = x122 * x177;
+        let x236 = x235.mul_add(x169, x232);
+        let x237 = x120 * x177;
+        let x238 = x237.mul_add(x175, x234);
+        let x239 = x238 + x236;
+        let x240 = N::from_ratio(1, order as i64 - 1);
+        let x241 = N::divisor(order as i64 * (order as i64 - 1));
+        let x242 = x227 * x240;
+        let x243 = x227.over(x241);
+        let x244 = x239 * x240;
+        let x245 = x239.over(x241);
+        let x246 = x240 * x156;
+        let x247 = x58.mul_add(x227, x186);
+        let x248 = x59.mul_add(x239, x247);
+        let x249 = x56.mul_add(x227, x189);
+        let x250 = x60.mul_add(x239, x249);
+        let x251 = x62.mul_add(x227, x191);
+        let x252 = x63.mul_add(x239, x251);
+        let x253 = x65.mul_add(x227, x194);
+        let x254 = x66.mul_add(x239, x253);
+        let x255 = x4 * x246;
+        let x256 = x255.mul_add(x227, x157);
+        let x257 = x55 * x246;
+        let x258 = x257.mul_add(x227, x163);
+        let x259 = x6 * x246;
+        let x260 = x259.mul_add(x239, x170);
+        let x261 = x57 * x246;
+        let x262 = x261.mul_add(x239, x176);
         if let Some(row) = coefficients.get_mut(order) {
-            *row = [x192.store(), x194.store()];
+            *row = [x243.store(), x245.store()];
         }
         ::lagrangian::emitted::series::keep::<N, 8, 8>(
             &mut lists.a0.0,
             order,
             [
-                x191.store(),
-                x191.store(),
-                x193.store(),
-                x193.store(),
-                x204.store(),
-                x207.store(),
-                x201.store(),
-                x198.store(),
+                x242.store(),
+                x242.store(),
+                x244.store(),
+                x244.store(),
+                x252.store(),
+                x254.store(),
+                x250.store(),
+                x248.store(),
             ],
             &A0,
         );
@@ -664,27 +703,27 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
             &mut lists.b0.0,
             order,
             [
-                x211.store(),
-                x209.store(),
-                x215.store(),
-                x213.store(),
-                x209.store(),
-                x211.store(),
-                x213.store(),
-                x215.store(),
+                x258.store(),
+                x256.store(),
+                x262.store(),
+                x260.store(),
+                x256.store(),
+                x258.store(),
+                x260.store(),
+                x262.store(),
             ],
             &B0,
         );
-        y6 = x209;
-        y7 = x211;
-        y15 = x213;
-        y16 = x215;
-        y18 = x198;
-        y22 = x201;
-        y25 = x204;
-        y26 = x207;
-        acceleration0 = x186;
-        acceleration1 = x188;
+        y6 = x256;
+        y7 = x258;
+        y15 = x260;
+        y16 = x262;
+        y18 = x248;
+        y22 = x250;
+        y25 = x252;
+        y26 = x254;
+        acceleration0 = x227;
+        acceleration1 = x239;
     }
     Ok(())
 }

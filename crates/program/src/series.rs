@@ -16,6 +16,7 @@
 //! Sources of the recurrences: R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Griewank and A. Walther, *Evaluating
 //! Derivatives*, 2nd ed., 2008, ch. 13.
 
+mod composition;
 mod expand;
 mod recurrence;
 mod rows;
@@ -26,6 +27,7 @@ use lagrangian_symbolic::{Function as Call, Rational};
 
 use crate::Cost;
 
+pub use composition::{ChainStep, Composition, Source};
 pub use expand::Expander;
 pub use lagrangian_scalar::series::{MOST_IN_ONE_SUM, is_inverse};
 pub use recurrence::{Arithmetic, Coefficient, Convolution, Order, Stream, TermOrder};
@@ -175,6 +177,20 @@ impl Series {
         found.map(|row| &self.rows[row.index()])
     }
 
+    /// Whether the sums for the effect of accelerations on forces begin with the rest of the force: the dependency chain, which bounds short series, is an
+    /// addition shorter. Several trajectories of a machine with more of them run faster if these sums do not wait for anything.
+    pub fn adds_to_forces(&self) -> bool {
+        let rows = self
+            .streams()
+            .into_iter()
+            .zip(&self.levels)
+            .zip(&self.depends);
+        let rows = rows.filter(|((streams, level), _)| {
+            **level == Level::Acceleration && *streams != [false; 2]
+        });
+        rows.map(|(_, depends)| depends.len()).sum::<usize>() <= MOST_ADDED
+    }
+
     /// The number of products of series at one order: a square counts half, a sine with its cosine two.
     pub fn products(&self) -> f64 {
         let of_row = |row: &Row| match row {
@@ -262,6 +278,9 @@ impl fmt::Display for NoSeries {
 }
 
 impl std::error::Error for NoSeries {}
+
+/// The largest number of derivatives of forces for which their sums [begin with the rest](Series::adds_to_forces).
+const MOST_ADDED: usize = 16;
 
 /// The largest number of operations of a series that is written as straight-line code.
 const MOST_STRAIGHT: usize = 20_000;

@@ -12,7 +12,10 @@ use std::sync::Arc;
 use lagrangian_scalar::{Scalar, series as steps};
 use lagrangian_symbolic::{Function as Call, Rational};
 
-use super::{Arithmetic, Coefficient, Level, Order, Row, RowId, Series, TermOrder};
+use super::{
+    Arithmetic, Coefficient, Composition, Level, MOST_IN_ONE_SUM, Order, Row, RowId, Series,
+    Source, TermOrder,
+};
 use crate::Singular;
 use crate::interpret::{binary, unary};
 
@@ -27,6 +30,18 @@ pub struct Expander<T> {
     width: usize,
     /// The rows that vary, by level.
     by_level: [Vec<u32>; 3],
+    /// The forces of which later coefficients are needed, or their [sums over orders](Source::Sum).
+    later_forces: Vec<u32>,
+    /// For each row whether its later coefficients are needed, and whether its sums over orders are.
+    later: Vec<[bool; 2]>,
+    /// The newest of these sums.
+    kept_sums: Vec<T>,
+    /// Whether the effect of accelerations on a force is [added to the rest](Series::adds_to_forces) term by term.
+    adds_to_forces: bool,
+    /// How the unknowns of each block are computed without residuals.
+    compositions: Arc<[Option<Composition>]>,
+    /// Workspace for the coefficients of sources.
+    derivatives: Vec<T>,
     /// Rows of positions and forces that the newest accelerations change.
     changed_by_newest: [Vec<u32>; 2],
     /// Rows whose coefficients are needed multiplied by their orders.
@@ -78,11 +93,15 @@ struct Block<T> {
     /// For each unknown its index among the members.
     place: Vec<u32>,
     matrix: Vec<T>,
+    /// For each unknown the coefficients of the sources, if it is [composed](Composition) of them.
+    sources: Vec<T>,
 }
 
 /// What an expander reads of a series: the same for every type of number, so that it is made by code that is compiled once.
 struct Plan {
     by_level: [Vec<u32>; 3],
+    later: Vec<[bool; 2]>,
+    compositions: Vec<Option<Composition>>,
     changed_by_newest: [Vec<u32>; 2],
     scaled: Vec<bool>,
     sums: Vec<Vec<Sum>>,
@@ -149,15 +168,32 @@ impl Plan {
             }
             [members, place]
         };
+        let blocks = series.blocks();
+        let compositions = blocks.iter().map(|members| series.composition(members));
+        let compositions: Vec<Option<Composition>> = compositions.collect();
+        let mut later: Vec<[bool; 2]> = series
+            .later_forces()
+            .into_iter()
+            .map(|is| [is, false])
+            .collect();
+        for composition in compositions.iter().flatten() {
+            for source in composition.sources.iter().flatten() {
+                if let Source::Sum(row) = source {
+                    later[row.index()][1] = true;
+                }
+            }
+        }
         Plan {
             by_level: [Level::Position, Level::Rate, Level::Acceleration].map(at_level),
+            later,
+            compositions,
             changed_by_newest: repaired,
             scaled,
             sums: sums.collect(),
             weighted,
             places,
             gradients,
-            blocks: series.blocks().into_iter().map(block).collect(),
+            blocks: blocks.into_iter().map(block).collect(),
             weighted_places,
         }
     }
@@ -174,9 +210,13 @@ impl<T: Scalar<Stored = T>> Expander<T> {
         let unknowns = series.unknowns();
         let plan = Plan::of(&series, width);
         let mut blocks = Vec::with_capacity(plan.blocks.len());
-        for [members, place] in plan.blocks {
+        let mut derivatives = 0;
+        for ([members, place], composition) in plan.blocks.into_iter().zip(&plan.compositions) {
+            let sources = composition.as_ref().map_or(0, |of| of.sources.len());
+            derivatives = derivatives.max(composition.as_ref().map_or(0, |of| of.derivatives));
             blocks.push(Block {
                 matrix: vec![T::ZERO; members.len() * members.len()],
+                sources: vec![T::ZERO; members.len() * sources],
                 place,
                 members,
             });
@@ -185,8 +225,15 @@ impl<T: Scalar<Stored = T>> Expander<T> {
         for j in 0..=width as i64 {
             numbers.push([T::from_ratio(j, 1), T::from_ratio(1, j.max(1))]);
         }
+        let is_later = |row: &u32| plan.later[*row as usize] != [false; 2];
         let mut expander = Expander {
+            later_forces: plan.by_level[2].iter().copied().filter(is_later).collect(),
             by_level: plan.by_level,
+            kept_sums: vec![T::ZERO; rows],
+            adds_to_forces: series.adds_to_forces(),
+            later: plan.later,
+            compositions: plan.compositions.into(),
+            derivatives: vec![T::ZERO; derivatives],
             changed_by_newest: plan.changed_by_newest,
             scaled: plan.scaled,
             sums: plan.sums,
@@ -235,6 +282,18 @@ impl<T: Scalar<Stored = T>> Expander<T> {
 }
 
 impl<T: Copy> Expander<T> {
+    /// The same without [compositions](Composition): solves for the unknowns of every order from residuals. For numbers that are sets: what cancels in
+    /// a residual then cancels before it is multiplied by the inverse, which is a set as well.
+    #[must_use]
+    pub fn with_residuals(mut self) -> Self {
+        self.compositions = vec![None; self.compositions.len()].into();
+        self.later_forces = self.by_level[2].clone();
+        for row in &self.later_forces {
+            self.later[*row as usize] = [true, false];
+        }
+        self
+    }
+
     /// The number of coefficients of the accelerations.
     pub fn order(&self) -> usize {
         self.order
@@ -305,6 +364,7 @@ impl<T: Copy> Expander<T> {
                 if order == 0 {
                     self.differentiate::<N>(&series);
                     self.factor::<N>(&series)?;
+                    self.compose::<N>();
                 }
                 self.solve::<N>(&series, order);
                 for level in 1..3 {
@@ -326,8 +386,18 @@ impl<T: Copy> Expander<T> {
         t: [T; 2],
     ) {
         let order = if m == 1 { Order::First } else { Order::Later };
-        for at in 0..self.by_level[level].len() {
-            let row = RowId(self.by_level[level][at]);
+        let is_later = level == 2 && m > 0;
+        let count = if is_later {
+            self.later_forces.len()
+        } else {
+            self.by_level[level].len()
+        };
+        for at in 0..count {
+            let row = RowId(if is_later {
+                self.later_forces[at]
+            } else {
+                self.by_level[level][at]
+            });
             let Coefficient { plain, weighted } = if m == 0 {
                 if let Row::Time = series.rows[row.index()] {
                     self.low[row.index()] = t[1];
@@ -338,6 +408,15 @@ impl<T: Copy> Expander<T> {
                 }
             } else {
                 self.sum_over_orders::<N>(row, m);
+                if is_later {
+                    let [is_needed, is_source] = self.later[row.index()];
+                    if is_source {
+                        self.kept_sums[row.index()] = self.sums_of_row[0];
+                    }
+                    if !is_needed {
+                        continue;
+                    }
+                }
                 series.coefficient(row, order, &mut self.at::<N>(level, m, N::ZERO))
             };
             self.coefficients[row.index() * self.width + m] = plain.store();
@@ -481,11 +560,91 @@ impl<T: Copy> Expander<T> {
         Ok(())
     }
 
+    /// The coefficients of the sources of composed unknowns: the inverse of the matrix times the derivatives of the residuals.
+    #[inline(always)]
+    fn compose<N: Scalar<Stored = T>>(&mut self) {
+        let compositions = self.compositions.clone();
+        for (block, composition) in self.blocks.iter_mut().zip(&*compositions) {
+            let Some(composition) = composition else {
+                continue;
+            };
+            let count = block.members.len();
+            for unknown in 0..count {
+                self.derivatives.fill(N::ZERO.store());
+                for (i, place) in composition.residuals.iter().enumerate() {
+                    let element = N::load(block.matrix[i * count + unknown]);
+                    self.derivatives[*place] = (-element).store();
+                }
+                for step in &composition.steps {
+                    let [from, to] = [step.from, step.to].map(|at| N::load(self.derivatives[at]));
+                    let sum = match step.factor {
+                        None => to + from,
+                        Some(row) => {
+                            N::load(self.coefficients[row.index() * self.width]).mul_add(from, to)
+                        }
+                    };
+                    self.derivatives[step.to] = sum.store();
+                }
+                for (i, place) in composition.places.iter().enumerate() {
+                    let at = unknown * composition.places.len() + i;
+                    block.sources[at] = self.derivatives[*place];
+                }
+            }
+        }
+    }
+
+    /// The unknowns of a block of order `round`, composed of its sources. Each is two sums, of every second source, so that the dependency
+    /// chain is half as long.
+    #[inline(always)]
+    fn sum_sources<N: Scalar<Stored = T>>(
+        &mut self,
+        series: &Series,
+        (block, composition): (usize, &Composition),
+        round: usize,
+    ) {
+        let mut sums = [[N::ZERO; 2]; MOST_IN_ONE_SUM];
+        for (i, sources) in composition.sources.iter().enumerate() {
+            let (mut factor, mut x) = (None, N::ZERO);
+            for source in sources {
+                x = x + match *source {
+                    Source::Known(row) => self.at::<N>(2, round, N::ZERO).newest(row),
+                    Source::Sum(row) => N::load(self.kept_sums[row.index()]),
+                    Source::Second(row) => {
+                        let Row::Second(of) = series.rows[row.index()] else {
+                            continue;
+                        };
+                        let [order, x] = self.at::<N>(2, round, N::ZERO).second_factors(of);
+                        factor = Some(order);
+                        x
+                    }
+                };
+            }
+            let coefficients = &self.blocks[block].sources;
+            for unknown in 0..self.blocks[block].members.len() {
+                let c = N::load(coefficients[unknown * composition.sources.len() + i]);
+                let c = factor.map_or(c, |factor| c * factor);
+                let sum = &mut sums[unknown][i % 2];
+                *sum = c.mul_add(x, *sum);
+            }
+        }
+        for (member, [even, odd]) in self.blocks[block].members.iter().zip(sums) {
+            self.unknowns[*member as usize] = (even + odd).store();
+        }
+    }
+
     /// Solves for the accelerations of order `round`, and adds their effect.
     #[inline(always)]
     fn solve<N: Scalar<Stored = T>>(&mut self, series: &Series, round: usize) {
         let width = self.width;
-        for block in &self.blocks {
+        let compositions = self.compositions.clone();
+        for (at, composition) in compositions.iter().enumerate() {
+            if let Some(composition) = composition
+                && round > 0
+            {
+                self.sum_sources::<N>(series, (at, composition), round);
+                continue;
+            }
+            let block = &self.blocks[at];
             let [x, scratch] = &mut self.scratch;
             for (at, member) in block.members.iter().enumerate() {
                 let row = series.residuals[*member as usize].index();
@@ -504,9 +663,13 @@ impl<T: Copy> Expander<T> {
         let product = N::divisor((round as i64 + 1) * (round as i64 + 2));
         for at in 0..self.changed_by_newest[1].len() {
             let index = self.changed_by_newest[1][at] as usize;
-            let change = self.change::<N>(index);
-            let place = &mut self.coefficients[index * width + round];
-            *place = (N::load(*place) + change).store();
+            let known = N::load(self.coefficients[index * width + round]);
+            let sum = if self.adds_to_forces {
+                self.change::<N>(index, known)
+            } else {
+                known + self.change::<N>(index, N::ZERO)
+            };
+            self.coefficients[index * width + round] = sum.store();
         }
         let coordinates = series.dimension();
         for (k, multiplier) in self.unknowns[coordinates..].iter().enumerate() {
@@ -528,19 +691,19 @@ impl<T: Copy> Expander<T> {
                     let slope = N::load(self.gradients[self.places[index]]) * share;
                     slope.mul_add(N::load(self.unknowns[*i as usize]), known)
                 }
-                _ => share.mul_add(self.change::<N>(index), known),
+                _ => share.mul_add(self.change::<N>(index, N::ZERO), known),
             };
             self.coefficients[index * width + round + 2] = changed.store();
         }
     }
 
-    /// The gradient of a row times the newest accelerations.
+    /// The gradient of a row times the newest accelerations, added to a number.
     #[inline(always)]
-    fn change<N: Scalar<Stored = T>>(&self, index: usize) -> N {
+    fn change<N: Scalar<Stored = T>>(&self, index: usize, known: N) -> N {
         let depends = &self.series.depends[index];
         let gradient = &self.gradients[self.places[index]..][..depends.len()];
         let pairs = depends.iter().zip(gradient);
-        pairs.fold(N::ZERO, |sum, (i, g)| {
+        pairs.fold(known, |sum, (i, g)| {
             N::load(*g).mul_add(N::load(self.unknowns[*i as usize]), sum)
         })
     }

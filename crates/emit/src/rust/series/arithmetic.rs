@@ -3,14 +3,23 @@
 use std::collections::{BTreeSet, HashMap};
 
 use lagrangian_program::series::{
-    Arithmetic, Coefficient, Convolution, Level, MOST_IN_ONE_SUM, Order, Row, RowId, Series,
-    Stream, TermOrder, is_inverse,
+    Arithmetic, Coefficient, Composition, Convolution, Level, MOST_IN_ONE_SUM, Order, Row, RowId,
+    Series, Source, Stream, TermOrder, is_inverse,
 };
 use lagrangian_symbolic::{Function as Call, Rational};
 
 use super::code::{Code, Op, Operand, Part};
 use super::{Carried, FEWEST_APPLIED, FinalCoefficients, WIDTH};
 use crate::rust::language;
+
+/// A group of coupled unknowns.
+pub struct Block {
+    members: Vec<u32>,
+    /// Its factored matrix.
+    matrix: Operand,
+    /// How later orders are composed of sources, with the coefficients of these for each unknown.
+    composition: Option<(Composition, Vec<Vec<Operand>>)>,
+}
 
 /// A recorder of the code of a series.
 pub struct Recorder<'s> {
@@ -313,7 +322,7 @@ impl<'s> Recorder<'s> {
     }
 
     /// Records the factored matrices of coupled unknowns.
-    pub fn matrices(&mut self) -> Vec<(Vec<u32>, Operand)> {
+    pub fn matrices(&mut self) -> Vec<Block> {
         let mut matrices = Vec::new();
         for members in self.series.blocks() {
             let mut entries = Vec::new();
@@ -333,15 +342,89 @@ impl<'s> Recorder<'s> {
                 .filter(|row| (**row as usize) < self.series.dimension());
             let op = Op::Factored(entries, held.count(), members.clone());
             let matrix = self.push(op);
-            matrices.push((members, matrix));
+            let composition = self.series.composition(&members);
+            let composition = composition.map(|composition| {
+                let unknowns = 0..members.len();
+                let coefficients = unknowns.map(|i| self.coefficients_of(&composition, matrix, i));
+                let coefficients = coefficients.collect();
+                (composition, coefficients)
+            });
+            matrices.push(Block {
+                members,
+                matrix,
+                composition,
+            });
         }
         matrices
     }
 
+    /// Records the coefficients of the sources of an unknown, given by its index in its group.
+    fn coefficients_of(
+        &mut self,
+        composition: &Composition,
+        matrix: Operand,
+        unknown: usize,
+    ) -> Vec<Operand> {
+        let count = composition.residuals.len();
+        let mut derivatives = vec![Operand::Zero; composition.derivatives];
+        for (i, place) in composition.residuals.iter().enumerate() {
+            let element = self.push(Op::Element(matrix, i * count + unknown));
+            derivatives[*place] = self.negate(element);
+        }
+        for step in &composition.steps {
+            let [from, to] = [step.from, step.to].map(|at| derivatives[at]);
+            derivatives[step.to] = match step.factor {
+                None => self.add(to, from),
+                Some(row) => {
+                    let factor = self.first(row);
+                    self.multiply_add(factor, from, to)
+                }
+            };
+        }
+        let places = composition.places.iter();
+        places.map(|place| derivatives[*place]).collect()
+    }
+
+    /// Records an unknown of the current order as two sums of its sources, of every second one.
+    fn sum_of_sources(&mut self, composition: &Composition, coefficients: &[Operand]) -> Operand {
+        let mut sums = [Operand::Zero; 2];
+        for (i, (sources, c)) in composition.sources.iter().zip(coefficients).enumerate() {
+            let (mut c, mut sum) = (*c, Operand::Zero);
+            for source in sources {
+                let x = match *source {
+                    Source::Known(row) => self.newest(row),
+                    Source::Sum(row) => self.convolution(row, 0),
+                    Source::Second(row) => {
+                        let Row::Second(of) = self.series.rows[row.index()] else {
+                            continue;
+                        };
+                        let [factor, x] = self.second_factors(of);
+                        c = self.multiply(c, factor);
+                        x
+                    }
+                };
+                sum = self.add(sum, x);
+            }
+            sums[i % 2] = self.multiply_add(c, sum, sums[i % 2]);
+        }
+        self.add(sums[0], sums[1])
+    }
+
     /// Records the solution for the accelerations of the current order.
-    pub fn accelerations(&mut self, matrices: &[(Vec<u32>, Operand)]) -> Vec<Operand> {
+    pub fn accelerations(&mut self, matrices: &[Block]) -> Vec<Operand> {
         let mut all = vec![Operand::Zero; self.series.unknowns()];
-        for (members, matrix) in matrices {
+        for block in matrices {
+            let Block {
+                members, matrix, ..
+            } = block;
+            if let Some((composition, coefficients)) = &block.composition
+                && self.part == Part::Order
+            {
+                for (member, coefficients) in members.iter().zip(coefficients) {
+                    all[*member as usize] = self.sum_of_sources(composition, coefficients);
+                }
+                continue;
+            }
             let residuals = members
                 .iter()
                 .map(|row| self.series.residuals[*row as usize]);
@@ -438,13 +521,20 @@ impl<'s> Recorder<'s> {
         } else {
             None
         };
+        let adds_to_known = series.adds_to_forces();
         for (at, row) in self.forces.clone().into_iter().enumerate() {
-            let change = match applied {
-                Some(applied) => self.push(Op::OfRegisters(applied, at)),
-                None => self.change(row, a),
-            };
             let known = self.newest(row);
-            finals.rows[row.index()] = Some(self.add(known, change));
+            finals.rows[row.index()] = Some(match applied {
+                _ if adds_to_known => self.change(row, a, known),
+                Some(applied) => {
+                    let change = self.push(Op::OfRegisters(applied, at));
+                    self.add(known, change)
+                }
+                None => {
+                    let change = self.change(row, a, Operand::Zero);
+                    self.add(known, change)
+                }
+            });
         }
         for index in 0..series.rows.len() {
             let row = RowId(index as u32);
@@ -462,7 +552,7 @@ impl<'s> Recorder<'s> {
                             self.multiply_add(slope, a[i as usize], known)
                         }
                         _ => {
-                            let change = self.change(row, a);
+                            let change = self.change(row, a, Operand::Zero);
                             self.multiply_add(share, change, known)
                         }
                     }
@@ -472,10 +562,10 @@ impl<'s> Recorder<'s> {
         finals
     }
 
-    /// The gradient of a row times the newest accelerations.
-    fn change(&mut self, row: RowId, a: &[Operand]) -> Operand {
+    /// The gradient of a row times the newest accelerations, added to a number.
+    fn change(&mut self, row: RowId, a: &[Operand], known: Operand) -> Operand {
         let series = self.series;
-        let mut sum = Operand::Zero;
+        let mut sum = known;
         for (at, i) in series.depends[row.index()].iter().enumerate() {
             let g = self.gradients[row.index()][at];
             sum = self.multiply_add(g, a[*i as usize], sum);
