@@ -417,13 +417,15 @@ pub(crate) fn defect(
     defects.fold(0.0, f64::max)
 }
 
-/// The bound on the last terms of a step, for a coordinate or a rate of this size.
+/// The bound on the last terms of a step, for a coordinate or a rate of this size: a tenth of the tolerance from 1e-8 on, and a hundredth
+/// down from 1e-14.
 #[inline(always)]
 pub(crate) fn bound(size: f64, absolute: f64, relative: f64) -> f64 {
     let tolerable = absolute + relative * size;
     match 1.0 + size {
-        whole if tolerable > 1e-8 * whole => 0.1 * tolerable,
-        whole if tolerable < 1e-14 * whole => 0.01 * tolerable,
+        // Not at round numbers, which tolerances are: there the rounding of these sums would decide.
+        whole if tolerable > 0.5e-8 * whole => 0.1 * tolerable,
+        whole if tolerable < 2e-14 * whole => 0.01 * tolerable,
         _ => tolerable,
     }
 }
@@ -636,7 +638,7 @@ mod tests {
 
     use lagrangian_scalar::{DoubleDouble, Scalar};
 
-    use super::Taylor;
+    use super::{Taylor, bound};
     use crate::stages::Point;
 
     /// The sum of terms in double-double, and the sum of their sizes.
@@ -647,6 +649,23 @@ mod tests {
             size += term.to_f64().abs();
         }
         [sum.to_f64(), size]
+    }
+
+    #[test]
+    fn the_bound_does_not_depend_on_the_rounding_of_sizes() {
+        for (tolerance, part) in [
+            (1e-7, 0.1),
+            (1e-8, 0.1),
+            (1e-9, 1.0),
+            (1e-13, 1.0),
+            (1e-14, 0.01),
+        ] {
+            for k in 0..1000 {
+                let size = 0.01 * f64::from(k);
+                let expected = part * (tolerance + tolerance * size);
+                assert_eq!(bound(size, tolerance, tolerance), expected);
+            }
+        }
     }
 
     #[test]
