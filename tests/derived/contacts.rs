@@ -250,14 +250,15 @@ fn closed_contacts_allocate_nothing() {
             allocations(&puck, method, true),
         ] {
             assert!(
-                count <= ALLOCATIONS_OF_ENTRY * steps,
+                count <= 2 * ALLOCATIONS_OF_ENTRY * steps,
                 "{name}: {count} in {steps} steps"
             );
         }
     }
 }
 
-/// The energies of each contact and their rates, and the crushing works that they are made of.
+/// The energies of each contact and their rates, and the crushing works that they are made of: once in a step, and once more where its quadrature is repeated.
+/// If each of the six evaluations of a step of `dopri5` allocated once, there would be nine.
 const ALLOCATIONS_OF_ENTRY: u64 = 3;
 
 lagrangian::machine! {

@@ -11,7 +11,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::super::kinematics::ContactKinematics;
-use super::{ContactMemory, Margin, Mode, UnilateralState};
+use super::{Margin, Mode, UnilateralState};
 use crate::balance::ContactShare;
 use crate::{Compliance, ContactEnergies, System};
 
@@ -170,18 +170,8 @@ impl UnilateralState {
         all
     }
 
-    /// Writes what [`clearances`](Self::clearances) says, in memory that is there.
-    pub fn write_clearances<S: System>(
-        &self,
-        system: &S,
-        place: (f64, &S::Vector, &S::Vector),
-        memory: &mut ContactMemory<S::Vector, S::Matrix>,
-        all: &mut Vec<Clearance>,
-    ) {
-        self.write_clearances_with(system, place, memory.kinematics(), all);
-    }
-
-    fn write_clearances_with<S: System>(
+    /// Writes what [`clearances`](Self::clearances) says. `here` is memory for this.
+    pub(super) fn write_clearances_with<S: System>(
         &self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),

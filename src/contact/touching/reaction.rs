@@ -8,7 +8,7 @@ use super::super::drives::DrivesMemory;
 use super::super::kinematics::ContactKinematics;
 use super::super::undetermined::{self, OpenForces};
 use super::super::{ContactTrouble, lcp};
-use super::compliant::ComplianceState;
+use super::compliant::{Clearance, ComplianceState};
 use super::{Mode, ROUNDING_OF_FORCES, UnilateralState};
 use crate::at::At;
 use crate::balance::ContactShare;
@@ -570,6 +570,17 @@ impl UnilateralState {
             return Ok(());
         }
         self.react(system, at, memory)
+    }
+
+    /// Writes how far every contact is from closing at a state, in memory that is there.
+    pub fn write_clearances<S: System>(
+        &self,
+        system: &S,
+        place: (f64, &S::Vector, &S::Vector),
+        memory: &mut ContactMemory<S::Vector, S::Matrix>,
+        all: &mut Vec<Clearance>,
+    ) {
+        self.write_clearances_with(system, place, memory.kinematics(), all);
     }
 
     /// The ratio of the tangential to the normal force of a contact that slips; 0 for others.
