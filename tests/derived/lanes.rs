@@ -19,10 +19,10 @@ lagrangian::machine! {
 }
 
 /// A simulation of one of many machines.
-fn simulation<M: Machine>(
-    machine: &M,
+fn simulation<'m, M: Machine>(
+    machine: &'m M,
     (method, until): (&'static Method, f64),
-) -> Simulation<'_, M> {
+) -> Simulation<'m, M> {
     let first = |state: &State<Coordinates<M>>| {
         let numbers = format!("{:?}", state.q);
         let number = numbers.split([':', ',', '}', ']', ')']).nth(1);
