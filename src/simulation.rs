@@ -680,9 +680,12 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
 /// A run as far as it went, with the error that ended it early, if any; or an error if it could not begin.
 pub(crate) type RunAsFar<M, L> = Result<(Solution<M, L>, Option<Error>), Error>;
 
+/// A simulation and its start.
+pub(crate) type WithStart<'a, M, L> = (Simulation<'a, M, L>, State<Coordinates<M>>);
+
 /// Runs many simulations with `make`.
 pub(crate) fn run_many_by<'a, M: Machine, L: InputLaw<M::System>>(
-    simulations: Vec<(Simulation<'a, M, L>, State<Coordinates<M>>)>,
+    simulations: Vec<WithStart<'a, M, L>>,
     make: impl FnOnce(Vec<TaskWithStart<'a, '_, M>>) -> Vec<RunResult<M>>,
 ) -> Vec<RunAsFar<M, L>> {
     let (mut laws, mut rest) = (Vec::new(), Vec::new());

@@ -104,7 +104,7 @@ pub(super) fn solve(
         })
         .collect();
     let scale = |row: usize| {
-        if row % 2 == 0 {
+        if row.is_multiple_of(2) {
             1.0
         } else {
             along_tangents[row / 2]
