@@ -24,13 +24,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Kernel<f64> for Attempt<'_, '
 }
 
 /// The end of a try: [`Stepper::finish`].
-#[cfg(feature = "jit")]
+#[cfg(feature = "std")]
 pub(super) struct Finish<'a, 's, S: System, L, A> {
     pub stepper: &'a mut Stepper<'s, S, L, A>,
     pub h: f64,
 }
 
-#[cfg(feature = "jit")]
+#[cfg(feature = "std")]
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Kernel<f64> for Finish<'_, '_, S, L, A> {
     type Output = Result<f64, StepError>;
 
