@@ -2,7 +2,6 @@
 
 mod choosing;
 mod comparing;
-mod compiled_in_lanes;
 mod contact_search;
 pub(crate) mod contacts;
 mod explained;

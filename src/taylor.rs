@@ -417,15 +417,15 @@ pub(crate) fn defect(
     defects.fold(0.0, f64::max)
 }
 
-/// The bound on the last terms of a step, for a coordinate or a rate of this size: a tenth of the tolerance from 1e-8 on, and a hundredth
-/// down from 1e-14.
+/// The bound on the last terms of a step, for a coordinate or a rate of this size: a tenth of the tolerance above 1e-8, and a hundredth
+/// below 1e-14.
 #[inline(always)]
 pub(crate) fn bound(size: f64, absolute: f64, relative: f64) -> f64 {
     let tolerable = absolute + relative * size;
     match 1.0 + size {
         // Not at round numbers, which tolerances are: there the rounding of these sums would decide.
-        whole if tolerable > 0.5e-8 * whole => 0.1 * tolerable,
-        whole if tolerable < 2e-14 * whole => 0.01 * tolerable,
+        whole if tolerable > 2e-8 * whole => 0.1 * tolerable,
+        whole if tolerable < 0.5e-14 * whole => 0.01 * tolerable,
         _ => tolerable,
     }
 }

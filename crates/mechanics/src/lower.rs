@@ -21,6 +21,7 @@ use crate::{ConstraintEquation, Equations, Reduction, SlidingEquation, Unproject
 use accelerations::{is_mostly_formulas, ways_to_accelerations};
 use choosing::{Draft, PlannedFunction};
 use chosen::ChosenFunctions;
+use lagrangian_program::EliminationStep;
 use lagrangian_program::choose::{Basis, Candidate, Choice, best};
 use lagrangian_program::graph::{Graph, Id, Scaled};
 use lagrangian_program::quantity::Sizes;
@@ -29,6 +30,10 @@ use lagrangian_program::solve::System;
 use lagrangian_program::{Constraint, Function, Program, Role, Shape, Source, Unilateral};
 use lagrangian_spec::model::Model;
 use slots::{Slots, facts, name_of, start_name, start_values};
+
+/// The largest number of multiplications of an elimination that is written down: each becomes an
+/// instruction, and takes 2 kB until then. 115 fully coupled coordinates take this many.
+const MOST_MULTIPLICATIONS: usize = 250_000;
 
 /// A result that a function is to compute, by its role.
 #[derive(Clone, Debug)]
@@ -613,4 +618,16 @@ pub(super) fn sources(model: &Model<'_>) -> FxHashMap<Symbol, Source> {
         add(input.symbol, Source::Input(index));
     }
     sources
+}
+
+/// The values of the steps that are in the graph: those that the accelerations need.
+fn labelled(
+    lowering: &Lowering<'_, '_>,
+    steps: &[(Expr<'_>, EliminationStep)],
+) -> Vec<(Scaled, EliminationStep)> {
+    let values = steps.iter().filter_map(|(expression, step)| {
+        let value = lowering.values.get(&expression.id())?;
+        Some((*value, *step))
+    });
+    values.collect()
 }

@@ -3,13 +3,15 @@
 use super::articulated::Order;
 use super::{EquationSet, Lowering, LoweringInput, MOST_GUARD_COST, all_values};
 use crate::lower::choosing::{Draft, PlannedFunction};
-use crate::lower::{articulated, closed, derivatives, friction, turned};
+use crate::lower::{
+    MOST_MULTIPLICATIONS, articulated, closed, derivatives, friction, labelled, turned,
+};
 use crate::{Reduction, Unprojected};
 use lagrangian_program::choose::{Basis, Form};
 use lagrangian_program::graph::Scaled;
 use lagrangian_program::schedule::LARGEST_FACTORED;
 use lagrangian_program::solve::{Elimination, Pivot, Solution};
-use lagrangian_program::{EliminationStep, Role, Shape, solve};
+use lagrangian_program::{Role, Shape, solve};
 use lagrangian_spec::model::{Model, stage};
 use lagrangian_symbolic::{self as symbolic, Expr, reachable};
 
@@ -127,10 +129,6 @@ pub(super) fn is_mostly_formulas(model: &Model<'_>, machine: &Unprojected<'_>) -
     let pairs = coordinates * (coordinates + 1) / 2;
     reachable(model.dag, &roots).len() > FORMULAS[0] + FORMULAS[1] * pairs
 }
-
-/// The largest number of multiplications of an elimination that is written down: each becomes an
-/// instruction, and takes 2 kB until then. 115 fully coupled coordinates take this many.
-pub(super) const MOST_MULTIPLICATIONS: usize = 250_000;
 
 /// Extends a solution for the independent coordinates to all coordinates.
 fn embedded<'d>(
@@ -379,16 +377,4 @@ fn along_the_machine<'d>(
     };
     let is_cheap = 100 * ops(&full) <= (100 + MOST_GUARD_COST) * ops(&lean);
     Some(if is_cheap { full } else { lean })
-}
-
-/// The values of the steps that are in the graph: those that the accelerations need.
-pub(super) fn labelled(
-    lowering: &Lowering<'_, '_>,
-    steps: &[(Expr<'_>, EliminationStep)],
-) -> Vec<(Scaled, EliminationStep)> {
-    let values = steps.iter().filter_map(|(expression, step)| {
-        let value = lowering.values.get(&expression.id())?;
-        Some((*value, *step))
-    });
-    values.collect()
 }

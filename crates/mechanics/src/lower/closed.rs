@@ -10,7 +10,7 @@
 //! SIGGRAPH 1996; R. Featherstone, *Rigid Body Dynamics Algorithms*, 2008, section 8.)
 
 use crate::Unprojected;
-use crate::lower::accelerations::MOST_MULTIPLICATIONS;
+use crate::lower::MOST_MULTIPLICATIONS;
 use crate::lower::{Lowering, derivatives};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution, System};

@@ -8,9 +8,9 @@
 use lagrangian_symbolic::Expr;
 
 use crate::Unprojected;
-use crate::lower::accelerations::labelled;
 use crate::lower::articulated::Order;
 use crate::lower::choosing::{Draft, PlannedFunction};
+use crate::lower::labelled;
 use crate::lower::{Lowering, turned};
 use lagrangian_program::graph::{Graph, Scaled};
 use lagrangian_program::solve::{self, Elimination, Pivot, System};

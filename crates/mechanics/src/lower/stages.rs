@@ -1,7 +1,7 @@
 //! The accelerations in stages, from the elimination that leaves the least work to the repeated stage.
 
-use crate::lower::accelerations::labelled;
 use crate::lower::choosing::{Draft, PlannedFunction, roundings};
+use crate::lower::labelled;
 use crate::lower::{Candidate, Choice, Lowering, LoweringInput};
 use crate::lower::{articulated, turned};
 use lagrangian_program::rounding::States;

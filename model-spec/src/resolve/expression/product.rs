@@ -1,6 +1,6 @@
 //! Products, quotients and powers.
 
-use super::units::first_name;
+use super::units::{first_name, power_of_pi};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::stage;
 use crate::resolve::Resolver;
@@ -8,7 +8,7 @@ use crate::resolve::value::{Scalar, Scope, Value, Vector};
 use crate::source::Span;
 use crate::syntax::{Expression, Factor};
 use crate::unit::{Measure, Unit};
-use lagrangian_symbolic::{Expr, Node};
+use lagrangian_symbolic::Expr;
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     pub(super) fn product(
@@ -222,24 +222,5 @@ impl<'d> Product<'d> {
             let power = power_of_pi(scalar.expr);
             self.pi += if divides { -power } else { power };
         }
-    }
-}
-
-/// The power of π in a constant.
-pub(super) fn power_of_pi(constant: Expr<'_>) -> i32 {
-    let dag = constant.dag();
-    let product = match constant.node() {
-        Node::Sum(terms) if terms.len() == 1 => dag.expr(terms[0].0),
-        _ => constant,
-    };
-    let pi = dag.pi();
-    match product.node() {
-        _ if product == pi => 1,
-        Node::Product(factors) => {
-            let mut powers = factors.iter();
-            let found = powers.find(|(id, _)| dag.expr(*id) == pi);
-            found.map_or(0, |(_, power)| *power)
-        }
-        _ => 0,
     }
 }

@@ -1,6 +1,5 @@
 //! Units of expressions: what they must be, and what is said where they are not.
 
-use super::product::power_of_pi;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::resolve::Resolver;
 use crate::resolve::items::equals_unit;
@@ -9,6 +8,7 @@ use crate::resolve::value::{Scalar, Scope, Value};
 use crate::source::Span;
 use crate::syntax::{Expression, ExpressionKind, Factor, Ident};
 use crate::unit::{Measure, Unit};
+use lagrangian_symbolic::{Expr, Node};
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// Reports a unit other than the one required; a bare number takes any unit.
@@ -354,5 +354,24 @@ pub(crate) fn unit_text(unit: Unit) -> String {
     match unit.to_string() {
         one if one == "1" => "a pure number".to_owned(),
         text => text,
+    }
+}
+
+/// The power of π in a constant.
+pub(super) fn power_of_pi(constant: Expr<'_>) -> i32 {
+    let dag = constant.dag();
+    let product = match constant.node() {
+        Node::Sum(terms) if terms.len() == 1 => dag.expr(terms[0].0),
+        _ => constant,
+    };
+    let pi = dag.pi();
+    match product.node() {
+        _ if product == pi => 1,
+        Node::Product(factors) => {
+            let mut powers = factors.iter();
+            let found = powers.find(|(id, _)| dag.expr(*id) == pi);
+            found.map_or(0, |(_, power)| *power)
+        }
+        _ => 0,
     }
 }

@@ -3,9 +3,9 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::in_lanes::{Machines, run_tasks};
+use super::{RunAsFar, run_many_by};
 use crate::inputs::InputLaw;
-use crate::simulation::{RunAsFar, run_many_by};
+use crate::run::in_lanes::{Machines, run_tasks};
 use crate::stepper::in_lanes::{Evaluate, LaneMask, WIDTH, Wide};
 use crate::{Batch, Batched, Coordinates, Inputs, LaneVector, Machine, Simulation, State};
 use lagrangian_native::Lanes;
