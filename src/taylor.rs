@@ -655,10 +655,10 @@ mod tests {
     fn the_bound_does_not_depend_on_the_rounding_of_sizes() {
         for (tolerance, part) in [
             (1e-7, 0.1),
-            (1e-8, 0.1),
+            (1e-8, 1.0),
             (1e-9, 1.0),
-            (1e-13, 1.0),
-            (1e-14, 0.01),
+            (1e-14, 1.0),
+            (3e-15, 0.01),
         ] {
             for k in 0..1000 {
                 let size = 0.01 * f64::from(k);
