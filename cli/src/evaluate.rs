@@ -186,11 +186,12 @@ fn assignments(
         };
         let members: Vec<&String> = known.iter().filter(is_member).collect();
         if members.is_empty() && !known.contains(name) {
-            sets.push((name.clone(), f64::NAN)); // whoever sets it reports that it does not exist
+            // Setting it reports that it does not exist, whatever the value.
+            sets.push((name.clone(), f64::NAN));
         } else if members.len() == values.len() {
             sets.extend(members.into_iter().cloned().zip(values.iter().copied()));
         } else if members.is_empty() {
-            return Err(format!("`{name}` is not a family, and is one number"));
+            return Err(format!("`{name}` is not a family but one number"));
         } else {
             return Err(format!(
                 "`{name}` has {} numbers, and the family has {} members",

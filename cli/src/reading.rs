@@ -38,6 +38,15 @@ pub struct Reading {
     is_warned: bool,
 }
 
+/// Whether a run has to be made in the other charts that a spec names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChartUse {
+    /// What they cannot express is an error.
+    Required,
+    /// What they cannot express is run in the coordinates of the spec.
+    IfPossible,
+}
+
 impl Reading {
     /// Reads the file of a spec.
     ///
@@ -190,22 +199,24 @@ impl Reading {
     /// Compiles for a run: the machine, and if the spec names other charts, the machine in these too.
     ///
     /// # Errors
-    /// As [`compile_beside`](Self::compile_beside).
+    /// As [`compile_beside`](Self::compile_beside), and where the other charts are [required](ChartUse::Required), if they cannot express
+    /// a formula of the call.
     pub fn compile_in_charts<'d, 'a>(
         mut self,
         dag: &'d Dag,
         destinations: impl IntoIterator<Item = &'a Destination>,
+        chart_use: ChartUse,
     ) -> Result<(Compiled<'d>, Option<Compiled<'d>>), Failure> {
         let model = self.model(dag);
         self.keep_from(destinations)?;
         let Some(mut model) = model else {
             return Err(self.failure());
         };
-        let cartesian = model.cartesian.take();
-        let uncharted = cartesian.as_ref().map(|machine| &machine.uncharted);
-        if let Some(formulas) = uncharted.filter(|formulas| !formulas.is_empty()) {
-            for diagnostic in formulas {
-                self.report.push(diagnostic.clone());
+        let mut cartesian = model.cartesian.take();
+        let refused = cartesian.take_if(|machine| !machine.uncharted.is_empty());
+        if let (Some(machine), ChartUse::Required) = (refused, chart_use) {
+            for diagnostic in machine.uncharted {
+                self.report.push(diagnostic);
             }
             return Err(self.failure());
         }
@@ -219,35 +230,10 @@ impl Reading {
         // Its warnings would be those of the spec, which are printed.
         let mut report = Report::new();
         let cartesian = Compiled::new(*cartesian, &mut report);
-        if cartesian.is_none() {
+        if cartesian.is_none() && chart_use == ChartUse::Required {
             self.report = report;
             return Err(self.failure());
         }
-        Ok((compiled, cartesian))
-    }
-
-    /// [`compile_in_charts`](Self::compile_in_charts) for a run that is made in the coordinates of the spec if the other charts cannot
-    /// express the formulas of the call.
-    ///
-    /// # Errors
-    /// As [`compile_beside`](Self::compile_beside).
-    pub fn compile_in_charts_if_possible<'d, 'a>(
-        mut self,
-        dag: &'d Dag,
-        destinations: impl IntoIterator<Item = &'a Destination>,
-    ) -> Result<(Compiled<'d>, Option<Compiled<'d>>), Failure> {
-        let model = self.model(dag);
-        self.keep_from(destinations)?;
-        let Some(mut model) = model else {
-            return Err(self.failure());
-        };
-        let cartesian = model.cartesian.take();
-        let Some(compiled) = Compiled::new(model, &mut self.report) else {
-            return Err(self.failure());
-        };
-        self.warn();
-        let cartesian = cartesian.filter(|machine| machine.uncharted.is_empty());
-        let cartesian = cartesian.and_then(|model| Compiled::new(*model, &mut Report::new()));
         Ok((compiled, cartesian))
     }
 

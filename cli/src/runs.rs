@@ -21,7 +21,7 @@ use crate::evaluate::set_start;
 use crate::exactness::Exactness;
 use crate::failure::Failure;
 use crate::output::{self, Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
-use crate::reading::{self, Reading};
+use crate::reading::{self, ChartUse, Reading};
 use crate::recording::{ColumnKind, ROUNDING, Recording, Run};
 use crate::{inputs, methods, simulate};
 
@@ -466,7 +466,7 @@ fn run_spec(
         SampleInstants::Even | SampleInstants::At(_) => {}
     }
     let formulas = reading.formulas();
-    let compiled = reading.compile_in_charts_if_possible(&dag, files.iter().copied());
+    let compiled = reading.compile_in_charts(&dag, files.iter().copied(), ChartUse::IfPossible);
     let compiled = compiled.map_err(inputs::as_call_failure)?;
     let MachineInChart {
         compiled,

@@ -30,7 +30,7 @@ use crate::numbers::{by_name, shortest, states};
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
 use crate::precise;
 use crate::progress;
-use crate::reading::{self, Reading};
+use crate::reading::{self, ChartUse, Reading};
 use crate::recording::{Recording, Run};
 use crate::report::{self, CallSettings, Live, Report};
 use crate::{plot, table};
@@ -265,7 +265,7 @@ impl<'d> Prepared<'d> {
         let mut reading = Reading::open(&call.spec)?;
         let laws = reading.drive(&call.spec, written)?;
         let formulas = reading.formulas();
-        let compiled = reading.compile_in_charts(dag, files.all());
+        let compiled = reading.compile_in_charts(dag, files.all(), ChartUse::Required);
         let (mut compiled, cartesian) = compiled.map_err(inputs::as_call_failure)?;
         let mut machine = reading::machine(&compiled, &call.start)?;
         reading::check_parameters(&machine)?;

@@ -211,7 +211,7 @@ impl UnilateralState {
         ROUNDING * terms.fold(so_far, f64::max)
     }
 
-    /// The same for the rates at which what touches rolls against its resistance, which are in other units.
+    /// Up to which rate of rotation, in rad/s, contacts with rolling resistance are at rest.
     pub(super) fn rest_of_turning(
         &self,
         here: &ContactKinematics,

@@ -49,7 +49,7 @@ impl UnilateralState {
         }
         self.react(system, at, memory)?;
         let (here, reaction) = (&memory.here, &memory.equations.reaction);
-        // The same allowance as in `resting`: a contact that is at rest there does not stop once more here.
+        // Rates up to those of `resting` are rest: a contact that is at rest there does not stop once more here.
         let is_closed = |k: usize| self.modes[k] != Mode::Open;
         let rest = self.rest(here, self.greatest_rate(), is_closed);
         let rest_of_turning = self.rest_of_turning(here, is_closed);

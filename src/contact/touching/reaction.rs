@@ -527,7 +527,7 @@ impl UnilateralState {
         Ok(memory.equations.reaction)
     }
 
-    /// The same while contacts are closed and what is known of them at this state is at hand, outside of time stepping.
+    /// Accelerations and forces with closed contacts whose kinematics at this state are known, outside of time stepping.
     pub(super) fn reaction_here<S: System>(
         &self,
         system: &S,
@@ -556,7 +556,8 @@ impl UnilateralState {
         Ok(())
     }
 
-    /// The same with forces that the memory has of this state already, if it has. Inputs follow from the state: they are the same then.
+    /// As [`react`](Self::react), unless the memory holds the forces of this state: where inputs jump, accelerations are evaluated first with the new ones,
+    /// which renews it.
     pub(super) fn react_or_recall<S: System>(
         &self,
         system: &S,

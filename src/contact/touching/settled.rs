@@ -70,8 +70,8 @@ impl UnilateralState {
         settled.map(|(modes, _)| modes)
     }
 
-    /// The same, with the forces by which they do it, along normal and tangent: where a load may be shared in several ways, in one that
-    /// every contact allows.
+    /// What contacts that touch do next, as [`settled`](Self::settled), and their forces along normal and tangent. Where a load may be shared in
+    /// several ways, the forces are shared in one that every contact allows.
     pub fn settled_by_forces<S: System>(
         &self,
         system: &S,

@@ -45,7 +45,7 @@ impl Search<'_> {
         Ok(self.signed(chart, passage, &signs))
     }
 
-    /// The same, with the signs of quaternions as the run produced them.
+    /// The state a period later, with derivatives, and with the signs of quaternions as the run produced them.
     pub(super) fn unsigned_passage(
         &self,
         chart: &Chart,
@@ -106,7 +106,7 @@ impl Search<'_> {
         })
     }
 
-    /// The same across impacts and other changes of contacts.
+    /// The state a period later, with derivatives across impacts and other changes of contacts.
     pub(super) fn passage_with_contacts(
         &self,
         chart: &Chart,

@@ -282,8 +282,8 @@ impl<T: Scalar<Stored = T>> Expander<T> {
 }
 
 impl<T: Copy> Expander<T> {
-    /// The same without [compositions](Composition): solves for the unknowns of every order from residuals. For numbers that are sets: what cancels in
-    /// a residual then cancels before it is multiplied by the inverse, which is a set as well.
+    /// This expander without [compositions](Composition): it solves for the unknowns of every order from residuals. It serves intervals: terms that
+    /// cancel in a residual do so before it is multiplied by the inverse, which is a matrix of intervals as well.
     #[must_use]
     pub fn with_residuals(mut self) -> Self {
         self.compositions = vec![None; self.compositions.len()].into();
