@@ -53,7 +53,7 @@ use crate::proof::symbolic::with_guarded_values;
 use crate::{Dependent, Equations};
 use crate::{Disagreement, POINTS};
 use lagrangian_program::quantity::Use;
-use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape};
+use lagrangian_program::{Arguments, Interpreter, Op, Program, Role, Shape};
 use lagrangian_spec::model::Model;
 use number::{Number, ZeroTest};
 use unproved::subject_text;
@@ -152,7 +152,11 @@ fn validate<'d>(
     let machine = Lagrange::of(model, holonomic);
     let nodes = reachable(model.dag, &machine.roots);
     let most = MOST_VALUES / (nodes.len() as u64).max(1);
-    let most = most.clamp(MOST_STATES, MOST_POINTS);
+    let most = if roots_of_gaps(program) > MOST_POINTS.ilog2() as usize {
+        MOST_STATES
+    } else {
+        most.clamp(MOST_STATES, MOST_POINTS)
+    };
     let smooth = nodes.iter().all(|&id| match model.dag.node(id) {
         Node::Function(call, _) => matches!(call, Call::Sin | Call::Cos),
         _ => true,
@@ -212,6 +216,13 @@ fn branch_arguments<'d>(machine: &Lagrange<'_, 'd>) -> Vec<(Expr<'d>, [bool; 2])
         _ => None,
     });
     arguments.map(|argument| (argument, [false; 2])).collect()
+}
+
+/// The number of square roots in the gaps of a program. At a point of the field each exists with probability ½.
+fn roots_of_gaps(program: &Program) -> usize {
+    let code = program.function(Role::Gaps).map(|gaps| gaps.code.iter());
+    let is_root = |op: &&Op| matches!(op, Op::Unary(Call::Sqrt, _));
+    code.map_or(0, |code| code.filter(is_root).count())
 }
 
 /// The approximate number of values that one comparison computes, for a machine of `nodes` nodes:
@@ -444,8 +455,11 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if !here.iter().all(|x| x.is_finite()) {
             return Err(Verdict::Undefined);
         }
-        self.comparisons += 1;
         self.interpreter.prepare(&state.parameters);
+        if !self.has_gaps(&state) {
+            return Err(Verdict::Undefined);
+        }
+        self.comparisons += 1;
         self.guards.prepare(&state.parameters);
         let are_facts = facts.iter().all(|x| x.is_positive());
         let arguments: Vec<Expr<'d>> = self.sides.iter().map(|(argument, _)| *argument).collect();
@@ -462,6 +476,16 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             Err(Verdict::Wrong(_)) if !are_facts => Err(Verdict::Undefined),
             result => result,
         }
+    }
+
+    /// Whether all gaps exist. The distances of corners and centres have roots that do not occur in the equations of the model; where
+    /// one is missing, nothing else needs to be evaluated.
+    fn has_gaps(&mut self, at: &State<R>) -> bool {
+        let count = self.parts.program.unilateral.len();
+        count == 0
+            || Self::try_call(&mut self.interpreter, Role::Gaps, at, count)
+                .iter()
+                .all(|gap| gap.is_finite())
     }
 
     fn compare_at(&mut self, state: State<R>, facts: &[R]) -> Result<(), Verdict> {

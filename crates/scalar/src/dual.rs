@@ -251,6 +251,12 @@ impl<S: Scalar> Scalar for Dual<S> {
     /// The derivative of the smaller one; the mean of both derivatives if the values are equal.
     fn min(self, other: Self) -> Self {
         let sign = (self.value - other.value).sign();
+        if sign == S::ONE {
+            return other;
+        }
+        if sign == -S::ONE {
+            return self;
+        }
         Dual {
             value: self.value.min(other.value),
             derivative: mean(self.derivative, other.derivative, -sign),
@@ -260,6 +266,12 @@ impl<S: Scalar> Scalar for Dual<S> {
     /// The derivative of the larger one; the mean of both derivatives if the values are equal.
     fn max(self, other: Self) -> Self {
         let sign = (self.value - other.value).sign();
+        if sign == S::ONE {
+            return self;
+        }
+        if sign == -S::ONE {
+            return other;
+        }
         Dual {
             value: self.value.max(other.value),
             derivative: mean(self.derivative, other.derivative, sign),

@@ -111,10 +111,10 @@ const ODD_ORDER: i64 = (P / 2) as i64;
 pub struct Residue {
     field: Field,
     two_adic: TwoAdic,
-    /// The value, as long as it is a rational number known exactly.
-    rational: Option<Ratio>,
-    /// b of a value that is known to be x + bπ.
-    turn: Ratio,
+    /// The value itself if `is_rational`, otherwise b of a value that is known to be x + bπ.
+    ratio: Ratio,
+    /// Whether the value is a rational number known exactly.
+    is_rational: bool,
     /// Whether it is made from constants only, so that another choice of the symbols would not change it.
     constant: bool,
     /// False if something undefined went into it.
@@ -136,8 +136,8 @@ impl Residue {
         Residue {
             field: Field::real(1 + word(0) % (P - 1)),
             two_adic: TwoAdic::odd(wide(word(1), word(2))),
-            rational: None,
-            turn: Ratio::ZERO,
+            ratio: Ratio::ZERO,
+            is_rational: false,
             constant: false,
             defined: true,
         }
@@ -146,11 +146,30 @@ impl Residue {
     const UNDEFINED: Residue = Residue {
         field: Field::ZERO,
         two_adic: TwoAdic::Undefined,
-        rational: None,
-        turn: Ratio::ZERO,
+        ratio: Ratio::ZERO,
+        is_rational: false,
         constant: false,
         defined: false,
     };
+
+    /// The value, if it is a rational number known exactly.
+    fn rational(&self) -> Option<Ratio> {
+        self.is_rational.then_some(self.ratio)
+    }
+
+    /// b of a value that is known to be x + bπ.
+    fn turn(&self) -> Ratio {
+        if self.is_rational {
+            Ratio::ZERO
+        } else {
+            self.ratio
+        }
+    }
+
+    /// Whether it is known to be the whole number `n`.
+    fn is_exactly(&self, n: i64) -> bool {
+        self.is_rational && self.ratio == Ratio::integer(n)
+    }
 
     fn from_rational(value: Ratio) -> Self {
         let (n, d) = (value.numerator, value.denominator);
@@ -159,9 +178,12 @@ impl Residue {
         };
         Residue {
             field: Field::integer(n) * inverse,
-            two_adic: TwoAdic::integer(n) / TwoAdic::integer(d),
-            rational: Some(value),
-            turn: Ratio::ZERO,
+            two_adic: match d {
+                1 => TwoAdic::integer(n),
+                _ => TwoAdic::integer(n) / TwoAdic::integer(d),
+            },
+            ratio: value,
+            is_rational: true,
             constant: true,
             defined: true,
         }
@@ -187,8 +209,8 @@ impl Residue {
         Residue {
             field,
             two_adic: if negated { -two_adic } else { two_adic },
-            rational: None,
-            turn: Ratio::ZERO,
+            ratio: Ratio::ZERO,
+            is_rational: false,
             constant,
             defined: true,
         }
@@ -209,7 +231,7 @@ impl Residue {
     /// e^{ix} and e^{−ix}, if x has a 2-adic image.
     fn unit(self) -> Option<(Field, Field)> {
         // x = angle + bπ, if ζ(b) exists; otherwise bπ stays in the angle.
-        let (angle, root) = match self.turn {
+        let (angle, root) = match self.turn() {
             Ratio::ZERO => (self, None),
             turn => match root_of_unity(turn) {
                 Some(root) => (self - Residue::pi_times(turn), Some(root)),
@@ -272,7 +294,7 @@ impl Residue {
 
     /// Whether self < other, for rationals; other numbers have no order.
     fn known_less_than(self, other: Self) -> Option<bool> {
-        Some(self.rational?.less_than(other.rational?))
+        Some(self.rational()?.less_than(other.rational()?))
     }
 
     fn half(self) -> Self {
@@ -295,16 +317,16 @@ impl Scalar for Residue {
     const ZERO: Self = Residue {
         field: Field::ZERO,
         two_adic: TwoAdic::Zero,
-        rational: Some(Ratio::ZERO),
-        turn: Ratio::ZERO,
+        ratio: Ratio::ZERO,
+        is_rational: true,
         constant: true,
         defined: true,
     };
     const ONE: Self = Residue {
         field: Field::ONE,
         two_adic: TwoAdic::ONE,
-        rational: Some(Ratio::ONE),
-        turn: Ratio::ZERO,
+        ratio: Ratio::ONE,
+        is_rational: true,
         constant: true,
         defined: true,
     };
@@ -326,8 +348,8 @@ impl Scalar for Residue {
         Residue {
             field: Field::integer(significand) * Field::power_of_two(exponent),
             two_adic: TwoAdic::integer(significand).scaled(exponent),
-            rational,
-            turn: Ratio::ZERO,
+            ratio: rational.unwrap_or(Ratio::ZERO),
+            is_rational: rational.is_some(),
             constant: true,
             defined: true,
         }
@@ -344,8 +366,8 @@ impl Scalar for Residue {
         Residue {
             field: Field::real(1 + word(0) % (P - 1)),
             two_adic: TwoAdic::odd(wide(word(1), word(2))),
-            rational: None,
-            turn: Ratio::ONE,
+            ratio: Ratio::ONE,
+            is_rational: false,
             constant: true,
             defined: true,
         }
@@ -455,7 +477,7 @@ impl Scalar for Residue {
         if !self.defined {
             return Residue::UNDEFINED;
         }
-        if let Some(value) = self.rational {
+        if let Some(value) = self.rational() {
             return root_of_rational(value);
         }
         match self.field.root() {
@@ -475,7 +497,7 @@ impl Scalar for Residue {
         if let Some(Ratio {
             numerator,
             denominator: denominator @ (1 | 2),
-        }) = exponent.rational
+        }) = exponent.rational()
             && let Ok(numerator) = i32::try_from(numerator)
         {
             let base = if denominator == 2 { self.sqrt() } else { self };
@@ -492,7 +514,7 @@ impl Scalar for Residue {
         if !self.defined {
             return Residue::UNDEFINED;
         }
-        let sign = match self.rational {
+        let sign = match self.rational() {
             Some(value) => value.numerator.signum(),
             None => self.field.sign(),
         };
@@ -526,7 +548,7 @@ impl Scalar for Residue {
     /// The rational number, if it is known; otherwise the residue, which only shows whether two
     /// values are equal.
     fn to_f64(self) -> f64 {
-        match self.rational {
+        match self.rational() {
             _ if !self.defined => f64::NAN,
             Some(value) => value.numerator as f64 / value.denominator as f64,
             None => self.field.re as f64,
@@ -540,39 +562,26 @@ impl PartialEq for Residue {
     }
 }
 
+// The operands are large: functions that read them in place save copies.
+
 impl Add for Residue {
     type Output = Residue;
+    #[inline]
     fn add(self, other: Residue) -> Residue {
-        if !self.defined || !other.defined {
-            return Residue::UNDEFINED;
-        }
-        let turn = match (self.turn.is_zero(), other.turn.is_zero()) {
-            (true, true) => Some(Ratio::ZERO),
-            _ => self.turn.plus(other.turn),
-        };
-        Residue {
-            field: self.field + other.field,
-            two_adic: self.two_adic + other.two_adic,
-            rational: self
-                .rational
-                .zip(other.rational)
-                .and_then(|(a, b)| a.plus(b)),
-            // Losing track of π costs recognition, never correctness.
-            turn: turn.unwrap_or(Ratio::ZERO),
-            constant: self.constant && other.constant,
-            defined: true,
-        }
+        sum(&self, &other)
     }
 }
 
 impl Neg for Residue {
     type Output = Residue;
     fn neg(self) -> Residue {
+        let ratio = self.ratio.negative();
         Residue {
             field: -self.field,
             two_adic: -self.two_adic,
-            rational: self.rational.and_then(Ratio::negative),
-            turn: self.turn.negative().unwrap_or(Ratio::ZERO),
+            // Losing track of π costs recognition, never correctness.
+            ratio: ratio.unwrap_or(Ratio::ZERO),
+            is_rational: self.is_rational && ratio.is_some(),
             ..self
         }
     }
@@ -580,33 +589,17 @@ impl Neg for Residue {
 
 impl Sub for Residue {
     type Output = Residue;
+    #[inline]
     fn sub(self, other: Residue) -> Residue {
-        self + -other
+        sum(&self, &-other)
     }
 }
 
 impl Mul for Residue {
     type Output = Residue;
+    #[inline]
     fn mul(self, other: Residue) -> Residue {
-        if !self.defined || !other.defined {
-            return Residue::UNDEFINED;
-        }
-        let scaled = |turn: Ratio, by: Option<Ratio>| match by {
-            Some(by) if !turn.is_zero() => turn.times(by),
-            _ => None,
-        };
-        let turn = scaled(self.turn, other.rational).or_else(|| scaled(other.turn, self.rational));
-        Residue {
-            field: self.field * other.field,
-            two_adic: self.two_adic * other.two_adic,
-            rational: self
-                .rational
-                .zip(other.rational)
-                .and_then(|(a, b)| a.times(b)),
-            turn: turn.unwrap_or(Ratio::ZERO),
-            constant: self.constant && other.constant,
-            defined: true,
-        }
+        product(&self, &other)
     }
 }
 
@@ -619,13 +612,84 @@ impl Div for Residue {
         let Some(inverse) = other.field.inverse() else {
             return Residue::UNDEFINED;
         };
-        self * Residue {
+        let ratio = other.rational().and_then(Ratio::inverse);
+        let inverse = Residue {
             field: inverse,
             two_adic: TwoAdic::ONE / other.two_adic,
-            rational: other.rational.and_then(Ratio::inverse),
-            turn: Ratio::ZERO,
+            ratio: ratio.unwrap_or(Ratio::ZERO),
+            is_rational: ratio.is_some(),
             ..other
+        };
+        product(&self, &inverse)
+    }
+}
+
+fn sum(a: &Residue, b: &Residue) -> Residue {
+    if !a.defined || !b.defined {
+        return Residue::UNDEFINED;
+    }
+    let constant = a.constant && b.constant;
+    // Most derivatives that dual numbers add are 0.
+    if a.is_exactly(0) {
+        return Residue { constant, ..*b };
+    }
+    if b.is_exactly(0) {
+        return Residue { constant, ..*a };
+    }
+    let is_rational = a.is_rational && b.is_rational;
+    let ratio = if is_rational {
+        a.ratio.plus(b.ratio)
+    } else {
+        let (a, b) = (a.turn(), b.turn());
+        match (a.is_zero(), b.is_zero()) {
+            (true, true) => Some(Ratio::ZERO),
+            _ => a.plus(b),
         }
+    };
+    Residue {
+        field: a.field + b.field,
+        two_adic: a.two_adic + b.two_adic,
+        ratio: ratio.unwrap_or(Ratio::ZERO),
+        is_rational: is_rational && ratio.is_some(),
+        constant,
+        defined: true,
+    }
+}
+
+fn product(a: &Residue, b: &Residue) -> Residue {
+    if !a.defined || !b.defined {
+        return Residue::UNDEFINED;
+    }
+    // Most derivatives that dual numbers multiply are 0, many others 1. 0 times a symbol is 0 for every choice of it.
+    for (a, b) in [(a, b), (b, a)] {
+        if a.is_exactly(0) {
+            return *a;
+        }
+        if a.is_exactly(1) {
+            let constant = a.constant && b.constant;
+            return Residue { constant, ..*b };
+        }
+    }
+    let is_rational = a.is_rational && b.is_rational;
+    let ratio = match (a.rational(), b.rational()) {
+        (Some(a), Some(b)) => a.times(b),
+        (Some(by), None) | (None, Some(by)) => {
+            let turn = if a.is_rational { b.ratio } else { a.ratio };
+            if turn.is_zero() {
+                Some(Ratio::ZERO)
+            } else {
+                turn.times(by)
+            }
+        }
+        (None, None) => None,
+    };
+    Residue {
+        field: a.field * b.field,
+        two_adic: a.two_adic * b.two_adic,
+        ratio: ratio.unwrap_or(Ratio::ZERO),
+        is_rational: is_rational && ratio.is_some(),
+        constant: a.constant && b.constant,
+        defined: true,
     }
 }
 
@@ -708,6 +772,9 @@ fn root_of_integer(mut n: u64) -> Residue {
     let mut cofactor: i64 = 1;
     let mut root = Field::ONE;
     for q in 2..1 << 11 {
+        if q * q > n {
+            break; // n is 1 or a prime number
+        }
         let mut power = 0;
         while n.is_multiple_of(q) {
             n /= q;

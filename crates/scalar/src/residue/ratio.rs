@@ -48,6 +48,13 @@ impl Ratio {
     }
 
     pub fn plus(self, other: Ratio) -> Option<Ratio> {
+        if self.denominator == 1 && other.denominator == 1 {
+            // Most are whole.
+            return self
+                .numerator
+                .checked_add(other.numerator)
+                .map(Ratio::integer);
+        }
         let (a, b) = (self.numerator as i128, self.denominator as i128);
         let (c, d) = (other.numerator as i128, other.denominator as i128);
         // |ad|, |bc| ≤ 2¹²⁶.
@@ -55,6 +62,12 @@ impl Ratio {
     }
 
     pub fn times(self, other: Ratio) -> Option<Ratio> {
+        if self.denominator == 1 && other.denominator == 1 {
+            return self
+                .numerator
+                .checked_mul(other.numerator)
+                .map(Ratio::integer);
+        }
         Ratio::new(
             self.numerator as i128 * other.numerator as i128,
             self.denominator as i128 * other.denominator as i128,

@@ -219,11 +219,19 @@ impl Mul for TwoAdic {
                     exponent: other_e,
                     bits: other_bits,
                 },
-            ) => TwoAdic::from_bits(
-                m.wrapping_mul(other_m),
-                e as i64 + other_e as i64,
-                bits.min(other_bits),
-            ),
+            ) => {
+                // The product of odd numbers is odd.
+                let exponent = e + other_e;
+                if exponent.unsigned_abs() > EXPONENT_LIMIT as u32 {
+                    return Undefined;
+                }
+                let bits = bits.min(other_bits);
+                Known {
+                    mantissa: low_bits(m.wrapping_mul(other_m), bits),
+                    exponent,
+                    bits,
+                }
+            }
         }
     }
 }

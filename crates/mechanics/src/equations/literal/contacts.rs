@@ -252,8 +252,13 @@ impl<'d, R: Scalar> PolygonPair<'d, R> {
         let faces = ends.len();
         let mut edges = Vec::with_capacity(faces);
         for k in 0..faces {
-            let edge = difference(ends[(k + 1) % faces], ends[k]);
-            edges.push(scaled(Moving::<R>::ONE / dot(edge, edge).sqrt(), edge));
+            let next = (k + 1) % faces;
+            // The length in the axes of the polygon, where it is a constant: in a field the root of a constant always exists, and that
+            // of the same number made from angles does only for half of all polygons' faces.
+            let corner = |k: usize| x.vector::<2>(&other.corners[k]);
+            let side = difference(corner(next), corner(k));
+            let edge = difference(ends[next], ends[k]);
+            edges.push(scaled(Moving::<R>::ONE / dot(side, side).sqrt(), edge));
         }
         let mut pair = PolygonPair {
             polygons: [first.clone(), other.clone()],
