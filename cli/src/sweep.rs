@@ -31,9 +31,13 @@ use crate::methods;
 use crate::output::{self, Destination, TABLE, ending_is_one_of, keep_apart};
 use crate::progress;
 use crate::reading;
+use crate::runs;
 use crate::table;
 use crate::text_table::TextTable;
 use reporter::Reporter;
+
+/// The default method.
+const METHOD: &str = "dop853";
 
 /// The destination of rows.
 struct Out {
@@ -92,6 +96,8 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         return Ok(());
     }
     let out = Out::of(call, &plan)?;
+    // A plan that is refused leaves no folder behind.
+    let mut sweep = prepare(plan.clone(), engine)?;
     let is_part = call.chunk.is_some();
     let folder = Folder::open(&out.folder, out.format, is_part).map_err(failure)?;
     let known = if call.fresh && !is_part {
@@ -113,7 +119,6 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
             )));
         }
     }
-    let mut sweep = prepare(plan, engine)?;
     if let Some(chunk) = call.chunk {
         return one_chunk(&sweep, &folder, chunk, call.spec.json);
     }
@@ -359,6 +364,13 @@ fn read_plan(call: &call::Sweep) -> Result<Plan, Failure> {
         || call.table.is_some()
         || call.samples.is_some()
         || call.after.is_some()
+        || call.seed.is_some()
+        || call.design.is_some()
+        || call.tolerance.is_some()
+        || call.method.is_some()
+        || call.max_steps.is_some()
+        || !call.keep.names.is_empty()
+        || !call.together.is_empty()
         || call.plan.is_some();
     if is_said {
         return Err(Failure::Call(format!(
@@ -378,7 +390,8 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
             "give the end of each run: --until SECONDS".into(),
         ));
     };
-    methods::named(&call.method)?;
+    let method = call.method.as_deref().unwrap_or(METHOD);
+    methods::named(method)?;
     let path = call.spec.path.to_string_lossy();
     let (_, text) = Disk
         .read(&path, None)
@@ -434,6 +447,11 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     });
     let events: Vec<Watch> = events.collect();
     let recorded = reductions::recorded(&call.record)?;
+    if call.after.is_some() && call.reductions.is_empty() && recorded.events.is_empty() {
+        return Err(Failure::Call(
+            "--after applies to --reduce and to --record event=NAME, and there are none".into(),
+        ));
+    }
     Ok(Plan {
         version: VERSION,
         spec: SpecText {
@@ -448,9 +466,9 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
         rate: rates,
         keep,
         until,
-        tolerance: call.tolerance,
-        method: call.method.clone(),
-        max_steps: call.max_steps as u64,
+        tolerance: call.tolerance.unwrap_or(runs::TOLERANCE),
+        method: method.to_owned(),
+        max_steps: call.max_steps.unwrap_or(runs::STEPS) as u64,
         inputs: inputs::laws(&inputs::parse(&call.inputs)?, &model)?,
         reduce: reductions::reductions(&call.reductions, &events)?,
         events,

@@ -745,6 +745,32 @@ fn what_cannot_be_is_said() {
         (&["compare", data, later], 1, &["no time in common"]),
         (&["compare", data, data, "--of", "y"], 2, &["--of y", "x"]),
         (
+            &["compare", data, data, "--of", "x", "--of", "x"],
+            2,
+            &["--of names `x` more than once"],
+        ),
+        (
+            &["peaks", spec, "--until", "1", "--of", "x,x"],
+            2,
+            &["--of names `x` more than once"],
+        ),
+        // The run would be recorded at these instants instead of those of the table, and interpolated between them.
+        (
+            &["compare", data, spec, "--every", "0.5"],
+            2,
+            &["--every", "rows of the table"],
+        ),
+        (
+            &["spectrum", spec, "--until", "1", "--method", "rk4"],
+            2,
+            &["--method rk4", "`simulate`", "--longest-step"],
+        ),
+        (
+            &["compare", data, data, "--engine", "jit"],
+            2,
+            &["--engine", "table"],
+        ),
+        (
             &["compare", data, data, "--set", "k=1"],
             2,
             &["--set", "table"],
@@ -822,6 +848,30 @@ fn what_cannot_be_is_said() {
             ],
             2,
             &["--every", "instants"],
+        ),
+        (
+            &["section", data, "--every-period", "1", "--direction", "up"],
+            2,
+            &["--every-period", "--direction"],
+        ),
+        (
+            &["sensitivities", spec, "--until", "1", "--by", "k,k"],
+            2,
+            &["--by names `k` more than once"],
+        ),
+        (
+            &[
+                "sensitivities",
+                spec,
+                "--until",
+                "1",
+                "--by",
+                "k",
+                "--of",
+                "x,der(x),x",
+            ],
+            2,
+            &["--of names `x` more than once"],
         ),
         (
             &["sensitivities", spec, "--until", "1", "--by", "m"],
