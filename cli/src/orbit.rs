@@ -340,8 +340,7 @@ fn motion(machine: &InterpretedMachine, orbit: &Orbit, call: &call::Orbit) -> Re
     run.map_err(Failure::run)
 }
 
-/// How many times an autonomous motion returns in the period that was found: more than once if the search began near a multiple of its
-/// period.
+/// How many times the motion returns in the period that was given or found: more than once if that is a multiple of its period.
 fn periods_within(
     machine: &InterpretedMachine,
     orbit: &Orbit,
@@ -350,7 +349,7 @@ fn periods_within(
     let start = &orbit.start;
     // After a part of a given advance, the machine need not be the same.
     let is_given = |(by, shifts): (&f64, &bool)| *by != 0.0 && !shifts;
-    if !orbit.is_autonomous || orbit.advance.iter().zip(&orbit.shifts).any(is_given) {
+    if orbit.advance.iter().zip(&orbit.shifts).any(is_given) {
         return Ok(1);
     }
     let run = Simulation::new(machine)

@@ -550,6 +550,10 @@ fn a_driven_oscillator_answers_as_its_frequency_response_says() {
     assert_eq!(found["stability"], "stable");
     // A linear machine needs one iteration, and one more to detect convergence.
     assert!(found["rounds"].as_u64().expect("a count") <= 2);
+    // It answers with the period of the drive, also if twice that is given.
+    assert_eq!(found["periods"], 1);
+    let twice = orbit(&[spec.path(), "--period", "4*pi/Omega"]);
+    assert_eq!(twice["periods"], 2);
 }
 
 /// What is crushed stays so: a motion that crushes a layer in its first period does not return, although coordinates and rates may after that period.
