@@ -163,6 +163,12 @@ impl Call {
         if let Some(&[(option, name), _]) = twice {
             return Err(format!("{option} sets `{name}` more than once"));
         }
+        let mut events = named.iter().filter(|(option, _)| *option == "--event");
+        if let Some((_, name)) = events.find(|(_, name)| named.contains(&("--until-event", name))) {
+            return Err(format!(
+                "--event and --until-event both name an event `{name}`"
+            ));
+        }
         // An input that is driven, as a member of a family too, has no other value.
         let inputs = named.iter().filter(|(option, _)| *option == "--input");
         let is_driven = |set: &str| {
@@ -172,10 +178,11 @@ impl Call {
                 member.is_some_and(|index| index.is_empty() || index.starts_with('['))
             })
         };
-        let mut sets = named.iter().filter(|(option, _)| *option == "--set");
-        if let Some((_, name)) = sets.find(|(_, name)| is_driven(name)) {
+        let is_set = |option: &str| ["--set", "--set-second"].contains(&option);
+        let mut sets = named.iter().filter(|(option, _)| is_set(option));
+        if let Some((option, name)) = sets.find(|(_, name)| is_driven(name)) {
             return Err(format!(
-                "`{name}` is driven by --input and also set to a constant by --set"
+                "`{name}` is driven by --input and also set to a constant by {option}"
             ));
         }
         if let Command::Library(call) = &self.command {

@@ -51,6 +51,11 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// Whether there are instants, and none with a value.
+    pub fn is_empty(&self) -> bool {
+        !self.values.is_empty() && self.values.iter().all(|value| !value.is_finite())
+    }
+
     /// The header of the column: `theta [rad]`.
     pub fn header(&self) -> String {
         header(&self.name, self.unit.as_deref())
@@ -149,7 +154,11 @@ impl Columns {
         }
         let mut chosen = Vec::new();
         for name in &wanted {
-            let member = format!("{name}[");
+            // Of a family, all members: `q`, and `der(q)`.
+            let member = match name.strip_suffix(')') {
+                Some(inside) if inside.starts_with("der(") => format!("{inside}["),
+                _ => format!("{name}["),
+            };
             let matching = self.columns.iter();
             let matching =
                 matching.filter(|column| column.name == *name || column.name.starts_with(&member));
@@ -161,6 +170,12 @@ impl Columns {
         }
         call::refuse_twice("--of", chosen.iter().map(|column| column.name.as_str()))
             .map_err(Failure::Call)?;
+        if let Some(column) = chosen.iter().find(|column| column.is_empty()) {
+            return Err(Failure::Run(format!(
+                "`{}` has no value at any instant",
+                column.name
+            )));
+        }
         Ok(chosen)
     }
 

@@ -4,6 +4,7 @@ mod design;
 mod reductions;
 mod reporter;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -12,7 +13,7 @@ use lagrangian::interpreted::Engine;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::Model;
 use lagrangian_spec::source::{Disk, Files, Sources};
-use lagrangian_sweep::plan::{SpecText, VERSION, Watch};
+use lagrangian_sweep::plan::{Function, Reduction, SpecText, VERSION, Watch};
 use lagrangian_sweep::table::Format;
 use lagrangian_sweep::{
     Folder, FolderError, Plan, PlanError, Summary, Sweep, chunk_length, cores, run_all,
@@ -383,6 +384,25 @@ fn read_plan(call: &call::Sweep) -> Result<Plan, Failure> {
     Plan::from_json(&text).map_err(|why| Failure::Call(format!("{shown} is not a plan: {why}")))
 }
 
+/// Refuses `first(x)` and `last(x)` where `x` is an event and a quantity as well.
+fn check_events(reduce: &[Reduction], model: &Model<'_>) -> Result<(), Failure> {
+    let coordinates = model.coordinates.iter().map(|q| q.name.to_string());
+    let parameters = model.parameters.iter().map(|of| of.name.to_string());
+    let inputs = model.inputs.iter().map(|of| of.name.to_string());
+    let outputs = model.outputs.iter().map(|output| output.name.to_string());
+    let names = coordinates.chain(parameters).chain(inputs).chain(outputs);
+    let quantities: BTreeSet<String> = names.chain(["t".to_owned()]).collect();
+    let mut of_events = reduce
+        .iter()
+        .filter(|one| matches!(one.function, Function::FirstEvent | Function::LastEvent));
+    match of_events.find(|one| quantities.contains(&one.of)) {
+        Some(Reduction { name, of, .. }) => Err(Failure::Call(format!(
+            "--reduce {name}: `{of}` is an event and also a quantity of the machine: give the event another name"
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// The plan that a call describes.
 fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     let Some(until) = call.until else {
@@ -452,6 +472,8 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
             "--after applies to --reduce and to --record event=NAME, and there are none".into(),
         ));
     }
+    let reduce = reductions::reductions(&call.reductions, &events)?;
+    check_events(&reduce, &model)?;
     Ok(Plan {
         version: VERSION,
         spec: SpecText {
@@ -470,7 +492,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
         method: method.to_owned(),
         max_steps: call.max_steps.unwrap_or(runs::STEPS) as u64,
         inputs: inputs::laws(&inputs::parse(&call.inputs)?, &model)?,
-        reduce: reductions::reductions(&call.reductions, &events)?,
+        reduce,
         events,
         at: recorded.at,
         every: recorded.every,

@@ -739,6 +739,8 @@ fn what_cannot_be_is_said() {
     let other = Scratch::new("other.csv", "t,x [N]\n0,1\n1,2\n");
     let later = Scratch::new("later.csv", "t,x\n7,1\n8,2\n");
     let (spec, data, other, later) = (spec.path(), data.path(), other.path(), later.path());
+    let unmeasured = Scratch::new("unmeasured.csv", "t,x,y\n0,1,\n1,2,\n2,3,\n3,4,\n");
+    let unmeasured = unmeasured.path();
     for (arguments, status, words) in [
         (&["compare", spec, spec][..], 2, &["--until"][..]),
         (&["compare", data, other], 1, &["`x`", "m", "N"]),
@@ -784,6 +786,16 @@ fn what_cannot_be_is_said() {
         (&["compare", data, data, "--out", data], 2, &["overwrite"]),
         (&["spectrum", data], 1, &["`x`", "without a value"]),
         (&["spectrum", other], 1, &["4 instants"]),
+        (
+            &["peaks", unmeasured, "--of", "y"],
+            1,
+            &["`y` has no value at any instant"],
+        ),
+        (
+            &["section", unmeasured, "--crossing", "y=2"],
+            1,
+            &["`y` has no value at any instant"],
+        ),
         (&["section", data], 2, &["--every-period", "--crossing"]),
         (
             &["section", spec, "--until", "1", "--crossing", "y"],

@@ -752,6 +752,14 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
         (&["--method", "dop835"], "did you mean `dop853`?"),
         (&["--chunk", "3"], "write a plan by --plan"),
         (&["--seed", "3"], "--seed: nothing is sampled"),
+        (
+            &["--event", "x=t-0.5*s", "--reduce", "p = first(x)"],
+            "`x` is an event and also a quantity",
+        ),
+        (
+            &["--event", "e=x", "--until-event", "e=t-0.5*s"],
+            "both name an event `e`",
+        ),
         (&["--design", "latin"], "--design: nothing is sampled"),
         (&["--after", "0.5"], "there are none"),
     ] {

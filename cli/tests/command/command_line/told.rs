@@ -393,6 +393,15 @@ fn members_of_a_driven_family_have_no_other_value() {
         assert_eq!(status(&output), 2, "{more:?}: {}", err(&output));
         assert!(err(&output).contains(words), "{more:?}: {}", err(&output));
     }
+    // An input of both runs of a comparison cannot have a value in the second one.
+    let compare = ["compare", spec, spec, "--until", "1"];
+    let output = lagrangian(&[&compare[..], &["--input", "u=1*N", "--set-second", "u=5"]].concat());
+    assert_eq!(status(&output), 2, "{}", out(&output));
+    let said = err(&output);
+    assert!(
+        said.contains("`u` is driven by --input and also set to a constant by --set-second"),
+        "{said}"
+    );
     // The value of a family is that of the members that are not driven.
     let more = ["--input", "u[1]=1*N", "--set", "u=5", "--json"];
     let output = lagrangian(&[&run[..], &more].concat());
@@ -402,4 +411,20 @@ fn members_of_a_driven_family_have_no_other_value() {
         (found - (5.0 - 4.0 * 1.0_f64.cos())).abs() < 1e-7,
         "{found}"
     );
+}
+
+/// The name of a family selects all its members, also inside `der(…)`.
+#[test]
+fn the_rates_of_a_family_are_those_of_its_members() {
+    let folder = Folder::new();
+    let spec = folder.file("pair.machine", PAIR);
+    let spec = spec.to_str().expect("text");
+    let output = lagrangian(&[
+        "compare", spec, spec, "--until", "1", "--of", "der(x),x", "--json",
+    ]);
+    assert_eq!(status(&output), 0, "{}", err(&output));
+    let found = json(&output);
+    let quantities = found["quantities"].as_array().expect("a list").iter();
+    let names: Vec<&str> = quantities.filter_map(|one| one["name"].as_str()).collect();
+    assert_eq!(names, ["der(x[1])", "der(x[2])", "x[1]", "x[2]"]);
 }
