@@ -156,7 +156,7 @@ fn ends(
                 Some(problem) => problem.to_normal(&from),
                 None => from,
             };
-            for set in assignments {
+            for set in reading::families_first(assignments) {
                 // Normal coordinates are in √kg·m, a unit that cannot be written.
                 let unit = match problem {
                     Some(_) => "1".to_owned(),

@@ -22,7 +22,7 @@ pub use arguments::{Arguments, SetName};
 pub use brachistochrone::Brachistochrone;
 pub use derive::{Check, Derive, Form};
 pub use export::{Fmu, Library, Names, UnitKind, UnitMethod};
-pub use fit::{Bounds, Fit, SigmaOption, names_of};
+pub use fit::{Bounds, Fit, SigmaOption, names_of, refuse_twice};
 pub use import::{Ball, Base, Friction, Import, Limits};
 pub use linear::{Linearize, Modes, Search, Steady, SteadyRate, Vary};
 use linear::{observed, vary};
@@ -163,11 +163,26 @@ impl Call {
         if let Some(&[(option, name), _]) = twice {
             return Err(format!("{option} sets `{name}` more than once"));
         }
-        let driven = named.iter().filter(|(option, _)| *option == "--input");
-        let mut driven = driven.filter(|(_, name)| named.contains(&("--set", name)));
-        if let Some((_, name)) = driven.next() {
+        let mut events = named.iter().filter(|(option, _)| *option == "--event");
+        if let Some((_, name)) = events.find(|(_, name)| named.contains(&("--until-event", name))) {
             return Err(format!(
-                "`{name}` is driven by --input and also set to a constant by --set"
+                "--event and --until-event both name an event `{name}`"
+            ));
+        }
+        // An input that is driven, as a member of a family too, has no other value.
+        let inputs = named.iter().filter(|(option, _)| *option == "--input");
+        let is_driven = |set: &str| {
+            let mut inputs = inputs.clone();
+            inputs.any(|(_, input)| {
+                let member = set.strip_prefix(input);
+                member.is_some_and(|index| index.is_empty() || index.starts_with('['))
+            })
+        };
+        let is_set = |option: &str| ["--set", "--set-second"].contains(&option);
+        let mut sets = named.iter().filter(|(option, _)| is_set(option));
+        if let Some((option, name)) = sets.find(|(_, name)| is_driven(name)) {
+            return Err(format!(
+                "`{name}` is driven by --input and also set to a constant by {option}"
             ));
         }
         if let Command::Library(call) = &self.command {

@@ -144,6 +144,11 @@ fn read_runs(call: &call::Compare, files: &[&Destination]) -> Result<[Columns; 2
         .flatten()
         .next()
         .map(|table| table.times.clone());
+    if rows.is_some() && call.runs.every.is_some() {
+        return Err(Failure::Call(
+            "--every does not apply to a spec that is compared with a table: it is recorded at the rows of the table".into(),
+        ));
+    }
     let end = rows.as_ref().and_then(|rows| rows.last().copied());
     let made = |k: usize| -> Result<Columns, Failure> {
         if let Some(table) = &tables[k] {
@@ -157,9 +162,9 @@ fn read_runs(call: &call::Compare, files: &[&Destination]) -> Result<[Columns; 2
             options.tolerance = call.second_tolerance.or(options.tolerance);
             options.method = call.second_method.as_deref().or(options.method);
         }
-        let looks = match (&rows, call.runs.every) {
-            (Some(rows), None) => SampleInstants::At(rows),
-            _ => SampleInstants::Even,
+        let looks = match &rows {
+            Some(rows) => SampleInstants::At(rows),
+            None => SampleInstants::Even,
         };
         runs::spec(&options, &looks, files)
     };

@@ -104,7 +104,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let files = Files::new(call, &given, &everywhere)?;
     let dag = Dag::new();
     let mut reading = Reading::open(&call.spec)?;
-    let laws = reading.drive(&call.spec, &everywhere)?;
+    let laws = reading.drive(&everywhere)?;
     let formulas = reading.formulas();
     let compiled = reading.compile_beside(&dag, files.all());
     let mut compiled = compiled.map_err(inputs::as_call_failure)?;
@@ -402,13 +402,18 @@ fn sought(
             )));
         }
     }
+    let sought_parameters = sought.iter();
+    let sought_parameters =
+        sought_parameters.filter(|one| matches!(one.subject, Subject::Parameter(_)));
+    let is_sought = |name: &str| sought_parameters.clone().any(|one| one.name == name);
+    let known: Vec<&str> = machine.parameters().map(|(of, _)| of.name).collect();
     for (one, experiment) in given.iter().zip(experiments) {
         for set in &one.sets {
-            let is_sought = sought.iter().any(|other| match other.subject {
-                Subject::Parameter(_) => other.name == set.name,
-                _ => false,
-            });
-            if is_sought {
+            // The value of a family is that of the members that are not fitted, if there are any.
+            let member = format!("{}[", set.name);
+            let mut members = known.iter().filter(|name| name.starts_with(&member));
+            let is_family = members.clone().next().is_some();
+            if is_sought(&set.name) || is_family && members.all(|name| is_sought(name)) {
                 return Err(Failure::Call(format!(
                     "`{}` is fitted, but --data {} gives it a fixed value",
                     set.name, experiment.name

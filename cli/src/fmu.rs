@@ -130,6 +130,22 @@ struct Unit<'a> {
     token: String,
 }
 
+/// Refuses options that have no effect.
+fn check_options(call: &call::Fmu) -> Result<(), Failure> {
+    let kinds = call.kind.iter().map(|kind| kind.name());
+    call::refuse_twice("--kind", kinds).map_err(Failure::Call)?;
+    if let Some(call::Names(names)) = &call.outputs {
+        let names = names.iter().map(String::as_str);
+        call::refuse_twice("--outputs", names).map_err(Failure::Call)?;
+    }
+    if call.method.is_some() && !call.kind.contains(&UnitKind::CoSimulation) {
+        return Err(Failure::Call(
+            "--method is that of co-simulation; in model exchange the importer integrates".into(),
+        ));
+    }
+    Ok(())
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -139,6 +155,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
     let out = Destination::new("--out", &call.out, UNIT)?;
     keep_document_apart([&out], call.spec.json)?;
     keep_apart([&out], &[(&call.spec.path, "the spec")])?;
+    check_options(call)?;
     let version = match call.fmi {
         2 => Version::Two,
         _ => Version::Three,
@@ -179,7 +196,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
         inputs: machine.prepare().default_inputs().values,
         start,
         tolerance: call.tolerance,
-        method: call.method,
+        method: call.method.unwrap_or(call::UnitMethod::Dop853),
         identifier: identifier(&call.out),
         variables,
         events: &call.events,

@@ -8,7 +8,7 @@ use lagrangian_spec::source::Sources;
 use lagrangian_sweep::plan::Law;
 use lagrangian_sweep::signals::{self, InputArgument};
 
-use crate::call::Assignment;
+use crate::call::{self, Assignment};
 use crate::failure::Failure;
 
 /// Parses each `--input`, in order.
@@ -40,7 +40,10 @@ pub fn laws(
     written: &[(String, InputArgument)],
     model: &Model<'_>,
 ) -> Result<Vec<(String, Law)>, Failure> {
-    signals::laws(written, model).map_err(Failure::Call)
+    let laws = signals::laws(written, model).map_err(Failure::Call)?;
+    let names = laws.iter().map(|(name, _)| name.as_str());
+    call::refuse_twice("--input", names).map_err(Failure::Call)?;
+    Ok(laws)
 }
 
 /// Converts a failure of the spec to one of the call, if all errors are in formulas of the call.

@@ -91,6 +91,9 @@ pub fn run(call: &call::Map) -> Result<(), Failure> {
         read.push((&samples, "the samples beside the table"));
     }
     keep_apart(files.iter().flatten(), &read)?;
+    for (option, list) in [("--of", &call.of), ("--over", &call.over)] {
+        call::refuse_twice(option, list.iter().map(String::as_str)).map_err(Failure::Call)?;
+    }
     let mut rows = Rows::read(&call.table)?;
     if call.samples {
         rows = rows.with_samples(&samples)?;

@@ -34,6 +34,16 @@ const SAMPLES: f64 = 400.0;
 /// The fewest steps per period in the recorded run.
 const STEPS: f64 = 50.0;
 
+/// How many periods of a motion within the one that was found are recognized.
+const MOST_PERIODS: u32 = 12;
+
+/// The instants in half of a period at which it is measured how far each number moves.
+const INSTANTS: u32 = 24;
+
+/// How close a motion returns in a part of the period, relative to how far it moves: far above the error of a run, and far below the
+/// distance of an orbit of twice the period, except next to where its period doubles.
+const SAME: f64 = 1e-5;
+
 /// A machine with its period.
 struct Ready<'d> {
     compiled: Compiled<'d>,
@@ -71,13 +81,16 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
     })?;
     let motion = motion(&ready.machine, &orbit, call)?;
     runs::warn(&motion);
+    let periods = periods_within(&ready.machine, &orbit, call)?;
+    let mut document = as_json(&ready.machine, &orbit);
+    document["periods"] = json!(periods);
     if let Some(file) = &files[0] {
         match file.ending() {
             "npz" => {
                 file.write(|to| to.write_all(&npz::bytes(&arrays(&ready.machine, &orbit))?))?
             }
             "mat" => file.write(|to| to.write_all(&mat::bytes(&arrays(&ready.machine, &orbit))))?,
-            "json" => file.write_text(&format!("{:#}\n", as_json(&ready.machine, &orbit)))?,
+            "json" => file.write_text(&format!("{document:#}\n"))?,
             _ => table::write(&simulate::record(&motion), file)?,
         }
     }
@@ -86,9 +99,9 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
         file.write_text(&plot::svg(ready.machine.name(), &recording).map_err(Failure::Run)?)?;
     }
     if call.spec.json {
-        output::line(format_args!("{:#}", as_json(&ready.machine, &orbit)))
+        output::line(format_args!("{document:#}"))
     } else {
-        output::text(&text(&orbit))
+        output::text(&text(&orbit, periods))
     }
     Ok(())
 }
@@ -207,7 +220,7 @@ fn sought(call: &call::Orbit, ready: &Ready<'_>) -> Result<Sought, Failure> {
     let n = start.q.values.len();
     let mut advance = start.q.clone();
     advance.values.fill(0.0);
-    for set in &call.advance {
+    for set in reading::families_first(&call.advance) {
         if !places(&start.q, &integral_name(&set.name)).is_empty() || state_of(&set.name).is_some()
         {
             return Err(Failure::Call(format!(
@@ -327,6 +340,59 @@ fn motion(machine: &InterpretedMachine, orbit: &Orbit, call: &call::Orbit) -> Re
     run.map_err(Failure::run)
 }
 
+/// How many times the motion returns in the period that was given or found: more than once if that is a multiple of its period.
+fn periods_within(
+    machine: &InterpretedMachine,
+    orbit: &Orbit,
+    call: &call::Orbit,
+) -> Result<u32, Failure> {
+    let start = &orbit.start;
+    // After a part of a given advance, the machine need not be the same.
+    let is_given = |(by, shifts): (&f64, &bool)| *by != 0.0 && !shifts;
+    if orbit.advance.iter().zip(&orbit.shifts).any(is_given) {
+        return Ok(1);
+    }
+    let run = Simulation::new(machine)
+        .tolerance(call.tolerance)
+        .until(start.t + 0.5 * orbit.period)
+        .longest_step(orbit.period / STEPS)
+        .run_interpreted(start.clone())
+        .map_err(Failure::run)?;
+    let states = (1..=INSTANTS).map(|k| f64::from(k) / f64::from(2 * INSTANTS) * orbit.period);
+    let states = run
+        .at_each(states.map(|t| start.t + t))
+        .map_err(Failure::run)?;
+    let numbers = |state: &State<Named>| [&state.q.values[..], &state.v.values[..]].concat();
+    let from = numbers(start);
+    let names: Vec<&str> = start.q.iter().map(|(name, _)| name).collect();
+    let n = names.len();
+    // How far each number moves.
+    let mut ranges = vec![0.0_f64; 2 * n];
+    for state in &states {
+        for (range, (x, y)) in ranges.iter_mut().zip(numbers(state).iter().zip(&from)) {
+            *range = range.max((x - y).abs());
+        }
+    }
+    for count in (2..=MOST_PERIODS).rev() {
+        let part = 1.0 / f64::from(count);
+        let state = run
+            .at(start.t + part * orbit.period)
+            .map_err(Failure::run)?;
+        let returns = numbers(&state).iter().enumerate().all(|(k, x)| {
+            let advance = orbit.advance.get(k).map_or(0.0, |by| part * by);
+            let error = 10.0 * call.tolerance * from[k].abs().max(1.0);
+            // The integral of a state of first order need not return.
+            let is_integral = k < n && state_of(names[k]).is_some();
+            is_integral || (x - from[k] - advance).abs() <= SAME * ranges[k] + error
+        });
+        let moves = ranges.iter().any(|range| *range > 1e3 * call.tolerance);
+        if returns && moves {
+            return Ok(count);
+        }
+    }
+    Ok(1)
+}
+
 /// The names of the coordinates and rates in the monodromy matrix.
 fn states(machine: &InterpretedMachine, orbit: &Orbit) -> Vec<String> {
     let system = machine.prepare();
@@ -422,13 +488,20 @@ fn verdict(orbit: &Orbit) -> &'static str {
     }
 }
 
-fn text(orbit: &Orbit) -> String {
+fn text(orbit: &Orbit, periods: u32) -> String {
     let drive = if orbit.is_autonomous {
         "nothing drives the machine"
     } else {
         "the machine is driven"
     };
     let mut text = format!("period {} s; {drive}\n", number(orbit.period));
+    if periods > 1 {
+        let _ = writeln!(
+            text,
+            "the motion returns already after {} s: these are {periods} of its periods, and the multipliers are those of all of them",
+            number(orbit.period / f64::from(periods))
+        );
+    }
     text.push_str("a start of the orbit:\n");
     let start = &orbit.start;
     let width = start
@@ -525,6 +598,17 @@ fn along(
             Ok(()) => Failure::Call(format!("--along {}: it has no unit", vary.name)),
         }
     })?;
+    if call
+        .start
+        .parameters
+        .iter()
+        .any(|set| set.name == vary.name)
+    {
+        return Err(Failure::Call(format!(
+            "--set {0}=… and --along {0} both give `{0}` a value: leave out the first",
+            vary.name
+        )));
+    }
     let end = |set: &call::Assignment| set.value("--along", &unit).map_err(Failure::Call);
     let (from, to) = (end(&vary.ends[0])?, end(&vary.ends[1])?);
     if from == to {
@@ -548,6 +632,7 @@ fn along(
         machine
             .set(&vary.name, value)
             .map_err(|wrong| Stop::Failed(Failure::run(wrong)))?;
+        reading::set_members(&mut machine, &call.start, &vary.name);
         let diagnostics = ready
             .compiled
             .model

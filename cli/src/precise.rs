@@ -78,7 +78,7 @@ fn prepare(call: &call::Simulate, option: &str) -> Result<Ready, Failure> {
 pub fn in_double_doubles(call: &call::Simulate) -> Result<(), Failure> {
     let requested_method = match call.method.as_str() {
         AUTO => None,
-        name => Some(methods::named(name)?),
+        name => Some(methods::named_or(name, &[])?),
     };
     if let Some(method) = requested_method
         && !std::ptr::eq(method, &TAYLOR)

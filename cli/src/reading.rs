@@ -69,6 +69,20 @@ impl Reading {
         })
     }
 
+    /// The same spec without formulas of the call, from the text that was read.
+    pub fn without_formulas(&self) -> Reading {
+        Reading {
+            name: self.name.clone(),
+            text: self.text.clone(),
+            constants: self.constants.clone(),
+            given: self.given.clone(),
+            formulas: Vec::new(),
+            sources: Sources::new(),
+            report: Report::new(),
+            is_warned: self.is_warned,
+        }
+    }
+
     /// A variant of a spec that has an input for each of its coordinates, a generalized force on it.
     ///
     /// # Errors
@@ -131,14 +145,13 @@ impl Reading {
     /// If there is no such input, or a table or the spec is invalid.
     pub fn drive(
         &mut self,
-        spec: &call::Spec,
         written: &[(String, InputArgument)],
     ) -> Result<Vec<(String, Law)>, Failure> {
         if written.is_empty() {
             return Ok(Vec::new());
         }
         let dag = Dag::new();
-        let mut plain = Reading::open(spec)?;
+        let mut plain = self.without_formulas();
         let Some(model) = plain.model(&dag) else {
             return Err(plain.failure());
         };
@@ -342,8 +355,22 @@ pub fn set_first(
         let first = vary.ends[0].value(option, &unit).map_err(Failure::Call)?;
         // A name that is neither a parameter nor an input is refused later.
         let _ = machine.set(&vary.name, first);
+        set_members(machine, start, &vary.name);
     }
     Ok(())
+}
+
+/// Sets the members of a family that the call sets to values of their own, after an option has given a value to the whole family.
+pub fn set_members(machine: &mut InterpretedMachine, start: &call::Start, family: &str) {
+    let member = format!("{family}[");
+    let members = start.parameters.iter();
+    for set in members.filter(|set| set.name.starts_with(&member)) {
+        // Names and values were checked when the machine was made.
+        let unit = machine.unit(&set.name).map(str::to_owned);
+        if let Ok(value) = set.value("--set", &unit.unwrap_or_default()) {
+            let _ = machine.set(&set.name, value);
+        }
+    }
 }
 
 /// Applies `--start` and `--rate`.
@@ -478,7 +505,7 @@ pub fn kept_names(keep: &call::Keep) -> Option<&[String]> {
 }
 
 /// Assignments sorted such that those of whole families precede those of members, wherever they are in the call.
-fn families_first(assignments: &[Assignment]) -> impl Iterator<Item = &Assignment> {
+pub fn families_first(assignments: &[Assignment]) -> impl Iterator<Item = &Assignment> {
     let of = |members: bool| {
         let sets = assignments.iter();
         sets.filter(move |set| set.name.contains('[') == members)

@@ -22,14 +22,17 @@ use crate::exactness::Exactness;
 use crate::failure::Failure;
 use crate::output::{self, Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
 use crate::reading::{self, ChartUse, Reading};
-use crate::recording::{ColumnKind, ROUNDING, Recording, Run};
-use crate::{inputs, methods, simulate};
+use crate::recording::{ColumnKind, Recording, Run};
+use crate::{inputs, methods, progress, simulate};
 
 /// The default number of recorded samples of a run.
 const SAMPLES: f64 = 1000.0;
 
 /// The default limit of steps of a run.
-const STEPS: usize = 10_000_000;
+pub const STEPS: usize = 10_000_000;
+
+/// What is done with a run.
+const ANALYSING: &str = "analysing the run";
 
 /// The default tolerance of a run.
 pub const TOLERANCE: f64 = 1e-9;
@@ -48,6 +51,11 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// Whether there are instants, and none with a value.
+    pub fn is_empty(&self) -> bool {
+        !self.values.is_empty() && self.values.iter().all(|value| !value.is_finite())
+    }
+
     /// The header of the column: `theta [rad]`.
     pub fn header(&self) -> String {
         header(&self.name, self.unit.as_deref())
@@ -146,7 +154,11 @@ impl Columns {
         }
         let mut chosen = Vec::new();
         for name in &wanted {
-            let member = format!("{name}[");
+            // Of a family, all members: `q`, and `der(q)`.
+            let member = match name.strip_suffix(')') {
+                Some(inside) if inside.starts_with("der(") => format!("{inside}["),
+                _ => format!("{name}["),
+            };
             let matching = self.columns.iter();
             let matching =
                 matching.filter(|column| column.name == *name || column.name.starts_with(&member));
@@ -155,6 +167,14 @@ impl Columns {
             if chosen.len() == before {
                 return Err(unknown(name, self, run));
             }
+        }
+        call::refuse_twice("--of", chosen.iter().map(|column| column.name.as_str()))
+            .map_err(Failure::Call)?;
+        if let Some(column) = chosen.iter().find(|column| column.is_empty()) {
+            return Err(Failure::Run(format!(
+                "`{}` has no value at any instant",
+                column.name
+            )));
         }
         Ok(chosen)
     }
@@ -284,6 +304,7 @@ pub fn refuse_without_spec(runs: &call::Runs) -> Result<(), Failure> {
         ("--start", !runs.start.coordinates.is_empty()),
         ("--rate", !runs.start.rates.is_empty()),
         ("--keep", !runs.keep.names.is_empty()),
+        ("--engine", runs.start.running.engine != call::Engine::Auto),
     ];
     match options.iter().find(|(_, is_given)| *is_given) {
         Some((option, _)) => Err(Failure::Call(format!(
@@ -298,8 +319,11 @@ pub fn refuse_without_spec(runs: &call::Runs) -> Result<(), Failure> {
 /// # Errors
 /// If the table is invalid: what is wrong with it.
 pub fn table(path: &Path) -> Result<Columns, Failure> {
+    progress::now("reading the table");
     let file = signals::table_file(path).map_err(Failure::Call)?;
-    Columns::of_table(&file)
+    let columns = Columns::of_table(&file)?;
+    progress::now(ANALYSING);
+    Ok(columns)
 }
 
 /// The instants at which a run is sampled.
@@ -352,9 +376,13 @@ impl<'a> Options<'a> {
     }
 }
 
-/// Replaces assignments by others to the same names.
+/// Replaces assignments by others to the same names, or to the families of which they are members.
 pub fn replaced(list: &mut Vec<Assignment>, others: &[Assignment]) {
-    list.retain(|set| others.iter().all(|other| other.name != set.name));
+    let replaces = |other: &Assignment, set: &Assignment| {
+        let member = set.name.strip_prefix(&other.name);
+        member.is_some_and(|index| index.is_empty() || index.starts_with('['))
+    };
+    list.retain(|set| !others.iter().any(|other| replaces(other, set)));
     list.extend(others.iter().cloned());
 }
 
@@ -451,12 +479,12 @@ fn run_spec(
     };
     let dag = Dag::new();
     let mut reading = Reading::open(&spec)?;
-    let laws = reading.drive(&spec, &written)?;
+    let laws = reading.drive(&written)?;
     let driving = reading.formulas();
     match looks {
         SampleInstants::Crossing(formula, _, level) => {
             // A level is a number in the unit of its output, which the formula would not know.
-            let output = level.filter(|(name, value)| has_level(&spec, name, value));
+            let output = level.filter(|(name, value)| has_level(&reading, name, value));
             let formula = output.map_or(*formula, |(name, _)| name);
             reading.add_formula("--crossing FORMULA", formula, None)
         }
@@ -536,6 +564,7 @@ fn run_spec(
         };
         simulation = simulation.each_step(move |step| charts.follow(step, marked_every));
     }
+    progress::now("simulating");
     let ran = simulation
         .run_interpreted(start)
         .map_err(|error| Failure::Run(verdict::message_of(&error)))?;
@@ -545,6 +574,7 @@ fn run_spec(
     warn(&ran);
     let states = states(&ran, looks, period.unwrap_or(f64::INFINITY))?;
     let recording = charts::record(&ran, &states, charts.as_ref());
+    progress::now(ANALYSING);
     Ok(((ran, charts), recording))
 }
 
@@ -590,10 +620,9 @@ fn states(
 }
 
 /// Whether the spec has an output with this name, and the value is one of numbers and units in its unit.
-fn has_level(spec: &call::Spec, name: &str, value: &str) -> bool {
+fn has_level(reading: &Reading, name: &str, value: &str) -> bool {
     let dag = Dag::new();
-    let model = Reading::open(spec).ok();
-    let model = model.and_then(|mut reading| reading.model(&dag));
+    let model = reading.without_formulas().model(&dag);
     let outputs = model.map(|model| model.outputs).unwrap_or_default();
     let output = outputs
         .iter()
@@ -686,12 +715,7 @@ pub fn one_with_run(
     let (columns, exactness) = if is_spec(&part.run)? {
         let options = Options::of(&part.run, &part.runs, None)?;
         let ((run, charts), recording) = run_spec(&options, &SampleInstants::Even, files)?;
-        let method = methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
-        let tolerance = if method.has_fixed_steps() {
-            ROUNDING
-        } else {
-            options.tolerance.unwrap_or(TOLERANCE)
-        };
+        let tolerance = options.tolerance.unwrap_or(TOLERANCE);
         let exactness = Exactness {
             run,
             tolerance,

@@ -156,6 +156,11 @@ fn crossings(call: &call::Section, columns: &Columns, crossing: &str) -> Result<
     };
     let level = set.value("--crossing", column.unit.as_deref().unwrap_or("1"));
     let level = level.map_err(Failure::Call)?;
+    if column.is_empty() {
+        return Err(Failure::Run(format!(
+            "--crossing {crossing}: `{name}` has no value at any instant"
+        )));
+    }
     columns.warn_of_gaps(column);
     let rates = columns.rates(name);
     let curve = columns.curve(column, rates.as_deref(), call::Interpolation::Cubic);

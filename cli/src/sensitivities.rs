@@ -275,6 +275,7 @@ fn variations(
             )));
         }
     }
+    call::refuse_twice("--by", all.iter().map(|one| one.name.as_str())).map_err(Failure::Call)?;
     Ok(all)
 }
 
@@ -374,6 +375,7 @@ fn observed(
             )));
         }
     }
+    call::refuse_twice("--of", all.iter().map(|one| one.name.as_str())).map_err(Failure::Call)?;
     Ok(all)
 }
 

@@ -160,6 +160,12 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         return precise::validated(call);
     }
     let (tolerance, method) = (tolerance(call)?, method(call)?);
+    if call.tolerance.is_some() && has_no_tolerance(method) {
+        return Err(Failure::Call(format!(
+            "`{}` has no --tolerance: the length of its steps, --longest-step, determines the error",
+            call.method
+        )));
+    }
     let written = inputs::parse(&call.inputs)?;
     let files = Files::new(call, &written)?;
     let dag = Dag::new();
@@ -241,6 +247,11 @@ fn method(call: &call::Simulate) -> Result<&'static Method, Failure> {
     methods::named_or(&call.method, &[AUTO])
 }
 
+/// Whether a method uses no tolerance: its steps have a fixed length, and it solves no equations of a step, or solves them to round-off.
+fn has_no_tolerance(method: &Method) -> bool {
+    method.has_fixed_steps() && method.tableau.name != "generalized-alpha"
+}
+
 /// A machine that is ready to run, with the settings of its run. If the spec names another chart, all of it is in that chart.
 struct Prepared<'d> {
     compiled: Compiled<'d>,
@@ -263,7 +274,7 @@ impl<'d> Prepared<'d> {
         (mut method, tolerance): (&'static Method, f64),
     ) -> Result<Prepared<'d>, Failure> {
         let mut reading = Reading::open(&call.spec)?;
-        let laws = reading.drive(&call.spec, written)?;
+        let laws = reading.drive(written)?;
         let formulas = reading.formulas();
         let compiled = reading.compile_in_charts(dag, files.all(), ChartUse::Required);
         let (mut compiled, cartesian) = compiled.map_err(inputs::as_call_failure)?;

@@ -4,6 +4,7 @@ mod design;
 mod reductions;
 mod reporter;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -12,7 +13,7 @@ use lagrangian::interpreted::Engine;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::Model;
 use lagrangian_spec::source::{Disk, Files, Sources};
-use lagrangian_sweep::plan::{SpecText, VERSION, Watch};
+use lagrangian_sweep::plan::{Function, Reduction, SpecText, VERSION, Watch};
 use lagrangian_sweep::table::Format;
 use lagrangian_sweep::{
     Folder, FolderError, Plan, PlanError, Summary, Sweep, chunk_length, cores, run_all,
@@ -31,9 +32,13 @@ use crate::methods;
 use crate::output::{self, Destination, TABLE, ending_is_one_of, keep_apart};
 use crate::progress;
 use crate::reading;
+use crate::runs;
 use crate::table;
 use crate::text_table::TextTable;
 use reporter::Reporter;
+
+/// The default method.
+const METHOD: &str = "dop853";
 
 /// The destination of rows.
 struct Out {
@@ -92,6 +97,8 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         return Ok(());
     }
     let out = Out::of(call, &plan)?;
+    // A plan that is refused leaves no folder behind.
+    let mut sweep = prepare(plan.clone(), engine)?;
     let is_part = call.chunk.is_some();
     let folder = Folder::open(&out.folder, out.format, is_part).map_err(failure)?;
     let known = if call.fresh && !is_part {
@@ -113,7 +120,6 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
             )));
         }
     }
-    let mut sweep = prepare(plan, engine)?;
     if let Some(chunk) = call.chunk {
         return one_chunk(&sweep, &folder, chunk, call.spec.json);
     }
@@ -359,6 +365,13 @@ fn read_plan(call: &call::Sweep) -> Result<Plan, Failure> {
         || call.table.is_some()
         || call.samples.is_some()
         || call.after.is_some()
+        || call.seed.is_some()
+        || call.design.is_some()
+        || call.tolerance.is_some()
+        || call.method.is_some()
+        || call.max_steps.is_some()
+        || !call.keep.names.is_empty()
+        || !call.together.is_empty()
         || call.plan.is_some();
     if is_said {
         return Err(Failure::Call(format!(
@@ -371,6 +384,25 @@ fn read_plan(call: &call::Sweep) -> Result<Plan, Failure> {
     Plan::from_json(&text).map_err(|why| Failure::Call(format!("{shown} is not a plan: {why}")))
 }
 
+/// Refuses `first(x)` and `last(x)` where `x` is an event and a quantity as well.
+fn check_events(reduce: &[Reduction], model: &Model<'_>) -> Result<(), Failure> {
+    let coordinates = model.coordinates.iter().map(|q| q.name.to_string());
+    let parameters = model.parameters.iter().map(|of| of.name.to_string());
+    let inputs = model.inputs.iter().map(|of| of.name.to_string());
+    let outputs = model.outputs.iter().map(|output| output.name.to_string());
+    let names = coordinates.chain(parameters).chain(inputs).chain(outputs);
+    let quantities: BTreeSet<String> = names.chain(["t".to_owned()]).collect();
+    let mut of_events = reduce
+        .iter()
+        .filter(|one| matches!(one.function, Function::FirstEvent | Function::LastEvent));
+    match of_events.find(|one| quantities.contains(&one.of)) {
+        Some(Reduction { name, of, .. }) => Err(Failure::Call(format!(
+            "--reduce {name}: `{of}` is an event and also a quantity of the machine: give the event another name"
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// The plan that a call describes.
 fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     let Some(until) = call.until else {
@@ -378,7 +410,8 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
             "give the end of each run: --until SECONDS".into(),
         ));
     };
-    methods::named(&call.method)?;
+    let method = call.method.as_deref().unwrap_or(METHOD);
+    methods::named(method)?;
     let path = call.spec.path.to_string_lossy();
     let (_, text) = Disk
         .read(&path, None)
@@ -434,6 +467,13 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     });
     let events: Vec<Watch> = events.collect();
     let recorded = reductions::recorded(&call.record)?;
+    if call.after.is_some() && call.reductions.is_empty() && recorded.events.is_empty() {
+        return Err(Failure::Call(
+            "--after applies to --reduce and to --record event=NAME, and there are none".into(),
+        ));
+    }
+    let reduce = reductions::reductions(&call.reductions, &events)?;
+    check_events(&reduce, &model)?;
     Ok(Plan {
         version: VERSION,
         spec: SpecText {
@@ -448,11 +488,11 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
         rate: rates,
         keep,
         until,
-        tolerance: call.tolerance,
-        method: call.method.clone(),
-        max_steps: call.max_steps as u64,
+        tolerance: call.tolerance.unwrap_or(runs::TOLERANCE),
+        method: method.to_owned(),
+        max_steps: call.max_steps.unwrap_or(runs::STEPS) as u64,
         inputs: inputs::laws(&inputs::parse(&call.inputs)?, &model)?,
-        reduce: reductions::reductions(&call.reductions, &events)?,
+        reduce,
         events,
         at: recorded.at,
         every: recorded.every,

@@ -55,10 +55,10 @@ pub struct Fmu {
     /// `event.low` that counts them.
     #[arg(long = "event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]
     pub events: Vec<Assignment>,
-    /// The integration method of the unit in co-simulation: `dop853` of order 8, or `dopri5` of order 5, whose steps are cheaper, for
+    /// The integration method of the unit in co-simulation: `dop853` of order 8, the default, or `dopri5` of order 5, whose steps are cheaper, for
     /// communication points that are close together.
-    #[arg(long, value_enum, default_value_t = UnitMethod::Dop853)]
-    pub method: UnitMethod,
+    #[arg(long, value_enum)]
+    pub method: Option<UnitMethod>,
     /// Relative and absolute tolerance of co-simulation, unless the importer gives one.
     #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,

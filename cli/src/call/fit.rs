@@ -1,5 +1,6 @@
 //! Arguments of `fit`.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -26,6 +27,21 @@ pub fn names_of(lists: &[String]) -> Result<Vec<String>, String> {
         }
     }
     Ok(names)
+}
+
+/// Refuses a list of an option that names something twice, also by the name of its family.
+///
+/// # Errors
+/// If a name occurs twice: which.
+pub fn refuse_twice<'a>(
+    option: &str,
+    names: impl IntoIterator<Item = &'a str>,
+) -> Result<(), String> {
+    let mut seen = BTreeSet::new();
+    match names.into_iter().find(|name| !seen.insert(*name)) {
+        Some(name) => Err(format!("{option} names `{name}` more than once")),
+        None => Ok(()),
+    }
 }
 
 /// Arguments of `fit`.

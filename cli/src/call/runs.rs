@@ -168,7 +168,7 @@ pub struct Section {
     #[arg(long, value_name = "FORMULA|NAME=VALUE", allow_hyphen_values = true)]
     pub crossing: Option<String>,
     /// The direction in which it passes.
-    #[arg(long, value_enum, default_value_t = Direction::Up)]
+    #[arg(long, value_enum, default_value_t = Direction::Up, conflicts_with = "period")]
     pub direction: Direction,
     /// Write the points to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]

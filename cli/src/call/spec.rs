@@ -98,7 +98,7 @@ pub struct Runs {
     /// Run a spec to this time, in s; if it is compared with a table, by default to the end of the table.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub until: Option<f64>,
-    /// Record a spec's motion at this interval, in s; without it, 1000 times, or at the rows of the table it is compared with.
+    /// Record a spec's motion at this interval, in s; without it, 1000 times. A spec that is compared with a table is recorded at its rows.
     #[arg(long, value_name = "SECONDS", value_parser = interval, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Relative and absolute tolerance of each step of a spec's run; by default 1e-9.

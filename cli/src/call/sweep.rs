@@ -20,15 +20,15 @@ pub struct Sweep {
     /// Integrate each run to this time, in s; before 0 backward in time.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub until: Option<f64>,
-    /// Relative and absolute tolerance of each step.
-    #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
-    pub tolerance: f64,
-    /// The integration method: dop853, dopri5, bs32, radau5 for stiff machines, or taylor for smooth ones.
-    #[arg(long, value_name = "NAME", default_value = "dop853")]
-    pub method: String,
-    /// The maximum number of steps of each run.
-    #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = steps, allow_hyphen_values = true)]
-    pub max_steps: usize,
+    /// Relative and absolute tolerance of each step; by default 1e-9.
+    #[arg(long, value_parser = tolerance, allow_hyphen_values = true)]
+    pub tolerance: Option<f64>,
+    /// The integration method: dop853, the default, dopri5, bs32, radau5 for stiff machines, or taylor for smooth ones.
+    #[arg(long, value_name = "NAME")]
+    pub method: Option<String>,
+    /// The maximum number of steps of each run; by default ten million.
+    #[arg(long, value_name = "N", value_parser = steps, allow_hyphen_values = true)]
+    pub max_steps: Option<usize>,
     /// Vary a parameter, an input, `start(q)` or `rate(q)`: `omega=50..150:101` (101 values; append `:log` for a geometric grid),
     /// `omega=50,60,90`, or, to be sampled, `omega=50..150`, `omega~normal(100,5)`, `~uniform(a,b)`, `~loguniform(a,b)`,
     /// `~triangular(a,b,peak)`. Several are combined as a full grid, in which the last one changes fastest.
@@ -37,12 +37,12 @@ pub struct Sweep {
     /// The number of sets of values to sample from the given ranges and distributions.
     #[arg(long, value_name = "N", value_parser = count)]
     pub samples: Option<u64>,
-    /// How values are sampled.
-    #[arg(long, value_enum, default_value_t = Design::Sobol)]
-    pub design: Design,
-    /// The seed of the sampling; 0 gives the Sobol sequence itself.
-    #[arg(long, default_value_t = 0)]
-    pub seed: u64,
+    /// How values are sampled; by default `sobol`.
+    #[arg(long, value_enum)]
+    pub design: Option<Design>,
+    /// The seed of the sampling; 0, the default, gives the Sobol sequence itself.
+    #[arg(long)]
+    pub seed: Option<u64>,
     /// Take the values of these together, the first with the first and so on, instead of crossing them, as in `--together m,omega`.
     #[arg(long, value_name = "NAME,…")]
     pub together: Vec<String>,
@@ -85,7 +85,7 @@ pub struct Sweep {
     #[arg(long, value_name = "RUNS", value_parser = count)]
     pub limit: Option<u64>,
     /// Write the plan without running it. `lagrangian sweep PLAN.json` then runs it.
-    #[arg(long, value_name = "FILE.json")]
+    #[arg(long, value_name = "FILE.json", conflicts_with_all = ["out", "fresh", "threads", "limit", "strict"])]
     pub plan: Option<PathBuf>,
     /// Run only this chunk of a plan, for job arrays: `lagrangian sweep PLAN.json --chunk 17 --out FOLDER`.
     #[arg(long, value_name = "K")]

@@ -143,6 +143,11 @@ fn read(text: &str) -> Result<Given, String> {
             }
         }
     }
+    // Whole families precede their members, in whichever order they are given.
+    let [starts, rates] = &mut experiment.starts;
+    for list in [&mut experiment.sets, starts, rates] {
+        list.sort_by_key(|set| set.name.contains('['));
+    }
     Ok(experiment)
 }
 

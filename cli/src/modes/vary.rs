@@ -325,6 +325,7 @@ impl<'a> Tracer<'a> {
         if let Subject::Parameter = self.subject {
             // The name has been checked.
             let _ = machine.set(self.name, value);
+            crate::reading::set_members(&mut machine, &self.search.start, self.name);
         }
         machine
     }

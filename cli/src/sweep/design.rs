@@ -77,13 +77,13 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
                 };
                 let place = *drawn.get_or_insert_with(|| {
                     factors.push(Factor::Sample {
-                        design: match call.design {
+                        design: match call.design.unwrap_or(Design::Sobol) {
                             Design::Random => Sampling::Random,
                             Design::Latin => Sampling::Latin,
                             Design::Sobol => Sampling::Sobol,
                         },
                         count,
-                        seed: call.seed,
+                        seed: call.seed.unwrap_or(0),
                         variables: Vec::new(),
                     });
                     factors.len() - 1
@@ -94,16 +94,29 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
             }
         }
     }
-    if call.samples.is_some() && drawn.is_none() {
-        return Err(Failure::Call(
-            "--samples: nothing is sampled; --vary NAME=FROM..TO or NAME~normal(MEAN,DEVIATION) would be".into(),
-        ));
+    if drawn.is_none() {
+        refuse_sampling(call)?;
     }
     for group in &call.together {
         together(&mut factors, group)
             .map_err(|why| Failure::Call(format!("--together {group}: {why}")))?;
     }
     Ok(factors)
+}
+
+/// Refuses the options of sampling where nothing is sampled.
+fn refuse_sampling(call: &call::Sweep) -> Result<(), Failure> {
+    let options = [
+        ("--samples", call.samples.is_some()),
+        ("--design", call.design.is_some()),
+        ("--seed", call.seed.is_some()),
+    ];
+    match options.iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) => Err(Failure::Call(format!(
+            "{option}: nothing is sampled; --vary NAME=FROM..TO or NAME~normal(MEAN,DEVIATION) would be"
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// Joins factors that vary together, at the place of the first of them.

@@ -857,6 +857,8 @@ fn estimated_deviations_are_those_of_the_residuals() {
     ];
     let auto = fit(&[&[spec.path()], &data[..], &["--sigma", "auto"]].concat());
     let sigma = |place: usize| number(&auto["columns"][place]["sigma"]);
+    // Of all searches, not of the last one, which begins at the minimum.
+    assert!(number(&auto["steps"]) >= 2.0, "{auto:#}");
     // Given explicitly, the same deviations lead to the same estimates, and the sum of squares is the number of degrees of freedom.
     let given = [format!("x={}", sigma(0)), format!("der(x)={}", sigma(1))];
     let again = fit(&[

@@ -405,6 +405,17 @@ fn van_der_pols_cycle_has_its_period_to_ten_digits() {
         "{kept:#}"
     );
     assert_eq!(number(&kept["at"]["v"]["x"]), 0.0);
+    assert_eq!(found["periods"], 1);
+    // Two and three turns of it are periodic too, which is said.
+    for (near, turns) in [("13.3", 2), ("20", 3)] {
+        let longer = orbit(&[spec.path(), "--near", near]);
+        let period = f64::from(turns) * number(&found["period"]);
+        assert!(
+            (number(&longer["period"]) / period - 1.0).abs() < 1e-9,
+            "{longer:#}"
+        );
+        assert_eq!(longer["periods"], turns);
+    }
 }
 
 /// The roots of λ² + 3λ + 1 = 0.
@@ -539,6 +550,10 @@ fn a_driven_oscillator_answers_as_its_frequency_response_says() {
     assert_eq!(found["stability"], "stable");
     // A linear machine needs one iteration, and one more to detect convergence.
     assert!(found["rounds"].as_u64().expect("a count") <= 2);
+    // It answers with the period of the drive, also if twice that is given.
+    assert_eq!(found["periods"], 1);
+    let twice = orbit(&[spec.path(), "--period", "4*pi/Omega"]);
+    assert_eq!(twice["periods"], 2);
 }
 
 /// What is crushed stays so: a motion that crushes a layer in its first period does not return, although coordinates and rates may after that period.

@@ -739,11 +739,39 @@ fn what_cannot_be_is_said() {
     let other = Scratch::new("other.csv", "t,x [N]\n0,1\n1,2\n");
     let later = Scratch::new("later.csv", "t,x\n7,1\n8,2\n");
     let (spec, data, other, later) = (spec.path(), data.path(), other.path(), later.path());
+    let unmeasured = Scratch::new("unmeasured.csv", "t,x,y\n0,1,\n1,2,\n2,3,\n3,4,\n");
+    let unmeasured = unmeasured.path();
     for (arguments, status, words) in [
         (&["compare", spec, spec][..], 2, &["--until"][..]),
         (&["compare", data, other], 1, &["`x`", "m", "N"]),
         (&["compare", data, later], 1, &["no time in common"]),
         (&["compare", data, data, "--of", "y"], 2, &["--of y", "x"]),
+        (
+            &["compare", data, data, "--of", "x", "--of", "x"],
+            2,
+            &["--of names `x` more than once"],
+        ),
+        (
+            &["peaks", spec, "--until", "1", "--of", "x,x"],
+            2,
+            &["--of names `x` more than once"],
+        ),
+        // The run would be recorded at these instants instead of those of the table, and interpolated between them.
+        (
+            &["compare", data, spec, "--every", "0.5"],
+            2,
+            &["--every", "rows of the table"],
+        ),
+        (
+            &["spectrum", spec, "--until", "1", "--method", "rk4"],
+            2,
+            &["--method rk4", "`simulate`", "--longest-step"],
+        ),
+        (
+            &["compare", data, data, "--engine", "jit"],
+            2,
+            &["--engine", "table"],
+        ),
         (
             &["compare", data, data, "--set", "k=1"],
             2,
@@ -758,6 +786,16 @@ fn what_cannot_be_is_said() {
         (&["compare", data, data, "--out", data], 2, &["overwrite"]),
         (&["spectrum", data], 1, &["`x`", "without a value"]),
         (&["spectrum", other], 1, &["4 instants"]),
+        (
+            &["peaks", unmeasured, "--of", "y"],
+            1,
+            &["`y` has no value at any instant"],
+        ),
+        (
+            &["section", unmeasured, "--crossing", "y=2"],
+            1,
+            &["`y` has no value at any instant"],
+        ),
         (&["section", data], 2, &["--every-period", "--crossing"]),
         (
             &["section", spec, "--until", "1", "--crossing", "y"],
@@ -822,6 +860,30 @@ fn what_cannot_be_is_said() {
             ],
             2,
             &["--every", "instants"],
+        ),
+        (
+            &["section", data, "--every-period", "1", "--direction", "up"],
+            2,
+            &["--every-period", "--direction"],
+        ),
+        (
+            &["sensitivities", spec, "--until", "1", "--by", "k,k"],
+            2,
+            &["--by names `k` more than once"],
+        ),
+        (
+            &[
+                "sensitivities",
+                spec,
+                "--until",
+                "1",
+                "--by",
+                "k",
+                "--of",
+                "x,der(x),x",
+            ],
+            2,
+            &["--of names `x` more than once"],
         ),
         (
             &["sensitivities", spec, "--until", "1", "--by", "m"],

@@ -744,16 +744,32 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
         (&["--input", "pusch=1"], "did you mean `push`?"),
         (&["--input", "push=der(x)"], "--input push"),
         (&["--record", "at=7"], "not within the run"),
-        (&["--after", "3"], "not within the run"),
+        (
+            &["--after", "3", "--reduce", "p = max(x)"],
+            "not within the run",
+        ),
         (&["--record", "often"], "expected end"),
         (&["--method", "dop835"], "did you mean `dop853`?"),
         (&["--chunk", "3"], "write a plan by --plan"),
+        (&["--seed", "3"], "--seed: nothing is sampled"),
+        (
+            &["--event", "x=t-0.5*s", "--reduce", "p = first(x)"],
+            "`x` is an event and also a quantity",
+        ),
+        (
+            &["--event", "e=x", "--until-event", "e=t-0.5*s"],
+            "both name an event `e`",
+        ),
+        (&["--design", "latin"], "--design: nothing is sampled"),
+        (&["--after", "0.5"], "there are none"),
     ] {
         let arguments = [&["--until", "1"], arguments].concat();
         let said = sweep(spec.path(), &out, &arguments);
         assert_eq!(said.status, 2, "{arguments:?}: {}{}", said.out, said.error);
         assert!(said.error.contains(words), "{arguments:?}: {}", said.error);
         assert!(!out.exists());
+        let folder = out.with_extension("csv.part");
+        assert!(!folder.exists(), "{arguments:?} leaves {folder:?}");
     }
     // Another plan instead of one that was begun.
     let begun = ["--until", "1", "--vary", "k=1..2:100", "--limit", "1"];

@@ -98,7 +98,12 @@ fn with_estimated_deviations(fit: &mut Fit<'_>, mut minimum: Minimum) -> Result<
         let change = pairs.map(|(new, old)| (new / old - 1.0).abs());
         let change = change.fold(0.0, f64::max);
         fit.sigmas = estimated;
-        minimum = fit.search(&minimum.x).map_err(Failed::Trouble)?;
+        let before = minimum;
+        minimum = fit.search(&before.x).map_err(Failed::Trouble)?;
+        // The cost is that of all searches.
+        minimum.steps += before.steps;
+        minimum.evaluations += before.evaluations;
+        minimum.derivatives += before.derivatives;
         if change <= SETTLED {
             return Ok(minimum);
         }

@@ -481,6 +481,18 @@ impl Sweep {
         let mut cartesian = self.cartesian.as_ref().map(|of| of.machine.clone());
         let mut coordinates = [(&plan.start, Vec::new()), (&plan.rate, Vec::new())];
         for is_member in [false, true] {
+            if is_member {
+                // Of a family that is varied, members keep the values of their own.
+                let members = plan.set.iter().filter(|(name, _)| name.contains('['));
+                for (name, value) in members {
+                    for machine in [Some(&mut machine), cartesian.as_mut()]
+                        .into_iter()
+                        .flatten()
+                    {
+                        drop(machine.set(name, *value)); // all names were checked
+                    }
+                }
+            }
             let varied = self.varied.iter().zip(values);
             for (place, value) in varied.filter(|(place, _)| place.is_member() == is_member) {
                 match place {
@@ -502,12 +514,11 @@ impl Sweep {
         for ((given, varied), numbers) in coordinates.iter().zip([&mut start.q, &mut start.v]) {
             for is_member in [false, true] {
                 let given = given.iter().map(|(name, value)| (name, *value));
-                for (name, value) in given.filter(|(name, _)| name.contains('[') == is_member) {
+                let varied = varied.iter().map(|(name, value)| (*name, *value));
+                let both = given.chain(varied);
+                for (name, value) in both.filter(|(name, _)| name.contains('[') == is_member) {
                     let _ = numbers.set(name, value); // the name was checked
                 }
-            }
-            for (name, value) in varied {
-                let _ = numbers.set(name, *value); // the name was checked
             }
         }
         let trackers = self.reductions.iter().map(|made| match made {

@@ -102,6 +102,10 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
     };
     let [above, below] = bounds;
     let (above, below, stiffness, damping) = (above?, below?, stiffness?, damping?);
+    if let (Some(above), Some(below)) = (above, below) {
+        let place = record.get("above").map_or(span, |written| written.span);
+        resolver.bound(BoundKind::StopRange, above - below, place);
+    }
     let x = travel.expr;
     let beyond = [above.map(|bound| x - bound), below.map(|bound| bound - x)];
     let mut contributions = Vec::new();

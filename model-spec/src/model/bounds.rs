@@ -50,6 +50,8 @@ pub enum BoundKind<'d> {
     ContactDamping,
     /// The unloading stiffness of a layer, which is not below its loading stiffness.
     Unloading(Expr<'d>),
+    /// The range between the bounds of a stop, which is not negative.
+    StopRange,
     /// A stiffness, which may be negative if the spec allows it.
     Stiffness,
     /// A damping coefficient, which may be negative if the spec allows it.
@@ -146,6 +148,11 @@ impl<'d> BoundKind<'d> {
                 let message = format!("{words}, found {value} below {other}");
                 return (value < other).then_some((Code::OutsideDomain, message));
             }
+            BoundKind::StopRange => (
+                value < 0.0,
+                Code::OutsideDomain,
+                "a stop acts below `below` and above `above`, so that `above` less `below` must not be negative",
+            ),
             BoundKind::Stiffness => (
                 value < 0.0,
                 Code::NegativeCoefficient,
