@@ -204,6 +204,14 @@ impl InterpretedMachine {
         self
     }
 
+    /// This machine with all contacts evaluated together, however far they are: what tests compare with.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn without_single_contacts(mut self) -> InterpretedMachine {
+        (self.contact_parts, self.gap_arguments) = (None, None);
+        self
+    }
+
     /// Sets the engine that executes its functions, by default the interpreter. Systems that were prepared before keep theirs.
     ///
     /// # Errors

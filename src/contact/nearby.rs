@@ -20,12 +20,16 @@ const LEAST_REACH: f64 = 1e-9;
 /// By how much of its width the path of a step may differ from its quintic.
 const MARGIN: f64 = 0.1;
 
-/// A box that the motion leaves after fewer steps is followed by a wider one, and one that it leaves after more by a narrower one, with fewer near contacts.
+/// A box that the motion leaves after fewer steps is followed by a wider one, and one that it leaves after more by a narrower one, with fewer
+/// near contacts.
 const FEWEST_STEPS: usize = 8;
 const MOST_STEPS: usize = 64;
 
-/// The greatest length of the motion that a box allows for, in steps.
-const MOST_REACH: f64 = 4096.0;
+/// If more than this share of the contacts is near, the next box is narrower.
+const MOST_NEAR: f64 = 0.25;
+
+/// The least and the greatest length of the motion that a box has room for, in steps.
+const REACHES: [f64; 2] = [1.0 / 16.0, 4096.0];
 
 /// A range of times and of states.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -116,22 +120,37 @@ impl StateBox {
     }
 
     /// A box with room for this many steps like the one that stays in this. Coordinates and times that no gap depends on have any value.
-    fn widened<S: System>(&self, system: &S, gap_arguments: &[bool], steps: f64) -> StateBox {
+    pub fn widened<S: System>(&self, system: &S, gap_arguments: &[bool], steps: f64) -> StateBox {
         let mut wide = self.clone();
-        let units: Vec<&str> = system.coordinates().map(|one| one.unit).collect();
-        let greatest = |unit: &str, of: &dyn Fn(usize) -> f64| {
-            let alike = (0..units.len()).filter(|i| units[*i] == unit && gap_arguments[*i]);
-            alike.map(of).fold(0.0, f64::max)
-        };
-        for (i, unit) in units.iter().enumerate() {
+        // Of each unit the longest path and the greatest number: what is at rest may be hit by what moves.
+        let mut of_units: Vec<(&str, f64, f64)> = Vec::new();
+        let mut places = Vec::with_capacity(self.low.len());
+        for (i, coordinate) in system.coordinates().enumerate() {
+            let (path, size) = if gap_arguments[i] {
+                let size = self.low[i].abs().max(self.high[i].abs());
+                (self.high[i] - self.low[i], size)
+            } else {
+                (0.0, 0.0)
+            };
+            let known = of_units
+                .iter()
+                .position(|(unit, ..)| *unit == coordinate.unit);
+            let place = known.unwrap_or(of_units.len());
+            match of_units.get_mut(place) {
+                Some((_, longest, greatest)) => {
+                    (*longest, *greatest) = (longest.max(path), greatest.max(size));
+                }
+                None => of_units.push((coordinate.unit, path, size)),
+            }
+            places.push(place);
+        }
+        for (i, place) in places.into_iter().enumerate() {
             if !gap_arguments[i] {
                 (wide.low[i], wide.high[i]) = (f64::NEG_INFINITY, f64::INFINITY);
                 continue;
             }
-            // What is at rest may be hit by what moves.
-            let path = greatest(unit, &|j| self.high[j] - self.low[j]);
-            let size = greatest(unit, &|j| self.low[j].abs().max(self.high[j].abs()));
-            let least = LEAST_REACH * if *unit == "rad" { size.max(1.0) } else { size };
+            let (unit, path, size) = of_units[place];
+            let least = LEAST_REACH * if unit == "rad" { size.max(1.0) } else { size };
             let reach = (steps * path).max(least);
             wide.low[i] -= reach;
             wide.high[i] += reach;
@@ -149,25 +168,30 @@ impl StateBox {
 }
 
 impl Nearby {
-    /// The near contacts of a machine in and after a step; `known` are those of the step before. `None` where single contacts cannot be
-    /// evaluated.
+    /// The near contacts of a machine in and after a step; `known` are those of the step before.
     pub fn of_step<S: System>(
-        system: &S,
+        (system, gap_arguments): (&S, &[bool]),
         known: Option<Nearby>,
         step: &StateBox,
-    ) -> Option<Nearby> {
-        let gap_arguments = system.single_contacts()?;
-        let mut reach = FEWEST_STEPS as f64;
+    ) -> Nearby {
+        let mut reach = 1.0;
         if let Some(mut known) = known {
             if known.within.covers(step) {
                 known.steps += 1;
-                return Some(known);
+                return known;
             }
-            reach = match known.steps {
-                steps if steps < FEWEST_STEPS => (2.0 * known.reach).min(MOST_REACH),
-                steps if steps > MOST_STEPS => (0.5 * known.reach).max(1.0),
-                _ => known.reach,
+            let contacts = system.unilateral_contacts().len();
+            let factor = if known.near.len() as f64 > MOST_NEAR * contacts as f64 {
+                0.5
+            } else {
+                match known.steps {
+                    steps if steps < FEWEST_STEPS => 2.0,
+                    steps if steps > MOST_STEPS => 0.5,
+                    _ => 1.0,
+                }
             };
+            let [least, most] = REACHES;
+            reach = (factor * known.reach).clamp(least, most);
         }
         let within = step.widened(system, gap_arguments, reach);
         let mut ends = [(); 2].map(|()| S::Vector::zeros(within.low.len()));
@@ -179,12 +203,12 @@ impl Nearby {
         let is_far = |least: &f64| *least > 0.0;
         let near = least.iter().enumerate();
         let near = near.filter(|(_, least)| !is_far(least)).map(|(k, _)| k);
-        Some(Nearby {
+        Nearby {
             near: near.collect(),
             within: Arc::new(within),
             steps: 1,
             reach,
-        })
+        }
     }
 
     /// The contacts that are near at a state; `None` if it is not in the box.

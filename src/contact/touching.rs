@@ -210,7 +210,9 @@ impl UnilateralState {
         {
             return here.clone();
         }
-        let mut here = self.memory_for_kinematics();
+        // Its memory serves again if nothing else refers to it.
+        let known = latest.0.take().and_then(|(here, _)| Arc::into_inner(here));
+        let mut here = known.unwrap_or_else(|| self.memory_for_kinematics());
         here.evaluate(system, (t, q, v), near);
         let here = Arc::new(here);
         latest.0 = Some((here.clone(), near.is_some()));
@@ -241,14 +243,27 @@ impl UnilateralState {
         all_are_near.then_some(near)
     }
 
-    /// Finds out which contacts are near in a step that stays in this box, and after it. Machines whose layers are crushed evaluate all: what
-    /// is not pressed has a state too.
-    pub fn keep_near<S: System>(&mut self, system: &S, step: impl FnOnce() -> StateBox) {
+    /// Finds out which contacts are near in a step that stays in this box, and after it; and in what surrounds it by so many times its greatest width.
+    /// Machines with layers that are crushed evaluate all contacts: what is not pressed has a state too.
+    pub fn keep_near<S: System>(
+        &mut self,
+        system: &S,
+        surroundings: f64,
+        step: impl FnOnce() -> StateBox,
+    ) {
         let has_layers = (0..self.modes.len()).any(|k| self.is_layer(k));
-        if system.single_contacts().is_none() || has_layers {
+        let Some(gap_arguments) = system.single_contacts().filter(|_| !has_layers) else {
             return;
+        };
+        let mut step = step();
+        if surroundings > 0.0 {
+            step = step.widened(system, gap_arguments, surroundings);
         }
-        self.nearby = Nearby::of_step(system, self.nearby.take(), &step());
+        self.nearby = Some(Nearby::of_step(
+            (system, gap_arguments),
+            self.nearby.take(),
+            &step,
+        ));
         self.latest.lock().0 = None;
     }
 

@@ -85,7 +85,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             after: [&now.q, &now.v, &k[*newest]].map(S::Vector::as_slice),
         };
         if let Some(touching) = &mut model.touching {
-            touching.keep_near(model.system.get(), || StateBox::of_step(&ends));
+            touching.keep_near(model.system.get(), 0.0, || StateBox::of_step(&ends));
         }
     }
 

@@ -10,6 +10,10 @@ use crate::contact::{Mode, StateBox, SteppedContacts, UnilateralState};
 use crate::stages::Point;
 use crate::{InputLaw, StepError, System, Vector};
 
+/// What is near in a step is known for so many times its length around it: what is moved out of a penetration, which is no deeper than a step is long, takes
+/// along what is open by no more than eight times that.
+const AROUND: f64 = 16.0;
+
 /// The last step of time stepping.
 #[derive(Clone, Debug)]
 pub(crate) struct InImpulses<V> {
@@ -125,7 +129,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             // Impulses change the rates: where they lead out of the box, all contacts are evaluated.
             let line =
                 || StateBox::of_line([before.t, before.t + h], before.q.as_slice(), q.as_slice());
-            touching.keep_near(model.system.get(), line);
+            touching.keep_near(model.system.get(), AROUND, line);
         }
         impulses.before.clone_from(&model.touching);
         impulses.stepped = SteppedContacts::default();
