@@ -25,8 +25,11 @@ const MARGIN: f64 = 0.1;
 const FEWEST_STEPS: usize = 8;
 const MOST_STEPS: usize = 64;
 
-/// If more than this share of the contacts is near, the next box is narrower.
+/// If more than this share of the contacts is near, all of them are evaluated together for some steps, and the next box is narrower.
 const MOST_NEAR: f64 = 0.25;
+
+/// For how many steps, at first; for twice as many each time, up to the second number.
+const PAUSES: [usize; 2] = [32, 1024];
 
 /// The least and the greatest length of the motion that a box has room for, in steps.
 const REACHES: [f64; 2] = [1.0 / 16.0, 4096.0];
@@ -57,6 +60,9 @@ pub(crate) struct Nearby {
     steps: usize,
     /// For how many steps like the last one the box has room.
     reach: f64,
+    /// For how many steps all contacts are evaluated, as long as too many are near; and for how many they were the last time.
+    pause: usize,
+    last_pause: usize,
 }
 
 impl StateBox {
@@ -174,24 +180,21 @@ impl Nearby {
         known: Option<Nearby>,
         step: &StateBox,
     ) -> Nearby {
-        let mut reach = 1.0;
+        let (mut reach, mut last_pause) = (1.0, 0);
         if let Some(mut known) = known {
-            if known.within.covers(step) {
+            if known.last_pause == 0 && known.within.covers(step) {
                 known.steps += 1;
                 return known;
             }
-            let contacts = system.unilateral_contacts().len();
-            let factor = if known.near.len() as f64 > MOST_NEAR * contacts as f64 {
-                0.5
-            } else {
-                match known.steps {
-                    steps if steps < FEWEST_STEPS => 2.0,
-                    steps if steps > MOST_STEPS => 0.5,
-                    _ => 1.0,
-                }
+            let factor = match known.steps {
+                _ if known.last_pause > 0 => 0.5,
+                steps if steps < FEWEST_STEPS => 2.0,
+                steps if steps > MOST_STEPS => 0.5,
+                _ => 1.0,
             };
             let [least, most] = REACHES;
             reach = (factor * known.reach).clamp(least, most);
+            last_pause = known.last_pause;
         }
         let within = step.widened(system, gap_arguments, reach);
         let mut ends = [(); 2].map(|()| S::Vector::zeros(within.low.len()));
@@ -203,16 +206,33 @@ impl Nearby {
         let is_far = |least: &f64| *least > 0.0;
         let near = least.iter().enumerate();
         let near = near.filter(|(_, least)| !is_far(least)).map(|(k, _)| k);
+        let near: Arc<[usize]> = near.collect();
+        let are_many = near.len() as f64 > MOST_NEAR * least.len() as f64;
+        let [shortest, longest] = PAUSES;
+        let pause = if are_many {
+            (2 * last_pause).clamp(shortest, longest)
+        } else {
+            0
+        };
         Nearby {
-            near: near.collect(),
+            near,
             within: Arc::new(within),
             steps: 1,
             reach,
+            pause,
+            last_pause: pause,
         }
     }
 
-    /// The contacts that are near at a state; `None` if it is not in the box.
+    /// Whether all contacts are evaluated in one more step, because too many are near.
+    pub fn pauses(&mut self) -> bool {
+        let pauses = self.pause > 0;
+        self.pause = self.pause.saturating_sub(1);
+        pauses
+    }
+
+    /// The contacts that are near at a state; `None` if it is not in the box, or too many are.
     pub fn at(&self, t: f64, q: &[f64]) -> Option<&[usize]> {
-        self.within.contains(t, q).then_some(&*self.near)
+        (self.last_pause == 0 && self.within.contains(t, q)).then_some(&*self.near)
     }
 }

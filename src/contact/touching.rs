@@ -255,6 +255,9 @@ impl UnilateralState {
         let Some(gap_arguments) = system.single_contacts().filter(|_| !has_layers) else {
             return;
         };
+        if self.nearby.as_mut().is_some_and(Nearby::pauses) {
+            return;
+        }
         let mut step = step();
         if surroundings > 0.0 {
             step = step.widened(system, gap_arguments, surroundings);

@@ -15,9 +15,6 @@ use super::{Margin, Mode, UnilateralState};
 use crate::balance::ContactShare;
 use crate::{Compliance, ContactEnergies, System, Vector};
 
-/// Gaps are evaluated one by one if no more than one in so many contacts is near.
-const LEAST_SHARE: usize = 4;
-
 /// The law of a contact that yields, and what it remembers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ComplianceState {
@@ -207,9 +204,7 @@ impl UnilateralState {
             all.extend((0..here.gaps.len()).map(|k| self.clearance(here, k)));
             return;
         }
-        // Gaps and rates of all contacts together take less time than those of many single ones.
-        let few = near.filter(|near| LEAST_SHARE * near.len() <= self.modes().len());
-        here.evaluate_gaps(system, (t, q, v), few);
+        here.evaluate_gaps(system, (t, q, v), near);
         all.extend((0..here.gaps.len()).map(|k| here.clearance(k)));
     }
 
