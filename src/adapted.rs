@@ -271,6 +271,7 @@ where
         contact_faces,
         contact_bias,
         contact_coefficients,
+        single_contacts,
         kept_at_start,
         with_workspace,
     );

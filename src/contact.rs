@@ -28,6 +28,7 @@ mod force;
 mod impact;
 mod kinematics;
 mod lcp;
+mod nearby;
 mod problem;
 mod routh;
 mod stepping;
@@ -38,6 +39,7 @@ pub use event::{ContactEvent, ContactEventKind, ContactImpact, ContactTally, Imp
 pub use force::{UnilateralForce, penetrations, unilateral_forces};
 pub(crate) use impact::{Impact, ParadoxResolution};
 pub(crate) use kinematics::ROUNDING;
+pub(crate) use nearby::{StateBox, StepEnds};
 pub(crate) use stepping::SteppedContacts;
 pub use touching::Mode;
 pub(crate) use touching::{Clearance, ContactMemory, Margin, Margins, UnilateralState};

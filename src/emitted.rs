@@ -1,6 +1,7 @@
 //! The names that emitted code uses, under one path. This is not a public interface: it changes with the compiler, whose code
 //! requires the runtime of the same version.
 
+mod contacts;
 mod implement;
 mod pivots;
 pub mod series;
@@ -14,10 +15,11 @@ pub use crate::friction::{
 pub use crate::implement_machine as implement;
 pub use crate::native::fast_function;
 pub use crate::{
-    Assumption, Batched, Compliance, Constraint, Differentiate, ImpactLaw, ImpactOrder, Lanes,
-    Linearize, Machine, MachineIn, Number, Painleve, Quantity, Real, Scalar, Singular, Staged,
-    State, System, SystemIn, UnilateralContact, scalar,
+    Assumption, Batched, Compliance, Constraint, ContactQuantity, Differentiate, ImpactLaw,
+    ImpactOrder, Lanes, Linearize, Machine, MachineIn, Number, Painleve, Quantity, Real, Scalar,
+    Singular, Staged, State, System, SystemIn, UnilateralContact, scalar,
 };
+pub use contacts::{ContactPart, ContactParts, between, fill_least, put};
 pub use pivots::Pivots;
 pub use values::{
     ConstraintRow, PreparedField, assumptions, constraint, fill, fill_ranges, rounded,

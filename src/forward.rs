@@ -180,6 +180,25 @@ macro_rules! forward {
             self.wrapped().$method(t, q, v, to);
         }
     };
+    (@ single_contacts) => {
+        fn single_contacts(&self) -> Option<&[bool]> {
+            self.wrapped().single_contacts()
+        }
+
+        fn of_contacts(
+            &self,
+            quantity: crate::ContactQuantity,
+            which: &[usize],
+            state: (f64, &Self::Vector, &Self::Vector),
+            numbers: &mut [f64],
+        ) {
+            self.wrapped().of_contacts(quantity, which, state, numbers);
+        }
+
+        fn least_gaps(&self, t: [f64; 2], q: [&Self::Vector; 2], least: &mut [f64]) {
+            self.wrapped().least_gaps(t, q, least);
+        }
+    };
     (@ contact_matrix) => { crate::forward::forward!(@ of_place contact_matrix); };
     (@ kept_at_start) => {
         fn kept_at_start(&self) -> impl ExactSizeIterator<Item = &str> {

@@ -6,19 +6,21 @@
 
 use core::fmt;
 use std::string::{String, ToString};
-use std::sync::Arc;
+use std::sync::{Arc, MutexGuard};
 use std::vec;
 use std::vec::Vec;
 
 use lagrangian_mechanics::Proved;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_program as program;
+use lagrangian_program::contact_parts::ContactParts;
 use lagrangian_program::series::{Expander, NoSeries, Series};
 use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape, Slot};
 use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::{self, Variable};
 use lagrangian_spec::token::normalized;
 
+mod contact_parts;
 mod enclosure;
 mod engine;
 #[cfg(feature = "jit")]
@@ -31,6 +33,8 @@ mod recording;
 mod runs;
 mod signals;
 mod table_file;
+
+use contact_parts::RunningParts;
 
 use crate::settings::TaskWithStart;
 use crate::shared_workspace::SharedWorkspace;
@@ -48,9 +52,9 @@ pub use signals::{Signal, SignalError, SignalFunction, Signals};
 pub use table_file::{TableFile, TableFileError};
 
 use crate::{
-    Assumption, Compliance, Constraint, Differentiate, ImpactLaw, ImpactOrder, Linearize, Machine,
-    Number, Painleve, Pivot, Quantity, Singular, Staged, State, System, UnilateralContact,
-    accelerations_with_friction, multipliers_with_friction,
+    Assumption, Compliance, Constraint, ContactQuantity, Differentiate, ImpactLaw, ImpactOrder,
+    Linearize, Machine, Number, Painleve, Pivot, Quantity, Singular, Staged, State, System,
+    UnilateralContact, accelerations_with_friction, multipliers_with_friction,
 };
 
 /// A machine whose equations are interpreted, with the values of its parameters.
@@ -62,6 +66,10 @@ pub struct InterpretedMachine {
     inputs: Vec<f64>,
     series: Result<Arc<Series>, String>,
     machine_code: engine::MachineCode,
+    /// The numbers of single contacts, where there are many, and their machine code.
+    contact_parts: Option<Arc<ContactParts>>,
+    gap_arguments: Option<Arc<[bool]>>,
+    code_of_parts: engine::MachineCode,
 }
 
 /// Numbers under the names of coordinates, inputs or outputs; a member of a family is called `q[3]`.
@@ -98,7 +106,12 @@ pub struct InterpretedSystem {
     inputs: Vec<f64>,
     /// Memory that calls write to.
     running: SharedWorkspace<Running>,
-    /// The parameters, and the same program over intervals once it is needed; for machines with contacts.
+    /// The numbers of single contacts, where there are many.
+    contact_parts: Option<SharedWorkspace<RunningParts>>,
+    /// Where there are, for each coordinate and for the time whether a gap depends on it.
+    gap_arguments: Option<Arc<[bool]>>,
+    /// The parameters, and the same program over intervals once it is needed; for machines with guided contacts, or with
+    /// [many](ContactParts) unilateral ones.
     parameters: Vec<f64>,
     enclosing: SharedWorkspace<Option<Interpreter<Interval>>>,
     series: Result<Arc<Series>, String>,
@@ -131,6 +144,7 @@ impl InterpretedMachine {
             inputs: labels(&program.inputs),
             outputs: labels(&program.outputs),
         };
+        let contact_parts = ContactParts::of(&program);
         InterpretedMachine {
             parameters: program
                 .parameters
@@ -143,8 +157,13 @@ impl InterpretedMachine {
                 .map(|slot| default(slot, 0.0))
                 .collect(),
             names: Arc::new(names),
+            gap_arguments: contact_parts
+                .as_ref()
+                .map(|parts| parts.gap_arguments().into()),
+            contact_parts: contact_parts.map(Arc::new),
             program: Arc::new(program),
             machine_code: engine::MachineCode::default(),
+            code_of_parts: engine::MachineCode::default(),
             series: Err("its series was not derived".into()),
         }
     }
@@ -185,12 +204,25 @@ impl InterpretedMachine {
         self
     }
 
+    /// This machine with all contacts evaluated together, however far they are: what tests compare with.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn without_single_contacts(mut self) -> InterpretedMachine {
+        (self.contact_parts, self.gap_arguments) = (None, None);
+        self
+    }
+
     /// Sets the engine that executes its functions, by default the interpreter. Systems that were prepared before keep theirs.
     ///
     /// # Errors
     /// If machine code is requested and is not available on this processor or in this build; then nothing is changed.
     pub fn set_engine(&mut self, engine: Engine) -> Result<(), NoMachineCode> {
-        self.machine_code = engine::MachineCode::new(engine, &self.program)?;
+        let machine_code = engine::MachineCode::new(engine, &self.program)?;
+        if let Some(parts) = &self.contact_parts {
+            self.code_of_parts =
+                engine::MachineCode::new(engine, &Arc::new(parts.program.clone()))?;
+        }
+        self.machine_code = machine_code;
         Ok(())
     }
 
@@ -263,18 +295,26 @@ impl Machine for InterpretedMachine {
 
     fn prepare(&self) -> InterpretedSystem {
         let interpreter = Interpreter::new(&self.program, &self.parameters);
+        let contact_parts = self.contact_parts.as_ref().map(|parts| {
+            let prepared = interpreter.prepared();
+            let parts = RunningParts::new(parts.clone(), &self.code_of_parts, prepared);
+            SharedWorkspace::new(parts)
+        });
+        let needs_ranges = !self.program.contacts.is_empty() || contact_parts.is_some();
         InterpretedSystem {
             program: self.program.clone(),
             names: self.names.clone(),
             inputs: self.inputs.clone(),
+            contact_parts,
+            gap_arguments: self.gap_arguments.clone(),
             running: SharedWorkspace::new(Running {
                 compiled: self.machine_code.prepared(&interpreter),
                 interpreter,
             }),
-            parameters: if self.program.contacts.is_empty() {
-                Vec::new()
-            } else {
+            parameters: if needs_ranges {
                 self.parameters.clone()
+            } else {
+                Vec::new()
             },
             enclosing: SharedWorkspace::new(None),
             series: self.series.clone(),
@@ -339,6 +379,16 @@ impl InterpretedSystem {
         self.call(role, arguments, results)
     }
 
+    /// The program over intervals, with the rounding of the parameters.
+    fn enclosing(&self) -> MutexGuard<'_, Option<Interpreter<Interval>>> {
+        let mut enclosing = self.enclosing.lock();
+        if enclosing.is_none() {
+            let parameters = rounded_each(&self.parameters);
+            *enclosing = Some(Interpreter::new(&self.program, &parameters));
+        }
+        enclosing
+    }
+
     /// Calls a function that returns one number, whose value exists at every state.
     fn number(&self, role: Role, arguments: Arguments<'_, f64>) -> f64 {
         let mut result = [0.0];
@@ -347,6 +397,16 @@ impl InterpretedSystem {
             Err(_) => f64::NAN,
         }
     }
+}
+
+/// A number with its rounding.
+fn rounded(x: f64) -> Interval {
+    Interval::new(x.next_down(), x.next_up())
+}
+
+/// Numbers with their roundings.
+fn rounded_each(numbers: &[f64]) -> Vec<Interval> {
+    numbers.iter().map(|x| rounded(*x)).collect()
 }
 
 impl Running {
@@ -720,6 +780,48 @@ impl System for InterpretedSystem {
         self.fill(Role::ContactCoefficients, at(t, q, v, &[]), coefficients);
     }
 
+    fn single_contacts(&self) -> Option<&[bool]> {
+        self.gap_arguments.as_deref()
+    }
+
+    fn of_contacts(
+        &self,
+        quantity: ContactQuantity,
+        which: &[usize],
+        (t, q, v): (f64, &Vec<f64>, &Vec<f64>),
+        numbers: &mut [f64],
+    ) {
+        if let Some(parts) = &self.contact_parts {
+            parts.lock().write(quantity, which, (t, q, v), numbers);
+        }
+    }
+
+    fn least_gaps(&self, t: [f64; 2], q: [&Vec<f64>; 2], least: &mut [f64]) {
+        if self.contact_parts.is_none() {
+            return least.fill(f64::NEG_INFINITY);
+        }
+        let [low, high] = q;
+        let q: Vec<Interval> = (low.iter().zip(high))
+            .map(|(low, high)| Interval::new(*low, *high))
+            .collect();
+        let mut gaps = vec![Interval::UNKNOWN; least.len()];
+        let arguments = Arguments {
+            t: Interval::new(t[0], t[1]),
+            q: &q,
+            v: &[],
+            u: &[],
+            a: &[],
+        };
+        // Gaps do not divide by a pivot.
+        let _ = self
+            .enclosing()
+            .as_mut()
+            .map(|enclosing| enclosing.call(Role::Gaps, arguments, &mut gaps));
+        for (least, gap) in least.iter_mut().zip(gaps) {
+            *least = gap.lo();
+        }
+    }
+
     fn kept_at_start(&self) -> impl ExactSizeIterator<Item = &str> {
         self.program.kept.iter().map(String::as_str)
     }
@@ -729,21 +831,19 @@ impl System for InterpretedSystem {
     }
 
     fn slip_ranges(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, ranges: &mut [[f64; 2]]) {
-        let near = |x: f64| Interval::new(x.next_down(), x.next_up());
-        let list = |numbers: &[f64]| numbers.iter().map(|x| near(*x)).collect::<Vec<_>>();
-        let mut enclosing = self.enclosing.lock();
-        let enclosing = enclosing
-            .get_or_insert_with(|| Interpreter::new(&self.program, &list(&self.parameters)));
         let mut slips = vec![Interval::UNKNOWN; ranges.len()];
         let arguments = Arguments {
-            t: near(t),
-            q: &list(q),
-            v: &list(v),
+            t: rounded(t),
+            q: &rounded_each(q),
+            v: &rounded_each(v),
             u: &[],
             a: &[],
         };
         // Slips do not divide by a pivot.
-        let _ = enclosing.call(Role::Slips, arguments, &mut slips);
+        let _ = self
+            .enclosing()
+            .as_mut()
+            .map(|enclosing| enclosing.call(Role::Slips, arguments, &mut slips));
         for (range, slip) in ranges.iter_mut().zip(slips) {
             *range = [slip.lo(), slip.hi()];
         }

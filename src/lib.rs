@@ -156,7 +156,8 @@ pub use system::{
 pub use system_in::{MachineIn, SystemIn};
 pub use tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 pub use unilateral::{
-    Compliance, ContactTrouble, ImpactLaw, ImpactOrder, Painleve, UnilateralContact,
+    Compliance, ContactQuantity, ContactTrouble, ImpactLaw, ImpactOrder, Painleve,
+    UnilateralContact,
 };
 pub use vector::Vector;
 

@@ -6,7 +6,7 @@
 
 use core::fmt::{self, Debug, Display};
 
-use crate::{UnilateralContact, Vector};
+use crate::{ContactQuantity, UnilateralContact, Vector};
 
 /// The largest number of coefficients of each coordinate that emitted code computes in [`System::series`].
 pub(crate) const SERIES_ROWS: usize = 24;
@@ -515,6 +515,34 @@ pub trait System {
         _v: &Self::Vector,
         _coefficients: &mut [f64],
     ) {
+    }
+
+    /// For each coordinate, and last for the time, whether any gap depends on it; `None` if [`of_contacts`](Self::of_contacts) and
+    /// [`least_gaps`](Self::least_gaps) are not implemented, as by default. If they are, a run evaluates only the contacts that are near: with
+    /// few contacts, evaluating all of them costs no more.
+    #[inline(always)]
+    fn single_contacts(&self) -> Option<&[bool]> {
+        None
+    }
+
+    /// Writes a quantity of some unilateral contacts, by their indices, at a time and a state: their numbers one after the other, with the
+    /// bits of the method for all contacts. Called only if [`single_contacts`](Self::single_contacts) are known.
+    #[inline(always)]
+    fn of_contacts(
+        &self,
+        _quantity: ContactQuantity,
+        _which: &[usize],
+        _state: (f64, &Self::Vector, &Self::Vector),
+        _numbers: &mut [f64],
+    ) {
+    }
+
+    /// Writes for each unilateral contact a number that its [gap](Self::gaps), in m, is at least, whenever the time is between two times,
+    /// and each coordinate between two values; `-∞` where none is known. It includes the rounding of the evaluation of the gap. Called only if
+    /// [`single_contacts`](Self::single_contacts) are known.
+    #[inline(always)]
+    fn least_gaps(&self, _t: [f64; 2], _q: [&Self::Vector; 2], least: &mut [f64]) {
+        least.fill(f64::NEG_INFINITY);
     }
 
     /// The numbers that stay fixed when a start that violates the constraints is moved onto them: coordinates, `"theta"`, and rates,

@@ -27,6 +27,24 @@ pub struct UnilateralContact<'a> {
     pub has_face: bool,
 }
 
+/// A quantity of unilateral contacts, see [`System::of_contacts`](crate::System::of_contacts).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ContactQuantity {
+    /// Its gap: one number, of [`System::gaps`](crate::System::gaps).
+    Gap,
+    /// The rates at which it opens and slips: two numbers, of [`System::contact_rates`](crate::System::contact_rates).
+    Rates,
+    /// The derivatives of these: two rows, of [`System::contact_matrix`](crate::System::contact_matrix).
+    Rows,
+    /// Their time derivatives without accelerations: two numbers, of [`System::contact_bias`](crate::System::contact_bias).
+    Bias,
+    /// Its coefficients: four numbers, of [`System::contact_coefficients`](crate::System::contact_coefficients).
+    Coefficients,
+    /// Where it is on a face of a polygon: three numbers, of [`System::contact_faces`](crate::System::contact_faces).
+    Face,
+}
+
 /// How closed contacts take part in an impact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ImpactOrder {

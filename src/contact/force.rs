@@ -63,7 +63,7 @@ pub fn penetrations<S: System>(
     if system.unilateral_contacts().len() == 0 {
         return Vec::new();
     }
-    let here = UnilateralState::new(system).kinematics(system, (t, q, v));
+    let here = UnilateralState::new(system).kinematics_of_all(system, (t, q, v));
     let contacts = system.unilateral_contacts().enumerate();
     let rigid = contacts.filter(|(_, contact)| {
         contact.compliance.is_none() && !contact.is_rolling_resistance && !contact.is_second_tangent
@@ -95,7 +95,7 @@ impl UnilateralState {
     ) -> Result<Vec<UnilateralForce>, StepError> {
         use crate::Vector;
         let At { t, q, v, .. } = at;
-        let here = self.kinematics(system, (t, q, v));
+        let here = self.kinematics_of_all(system, (t, q, v));
         let mut reaction = self.reaction(system, at)?;
         a.as_mut_slice().copy_from_slice(&reaction.a);
         if let (false, Some(shares)) = (reaction.is_only, shares) {

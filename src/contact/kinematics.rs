@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::vec::Vec;
 
-use crate::{System, Vector};
+use crate::{ContactQuantity, System, Vector};
 
 /// A gap within this of its scale is closed, and a rate within this of its scale is rest.
 pub(crate) const ROUNDING: f64 = 1e-12;
@@ -16,22 +16,43 @@ const LEAST_TURN: f64 = 1.0 / 16.0;
 #[derive(Clone, Debug)]
 pub(super) struct ContactKinematics {
     pub n: usize,
+    /// Infinite for contacts that have not been evaluated because they are far, whose other numbers are 0.
     pub gaps: Vec<f64>,
     pub rates: Vec<f64>,
-    pub rows: Vec<f64>,
+    /// Two rows of each contact, or of each of `some`.
+    rows: Vec<f64>,
     pub biases: Vec<f64>,
     pub coefficients: Vec<f64>,
+    /// The contacts that have been evaluated, if these are not all.
+    some: Option<SomeContacts>,
     /// Time and state, which rounding is relative to.
     at: (f64, Vec<f64>, Vec<f64>),
     /// How large each coordinate is at least as part of a gap: [`LEAST_TURN`] for an angle, which turns lengths of the machine, and else 0.
     least: Arc<[f64]>,
     /// Bound on what squares of rates that cancel add to an acceleration.
     most_of_squares: f64,
+    /// The contacts with faces of polygons.
+    with_face: Arc<[usize]>,
     /// The numbers of faces, three each.
     face_numbers: Vec<f64>,
     /// Where contacts with faces of polygons are on these; empty where no contact is one.
     pub faces: Vec<Option<OnFace>>,
 }
+
+/// Which contacts have been evaluated.
+#[derive(Clone, Debug, Default)]
+struct SomeContacts {
+    which: Vec<usize>,
+    /// For each contact its place among these, or [`NOWHERE`].
+    places: Vec<usize>,
+    /// The rows of the others.
+    zeros: Vec<f64>,
+    /// Memory for a quantity of these.
+    numbers: Vec<f64>,
+}
+
+/// The place of a contact that has not been evaluated.
+const NOWHERE: usize = usize::MAX;
 
 /// Where a corner is on a face of a polygon.
 #[derive(Clone, Copy, Debug)]
@@ -43,32 +64,67 @@ pub(super) struct OnFace {
     pub beyond_rate: f64,
 }
 
-/// Writes where the contacts that are with faces of polygons are on these; nothing where no contact is one. `numbers` is memory for this.
-pub(super) fn write_faces<S: System>(
-    system: &S,
-    (t, q, v): (f64, &S::Vector, &S::Vector),
-    numbers: &mut Vec<f64>,
-    faces: &mut Vec<Option<OnFace>>,
-) {
-    faces.clear();
-    let with_face = |one: &crate::UnilateralContact<'_>| one.has_face;
-    let count = system.unilateral_contacts().filter(with_face).count();
-    if count == 0 {
-        return;
+/// How many numbers of a quantity a contact has, with so many coordinates.
+fn width(quantity: ContactQuantity, n: usize) -> usize {
+    match quantity {
+        ContactQuantity::Gap => 1,
+        ContactQuantity::Rates | ContactQuantity::Bias => 2,
+        ContactQuantity::Rows => 2 * n,
+        ContactQuantity::Coefficients => 4,
+        ContactQuantity::Face => 3,
     }
-    numbers.resize(3 * count, 0.0);
-    system.contact_faces(t, q, v, numbers);
-    let mut all = numbers.chunks_exact(3);
-    let mut next = || {
-        let own = all.next()?;
-        Some(OnFace {
-            height: own[0],
-            beyond: own[1],
-            beyond_rate: own[2],
-        })
-    };
-    let contacts = system.unilateral_contacts();
-    faces.extend(contacts.map(|contact| if contact.has_face { next() } else { None }));
+}
+
+/// Writes a quantity of some contacts, one after the other. Of machines that evaluate no single contacts, all are evaluated, in memory `all`.
+/// Of faces `which` are all contacts that have any.
+pub(super) fn write_some<S: System>(
+    system: &S,
+    quantity: ContactQuantity,
+    which: &[usize],
+    (t, q, v): (f64, &S::Vector, &S::Vector),
+    all: &mut Vec<f64>,
+    numbers: &mut Vec<f64>,
+) {
+    let width = width(quantity, q.as_slice().len());
+    numbers.clear();
+    numbers.resize(width * which.len(), 0.0);
+    if system.single_contacts().is_some() {
+        return system.of_contacts(quantity, which, (t, q, v), numbers);
+    }
+    if quantity == ContactQuantity::Face {
+        return system.contact_faces(t, q, v, numbers);
+    }
+    all.clear();
+    all.resize(width * system.unilateral_contacts().len(), 0.0);
+    match quantity {
+        ContactQuantity::Gap => system.gaps(t, q, all),
+        ContactQuantity::Rates => system.contact_rates(t, q, v, all),
+        ContactQuantity::Rows => system.contact_matrix(t, q, all),
+        ContactQuantity::Bias => system.contact_bias(t, q, v, all),
+        _ => system.contact_coefficients(t, q, v, all),
+    }
+    for (to, contact) in numbers.chunks_exact_mut(width).zip(which) {
+        to.copy_from_slice(&all[width * contact..][..width]);
+    }
+}
+
+/// The contacts of a machine with faces of polygons.
+pub(super) fn contacts_with_face<S: System>(system: &S) -> Arc<[usize]> {
+    let contacts = system.unilateral_contacts().enumerate();
+    contacts
+        .filter_map(|(k, contact)| contact.has_face.then_some(k))
+        .collect()
+}
+
+impl OnFace {
+    /// Of the three numbers that a machine says.
+    pub fn new(numbers: &[f64]) -> OnFace {
+        OnFace {
+            height: numbers[0],
+            beyond: numbers[1],
+            beyond_rate: numbers[2],
+        }
+    }
 }
 
 /// How large each coordinate is at least as part of a gap: see [`LEAST_TURN`]. A gap at angles of 0 is no better known than beside it: without their
@@ -82,38 +138,71 @@ pub(super) fn least_sizes<S: System>(system: &S) -> Arc<[f64]> {
 }
 
 impl ContactKinematics {
-    /// Memory for evaluations. `least` are the [`least_sizes`].
-    pub fn new(least: &Arc<[f64]>, contacts: usize) -> ContactKinematics {
+    /// Memory for evaluations. `least` are the [`least_sizes`], `with_face` the [`contacts_with_face`].
+    pub fn new(least: &Arc<[f64]>, with_face: &Arc<[usize]>, contacts: usize) -> ContactKinematics {
         let (n, m) = (least.len(), contacts);
         let zeros = |count: usize| std::vec![0.0; count];
         ContactKinematics {
             n,
             gaps: zeros(m),
             rates: zeros(2 * m),
-            rows: zeros(2 * m * n),
+            rows: Vec::new(),
             biases: zeros(2 * m),
             coefficients: zeros(4 * m),
+            some: None,
             at: (0.0, zeros(n), zeros(n)),
             least: least.clone(),
             most_of_squares: 0.0,
+            with_face: with_face.clone(),
             face_numbers: Vec::new(),
             faces: Vec::new(),
         }
     }
 
-    /// Evaluates gaps and rates at a state, and where contacts are on faces.
-    pub fn evaluate_gaps<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+    /// Evaluates gaps and rates at a state, and where contacts are on faces: of the `near` contacts only, if these are known.
+    pub fn evaluate_gaps<S: System>(
+        &mut self,
+        system: &S,
+        place: (f64, &S::Vector, &S::Vector),
+        near: Option<&[usize]>,
+    ) {
+        if let Some(near) = near {
+            self.begin_some(near);
+            self.write_some_gaps(system, place);
+            return;
+        }
+        self.some = None;
+        let (t, q, v) = place;
         system.gaps(t, q, &mut self.gaps);
         system.contact_rates(t, q, v, &mut self.rates);
-        write_faces(system, (t, q, v), &mut self.face_numbers, &mut self.faces);
+        self.faces.clear();
+        if !self.with_face.is_empty() {
+            self.face_numbers.resize(3 * self.with_face.len(), 0.0);
+            system.contact_faces(t, q, v, &mut self.face_numbers);
+            self.faces.resize(self.gaps.len(), None);
+            for (k, own) in (self.with_face.iter()).zip(self.face_numbers.chunks_exact(3)) {
+                self.faces[*k] = Some(OnFace::new(own));
+            }
+        }
     }
 
-    /// Evaluates all of it at a state.
-    pub fn evaluate<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
-        self.evaluate_gaps(system, t, q, v);
-        system.contact_matrix(t, q, &mut self.rows);
-        system.contact_bias(t, q, v, &mut self.biases);
-        system.contact_coefficients(t, q, v, &mut self.coefficients);
+    /// Evaluates all of it at a state: of the `near` contacts only, if these are known.
+    pub fn evaluate<S: System>(
+        &mut self,
+        system: &S,
+        place: (f64, &S::Vector, &S::Vector),
+        near: Option<&[usize]>,
+    ) {
+        self.evaluate_gaps(system, place, near);
+        let (t, q, v) = place;
+        if near.is_some() {
+            self.write_some_others(system, place);
+        } else {
+            self.rows.resize(2 * self.gaps.len() * self.n, 0.0);
+            system.contact_matrix(t, q, &mut self.rows);
+            system.contact_bias(t, q, v, &mut self.biases);
+            system.contact_coefficients(t, q, v, &mut self.coefficients);
+        }
         self.at.0 = t;
         self.at.1.copy_from_slice(q.as_slice());
         self.at.2.copy_from_slice(v.as_slice());
@@ -121,9 +210,89 @@ impl ContactKinematics {
         self.most_of_squares = 16.0 * squares.sum::<f64>();
     }
 
+    /// Evaluates the rows of all contacts at a place, and nothing else.
+    pub fn evaluate_rows<S: System>(&mut self, system: &S, (t, q): (f64, &S::Vector)) {
+        self.some = None;
+        self.rows.resize(2 * self.gaps.len() * self.n, 0.0);
+        system.contact_matrix(t, q, &mut self.rows);
+    }
+
+    /// Clears what is known of the contacts before these are evaluated.
+    fn begin_some(&mut self, which: &[usize]) {
+        let (n, m) = (self.n, self.gaps.len());
+        let mut some = self.some.take().unwrap_or_else(|| SomeContacts {
+            which: (0..m).collect(),
+            places: std::vec![NOWHERE; m],
+            zeros: std::vec![0.0; n],
+            numbers: Vec::new(),
+        });
+        for k in some.which.drain(..) {
+            self.gaps[k] = f64::INFINITY;
+            self.rates[2 * k..][..2].fill(0.0);
+            self.biases[2 * k..][..2].fill(0.0);
+            self.coefficients[4 * k..][..4].fill(0.0);
+            some.places[k] = NOWHERE;
+        }
+        some.which.extend_from_slice(which);
+        for (place, k) in which.iter().enumerate() {
+            some.places[*k] = place;
+        }
+        self.faces.clear();
+        self.some = Some(some);
+    }
+
+    /// Writes gaps and rates of the contacts that are evaluated, and where these are on faces.
+    fn write_some_gaps<S: System>(&mut self, system: &S, state: (f64, &S::Vector, &S::Vector)) {
+        let Some(SomeContacts { which, numbers, .. }) = &mut self.some else {
+            return;
+        };
+        numbers.resize(2 * which.len(), 0.0);
+        let own = &mut numbers[..which.len()];
+        system.of_contacts(ContactQuantity::Gap, which, state, own);
+        for (k, gap) in which.iter().zip(own) {
+            self.gaps[*k] = *gap;
+        }
+        system.of_contacts(ContactQuantity::Rates, which, state, numbers);
+        for (k, rates) in which.iter().zip(numbers.chunks_exact(2)) {
+            self.rates[2 * k..][..2].copy_from_slice(rates);
+        }
+        if self.with_face.is_empty() {
+            return;
+        }
+        self.faces.resize(self.gaps.len(), None);
+        let mut own = [0.0; 3];
+        for &k in which.iter().filter(|k| self.with_face.contains(k)) {
+            system.of_contacts(ContactQuantity::Face, &[k], state, &mut own);
+            self.faces[k] = Some(OnFace::new(&own));
+        }
+    }
+
+    /// Writes rows, biases and coefficients of the contacts that are evaluated.
+    fn write_some_others<S: System>(&mut self, system: &S, state: (f64, &S::Vector, &S::Vector)) {
+        let Some(SomeContacts { which, numbers, .. }) = &mut self.some else {
+            return;
+        };
+        self.rows.resize(2 * which.len() * self.n, 0.0);
+        system.of_contacts(ContactQuantity::Rows, which, state, &mut self.rows);
+        numbers.resize(2 * which.len(), 0.0);
+        system.of_contacts(ContactQuantity::Bias, which, state, numbers);
+        for (k, biases) in which.iter().zip(numbers.chunks_exact(2)) {
+            self.biases[2 * k..][..2].copy_from_slice(biases);
+        }
+        numbers.resize(4 * which.len(), 0.0);
+        system.of_contacts(ContactQuantity::Coefficients, which, state, numbers);
+        for (k, own) in which.iter().zip(numbers.chunks_exact(4)) {
+            self.coefficients[4 * k..][..4].copy_from_slice(own);
+        }
+    }
+
     /// Whether this is the state that was evaluated.
     pub fn is_at(&self, t: f64, q: &[f64], v: &[f64]) -> bool {
-        self.at.0 == t && self.at.1 == q && self.at.2 == v
+        let is_same = |known: &[f64], now: &[f64]| {
+            let mut pairs = known.iter().zip(now);
+            pairs.all(|(known, now)| known.to_bits() == now.to_bits())
+        };
+        self.at.0.to_bits() == t.to_bits() && is_same(&self.at.1, q) && is_same(&self.at.2, v)
     }
 
     /// Below which the gap of a contact is closed. Asked of few contacts: it takes the whole row of one.
@@ -193,6 +362,13 @@ impl ContactKinematics {
     }
 
     pub fn row(&self, direction: usize) -> &[f64] {
+        let direction = match &self.some {
+            None => direction,
+            Some(some) => match some.places[direction / 2] {
+                NOWHERE => return &some.zeros,
+                place => 2 * place + direction % 2,
+            },
+        };
         &self.rows[direction * self.n..][..self.n]
     }
 

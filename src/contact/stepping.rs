@@ -53,7 +53,7 @@ impl UnilateralState {
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
     ) -> Result<(), StepError> {
-        let here = self.kinematics(system, (t, q, v));
+        let here = self.kinematics_of_all(system, (t, q, v));
         let is_known = |k: usize| {
             let [kinetic, at_rest] = here.friction(k);
             !self.is_compliant(k) && kinetic == at_rest

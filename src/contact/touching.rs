@@ -12,11 +12,12 @@ use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
-use super::kinematics::{ContactKinematics, ROUNDING, least_sizes};
+use super::kinematics::{ContactKinematics, ROUNDING, contacts_with_face, least_sizes};
+use super::nearby::{Nearby, StateBox};
 use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
 use crate::at::At;
 use crate::shared_workspace::SharedWorkspace;
-use crate::{Pivot, Singular, StepError, System};
+use crate::{Pivot, Singular, StepError, System, Vector};
 pub(crate) use compliant::Clearance;
 use compliant::ComplianceState;
 pub(crate) use held::Held;
@@ -73,6 +74,12 @@ pub(crate) struct UnilateralState {
     has_friction: Vec<bool>,
     /// How large each coordinate is at least as part of a gap.
     least_sizes: Arc<[f64]>,
+    /// The contacts with faces of polygons.
+    with_face: Arc<[usize]>,
+    /// Which contacts may close around the present state, if that is known.
+    nearby: Option<Nearby>,
+    /// What was evaluated last.
+    latest: SharedWorkspace<LatestKinematics>,
     /// Of the rolling of a contact, and of its second tangent, that contact: it has its gap and its normal force, and is open where
     /// that is.
     carrier: Vec<Option<usize>>,
@@ -99,6 +106,17 @@ pub(crate) struct UnilateralState {
     continues_through_rest: bool,
     /// In time stepping the mean forces of the last step along normal and tangent, in N.
     stepped: Option<Vec<[f64; 2]>>,
+}
+
+/// The kinematics that were evaluated last, and whether only of the near contacts.
+#[derive(Debug, Default)]
+struct LatestKinematics(Option<(Arc<ContactKinematics>, bool)>);
+
+impl Clone for LatestKinematics {
+    /// Nothing: states of contacts that a run keeps are seldom evaluated.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 impl UnilateralState {
@@ -146,6 +164,9 @@ impl UnilateralState {
             across,
             has_friction,
             least_sizes: least_sizes(system),
+            with_face: contacts_with_face(system),
+            nearby: None,
+            latest: SharedWorkspace::default(),
             continues_through_rest: true,
             stepped: None,
         }
@@ -175,19 +196,78 @@ impl UnilateralState {
         self.held = held;
     }
 
-    /// What is known of the contacts at a state.
+    /// What is known of the contacts at a state: of the near ones, if these are known. It is evaluated once for calls that follow each other.
     pub(super) fn kinematics<S: System>(
         &self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
+    ) -> Arc<ContactKinematics> {
+        let near = self.near_at(t, q.as_slice());
+        let mut latest = self.latest.lock();
+        if let Some((here, of_near)) = &latest.0
+            && *of_near == near.is_some()
+            && here.is_at(t, q.as_slice(), v.as_slice())
+        {
+            return here.clone();
+        }
+        // Its memory serves again if nothing else refers to it.
+        let known = latest.0.take().and_then(|(here, _)| Arc::into_inner(here));
+        let mut here = known.unwrap_or_else(|| self.memory_for_kinematics());
+        here.evaluate(system, (t, q, v), near);
+        let here = Arc::new(here);
+        latest.0 = Some((here.clone(), near.is_some()));
+        here
+    }
+
+    /// What is known of all contacts at a state, however far they are.
+    pub(super) fn kinematics_of_all<S: System>(
+        &self,
+        system: &S,
+        place: (f64, &S::Vector, &S::Vector),
     ) -> ContactKinematics {
         let mut here = self.memory_for_kinematics();
-        here.evaluate(system, t, q, v);
+        here.evaluate(system, place, None);
         here
     }
 
     fn memory_for_kinematics(&self) -> ContactKinematics {
-        ContactKinematics::new(&self.least_sizes, self.modes.len())
+        ContactKinematics::new(&self.least_sizes, &self.with_face, self.modes.len())
+    }
+
+    /// The contacts that are near at a state, if these are known. A closed one is near.
+    pub(super) fn near_at(&self, t: f64, q: &[f64]) -> Option<&[usize]> {
+        let near = self.nearby.as_ref()?.at(t, q)?;
+        let is_open = |k: usize| self.modes[k] == Mode::Open;
+        let mut closed = (0..self.modes.len()).filter(|k| !is_open(*k));
+        let all_are_near = closed.all(|k| near.binary_search(&k).is_ok());
+        all_are_near.then_some(near)
+    }
+
+    /// Finds out which contacts are near in a step that stays in this box, and after it; and in what surrounds it by so many times its greatest width.
+    /// Machines with layers that are crushed evaluate all contacts: what is not pressed has a state too.
+    pub fn keep_near<S: System>(
+        &mut self,
+        system: &S,
+        surroundings: f64,
+        step: impl FnOnce() -> StateBox,
+    ) {
+        let has_layers = (0..self.modes.len()).any(|k| self.is_layer(k));
+        let Some(gap_arguments) = system.single_contacts().filter(|_| !has_layers) else {
+            return;
+        };
+        if self.nearby.as_mut().is_some_and(Nearby::pauses) {
+            return;
+        }
+        let mut step = step();
+        if surroundings > 0.0 {
+            step = step.widened(system, gap_arguments, surroundings);
+        }
+        self.nearby = Some(Nearby::of_step(
+            (system, gap_arguments),
+            self.nearby.take(),
+            &step,
+        ));
+        self.latest.lock().0 = None;
     }
 
     /// The greatest rate of a contact so far, at which gaps closed or something began to slip: rates within rounding of it are rest.
@@ -239,7 +319,7 @@ impl UnilateralState {
         let Ok(free) = Self::free(system, at) else {
             return 0.0;
         };
-        let here = self.kinematics(system, (t, q, v));
+        let here = self.kinematics_of_all(system, (t, q, v));
         let falls = (0..self.modes.len()).map(|k| -here.acceleration(2 * k, &free)[0]);
         falls.fold(0.0, f64::max)
     }
@@ -376,7 +456,7 @@ impl UnilateralState {
             return;
         }
         let here = memory.kinematics();
-        here.evaluate(system, t, q, v);
+        here.evaluate(system, (t, q, v), self.near_at(t, q.as_slice()));
         for k in 0..self.modes.len() {
             if let Mode::SlidesAlong(_) = self.modes[k]
                 && let Some(direction) = self.known_direction(here, k)

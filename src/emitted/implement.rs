@@ -20,7 +20,7 @@
 //!     vector bias(p, t, q, v);                                    given, and the call; zeros where there is no call
 //! }
 //! absent [MAY_SLIDE]                              constants of `System` that are `false`
-//! intervals [yes]                                 where slips depend on prepared values, whose rounding counts then
+//! intervals [yes]                                 where slips, or bounds of gaps, depend on prepared values, whose rounding counts then
 //! batch_series {                                  the series in lanes, where there is one: the type of what it keeps, and the call
 //!     Lists<Lanes<N>>;
 //!     (p, t, q, v, u, lists, coefficients) Series { p, q, v, lists, coefficients }
@@ -329,6 +329,13 @@ macro_rules! implement_part {
     (rounded t $p:tt $t:ident $q:ident $v:ident) => { $crate::emitted::rounded($t) };
     (rounded q $p:tt $t:ident $q:ident $v:ident) => { &$q.map($crate::emitted::rounded) };
     (rounded v $p:tt $t:ident $q:ident $v:ident) => { &$v.map($crate::emitted::rounded) };
+
+    // An argument of gaps, as an interval between two values, or of its rounding.
+    (between p $p:tt $t:ident $q:ident) => { &$p.rounded() };
+    (between t $p:tt $t:ident $q:ident) => { $crate::emitted::between($t[0], $t[1]) };
+    (between q $p:tt $t:ident $q:ident) => {
+        &::core::array::from_fn(|i| $crate::emitted::between($q[0][i], $q[1][i]))
+    };
 }
 
 /// A method of `System`, by the kind of its result.
@@ -488,6 +495,47 @@ macro_rules! implement_method {
         ) -> impl ::core::iter::ExactSizeIterator<Item = $crate::emitted::UnilateralContact<'_>> {
             const CONTACTS: &[$crate::emitted::UnilateralContact<'static>] = &$value;
             CONTACTS.iter().copied()
+        }
+    };
+
+    // What single contacts are computed by: for each coordinate and for the time whether a gap depends on it.
+    ($types:tt gap_arguments $method:ident($p:ident) = $value:expr) => {
+        fn $method(&self) -> ::core::option::Option<&[::core::primitive::bool]> {
+            const ARGUMENTS: &[::core::primitive::bool] = &$value;
+            ::core::option::Option::Some(ARGUMENTS)
+        }
+    };
+
+    // Numbers of single contacts, as a `ContactParts`.
+    ([$n:literal $Inputs:ident $Outputs:ident] parts $method:ident($p:ident) = $value:expr) => {
+        fn $method(
+            &self,
+            quantity: $crate::emitted::ContactQuantity,
+            which: &[::core::primitive::usize],
+            (t, q, v): (
+                ::core::primitive::f64,
+                &[::core::primitive::f64; $n],
+                &[::core::primitive::f64; $n],
+            ),
+            numbers: &mut [::core::primitive::f64],
+        ) {
+            let $p = self;
+            $value.write(quantity, which, (t, q, v), numbers);
+        }
+    };
+
+    // Lower bounds of gaps; the arguments are those that the gaps depend on.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident] least $method:ident($($x:ident),*) = $value:expr
+    ) => {
+        fn $method(
+            &self,
+            t: [::core::primitive::f64; 2],
+            q: [&[::core::primitive::f64; $n]; 2],
+            result: &mut [::core::primitive::f64],
+        ) {
+            $(let $x = $crate::implement_part!(between $x self t q);)*
+            $crate::emitted::fill_least(result, &$value);
         }
     };
 

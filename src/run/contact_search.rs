@@ -179,6 +179,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             memory,
         } = looks;
         let system = self.model.system;
+        self.stepper.keep_near();
         let Some(touching) = self.stepper.touching() else {
             return Ok(None);
         };
@@ -336,7 +337,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if interval.may_dip(k) {
             let gap = |theta: f64| {
                 let (t, q, v) = event::interpolated_at(stepper, theta);
-                Ok(touching.clearances(system, (t, &q, &v))[k].value)
+                Ok(touching.clearance_of(system, (t, &q, &v), k).value)
             };
             let fall_of_step = MOST_RATE_GROWTH * interval.falls[k] * stepper.last_step().abs();
             let rounding = touching.gap_rounding(system, beginning, k);
@@ -351,7 +352,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let stepper = &*stepper;
         let at = |theta: f64| {
             let (t, q, v) = state_within(system, stepper, interpolant, theta)?;
-            let near = touching.clearances(system, (t, &q, &v))[k];
+            let near = touching.clearance_of(system, (t, &q, &v), k);
             Ok([near.value, near.rate])
         };
         let is_compliant = touching.is_compliant(k);

@@ -7,7 +7,9 @@ use super::{Model, Stepper, move_by_rounding};
 use crate::at::At;
 use crate::balance::{ContactShare, Quadratures};
 use crate::constraints::Constraints;
-use crate::contact::{ContactMemory, Impact, Mode, ParadoxResolution, UnilateralState};
+use crate::contact::{
+    ContactMemory, Impact, Mode, ParadoxResolution, StateBox, StepEnds, UnilateralState,
+};
 use crate::inputs::InputLaw;
 use crate::stages::Point;
 use crate::unilateral::ContactTrouble;
@@ -63,6 +65,28 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// The state of the unilateral contacts.
     pub(crate) fn touching(&self) -> &Option<UnilateralState> {
         &self.model.touching
+    }
+
+    /// Finds out which contacts are near in the last step.
+    pub(crate) fn keep_near(&mut self) {
+        let Self {
+            model,
+            now,
+            before,
+            k,
+            newest,
+            control,
+            ..
+        } = self;
+        let ends = StepEnds {
+            t: [before.t, now.t],
+            step: control.last_step,
+            before: [&before.q, &before.v, &k[0]].map(S::Vector::as_slice),
+            after: [&now.q, &now.v, &k[*newest]].map(S::Vector::as_slice),
+        };
+        if let Some(touching) = &mut model.touching {
+            touching.keep_near(model.system.get(), 0.0, || StateBox::of_step(&ends));
+        }
     }
 
     /// Lets contacts that touch meet, and continues to `end` with the contacts that are closed then. What yields and is pressed

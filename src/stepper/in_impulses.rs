@@ -6,9 +6,13 @@ use super::{Model, Stepper};
 use crate::attempt::not_finite;
 use crate::balance::{ContactShare, Quadratures};
 use crate::compensated::two_sum;
-use crate::contact::{Mode, SteppedContacts, UnilateralState};
+use crate::contact::{Mode, StateBox, SteppedContacts, UnilateralState};
 use crate::stages::Point;
 use crate::{InputLaw, StepError, System, Vector};
+
+/// What is near in a step is known for so many times its length around it: what is moved out of a penetration, which is no deeper than a step is long, takes
+/// along what is open by no more than eight times that.
+const AROUND: f64 = 16.0;
 
 /// The last step of time stepping.
 #[derive(Clone, Debug)]
@@ -118,6 +122,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         q.clone_from(&before.q);
         for (q, v) in q.as_mut_slice().iter_mut().zip(before.v.as_slice()) {
             *q += half * v;
+        }
+        if S::MAY_COLLIDE
+            && let Some(touching) = &mut model.touching
+        {
+            // Impulses change the rates: where they lead out of the box, all contacts are evaluated.
+            let line =
+                || StateBox::of_line([before.t, before.t + h], before.q.as_slice(), q.as_slice());
+            touching.keep_near(model.system.get(), AROUND, line);
         }
         impulses.before.clone_from(&model.touching);
         impulses.stepped = SteppedContacts::default();

@@ -7,3 +7,4 @@ pub mod constrained;
 pub mod double_pendulum;
 pub mod tampered;
 pub mod toy;
+pub mod train;

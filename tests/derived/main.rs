@@ -8,6 +8,7 @@ mod derivatives;
 mod ensembles;
 mod examples;
 mod lanes;
+mod many_contacts;
 mod sensitivities;
 mod stages;
 mod steps_in_numbers;

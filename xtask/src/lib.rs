@@ -235,6 +235,7 @@ fn quantities() -> String {
             (Role::Derivatives, _) => "with `derivatives`",
             (Role::Adjoint, _) => "in functional mock-up units",
             (Role::Gradient(_), _) => "one for each output, in functional mock-up units",
+            (Role::ContactPart(_), _) => "with many unilateral contacts",
             (Role::Output(_), _) => "one for each output",
             (Role::Assumption(_), _) => "one for each assumption",
             (_, Needs::Stores) => "with `energies`",

@@ -3,6 +3,7 @@
 //! The module needs only `core` and the runtime. Its arithmetic consists of plain functions that are generic over the
 //! number and take only the arguments that they use; `Machine` and `System` are implemented with them for `f64`.
 
+mod contact_parts;
 mod derivatives;
 mod docs;
 mod functions;
@@ -26,6 +27,7 @@ use super::names::{Field, Scope, identifier, output_functions, snake_case};
 use docs::prose;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_mechanics::{Proved, Unproved};
+use lagrangian_program::contact_parts::ContactParts;
 use lagrangian_program::{Counts, Function, Op, PackedStatement, Program, Role, packs};
 use types::{Group, Types};
 
@@ -175,6 +177,8 @@ struct Emitter<'a> {
     prepared_families: Vec<Field>,
     /// The loops of functions that have loops.
     plans: BTreeMap<Role, Plan>,
+    /// The numbers of single contacts, where there are many.
+    contact_parts: Option<ContactParts>,
     /// Whether the function being written leaves the check for large angles to its caller.
     defers_angle_check: bool,
 }
@@ -233,6 +237,7 @@ impl<'a> Emitter<'a> {
             prepared,
             prepared_families,
             plans,
+            contact_parts: None,
             defers_angle_check: false,
             types: Types::new(&program.name),
             parameters,
@@ -250,6 +255,7 @@ impl<'a> Emitter<'a> {
     }
 
     fn module(mut self) -> String {
+        self.contact_parts = ContactParts::of(self.program);
         self.head();
         self.machine();
         self.coordinates();
@@ -264,6 +270,7 @@ impl<'a> Emitter<'a> {
                 self.function(function);
             }
         }
+        self.functions_of_contact_parts();
         if !self.outputs.is_empty() {
             self.all_outputs();
         }

@@ -355,6 +355,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         | Role::Derivatives
         | Role::Adjoint
         | Role::Gradient(_)
+        | Role::ContactPart(_)
         | Role::AtTime
         | Role::AtPosition
         | Role::AccelerationsAt => return None,

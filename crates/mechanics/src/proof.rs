@@ -53,7 +53,9 @@ use crate::proof::symbolic::with_guarded_values;
 use crate::{Dependent, Equations};
 use crate::{Disagreement, POINTS};
 use lagrangian_program::quantity::Use;
-use lagrangian_program::{Arguments, Interpreter, Op, Program, Role, Shape};
+use lagrangian_program::{
+    Arguments, Function as PlannedFunction, Interpreter, Op, Program, Role, Shape,
+};
 use lagrangian_spec::model::Model;
 use number::{Number, ZeroTest};
 use unproved::subject_text;
@@ -71,6 +73,10 @@ const MOST_POINTS: u64 = 4096;
 
 /// The largest number of expression values that the search for a point may compute.
 const MOST_VALUES: u64 = 4_000_000;
+
+/// Half of the elements of a prime field have a square root. With as many roots as this in one function, all of them exist at one point in 2³²,
+/// far more than [`MOST_POINTS`], and only states can tell.
+const HOPELESS_ROOTS: usize = 32;
 
 /// The number of comparisons allowed for each one that must be conclusive. A comparison may be inconclusive if
 /// a pivot or a value is undefined that the search for a point did not examine.
@@ -152,7 +158,8 @@ fn validate<'d>(
     let machine = Lagrange::of(model, holonomic);
     let nodes = reachable(model.dag, &machine.roots);
     let most = MOST_VALUES / (nodes.len() as u64).max(1);
-    let most = if roots_of_gaps(program) > MOST_POINTS.ilog2() as usize {
+    let roots = most_roots(program);
+    let most = if roots > MOST_POINTS.ilog2() as usize {
         MOST_STATES
     } else {
         most.clamp(MOST_STATES, MOST_POINTS)
@@ -171,12 +178,23 @@ fn validate<'d>(
         eliminated: settled,
     };
     let work = work(program, nodes.len());
-    let in_field = Prover::<Residue>::new(parts).run(POINTS, most, work);
+    let in_field = if roots >= HOPELESS_ROOTS {
+        ComparisonResult::Inconclusive
+    } else {
+        Prover::<Residue>::new(parts).run(POINTS, most, work)
+    };
     if in_field == ComparisonResult::Equal && smooth && model.sliding().is_empty() {
         return Ok(());
     }
     let at_states = Prover::<Ball>::new(parts).run(STATES, MOST_STATES, work);
     decide(in_field, at_states)
+}
+
+/// The greatest number of square roots in one function of a program: the lengths in the gaps of a heap, for example.
+fn most_roots(program: &Program) -> usize {
+    let is_root = |op: &&Op| matches!(op, Op::Unary(Call::Sqrt, _));
+    let roots = |function: &PlannedFunction| function.code.iter().filter(is_root).count();
+    program.functions.iter().map(roots).max().unwrap_or(0)
 }
 
 /// What both comparisons tell, in the prime field and at states in numbers with error bounds, where the field does not decide alone.
@@ -218,17 +236,10 @@ fn branch_arguments<'d>(machine: &Lagrange<'_, 'd>) -> Vec<(Expr<'d>, [bool; 2])
     arguments.map(|argument| (argument, [false; 2])).collect()
 }
 
-/// The number of square roots in the gaps of a program. At a point of the field each exists with probability ½.
-fn roots_of_gaps(program: &Program) -> usize {
-    let code = program.function(Role::Gaps).map(|gaps| gaps.code.iter());
-    let is_root = |op: &&Op| matches!(op, Op::Unary(Call::Sqrt, _));
-    code.map_or(0, |code| code.filter(is_root).count())
-}
-
 /// The approximate number of values that one comparison computes, for a machine of `nodes` nodes:
 /// each has three infinitesimals, so it is eight numbers.
 fn work(program: &Program, nodes: usize) -> u64 {
-    let code = |function: &lagrangian_program::Function| function.code.len() as u64;
+    let code = |function: &PlannedFunction| function.code.len() as u64;
     let functions: u64 = program.functions.iter().map(code).sum();
     let slopes = if program.derivatives.is_empty() {
         0

@@ -32,6 +32,7 @@ use lagrangian_units::{
 
 pub mod accuracy;
 pub mod choose;
+pub mod contact_parts;
 mod cost;
 mod count;
 mod factor;

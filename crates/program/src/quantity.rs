@@ -201,7 +201,7 @@ macro_rules! quantities {
                 }
             }
 
-            /// Every quantity; of outputs and assumptions the first.
+            /// Every quantity; of those that are numbered the first.
             pub fn all() -> impl Iterator<Item = Role> {
                 [$(Role::$role $((<$index>::MIN))?),+].into_iter()
             }
@@ -308,6 +308,11 @@ quantities! {
     Gradient(usize) => {
         "gradient", "", "g*", Chosen, [Time Coordinates Velocities Accelerations Inputs], Request, Seldom, ""
     }
+    /// Numbers of one unilateral contact, of which the others are 0, with its arguments in place of the coordinates: see
+    /// [`ContactParts`](crate::contact_parts::ContactParts).
+    ContactPart(usize) => {
+        "contact_part", "", "r*", Chosen, [Time Coordinates], Request, Seldom, ""
+    }
     /// What time alone decides of the accelerations.
     AtTime => { "at_time", "", "r*", Chosen, [Time], Request, Often, "" }
     /// What time and coordinates decide of the accelerations.
@@ -341,10 +346,13 @@ quantities! {
 }
 
 impl Role {
-    /// The name of a function of this role; outputs, their gradients and assumptions are numbered.
+    /// The name of a function of this role; outputs, their gradients, assumptions and parts of contacts are numbered.
     pub fn name(self) -> String {
         match self {
-            Role::Output(index) | Role::Assumption(index) | Role::Gradient(index) => {
+            Role::Output(index)
+            | Role::Assumption(index)
+            | Role::Gradient(index)
+            | Role::ContactPart(index) => {
                 format!("{}_{index}", self.row().name)
             }
             _ => self.row().name.into(),

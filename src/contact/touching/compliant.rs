@@ -13,7 +13,7 @@ use std::vec::Vec;
 use super::super::kinematics::ContactKinematics;
 use super::{Margin, Mode, UnilateralState};
 use crate::balance::ContactShare;
-use crate::{Compliance, ContactEnergies, System};
+use crate::{Compliance, ContactEnergies, System, Vector};
 
 /// The law of a contact that yields, and what it remembers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -170,6 +170,25 @@ impl UnilateralState {
         all
     }
 
+    /// How far a contact is from closing at a state.
+    pub fn clearance_of<S: System>(
+        &self,
+        system: &S,
+        place: (f64, &S::Vector, &S::Vector),
+        contact: usize,
+    ) -> Clearance {
+        if system.single_contacts().is_none() {
+            return self.clearances(system, place)[contact];
+        }
+        let mut here = self.memory_for_kinematics();
+        if self.is_compliant(contact) {
+            here.evaluate(system, place, Some(&[contact]));
+            return self.clearance(&here, contact);
+        }
+        here.evaluate_gaps(system, place, Some(&[contact]));
+        here.clearance(contact)
+    }
+
     /// Writes what [`clearances`](Self::clearances) says. `here` is memory for this.
     pub(super) fn write_clearances_with<S: System>(
         &self,
@@ -179,12 +198,13 @@ impl UnilateralState {
         all: &mut Vec<Clearance>,
     ) {
         all.clear();
+        let near = self.near_at(t, q.as_slice());
         if self.any_is_compliant() {
-            here.evaluate(system, t, q, v);
+            here.evaluate(system, (t, q, v), near);
             all.extend((0..here.gaps.len()).map(|k| self.clearance(here, k)));
             return;
         }
-        here.evaluate_gaps(system, t, q, v);
+        here.evaluate_gaps(system, (t, q, v), near);
         all.extend((0..here.gaps.len()).map(|k| here.clearance(k)));
     }
 
@@ -266,7 +286,7 @@ impl UnilateralState {
         if !(0..self.compliance.len()).any(|k| self.is_layer(k)) {
             return vec![0.0; self.compliance.len()];
         }
-        let here = self.kinematics(system, (t, q, v));
+        let here = self.kinematics_of_all(system, (t, q, v));
         (0..self.compliance.len())
             .map(|k| self.crushing_work(&here, k))
             .collect()

@@ -2,11 +2,11 @@
 
 use std::vec::Vec;
 
-use super::super::kinematics::{OnFace, write_faces};
+use super::super::kinematics::{OnFace, write_some};
 use super::{Mode, UnilateralState};
 use crate::forward::forward;
 use crate::shared_workspace::SharedWorkspace;
-use crate::{Constraint, System, UnilateralContact, Vector};
+use crate::{Constraint, ContactQuantity, System, UnilateralContact, Vector};
 
 /// A machine whose closed contacts are constraints: a gap that stays 0, and where a contact sticks, a slip that does.
 #[derive(Clone, Copy)]
@@ -14,14 +14,17 @@ pub(crate) struct Held<'a, S> {
     system: &'a S,
     /// Which directions of contacts are held: two of each contact.
     directions: &'a [usize],
+    with_face: &'a [usize],
     memory: &'a SharedWorkspace<HeldMemory>,
 }
 
-/// Memory for values of all contacts, of which those of closed ones are taken.
+/// Memory for values of contacts, of which those along the directions that are held are taken.
 #[derive(Debug, Default)]
 pub(super) struct HeldMemory {
-    of_directions: Vec<f64>,
-    gaps: Gaps,
+    which: Vec<usize>,
+    all: Vec<f64>,
+    numbers: Vec<f64>,
+    faces: Vec<f64>,
     workspace: Vec<f64>,
 }
 
@@ -32,19 +35,12 @@ impl Clone for HeldMemory {
     }
 }
 
-/// Memory for gaps.
-#[derive(Debug, Default)]
-struct Gaps {
-    gaps: Vec<f64>,
-    face_numbers: Vec<f64>,
-    faces: Vec<Option<OnFace>>,
-}
-
 impl<'a, S: System> Held<'a, S> {
     pub fn new(system: &'a S, touching: &'a UnilateralState) -> Self {
         Held {
             system,
             directions: touching.held(),
+            with_face: &touching.with_face,
             memory: &touching.held_memory,
         }
     }
@@ -65,14 +61,14 @@ impl<'a, S: System> Held<'a, S> {
         write(to);
     }
 
-    /// Writes what the machine says of its own constraints, and behind it what is picked of both directions of its
-    /// contacts, each being so many numbers.
+    /// Writes what the machine says of its own constraints, and behind it what is picked of a quantity of its contacts, which has so
+    /// many numbers along each direction.
     fn with_contacts(
         &self,
         width: usize,
         to: &mut [f64],
         own: impl FnOnce(&mut [f64]),
-        contacts: impl FnOnce(&mut [f64], &mut Gaps),
+        (quantity, state): (ContactQuantity, (f64, &S::Vector, &S::Vector)),
         sign: f64,
     ) {
         let at = self.system.constraints().len() * width;
@@ -81,20 +77,57 @@ impl<'a, S: System> Held<'a, S> {
         if self.directions.is_empty() {
             return;
         }
-        let count = 2 * self.system.unilateral_contacts().len();
         let mut memory = self.memory.lock();
         let HeldMemory {
-            of_directions: all,
-            gaps,
+            which,
+            all,
+            numbers,
+            faces,
             ..
         } = &mut *memory;
-        all.clear();
-        all.resize(count * width, 0.0);
-        contacts(all, gaps);
+        which.clear();
+        which.extend(self.directions.iter().map(|direction| direction / 2));
+        which.dedup();
+        write_some(self.system, quantity, which, state, all, numbers);
+        if quantity == ContactQuantity::Gap {
+            self.replace_gaps_of_corners(which, state, (all, faces), numbers);
+        }
+        let mut place = 0;
         for (to, &direction) in rest.chunks_mut(width.max(1)).zip(self.directions) {
-            let from = &all[direction * width..][..width];
+            while which[place] < direction / 2 {
+                place += 1;
+            }
+            // A gap is a number along the normal only.
+            let from = match (quantity, direction % 2) {
+                (ContactQuantity::Gap, 0) => &numbers[place..][..width],
+                (ContactQuantity::Gap, _) => &[0.0][..width],
+                (_, part) => &numbers[(2 * place + part) * width..][..width],
+            };
             for (to, from) in to.iter_mut().zip(from) {
                 *to = sign * from;
+            }
+        }
+    }
+
+    /// A corner stays on the line of its face, wherever that ends: that it does is for the run to see. Its gap is replaced by its height over that line.
+    fn replace_gaps_of_corners(
+        &self,
+        which: &[usize],
+        state: (f64, &S::Vector, &S::Vector),
+        (all, faces): (&mut Vec<f64>, &mut Vec<f64>),
+        gaps: &mut [f64],
+    ) {
+        if self.with_face.is_empty() {
+            return;
+        }
+        let is_single = self.system.single_contacts().is_some();
+        let held: Vec<usize> = (self.with_face.iter().copied())
+            .filter(|k| !is_single || which.contains(k))
+            .collect();
+        write_some(self.system, ContactQuantity::Face, &held, state, all, faces);
+        for (k, face) in held.iter().zip(faces.chunks_exact(3)) {
+            if let Ok(place) = which.binary_search(k) {
+                gaps[place] = OnFace::new(face).height;
             }
         }
     }
@@ -181,46 +214,28 @@ impl<S: System> System for Held<'_, S> {
 
     fn constraint_positions(&self, t: f64, q: &S::Vector, residuals: &mut [f64]) {
         let own = |to: &mut [f64]| self.system.constraint_positions(t, q, to);
-        let gaps = |to: &mut [f64], memory: &mut Gaps| {
-            let Gaps {
-                gaps,
-                face_numbers,
-                faces,
-            } = memory;
-            gaps.clear();
-            gaps.resize(to.len() / 2, 0.0);
-            self.system.gaps(t, q, gaps);
-            for (to, gap) in to.chunks_exact_mut(2).zip(gaps) {
-                to[0] = *gap;
-            }
-            // A corner stays on the line of its face, wherever that ends: that it does is for the run to see.
-            if self.system.unilateral_contacts().any(|one| one.has_face) {
-                write_faces(self.system, (t, q, &q.zeros_like()), face_numbers, faces);
-                for (to, face) in to.chunks_exact_mut(2).zip(faces) {
-                    to[0] = face.map_or(to[0], |face| face.height);
-                }
-            }
-        };
+        // Positions do not depend on rates.
+        let gaps = (ContactQuantity::Gap, (t, q, q));
         self.with_contacts(1, residuals, own, gaps, 1.0);
     }
 
     fn constraint_rates(&self, t: f64, q: &S::Vector, v: &S::Vector, residuals: &mut [f64]) {
         let own = |to: &mut [f64]| self.system.constraint_rates(t, q, v, to);
-        let contacts = |to: &mut [f64], _: &mut Gaps| self.system.contact_rates(t, q, v, to);
-        self.with_contacts(1, residuals, own, contacts, 1.0);
+        let rates = (ContactQuantity::Rates, (t, q, v));
+        self.with_contacts(1, residuals, own, rates, 1.0);
     }
 
     fn constraint_matrix(&self, t: f64, q: &S::Vector, matrix: &mut [f64]) {
         let own = |to: &mut [f64]| self.system.constraint_matrix(t, q, to);
-        let contacts = |to: &mut [f64], _: &mut Gaps| self.system.contact_matrix(t, q, to);
-        self.with_contacts(q.as_slice().len(), matrix, own, contacts, 1.0);
+        let rows = (ContactQuantity::Rows, (t, q, q));
+        self.with_contacts(q.as_slice().len(), matrix, own, rows, 1.0);
     }
 
     fn constraint_bias(&self, t: f64, q: &S::Vector, v: &S::Vector, drift: &mut [f64]) {
         let own = |to: &mut [f64]| self.system.constraint_bias(t, q, v, to);
-        let contacts = |to: &mut [f64], _: &mut Gaps| self.system.contact_bias(t, q, v, to);
+        let biases = (ContactQuantity::Bias, (t, q, v));
         // A constraint says what `G a` is to be, a contact what its rate is without it.
-        self.with_contacts(1, drift, own, contacts, -1.0);
+        self.with_contacts(1, drift, own, biases, -1.0);
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {

@@ -81,6 +81,8 @@ fn refill<T: Clone>(values: &mut Vec<T>, count: usize, value: T) {
 #[derive(Clone, Debug)]
 pub(crate) struct ContactMemory<V, M> {
     pub(super) here: ContactKinematics,
+    /// The closed contacts, of which alone the forces ask.
+    closed: Vec<usize>,
     pub(super) equations: ContactEquations<V, M>,
     pub(super) drives: DrivesMemory<V>,
     pub(super) shares: Vec<ContactShare>,
@@ -119,6 +121,7 @@ impl<V: Vector, M: Vector> ContactMemory<V, M> {
     pub fn new(touching: &UnilateralState, q: &V) -> Self {
         ContactMemory {
             here: touching.memory_for_kinematics(),
+            closed: Vec::new(),
             equations: ContactEquations::new(q),
             drives: DrivesMemory::new(q),
             shares: Vec::new(),
@@ -134,7 +137,7 @@ impl<V: Vector, M: Vector> ContactMemory<V, M> {
         (t, q): (f64, &V),
     ) -> impl Fn(usize) -> bool {
         let here = self.kinematics();
-        system.contact_matrix(t, q, &mut here.rows);
+        here.evaluate_rows(system, (t, q));
         let here = &*here;
         |i: usize| (0..here.gaps.len()).any(|contact| here.row(2 * contact)[i] != 0.0)
     }
@@ -548,7 +551,12 @@ impl UnilateralState {
     ) -> Result<(), StepError> {
         memory.is_evaluated = false;
         if !self.is_free() {
-            memory.here.evaluate(system, at.t, at.q, at.v);
+            let is_closed = |k: &usize| self.modes[*k] != Mode::Open;
+            let ContactMemory { here, closed, .. } = memory;
+            closed.clear();
+            closed.extend((0..self.modes.len()).filter(is_closed));
+            let is_single = system.single_contacts().is_some();
+            here.evaluate(system, (at.t, at.q, at.v), is_single.then_some(&**closed));
         }
         memory.equations.solve(self, system, at, &memory.here)?;
         memory.evaluated_for.set(self);

@@ -103,7 +103,11 @@ impl Emitter<'_> {
             format!("{name} [{}]", if is_there { word } else { "" })
         };
         let slips = self.emitted(Role::Slips);
-        let rounds_prepared = slips.is_some_and(|function| self.needs(function).prepared);
+        let bounded = self
+            .emitted(Role::Gaps)
+            .filter(|_| self.contact_parts.is_some());
+        let mut intervals = slips.into_iter().chain(bounded);
+        let rounds_prepared = intervals.any(|function| self.needs(function).prepared);
         self.writer.line(format!("absent [{}]", absent.join(" ")));
         self.writer.line(flag("intervals", rounds_prepared, "yes"));
         if let Some(call) = self
@@ -237,7 +241,13 @@ impl Emitter<'_> {
     }
 
     /// Writes a method of `System`: the kind of its result, its arguments, and the call.
-    fn row(&mut self, kind: &str, method: &str, arguments: &[&str], value: Option<Layout>) {
+    pub(super) fn row(
+        &mut self,
+        kind: &str,
+        method: &str,
+        arguments: &[&str],
+        value: Option<Layout>,
+    ) {
         let head = format!("{kind} {method}({})", arguments.join(", "));
         match value {
             Some(value) => self.writer.expression(&format!("{head} = "), &value, ";"),
@@ -254,7 +264,7 @@ impl Emitter<'_> {
     }
 
     /// The call of the function of a role, if it computes anything.
-    fn called_role(&self, role: Role) -> Option<Layout> {
+    pub(super) fn called_role(&self, role: Role) -> Option<Layout> {
         let function = self.emitted(role)?;
         Some(self.called(&self.function_name(role), self.needs(function)))
     }
@@ -282,6 +292,7 @@ impl Emitter<'_> {
         self.rows_of_constraints();
         self.rows_of_contacts();
         self.row_of_unilateral_contacts();
+        self.rows_of_contact_parts();
         self.row_of_workspace();
     }
 

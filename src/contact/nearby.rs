@@ -1,0 +1,238 @@
+//! Which contacts are near: all others stay open while the motion stays within a box around the present state.
+//!
+//! The gap of each contact has a lower bound in the box ([`System::least_gaps`](crate::System::least_gaps)). If it is positive, the contact cannot close there, and
+//! a run does not evaluate it until the motion leaves the box: so far contacts cost nothing in most steps, and a bound once in a while. (The lists
+//! of neighbours of molecular dynamics do the same with balls: L. Verlet, Phys. Rev. 159 (1967) 98–103.)
+//!
+//! A step stays in the box if the quintic through its ends does, with a margin for its difference from the dense output. The quintic
+//! lies between the least and the greatest of its Bézier coefficients.
+
+use std::sync::Arc;
+use std::vec;
+use std::vec::Vec;
+
+use crate::{System, Vector};
+
+/// A box reaches at least this share of the greatest coordinate of the same unit in each direction. The rounding of a gap is a thousandth of that, so that a gap that
+/// is 0 to rounding is never taken to be open throughout a box.
+const LEAST_REACH: f64 = 1e-9;
+
+/// By how much of its width the path of a step may differ from its quintic.
+const MARGIN: f64 = 0.1;
+
+/// A box that the motion leaves after fewer steps is followed by a wider one, and one that it leaves after more by a narrower one, with fewer
+/// near contacts.
+const FEWEST_STEPS: usize = 8;
+const MOST_STEPS: usize = 64;
+
+/// If more than this share of the contacts is near, all of them are evaluated together for some steps, and the next box is narrower.
+const MOST_NEAR: f64 = 0.25;
+
+/// For how many steps, at first; for twice as many each time, up to the second number.
+const PAUSES: [usize; 2] = [32, 1024];
+
+/// The least and the greatest length of the motion that a box has room for, in steps.
+const REACHES: [f64; 2] = [1.0 / 16.0, 4096.0];
+
+/// A range of times and of states.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct StateBox {
+    pub t: [f64; 2],
+    pub low: Vec<f64>,
+    pub high: Vec<f64>,
+}
+
+/// The ends of a step: its length, and at each end coordinates, rates and accelerations.
+pub(crate) struct StepEnds<'a> {
+    pub t: [f64; 2],
+    pub step: f64,
+    pub before: [&'a [f64]; 3],
+    pub after: [&'a [f64]; 3],
+}
+
+/// The contacts that may close within a box.
+#[derive(Clone, Debug)]
+pub(crate) struct Nearby {
+    within: Arc<StateBox>,
+    /// These contacts, in their order.
+    near: Arc<[usize]>,
+    /// How many steps have stayed in the box.
+    steps: usize,
+    /// For how many steps like the last one the box has room.
+    reach: f64,
+    /// For how many steps all contacts are evaluated, as long as too many are near; and for how many they were the last time.
+    pause: usize,
+    last_pause: usize,
+}
+
+impl StateBox {
+    /// The box that a step stays in.
+    pub fn of_step(ends: &StepEnds<'_>) -> StateBox {
+        let h = ends.step;
+        let [q, v, a] = ends.before;
+        let [q_after, v_after, a_after] = ends.after;
+        let range = |i: usize| {
+            let begin = [
+                q[i],
+                q[i] + 0.2 * h * v[i],
+                q[i] + 0.4 * h * v[i] + 0.05 * h * h * a[i],
+            ];
+            let end = [
+                q_after[i],
+                q_after[i] - 0.2 * h * v_after[i],
+                q_after[i] - 0.4 * h * v_after[i] + 0.05 * h * h * a_after[i],
+            ];
+            let all = begin.into_iter().chain(end);
+            let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            });
+            let margin = MARGIN * (high - low);
+            (low - margin, high + margin)
+        };
+        let (low, high) = (0..q.len()).map(range).unzip();
+        let [from, to] = ends.t;
+        StateBox {
+            t: [from.min(to), from.max(to)],
+            low,
+            high,
+        }
+    }
+
+    /// The box of a line from a state through another one in the middle of it.
+    pub fn of_line(t: [f64; 2], q: &[f64], middle: &[f64]) -> StateBox {
+        let ends = (q.iter().zip(middle)).map(|(q, middle)| (*q, 2.0 * middle - q));
+        let (low, high) = ends
+            .map(|(q, end)| {
+                let margin = MARGIN * (q - end).abs();
+                (q.min(end) - margin, q.max(end) + margin)
+            })
+            .unzip();
+        let [from, to] = t;
+        StateBox {
+            t: [from.min(to), from.max(to)],
+            low,
+            high,
+        }
+    }
+
+    /// Whether a state is in it. A number that is not one is not.
+    fn contains(&self, t: f64, q: &[f64]) -> bool {
+        let mut all = q.iter().zip(self.low.iter().zip(&self.high));
+        self.t[0] <= t && t <= self.t[1] && all.all(|(q, (low, high))| low <= q && q <= high)
+    }
+
+    fn covers(&self, other: &StateBox) -> bool {
+        self.contains(other.t[0], &other.low) && self.contains(other.t[1], &other.high)
+    }
+
+    /// A box with room for this many steps like the one that stays in this. Coordinates and times that no gap depends on have any value.
+    pub fn widened<S: System>(&self, system: &S, gap_arguments: &[bool], steps: f64) -> StateBox {
+        let mut wide = self.clone();
+        // Of each unit the longest path and the greatest number: what is at rest may be hit by what moves.
+        let mut of_units: Vec<(&str, f64, f64)> = Vec::new();
+        let mut places = Vec::with_capacity(self.low.len());
+        for (i, coordinate) in system.coordinates().enumerate() {
+            let (path, size) = if gap_arguments[i] {
+                let size = self.low[i].abs().max(self.high[i].abs());
+                (self.high[i] - self.low[i], size)
+            } else {
+                (0.0, 0.0)
+            };
+            let known = of_units
+                .iter()
+                .position(|(unit, ..)| *unit == coordinate.unit);
+            let place = known.unwrap_or(of_units.len());
+            match of_units.get_mut(place) {
+                Some((_, longest, greatest)) => {
+                    (*longest, *greatest) = (longest.max(path), greatest.max(size));
+                }
+                None => of_units.push((coordinate.unit, path, size)),
+            }
+            places.push(place);
+        }
+        for (i, place) in places.into_iter().enumerate() {
+            if !gap_arguments[i] {
+                (wide.low[i], wide.high[i]) = (f64::NEG_INFINITY, f64::INFINITY);
+                continue;
+            }
+            let (unit, path, size) = of_units[place];
+            let least = LEAST_REACH * if unit == "rad" { size.max(1.0) } else { size };
+            let reach = (steps * path).max(least);
+            wide.low[i] -= reach;
+            wide.high[i] += reach;
+        }
+        let length = self.t[1] - self.t[0];
+        wide.t = if gap_arguments.last() == Some(&true) {
+            let size = self.t[0].abs().max(self.t[1].abs());
+            let reach = (steps * length).max(LEAST_REACH * size);
+            [self.t[0] - reach, self.t[1] + reach]
+        } else {
+            [f64::NEG_INFINITY, f64::INFINITY]
+        };
+        wide
+    }
+}
+
+impl Nearby {
+    /// The near contacts of a machine in and after a step; `known` are those of the step before.
+    pub fn of_step<S: System>(
+        (system, gap_arguments): (&S, &[bool]),
+        known: Option<Nearby>,
+        step: &StateBox,
+    ) -> Nearby {
+        let (mut reach, mut last_pause) = (1.0, 0);
+        if let Some(mut known) = known {
+            if known.last_pause == 0 && known.within.covers(step) {
+                known.steps += 1;
+                return known;
+            }
+            let factor = match known.steps {
+                _ if known.last_pause > 0 => 0.5,
+                steps if steps < FEWEST_STEPS => 2.0,
+                steps if steps > MOST_STEPS => 0.5,
+                _ => 1.0,
+            };
+            let [least, most] = REACHES;
+            reach = (factor * known.reach).clamp(least, most);
+            last_pause = known.last_pause;
+        }
+        let within = step.widened(system, gap_arguments, reach);
+        let mut ends = [(); 2].map(|()| S::Vector::zeros(within.low.len()));
+        ends[0].as_mut_slice().copy_from_slice(&within.low);
+        ends[1].as_mut_slice().copy_from_slice(&within.high);
+        let mut least = vec![f64::NEG_INFINITY; system.unilateral_contacts().len()];
+        system.least_gaps(within.t, [&ends[0], &ends[1]], &mut least);
+        // What is not a number is no bound.
+        let is_far = |least: &f64| *least > 0.0;
+        let near = least.iter().enumerate();
+        let near = near.filter(|(_, least)| !is_far(least)).map(|(k, _)| k);
+        let near: Arc<[usize]> = near.collect();
+        let are_many = near.len() as f64 > MOST_NEAR * least.len() as f64;
+        let [shortest, longest] = PAUSES;
+        let pause = if are_many {
+            (2 * last_pause).clamp(shortest, longest)
+        } else {
+            0
+        };
+        Nearby {
+            near,
+            within: Arc::new(within),
+            steps: 1,
+            reach,
+            pause,
+            last_pause: pause,
+        }
+    }
+
+    /// Whether all contacts are evaluated in one more step, because too many are near.
+    pub fn pauses(&mut self) -> bool {
+        let pauses = self.pause > 0;
+        self.pause = self.pause.saturating_sub(1);
+        pauses
+    }
+
+    /// The contacts that are near at a state; `None` if it is not in the box, or too many are.
+    pub fn at(&self, t: f64, q: &[f64]) -> Option<&[usize]> {
+        (self.last_pause == 0 && self.within.contains(t, q)).then_some(&*self.near)
+    }
+}
