@@ -24,6 +24,9 @@ pub(crate) const PARTS: usize = 3;
 /// What counts as zero among coefficients about as large as 1.
 const ZERO: f64 = 1e-11;
 
+/// A friction force above this, relative to the greatest force, is more than rounding.
+const MORE_THAN_ROUNDING: f64 = 1e-10;
+
 /// What a row or a column is of: nothing that enters or leaves.
 const NOTHING: usize = usize::MAX;
 
@@ -158,6 +161,14 @@ pub(crate) fn share(
     let (basic, outside) = places.split_at_mut(2 * sharers.len());
     let numbers = &mut numbers[..tableau_length(sharers.len(), free)];
     let mut tableau = Tableau::new(sharers, of_group, (numbers, basic, &mut outside[..=free]));
+    let size = members().map(|k| sharers[k].size()).fold(0.0, f64::max);
+    if let Some((k, force)) = tableau.take_smooth_contacts(MORE_THAN_ROUNDING * size) {
+        limits[k] = Some(Limit::Friction([force.signum(), 0.0]));
+        return Some(SharedMargin {
+            value: -force.abs(),
+            residual: 0.0,
+        });
+    }
     let margin = tableau.solve()?;
     for i in (0..free).filter(|i| groups[*i] == group) {
         undetermined[i] = tableau.force(i);
@@ -254,8 +265,9 @@ impl<'w> Tableau<'w> {
         }
     }
 
-    /// The shared margin; infinite if forces may grow without bound and all contacts hold the better. `None` if rounding prevents a solution.
-    fn solve(&mut self) -> Option<f64> {
+    /// Solves for undetermined forces with which contacts without friction have none. Where there are none, with more than this rounding, it returns such a
+    /// contact and the friction force that it would need.
+    fn take_smooth_contacts(&mut self, rounding: f64) -> Option<(usize, f64)> {
         let (rows, width) = (self.basic.len(), self.free + 2);
         for row in 0..rows {
             if self.basic[row] != NO_FORCE {
@@ -268,8 +280,19 @@ impl<'w> Tableau<'w> {
             if let Some(column) = largest.filter(|c| entry(c) > ZERO) {
                 self.pivot(row, column);
                 self.outside[column] = NOTHING;
+                continue;
+            }
+            let force = self.numbers[row * width + self.free + 1];
+            if force.abs() > rounding {
+                return Some((row / 2, force));
             }
         }
+        None
+    }
+
+    /// The shared margin; infinite if forces may grow without bound and all contacts hold the better. `None` if rounding prevents a solution.
+    fn solve(&mut self) -> Option<f64> {
+        let (rows, width) = (self.basic.len(), self.free + 2);
         // With y = 0 the greatest s that is possible.
         let ratio = |row: &usize| {
             let own = &self.numbers[row * width..][..width];
@@ -755,6 +778,27 @@ mod tests {
         let sharers = [sticks(0.1, 0.0, 3.0), sticks(0.1, 0.0, 0.0)];
         let by = [1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0];
         assert_eq!(shared(&sharers, &by, 2).0, f64::INFINITY);
+    }
+
+    /// Two contacts without friction share what one of them would have to hold: they hold nothing, but what a third one with friction leaves them.
+    #[test]
+    fn contacts_without_friction_hold_nothing() {
+        let mut sharers = vec![sticks(0.0, 5.0, 3.0), sticks(0.0, 4.0, 0.0)];
+        let by = [0.0, 1.0, 0.0, 0.0, -1.0, 0.0];
+        let (margin, _, limits) = shared(&sharers, &by, 1);
+        assert!(margin < 0.0, "{margin}");
+        assert!(limits.contains(&Some(Limit::Friction([1.0, 0.0]))));
+        sharers[0].tangential[0] = 1e-12;
+        assert_eq!(shared(&sharers, &by, 1).0, f64::INFINITY);
+        sharers[0].tangential[0] = 3.0;
+        sharers.push(sticks(0.5, 8.0, 0.0));
+        let by = [
+            [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+            [0.0, 0.0, -1.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, -1.0, 0.0, 0.0],
+        ];
+        // 3 N of at most 0.5 (8 N − s).
+        assert_eq!(shared(&sharers, by.as_flattened(), 2).0, 2.0);
     }
 
     #[test]

@@ -704,3 +704,40 @@ fn corners_that_bounce_one_after_the_other_come_to_rest() {
         }
     }
 }
+
+/// A box without friction on a platform that is shaken keeps its velocity in space: `x = x₀ + (v₀ + a ω) t − a sin ω t` on the platform, where it turns round
+/// twice in each period. Both of its corners that touch begin and cease to slip at once; that one could hold what the other one does not must not hold both.
+#[test]
+fn a_box_without_friction_slides_on_a_shaken_platform() {
+    let spec = Scratch::new(
+        "shaken.machine",
+        "machine Shaken in plane {
+            parameters { a: m = 0.1, w: rad/s = 7, v0: m/s = -0.4, mu: 1 = 0, g: m/s^2 = 9.81 }
+            coordinates { x: m = 0.9, y: m = 0.2, theta: rad, der(x): m/s = v0 }
+            frames { platform = ground.shift(a*sin(w*t), 0), held = platform.shift(x, y).turn(theta) }
+            bodies { box { mass: 1.5, inertia: 0.02, frame: held } }
+            gravity (0, -g);
+            contacts {
+                lies {
+                    corners: ((-0.07, -0.2), (0.07, -0.2), (0.07, 0.2), (-0.07, 0.2)), on: box,
+                    against: ((0, -0.2), (2, -0.2), (2, 0), (0, 0)), of: platform, restitution: 0, friction: mu,
+                },
+            }
+        }",
+    );
+    let run = simulate(spec.path(), 1.7, &[]);
+    is_good(&run);
+    let (a, w, v0) = (0.1, 7.0, -0.4);
+    close(
+        number(&run["q"]["x"]),
+        0.9 + (v0 + a * w) * 1.7 - a * (w * 1.7_f64).sin(),
+        1e-12,
+    );
+    close(number(&run["q"]["theta"]), 0.0, 1e-13);
+    close(number(&run["dissipated"]), 0.0, 1e-13);
+    // v₀ + a ω (1 − cos ω t) = 0 four times in 1.9 periods, for each of the two corners.
+    let first = (1.0 + v0 / (a * w)).acos() / w;
+    let reverses = events(&run, "reverses");
+    assert_eq!(reverses.len(), 8, "{run:#}");
+    close(number(&reverses[0]["t"]), first, 1e-12);
+}

@@ -18,7 +18,7 @@
 //! Slacks are computed from y at each step, so that they contain no error of the steps before, and the margin that is returned is that of
 //! the forces that are returned. By how much it may be below that of the dual solution is its residual.
 
-use super::{Limit, PARTS, SharedMargin, Sharer, is_in};
+use super::{Limit, MORE_THAN_ROUNDING, PARTS, SharedMargin, Sharer, is_in};
 use crate::math::sqrt;
 
 /// Entries of a cone: along its axis, and along both tangents. Of a contact without friction only the first is not 0.
@@ -53,9 +53,6 @@ const SOLVED: f64 = 1e-14;
 /// The greatest distance from the dual margin of a solution, relative to the greatest force. Where contacts that limit the margin press with
 /// nothing, rounding of the multipliers leaves more of it than of the margin.
 const TOLERABLE: f64 = 1e-8;
-
-/// A friction force above this, relative to the greatest force, is more than rounding.
-const MORE_THAN_ROUNDING: f64 = 1e-10;
 
 /// How often the solution is refined with the residual of the conditions of the multipliers.
 const REFINEMENTS: usize = 2;
