@@ -5,6 +5,7 @@
 //! bits. Contacts that are alike, such as the pairs of a pile of discs, have the same operations on other arguments: one function
 //! with a list of arguments for each contact serves all of them, and is compiled once.
 
+use lagrangian_symbolic::Rational;
 use lagrangian_units::Stages;
 use rustc_hash::FxHashMap;
 
@@ -55,11 +56,69 @@ impl ContactParts {
         let parts = QUANTITIES.map(|role| parts_of(program, role, &mut functions));
         let all = parts.iter().flatten();
         let longest = all.map(|part| part.arguments.len()).max().unwrap_or(0);
-        Some(ContactParts {
+        let parts = ContactParts {
             gap_arguments: gap_arguments(program),
             program: program_of(program, functions.all, longest),
             parts,
+        };
+        // Without parts all contacts are evaluated together, which is right in any case.
+        parts.agree_with(program).then_some(parts)
+    }
+
+    /// Whether the parts compute what the functions of a program compute for all contacts: each number by the same operations on the
+    /// same arguments, none of which is other than the time, a coordinate, a velocity or a prepared value.
+    pub fn agree_with(&self, program: &Program) -> bool {
+        let mut known = FxHashMap::default();
+        let all = QUANTITIES.into_iter().zip(&self.parts);
+        all.into_iter().all(|(role, parts)| {
+            let Some(whole) = program.function(role) else {
+                return parts.iter().all(|part| part.function.is_none());
+            };
+            let Some(of_whole) = numbered(&mut known, &whole.code, Some) else {
+                return false;
+            };
+            (0..).zip(parts).all(|(contact, part)| {
+                let (width, first) = numbers(program, role, contact);
+                let expected = &whole.results[first..first + width];
+                let expected = expected.iter().map(|value| of_whole[value.index()]);
+                self.numbers_of(part, width, &mut known)
+                    .is_some_and(|found| expected.eq(found))
+            })
         })
+    }
+
+    /// The numbers that a part computes, `width` of them, by the index of their operations among those known; `None` if it cannot be
+    /// called.
+    fn numbers_of(
+        &self,
+        part: &ContactPart,
+        width: usize,
+        known: &mut FxHashMap<Op, Value>,
+    ) -> Option<Vec<Value>> {
+        let zero = numbered(known, &[Op::Constant(Rational::ZERO)], Some)?[0];
+        let mut found = vec![zero; width];
+        let Some(index) = part.function else {
+            return Some(found);
+        };
+        let function = self.program.function(Role::ContactPart(index))?;
+        let argument = |source| match source {
+            Source::Time => Some(source),
+            Source::Coordinate(place) => {
+                let argument = part.arguments.get(place as usize).copied();
+                argument.filter(|argument| {
+                    matches!(
+                        argument,
+                        Source::Coordinate(_) | Source::Velocity(_) | Source::Prepared(_)
+                    )
+                })
+            }
+            _ => None,
+        };
+        let values = numbered(known, &function.code, argument)?;
+        for (place, result) in part.places.iter().zip(&function.results) {
+            *found.get_mut(*place as usize)? = values[result.index()];
+        }
+        Some(found)
     }
 
     /// For each coordinate, and last for the time, whether any gap depends on it.
@@ -71,6 +130,25 @@ impl ContactParts {
     pub fn part(&self, quantity: usize, contact: usize) -> Option<&ContactPart> {
         self.parts.get(quantity)?.get(contact)
     }
+}
+
+/// The index of each operation among those known, which are the same if they and all that they depend on are the same. The sources of
+/// arguments are replaced; `None` if one has no place among the arguments of a part.
+fn numbered(
+    known: &mut FxHashMap<Op, Value>,
+    code: &[Op],
+    source: impl Fn(Source) -> Option<Source>,
+) -> Option<Vec<Value>> {
+    let mut values: Vec<Value> = Vec::with_capacity(code.len());
+    for op in code {
+        let op = match op {
+            Op::Read(read) => Op::Read(source(*read)?),
+            op => op.with_operands(|operand| values[operand.index()]),
+        };
+        let next = Value(known.len() as u32);
+        values.push(*known.entry(op).or_insert(next));
+    }
+    Some(values)
 }
 
 /// For each coordinate, and last for the time, whether any gap depends on it.

@@ -2,6 +2,7 @@
 
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::{Disagreement, Proved, Witness};
+use lagrangian_program::contact_parts::{ContactParts, QUANTITIES};
 use lagrangian_program::{Mutant, Op, Program, Role, mutants};
 use lagrangian_spec::diagnostic::{Code, Report};
 use lagrangian_spec::source::{Disk, Sources};
@@ -331,5 +332,29 @@ fn machines_whose_accelerations_are_determined_nowhere_are_let_through_with_thei
     }";
     compiled(text, &[], |machine| {
         assert_eq!(machine.program.constraints.len(), 2);
+    });
+}
+
+/// The numbers of single contacts are those of the proved functions for all of them: parts of another program are not used.
+#[test]
+fn parts_of_contacts_are_those_of_the_proved_program() {
+    machine("contacts/pile", &[("N", 6)], |pile| {
+        let program: &Program = &pile.program;
+        let parts = ContactParts::of(program).expect("21 contacts have parts");
+        assert!(parts.agree_with(program));
+        let of_contacts = program.restricted(&QUANTITIES);
+        let mut tried = 0;
+        for Mutant {
+            change,
+            program: mutant,
+        } in mutants(&of_contacts, 7)
+        {
+            // Prepared values are arguments of parts.
+            if mutant.functions != of_contacts.functions {
+                tried += 1;
+                assert!(!parts.agree_with(&mutant), "{change}");
+            }
+        }
+        assert!(tried > 100, "{tried}");
     });
 }
