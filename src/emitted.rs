@@ -20,6 +20,6 @@ pub use crate::{
 };
 pub use pivots::Pivots;
 pub use values::{
-    ConstraintRow, PreparedField, assumptions, constraint, fill, fill_ranges, rounded,
-    side_by_side, values,
+    ConstraintRow, PreparedField, assumptions, constraint, fill, fill_ranges, hold, intervals,
+    rounded, side_by_side, values,
 };

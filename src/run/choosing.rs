@@ -201,8 +201,9 @@ pub(super) fn first<S: System>(
     let finest = finest_tolerance(tolerance);
     let order = usize::from(finest <= taylor::FINE);
     let inputs = system.default_inputs();
-    let is_searched =
-        !system.has_linear_assumptions() && system.assumptions(t, q, v, &inputs).len() != 0;
+    let is_searched = !system.has_linear_assumptions()
+        && system.assumptions(t, q, v, &inputs).len() != 0
+        && !system.assumptions_hold_within([t; 2], [q; 2], [v; 2]);
     let search = if is_searched { SEARCH } else { 0.0 };
     let cost = costs[order] + search;
     let assumed = steps_for_one(finest);
