@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! order 0, 1, 2     straight: values, then first coefficients of positions, the mass matrix, the first accelerations
-//! order k + 2       w = Σ a_j b_{k+2−j} of every product at once, over coefficients of earlier orders
+//! order k + 2       w = Σ a_j b_{k+2−j} of every product at once, over coefficients of earlier orders; of rates that are differentiated r = Σ a_j b_{k+1−j}
 //!                   what follows from w and the newest coefficients; residuals; accelerations; what these change
 //! ```
 //!
