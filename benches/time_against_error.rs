@@ -16,9 +16,7 @@ mod timing;
 use lagrangian::{
     Batched, Ensemble, Machine, Method, Simulation, State, System, Trajectory, Vector,
 };
-use lagrangian_machines::{
-    AndrewsSqueezer, Crusher9, DoublePendulum, FlyballGovernor, TwoBodyOrbit,
-};
+use lagrangian_machines::{Crusher9, DoublePendulum};
 use support::known_runs::KnownRun;
 
 /// Machines of the library with their series, compiled.
@@ -46,6 +44,15 @@ mod in_series {
     }
     lagrangian::machine! {
         machine ClosedPendulum extends "../machines/closed_pendulum.machine" { methods { taylor } }
+    }
+    lagrangian::machine! {
+        machine AndrewsSqueezer extends "../machines/andrews_squeezer.machine" { methods { taylor } }
+    }
+    lagrangian::machine! {
+        machine FlyballGovernor extends "../machines/flyball_governor.machine" { methods { taylor } }
+    }
+    lagrangian::machine! {
+        machine TwoBodyOrbit extends "../machines/two_body_orbit.machine" { methods { taylor } }
     }
 }
 
@@ -303,7 +310,7 @@ fn main() {
         ..crusher
     };
     rows.extend(call.race("stiff_crusher", &stiff));
-    rows.extend(call.race("kepler", &TwoBodyOrbit::default()));
+    rows.extend(call.race("kepler", &in_series::TwoBodyOrbit::default()));
     rows.extend(call.race("heavy_top", &in_series::HeavyTop::default()));
     let spherical = in_series::SphericalPendulum::default();
     rows.extend(call.race("spherical_pendulum", &spherical));
@@ -316,8 +323,8 @@ fn main() {
     rows.extend(call.race("six_joint_arm", &in_series::SixJointArm::default()));
     rows.extend(call.race("four_bar", &in_series::FourBar::default()));
     rows.extend(call.race("closed_pendulum", &in_series::ClosedPendulum::default()));
-    rows.extend(call.race("andrews_squeezer", &AndrewsSqueezer::default()));
-    rows.extend(call.race("flyball_governor", &FlyballGovernor::default()));
+    rows.extend(call.race("andrews_squeezer", &in_series::AndrewsSqueezer::default()));
+    rows.extend(call.race("flyball_governor", &in_series::FlyballGovernor::default()));
     let heads = ERRORS.map(|error| format!(" {error:.0e} |")).concat();
     println!("\n| time over that of the best method, at error |{heads}");
     println!("| --- |{}", " --- |".repeat(ERRORS.len()));

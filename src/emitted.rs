@@ -22,6 +22,6 @@ pub use crate::{
 pub use contacts::{ContactPart, ContactParts, between, fill_least, put};
 pub use pivots::Pivots;
 pub use values::{
-    ConstraintRow, PreparedField, assumptions, constraint, fill, fill_ranges, rounded,
-    side_by_side, values,
+    ConstraintRow, PreparedField, assumptions, constraint, fill, fill_ranges, hold, intervals,
+    rounded, side_by_side, values,
 };

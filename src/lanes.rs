@@ -83,6 +83,12 @@ impl<S: Batched<N>, const N: usize> Batch<S, N> {
         }
     }
 
+    /// The system of a lane.
+    #[cfg(feature = "std")]
+    pub(crate) fn system(&self, lane: usize) -> &S {
+        &self.systems[lane]
+    }
+
     /// One system in every lane.
     pub fn of(system: &S) -> Self {
         Batch::new([system; N])

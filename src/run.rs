@@ -1327,20 +1327,25 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         if count == 0 {
             return Ok(None);
         }
-        let mut places = std::vec![Some(Places::All); count];
-        if let Some(coefficients) = stepper.coefficients() {
+        let series = stepper.coefficients();
+        if let Some(coefficients) = series {
             let holds = |t: f64, q: &S::Vector, v: &S::Vector| {
                 // Assumptions do not depend on inputs, so the present ones will do.
                 let mut facts = self.system.assumptions(t, q, v, stepper.inputs());
                 facts.all(|fact| fact.holds())
             };
-            if self.system.has_linear_assumptions()
-                && holds(t, q, v)
-                && self.hold_throughout_series(stepper, coefficients, holds)
-            {
+            let hold = if self.system.has_linear_assumptions() {
+                holds(t, q, v) && self.hold_throughout_series(stepper, coefficients, holds)
+            } else {
+                self.hold_within_bounds(stepper, coefficients)
+            };
+            if hold {
                 return Ok(None);
             }
-        } else {
+        }
+        let is_by_series = series.is_some();
+        let mut places = std::vec![Some(Places::All); count];
+        if !is_by_series {
             let is_long = event::is_long(self.system, stepper);
             let mut values = std::vec![[0.0; roots::FRACTIONS.len()]; count];
             let mut hold = true;
@@ -1409,12 +1414,50 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         coefficients: &[S::Vector],
         holds: impl Fn(f64, &S::Vector, &S::Vector) -> bool,
     ) -> bool {
-        let h = stepper.last_step();
-        let t = stepper.t_before() + h;
-        let (mut q, mut v) = (stepper.q_before().clone(), stepper.v_before().clone());
-        if !holds(stepper.t_before(), &q, &v) {
+        let t = stepper.t_before() + stepper.last_step();
+        if !holds(stepper.t_before(), stepper.q_before(), stepper.v_before()) {
             return false;
         }
+        self.all_partial_sums(stepper, coefficients, |q, v| holds(t, q, v))
+    }
+
+    /// Whether facts are known to hold at all states that are within the bounds of the same partial sums.
+    fn hold_within_bounds<A: Quadratures<S>>(
+        &self,
+        stepper: &Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
+        coefficients: &[S::Vector],
+    ) -> bool {
+        let [mut low_q, mut high_q] = [(); 2].map(|()| stepper.q_before().clone());
+        let [mut low_v, mut high_v] = [(); 2].map(|()| stepper.v_before().clone());
+        let extend = |low: &mut S::Vector, high: &mut S::Vector, by: &S::Vector| {
+            let all = low.as_mut_slice().iter_mut().zip(high.as_mut_slice());
+            for ((low, high), x) in all.zip(by.as_slice()) {
+                // A sum that is not a number must not be ignored.
+                *low = if *low <= *x { *low } else { *x };
+                *high = if *high >= *x { *high } else { *x };
+            }
+        };
+        self.all_partial_sums(stepper, coefficients, |q, v| {
+            extend(&mut low_q, &mut high_q, q);
+            extend(&mut low_v, &mut high_v, v);
+            true
+        });
+        let (start, end) = (stepper.t_before(), stepper.t_before() + stepper.last_step());
+        let t = [start.min(end), start.max(end)];
+        self.system
+            .assumptions_hold_within(t, [&low_q, &high_q], [&low_v, &high_v])
+    }
+
+    /// Whether something is true of all partial sums of the coordinates and rates in the series of the last step, at its end.
+    #[inline]
+    fn all_partial_sums<A: Quadratures<S>>(
+        &self,
+        stepper: &Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
+        coefficients: &[S::Vector],
+        mut is_true: impl FnMut(&S::Vector, &S::Vector) -> bool,
+    ) -> bool {
+        let h = stepper.last_step();
+        let (mut q, mut v) = (stepper.q_before().clone(), stepper.v_before().clone());
         let mut power = h;
         for (k, row) in coefficients.iter().enumerate().skip(1) {
             let add = |sum: &mut S::Vector, row: &S::Vector, by: f64| {
@@ -1427,7 +1470,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             if let Some(next) = coefficients.get(k + 1) {
                 add(&mut v, next, (k + 1) as f64 * power);
             }
-            if !holds(t, &q, &v) {
+            if !is_true(&q, &v) {
                 return false;
             }
             power *= h;

@@ -344,6 +344,18 @@ pub trait System {
         false
     }
 
+    /// Whether all [`assumptions`](Self::assumptions) are known to hold at all states within bounds: the lowest and the highest time in s, coordinates
+    /// and rates. By default `false`: unknown.
+    #[inline(always)]
+    fn assumptions_hold_within(
+        &self,
+        _t: [f64; 2],
+        _q: [&Self::Vector; 2],
+        _v: [&Self::Vector; 2],
+    ) -> bool {
+        false
+    }
+
     /// Whether there may be constraints. Emitted code says `false` for a machine without any, and no code for constraints is then
     /// compiled for it.
     #[doc(hidden)]
@@ -578,6 +590,14 @@ pub trait System {
         _coefficients: &mut [Self::Vector],
     ) -> Result<(), Singular> {
         Ok(())
+    }
+
+    /// Whether the series of the motion may be that of another motion beyond some instant within a step, since a root of a quantity that may vanish
+    /// occurs in it. By default `true`; emitted code says `false` where there is none.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn series_may_branch(&self) -> bool {
+        true
     }
 
     /// The cost of a step by [`series`](Self::series), as a multiple of the cost of one evaluation of the accelerations in a step of

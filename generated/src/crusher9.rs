@@ -1944,6 +1944,7 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
         };
         costs series_cost(p) = [8.8, 13.2];
         boolean has_linear_assumptions(p) = true;
+        boolean series_may_branch(p) = false;
         matrix mass_matrix(p, t, q) = mass_matrix(p, q);
         vector bias(p, t, q, v) = bias(p, t, q, v);
         vector applied(p, t, q, v, u) = applied(p, q, v);

@@ -325,6 +325,11 @@ macro_rules! implement_part {
     (argument $x:ident $n:literal $Inputs:ident) => { &[::core::primitive::f64; $n] };
 
     // An argument of the slips, as an interval of its rounding.
+    // An argument of assumptions, as an interval.
+    (bounded t $t:ident $q:ident $v:ident) => { $crate::scalar::Interval::new($t[0], $t[1]) };
+    (bounded q $t:ident $q:ident $v:ident) => { &$crate::emitted::intervals($q) };
+    (bounded v $t:ident $q:ident $v:ident) => { &$crate::emitted::intervals($v) };
+
     (rounded p $p:tt $t:ident $q:ident $v:ident) => { &$p.rounded() };
     (rounded t $p:tt $t:ident $q:ident $v:ident) => { $crate::emitted::rounded($t) };
     (rounded q $p:tt $t:ident $q:ident $v:ident) => { &$q.map($crate::emitted::rounded) };
@@ -458,6 +463,21 @@ macro_rules! implement_method {
         ) -> impl ::core::iter::ExactSizeIterator<Item = $crate::emitted::Assumption<'_>> {
             let $p = self;
             $crate::emitted::assumptions($value)
+        }
+    };
+
+    // Whether assumptions hold within bounds: whether they are strict, and their margins. The arguments are those that they depend on.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident] bounds $method:ident($($x:ident),*) = $value:expr
+    ) => {
+        fn $method(
+            &self,
+            t: [::core::primitive::f64; 2],
+            q: [&[::core::primitive::f64; $n]; 2],
+            v: [&[::core::primitive::f64; $n]; 2],
+        ) -> ::core::primitive::bool {
+            $(let $x = $crate::implement_part!(bounded $x t q v);)*
+            $crate::emitted::hold($value)
         }
     };
 

@@ -40,6 +40,20 @@ pub fn assumptions<'a, const K: usize>(
     facts.into_iter().map(fact)
 }
 
+/// Intervals from lowest to highest numbers.
+#[inline]
+pub fn intervals<const K: usize>([low, high]: [&[f64; K]; 2]) -> [Interval; K] {
+    array::from_fn(|i| Interval::new(low[i], high[i]))
+}
+
+/// Whether assumptions hold that are strict or not, with margins in these intervals.
+#[inline]
+pub fn hold<const K: usize>(facts: [(bool, Interval); K]) -> bool {
+    let holds =
+        |(strict, margin): (bool, Interval)| margin.lo() > 0.0 || (!strict && margin.lo() >= 0.0);
+    facts.into_iter().all(holds)
+}
+
 /// A constraint: its name, its unit, the unit of its multiplier, and whether positions are constrained.
 pub type ConstraintRow = (&'static str, &'static str, &'static str, bool);
 

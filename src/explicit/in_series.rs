@@ -18,7 +18,7 @@ use crate::stages::{Point, in_blocks};
 use crate::step_error::StepError;
 use crate::taylor::{self, Coefficients};
 use crate::tolerance::Tolerance;
-use crate::{Batch, Batched, LaneVector, Scalar};
+use crate::{Batch, Batched, LaneVector, Method, Scalar, Vector};
 
 /// State of one trajectory.
 #[derive(Clone, Copy, Debug)]
@@ -136,12 +136,25 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
             choose_point(&fine.map(|fine| !fine), &mut self.ahead, &self.now);
         }
         self.expand(batch, inputs, &mut failed);
+        let mut is_off = [false; W];
+        if batch.system(0).series_may_branch() {
+            for (lane, is_off) in is_off.iter_mut().enumerate() {
+                let is_step = self.lanes[lane].is_running && self.lanes[lane].is_expanded;
+                if is_step && failed[lane].is_none() {
+                    *is_off = self.is_off(batch, inputs, (lane, h[lane]));
+                }
+            }
+        }
 
         let mut stays = [false; W];
         for lane in 0..W {
             if self.lanes[lane].is_running {
-                outcomes[lane] = self.decide(lane, h[lane], failed[lane]);
-                stays[lane] = failed[lane].is_some();
+                outcomes[lane] = if is_off[lane] {
+                    self.retry(lane, h[lane])
+                } else {
+                    self.decide(lane, h[lane], failed[lane])
+                };
+                stays[lane] = failed[lane].is_some() || is_off[lane];
             }
         }
         let [now, next] = &mut self.coefficients;
@@ -244,6 +257,89 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
                 *failed = failed.or(error);
             }
         }
+    }
+
+    /// Whether the motion of a lane is not its series at the end of a step of length `h`, which was expanded there: as for a single run.
+    fn is_off<S: Batched<W, Vectors = V, SeriesLists = L>>(
+        &mut self,
+        batch: &Batch<S, W>,
+        inputs: &S::BatchInputs,
+        (lane, h): (usize, f64),
+    ) -> bool {
+        let [now, next] = &self.coefficients;
+        let size = |i: usize| {
+            let of = |row: &[V]| {
+                taylor::size_of_rate(row[0].as_ref()[i][lane], row[1].as_ref()[i][lane])
+            };
+            of(now).max(of(next))
+        };
+        let absolute = |i: usize| self.tolerance.absolute.as_ref()[i][lane];
+        let at_end = |i: usize| 2.0 * next[2].as_ref()[i][lane];
+        let by_series = |i: usize| {
+            let powers = (2..now.len()).rev();
+            powers.fold(0.0, |sum, j| {
+                sum * h + (j * (j - 1)) as f64 * now[j].as_ref()[i][lane]
+            })
+        };
+        let defect_to = |other: &dyn Fn(usize) -> f64, rounding: f64| {
+            let coordinates = 0..next[2].as_ref().len();
+            let coordinates =
+                coordinates.map(|i| [size(i), at_end(i), at_end(i) - other(i), absolute(i)]);
+            taylor::defect(h, coordinates, [self.tolerance.relative, rounding])
+        };
+        let t = self.ahead.t[lane];
+        let found = defect_to(&by_series, taylor::ROUNDING_UNITS * f64::EPSILON);
+        let shortest = taylor::SHORTEST_STEPS * control::shortest_step::<f64>(t);
+        if !(found > taylor::GREATEST_DEFECT && h.abs() > shortest) {
+            return false;
+        }
+        // Round-off may change the accelerations as much, where large forces cancel.
+        let mut beside = [&self.ahead.q, &self.ahead.v].map(|of| {
+            let mut own = S::Vector::zeros(of.as_ref().len());
+            let numbers = own.as_mut_slice().iter_mut().zip(of.as_ref());
+            numbers.for_each(|(own, lanes)| *own = lanes[lane]);
+            own
+        });
+        for (i, x) in beside
+            .iter_mut()
+            .flat_map(|of| of.as_mut_slice())
+            .enumerate()
+        {
+            *x = if i % 2 == 0 {
+                x.next_up()
+            } else {
+                x.next_down()
+            };
+        }
+        let [q, v] = &beside;
+        let own = S::inputs_of_lane(inputs, lane);
+        let mut rows = std::vec![q.zeros_like(); 3];
+        let t = [t, self.ahead.t_low[lane]];
+        let expanded = batch.system(lane).series(t, q, v, &own, &mut rows);
+        let changed = defect_to(&|i| 2.0 * rows[2].as_slice()[i], 0.0);
+        self.lanes[lane].control.work.evaluations += 1;
+        if expanded.is_ok() && found > taylor::ROUNDINGS * changed {
+            return true;
+        }
+        self.lanes[lane].control.work.evaluations += 1;
+        false
+    }
+
+    /// Has a lane try a shorter step, since the motion is not its series at the end of this one.
+    fn retry(&mut self, i: usize, h: f64) -> Outcome {
+        let (lane, t) = (&mut self.lanes[i], self.now.t[i]);
+        let is_first = lane.control.is_first;
+        let shorter = h * control::reduction(Method::TAYLOR, f64::INFINITY, is_first);
+        let least = control::shortest_step::<f64>(t);
+        if lane.control.reject(shorter, least) {
+            return Outcome::GivenUp;
+        }
+        lane.is_running = false;
+        Outcome::Failed(StepError::StepTooSmall {
+            coordinate: 0,
+            t,
+            step: h,
+        })
     }
 
     /// Decides about a try of a step.

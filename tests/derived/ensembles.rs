@@ -153,6 +153,51 @@ fn each_has_its_own_inputs_and_its_own_drive() {
     }
 }
 
+lagrangian::machine! {
+    /// A ball that is thrown up in air.
+    machine Ball in plane {
+        parameters { m: kg = 0.125, g: m/s^2 = 9.75, area: m^2 = 0.015625, rho: kg/m^3 = 1 }
+        coordinates { x: m, y: m, der(y): m/s = 20 }
+        bodies { ball { mass: m, at: (x, y) } }
+        gravity (0, -g);
+        drag { air { at: ball.at, coefficient: 0.5, area: area, density: rho } }
+        methods { taylor }
+    }
+}
+
+/// The speed of a ball is the root of a square: where it passes zero, its series continues with the other sign, and the step must be a shorter one. The closed form is that
+/// of `cli/tests/command/precise.rs`.
+#[test]
+fn a_speed_passes_zero_in_lanes() {
+    let balls: Vec<_> = (0..7)
+        .map(|i| {
+            let mut trajectory = Trajectory::of(&Ball::default(), 3.0);
+            trajectory.start.v.y = 20.0 - 2.5 * f64::from(i);
+            trajectory
+        })
+        .collect();
+    for tolerance in [1e-4, 1e-9, 1e-13] {
+        assert_same::<_, 4>(&balls, Method::TAYLOR, tolerance);
+        let mut first = None;
+        Ensemble::<4>::new()
+            .method(Method::TAYLOR)
+            .tolerance(tolerance)
+            .run(balls.iter().take(1).cloned(), |_, arrived| {
+                first = arrived.ok()
+            });
+        let Arrival { end, work, .. } = first.expect("it arrives");
+        assert!(work.rejected > 0, "{work:?}");
+        let errors = [end.q.y - 3.713662147284138, end.v.y + 11.81367562226057];
+        // As for a single run: the step over the zero may have a defect of a thousand tolerances.
+        assert!(
+            errors
+                .iter()
+                .all(|error| error.abs() < 1e3 * tolerance * 21.0 + 1e-12),
+            "{tolerance:e}: {errors:?}"
+        );
+    }
+}
+
 /// With Taylor series: one trajectory without mass, one that starts at NaN, one whose numbers overflow and one that never
 /// reaches its end leave the others unchanged.
 #[test]

@@ -3,7 +3,7 @@
 use crate::support::library;
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{
-    Batch, Batched, LaneVector, Lanes, Machine, Simulation, State, System, TAYLOR, Vector,
+    Batch, Batched, Error, LaneVector, Lanes, Machine, Simulation, State, System, TAYLOR, Vector,
 };
 use lagrangian_machines::{Crusher9, DoublePendulum, SimplePendulum};
 use lagrangian_mechanics::Compiled;
@@ -39,6 +39,55 @@ lagrangian::machine! {
 }
 lagrangian::machine! {
     machine Chain extends "../../machines/chain.machine" { methods { taylor } }
+}
+lagrangian::machine! {
+    machine HeavyTop extends "../../machines/heavy_top.machine" { methods { taylor } }
+}
+lagrangian::machine! {
+    machine SphericalPendulum extends "../../machines/spherical_pendulum.machine" { methods { taylor } }
+}
+lagrangian::machine! {
+    machine FlyballGovernor extends "../../machines/flyball_governor.machine" { methods { taylor } }
+}
+lagrangian::machine! {
+    machine TwoBodyOrbit extends "../../machines/two_body_orbit.machine" { methods { taylor } }
+}
+lagrangian::machine! {
+    machine AndrewsSqueezer extends "../../machines/andrews_squeezer.machine" { methods { taylor } }
+}
+
+macro_rules! machine_here {
+    ($($text:tt)*) => { lagrangian::machine! { $($text)* } };
+}
+
+/// Forces by every function that has a recurrence, of positions, of rates, and of both; the kinetic energy is a sum of products of rates.
+macro_rules! pushed {
+    ($use:ident) => {
+        $use! {
+            machine Pushed in plane {
+                parameters { m: kg = 1.25, c: 1 = 0.75, k: N = 1, w: 1/s = 3, l: m = 1, beat: s = 1 }
+                inputs { u: 1 = 0.5 }
+                coordinates { x: rad = 0.5, y: rad = 0.25 }
+                bodies {
+                    ball { mass: m, at: l*(2 + sinh(x))*(cos(y), sin(y)) },
+                }
+                forces {
+                    roots { on: x, value: k*l*(sqrt(2 + x^2) + (2 + cos(x))^c + 1/(2 + y^2)^3 + u) },
+                    angles { on: y, value: k*l*(asin(c*sin(x)) + acos(c*y/4) + atan(x*y) + atan2(y + 2, cos(x))) },
+                    growth { on: x, value: k*l*(exp(-x)*y + ln(2 + sin(x)) - cosh(y)^3 + tanh(x + y)) },
+                    rates { on: y, value: -k*l*(tanh(beat*der(x))*u + sqrt(1 + (beat*der(y) - beat*w)^2)*exp(-beat*der(x))) },
+                    drive { on: x, value: -k*l*(sin(w*t)*x + (beat*der(y))^2*sin(y) + (beat*der(x))^3/(2 + cos(x))) },
+                }
+                methods { taylor }
+            }
+        }
+    };
+}
+pushed! { machine_here }
+
+/// The text of a machine that extends one of the library and asks for its series.
+fn asking(name: &str, spec: &str) -> String {
+    format!("machine {name} extends \"{spec}.machine\" {{ methods {{ taylor }} }}")
 }
 
 /// Random numbers between −1 and 1.
@@ -110,20 +159,28 @@ fn coefficients_are_those_of_the_interpreter() {
 /// Multipliers are unknowns beside the accelerations; the matrix of the five bars contains entries that are −1 from the start.
 #[test]
 fn coefficients_of_closed_loops_are_those_of_the_interpreter() {
-    let asking = |name: &str, spec: &str| {
-        format!("machine {name} extends \"{spec}.machine\" {{ methods {{ taylor }} }}")
-    };
     agrees::<FourBar>(&asking("FourBar", "four_bar"));
     agrees::<ClosedPendulum>(&asking("ClosedPendulum", "closed_pendulum"));
 }
 
-/// These machines have products of quantities that depend on rates, which form packs of their own, and more
-/// products than one pack holds.
+/// The equations of these machines are derivatives of momenta, which are one order ahead of accelerations.
+#[test]
+fn coefficients_by_momenta_are_those_of_the_interpreter() {
+    agrees::<HeavyTop>(&asking("HeavyTop", "heavy_top"));
+    agrees::<TwoBodyOrbit>(&asking("TwoBodyOrbit", "two_body_orbit"));
+}
+
+/// Quotients, roots and all other functions, of positions and of rates.
+#[test]
+fn coefficients_of_all_functions_are_those_of_the_interpreter() {
+    agrees::<FlyballGovernor>(&asking("FlyballGovernor", "flyball_governor"));
+    agrees::<AndrewsSqueezer>(&asking("AndrewsSqueezer", "andrews_squeezer"));
+    agrees::<Pushed>(pushed!(stringify));
+}
+
+/// More products than one pack holds.
 #[test]
 fn coefficients_in_several_packs_are_those_of_the_interpreter() {
-    let asking = |name: &str, spec: &str| {
-        format!("machine {name} extends \"{spec}.machine\" {{ methods {{ taylor }} }}")
-    };
     agrees::<ElasticPendulum>(&asking("ElasticPendulum", "elastic_pendulum"));
     agrees::<Chain>(&asking("Chain", "chain"));
 }
@@ -187,6 +244,8 @@ fn coefficients_in_lanes_are_those_of_one_state() {
     agrees_in_lanes::<ClosedPendulum, 4>();
     agrees_in_lanes::<ElasticPendulum, 2>();
     agrees_in_lanes::<Chain, 8>();
+    agrees_in_lanes::<HeavyTop, 4>();
+    agrees_in_lanes::<Pushed, 4>();
 }
 
 #[test]
@@ -210,6 +269,35 @@ fn a_compiled_run_is_an_interpreted_run() {
     assert!(run.statistics().steps > 50);
     let [q, v] = [&run.end().q, &run.end().v].map(|of| prepared.to_vector(of).to_vec());
     assert_eq!([&q, &v], [&other.end().q.values, &other.end().v.values]);
+}
+
+/// `sin(theta) > 0` is decided by the bounds of the coordinates. A pendulum without angular momentum swings through the vertical, where it fails.
+#[test]
+fn an_assumption_is_decided_by_bounds() {
+    let system = HeavyTop::default().prepare();
+    let holds_within = |low: f64, high: f64| {
+        let [low, high] = [[0.0, low, 0.0], [0.0, high, 0.0]];
+        system.assumptions_hold_within([0.0, 1.0], [&low, &high], [&[-1e3; 3], &[1e3; 3]])
+    };
+    assert!(holds_within(0.1, 3.0) && holds_within(7.0, 9.0));
+    assert!(!holds_within(-0.1, 1.0) && !holds_within(3.0, 3.5) && !holds_within(1.0, 8.0));
+    assert!(!holds_within(1.0, f64::NAN));
+
+    let machine = SphericalPendulum::default();
+    let run = |speed: f64| {
+        let mut start = machine.start();
+        start.v.phi = speed;
+        let run = Simulation::new(&machine).method(&TAYLOR).tolerance(1e-12);
+        run.until(20.0).run(start).map(|run| run.end().t)
+    };
+    assert_eq!(run(3.0), Ok(20.0));
+    let ended = run(0.0);
+    // A quarter of the period from 60 degrees, K(sin 30°) √(l/g).
+    let quarter = 1.685_750_354_812_596 * (1.0_f64 / 9.81).sqrt();
+    let Err(Error::AssumptionEnded { t, .. }) = ended else {
+        panic!("{ended:?}");
+    };
+    assert!((t - quarter).abs() < 1e-9, "{t} {quarter}");
 }
 
 #[test]

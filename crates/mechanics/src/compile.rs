@@ -89,10 +89,6 @@ fn emitted_series(model: &Model<'_>) -> Result<ProvedSeries, String> {
         return Err("it has contacts that close and open".into());
     }
     let series = ProvedSeries::derive(model).map_err(|reason| reason.to_string())?;
-    if series.first_not_emittable().is_some() {
-        let reason = "emitted code supports only products of positions, their sines and forces; the interpreter supports this series";
-        return Err(reason.into());
-    }
     if series.is_short() {
         Ok(series)
     } else {

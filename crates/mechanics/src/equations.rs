@@ -387,6 +387,17 @@ impl<'d> Equations<'d> {
     }
 }
 
+/// Kinetic energy of all bodies, eq. (E1), in the axes of their frames, and in axes that do not spin with bodies of revolution.
+pub(crate) fn kinetic_energies<'d>(model: &Model<'d>) -> [Expr<'d>; 2] {
+    let x = Variables::of(model);
+    let projection = Projection::of(model, &x);
+    [
+        projection.kinetic_energies(),
+        projection.kinetic_energies_without_spin(),
+    ]
+    .map(|energies| model.dag.sum(energies))
+}
+
 /// The exact equations, by projection; nothing if they become too large.
 fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
     let dag = model.dag;

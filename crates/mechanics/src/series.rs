@@ -1,6 +1,7 @@
 //! The Taylor series of a machine's motion, proved.
 //!
-//! The equations of motion in the form of `residual.rs` become the rows of a [`Series`]. Its first coefficients are
+//! The equations of motion in the forms of `residual.rs` become the rows of a [`Series`]; of several forms the one with the fastest steps is taken
+//! ([`Series::cycles`]). Its first coefficients are
 //! substituted into Lagrange's equations, evaluated literally over [`Jet`]s, truncated power series in time. The
 //! residual along one random direction must vanish in every coefficient. The numbers are those of the prime field
 //! first; `Ball`s if the machine has functions whose laws do not hold in the field, and if the field finds a
@@ -38,7 +39,9 @@ impl ProvedSeries {
     /// # Errors
     /// Why there is none.
     pub fn derive(model: &Model<'_>) -> Result<ProvedSeries, NoSeries> {
-        ProvedSeries::new(lower::series(model)?, model)
+        let mut forms = lower::series(model)?.into_iter();
+        let proved = forms.find_map(|series| ProvedSeries::new(series, model).ok());
+        proved.ok_or(NoSeries::Unproved)
     }
 
     /// Proves a series of a machine's motion.

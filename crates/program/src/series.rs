@@ -64,7 +64,7 @@ pub enum Row {
     Rate(u32),
     /// An unknown: the acceleration of a coordinate; indices beyond the coordinates are the multipliers of constraints.
     Acceleration(u32),
-    /// The derivative with respect to time of a row of positions.
+    /// The derivative with respect to time of a row of positions, or of rates.
     First(RowId),
     /// The second derivative.
     Second(RowId),
@@ -133,6 +133,9 @@ pub struct Series {
     pub parameters: usize,
     /// The number of inputs.
     pub inputs: usize,
+    /// Whether a row of rates is differentiated. Then all of them are computed one order ahead of the accelerations, and like positions they are
+    /// corrected once these are known.
+    pub rates_are_ahead: bool,
 }
 
 impl Series {
@@ -152,29 +155,29 @@ impl Series {
         gradients + 4 * self.rows.len() <= MOST_STRAIGHT
     }
 
-    /// The first row whose operation can be interpreted but not emitted: straight-line code has sums, products, sines and
-    /// cosines of positions, forces along them, and rates by themselves.
-    pub fn first_not_emittable(&self) -> Option<&Row> {
-        let rows = (0..self.rows.len() as u32).map(RowId);
-        let mut varying = rows.filter(|row| self.varies(*row));
-        let found = varying.find(|&row| {
-            let is_known = matches!(
-                self.rows[row.index()],
-                Row::Input(_)
-                    | Row::Time
-                    | Row::Coordinate(_)
-                    | Row::Rate(_)
-                    | Row::Acceleration(_)
-                    | Row::Second(_)
-                    | Row::Sum(_)
-                    | Row::Product(..)
-                    | Row::Sin(..)
-                    | Row::Cos(..)
-            );
-            let sums = self.convolutions(row);
-            !is_known || sums.iter().any(|sum| sum.along == TermOrder::Other)
-        });
-        found.map(|row| &self.rows[row.index()])
+    /// Whether a root or a power of a row that varies occurs: it may pass zero, where the series continues on another branch.
+    pub fn has_roots(&self) -> bool {
+        let rows = self.rows.iter().zip(&self.levels);
+        let mut varying = rows.filter(|(_, level)| **level > Level::Constant);
+        varying.any(|(row, _)| matches!(row, Row::Sqrt(_) | Row::Power(..)))
+    }
+
+    /// How many orders a row is ahead of the accelerations of a round.
+    pub fn lead(&self, row: RowId) -> usize {
+        match self.level(row) {
+            Level::Constant | Level::Position => 2,
+            Level::Rate if self.rates_are_ahead => 1,
+            Level::Rate | Level::Acceleration => 0,
+        }
+    }
+
+    /// The time of a step with 20 coefficients in processor cycles, by which one of several forms of the equations is chosen.
+    ///
+    /// A product of series with 20 coefficients takes 210 multiplications. The matrix of the unknowns is made from the gradients of
+    /// rows, and is factorized once and solved with at each order: 5 cycles for each entry of a gradient.
+    pub fn cycles(&self) -> f64 {
+        let gradients: usize = self.depends.iter().map(Vec::len).sum();
+        CYCLES_OF_PRODUCT * self.products() + CYCLES_OF_GRADIENT * gradients as f64
     }
 
     /// Whether the sums for the effect of accelerations on forces begin with the rest of the force: the dependency chain, which bounds short series, is an
@@ -213,16 +216,12 @@ impl Series {
     /// The cost of a step by this series, in evaluations of the accelerations in a step of `dop853`, with 12 and with 20 coefficients of
     /// the accelerations, if the accelerations have this cost.
     ///
-    /// A product of series with 20 coefficients takes 210 multiplications. The matrix of the unknowns is made from the gradients of
-    /// rows, and is factorized once and solved with at each order: 5 cycles for each entry of a gradient. An evaluation comes with the
-    /// sums of a stage of the method, 8 cycles for each coordinate. With 12 coefficients the cost is two thirds. Measured costs
-    /// (`docs/benchmarks.md`, the method that a run chooses) are within a factor of 2.
+    /// An evaluation comes with the sums of a stage of the method, 8 cycles for each coordinate. With 12 coefficients the cost is two
+    /// thirds. Measured costs (`docs/benchmarks.md`, the method that a run chooses) are within a factor of 2.
     pub fn cost(&self, accelerations: Cost) -> [f64; 2] {
-        let gradients: usize = self.depends.iter().map(Vec::len).sum();
-        let step = CYCLES_OF_PRODUCT * self.products() + CYCLES_OF_GRADIENT * gradients as f64;
         let evaluation =
             accelerations.single_call() as f64 / 10.0 + CYCLES_OF_STAGE * self.coordinates as f64;
-        let fine = step / evaluation;
+        let fine = self.cycles() / evaluation;
         [2.0 / 3.0 * fine, fine]
     }
 }

@@ -279,6 +279,11 @@ impl Emitter<'_> {
                 let yes = Layout::Atom("true".into());
                 self.row("boolean", "has_linear_assumptions", &["p"], Some(yes));
             }
+            let series = self.options.series.as_ref();
+            if series.is_some_and(|series| !series.has_roots()) {
+                let no = Layout::Atom("false".into());
+                self.row("boolean", "series_may_branch", &["p"], Some(no));
+            }
         }
         self.rows_of_quantities();
         let value = if self.outputs.is_empty() {
@@ -347,6 +352,37 @@ impl Emitter<'_> {
         let facts = Layout::nested(facts);
         let arguments = ["p", "t", "q", "v", "u"];
         self.row("facts", "assumptions", &arguments, Some(facts));
+        self.row_of_bounded_assumptions();
+    }
+
+    /// Writes whether assumptions hold within bounds, for series, where they are not linear and depend on no parameters: prepared values as intervals
+    /// would cost more than they save.
+    fn row_of_bounded_assumptions(&mut self) {
+        let program = self.program;
+        if self.options.series.is_none() || program.has_linear_assumptions() {
+            return;
+        }
+        let (mut facts, mut needed) = (Vec::new(), Vec::new());
+        for (i, fact) in program.assumptions.iter().enumerate() {
+            let role = Role::Assumption(i);
+            let (Some(function), Some(margin)) = (self.emitted(role), self.called_role(role))
+            else {
+                return;
+            };
+            needed.extend(self.arguments(self.needs(function)));
+            let strict = Layout::Atom(fact.strict.to_string());
+            facts.push(Layout::List("(".into(), vec![strict, margin], ")"));
+        }
+        let are_needed = |name: &&str| needed.iter().any(|(other, _)| other == name);
+        let bounded = ["t", "q", "v"];
+        if needed.iter().all(|(name, _)| bounded.contains(name)) {
+            let arguments: Vec<&str> = bounded
+                .into_iter()
+                .filter(|name| are_needed(name))
+                .collect();
+            let facts = Layout::nested(facts);
+            self.row("bounds", "assumptions_hold_within", &arguments, Some(facts));
+        }
     }
 
     /// Writes bilateral constraints, and the numbers of the start that the spec keeps.

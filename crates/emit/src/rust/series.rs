@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! order 0, 1, 2     straight: values, then first coefficients of positions, the mass matrix, the first accelerations
-//! order k + 2       w = Σ a_j b_{k+2−j} of every product at once, over coefficients of earlier orders
+//! order k + 2       w = Σ a_j b_{k+2−j} of every product at once, over coefficients of earlier orders; of rates that are differentiated r = Σ a_j b_{k+1−j}
 //!                   what follows from w and the newest coefficients; residuals; accelerations; what these change
 //! ```
 //!
@@ -72,16 +72,22 @@ struct SeriesCode {
     /// For each carried variable its initial value, and its value after each order.
     carried: BTreeMap<Carried, [Operand; 2]>,
     /// For each list of products what is stored of both factors: at the start, and after each order.
-    kept: [[Vec<[Operand; 2]>; 2]; 2],
+    kept: [[Vec<[Operand; 2]>; 2]; 3],
     /// The coefficients of order 2 of the coordinates, and those of each order.
     motion: [Vec<Operand>; 2],
     /// The matrix of the effect of accelerations on forces, column by column.
     applied: Option<Vec<Vec<Operand>>>,
 }
 
+/// How many orders the rows of each kind of [`Pack`] are [ahead](Series::lead) of the accelerations.
+const LEADS: [usize; 3] = [2, 0, 1];
+
+/// The names of the sums of products of each kind of [`Pack`].
+const SUMS: [&str; 3] = ["w", "s", "r"];
+
 /// The lists of up to [`WIDTH`] products side by side: of their first factors, and of their second.
 struct Pack {
-    /// 0 for positions and forces, 1 for everything else.
+    /// 0 for positions, and for forces along them, 2 for rates that are [ahead](Series::rates_are_ahead), 1 for everything else.
     kind: usize,
     number: usize,
     /// The range of its products among those of its kind.
@@ -94,7 +100,7 @@ struct Pack {
 
 impl Pack {
     /// Divides these products into packs.
-    fn all(lanes: &[Vec<Convolution>; 2]) -> Vec<Pack> {
+    fn all(lanes: &[Vec<Convolution>; 3]) -> Vec<Pack> {
         let mut packs = Vec::new();
         for (kind, lanes) in lanes.iter().enumerate() {
             for (number, products) in lanes.chunks(WIDTH).enumerate() {
@@ -113,13 +119,13 @@ impl Pack {
 
     /// The names of both sides.
     fn names(&self) -> [String; 2] {
-        let letters = [["a", "b"], ["c", "d"]][self.kind];
+        let letters = [["a", "b"], ["c", "d"], ["e", "f"]][self.kind];
         letters.map(|letter| format!("{letter}{}", self.number))
     }
 
     /// The name of the sums of its products.
     fn sums(&self) -> String {
-        format!("{}{}", ["w", "s"][self.kind], self.number)
+        format!("{}{}", SUMS[self.kind], self.number)
     }
 
     /// The room and the number of its products, as arguments of functions.
@@ -338,7 +344,7 @@ impl Emitter<'_> {
                 );
             }
         }
-        for pack in packs.iter().filter(|pack| pack.kind == 0) {
+        for pack in packs.iter().filter(|pack| pack.kind != 1) {
             self.write_stored(written, pack, "2", |[first, _]| first);
         }
         for (carried, [first, _]) in &written.carried {
@@ -356,7 +362,7 @@ impl Emitter<'_> {
                 format!("{runtime}::series::sweep::<{register}, {}>(", pack.sizes()),
                 [
                     format!("[&lists.{a}.0, &lists.{b}.0]"),
-                    "order - 2".to_owned(),
+                    ["order - 2", "order - 2", "order - 1"][pack.kind].to_owned(),
                     format!("[&{of_a}, &{of_b}]"),
                 ]
                 .map(Layout::Atom)
@@ -373,7 +379,7 @@ impl Emitter<'_> {
         self.writer.expression("*row = ", &code.kept(later, 0), ";");
         self.writer.close("}");
         for pack in packs {
-            let at = ["order", "order - 1"][pack.kind];
+            let at = ["order", "order - 1", "order"][pack.kind];
             self.write_stored(written, pack, at, |[_, kept]| kept);
         }
         for (carried, [_, last]) in &written.carried {
@@ -428,7 +434,6 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
         rows.collect()
     };
     let [positions, rates, forces] = [Level::Position, Level::Rate, Level::Acceleration].map(at);
-    let others: Vec<RowId> = rates.into_iter().chain(forces).collect();
 
     // Orders 0, 1 and 2.
     to.values_of_positions(&positions);
@@ -437,14 +442,24 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
         to.coefficient(*row, Order::First);
     }
     to.linear = to.newest.clone();
+    if series.rates_are_ahead {
+        to.begin_rates(0);
+        rates.iter().for_each(|row| to.value(*row));
+    }
     to.begin(Part::Start, 2);
     for row in &positions {
         to.coefficient(*row, Order::Later);
     }
-    to.begin_others(0);
-    for row in &others {
-        to.value(*row);
+    if series.rates_are_ahead {
+        to.begin_rates(1);
+        let order = Order::First;
+        rates.iter().for_each(|row| to.coefficient(*row, order));
+    } else {
+        to.begin_rates(0);
+        rates.iter().for_each(|row| to.value(*row));
     }
+    to.begin_forces(0);
+    forces.iter().for_each(|row| to.value(*row));
     to.differentiate();
     let matrices = to.matrices();
     let a = to.accelerations(&matrices);
@@ -456,20 +471,20 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
         let lanes = lanes[kind].iter();
         lanes.map(|convolution| convolution.factors[side]).collect()
     };
-    let mut kept: [[Vec<[Operand; 2]>; 2]; 2] = Default::default();
+    let mut kept: [[Vec<[Operand; 2]>; 2]; 3] = Default::default();
     for (kind, sides) in kept.iter_mut().enumerate() {
         for (side, list) in sides.iter_mut().enumerate() {
-            to.is_of_positions = kind == 0;
+            to.lead = LEADS[kind];
             for stream in factors(kind, side) {
                 let first = match kind {
-                    0 => to.kept(&start, stream, 2),
-                    _ => Operand::Zero,
+                    1 => Operand::Zero,
+                    _ => to.kept(&start, stream, 2),
                 };
                 list.push([first, first]);
             }
         }
     }
-    to.is_of_positions = true;
+    to.lead = 2;
     let mut carried = BTreeMap::new();
     for which in to.carried.clone() {
         carried.insert(which, to.carried_by(which, &start, 2));
@@ -480,8 +495,12 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
     for row in &positions {
         to.coefficient(*row, Order::Later);
     }
-    to.begin_others(3);
-    for row in &others {
+    to.begin_rates(3);
+    for row in &rates {
+        to.coefficient(*row, Order::Later);
+    }
+    to.begin_forces(3);
+    for row in &forces {
         to.coefficient(*row, Order::Later);
     }
     let a = to.accelerations(&matrices);
@@ -491,14 +510,14 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
     let over = [over_v, over_q];
     let later = to.final_coefficients(&a, over, Some(product), applied.is_some());
     for (kind, sides) in kept.iter_mut().enumerate() {
-        to.is_of_positions = kind == 0;
+        to.lead = LEADS[kind];
         for (side, list) in sides.iter_mut().enumerate() {
             for (stream, kept) in factors(kind, side).into_iter().zip(list) {
                 kept[1] = to.kept(&later, stream, 3);
             }
         }
     }
-    to.is_of_positions = true;
+    to.lead = 2;
     // A value of one order before requires the current value to be carried too.
     for which in to.carried.clone() {
         if let Carried::Older(row, weighted) = which {

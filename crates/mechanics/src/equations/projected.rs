@@ -39,7 +39,9 @@ use super::symmetric::Symmetric;
 use lagrangian_spec::model::circles::{planar_angle, rotation_angle};
 use lagrangian_spec::model::element::{Energy, Load};
 use lagrangian_spec::model::quaternion::Quaternion;
-use lagrangian_spec::model::{Body, FrameOrBody, Inertia, Model, PoseId, Rotation, Space};
+use lagrangian_spec::model::{
+    Body, FrameOrBody, Inertia, Model, PoseChange, PoseId, Rotation, Space,
+};
 
 /// The nodes that carry a machine's inertia, in the form that is cheapest to differentiate.
 pub(super) struct Projection<'a, 'd> {
@@ -482,6 +484,46 @@ impl<'a, 'd> Projection<'a, 'd> {
             .collect()
     }
 
+    /// The same energies, with bodies of revolution in axes that do not spin with them: those from which their last turns about their own axis begin.
+    pub fn kinetic_energies_without_spin(&self) -> Vec<Expr<'d>> {
+        let rate = &mut self.x.without_acceleration(self.model);
+        let twists = self.twists(rate);
+        let mut velocities = self.velocities(rate);
+        let bodies = self.model.bodies.iter().zip(&self.bodies);
+        let energy =
+            |((body, nodes), velocity): ((&Body<'d>, &InertiaNodes<'d>), &mut NodeValues<'d>)| {
+                if let Some((axis, spinning)) = nodes.revolution() {
+                    let (pose, spin) = self.before_spin(spinning, axis, rate);
+                    let twist = &twists[pose.index()];
+                    let mut angular = twist.angular;
+                    angular[axis] = angular[axis] + spin;
+                    velocity.angular = Some(angular);
+                    if let Some((_, _, r)) = nodes.centre.filter(|(_, at, _)| *at == spinning) {
+                        velocity.linear = Some(kinematics::velocity_at(twist, &r, rate));
+                    }
+                }
+                energy::kinetic_energy(body, &nodes.motion(self.model, velocity))
+            };
+        bodies.zip(&mut velocities).map(energy).collect()
+    }
+
+    /// The frame from which the last turns about an axis of a frame begin, and the sum of their rates.
+    fn before_spin(
+        &self,
+        mut pose: PoseId,
+        axis: usize,
+        rate: &mut Tangent<'d>,
+    ) -> (PoseId, Expr<'d>) {
+        let mut spin = self.model.dag.zero();
+        while let PoseChange::Turn { axis: about, angle } = self.model.poses[pose.index()].step
+            && about == axis
+        {
+            spin = spin + rate.of(angle);
+            pose = self.model.poses[pose.index()].parent;
+        }
+        (pose, spin)
+    }
+
     /// Power of everything that is driven by explicit time, eq. (E19): `Σ w (D²p) ∂p/∂t`, the inertia
     /// force of what is driven times the velocity at which it is driven. It contains accelerations.
     pub fn drive_power(&self) -> Expr<'d> {
@@ -586,6 +628,20 @@ impl<'a, 'd> Projection<'a, 'd> {
 }
 
 impl<'d> InertiaNodes<'d> {
+    /// The axis of a body of revolution whose mass centre, if it is given in the axes of the body's frame, lies on that axis; and this frame.
+    fn revolution(&self) -> Option<(usize, PoseId)> {
+        let ([xx, yy, zz, xy, xz, yz], pose) = self.tensor?;
+        let (diagonal, products) = ([xx, yy, zz], [xy, xz, yz]);
+        let axis = (0..3).find(|axis| {
+            let (next, last) = kinematics::others(*axis);
+            let is_off = |r: &Vector<'d>| !r[next].is_zero() || !r[last].is_zero();
+            let centre = self.centre.filter(|(_, at, _)| *at == pose);
+            diagonal[next] == diagonal[last] && !centre.is_some_and(|(_, _, r)| is_off(&r))
+        });
+        let is_principal = products.iter().all(|product| product.is_zero());
+        axis.filter(|_| is_principal).map(|axis| (axis, pose))
+    }
+
     /// `w u`, `m u` and `I ω`.
     fn momentum(&self, motion: &NodeValues<'d>) -> NodeValues<'d> {
         let points = self.points.iter().zip(&motion.points);

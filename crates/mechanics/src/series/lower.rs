@@ -2,14 +2,38 @@
 
 use lagrangian_program::series::{Level, MOST_ROWS, NoSeries, Row, RowId, Series};
 use lagrangian_spec::model::Model;
+use lagrangian_symbolic::normal::readable;
 use lagrangian_symbolic::{Dag, Expr, Function as Call, Id, Node, Rational, Symbol, reachable};
 use rustc_hash::FxHashMap;
 
-use super::residual::{Derivative, residual, split};
+use super::residual::{Derivative, Form, residual, split};
+use crate::equations::kinetic_energies;
 
-/// The series of a machine's motion, not yet proved.
-pub(super) fn series(model: &Model<'_>) -> Result<Series, NoSeries> {
-    let residual = residual(model)?;
+/// The largest number of coordinates of machines whose equations are derived in several forms. Their number of terms grows with the cube of the
+/// number of coordinates; for more of them positions have always been the shorter form.
+const MOST_WITH_CHOICE: usize = 6;
+
+/// The largest number of terms of a kinetic energy that is multiplied out.
+const MOST_TERMS: usize = 200;
+
+/// The series of a machine's motion in different forms, not yet proved, the one with the fastest steps first.
+pub(super) fn series<'d>(model: &Model<'d>) -> Result<Vec<Series>, NoSeries> {
+    let mut found = vec![in_form(model, Form::Positions)?];
+    if model.coordinates.len() <= MOST_WITH_CHOICE {
+        let [in_frames, without_spin] = kinetic_energies(model);
+        let mut energies = vec![in_frames, without_spin, readable(in_frames, MOST_TERMS)];
+        energies.dedup();
+        let momenta = energies.into_iter().map(Form::Momenta);
+        found.extend(momenta.filter_map(|form| in_form(model, form).ok()));
+    }
+    // Stable: positions come first unless another form is faster.
+    found.sort_by(|one, other| one.cycles().total_cmp(&other.cycles()));
+    Ok(found)
+}
+
+/// The series in one form of the equations.
+fn in_form<'d>(model: &Model<'d>, form: Form<'d>) -> Result<Series, NoSeries> {
+    let residual = residual(model, form)?;
     let mut lowering = Lowering::of(model, &residual.derivatives);
     for (k, multiplier) in (model.coordinates.len() as u32..).zip(&residual.multipliers) {
         lowering.sources.insert(*multiplier, Row::Acceleration(k));
@@ -28,6 +52,7 @@ pub(super) fn series(model: &Model<'_>) -> Result<Series, NoSeries> {
         coordinates: model.coordinates.len(),
         parameters: model.parameters.len(),
         inputs: model.inputs.len(),
+        rates_are_ahead: false,
     };
     series.pruned().ordered_by_time().with_dependences()
 }
@@ -90,7 +115,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
             Node::Constant(value) => self.push(Row::Number(value)),
             Node::Pi => self.push(Row::Pi),
             Node::Symbol(symbol) => match self.derivatives.get(&symbol) {
-                // Positions contain no derivatives, so this recursion is one level deep.
+                // Positions and momenta contain no derivatives, so this recursion is one level deep.
                 Some(&Derivative {
                     of,
                     is_second: twice,
@@ -366,6 +391,11 @@ impl<'m, 'd> Lowering<'m, 'd> {
                 level = level.max(of);
             }
         });
+        if let Row::First(of) = row
+            && self.levels[of.index()] == Level::Rate
+        {
+            level = Level::Acceleration;
+        }
         let id = RowId(self.rows.len() as u32);
         self.known.insert(row.clone(), id);
         self.rows.push(row);

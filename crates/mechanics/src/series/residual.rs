@@ -1,10 +1,14 @@
-//! Derives the equations of motion of a model in the form that series need.
+//! Derives the equations of motion of a model in the forms that series need.
 //!
 //! ```text
-//! Rᵢ = Σ w ∂p/∂qᵢ p̈ − Qᵢ − Σ λ ∂g/∂qᵢ
+//! Rᵢ = Σ w ∂p/∂qᵢ p̈ − Qᵢ − Σ λ ∂g/∂qᵢ                   by positions
+//! Rᵢ = d/dt ∂T/∂vᵢ − ∂T/∂qᵢ − Qᵢ − Σ λ ∂g/∂qᵢ           by momenta
 //! ```
 //!
-//! over scalar positions `p(q, t)` of constant weights `w`: coordinates of mass centres, angles in the plane, and in space
+//! The first is the shorter one for chains, and wherever velocities of several coordinates add up. In the second the momenta are rows whose
+//! derivative costs no product either. It is shorter where velocities are products along axes of their own: a top has no sines of its precession and of
+//! its spin there, which may turn by many radians in a step. In the first, inertia is that of
+//! scalar positions `p(q, t)` of constant weights `w`: coordinates of mass centres, angles in the plane, and in space
 //! the components of a body's axes, weighted by its pseudo-inertia `J = ½ tr(I) 1 − I`: `½ ωᵀI ω = ½ Σ Jₖₗ ėₖ·ėₗ`. Second
 //! derivatives are symbols of their own and are not expanded: in a series `p̈` follows from `p` without a product.
 //! `equations/projected.rs` shows that the sum is Lagrange's equation; J. M. Hollerbach, *A recursive Lagrangian formulation
@@ -15,7 +19,7 @@ use rustc_hash::FxHashMap;
 
 use lagrangian_program::series::NoSeries;
 use lagrangian_spec::model::element::{Constraint, Energy, Load};
-use lagrangian_spec::model::{Body, Inertia, Model, Rotation, Space, stage};
+use lagrangian_spec::model::{Body, Coordinate, Inertia, Model, Rotation, Space, stage};
 
 /// The residuals of the equations of motion, and the meanings of the symbols in them.
 pub(super) struct Residual<'d> {
@@ -27,15 +31,25 @@ pub(super) struct Residual<'d> {
     pub derivatives: FxHashMap<Symbol, Derivative<'d>>,
 }
 
+/// The form of the inertia in the equations.
+#[derive(Clone, Copy)]
+pub(super) enum Form<'d> {
+    /// By the second derivatives of positions.
+    Positions,
+    /// By the derivatives of momenta, from a form of the kinetic energy.
+    Momenta(Expr<'d>),
+}
+
 /// A derivative with respect to time.
 #[derive(Clone, Copy)]
 pub(super) struct Derivative<'d> {
+    /// Of positions, or of rates: then it is the first one.
     pub of: Expr<'d>,
     pub is_second: bool,
 }
 
 /// The residuals of a machine's equations of motion.
-pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> {
+pub(super) fn residual<'d>(model: &Model<'d>, form: Form<'d>) -> Result<Residual<'d>, NoSeries> {
     if !model.approximations.is_empty() {
         return Err(NoSeries::Approximations);
     }
@@ -54,7 +68,13 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
         on_rates: Vec::new(),
         on_coordinates: vec![Vec::new(); model.coordinates.len()],
     };
-    loads.add_inertia(model, &mut rates);
+    match form {
+        Form::Positions => loads.add_inertia(model, &mut rates),
+        Form::Momenta(kinetic_energy) => {
+            loads.add_momenta(model, kinetic_energy, &mut rates);
+            loads.add_weights(model);
+        }
+    }
     loads.add_energies(model, &mut rates);
     loads.add_quaternions(model, &mut rates);
     for load in model.loads() {
@@ -104,6 +124,34 @@ impl<'d> Loads<'d> {
                 self.on_positions.push((at, load));
             }
             rotation_loads(model, body, rates, &mut self.on_positions);
+        }
+    }
+
+    /// Inertia of the bodies by Lagrange's equations of the second kind.
+    fn add_momenta(&mut self, model: &Model<'d>, kinetic: Expr<'d>, rates: &mut Rates<'_, 'd>) {
+        let one = [(kinetic, model.dag.one())];
+        let momenta = reverse(model.dag, &one, &symbols(model, |c| c.v));
+        let by_positions = reverse(model.dag, &one, &symbols(model, |c| c.q));
+        let all = self
+            .on_coordinates
+            .iter_mut()
+            .zip(momenta)
+            .zip(by_positions);
+        for ((loads, momentum), by_position) in all {
+            loads.push(rates.first(momentum));
+            loads.push(-by_position);
+        }
+    }
+
+    /// Weight of the bodies.
+    fn add_weights(&mut self, model: &Model<'d>) {
+        let Some(g) = model.gravity() else {
+            return;
+        };
+        for body in &model.bodies {
+            let components = body.at.iter().zip(g);
+            self.on_positions
+                .extend(components.map(|(&at, &g)| (at, -body.mass * g)));
         }
     }
 
@@ -179,22 +227,22 @@ impl<'d> Loads<'d> {
     /// The residual of each coordinate.
     fn by_coordinate(mut self, model: &Model<'d>) -> Vec<Expr<'d>> {
         let dag = model.dag;
-        let symbols = |of: fn(&lagrangian_spec::model::Coordinate<'d>) -> Expr<'d>| {
-            let coordinates = model.coordinates.iter();
-            coordinates
-                .filter_map(|c| of(c).as_symbol())
-                .collect::<Vec<Symbol>>()
-        };
         let acts = |(_, load): &(Expr<'d>, Expr<'d>)| !load.is_zero();
         self.on_positions.retain(acts);
         self.on_rates.retain(acts);
-        let by_positions = reverse(dag, &self.on_positions, &symbols(|c| c.q));
-        let by_rates = reverse(dag, &self.on_rates, &symbols(|c| c.v));
+        let by_positions = reverse(dag, &self.on_positions, &symbols(model, |c| c.q));
+        let by_rates = reverse(dag, &self.on_rates, &symbols(model, |c| c.v));
         let all = by_positions.into_iter().zip(by_rates);
         let all = all.zip(self.on_coordinates);
         all.map(|((q, v), direct)| dag.sum([q, v].into_iter().chain(direct)))
             .collect()
     }
+}
+
+/// The symbols of a variable of every coordinate.
+fn symbols<'d>(model: &Model<'d>, of: fn(&Coordinate<'d>) -> Expr<'d>) -> Vec<Symbol> {
+    let coordinates = model.coordinates.iter();
+    coordinates.filter_map(|c| of(c).as_symbol()).collect()
 }
 
 /// The inertia loads on the rotation of a body.
@@ -245,10 +293,10 @@ fn planar_angle<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Option<Expr<'d
     }
 }
 
-/// Time derivatives of positions, as linear sums over symbols of derivatives.
+/// Time derivatives of positions and momenta, as linear sums over symbols of derivatives.
 struct Rates<'m, 'd> {
     model: &'m Model<'d>,
-    /// The first and second derivatives of coordinates and time.
+    /// The first and second derivatives of coordinates and time, and the first of rates.
     known: FxHashMap<Id, [Expr<'d>; 2]>,
     derivatives: FxHashMap<Symbol, Derivative<'d>>,
 }
@@ -257,16 +305,17 @@ impl<'m, 'd> Rates<'m, 'd> {
     fn of(model: &'m Model<'d>) -> Rates<'m, 'd> {
         let dag = model.dag;
         let coordinates = model.coordinates.iter().map(|c| (c.q.id(), [c.v, c.a]));
+        let rates = model.coordinates.iter().map(|c| (c.v.id(), [c.a, c.a]));
         let time = (model.time.id(), [dag.one(), dag.zero()]);
         Rates {
             model,
-            known: coordinates.chain([time]).collect(),
+            known: coordinates.chain(rates).chain([time]).collect(),
             derivatives: FxHashMap::default(),
         }
     }
 
-    fn first(&mut self, position: Expr<'d>) -> Expr<'d> {
-        self.linear(position, false)
+    fn first(&mut self, of: Expr<'d>) -> Expr<'d> {
+        self.linear(of, false)
     }
 
     fn second(&mut self, position: Expr<'d>) -> Expr<'d> {
@@ -275,10 +324,10 @@ impl<'m, 'd> Rates<'m, 'd> {
 
     /// The derivative of a sum, with constant factors taken out. It does not recurse, since expressions may be
     /// nested to any depth.
-    fn linear(&mut self, position: Expr<'d>, twice: bool) -> Expr<'d> {
+    fn linear(&mut self, of: Expr<'d>, twice: bool) -> Expr<'d> {
         let dag = self.model.dag;
         let mut terms = Vec::new();
-        let mut open = vec![(dag.one(), position)];
+        let mut open = vec![(dag.one(), of)];
         while let Some((coefficient, e)) = open.pop() {
             if e.stage() <= stage::PARAMETER {
                 continue;
@@ -307,6 +356,8 @@ impl<'m, 'd> Rates<'m, 'd> {
     fn symbol(&mut self, of: Expr<'d>, twice: bool) -> Expr<'d> {
         let (mark, stage) = if twice {
             ("dd", stage::ACCELERATION)
+        } else if of.stage() > stage::POSITION {
+            ("d", stage::ACCELERATION)
         } else {
             ("d", stage::VELOCITY)
         };

@@ -18,8 +18,8 @@ pub enum Source {
     Known(RowId),
     /// The sum over orders of a row that is the product of a force and a position.
     Sum(RowId),
-    /// The second derivative of a row of positions.
-    Second(RowId),
+    /// The second derivative of a row of positions, or the derivative of a row of rates.
+    Derivative(RowId),
 }
 
 /// `derivatives[to] += factor·derivatives[from]`, with the value of a row at the start as the factor, or 1.
@@ -105,7 +105,7 @@ impl Source {
     /// The row whose derivative is the coefficient.
     pub fn row(self) -> RowId {
         match self {
-            Source::Known(row) | Source::Sum(row) | Source::Second(row) => row,
+            Source::Known(row) | Source::Sum(row) | Source::Derivative(row) => row,
         }
     }
 }
@@ -119,7 +119,7 @@ struct Pass<'s> {
     places: Vec<Option<usize>>,
     derivatives: usize,
     steps: Vec<ChainStep>,
-    /// Rows of positions and rates, products, and second derivatives; the last row first.
+    /// Rows of positions and rates, products, and derivatives; the last row first.
     sources: [Vec<Source>; 3],
 }
 
@@ -154,7 +154,7 @@ impl<'s> Pass<'s> {
     /// Goes from a row to its operands; `None` if it is no sum of sources and of rows that depend on accelerations.
     fn visit(&mut self, row: RowId) -> Option<()> {
         let series = self.series;
-        let [known, sums, seconds] = &mut self.sources;
+        let [known, sums, derivatives] = &mut self.sources;
         if series.level(row) != Level::Acceleration {
             known.push(Source::Known(row));
             return Some(());
@@ -164,8 +164,12 @@ impl<'s> Pass<'s> {
             Row::Second(of) => {
                 // The newest coefficient of a coordinate is 0 until the unknowns are known.
                 if !matches!(series.rows[of.index()], Row::Coordinate(_)) {
-                    seconds.push(Source::Second(row));
+                    derivatives.push(Source::Derivative(row));
                 }
+                Vec::new()
+            }
+            Row::First(_) => {
+                derivatives.push(Source::Derivative(row));
                 Vec::new()
             }
             Row::Sum(terms) => terms.clone(),
@@ -206,9 +210,10 @@ impl<'s> Pass<'s> {
         let sources = std::mem::take(&mut self.sources);
         for source in sources.iter().flat_map(|sources| sources.iter().rev()) {
             let place = self.place(source.row());
-            // What enters the same rows with the same factors has the same derivative, unless the pass begins there. Factors of second
+            // What enters the same rows with the same factors has the same derivative, unless the pass begins there. Factors of
             // derivatives depend on the order.
-            let is_alone = matches!(source, Source::Second(_)) || residuals.contains(&source.row());
+            let is_alone =
+                matches!(source, Source::Derivative(_)) || residuals.contains(&source.row());
             let origin = origins.get(&place).filter(|_| !is_alone);
             match origin.and_then(|origin| known.get(origin.as_slice())) {
                 Some(same) => groups[*same].push(*source),

@@ -4,7 +4,8 @@
 //! `q` were 0 there; rates and forces to order k. The residuals then lack only the accelerations of order k, whose matrix
 //! is the mass matrix at the start. These are solved for, and their effect is added to the rows that later rounds read: for
 //! rows of positions their gradient by `q` times `q₍k₊₂₎`, for forces their gradient by `a` times `aₖ`. The gradients are
-//! those at the start, since the factor of the newest coefficient is of order 0.
+//! those at the start, since the factor of the newest coefficient is of order 0. Where a row of rates is differentiated, rates are
+//! computed to order k + 1, as if the coefficient of `v` were 0 there, and their gradient by `v` times `v₍k₊₁₎` is added afterwards.
 
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -42,8 +43,8 @@ pub struct Expander<T> {
     compositions: Arc<[Option<Composition>]>,
     /// Workspace for the coefficients of sources.
     derivatives: Vec<T>,
-    /// Rows of positions and forces that the newest accelerations change.
-    changed_by_newest: [Vec<u32>; 2],
+    /// Rows of positions, of rates and of forces that the newest accelerations change.
+    changed_by_newest: [Vec<u32>; 3],
     /// Rows whose coefficients are needed multiplied by their orders.
     scaled: Vec<bool>,
     /// Where these multiples begin for each row, if sums need them.
@@ -102,7 +103,7 @@ struct Plan {
     by_level: [Vec<u32>; 3],
     later: Vec<[bool; 2]>,
     compositions: Vec<Option<Composition>>,
-    changed_by_newest: [Vec<u32>; 2],
+    changed_by_newest: [Vec<u32>; 3],
     scaled: Vec<bool>,
     sums: Vec<Vec<Sum>>,
     weighted_places: Vec<Option<usize>>,
@@ -125,9 +126,9 @@ impl Plan {
         };
         let streams = series.streams();
         let changes = |row: &u32| !series.depends[*row as usize].is_empty();
-        let mut repaired = [at_level(Level::Position), at_level(Level::Acceleration)];
-        repaired[0].retain(changes);
-        repaired[1].retain(|row| changes(row) && streams[*row as usize] != [false; 2]);
+        let mut changed = [Level::Position, Level::Rate, Level::Acceleration].map(at_level);
+        changed.iter_mut().for_each(|rows| rows.retain(changes));
+        changed[2].retain(|row| streams[*row as usize] != [false; 2]);
         let mut scaled: Vec<bool> = streams.iter().map(|[_, weighted]| *weighted).collect();
         for row in &series.rows {
             if let Row::Second(of) = row {
@@ -187,7 +188,7 @@ impl Plan {
             by_level: [Level::Position, Level::Rate, Level::Acceleration].map(at_level),
             later,
             compositions,
-            changed_by_newest: repaired,
+            changed_by_newest: changed,
             scaled,
             sums: sums.collect(),
             weighted,
@@ -339,6 +340,7 @@ impl<T: Copy> Expander<T> {
     ) -> Result<(), Singular> {
         let series = self.series.clone();
         let (n, width) = (series.dimension(), self.width);
+        let lead_of_rates = usize::from(series.rates_are_ahead);
         self.inputs.copy_from_slice(u);
         self.motion.fill(N::ZERO.store());
         self.rates.fill(N::ZERO.store());
@@ -349,15 +351,17 @@ impl<T: Copy> Expander<T> {
         }
         // All that a round does is in one place: the recurrences are copied in where they are called, once for each kind of processor.
         for round in 0..=self.order {
-            // Positions are two orders ahead of rates and forces, and begin with two orders.
+            // Positions are two orders ahead of forces, and begin with two orders.
             let ahead = if round == 0 {
                 0..2
             } else {
                 round + 1..round + 2
             };
             let positions = ahead.map(|m| (0, m));
-            let others = round.checked_sub(1).into_iter();
-            for (level, m) in positions.chain(others.flat_map(|m| [(1, m), (2, m)])) {
+            let order_of_rates = (round + lead_of_rates).checked_sub(1);
+            let rates = order_of_rates.into_iter().map(|m| (1, m));
+            let forces = round.checked_sub(1).into_iter().map(|m| (2, m));
+            for (level, m) in positions.chain(rates).chain(forces) {
                 self.advance::<N>(&series, level, m, t);
             }
             if let Some(order) = round.checked_sub(1) {
@@ -367,9 +371,8 @@ impl<T: Copy> Expander<T> {
                     self.compose::<N>();
                 }
                 self.solve::<N>(&series, order);
-                for level in 1..3 {
-                    self.store_weighted::<N>(level, order);
-                }
+                self.store_weighted::<N>(1, order + lead_of_rates);
+                self.store_weighted::<N>(2, order);
             }
             self.store_weighted::<N>(0, round + 1);
         }
@@ -482,7 +485,7 @@ impl<T: Copy> Expander<T> {
             let count = series.depends[index].len();
             self.gradients[place..place + count].fill(N::ZERO.store());
             match &series.rows[index] {
-                Row::Coordinate(_) | Row::Acceleration(_) => {
+                Row::Coordinate(_) | Row::Rate(_) | Row::Acceleration(_) => {
                     self.gradients[place] = N::ONE.store();
                 }
                 Row::Sum(terms) => {
@@ -609,11 +612,13 @@ impl<T: Copy> Expander<T> {
                 x = x + match *source {
                     Source::Known(row) => self.at::<N>(2, round, N::ZERO).newest(row),
                     Source::Sum(row) => N::load(self.kept_sums[row.index()]),
-                    Source::Second(row) => {
-                        let Row::Second(of) = series.rows[row.index()] else {
-                            continue;
+                    Source::Derivative(row) => {
+                        let mut at = self.at::<N>(2, round, N::ZERO);
+                        let [order, x] = match series.rows[row.index()] {
+                            Row::Second(of) => at.second_factors(of),
+                            Row::First(of) => at.derivative_factors(of),
+                            _ => continue,
                         };
-                        let [order, x] = self.at::<N>(2, round, N::ZERO).second_factors(of);
                         factor = Some(order);
                         x
                     }
@@ -661,8 +666,8 @@ impl<T: Copy> Expander<T> {
         ];
         let share = over_v * over_q;
         let product = N::divisor((round as i64 + 1) * (round as i64 + 2));
-        for at in 0..self.changed_by_newest[1].len() {
-            let index = self.changed_by_newest[1][at] as usize;
+        for at in 0..self.changed_by_newest[2].len() {
+            let index = self.changed_by_newest[2][at] as usize;
             let known = N::load(self.coefficients[index * width + round]);
             let sum = if self.adds_to_forces {
                 self.change::<N>(index, known)
@@ -681,19 +686,25 @@ impl<T: Copy> Expander<T> {
             // A quotient: products with rounded reciprocals have errors of a fixed sign, which add up over the steps of a long run.
             self.motion[i * width + round + 2] = acceleration.over(product).store();
         }
-        for at in 0..self.changed_by_newest[0].len() {
-            let index = self.changed_by_newest[0][at] as usize;
-            let known = N::load(self.coefficients[index * width + round + 2]);
-            let changed = match (&series.rows[index], &series.depends[index][..]) {
-                (Row::Coordinate(i), _) => N::load(self.motion[*i as usize * width + round + 2]),
-                // This shortens the dependency chain by one product.
-                (_, [i]) => {
-                    let slope = N::load(self.gradients[self.places[index]]) * share;
-                    slope.mul_add(N::load(self.unknowns[*i as usize]), known)
-                }
-                _ => share.mul_add(self.change::<N>(index, N::ZERO), known),
-            };
-            self.coefficients[index * width + round + 2] = changed.store();
+        for (level, lead, share) in [(0, 2, share), (1, 1, over_v)] {
+            for at in 0..self.changed_by_newest[level].len() {
+                let index = self.changed_by_newest[level][at] as usize;
+                let place = index * width + round + lead;
+                let known = N::load(self.coefficients[place]);
+                let changed = match (&series.rows[index], &series.depends[index][..]) {
+                    (Row::Coordinate(i), _) => {
+                        N::load(self.motion[*i as usize * width + round + 2])
+                    }
+                    (Row::Rate(i), _) => N::load(self.rates[*i as usize * width + round + 1]),
+                    // This shortens the dependency chain by one product.
+                    (_, [i]) => {
+                        let slope = N::load(self.gradients[self.places[index]]) * share;
+                        slope.mul_add(N::load(self.unknowns[*i as usize]), known)
+                    }
+                    _ => share.mul_add(self.change::<N>(index, N::ZERO), known),
+                };
+                self.coefficients[place] = changed.store();
+            }
         }
     }
 
@@ -723,6 +734,16 @@ impl<T: Copy, N: Scalar<Stored = T>> OrderArithmetic<'_, T, N> {
     #[inline(always)]
     fn read(&self, row: RowId, m: usize) -> N {
         N::load(self.expander.coefficients[row.index() * self.expander.width + m])
+    }
+
+    /// How many orders the level of the computed row is ahead of the accelerations.
+    #[inline(always)]
+    fn lead(&self) -> usize {
+        match self.level {
+            0 => 2,
+            1 => usize::from(self.expander.series.rates_are_ahead),
+            _ => 0,
+        }
     }
 }
 
@@ -781,8 +802,8 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for OrderArithmetic<'_, T, N> {
     #[inline(always)]
     fn weighted(&mut self, row: RowId) -> N {
         match self.expander.weighted_places[row.index()] {
-            // For positions, whose own order is higher by two, this coefficient is final.
-            Some(place) if self.level > 0 && self.expander.series.level(row) == Level::Position => {
+            // For rows whose own order is higher, this coefficient is final.
+            Some(place) if self.expander.series.lead(row) > self.lead() => {
                 N::load(self.expander.weighted[place + self.m])
             }
             _ => N::load(self.expander.newest[row.index()]),
@@ -792,6 +813,11 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for OrderArithmetic<'_, T, N> {
     fn derivative(&mut self, row: RowId) -> N {
         let m = self.m + 1;
         self.expander.number::<N>(m) * self.read(row, m)
+    }
+    #[inline(always)]
+    fn derivative_factors(&mut self, row: RowId) -> [N; 2] {
+        let m = self.m + 1;
+        [self.expander.number::<N>(m), self.read(row, m)]
     }
     #[inline(always)]
     fn second_derivative(&mut self, row: RowId) -> N {

@@ -70,8 +70,10 @@ pub trait Arithmetic {
     fn before(&mut self, row: RowId) -> Self::X;
     /// `m` times coefficient `m` of a row at the same level, which was just computed.
     fn weighted(&mut self, row: RowId) -> Self::X;
-    /// Coefficient `m + 1` of a row of positions, times `m + 1`.
+    /// Coefficient `m + 1` of a row of positions, or of rates, times `m + 1`.
     fn derivative(&mut self, row: RowId) -> Self::X;
+    /// The same for a row of rates as two factors: `m + 1`, and the coefficient, which was just computed.
+    fn derivative_factors(&mut self, row: RowId) -> [Self::X; 2];
     /// Coefficient `m + 2` of a row of positions, which was just computed, times `(m + 1)(m + 2)`.
     fn second_derivative(&mut self, row: RowId) -> Self::X;
     /// The second derivative as two factors: one that depends on the order alone, and one that was just computed.
@@ -265,11 +267,11 @@ impl Series {
         to.call(call, a, b)
     }
 
-    /// Whether a change of one row at its own level changes another: positions also change their second derivatives;
+    /// Whether a change of one row at its own level changes another: positions and rates also change their derivatives;
     /// rows of other levels stay.
     pub fn propagates(&self, to: RowId, of: RowId) -> bool {
-        let is_second = matches!(self.rows[to.index()], Row::Second(_));
-        self.level(of) == self.level(to) || is_second
+        let is_derivative = matches!(self.rows[to.index()], Row::First(_) | Row::Second(_));
+        self.level(of) == self.level(to) || is_derivative
     }
 
     /// Whether a row is a sum that grows with time, so that its rounding error is worth tracking.
@@ -308,6 +310,10 @@ impl Series {
             let (order, x) = match self.rows[row.index()] {
                 Row::Second(p) => {
                     let [order, x] = to.second_factors(p);
+                    (Some(order), x)
+                }
+                Row::First(p) if self.level(*row) == Level::Acceleration => {
+                    let [order, x] = to.derivative_factors(p);
                     (Some(order), x)
                 }
                 _ => (None, to.newest(*row)),
@@ -552,7 +558,7 @@ impl Series {
     #[inline(always)]
     pub fn slopes<A: Arithmetic>(&self, row: RowId, to: &mut A) -> [Option<(RowId, A::X)>; 2] {
         match self.rows[row.index()] {
-            Row::Second(p) => [Some((p, to.one())), None],
+            Row::First(p) | Row::Second(p) => [Some((p, to.one())), None],
             Row::Product(a, b) => {
                 let [x_a, x_b] = [a, b].map(|row| to.first(row));
                 [Some((a, x_b)), Some((b, x_a))]

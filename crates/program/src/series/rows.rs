@@ -39,13 +39,19 @@ impl Series {
     /// # Errors
     /// If accelerations do not occur linearly.
     pub fn with_dependences(mut self) -> Result<Series, NoSeries> {
+        self.rates_are_ahead = self.rows.iter().any(|row| match row {
+            Row::First(of) => self.levels[of.index()] == Level::Rate,
+            _ => false,
+        });
         for index in 0..self.rows.len() {
             let level = self.levels[index];
             let row = &self.rows[index];
             let mut found: Vec<u32> = match *row {
                 Row::Coordinate(i) | Row::Acceleration(i) => vec![i],
+                Row::Rate(i) if self.rates_are_ahead => vec![i],
                 Row::Second(of) => self.depends[of.index()].clone(),
-                _ if level == Level::Position || level == Level::Acceleration => {
+                Row::First(of) if self.rates_are_ahead => self.depends[of.index()].clone(),
+                _ if level != Level::Constant && (level != Level::Rate || self.rates_are_ahead) => {
                     let mut found = Vec::new();
                     let mut varying = 0;
                     row.for_each_operand(|operand| {

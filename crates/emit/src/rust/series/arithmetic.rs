@@ -9,7 +9,7 @@ use lagrangian_program::series::{
 use lagrangian_symbolic::{Function as Call, Rational};
 
 use super::code::{Code, Op, Operand, Part};
-use super::{Carried, FEWEST_APPLIED, FinalCoefficients, WIDTH};
+use super::{Carried, FEWEST_APPLIED, FinalCoefficients, SUMS, WIDTH};
 use crate::rust::language;
 
 /// A group of coupled unknowns.
@@ -27,11 +27,10 @@ pub struct Recorder<'s> {
     pub code: Code,
     /// The part to which code is added.
     pub part: Part,
-    /// The order being computed: 0, 1, 2, or 3 in the loop. For rows that depend on rates it is the order of the
-    /// accelerations, which is two less.
+    /// The order being computed: 0, 1, 2, or 3 in the loop, whose order is that of positions.
     m: usize,
-    /// Whether the current order is that of positions.
-    pub is_of_positions: bool,
+    /// How many orders the rows being computed are [ahead](Series::lead) of the accelerations.
+    pub lead: usize,
     /// The names of parameters, while constants are computed; otherwise constants are read.
     parameters: Option<Vec<String>>,
     /// The names of inputs.
@@ -48,7 +47,8 @@ pub struct Recorder<'s> {
     circular: HashMap<RowId, [Operand; 2]>,
     /// The gradients of rows by coordinates, at the start.
     gradients: Vec<Vec<Operand>>,
-    pub lanes: [Vec<Convolution>; 2],
+    /// The products of each kind of [pack](super::Pack).
+    pub lanes: [Vec<Convolution>; 3],
     places: HashMap<Convolution, (usize, usize)>,
     pub carried: BTreeSet<Carried>,
     /// Rows of forces that sums use.
@@ -70,7 +70,7 @@ impl<'s> Recorder<'s> {
             code: Code::new(number, 'x'),
             part: Part::Start,
             m: 0,
-            is_of_positions: true,
+            lead: 2,
             parameters: None,
             inputs: inputs.to_vec(),
             constants: Vec::new(),
@@ -81,14 +81,14 @@ impl<'s> Recorder<'s> {
             low: none(),
             circular: HashMap::new(),
             gradients: vec![Vec::new(); series.rows.len()],
-            lanes: [Vec::new(), Vec::new()],
+            lanes: [(); 3].map(|()| Vec::new()),
             places: HashMap::new(),
             carried: BTreeSet::new(),
             forces: rows.clone().filter(is_force).collect(),
         };
         for row in rows {
             for convolution in series.convolutions(row) {
-                symbolic.take_lane(convolution);
+                symbolic.take_lane(convolution, series.lead(row));
             }
         }
         symbolic
@@ -103,11 +103,14 @@ impl<'s> Recorder<'s> {
         }
     }
 
-    fn take_lane(&mut self, convolution: Convolution) {
+    fn take_lane(&mut self, convolution: Convolution, lead: usize) {
         if self.places.contains_key(&convolution) {
             return;
         }
-        let kind = usize::from(convolution.along == TermOrder::Other);
+        let kind = match convolution.along {
+            TermOrder::Other => 1 + lead,
+            _ => 0,
+        };
         self.places
             .insert(convolution, (kind, self.lanes[kind].len()));
         self.lanes[kind].push(convolution);
@@ -165,8 +168,7 @@ impl<'s> Recorder<'s> {
     fn order(&mut self, more: usize) -> Operand {
         match self.m {
             3 => {
-                // The order of accelerations is two less than that of positions.
-                let less = 2 * usize::from(!self.is_of_positions);
+                let less = 2 - self.lead;
                 let function = match less - more.min(less) {
                     0 if more == less => "from_f64(order as f64)".to_owned(),
                     0 => format!("from_f64((order + {}) as f64)", more - less),
@@ -184,14 +186,19 @@ impl<'s> Recorder<'s> {
 
     /// Begins an order of positions.
     pub fn begin(&mut self, part: Part, m: usize) {
-        (self.part, self.m, self.is_of_positions) = (part, m, true);
+        (self.part, self.m, self.lead) = (part, m, 2);
         self.clear_level(Level::Position);
     }
 
-    /// Begins an order of rows that depend on rates and accelerations.
-    pub fn begin_others(&mut self, m: usize) {
-        (self.m, self.is_of_positions) = (m, false);
+    /// Begins an order of rows that depend on rates.
+    pub fn begin_rates(&mut self, m: usize) {
+        (self.m, self.lead) = (m, usize::from(self.series.rates_are_ahead));
         self.clear_level(Level::Rate);
+    }
+
+    /// Begins an order of rows that depend on accelerations.
+    pub fn begin_forces(&mut self, m: usize) {
+        (self.m, self.lead) = (m, 0);
         self.clear_level(Level::Acceleration);
     }
 
@@ -289,7 +296,7 @@ impl<'s> Recorder<'s> {
             }
             self.gradients[index] = vec![Operand::Zero; count];
             match &series.rows[index] {
-                Row::Coordinate(_) | Row::Acceleration(_) => {
+                Row::Coordinate(_) | Row::Rate(_) | Row::Acceleration(_) => {
                     self.gradients[index][0] = Operand::One
                 }
                 Row::Sum(terms) => {
@@ -394,11 +401,12 @@ impl<'s> Recorder<'s> {
                 let x = match *source {
                     Source::Known(row) => self.newest(row),
                     Source::Sum(row) => self.convolution(row, 0),
-                    Source::Second(row) => {
-                        let Row::Second(of) = self.series.rows[row.index()] else {
-                            continue;
+                    Source::Derivative(row) => {
+                        let [factor, x] = match self.series.rows[row.index()] {
+                            Row::Second(of) => self.second_factors(of),
+                            Row::First(of) => self.derivative_factors(of),
+                            _ => continue,
                         };
-                        let [factor, x] = self.second_factors(of);
                         c = self.multiply(c, factor);
                         x
                     }
@@ -538,11 +546,13 @@ impl<'s> Recorder<'s> {
         }
         for index in 0..series.rows.len() {
             let row = RowId(index as u32);
-            if series.level(row) != Level::Position || series.depends[index].is_empty() {
+            if series.lead(row) == 0 || series.depends[index].is_empty() {
                 continue;
             }
+            let share = [over_v, share][series.lead(row) - 1];
             finals.rows[index] = Some(match series.rows[index] {
                 Row::Coordinate(i) => finals.motion[i as usize],
+                Row::Rate(i) => finals.rates[i as usize],
                 _ => {
                     let known = self.newest[index].unwrap_or(Operand::Zero);
                     match series.depends[index][..] {
@@ -573,15 +583,16 @@ impl<'s> Recorder<'s> {
         sum
     }
 
-    /// What a stream stores of an order that is final; the order of positions began as `m`.
+    /// What a stream stores of an order that is final, in packs of rows with the present lead; the order of positions began as `m`.
     pub fn kept(
         &mut self,
         finals: &FinalCoefficients,
         Stream { row, weighted }: Stream,
         m: usize,
     ) -> Operand {
-        if !self.is_of_positions && self.series.level(row) == Level::Position {
-            return self.variable(Carried::Older(row, weighted));
+        let lead = self.series.lead(row);
+        if lead > self.lead {
+            return self.of_order_before(row, weighted, m);
         }
         let plain = finals.rows[row.index()].unwrap_or(Operand::Zero);
         if !weighted {
@@ -590,14 +601,26 @@ impl<'s> Recorder<'s> {
         match self.series.rows[row.index()] {
             Row::Coordinate(i) => finals.rates[i as usize],
             _ => {
-                let is_of_positions = self.series.level(row) == Level::Position;
-                let before = (self.m, self.is_of_positions);
-                (self.m, self.is_of_positions) = (m, is_of_positions);
+                let before = (self.m, self.lead);
+                (self.m, self.lead) = (if m < 3 { m + lead - 2 } else { m }, lead);
                 let order = self.order(0);
-                (self.m, self.is_of_positions) = before;
+                (self.m, self.lead) = before;
                 self.multiply(order, plain)
             }
         }
+    }
+
+    /// The final coefficient of a row that is further ahead than the present ones, at their order. The order of positions began as `m`.
+    fn of_order_before(&mut self, row: RowId, weighted: bool, m: usize) -> Operand {
+        if m < 3 {
+            // Only rates that are ahead begin at the start: their order 1 there is that of these coefficients.
+            return self.linear[row.index()].unwrap_or(Operand::Zero);
+        }
+        self.variable(match (self.series.lead(row) - self.lead, weighted) {
+            (1, false) => Carried::Plain(row),
+            (1, true) => Carried::Weighted(row),
+            (_, weighted) => Carried::Older(row, weighted),
+        })
     }
 }
 
@@ -664,8 +687,8 @@ impl Arithmetic for Recorder<'_> {
         match (self.m, is_rate) {
             (0, false) => self.existing_value(format!("n(q[{coordinate}])")),
             (0, true) | (1, false) => self.existing_value(format!("n(v[{coordinate}])")),
-            (_, false) => Operand::Zero,
-            (_, true) => self.rate_before(coordinate),
+            (_, true) if self.lead == 0 => self.rate_before(coordinate),
+            _ => Operand::Zero,
         }
     }
     fn first(&mut self, row: RowId) -> Operand {
@@ -694,9 +717,11 @@ impl Arithmetic for Recorder<'_> {
     fn newest(&mut self, row: RowId) -> Operand {
         match self.series.level(row) {
             Level::Constant => Operand::Zero,
-            // Its own order is higher by two.
-            Level::Position if !self.is_of_positions && self.m == 0 => self.first(row),
-            Level::Position if !self.is_of_positions => self.variable(Carried::Older(row, false)),
+            // Its own order is higher.
+            _ if self.series.lead(row) > self.lead => match self.m {
+                0 => self.first(row),
+                m => self.of_order_before(row, false, m),
+            },
             _ => self.newest[row.index()].unwrap_or(Operand::Zero),
         }
     }
@@ -708,9 +733,8 @@ impl Arithmetic for Recorder<'_> {
         }
     }
     fn weighted(&mut self, row: RowId) -> Operand {
-        let is_older = self.series.level(row) == Level::Position && !self.is_of_positions;
         match self.scaled[row.index()] {
-            _ if is_older => self.variable(Carried::Older(row, true)),
+            _ if self.series.lead(row) > self.lead => self.of_order_before(row, true, self.m),
             Some(scaled) => scaled,
             None => {
                 let (order, newest) = (self.order(0), self.newest(row));
@@ -720,11 +744,17 @@ impl Arithmetic for Recorder<'_> {
     }
     fn derivative(&mut self, row: RowId) -> Operand {
         let coefficient = match self.m {
+            // It was just computed.
+            _ if self.series.rates_are_ahead => self.newest[row.index()].unwrap_or(Operand::Zero),
             0 => self.linear[row.index()].unwrap_or(Operand::Zero),
             _ => self.variable(Carried::Plain(row)),
         };
         let order = self.order(1);
         self.multiply(order, coefficient)
+    }
+    fn derivative_factors(&mut self, row: RowId) -> [Operand; 2] {
+        let coefficient = self.newest[row.index()].unwrap_or(Operand::Zero);
+        [self.order(1), coefficient]
     }
     fn second_derivative(&mut self, row: RowId) -> Operand {
         // The row was computed at an order higher by two.
@@ -753,7 +783,7 @@ impl Arithmetic for Recorder<'_> {
         let convolution = self.series.convolutions(row)[number];
         let [a, b] = convolution.factors;
         if self.m < 3 {
-            // For positions alone: one term of the second order, none of the first.
+            // Of positions one term of the second order, none of the first, and none of rates, which have no second order here.
             let of =
                 |symbolic: &Self, stream: Stream| match symbolic.series.rows[stream.row.index()] {
                     _ if symbolic.m < 2 => Operand::Zero,
@@ -763,7 +793,7 @@ impl Arithmetic for Recorder<'_> {
             return self.multiply(a, b);
         }
         let (kind, lane) = self.places[&convolution];
-        let letter = ["w", "s"][kind];
+        let letter = SUMS[kind];
         let sum = self.existing_value(format!("{letter}{}[{}]", lane / WIDTH, lane % WIDTH));
         let carried = |Stream { row, weighted }: Stream| {
             if weighted {
@@ -845,11 +875,11 @@ impl Arithmetic for Recorder<'_> {
         sum
     }
     fn over_order(&mut self) -> Operand {
-        match (self.m, self.is_of_positions) {
+        match (self.m, self.lead) {
             (1, _) => Operand::One,
             (2, _) => self.constructed("from_f64(0.5)"),
-            (_, true) => self.constructed("from_ratio(1, order as i64)"),
-            (_, false) => self.constructed("from_ratio(1, order as i64 - 2)"),
+            (_, 2) => self.constructed("from_ratio(1, order as i64)"),
+            (_, lead) => self.constructed(&format!("from_ratio(1, order as i64 - {})", 2 - lead)),
         }
     }
 
