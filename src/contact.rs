@@ -37,7 +37,7 @@ mod undetermined;
 
 pub use event::{ContactEvent, ContactEventKind, ContactImpact, ContactTally, ImpactAcross};
 pub use force::{UnilateralForce, penetrations, unilateral_forces};
-pub(crate) use impact::{Impact, ParadoxResolution};
+pub(crate) use impact::{Bounce, Impact, ParadoxResolution};
 pub(crate) use kinematics::ROUNDING;
 pub(crate) use nearby::{StateBox, StepEnds};
 pub(crate) use stepping::SteppedContacts;

@@ -878,6 +878,16 @@ pub enum Warning {
         /// The number of impacts that created energy.
         impacts: usize,
     },
+    /// The motion depends on how contacts share their load, which rigid bodies leave undetermined. The distribution of contacts that all yield alike could not
+    /// be computed, and another possible one was taken.
+    LoadShared {
+        /// When this was so first, in s.
+        t: f64,
+        /// The contacts that shared their load then.
+        contacts: std::vec::Vec<String>,
+        /// The number of instants, or of steps of time stepping, at which it was so.
+        instants: usize,
+    },
     /// Unilateral contacts changed too often for each instant to be located,
     /// and the run changed to time stepping, whose error nothing bounds.
     HandedOver {
@@ -940,6 +950,23 @@ impl Display for Warning {
                  Newton's law with friction can do so; `law: stronge` never does",
                 t = ShortNumber(*t)
             ),
+            Self::LoadShared {
+                t,
+                contacts,
+                instants,
+            } => {
+                write!(
+                    f,
+                    "the motion depends on how {} share their load at t = {t} s: the distribution of contacts that all yield alike \
+                     could not be computed, and another possible one was taken",
+                    quoted(contacts),
+                    t = ShortNumber(*t)
+                )?;
+                match instants {
+                    0 | 1 => Ok(()),
+                    more => write!(f, "; there were {more} such instants"),
+                }
+            }
             Self::HandedOver {
                 t,
                 step,

@@ -1,5 +1,6 @@
 //! Phases of the unilateral contacts in a run, from one change to the next.
 
+use std::string::String;
 use std::vec::Vec;
 
 use crate::balance::ContactShare;
@@ -172,6 +173,10 @@ pub(crate) struct UnilateralRecord<C, V> {
     /// Impacts that created energy: their number, and the worst.
     pub energy_gains: usize,
     pub worst: Option<(usize, f64, f64)>,
+    /// Instants at which contacts shared their load in another way than by the rule for undetermined forces, although the motion depends on it: their number,
+    /// the first, and the contacts there.
+    pub shared_otherwise: usize,
+    pub first_shared_otherwise: Option<(f64, Vec<usize>)>,
 }
 
 impl<C, V> Default for UnilateralRecord<C, V> {
@@ -187,6 +192,8 @@ impl<C, V> Default for UnilateralRecord<C, V> {
             last: Vec::new(),
             energy_gains: 0,
             worst: None,
+            shared_otherwise: 0,
+            first_shared_otherwise: None,
         }
     }
 }
@@ -205,15 +212,35 @@ impl<C, V> UnilateralRecord<C, V> {
         self.phases.push(phase);
     }
 
-    /// The warning to be reported, if any.
-    pub fn warning<S: System>(&self, system: &S) -> Option<Warning> {
-        let (contact, t, gain) = self.worst?;
-        let mut contacts = system.unilateral_contacts();
-        Some(Warning::ImpactGains {
-            contact: contacts.nth(contact).map_or("?", |of| of.name).into(),
+    /// Notes that contacts shared their load at an instant in another way than by the rule, if any did.
+    pub fn note_shared_otherwise(&mut self, t: f64, mut contacts: Vec<usize>) {
+        if contacts.is_empty() {
+            return;
+        }
+        self.shared_otherwise += 1;
+        contacts.sort_unstable();
+        contacts.dedup();
+        self.first_shared_otherwise.get_or_insert((t, contacts));
+    }
+
+    /// The warnings to be reported.
+    pub fn warnings<S: System>(&self, system: &S) -> impl Iterator<Item = Warning> {
+        let name = |contact: usize| {
+            let mut contacts = system.unilateral_contacts();
+            String::from(contacts.nth(contact).map_or("?", |of| of.name))
+        };
+        let gains = self.worst.map(|(contact, t, gain)| Warning::ImpactGains {
+            contact: name(contact),
             t,
             gain,
             impacts: self.energy_gains,
-        })
+        });
+        let first = self.first_shared_otherwise.as_ref();
+        let shared = first.map(|(t, contacts)| Warning::LoadShared {
+            t: *t,
+            contacts: contacts.iter().map(|contact| name(*contact)).collect(),
+            instants: self.shared_otherwise,
+        });
+        gains.into_iter().chain(shared)
     }
 }

@@ -434,7 +434,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         );
         let mut warnings = warnings(settings, &stepper);
         if <M::System as System>::MAY_COLLIDE {
-            warnings.extend(record.unilateral.warning(system));
+            warnings.extend(record.unilateral.warnings(system));
             warnings.extend(handover::warning(&record.handovers));
         }
         if let Some(balance) = &balance

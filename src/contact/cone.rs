@@ -68,6 +68,13 @@ pub(super) fn solve(problem: &Problem, mut z: Vec<f64>) -> Result<(Vec<f64>, f64
         return Err(Unsolved);
     }
     let mut best = (problem.relative_residual(&z), z.clone());
+    // Of several solutions the one that is near: sweeps may leave it.
+    if z.iter().any(|z| *z != 0.0) {
+        problem.polish(&z, &mut best);
+        if best.0 <= GOOD {
+            return Ok((best.1, best.0));
+        }
+    }
     for round in 0..ROUNDS {
         for _ in 0..FIRST_SWEEPS << round {
             let moved = problem.sweep(&mut z);

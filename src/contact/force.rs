@@ -48,10 +48,10 @@ pub fn unilateral_forces<S: System>(
     let (touches, _) = touching.near(system, (t, q, v), true, &[]);
     let closed = touching.persisting(system, (t, q, v), &touches, true);
     let resting = touching.resting(system, (t, q, v), &closed);
-    let (modes, shares) = touching.settled_by_forces(system, at, &closed, &resting, &[])?;
-    touching.set_modes(modes);
+    let settled = touching.settled(system, at, &closed, &resting, &[])?;
+    touching.set_modes(settled.modes);
     touching.load_layers(system, t, q, v);
-    touching.forces_shared(system, at, a, Some(&shares))
+    touching.forces_shared(system, at, a, Some(&settled.forces))
 }
 
 /// The rigid contacts that are penetrated at a state by more than rounding, each with the depth in m. No run can start there, and

@@ -5,7 +5,7 @@ use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives, DrivesMemory};
-use super::kinematics::ContactKinematics;
+use super::kinematics::{ContactKinematics, ROUNDING};
 use super::problem::{Answer, ContactUnknowns};
 use super::routh::{self, Expansion, SingleImpact};
 use super::touching::UnilateralState;
@@ -53,6 +53,17 @@ impl Impact {
     pub fn friction_loss(&self) -> f64 {
         -0.5 * self.impulse[1] * (self.slip[0] + self.slip[1])
     }
+}
+
+/// How a contact bounces after an impact.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounce {
+    /// How fast it opens, and how fast it did after its impact before that, in m/s; 0 if there was none.
+    pub opening: f64,
+    before: f64,
+    /// The round-off of its gap, in m.
+    roundoff: f64,
+    restitution: f64,
 }
 
 /// A way out of Painlevé's paradox.
@@ -235,15 +246,16 @@ impl UnilateralState {
         Ok(None)
     }
 
-    /// Changes the rates by an impact of the contacts that touch.
+    /// Changes the rates by an impact of the contacts that touch. Those that share its impulses in another way than by the rule for undetermined forces,
+    /// (E79), although the motion depends on it, are added to `shared_otherwise`.
     pub fn impact<S: System>(
         &mut self,
         system: &S,
         t: f64,
         q: &S::Vector,
         v: &mut S::Vector,
-        touches: &[bool],
-        as_held: bool,
+        (touches, as_held): (&[bool], bool),
+        shared_otherwise: &mut Vec<usize>,
     ) -> Result<Vec<Impact>, StepError> {
         let here = self.kinematics(system, (t, q, v));
         let singular = |singular: Singular| StepError::Singular { singular, t };
@@ -262,7 +274,7 @@ impl UnilateralState {
             .collect();
         let g = matrix(&images);
         let before: Vec<f64> = directions.iter().map(|d| here.rates[*d]).collect();
-        let impulses = self.impulses(t, &here, &colliding, &g, &before)?;
+        let impulses = self.impulses((t, &here), &colliding, (&g, &before), shared_otherwise)?;
 
         let width = directions.len();
         let change = inertia.response(&images, impulses.iter().flatten().copied());
@@ -330,11 +342,10 @@ impl UnilateralState {
     /// The impulses of contacts that meet.
     fn impulses(
         &self,
-        t: f64,
-        here: &ContactKinematics,
+        (t, here): (f64, &ContactKinematics),
         colliding: &[usize],
-        g: &[f64],
-        before: &[f64],
+        (g, before): (&[f64], &[f64]),
+        shared_otherwise: &mut Vec<usize>,
     ) -> Result<Vec<[f64; 2]>, StepError> {
         let trouble = |place: usize, trouble| StepError::Contact {
             contact: colliding[place],
@@ -343,16 +354,17 @@ impl UnilateralState {
         };
         let unsolved = || self.unsolved(colliding, t);
         let width = before.len();
-        let solved = |known_normal: &[f64], b: &[f64]| -> Result<Answer, StepError> {
+        let mut solved = |known_normal: &[f64], b: &[f64]| -> Result<Answer, StepError> {
             let unknowns: Vec<ContactUnknowns> = (colliding.iter().enumerate())
                 .map(|(place, &k)| self.unknowns_of_impact(here, (place, k), known_normal))
                 .collect();
             let answer = undetermined::solve(&unknowns, g, b).map_err(|_| unsolved())?;
             if answer.residual > 1e-8 {
-                Err(unsolved())
-            } else {
-                Ok(answer)
+                return Err(unsolved());
             }
+            let places = answer.shared_otherwise.iter();
+            shared_otherwise.extend(places.map(|place| colliding[*place]));
+            Ok(answer)
         };
         let after = |b: &[f64], impulses: &[[f64; 2]]| -> Vec<f64> {
             let row = |(i, b): (usize, &f64)| {
@@ -430,38 +442,80 @@ impl UnilateralState {
         }
     }
 
-    /// Whether bounces of a contact have become so low that they are at their end: how long the rest of them takes,
-    /// in s. Its rate is what the impact left of it, and `gap_acceleration` what it changes by while it is open.
-    pub fn remaining_bounce_time<S: System>(
+    /// The bounce of a contact that touches and opens with the rates that impacts have left. If it `is_hit`, its next bounce is compared with this one; if not,
+    /// it may be left from an impact before, when other bodies flew with it.
+    pub fn bounce<S: System>(
         &mut self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
-        contact: usize,
-        gap_acceleration: f64,
-    ) -> Option<f64> {
+        (contact, is_hit): (usize, bool),
+    ) -> Bounce {
         let here = self.kinematics(system, (t, q, v));
         let opening = here.rates[2 * contact];
-        let last = core::mem::replace(&mut self.openings[contact], opening);
-        let share = opening / last;
-        if opening <= 0.0 || gap_acceleration >= 0.0 || last <= 0.0 || share >= 1.0 {
+        let before = if is_hit {
+            core::mem::replace(&mut self.openings[contact], opening)
+        } else {
+            0.0
+        };
+        Bounce {
+            opening,
+            before,
+            roundoff: here.gap_roundoff(contact),
+            restitution: here.restitution(contact)[0],
+        }
+    }
+
+    /// Whether bounces of a contact have become so low that they are at their end: how long the rest of them takes, in s. `gap_acceleration` is what its
+    /// rate changes by while it is open.
+    pub fn remaining_bounce_time(&self, bounce: &Bounce, gap_acceleration: f64) -> Option<f64> {
+        let &Bounce {
+            opening,
+            before,
+            roundoff,
+            restitution,
+        } = bounce;
+        if opening <= 0.0 || gap_acceleration >= 0.0 {
             return None;
         }
-        let rounding = here.gap_roundoff(contact);
-        let least = (2.0 * -gap_acceleration * LEAST_HEIGHT * rounding).sqrt();
-        let limit = least.max(LEAST_BOUNCE * self.speed);
+        let rate_to = |height: f64| (2.0 * -gap_acceleration * height * roundoff).sqrt();
+        // A bounce in which the gap stays unknown cannot be followed, whether or not other bodies have made it higher than the one before.
+        let known_share = if before > 0.0 {
+            opening / before
+        } else {
+            f64::INFINITY
+        };
+        let share = if opening <= rate_to(KNOWN_HEIGHT) {
+            known_share.min(restitution)
+        } else {
+            known_share
+        };
+        if share >= 1.0 {
+            return None;
+        }
+        let limit = rate_to(LEAST_HEIGHT).max(LEAST_BOUNCE * self.speed);
         (opening <= limit).then(|| 2.0 * opening / -gap_acceleration / (1.0 - share))
     }
 
-    /// How fast the rate of a gap changes while the machine has these accelerations.
-    pub fn gap_acceleration<S: System>(
+    /// How fast the rates of all gaps change while the machine has these accelerations; 0 where that is rounding beside the greatest one, as between bodies that
+    /// fall together.
+    pub fn gap_accelerations<S: System>(
         &self,
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
-        contact: usize,
         a: &[f64],
-    ) -> f64 {
-        self.kinematics(system, (t, q, v))
-            .acceleration(2 * contact, a)[0]
+    ) -> Vec<f64> {
+        let here = self.kinematics(system, (t, q, v));
+        let all: Vec<[f64; 2]> = (0..here.gaps.len())
+            .map(|contact| here.acceleration(2 * contact, a))
+            .collect();
+        let greatest = all
+            .iter()
+            .fold(0.0, |most, [_, terms]| f64::max(most, *terms));
+        let is_rounding = |value: f64| value.abs() <= ROUNDING * greatest;
+        let values = all.into_iter().map(|[value, _]| value);
+        values
+            .map(|value| if is_rounding(value) { 0.0 } else { value })
+            .collect()
     }
 
     /// Which of the contacts that are closed are at rest along their tangents.
@@ -537,6 +591,42 @@ impl UnilateralState {
             .hypot(rounding[1])
             .max(1e-12 * self.greatest_rate());
         slip[0].hypot(slip[1]) <= STOPPED * least
+    }
+
+    /// Which contacts slip in two directions so slowly that `errors` of the rates of coordinates decide where to, and are braked. Such a slip misses 0 by these
+    /// errors and would be followed around it in ever shorter steps.
+    pub fn fading_slips<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        errors: &[f64],
+    ) -> Result<Vec<bool>, StepError> {
+        let mut fading = vec![false; self.modes().len()];
+        let slides = |k: usize| matches!(self.modes()[k], Mode::SlidesAlong(_));
+        if !(0..fading.len()).any(slides) {
+            return Ok(fading);
+        }
+        let here = self.kinematics(system, (at.t, at.q, at.v));
+        let slip = |k: usize| self.slip(&here, k)[0];
+        let is_slow = |k: &usize| {
+            if self.first(*k) != *k {
+                return false;
+            }
+            let [along, across] = slip(*k);
+            let [own, other] = [1, 3].map(|part| here.rate_error(2 * k + part, errors));
+            slides(*k) && along.hypot(across) <= own.hypot(other)
+        };
+        let slow: Vec<usize> = (0..fading.len()).filter(is_slow).collect();
+        if slow.is_empty() {
+            return Ok(fading);
+        }
+        let a = self.reaction(system, at)?.a;
+        for k in slow {
+            let change = [1, 3].map(|part| here.acceleration(2 * k + part, &a)[0]);
+            let [along, across] = slip(k);
+            fading[k] = along * change[0] + across * change[1] < 0.0;
+        }
+        Ok(fading)
     }
 
     /// Whether a contact that slides has come to rest where its slip is at right angles to what it was when the step began: then it

@@ -315,6 +315,11 @@ impl ContactKinematics {
         terms(self.row(direction), v) + self.rates[direction].abs()
     }
 
+    /// The error of a rate of a contact if the rates of coordinates have these.
+    pub fn rate_error(&self, direction: usize, errors: &[f64]) -> f64 {
+        terms(self.row(direction), errors)
+    }
+
     /// Below which a rate is rest.
     pub fn rate_rounding(&self, direction: usize) -> f64 {
         let rounding = ROUNDING * self.rate_terms(direction);

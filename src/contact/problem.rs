@@ -50,6 +50,20 @@ pub(super) enum ContactUnknowns {
     SecondTangent,
 }
 
+impl ContactUnknowns {
+    /// Whether it has a friction force that is unknown and can be more than 0.
+    fn has_friction(&self) -> bool {
+        match self {
+            Self::Both { friction, .. } | Self::OnCarrier { friction, .. } => *friction > 0.0,
+            Self::Tangent { friction, normal } => friction * normal > 0.0,
+            Self::Normal { .. }
+            | Self::Nothing
+            | Self::ShareOfCarrier { .. }
+            | Self::SecondTangent => false,
+        }
+    }
+}
+
 /// Solves for normal and tangential forces or impulses of each contact: finds one solution where there are several. `g` has two rows and columns
 /// for each, its normal and its tangent, and so has `b`. The search begins `near` these forces, if they are given: in the plane with the states
 /// that they imply, which contacts press, slip and stick.
@@ -65,35 +79,81 @@ pub(super) fn solve(
     {
         return in_space(contacts, g, b, near);
     }
-    let m = contacts.len();
-    let entry = |i: usize, j: usize| g[i * 2 * m + j];
-    // What is unknown: for each contact its kind, and in which units of impulse.
-    let mut unknowns: Vec<(usize, Kind)> = Vec::new();
-    for (k, contacts) in contacts.iter().enumerate() {
-        let has_friction = match contacts {
-            ContactUnknowns::Both { friction, .. } => *friction > 0.0,
-            ContactUnknowns::Tangent { friction, normal } => friction * normal > 0.0,
-            ContactUnknowns::OnCarrier { friction, .. } => *friction > 0.0,
-            ContactUnknowns::Normal { .. }
-            | ContactUnknowns::Nothing
-            | ContactUnknowns::ShareOfCarrier { .. }
-            | ContactUnknowns::SecondTangent => false,
-        };
-        if matches!(
-            contacts,
-            ContactUnknowns::Both { .. } | ContactUnknowns::Normal { .. }
-        ) {
-            unknowns.push((k, Kind::Normal));
-        }
-        if has_friction {
-            unknowns.extend([(k, Kind::Forward), (k, Kind::Backward), (k, Kind::Slip)]);
-        }
+    let problem = PlaneProblem::new(contacts, g, b);
+    if problem.rate == 0.0 || problem.unknowns.is_empty() {
+        return Ok(Answer::new(vec![[0.0; 2]; contacts.len()], 0.0));
     }
-    // By what rates are multiplied along tangents: a rate of rotation becomes one in the units of the contact that rolls, with the same energy.
-    let along_tangents: Vec<f64> = (contacts.iter().enumerate())
-        .map(|(k, unknowns)| match unknowns {
+    let (matrix, q) = problem.complementarity();
+    let guessed = near.and_then(|near| {
+        let guess = positive_near(contacts, &problem.unknowns, (g, b), near);
+        from_guess(&matrix, &q, guess, |wrong, guess| {
+            correct(contacts, &problem.unknowns, wrong, guess);
+        })
+    });
+    let solution = match guessed {
+        Some(solution) => solution,
+        None => lemke(&matrix, &q)?,
+    };
+    Ok(Answer::new(problem.forces(&solution.z), solution.residual))
+}
+
+/// A problem without second tangents, as a linear complementarity problem.
+struct PlaneProblem<'a> {
+    contacts: &'a [ContactUnknowns],
+    g: &'a [f64],
+    b: &'a [f64],
+    /// What is unknown: of which contact, and its kind.
+    unknowns: Vec<(usize, Kind)>,
+    /// By what rates are multiplied along tangents: a rate of rotation becomes one in the units of the contact that rolls, with the same energy.
+    along_tangents: Vec<f64>,
+    /// The unit of rates, and of the impulses of each contact.
+    rate: f64,
+    unit: Vec<f64>,
+}
+
+impl<'a> PlaneProblem<'a> {
+    fn new(contacts: &'a [ContactUnknowns], g: &'a [f64], b: &'a [f64]) -> Self {
+        let mut problem = Self {
+            contacts,
+            g,
+            b,
+            unknowns: Vec::new(),
+            along_tangents: Vec::new(),
+            rate: 0.0,
+            unit: Vec::new(),
+        };
+        for (k, contact) in contacts.iter().enumerate() {
+            if matches!(
+                contact,
+                ContactUnknowns::Both { .. } | ContactUnknowns::Normal { .. }
+            ) {
+                problem.unknowns.push((k, Kind::Normal));
+            }
+            if contact.has_friction() {
+                let unknowns = [(k, Kind::Forward), (k, Kind::Backward), (k, Kind::Slip)];
+                problem.unknowns.extend(unknowns);
+            }
+        }
+        let places = 0..contacts.len();
+        let along_tangents = places.clone().map(|k| problem.multiple_along_tangent(k));
+        problem.along_tangents = along_tangents.collect();
+        problem.rate = (b.iter().enumerate()).fold(0.0_f64, |size, (row, b)| {
+            size.max((problem.multiple(row) * b).abs())
+        });
+        problem.unit = places.map(|k| problem.unit_of_contact(k)).collect();
+        problem
+    }
+
+    /// `G` in the given units.
+    fn product(&self, i: usize, j: usize) -> f64 {
+        self.g[i * self.b.len() + j]
+    }
+
+    fn multiple_along_tangent(&self, k: usize) -> f64 {
+        match self.contacts[k] {
             ContactUnknowns::OnCarrier { on, .. } | ContactUnknowns::ShareOfCarrier { on, .. } => {
-                let (own, of_carrier) = (entry(2 * k + 1, 2 * k + 1), entry(2 * on, 2 * on));
+                let own = self.product(2 * k + 1, 2 * k + 1);
+                let of_carrier = self.product(2 * on, 2 * on);
                 if own > 0.0 && of_carrier > 0.0 {
                     (of_carrier / own).sqrt()
                 } else {
@@ -101,139 +161,138 @@ pub(super) fn solve(
                 }
             }
             _ => 1.0,
-        })
-        .collect();
-    let scale = |row: usize| {
+        }
+    }
+
+    /// By what the rate of a direction is multiplied.
+    fn multiple(&self, row: usize) -> f64 {
         if row.is_multiple_of(2) {
             1.0
         } else {
-            along_tangents[row / 2]
+            self.along_tangents[row / 2]
         }
-    };
-    let rate =
-        (b.iter().enumerate()).fold(0.0_f64, |size, (row, b)| size.max((scale(row) * b).abs()));
-    if rate == 0.0 || unknowns.is_empty() {
-        return Ok(Answer {
-            forces: vec![[0.0; 2]; m],
-            residual: 0.0,
-        });
     }
-    let unit: Vec<f64> = (0..m)
-        .map(|k| {
-            // A contact and its tangent have one unit; what leans has a direction of its own.
-            let own = match contacts[k] {
-                ContactUnknowns::OnCarrier { .. } => {
-                    along_tangents[k] * entry(2 * k + 1, 2 * k + 1)
-                }
-                _ => entry(2 * k, 2 * k),
-            };
-            if own > 0.0 { 1.0 / own } else { 1.0 }
-        })
-        .collect();
-    // What a unit of an unknown does to the rate of a direction.
-    let entry = |i: usize, j: usize| scale(i) * entry(i, j);
-    let effect = |row: usize, (k, kind): (usize, Kind)| match kind {
-        Kind::Normal => {
-            let share = match contacts[k] {
-                ContactUnknowns::Normal { share } => share,
-                _ => 0.0,
-            };
-            let carried = (contacts.iter().enumerate()).map(|(other, contacts)| match contacts {
-                ContactUnknowns::ShareOfCarrier { share, on } if *on == k => {
-                    share * entry(row, 2 * other + 1)
-                }
-                _ => 0.0,
-            });
-            let carried: f64 = carried.sum();
-            unit[k] * (entry(row, 2 * k) + share * entry(row, 2 * k + 1) + carried)
+
+    /// A contact and its tangent have one unit; what leans has a direction of its own.
+    fn unit_of_contact(&self, k: usize) -> f64 {
+        let own = match self.contacts[k] {
+            ContactUnknowns::OnCarrier { .. } => {
+                self.along_tangents[k] * self.product(2 * k + 1, 2 * k + 1)
+            }
+            _ => self.product(2 * k, 2 * k),
+        };
+        if own > 0.0 { 1.0 / own } else { 1.0 }
+    }
+
+    /// What a unit of an unknown does to the rate of a direction.
+    fn effect(&self, row: usize, (k, kind): (usize, Kind)) -> f64 {
+        let entry = |j: usize| self.multiple(row) * self.product(row, j);
+        match kind {
+            Kind::Normal => {
+                let share = match self.contacts[k] {
+                    ContactUnknowns::Normal { share } => share,
+                    _ => 0.0,
+                };
+                let contacts = self.contacts.iter().enumerate();
+                let carried = contacts.map(|(other, contact)| match contact {
+                    ContactUnknowns::ShareOfCarrier { share, on } if *on == k => {
+                        share * entry(2 * other + 1)
+                    }
+                    _ => 0.0,
+                });
+                let carried: f64 = carried.sum();
+                self.unit[k] * (entry(2 * k) + share * entry(2 * k + 1) + carried)
+            }
+            Kind::Forward => self.unit[k] * entry(2 * k + 1),
+            Kind::Backward => -self.unit[k] * entry(2 * k + 1),
+            Kind::Slip => 0.0,
         }
-        Kind::Forward => unit[k] * entry(row, 2 * k + 1),
-        Kind::Backward => -unit[k] * entry(row, 2 * k + 1),
-        Kind::Slip => 0.0,
-    };
-    let n = unknowns.len();
-    let (mut matrix, mut q) = (vec![0.0; n * n], vec![0.0; n]);
-    for (i, &(k, kind)) in unknowns.iter().enumerate() {
-        let row = &mut matrix[i * n..][..n];
-        let (friction, known_normal) = match contacts[k] {
+    }
+
+    /// The friction of a contact, the normal impulse that is known, in its unit, and of an impulse on another contact that one and how many of its units
+    /// are one of these.
+    fn limit(&self, k: usize) -> (f64, f64, Option<(usize, f64)>) {
+        let in_units = |normal: f64| normal / (self.unit[k] * self.rate);
+        match self.contacts[k] {
             ContactUnknowns::Both {
                 friction,
                 known_normal,
-            } => (friction, known_normal / (unit[k] * rate)),
+            } => (friction, in_units(known_normal), None),
             // Its own normal impulse is none, and the known one stands beside that.
-            ContactUnknowns::Tangent { friction, normal } => (friction, normal / (unit[k] * rate)),
+            ContactUnknowns::Tangent { friction, normal } => (friction, in_units(normal), None),
             ContactUnknowns::OnCarrier {
                 friction,
                 known_normal,
-                ..
-            } => (friction, known_normal / (unit[k] * rate)),
+                on,
+            } => {
+                let carrier = Some((on, self.unit[on] / self.unit[k]));
+                (friction, in_units(known_normal), carrier)
+            }
             ContactUnknowns::Normal { .. }
             | ContactUnknowns::Nothing
             | ContactUnknowns::ShareOfCarrier { .. }
-            | ContactUnknowns::SecondTangent => (0.0, 0.0),
-        };
-        // Where what presses is another contact, which, and how many of its units are one of these.
-        let carrier = match contacts[k] {
-            ContactUnknowns::OnCarrier { on, .. } => Some((on, unit[on] / unit[k])),
-            _ => None,
-        };
-        for (entry, &unknown) in row.iter_mut().zip(&unknowns) {
-            let is_own = unknown.0 == k;
-            *entry = match (kind, unknown.1) {
-                (Kind::Normal, _) => effect(2 * k, unknown),
-                (Kind::Forward | Kind::Backward, Kind::Slip) => f64::from(u8::from(is_own)),
-                (Kind::Forward, _) => effect(2 * k + 1, unknown),
-                (Kind::Backward, _) => -effect(2 * k + 1, unknown),
-                (Kind::Slip, Kind::Normal) => match carrier {
-                    Some((on, units)) if on == unknown.0 => friction * units,
-                    None if is_own => friction,
-                    _ => 0.0,
-                },
-                (Kind::Slip, Kind::Forward | Kind::Backward) if is_own => -1.0,
-                (Kind::Slip, _) => 0.0,
+            | ContactUnknowns::SecondTangent => (0.0, 0.0, None),
+        }
+    }
+
+    /// The matrix, row after row, and the constants.
+    fn complementarity(&self) -> (Vec<f64>, Vec<f64>) {
+        let n = self.unknowns.len();
+        let (mut matrix, mut q) = (vec![0.0; n * n], vec![0.0; n]);
+        for (i, &(k, kind)) in self.unknowns.iter().enumerate() {
+            let (friction, known_normal, carrier) = self.limit(k);
+            let row = &mut matrix[i * n..][..n];
+            for (entry, &unknown) in row.iter_mut().zip(&self.unknowns) {
+                let is_own = unknown.0 == k;
+                *entry = match (kind, unknown.1) {
+                    (Kind::Normal, _) => self.effect(2 * k, unknown),
+                    (Kind::Forward | Kind::Backward, Kind::Slip) => f64::from(u8::from(is_own)),
+                    (Kind::Forward, _) => self.effect(2 * k + 1, unknown),
+                    (Kind::Backward, _) => -self.effect(2 * k + 1, unknown),
+                    (Kind::Slip, Kind::Normal) => match carrier {
+                        Some((on, units)) if on == unknown.0 => friction * units,
+                        None if is_own => friction,
+                        _ => 0.0,
+                    },
+                    (Kind::Slip, Kind::Forward | Kind::Backward) if is_own => -1.0,
+                    (Kind::Slip, _) => 0.0,
+                };
+            }
+            let along_tangent = || self.multiple(2 * k + 1) * self.b[2 * k + 1] / self.rate;
+            q[i] = match kind {
+                Kind::Normal => self.b[2 * k] / self.rate,
+                Kind::Forward => along_tangent(),
+                Kind::Backward => -along_tangent(),
+                Kind::Slip => friction * known_normal,
             };
         }
-        q[i] = match kind {
-            Kind::Normal => b[2 * k] / rate,
-            Kind::Forward => scale(2 * k + 1) * b[2 * k + 1] / rate,
-            Kind::Backward => -scale(2 * k + 1) * b[2 * k + 1] / rate,
-            Kind::Slip => friction * known_normal,
-        };
+        (matrix, q)
     }
-    let guessed = near.and_then(|near| {
-        let guess = positive_near(contacts, &unknowns, (g, b), near);
-        from_guess(&matrix, &q, guess, |wrong, guess| {
-            correct(contacts, &unknowns, wrong, guess);
-        })
-    });
-    let solution = match guessed {
-        Some(solution) => solution,
-        None => lemke(&matrix, &q)?,
-    };
-    let mut forces = vec![[0.0; 2]; m];
-    for (&(k, kind), value) in unknowns.iter().zip(&solution.z) {
-        let value = value * unit[k] * rate;
-        match kind {
-            Kind::Normal => {
-                forces[k][0] += value;
-                if let ContactUnknowns::Normal { share } = contacts[k] {
-                    forces[k][1] += share * value;
+
+    /// The forces of each contact that belong to a solution.
+    fn forces(&self, z: &[f64]) -> Vec<[f64; 2]> {
+        let mut forces = vec![[0.0; 2]; self.contacts.len()];
+        for (&(k, kind), value) in self.unknowns.iter().zip(z) {
+            let value = value * self.unit[k] * self.rate;
+            match kind {
+                Kind::Normal => {
+                    forces[k][0] += value;
+                    if let ContactUnknowns::Normal { share } = self.contacts[k] {
+                        forces[k][1] += share * value;
+                    }
                 }
+                Kind::Forward => forces[k][1] += value,
+                Kind::Backward => forces[k][1] -= value,
+                Kind::Slip => {}
             }
-            Kind::Forward => forces[k][1] += value,
-            Kind::Backward => forces[k][1] -= value,
-            Kind::Slip => {}
         }
-    }
-    for (k, contacts) in contacts.iter().enumerate() {
-        if let ContactUnknowns::ShareOfCarrier { share, on } = contacts {
-            forces[k][1] = share * forces[*on][0];
+        for (k, contact) in self.contacts.iter().enumerate() {
+            if let ContactUnknowns::ShareOfCarrier { share, on } = contact {
+                forces[k][1] = share * forces[*on][0];
+            }
         }
+        forces
     }
-    Ok(Answer {
-        forces,
-        residual: solution.residual,
-    })
 }
 
 /// Which unknowns of a problem in the plane are positive if each contact does what it does with these forces.
@@ -341,10 +400,7 @@ fn in_space(
     let entry = |i: usize, j: usize| g[i * 2 * m + j];
     let rate = b.iter().fold(0.0_f64, |size, b| size.max(b.abs()));
     if rate == 0.0 {
-        return Ok(Answer {
-            forces: vec![[0.0; 2]; m],
-            residual: 0.0,
-        });
+        return Ok(Answer::new(vec![[0.0; 2]; m], 0.0));
     }
     // The unknown forces, by direction, and of each by what it is multiplied in other directions: what slips in a known
     // direction is a share of the normal force.
@@ -468,7 +524,7 @@ fn in_space(
             forces[direction / 2][direction % 2] += share * z * unit * rate;
         }
     }
-    Ok(Answer { forces, residual })
+    Ok(Answer::new(forces, residual))
 }
 
 /// The forces or impulses of contacts, along normal and tangent.
@@ -477,6 +533,18 @@ pub(super) struct Answer {
     pub forces: Vec<[f64; 2]>,
     /// By how much they miss the conditions, relative to the size of the terms.
     pub residual: f64,
+    /// Contacts that share their load in another way than by the rule for undetermined forces, (E79), although the motion depends on it; usually none.
+    pub shared_otherwise: Vec<usize>,
+}
+
+impl Answer {
+    fn new(forces: Vec<[f64; 2]>, residual: f64) -> Self {
+        Self {
+            forces,
+            residual,
+            shared_otherwise: Vec::new(),
+        }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]

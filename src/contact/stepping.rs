@@ -16,7 +16,8 @@ use std::vec::Vec;
 
 use super::delassus::{Inertia, matrix};
 use super::drives::{ActingContact, Drives, DrivesMemory};
-use super::problem::{self, ContactUnknowns, SATURATED};
+use super::kinematics::ContactKinematics;
+use super::problem::{self, Answer, ContactUnknowns, SATURATED};
 use super::touching::Reaction;
 use super::undetermined;
 use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, UnilateralState};
@@ -28,6 +29,9 @@ const CORRECTIONS: usize = 16;
 
 /// Contacts that are open by no more than so many times the deepest penetration are near it.
 const NEAR: f64 = 8.0;
+
+/// How large the residual of impulses may be.
+const MOST_RESIDUAL: f64 = 1e-8;
 
 /// What contacts did in a step.
 #[derive(Clone, Debug, Default)]
@@ -41,6 +45,8 @@ pub(crate) struct SteppedContacts {
     /// a little late have taken so much less.
     pub penetrated: Vec<usize>,
     pub energy_added: f64,
+    /// Contacts that shared their impulses in another way than by the rule for undetermined forces, (E79), although the motion depends on it.
+    pub shared_otherwise: Vec<usize>,
 }
 
 impl UnilateralState {
@@ -118,37 +124,13 @@ impl UnilateralState {
             .map(|direction| inertia.image(here.row(*direction)))
             .collect();
         let g = matrix(&images);
-        let b: Vec<f64> = (directions.iter())
-            .map(|&d| {
-                let after = free[d] + here.restitution(d / 2)[d % 2] * here.rates[d];
-                if d % 2 == 0 {
-                    after + way_back(d / 2)
-                } else {
-                    after
-                }
-            })
-            .collect();
-        let none = vec![0.0; active.len()];
-        let unknowns: Vec<ContactUnknowns> = (active.iter().enumerate())
-            .map(|(place, &k)| self.unknowns_of_impact(&here, (place, k), &none))
-            .collect();
-        let unsolved = || StepError::Contact {
+        let ways_back: Vec<f64> = active.iter().map(|k| way_back(*k)).collect();
+        let answer = self.impulses_of_step((&here, h), (&active, &ways_back), (&g, &free));
+        let answer = answer.ok_or(StepError::Contact {
             contact: active[0],
             trouble: ContactTrouble::Unsettled,
             t,
-        };
-        // Most contacts do what they did in the step before.
-        let near: Vec<[f64; 2]> = (active.iter())
-            .map(|k| match self.stepped() {
-                Some(forces) => forces[*k].map(|force| h * force),
-                None => [0.0; 2],
-            })
-            .collect();
-        let answer =
-            undetermined::solve_for_motion(&unknowns, &g, &b, &near).map_err(|_| unsolved())?;
-        if answer.residual > 1e-8 {
-            return Err(unsolved());
-        }
+        })?;
 
         let energy_free = system.kinetic_energy(t, q, v);
         // The impulses along the changes of the rates that are not theirs.
@@ -172,20 +154,21 @@ impl UnilateralState {
         }
         let mut memory = DrivesMemory::new(q);
         let mut drives = Drives::new(system, (t, q), &mut memory);
-        let mut stepped = SteppedContacts::default();
-        let width = directions.len();
-        let slip_after = |place: usize| {
-            let own = g[(2 * place + 1) * width..][..width].iter();
-            let by = own.zip(answer.forces.as_flattened()).map(|(g, i)| g * i);
-            free[2 * active[place] + 1] + by.sum::<f64>()
+        let shared_otherwise = answer.shared_otherwise.iter();
+        let mut stepped = SteppedContacts {
+            shared_otherwise: shared_otherwise.map(|place| active[*place]).collect(),
+            ..SteppedContacts::default()
         };
+        // The rates of all directions with the impulses.
+        let after: Vec<f64> = (directions.iter().zip(g.chunks_exact(directions.len())))
+            .map(|(direction, row)| {
+                let by = row.iter().zip(answer.forces.as_flattened());
+                free[*direction] + by.map(|(g, i)| g * i).sum::<f64>()
+            })
+            .collect();
         for (place, (&k, &impulse)) in active.iter().zip(&answer.forces).enumerate() {
-            let [gap_rate, slip] = [0, 1].map(|part| {
-                let own = g[(2 * place + part) * width..][..width].iter();
-                let by = own.zip(answer.forces.as_flattened()).map(|(g, i)| g * i);
-                let direction = 2 * k + part;
-                [here.rates[direction], free[direction] + by.sum::<f64>()]
-            });
+            let [gap_rate, slip] =
+                [0, 1].map(|part| [here.rates[2 * k + part], after[2 * place + part]]);
             // Of contacts that share a load some may press and some not, from step to step: what does not open is closed.
             let opens =
                 impulse == [0.0; 2] && gap_rate[1] + way_back(k) > here.rate_rounding(2 * k);
@@ -194,38 +177,10 @@ impl UnilateralState {
             }
             let loss = -0.5
                 * (impulse[0] * (gap_rate[0] + gap_rate[1]) + impulse[1] * (slip[0] + slip[1]));
-            let pressing = match self.carrier(k) {
-                Some(_) => answer.forces[place - 1][0],
-                None => impulse[0],
-            };
-            let most = here.friction(k)[0] * pressing;
-            modes[k] = if !self.has_friction(k) {
-                Mode::Slides(0.0)
-            } else if self.first(k) != k {
+            modes[k] = if self.first(k) != k {
                 modes[k - 1]
-            } else if self.second(k).is_some() {
-                let used = [0, 1].map(|part| answer.forces[place + part][1]);
-                let size = used[0].hypot(used[1]);
-                let slips = [0, 1].map(|part| slip_after(place + part));
-                let speed = slips[0].hypot(slips[1]);
-                let [_, rounding] = self.slip(&here, k);
-                if size < most * (1.0 - SATURATED) {
-                    Mode::Sticks
-                } else if size > 0.0 {
-                    Mode::SlidesAlong(used.map(|used| -used / size))
-                } else if speed > rounding[0].hypot(rounding[1]) {
-                    Mode::SlidesAlong(slips.map(|slip| slip / speed))
-                } else {
-                    Mode::Sticks
-                }
-            } else if impulse[1].abs() < most * (1.0 - SATURATED) {
-                Mode::Sticks
-            } else if impulse[1] != 0.0 {
-                Mode::Slides(-impulse[1].signum())
-            } else if slip[1].abs() > here.rate_rounding(2 * k + 1) {
-                Mode::Slides(slip[1].signum())
             } else {
-                Mode::Sticks
+                self.mode_after_step(&here, (k, place), (&answer.forces, &after))
             };
             forces[k] = impulse.map(|impulse| impulse / h);
             stepped.lost += loss;
@@ -251,6 +206,81 @@ impl UnilateralState {
         }
         self.set_stepped(modes, forces);
         Ok(stepped)
+    }
+
+    /// The impulses of the contacts that are active in a step of length `h`, with the rates that there would be at its end without them; none if no impulses
+    /// obey the law. `ways_back` are the rates at which contacts may close that are beside what they touch.
+    fn impulses_of_step(
+        &self,
+        (here, h): (&ContactKinematics, f64),
+        (active, ways_back): (&[usize], &[f64]),
+        (g, free): (&[f64], &[f64]),
+    ) -> Option<Answer> {
+        let directions = active.iter().flat_map(|k| [2 * k, 2 * k + 1]);
+        let mut b: Vec<f64> = directions
+            .map(|d| free[d] + here.restitution(d / 2)[d % 2] * here.rates[d])
+            .collect();
+        for (normal, way_back) in b.iter_mut().step_by(2).zip(ways_back) {
+            *normal += way_back;
+        }
+        let none = vec![0.0; active.len()];
+        let unknowns: Vec<ContactUnknowns> = (active.iter().enumerate())
+            .map(|(place, &k)| self.unknowns_of_impact(here, (place, k), &none))
+            .collect();
+        // Most contacts do what they did in the step before.
+        let near: Vec<[f64; 2]> = (active.iter())
+            .map(|k| match self.stepped() {
+                Some(forces) => forces[*k].map(|force| h * force),
+                None => [0.0; 2],
+            })
+            .collect();
+        let answer = undetermined::solve_for_motion(&unknowns, g, &b, &near).ok()?;
+        (answer.residual <= MOST_RESIDUAL).then_some(answer)
+    }
+
+    /// What a contact did in a step that is not the second tangent of another one, with the impulses of those that touched, among which it has this place, and
+    /// the rates along their directions at the end of the step.
+    fn mode_after_step(
+        &self,
+        here: &ContactKinematics,
+        (k, place): (usize, usize),
+        (impulses, after): (&[[f64; 2]], &[f64]),
+    ) -> Mode {
+        if !self.has_friction(k) {
+            return Mode::Slides(0.0);
+        }
+        let impulse = impulses[place];
+        let pressing = match self.carrier(k) {
+            Some(_) => impulses[place - 1][0],
+            None => impulse[0],
+        };
+        let most = here.friction(k)[0] * pressing;
+        if self.second(k).is_some() {
+            let used = [0, 1].map(|part| impulses[place + part][1]);
+            let size = used[0].hypot(used[1]);
+            let slips = [0, 1].map(|part| after[2 * (place + part) + 1]);
+            let speed = slips[0].hypot(slips[1]);
+            let [_, rounding] = self.slip(here, k);
+            return if size < most * (1.0 - SATURATED) {
+                Mode::Sticks
+            } else if size > 0.0 {
+                Mode::SlidesAlong(used.map(|used| -used / size))
+            } else if speed > rounding[0].hypot(rounding[1]) {
+                Mode::SlidesAlong(slips.map(|slip| slip / speed))
+            } else {
+                Mode::Sticks
+            };
+        }
+        let slip = after[2 * place + 1];
+        if impulse[1].abs() < most * (1.0 - SATURATED) {
+            Mode::Sticks
+        } else if impulse[1] != 0.0 {
+            Mode::Slides(-impulse[1].signum())
+        } else if slip.abs() > here.rate_rounding(2 * k + 1) {
+            Mode::Slides(slip.signum())
+        } else {
+            Mode::Sticks
+        }
     }
 
     /// Moves the end of a step out of what it has penetrated. Says which contacts have been penetrated.

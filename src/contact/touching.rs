@@ -99,7 +99,7 @@ pub(crate) struct UnilateralState {
     /// The greatest rate at which anything rolled against its resistance so far, in rad/s.
     pub(super) turning: f64,
     /// How fast each contact opened after its last impact.
-    pub openings: Vec<f64>,
+    pub(super) openings: Vec<f64>,
     /// The slip with which each contact last began to slip from rest, which is what rounding made of none.
     beginning_slips: Vec<f64>,
     /// Whether a direction is followed through rest, within a step: see [`Mode::SlidesAlong`].

@@ -34,8 +34,15 @@ const EQUILIBRIUM: f64 = 1e-9;
 /// left fall by about the compliance; rounding of the normal forces is that of the rates divided by it.
 const COMPLIANCE: [f64; 3] = [1.0, 0.2, 1e-4];
 
+/// Where rates fall slowly, because the contacts have short levers and move what is light along them, they become stiffer than that, up to this. Rounding of
+/// the normal forces is then up to 1e-8 of them.
+const STIFFEST: f64 = 1e-8;
+
 /// How often a problem is solved with a compliance.
-const ROUNDS: usize = 40;
+const ROUNDS: usize = 60;
+
+/// A search that returns to its last solution ends where the compliance is closer to that than this.
+const NEAREST: f64 = 0.9;
 
 /// Rates that a compliance leaves, relative to the greatest rate: no more than rounding.
 const RIGID: f64 = 1e-14;
@@ -249,13 +256,13 @@ pub(super) fn without_effect(by: Vec<Vec<f64>>, effects: &[(Vec<f64>, f64)]) -> 
         .collect()
 }
 
-/// The least inverse mass on which the contacts act that depend on each other, for each contact of a problem whose normal force does, and 0 for the rest; none if no normal force does.
-/// Forces may be in equilibrium along directions that `may_be_held`.
-fn inverse_masses(
+/// The contacts of a problem whose normal forces depend on each other, group by group; none if no normal force does. Forces may be in equilibrium along
+/// directions that `may_be_held`.
+fn sharing_contacts(
     contacts: &[ContactUnknowns],
     g: &[f64],
     may_be_held: impl Fn(usize) -> bool,
-) -> Option<Vec<f64>> {
+) -> Vec<Vec<usize>> {
     let m = contacts.len();
     let (mut directions, mut has_friction) = (Vec::new(), false);
     for (k, unknowns) in contacts.iter().enumerate() {
@@ -284,7 +291,7 @@ fn inverse_masses(
         .collect();
     let free = basis.len();
     if free == 0 {
-        return None;
+        return Vec::new();
     }
     let mut by = vec![0.0; PARTS * free * m];
     for (column, vector) in basis.iter().enumerate() {
@@ -294,40 +301,55 @@ fn inverse_masses(
     }
     let mut groups = vec![0; free];
     shares::group(&by, &mut groups);
-    let mut inverse_masses = vec![0.0; m];
-    for group in (0..free).filter(|group| groups[*group] == *group) {
+    let members = |group: usize| -> Vec<usize> {
         let is_member = |k: &usize| {
             let own = &by[PARTS * free * k..][..PARTS * free];
             shares::is_in(own, &groups, group) && own[..free].iter().any(|x| *x != 0.0)
         };
-        let members: Vec<usize> = (0..m).filter(is_member).collect();
-        let own = members.iter().map(|k| g[2 * k * 2 * m + 2 * k]);
+        (0..m).filter(is_member).collect()
+    };
+    let groups = (0..free).filter(|group| groups[*group] == *group);
+    groups.map(members).collect()
+}
+
+/// The least inverse mass on which the contacts act that depend on each other, for each contact in one of these groups, and 0 for the rest.
+fn inverse_masses(groups: &[Vec<usize>], g: &[f64], contacts: usize) -> Vec<f64> {
+    let mut inverse_masses = vec![0.0; contacts];
+    for members in groups {
+        let own = members.iter().map(|k| g[2 * k * 2 * contacts + 2 * k]);
         let least = own.fold(f64::INFINITY, f64::min);
         members.iter().for_each(|k| inverse_masses[*k] = least);
     }
-    Some(inverse_masses)
+    inverse_masses
 }
 
 /// Solves for normal and tangential forces or impulses of each contact, as [`problem::solve`]; if normal forces depend on each other, with the
 /// distribution of the rule.
 ///
 /// With the compliance ε a contact presses with `λ = max(0, c − γ/ε)`. That is the solution of a problem with ε added to the diagonal, and of
-/// rigid contacts where γ is 0: c is followed until it is. Where rounding prevents that, the answer is any solution.
+/// rigid contacts where γ is 0: c is followed until it is. Where rounding prevents that, the answer is any solution, which says so if the motion depends
+/// on it.
 pub(super) fn solve(
     contacts: &[ContactUnknowns],
     g: &[f64],
     b: &[f64],
 ) -> Result<Answer, Unsolved> {
     let some = problem::solve(contacts, g, b, None);
-    let Some(inverse_masses) = inverse_masses(contacts, g, |_| true) else {
+    let groups = sharing_contacts(contacts, g, |_| true);
+    if groups.is_empty() {
         return some;
-    };
+    }
     let start = some.as_ref().ok().map(|answer| answer.forces.as_slice());
-    distributed(contacts, (g, b), &inverse_masses, start, TOLERABLE).map_or(some, Ok)
+    match distributed(contacts, (g, b), &groups, start, TOLERABLE) {
+        Some(answer) => Ok(answer),
+        None => some.map(|answer| Answer {
+            shared_otherwise: motion_depends_on(contacts, (g, b), &answer.forces),
+            ..answer
+        }),
+    }
 }
 
-/// As [`solve`], but with the distribution of the rule only if the motion depends on it: if a contact slips whose normal force others depend on, along
-/// the directions that are held. The search begins `near` these forces.
+/// As [`solve`], but with the distribution of the rule only if the motion depends on it. The search begins `near` these forces.
 pub(super) fn solve_for_motion(
     contacts: &[ContactUnknowns],
     g: &[f64],
@@ -335,27 +357,50 @@ pub(super) fn solve_for_motion(
     near: &[[f64; 2]],
 ) -> Result<Answer, Unsolved> {
     let some = problem::solve(contacts, g, b, Some(near));
+    let some = some.or_else(|_| problem::solve(contacts, g, b, None));
+    let mut depends = Vec::new();
     if let Ok(answer) = &some {
-        let (width, rate) = (b.len(), greatest(b));
-        let rates: Vec<f64> = (b.iter().zip(g.chunks_exact(width)))
-            .map(|(b, row)| b + dot(row, answer.forces.as_flattened()))
-            .collect();
-        let is_held = |direction: usize| rates[direction].abs() <= HELD * rate;
-        let following = following(contacts, is_held);
-        if following.is_empty() {
-            return some;
-        }
-        let depends = inverse_masses(contacts, g, is_held)
-            .is_some_and(|inverse_masses| following.iter().any(|k| inverse_masses[*k] > 0.0));
-        if !depends {
+        depends = motion_depends_on(contacts, (g, b), &answer.forces);
+        if depends.is_empty() {
             return some;
         }
     }
-    let Some(inverse_masses) = inverse_masses(contacts, g, |_| true) else {
+    let groups = sharing_contacts(contacts, g, |_| true);
+    if groups.is_empty() {
         return some;
-    };
+    }
     let start = some.as_ref().ok().map(|answer| answer.forces.as_slice());
-    distributed(contacts, (g, b), &inverse_masses, start, HELD).map_or(some, Ok)
+    match distributed(contacts, (g, b), &groups, start, HELD) {
+        Some(answer) => Ok(answer),
+        None => some.map(|answer| Answer {
+            shared_otherwise: depends,
+            ..answer
+        }),
+    }
+}
+
+/// The contacts on whose distribution of a load the motion depends: those of which one slips whose normal force others depend on, along the directions
+/// that are held with these forces.
+fn motion_depends_on(
+    contacts: &[ContactUnknowns],
+    (g, b): (&[f64], &[f64]),
+    forces: &[[f64; 2]],
+) -> Vec<usize> {
+    let (width, rate) = (b.len(), greatest(b));
+    if rate == 0.0 {
+        return Vec::new();
+    }
+    let rates: Vec<f64> = (b.iter().zip(g.chunks_exact(width)))
+        .map(|(b, row)| b + dot(row, forces.as_flattened()))
+        .collect();
+    let is_held = |direction: usize| rates[direction].abs() <= HELD * rate;
+    let following = following(contacts, is_held);
+    if following.is_empty() {
+        return Vec::new();
+    }
+    let groups = sharing_contacts(contacts, g, is_held).into_iter();
+    let depends = |members: &Vec<usize>| members.iter().any(|k| following.contains(k));
+    groups.filter(depends).flatten().collect()
 }
 
 /// The contacts whose normal force a friction force follows, because something slips there or would if the contact pressed.
@@ -378,50 +423,162 @@ fn following(contacts: &[ContactUnknowns], is_held: impl Fn(usize) -> bool) -> V
 fn distributed(
     contacts: &[ContactUnknowns],
     (g, b): (&[f64], &[f64]),
-    inverse_masses: &[f64],
+    groups: &[Vec<usize>],
     start: Option<&[[f64; 2]]>,
     tolerable: f64,
 ) -> Option<Answer> {
-    let (m, width, rate) = (contacts.len(), b.len(), greatest(b));
-    if rate == 0.0 {
+    if greatest(b) == 0.0 {
         return None;
     }
-    let yields = || (0..m).filter(|k| inverse_masses[*k] > 0.0);
-    let [first_part, share, last_part] = COMPLIANCE;
-    // Only the search on friction cones needs to be led from soft contacts to stiff ones.
+    let yielding = Yielding {
+        contacts,
+        g,
+        b,
+        inverse_masses: &inverse_masses(groups, g, contacts.len()),
+    };
     let in_space = (contacts.iter()).any(|k| matches!(k, ContactUnknowns::SecondTangent));
-    let mut part = if in_space { first_part } else { last_part };
-    let mut c = vec![0.0; m];
-    let mut forces = start.map(<[_]>::to_vec);
-    let mut best: Option<Answer> = None;
-    for _ in 0..ROUNDS {
-        let compliance = |k: usize| part * inverse_masses[k];
+    let is_good = |answer: &Answer| answer.residual <= tolerable;
+    let found = |returns| {
+        let found = yielding.stiffened(start, (in_space, returns), tolerable);
+        found.filter(is_good)
+    };
+    found(false).or_else(|| if in_space { found(true) } else { None })
+}
+
+/// A problem of contacts that yield.
+struct Yielding<'a> {
+    contacts: &'a [ContactUnknowns],
+    g: &'a [f64],
+    b: &'a [f64],
+    /// 0 for contacts that do not yield.
+    inverse_masses: &'a [f64],
+}
+
+impl Yielding<'_> {
+    /// The best solution as the contacts become ever stiffer. Friction in space may permit several, between which the search may jump. Then it either goes
+    /// on from any, or it goes on only from better ones and `returns` to the last one of these, with contacts that have become less stiff. A residual that
+    /// is `tolerable` does not need stiffer ones than usual.
+    fn stiffened(
+        &self,
+        start: Option<&[[f64; 2]]>,
+        (in_space, returns): (bool, bool),
+        tolerable: f64,
+    ) -> Option<Answer> {
+        let [first_part, share, last_part] = COMPLIANCE;
+        // Only the search on friction cones needs to be led from soft contacts to stiff ones.
+        let mut part = if in_space { first_part } else { last_part };
+        let mut c = vec![0.0; self.contacts.len()];
+        let mut forces = start.map(<[_]>::to_vec);
+        let (mut best, mut part_of_best): (Option<Answer>, f64) = (None, f64::INFINITY);
+        for _ in 0..ROUNDS {
+            let known = best.as_ref().map_or(f64::INFINITY, |best| best.residual);
+            let found = self.solve(part, &c, forces.as_deref());
+            let Some((answer, next)) =
+                found.filter(|(answer, _)| !returns || answer.residual < known)
+            else {
+                if !returns || best.is_none() || part > NEAREST * part_of_best {
+                    break;
+                }
+                part = (part * part_of_best).sqrt();
+                continue;
+            };
+            let is_slow = part <= last_part && answer.residual > 0.5 * known;
+            let suffices = part <= STIFFEST || answer.residual <= tolerable;
+            let is_last = answer.residual <= RIGID || (is_slow && suffices);
+            c = next;
+            forces = Some(answer.forces.clone());
+            if answer.residual < known {
+                (best, part_of_best) = (Some(answer), part);
+            }
+            if is_last {
+                break;
+            }
+            part = if is_slow {
+                (share * part).max(STIFFEST)
+            } else {
+                (share * part).max(last_part).min(part)
+            };
+        }
+        best
+    }
+
+    /// A solution with contacts that yield by this part of the greatest compliance and press with c where they do not move, and c for the next problem. Its
+    /// residual is that of rigid contacts.
+    fn solve(&self, part: f64, c: &[f64], near: Option<&[[f64; 2]]>) -> Option<(Answer, Vec<f64>)> {
+        let Self { contacts, g, b, .. } = *self;
+        let (width, rate) = (b.len(), greatest(b));
+        let yields = || (0..c.len()).filter(|k| self.inverse_masses[*k] > 0.0);
+        let compliance = |k: usize| part * self.inverse_masses[k];
         let (mut yielding, mut shifted) = (g.to_vec(), b.to_vec());
         for k in yields() {
             yielding[2 * k * width + 2 * k] += compliance(k);
             shifted[2 * k] -= compliance(k) * c[k];
         }
-        let mut answer = problem::solve(contacts, &yielding, &shifted, forces.as_deref()).ok()?;
-        let mut left = 0.0_f64;
+        let mut answer = problem::solve(contacts, &yielding, &shifted, near).ok()?;
+        let (mut left, mut next) = (0.0_f64, c.to_vec());
         for k in yields() {
             let row = &g[2 * k * width..][..width];
             let opens = b[2 * k] + dot(row, answer.forces.as_flattened());
-            c[k] -= opens / compliance(k);
+            next[k] -= opens / compliance(k);
             // One that does not press may open at any rate.
             let presses = answer.forces[k][0] > 0.0;
             left = left.max(if presses { opens.abs() } else { -opens });
         }
         answer.residual = answer.residual.max(left / rate);
-        forces = Some(answer.forces.clone());
-        let known = best.as_ref().map_or(f64::INFINITY, |best| best.residual);
-        let is_last = left <= RIGID * rate || (part == last_part && answer.residual > 0.5 * known);
-        part = (share * part).max(last_part);
-        if answer.residual < known {
-            best = Some(answer);
-        }
-        if is_last {
-            break;
+        Some((answer, next))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three feet of a body of unit mass and inertia, at these levers and below it by `height`, that slide on a plane with friction: the products of their
+    /// rows, and the rates of gaps and slips.
+    fn three_feet(levers: [f64; 3], height: f64) -> (Vec<ContactUnknowns>, Vec<f64>, Vec<f64>) {
+        let rows = levers.map(|lever| [[0.0, 1.0, lever], [1.0, 0.0, height]]);
+        let rows = rows.as_flattened();
+        let product = |a: &[f64; 3], b: &[f64; 3]| dot(a, b);
+        let g = rows
+            .iter()
+            .flat_map(|a| rows.iter().map(move |b| product(a, b)));
+        (
+            vec![ContactUnknowns::Normal { share: -0.1 }; 3],
+            g.collect(),
+            [[-1.0, 0.5]; 3].as_flattened().to_vec(),
+        )
+    }
+
+    /// Feet at the height of the centre of mass have normal forces `a + b x` with `Σ N = 1` and `Σ N x = 0`, however short their levers x are.
+    #[test]
+    fn short_levers_share_a_load_as_long_ones_do() {
+        for size in [1.0, 0.1, 1e-2, 1e-3, 1e-4] {
+            let x = [-size, 0.3 * size, size];
+            let (contacts, g, b) = three_feet(x, 0.0);
+            let answer = solve(&contacts, &g, &b).expect("solved");
+            assert!(answer.shared_otherwise.is_empty(), "{size}: {answer:?}");
+            // 3 a + 0.3 b = 1 and 0.3 a + 2.09 b = 0 with b in units of 1/size.
+            let (a, slope) = (2.09 / 6.18, -0.3 / 6.18);
+            for (force, x) in answer.forces.iter().zip(x) {
+                let expected = a + slope * x / size;
+                // Rates that are 0 to 1e-11 tell forces at levers of this size.
+                let error = (force[0] - expected).abs();
+                assert!(error <= 1e-11 / (size * size), "{size}: {answer:?}");
+            }
         }
     }
-    best.filter(|answer| answer.residual <= tolerable)
+
+    /// Where the rates of the levers are too small to tell forces from rounding, but not so small that they are none, the answer says that it is another one.
+    #[test]
+    fn another_distribution_is_told() {
+        let (contacts, g, b) = three_feet([-1e-9, 3e-10, 1e-9], 0.3);
+        let answer = solve(&contacts, &g, &b).expect("solved");
+        assert_eq!(answer.shared_otherwise, [0, 1, 2]);
+        let sum: f64 = answer.forces.iter().map(|force| force[0]).sum();
+        assert!((sum - 1.0).abs() <= 1e-9, "{answer:?}");
+        // Without friction no motion depends on it.
+        let smooth = vec![ContactUnknowns::Normal { share: 0.0 }; 3];
+        let answer = solve(&smooth, &g, &b).expect("solved");
+        assert!(answer.shared_otherwise.is_empty());
+    }
 }

@@ -1,6 +1,7 @@
 //! Lets unilateral contacts close, open, stick and slip at the end of a step.
 
 use std::boxed::Box;
+use std::vec;
 use std::vec::Vec;
 
 use super::{Model, Stepper, move_by_rounding};
@@ -8,10 +9,11 @@ use crate::at::At;
 use crate::balance::{ContactShare, Quadratures};
 use crate::constraints::Constraints;
 use crate::contact::{
-    ContactMemory, Impact, Mode, ParadoxResolution, StateBox, StepEnds, UnilateralState,
+    Bounce, ContactMemory, Impact, Mode, ParadoxResolution, StateBox, StepEnds, UnilateralState,
 };
 use crate::inputs::InputLaw;
 use crate::stages::Point;
+use crate::tolerance::Tolerance;
 use crate::unilateral::ContactTrouble;
 use crate::{StepError, System, Vector};
 
@@ -24,6 +26,9 @@ const STEP_TO_FLIGHT_RATIO: f64 = 8.0;
 /// A slip that has stopped is removed without a further question if that changes the kinetic energy by at most this share: a slip is located to the
 /// tolerance of the step, and its square is less.
 const SHARE_OF_REST: f64 = 1e-9;
+
+/// A slip in two directions has stopped if it is braked and less than so many errors that a step may have.
+const FADING: f64 = 10.0;
 
 /// The reason for which the next states of contacts are determined.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +62,8 @@ pub(crate) struct ContactChanges {
     pub lost_at_end: f64,
     /// Layers whose loading changed direction: whether they are loaded now.
     pub turned: Vec<(usize, bool)>,
+    /// Contacts that share their load in another way than by the rule for undetermined forces, (E79), although the motion depends on it.
+    pub shared_otherwise: Vec<usize>,
     /// The length of the flight that follows, if there is one and its length is known.
     flight: Option<f64>,
 }
@@ -111,44 +118,30 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let stored_before = stored_by_each(model.system.get(), &touching, now);
         let loaded_before: Vec<bool> = touching.loaded().collect();
         model.set_inputs(t, &now.q, &now.v);
-        // A slip in space that has become perpendicular to its earlier direction may have turned instead of stopped.
-        let cause = match cause {
-            Cause::Stops(k) => {
-                let at = At {
-                    t,
-                    q: &now.q,
-                    v: &now.v,
-                    u: &model.inputs,
-                };
-                if touching.has_stopped(model.system.get(), at, k)? {
-                    cause
-                } else {
-                    // It cannot turn so close to the place at which it was evaluated: the tangents jump here, and the next step has
-                    // to begin beyond the jump.
-                    move_by_rounding(&mut now.q, &now.v);
-                    model.set_inputs(t, &now.q, &now.v);
-                    Cause::Unspecified
-                }
+        let fading = match cause {
+            Cause::Stops(_) | Cause::Unspecified => {
+                let Tolerance { relative, absolute } = &self.tolerance;
+                let errors: Vec<f64> = (absolute.as_slice().iter().zip(now.v.as_slice()))
+                    .map(|(absolute, v)| FADING * (absolute + relative * v.abs()))
+                    .collect();
+                model.fading_slips(&touching, now, &errors)?
             }
-            cause => cause,
+            _ => vec![false; touching.modes().len()],
         };
-        let known = match cause {
-            Cause::Lifts(k) | Cause::Leaves(k) => Some((k, Mode::Open)),
-            Cause::Breaks(k, direction) if touching.second(k).is_some() => {
-                Some((k, Mode::SlidesAlong(direction)))
-            }
-            Cause::Breaks(k, [along, _]) => Some((k, Mode::Slides(along.signum()))),
-            Cause::Unspecified | Cause::Stops(_) | Cause::Presses(_) | Cause::Turns(_) => None,
-        };
+        let cause = model.known_cause(cause, &touching, now, &fading)?;
         let pairs: Vec<usize> = (0..touching.modes().len())
             .map(|k| touching.first(k))
             .collect();
-        let stops = |k: usize| cause == Cause::Stops(pairs[k]);
 
-        let (impacts, touches) = meet(model.system.get(), &mut touching, now)?;
-        changes_at_instant.impacts = impacts;
+        let touches = meet(
+            model.system.get(),
+            &mut touching,
+            now,
+            &mut changes_at_instant,
+        )?;
         model.set_inputs(t, &now.q, &now.v);
         let as_held = changes_at_instant.impacts.is_empty();
+        let stops = |k: usize| cause == Cause::Stops(pairs[k]) || as_held && fading[pairs[k]];
         let mut closed =
             touching.persisting(model.system.get(), (t, &now.q, &now.v), &touches, as_held);
         match cause {
@@ -161,70 +154,32 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             _ => {}
         }
         touching.copy_from_carriers(&mut closed);
+        let stopped: Vec<bool> = (0..closed.len()).map(stops).collect();
         if touching.may_have_paradox() {
-            let mut resting = touching.resting(model.system.get(), (t, &now.q, &now.v), &closed);
-            for (k, resting) in resting.iter_mut().enumerate() {
-                *resting |= stops(k) || cause == Cause::Lifts(k);
-            }
-            let at = At {
-                t,
-                q: &now.q,
-                v: &now.v,
-                u: &model.inputs,
-            };
-            match touching.resolve_paradox(model.system.get(), at, &closed, &resting)? {
-                Some(ParadoxResolution::Opens(k)) => closed[k] = false,
-                Some(ParadoxResolution::Impact { impact, change }) => {
-                    for (v, by) in now.v.as_mut_slice().iter_mut().zip(change) {
-                        *v += by;
-                    }
-                    now.v_low.as_mut_slice().fill(0.0);
-                    changes_at_instant.impacts.push(impact);
-                    model.set_inputs(t, &now.q, &now.v);
-                    closed = touching.persisting(
-                        model.system.get(),
-                        (t, &now.q, &now.v),
-                        &touches,
-                        false,
-                    );
-                }
-                None => {}
-            }
+            model.leave_paradox(
+                &touching,
+                now,
+                (cause, &touches, &stopped),
+                (&mut closed, &mut changes_at_instant),
+            )?;
         }
         let energy_after = energy(model, now);
-        model.end_bounces(&mut touching, now, &mut closed, &mut changes_at_instant)?;
+        model.end_bounces(
+            &mut touching,
+            now,
+            (&touches, &mut closed),
+            &mut changes_at_instant,
+        )?;
         touching.copy_from_carriers(&mut closed);
-        let stopped: Vec<bool> = (0..closed.len()).map(stops).collect();
         let is_hit = !changes_at_instant.impacts.is_empty();
         model.hold_closed(&mut touching, now, (&closed, &stopped, is_hit))?;
         let resting = resting_or_stopped(model.system.get(), &touching, now, (&closed, &stopped));
-        let at = At {
-            t,
-            q: &now.q,
-            v: &now.v,
-            u: &model.inputs,
-        };
-        let known: Vec<(usize, Mode)> = known.into_iter().collect();
-        let system = model.system.get();
-        let mut modes = touching.settled(system, at, &closed, &resting, &known)?;
-        let is_same = |modes: &[Mode]| {
-            let mut pairs = modes.iter().zip(touching.modes());
-            pairs.all(|(after, before)| after.is_like(*before))
-        };
-        if cause == Cause::Unspecified && is_same(&modes) {
-            // Contacts that share a load may exceed what they hold together by so little that the forces above do not show it.
-            let let_go = touching.let_go(system, at)?;
-            if !let_go.is_empty() {
-                modes = touching.settled(system, at, &closed, &resting, &let_go)?;
-            }
-        }
-        if let Cause::Lifts(_) = cause {
-            // Contacts that lift at the same instant, by symmetry, would otherwise close each other again and again.
-            let was_open =
-                |k: usize| changes_at_instant.before[k] == Mode::Open && !touching.is_compliant(k);
-            modes = touching.without_unpressed(system, at, modes, was_open)?;
-        }
-        touching.set_modes(modes);
+        model.settle(
+            &mut touching,
+            now,
+            (cause, &closed, &resting),
+            &mut changes_at_instant,
+        )?;
         touching.record_slips(model.system.get(), t, &now.q, &now.v);
         touching.record_beginning_slips(model.system.get(), (t, &now.q, &now.v), &resting);
         if !matches!(cause, Cause::Turns(_)) || !changes_at_instant.impacts.is_empty() {
@@ -328,51 +283,207 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         }
     }
 
-    /// Closes contacts that were hit and whose bounces end, and notes how long the flights of the others are.
+    /// The cause of a change, once more is known: a slip in space that has become perpendicular to its earlier direction may have turned instead of stopped.
+    fn known_cause(
+        &mut self,
+        cause: Cause,
+        touching: &UnilateralState,
+        now: &mut Point<S::Vector>,
+        fading: &[bool],
+    ) -> Result<Cause, StepError> {
+        let Cause::Stops(k) = cause else {
+            return Ok(cause);
+        };
+        let at = At {
+            t: now.t,
+            q: &now.q,
+            v: &now.v,
+            u: &self.inputs,
+        };
+        if fading[k] || touching.has_stopped(self.system.get(), at, k)? {
+            return Ok(cause);
+        }
+        // It cannot turn so close to the place at which it was evaluated: the tangents jump here, and the next step has to begin beyond the jump.
+        move_by_rounding(&mut now.q, &now.v);
+        self.set_inputs(now.t, &now.q, &now.v);
+        Ok(Cause::Unspecified)
+    }
+
+    /// Takes the way out of Painlevé's paradox of a closed contact, if there is one: the contact opens, or has an impact, which changes what is closed.
+    fn leave_paradox(
+        &mut self,
+        touching: &UnilateralState,
+        now: &mut Point<S::Vector>,
+        (cause, touches, stopped): (Cause, &[bool], &[bool]),
+        (closed, changes): (&mut Vec<bool>, &mut ContactChanges),
+    ) -> Result<(), StepError> {
+        let t = now.t;
+        let mut resting = touching.resting(self.system.get(), (t, &now.q, &now.v), closed);
+        for (k, resting) in resting.iter_mut().enumerate() {
+            *resting |= stopped[k] || cause == Cause::Lifts(k);
+        }
+        let at = At {
+            t,
+            q: &now.q,
+            v: &now.v,
+            u: &self.inputs,
+        };
+        match touching.resolve_paradox(self.system.get(), at, closed, &resting)? {
+            Some(ParadoxResolution::Opens(k)) => closed[k] = false,
+            Some(ParadoxResolution::Impact { impact, change }) => {
+                for (v, by) in now.v.as_mut_slice().iter_mut().zip(change) {
+                    *v += by;
+                }
+                now.v_low.as_mut_slice().fill(0.0);
+                changes.impacts.push(impact);
+                self.set_inputs(t, &now.q, &now.v);
+                let place = (t, &now.q, &now.v);
+                *closed = touching.persisting(self.system.get(), place, touches, false);
+            }
+            None => {}
+        }
+        Ok(())
+    }
+
+    /// Sets what closed contacts do next, with what the cause of the change says of one of them.
+    fn settle(
+        &self,
+        touching: &mut UnilateralState,
+        now: &Point<S::Vector>,
+        (cause, closed, resting): (Cause, &[bool], &[bool]),
+        changes: &mut ContactChanges,
+    ) -> Result<(), StepError> {
+        let known = match cause {
+            Cause::Lifts(k) | Cause::Leaves(k) => Some((k, Mode::Open)),
+            Cause::Breaks(k, direction) if touching.second(k).is_some() => {
+                Some((k, Mode::SlidesAlong(direction)))
+            }
+            Cause::Breaks(k, [along, _]) => Some((k, Mode::Slides(along.signum()))),
+            Cause::Unspecified | Cause::Stops(_) | Cause::Presses(_) | Cause::Turns(_) => None,
+        };
+        let system = self.system.get();
+        let at = At {
+            t: now.t,
+            q: &now.q,
+            v: &now.v,
+            u: &self.inputs,
+        };
+        let mut settled = touching.settled(system, at, closed, resting, known.as_slice())?;
+        let is_same = |modes: &[Mode]| {
+            let mut pairs = modes.iter().zip(touching.modes());
+            pairs.all(|(after, before)| after.is_like(*before))
+        };
+        if cause == Cause::Unspecified && is_same(&settled.modes) {
+            // Contacts that share a load may exceed what they hold together by so little that the forces above do not show it.
+            let let_go = touching.let_go(system, at)?;
+            if !let_go.is_empty() {
+                settled = touching.settled(system, at, closed, resting, &let_go)?;
+            }
+        }
+        let mut modes = settled.modes;
+        changes.shared_otherwise.extend(settled.shared_otherwise);
+        if let Cause::Lifts(_) = cause {
+            // Contacts that lift at the same instant, by symmetry, would otherwise close each other again and again.
+            let was_open = |k: usize| changes.before[k] == Mode::Open && !touching.is_compliant(k);
+            modes = touching.without_unpressed(system, at, modes, was_open)?;
+        }
+        touching.set_modes(modes);
+        Ok(())
+    }
+
+    /// Closes contacts that touch and whose bounces end, and notes how long the flights of the others are.
     fn end_bounces(
         &self,
         touching: &mut UnilateralState,
         now: &Point<S::Vector>,
-        closed: &mut [bool],
+        (touches, closed): (&[bool], &mut [bool]),
         changes: &mut ContactChanges,
     ) -> Result<(), StepError> {
+        if changes.impacts.is_empty() {
+            return Ok(());
+        }
         let system = self.system.get();
-        let mut free = now.v.zeros_like();
-        if !changes.impacts.is_empty() {
-            // The motion with all contacts that were hit open determines the length of the next flight.
+        let place = (now.t, &now.q, &now.v);
+        let is_hit = |k: usize| changes.impacts.iter().any(|impact| impact.contact == k);
+        let may_end = |k: &usize| touches[*k] && !closed[*k];
+        let bouncing: Vec<usize> = (0..closed.len())
+            .filter(may_end)
+            .filter(|k| touching.carrier(*k).is_none() && !touching.is_compliant(*k))
+            .collect();
+        let mut bounces: Vec<(usize, Bounce)> = (bouncing.into_iter())
+            .map(|k| (k, touching.bounce(system, place, (k, is_hit(k)))))
+            .collect();
+        // The motion with all contacts that were hit open determines the length of the next flight. What then comes to rest is closed in the motion that
+        // determines it for the others: two bodies that fly together do not fall on each other until the lower one rests.
+        let mut modes: Vec<Mode> = (closed.iter().zip(touching.modes()))
+            .map(|(closed, mode)| if *closed { *mode } else { Mode::Open })
+            .collect();
+        loop {
             let mut flying = touching.clone();
-            let modes = (closed.iter().zip(touching.modes()))
-                .map(|(closed, mode)| if *closed { *mode } else { Mode::Open })
-                .collect();
-            flying.set_modes(modes);
+            flying.set_modes(modes.clone());
             let at = At {
                 t: now.t,
                 q: &now.q,
                 v: &now.v,
                 u: &self.inputs,
             };
+            let mut free = now.v.zeros_like();
             let mut memory = ContactMemory::new(&flying, &now.q);
             flying.accelerations(system, at, &mut memory, &mut free)?;
-        }
-        let mut hit: Vec<usize> = changes.impacts.iter().map(|i| i.contact).collect();
-        hit.sort_unstable();
-        hit.dedup();
-        hit.retain(|k| !closed[*k] && touching.carrier(*k).is_none());
-        for contact in hit {
-            let place = (now.t, &now.q, &now.v);
-            let gap_acceleration =
-                touching.gap_acceleration(system, place, contact, free.as_slice());
-            let left = touching.remaining_bounce_time(system, place, contact, gap_acceleration);
-            if let Some(left) = left {
-                closed[contact] = true;
-                changes.ended.push((contact, left));
-            } else if gap_acceleration < 0.0 {
-                let flight = 2.0 * touching.openings[contact] / -gap_acceleration;
-                let least = changes.flight.map_or(flight, |known| known.min(flight));
-                changes.flight = Some(least);
+            let falls = touching.gap_accelerations(system, place, free.as_slice());
+            changes.flight = None;
+            let before = bounces.len();
+            bounces.retain(|(contact, bounce)| {
+                let falls = falls[*contact];
+                if let Some(left) = touching.remaining_bounce_time(bounce, falls) {
+                    closed[*contact] = true;
+                    modes[*contact] = Mode::Slides(0.0);
+                    changes.ended.push((*contact, left));
+                    return false;
+                }
+                if falls < 0.0 && bounce.opening > 0.0 {
+                    let flight = 2.0 * bounce.opening / -falls;
+                    let least = changes.flight.map_or(flight, |known| known.min(flight));
+                    changes.flight = Some(least);
+                }
+                true
+            });
+            if bounces.is_empty() || bounces.len() == before {
+                return Ok(());
             }
         }
-        Ok(())
+    }
+
+    /// Which slips in two directions fade, those that `errors` of rates may have turned, of contacts that stick if they are at rest.
+    fn fading_slips(
+        &self,
+        touching: &UnilateralState,
+        now: &Point<S::Vector>,
+        errors: &[f64],
+    ) -> Result<Vec<bool>, StepError> {
+        let system = self.system.get();
+        let at = At {
+            t: now.t,
+            q: &now.q,
+            v: &now.v,
+            u: &self.inputs,
+        };
+        let mut fading = touching.fading_slips(system, at, errors)?;
+        if !fading.contains(&true) {
+            return Ok(fading);
+        }
+        let closed: Vec<bool> = (touching.modes().iter())
+            .map(|mode| *mode != Mode::Open)
+            .collect();
+        let stops: Vec<bool> = (0..closed.len())
+            .map(|k| fading[touching.first(k)])
+            .collect();
+        let resting = resting_or_stopped(system, touching, now, (&closed, &stops));
+        let next = touching.settled(system, at, &closed, &resting, &[])?.modes;
+        for (fading, next) in fading.iter_mut().zip(next) {
+            *fading &= next == Mode::Sticks;
+        }
+        Ok(fading)
     }
 
     /// Brings a state onto the contacts that are closed, without the slips that have stopped, which sets what contacts do.
@@ -440,7 +551,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             u: &self.inputs,
         };
         let goes_on = touching.settled(system, at, closed, &resting, &[])?;
-        let mut pairs = goes_on.iter().zip(stopped);
+        let mut pairs = goes_on.modes.iter().zip(stopped);
         Ok(!pairs.any(|(mode, stops)| *stops && *mode == Mode::Sticks))
     }
 
@@ -460,17 +571,19 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     }
 }
 
-/// Impacts of what touches, until none closes. The answer is what they were, and what touches.
+/// Impacts of what touches, until none closes; they are added to the changes at this instant. The answer is what touches.
 fn meet<S: System>(
     system: &S,
     touching: &mut UnilateralState,
     now: &mut Point<S::Vector>,
-) -> Result<(Vec<Impact>, Vec<bool>), StepError> {
+    changes: &mut ContactChanges,
+) -> Result<Vec<bool>, StepError> {
     let t = now.t;
-    let (mut impacts, mut touches) = (Vec::new(), Vec::new());
+    let mut touches = Vec::new();
     for round in 0.. {
         let place = (t, &now.q, &now.v);
-        let (near, closes) = touching.near(system, place, impacts.is_empty(), &touches);
+        let as_held = changes.impacts.is_empty();
+        let (near, closes) = touching.near(system, place, as_held, &touches);
         touches = near;
         let Some(contact) = closes.iter().position(|closes| *closes) else {
             break;
@@ -484,12 +597,18 @@ fn meet<S: System>(
             });
         }
         let takes_part = touching.next(system, place, &touches);
-        let as_held = impacts.is_empty();
-        let found = touching.impact(system, t, &now.q, &mut now.v, &takes_part, as_held)?;
+        let found = touching.impact(
+            system,
+            t,
+            &now.q,
+            &mut now.v,
+            (&takes_part, as_held),
+            &mut changes.shared_otherwise,
+        )?;
         now.v_low.as_mut_slice().fill(0.0);
-        impacts.extend(found);
+        changes.impacts.extend(found);
     }
-    Ok((impacts, touches))
+    Ok(touches)
 }
 
 /// Which contacts rest: by their rates, because they have just stopped, or because they stick.

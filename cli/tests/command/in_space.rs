@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::collisions::{close, events, is_good, number, simulate};
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, json, lagrangian};
 
 const G: f64 = 9.81;
 
@@ -522,5 +522,102 @@ fn a_bead_passes_the_place_where_tangents_of_a_sphere_jump() {
     // There is no jump in the plane of the equator; the others are meridians, up and down, and circles that pass the jump twice.
     for angle in [0.0, 90.0, -90.0, 89.9, 70.0, 45.0, 30.0, 20.0, 18.3, -45.0] {
         slides(f64::to_radians(angle));
+    }
+}
+
+/// A plate on three feet slides down a slope, as it is pushed ever harder. On one slope its slip and its rotation fade together, and it comes to rest as a whole;
+/// on the other one it comes to turn about one foot, which then sticks until it is pushed away. Where rates are as small as errors of steps, these
+/// would say in what direction a foot slips: the instants converge with the tolerance.
+#[test]
+fn plates_come_to_rest_or_turn_about_a_foot() {
+    let plate = |rate: f64,
+                 turns: [f64; 3],
+                 skew: [f64; 2],
+                 weight: [f64; 3],
+                 push: ([f64; 3], [f64; 2]),
+                 feet: [[f64; 2]; 3],
+                 h: f64,
+                 friction: [f64; 2]| {
+        let at: Vec<String> = feet
+            .iter()
+            .enumerate()
+            .map(|(i, [x, y])| {
+                let [kinetic, at_rest] = friction;
+                format!("c{i} {{ point: ({x:?}, {y:?}, {:?}), on: held, along: plane, restitution: 0, friction: {kinetic:?}, static_friction: {at_rest:?} }}", -h)
+            })
+            .collect();
+        let ([px, py, pz], [dx, dy]) = push;
+        Scratch::new(
+            "plate.machine",
+            &format!(
+                "machine Plate in space {{
+                    parameters {{ rate: N/s = {rate:?} }}
+                    coordinates {{ x: m, y: m, z: m = {h:?}, yaw: rad, theta: rad, phi: rad }}
+                    frames {{
+                        plane = ground.shift(0.3, -0.2, 0.1).turn(x, {:?}).turn(y, {:?}).turn(z, {:?}),
+                        held = plane.shift(x, y, z).turn(z, yaw).turn(y, theta).turn(x, phi),
+                        skew = held.turn(x, {:?}).turn(y, {:?}),
+                    }}
+                    bodies {{ plate {{ mass: 2, inertia: (0.03, 0.02, 0.04), frame: skew }} }}
+                    forces {{
+                        weight {{ at: held.point(0, 0, 0), force: 19.62*plane.vector({:?}, {:?}, {:?}) }},
+                        push {{ at: held.point({px:?}, {py:?}, {pz:?}), force: rate*t*plane.vector({dx:?}, {dy:?}, 0) }},
+                    }}
+                    contacts {{ {} }}
+                }}",
+                turns[0], turns[1], turns[2], skew[0], skew[1], weight[0], weight[1], weight[2], at.join(", ")
+            ),
+        )
+    };
+    let stops = plate(
+        3.284,
+        [0.4966, -0.4555, 0.3602],
+        [0.223, 0.1942],
+        [7.441e-06, 0.3564, -0.9343],
+        ([0.04128, -0.04736, -0.008655], [-0.4542, -0.8909]),
+        [[0.2933, -0.02628], [-0.05429, 0.3491], [-0.03657, -0.3112]],
+        0.03282,
+        [0.3083, 0.359],
+    );
+    let turns = plate(
+        5.872,
+        [0.3431, -0.3646, 0.4195],
+        [-0.02551, -0.4127],
+        [-0.04928, 0.1046, -0.9933],
+        ([0.01111, 0.1872, 0.01738], [0.8344, 0.5512]),
+        [[0.2948, -0.03725], [-0.1715, 0.1161], [-0.1429, -0.2592]],
+        0.09578,
+        [0.1129, 0.1212],
+    );
+    for (spec, resting) in [(&stops, 3), (&turns, 1)] {
+        let sticks = |tolerance: &str| {
+            let run = json(&[
+                "simulate",
+                spec.path(),
+                "--until",
+                "3",
+                "--tolerance",
+                tolerance,
+                "--max-steps",
+                "2000",
+                "--json",
+            ]);
+            is_good(&run);
+            let stopped = events(&run, "sticks");
+            assert_eq!(stopped.len(), resting, "{run:#}");
+            let t = number(&stopped[0]["t"]);
+            assert!(stopped.iter().all(|event| number(&event["t"]) == t));
+            t
+        };
+        let exact = sticks("1e-13");
+        // A slip of 15 tolerances in m/s is braked by some 0.5 m/s², and errors of steps add up beside that.
+        for (tolerance, within) in [
+            ("1e-6", 1e-3),
+            ("1e-8", 1e-5),
+            ("1e-10", 1e-7),
+            ("1e-12", 1e-9),
+        ] {
+            close(sticks(tolerance), exact, within);
+        }
     }
 }

@@ -50,6 +50,18 @@ struct SettlingForces {
     b: Vec<f64>,
     /// Those that have been solved for.
     found: Vec<[f64; 2]>,
+    /// The contacts that share their load in another way than by the rule, as their positions among those that are asked.
+    shared_otherwise: Vec<usize>,
+}
+
+/// What contacts that touch do next.
+#[derive(Clone, Debug)]
+pub(crate) struct Settled {
+    pub modes: Vec<Mode>,
+    /// Their forces along normal and tangent. Where a load may be shared in several ways, they are shared in one that every contact allows.
+    pub forces: Vec<[f64; 2]>,
+    /// Contacts that share their load in another way than by the rule for undetermined forces, (E79), although the motion depends on it.
+    pub shared_otherwise: Vec<usize>,
 }
 
 impl UnilateralState {
@@ -64,22 +76,8 @@ impl UnilateralState {
         at: At<'_, S>,
         closed: &[bool],
         resting: &[bool],
-        known: &[(usize, Mode)],
-    ) -> Result<Vec<Mode>, StepError> {
-        let settled = self.settled_by_forces(system, at, closed, resting, known);
-        settled.map(|(modes, _)| modes)
-    }
-
-    /// What contacts that touch do next, as [`settled`](Self::settled), and their forces along normal and tangent. Where a load may be shared in
-    /// several ways, the forces are shared in one that every contact allows.
-    pub fn settled_by_forces<S: System>(
-        &self,
-        system: &S,
-        at: At<'_, S>,
-        closed: &[bool],
-        resting: &[bool],
         known_modes: &[(usize, Mode)],
-    ) -> Result<(Vec<Mode>, Vec<[f64; 2]>), StepError> {
+    ) -> Result<Settled, StepError> {
         let At { t, q, v, .. } = at;
         let is_asked = |k: &usize| {
             let pressing = self.carrier[*k].unwrap_or(*k);
@@ -88,7 +86,11 @@ impl UnilateralState {
         let asked: Vec<usize> = (0..closed.len()).filter(is_asked).collect();
         let mut forces = vec![[0.0; 2]; closed.len()];
         if asked.is_empty() {
-            return Ok((vec![Mode::Open; closed.len()], forces));
+            return Ok(Settled {
+                modes: vec![Mode::Open; closed.len()],
+                forces,
+                shared_otherwise: Vec::new(),
+            });
         }
         let free = Self::free(system, at)?;
         let here = self.kinematics(system, (t, q, v));
@@ -109,6 +111,9 @@ impl UnilateralState {
             for (&k, (known, found)) in settling.asked.iter().zip(parts) {
                 forces[k] = [known[0] + found[0], known[1] + found[1]];
             }
+            let shared_otherwise = solved.shared_otherwise.iter();
+            let shared_otherwise = shared_otherwise.map(|place| settling.asked[*place]);
+            let shared_otherwise = shared_otherwise.collect();
             let modes = settling.modes;
             let lets_go = |k: usize| match modes[k] {
                 Mode::Open => closed[k],
@@ -123,7 +128,11 @@ impl UnilateralState {
             {
                 return Ok(held);
             }
-            return Ok((modes, forces));
+            return Ok(Settled {
+                modes,
+                forces,
+                shared_otherwise,
+            });
         }
         Err(StepError::Contact {
             contact: self.first(settling.unsettled),
@@ -141,7 +150,7 @@ impl UnilateralState {
         here: &ContactKinematics,
         resting: &[bool],
         modes: &[Mode],
-    ) -> Option<(Vec<Mode>, Vec<[f64; 2]>)> {
+    ) -> Option<Settled> {
         let at_rest = |k: usize| {
             if self.has_friction[k] {
                 Mode::Sticks
@@ -178,7 +187,11 @@ impl UnilateralState {
             }
         };
         let is_held = touching.held.iter().all(is_still) && (0..modes.len()).all(holds);
-        is_held.then_some((touching.modes, load.forces))
+        is_held.then_some(Settled {
+            modes: touching.modes,
+            forces: load.forces,
+            shared_otherwise: Vec::new(),
+        })
     }
 
     /// The new states of contacts that share forces and no longer hold: of those that limit the shared margin.
@@ -438,6 +451,7 @@ impl<'a> Settling<'a> {
                 known,
                 b,
                 found: answer.forces,
+                shared_otherwise: answer.shared_otherwise,
             }),
             None => Err(self.touching.unsolved(&self.asked, self.t)),
         }
