@@ -13,7 +13,7 @@ use std::vec::Vec;
 use super::super::kinematics::ContactKinematics;
 use super::{Margin, Mode, UnilateralState};
 use crate::balance::ContactShare;
-use crate::{Compliance, ContactEnergies, System, Vector};
+use crate::{Compliance, ContactEnergies, ContactQuantity, System, Vector};
 
 /// The law of a contact that yields, and what it remembers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -180,12 +180,24 @@ impl UnilateralState {
         if system.single_contacts().is_none() {
             return self.clearances(system, place)[contact];
         }
+        let which = [contact];
+        if !self.is_compliant(contact) && !self.with_face.contains(&contact) {
+            // Searches ask often: this takes no memory for the other contacts.
+            let (mut gap, mut rates) = ([0.0], [0.0; 2]);
+            system.of_contacts(ContactQuantity::Gap, &which, place, &mut gap);
+            system.of_contacts(ContactQuantity::Rates, &which, place, &mut rates);
+            return Clearance {
+                value: gap[0],
+                rate: rates[0],
+                is_rate_of_value: true,
+            };
+        }
         let mut here = self.memory_for_kinematics();
         if self.is_compliant(contact) {
-            here.evaluate(system, place, Some(&[contact]));
+            here.evaluate(system, place, Some(&which));
             return self.clearance(&here, contact);
         }
-        here.evaluate_gaps(system, place, Some(&[contact]));
+        here.evaluate_gaps(system, place, Some(&which));
         here.clearance(contact)
     }
 
