@@ -308,8 +308,7 @@ quantities! {
     Gradient(usize) => {
         "gradient", "", "g*", Chosen, [Time Coordinates Velocities Accelerations Inputs], Request, Seldom, ""
     }
-    /// Numbers of one unilateral contact, of which the others are 0, with its arguments in place of the coordinates: see
-    /// [`ContactParts`](crate::contact_parts::ContactParts).
+    /// Numbers of one unilateral contact, of which the others are 0, with its arguments in place of the coordinates.
     ContactPart(usize) => {
         "contact_part", "", "r*", Chosen, [Time Coordinates], Request, Seldom, ""
     }
