@@ -70,6 +70,8 @@ impl Crate {
             .current_dir(&self.folder)
             .env("CARGO_TARGET_DIR", Self::target())
             .env("CARGO_TERM_COLOR", "never")
+            // A debugger needs it, and these tests do not.
+            .env("CARGO_PROFILE_DEV_DEBUG", "false")
             .env_remove("RUSTFLAGS")
             .output()
             .expect("cargo runs")
@@ -105,7 +107,7 @@ machine Oscillator in plane {
 ";
 
 /// The machines of a program have no contacts and no constraints, so the program must not contain the runtime's functions for
-/// these, which would otherwise be compiled once for each machine. The debug information of a program names its functions.
+/// these, which would otherwise be compiled once for each machine. The symbols of a program name its functions.
 fn has_no_code_of_absent_features(program: &str) {
     let path = Crate::target().join("debug").join(program);
     let program = fs::read(path).expect("the program has just run");
