@@ -139,7 +139,7 @@ fn singles_are_those_of_all<S: System>(system: &S, t: f64, q: &S::Vector, v: &S:
             ContactQuantity::Bias => system.contact_bias(t, q, v, &mut all),
             _ => system.contact_coefficients(t, q, v, &mut all),
         }
-        // Every third, so that what is left out matters.
+        // Every third contact: numbers of the others must not appear among these.
         let which: Vec<usize> = (0..m).filter(|k| k % 3 == 1).collect();
         let mut some = vec![f64::NAN; width * which.len()];
         system.of_contacts(quantity, &which, (t, q, v), &mut some);
