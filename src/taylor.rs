@@ -417,6 +417,18 @@ pub(crate) fn defect(
     defects.fold(0.0, f64::max)
 }
 
+/// Moves each number of a state to the next one, up and down in turns: by how much a quantity changes shows its round-off.
+pub(crate) fn move_to_neighbours<V: Vector>(q: &mut V, v: &mut V) {
+    let numbers = q.as_mut_slice().iter_mut().chain(v.as_mut_slice());
+    for (i, x) in numbers.enumerate() {
+        *x = if i % 2 == 0 {
+            x.next_up()
+        } else {
+            x.next_down()
+        };
+    }
+}
+
 /// The bound on the last terms of a step, for a coordinate or a rate of this size: a tenth of the tolerance above 1e-8, and a hundredth
 /// below 1e-14.
 #[inline(always)]

@@ -66,11 +66,6 @@ pub fn put(results: &[f64], places: &[u32], numbers: &mut [f64]) {
     }
 }
 
-/// All numbers between two.
-pub fn between(low: f64, high: f64) -> Interval {
-    Interval::new(low, high)
-}
-
 /// Writes the lower bounds of intervals.
 pub fn fill_least(to: &mut [f64], from: &[Interval]) {
     for (to, from) in to.iter_mut().zip(from) {

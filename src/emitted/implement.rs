@@ -337,10 +337,8 @@ macro_rules! implement_part {
 
     // An argument of gaps, as an interval between two values, or of its rounding.
     (between p $p:tt $t:ident $q:ident) => { &$p.rounded() };
-    (between t $p:tt $t:ident $q:ident) => { $crate::emitted::between($t[0], $t[1]) };
-    (between q $p:tt $t:ident $q:ident) => {
-        &::core::array::from_fn(|i| $crate::emitted::between($q[0][i], $q[1][i]))
-    };
+    (between t $p:tt $t:ident $q:ident) => { $crate::scalar::Interval::new($t[0], $t[1]) };
+    (between q $p:tt $t:ident $q:ident) => { &$crate::emitted::intervals($q) };
 }
 
 /// A method of `System`, by the kind of its result.

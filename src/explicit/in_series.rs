@@ -294,33 +294,23 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
             return false;
         }
         // Round-off may change the accelerations as much, where large forces cancel.
-        let mut beside = [&self.ahead.q, &self.ahead.v].map(|of| {
+        let [mut q, mut v] = [&self.ahead.q, &self.ahead.v].map(|of| {
             let mut own = S::Vector::zeros(of.as_ref().len());
             let numbers = own.as_mut_slice().iter_mut().zip(of.as_ref());
             numbers.for_each(|(own, lanes)| *own = lanes[lane]);
             own
         });
-        for (i, x) in beside
-            .iter_mut()
-            .flat_map(|of| of.as_mut_slice())
-            .enumerate()
-        {
-            *x = if i % 2 == 0 {
-                x.next_up()
-            } else {
-                x.next_down()
-            };
-        }
-        let [q, v] = &beside;
+        taylor::move_to_neighbours(&mut q, &mut v);
         let own = S::inputs_of_lane(inputs, lane);
         let mut rows = std::vec![q.zeros_like(); 3];
         let t = [t, self.ahead.t_low[lane]];
-        let expanded = batch.system(lane).series(t, q, v, &own, &mut rows);
+        let expanded = batch.system(lane).series(t, &q, &v, &own, &mut rows);
         let changed = defect_to(&|i| 2.0 * rows[2].as_slice()[i], 0.0);
         self.lanes[lane].control.work.evaluations += 1;
         if expanded.is_ok() && found > taylor::ROUNDINGS * changed {
             return true;
         }
+        // The end itself is not expanded again, as a single run has to: its counts are the same.
         self.lanes[lane].control.work.evaluations += 1;
         false
     }

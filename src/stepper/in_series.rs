@@ -173,14 +173,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         // Round-off may change the accelerations as much, where large forces cancel.
         let mut beside = now.clone();
-        let numbers = beside.q.as_mut_slice().iter_mut();
-        for (i, x) in numbers.chain(beside.v.as_mut_slice()).enumerate() {
-            *x = if i % 2 == 0 {
-                x.next_up()
-            } else {
-                x.next_down()
-            };
-        }
+        crate::taylor::move_to_neighbours(&mut beside.q, &mut beside.v);
         work.evaluations += 1;
         let expanded = taylor.expand(model.system.get(), &beside, &model.inputs, true);
         taylor.accelerations(true, &mut stage.0);
