@@ -18,8 +18,11 @@
 //! a pulley is |s| w, where w is the turn from the preceding part to the following one,
 //!
 //! ```text
-//! |s| w = |s| π + s atan2(−e × e', −e · e'),    0 < w < 2π.
+//! w = 3π/4 + atan2(−(s e × e' + |s| e · e'), s e × e' − |s| e · e'),    −π/4 < w < 7π/4.
 //! ```
+//!
+//! The rope is assumed to wrap around the pulley, 0 < w < 3π/2. The arc has its jump as far as possible from both bounds, so
+//! that a run which leaves them finds where, instead of a jump.
 //!
 //! As D·n = h is constant, n·Ḋ = ℓ ψ̇ with ψ the direction of e, and the rate of ℓ is e·Ḋ + h ψ̇. In the sum with the rates of
 //! the arcs, s (ψ̇' − ψ̇), all ψ̇ cancel: the rope grows by Σ e·Ḋ. If it does not slip on a pulley that is turned by θ, the rope
@@ -397,7 +400,10 @@ fn arc<'d>(
         strict: true,
         span,
     });
-    Some(radius.abs() * resolver.dag.pi() + radius * (-across).atan2(-along))
+    // The angle of (s e × e', |s| e · e') from the direction opposite to the cut of the arctangent, at three quarters of π.
+    let (sine, cosine) = (radius * across, radius.abs() * along);
+    let middle = resolver.dag.int(3) * resolver.dag.pi() / resolver.dag.int(4);
+    Some(radius.abs() * (middle + (-(sine + cosine)).atan2(sine - cosine)))
 }
 
 /// The rate at which the rope up to a pulley or the last point grows, including wound parts.
