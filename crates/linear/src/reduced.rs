@@ -16,72 +16,28 @@
 //! in every digit of an `f64`. To bound the effect of rounding in the parameters and the state, [`Reduced::linearized`]
 //! repeats the evaluation with perturbed roundings: a number within that bound may be 0.
 
+mod choice;
+mod projection;
+
 use lagrangian::System;
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
 use lagrangian_program::{Arguments, Interpreter, Role, Shape};
 use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
 use lagrangian_units::state_of;
-use nalgebra::{DMatrix, DVector, Dyn, SVD};
+use nalgebra::{DMatrix, DVector};
 
 use crate::precise;
+pub use choice::Choice;
+pub use projection::largest_relative_change;
 
 /// A number of 32 digits with a derivative.
 pub(crate) type Number = Dual<DoubleDouble>;
-
-/// A row of G depends on others if its part that is orthogonal to them is shorter than this. A row determines no
-/// coordinate in which its entry is smaller than this.
-const INDEPENDENT: f64 = 1e-8;
-
-/// A row that is independent of the others by less than this depends on them at a position nearby, where constraints have no
-/// linear approximation; a search that ends there has come only so near to it.
-const BARELY_INDEPENDENT: f64 = 1e-6;
-
-/// Among coordinates that a row could determine, one on which nothing depends is preferred if its share of the row
-/// is at least this.
-const PREFERRED: f64 = 1e-2;
 
 /// How many times the evaluation is repeated with parameters and state rounded differently.
 const ROUNDINGS: usize = 6;
 
 /// Safety factor on the largest effect of rounding that these repetitions show.
 const SAFETY: f64 = 4.0;
-
-/// The most iterations of the projection onto the constraints.
-const MOST_STEPS: usize = 200;
-
-/// Where the full step is no longer than this, in rad, m, or relative to its coordinate, the residuals are round-off
-/// and need not decrease.
-const NEARLY_MET: f64 = 1e-14;
-
-/// The smallest nonzero damping, for constraint rows of length 1.
-const LEAST_DAMPING: f64 = 1e-3;
-
-/// With this much damping a step is too short to change the residuals: the search is at a minimum that is not 0.
-const MOST_DAMPING: f64 = 1e8;
-
-/// Which coordinates follow from which constraints.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Choice {
-    /// An independent set of constraints, those of positions first.
-    pub rows: Vec<usize>,
-    /// I, the independent coordinates.
-    pub independent: Vec<usize>,
-    /// H, the coordinates determined by constraints of positions.
-    pub position_dependent: Vec<usize>,
-    /// F, the coordinates of which only the rates are determined.
-    pub rate_dependent: Vec<usize>,
-}
-
-impl Choice {
-    /// The coordinates that may be displaced freely, I and F.
-    pub fn places(&self) -> Vec<usize> {
-        [self.independent.as_slice(), &self.rate_dependent].concat()
-    }
-
-    fn dependent(&self) -> Vec<usize> {
-        [self.position_dependent.as_slice(), &self.rate_dependent].concat()
-    }
-}
 
 /// Why the equations cannot be evaluated at a state.
 #[derive(Clone, Debug)]
@@ -419,110 +375,6 @@ impl<'a> Reduced<'a> {
             .unwrap_or_else(|| DMatrix::from_diagonal(&DVector::from_fn(q.len(), |i, _| own(i))))
     }
 
-    /// Checks that no constraint is all but dependent on the others at a position.
-    ///
-    /// # Errors
-    /// If one is.
-    pub fn check_independence(&self, q: &[f64]) -> Result<(), Fault> {
-        let (rows, lower) = (self.rows(q), self.metric(q));
-        let mut known: Vec<DVector<f64>> = Vec::new();
-        for is_position in [true, false] {
-            for k in (0..rows.nrows()).filter(|k| self.holonomic[*k] == is_position) {
-                let row = lower.solve_lower_triangular(&rows.row(k).transpose());
-                let row = row.ok_or(Fault::Singular(0))?;
-                let Some(unit) = across(&known, &row, INDEPENDENT) else {
-                    continue;
-                };
-                if across(&known, &row, BARELY_INDEPENDENT).is_none() {
-                    return Err(Fault::Dependent(k));
-                }
-                known.push(unit);
-            }
-        }
-        Ok(())
-    }
-
-    /// Chooses the coordinates that follow at a position, among those whose rates are not `given`.
-    ///
-    /// # Errors
-    /// If a given rate follows from the others.
-    pub fn choose(&self, q: &[f64], given: &[bool]) -> Result<Choice, Fault> {
-        let n = q.len();
-        let (rows, lower) = (self.rows(q), self.metric(q));
-        if let Some(place) = rows.iter().position(|x| !x.is_finite()) {
-            return Err(Fault::NotFinite(place / rows.nrows().max(1)));
-        }
-        let mut known: Vec<DVector<f64>> = Vec::new();
-        let mut chosen: Vec<(usize, DVector<f64>)> = Vec::new();
-        for is_position in [true, false] {
-            for k in (0..rows.nrows()).filter(|k| self.holonomic[*k] == is_position) {
-                let row = rows.row(k).transpose();
-                let measured = lower.solve_lower_triangular(&row);
-                let measured = measured.ok_or(Fault::Singular(0))?;
-                if let Some(unit) = across(&known, &measured, INDEPENDENT) {
-                    known.push(unit);
-                    // Each coordinate is measured in its own length.
-                    let scaled = DVector::from_fn(n, |j, _| row[j] / lower.row(j).norm());
-                    let size = scaled.norm();
-                    chosen.push((k, scaled / size));
-                }
-            }
-        }
-        // Gaussian elimination; the largest entry of a row selects the coordinate that the row determines.
-        let mut follows = vec![None; n];
-        let mut left: Vec<usize> = (0..chosen.len()).collect();
-        let mut order = [Vec::new(), Vec::new()];
-        while !left.is_empty() {
-            let positions: Vec<usize> = left
-                .iter()
-                .copied()
-                .filter(|i| self.holonomic[chosen[*i].0])
-                .collect();
-            let candidates = if positions.is_empty() {
-                left.clone()
-            } else {
-                positions
-            };
-            let best = |may: &dyn Fn(usize) -> bool| {
-                let all = candidates.iter().flat_map(|&i| (0..n).map(move |j| (i, j)));
-                let all = all.filter(|(_, j)| follows[*j].is_none() && may(*j));
-                let size = |&(i, j): &(usize, usize)| f64::abs(chosen[i].1[j]);
-                let best = all.max_by(|a, b| size(a).total_cmp(&size(b)));
-                best.map(|place| (place, size(&place)))
-            };
-            let any = best(&|j| !given[j]).filter(|(_, size)| *size > INDEPENDENT);
-            let Some((place, largest)) = any else {
-                let ((_, j), _) = best(&|_| true).ok_or(Fault::Singular(0))?;
-                return Err(Fault::Follows(j));
-            };
-            let idle = best(&|j| !given[j] && self.idle[j]);
-            let (i, j) = idle
-                .filter(|(_, size)| *size > PREFERRED * largest)
-                .map_or(place, |(place, _)| place);
-            let row = chosen[i].1.clone() / chosen[i].1[j];
-            left.retain(|other| *other != i);
-            for &other in &left {
-                let factor = chosen[other].1[j];
-                chosen[other].1 -= &row * factor;
-            }
-            follows[j] = Some(i);
-            order[usize::from(!self.holonomic[chosen[i].0])].push((chosen[i].0, j));
-        }
-        let [position_dependent, rate_dependent] = order;
-        let rows = position_dependent
-            .iter()
-            .chain(&rate_dependent)
-            .map(|(k, _)| *k)
-            .collect();
-        let coordinates = |list: Vec<(usize, usize)>| list.into_iter().map(|(_, j)| j).collect();
-        Ok(Choice {
-            rows,
-            independent: (0..n).filter(|j| follows[*j].is_none()).collect(),
-            position_dependent: coordinates(position_dependent),
-            rate_dependent: coordinates(rate_dependent),
-        })
-    }
-
     /// The residuals of the constraints on positions, each in its own unit.
     fn positions(&mut self, q: &[DoubleDouble]) -> Vec<f64> {
         let wide: Vec<Number> = q.iter().copied().map(Dual::constant).collect();
@@ -530,127 +382,6 @@ impl<'a> Reduced<'a> {
         let count = self.holonomic.len();
         let values = self.call(Role::ConstraintPositions, (&wide, &still), count, self.time);
         values.iter().map(|x| x.value.hi()).collect()
-    }
-
-    /// Projects coordinates onto the constraints on positions with the smallest change in the metric of inertia, moving only
-    /// coordinates that `may` move. Where full Newton steps fail far from the constraints, damped steps are tried.
-    ///
-    /// # Errors
-    /// If no position is found that meets them.
-    pub fn project(
-        &mut self,
-        q: &mut [DoubleDouble],
-        may: &dyn Fn(usize) -> bool,
-    ) -> Result<(), Fault> {
-        let start = q.to_vec();
-        self.project_near(q, may).or_else(|_| {
-            q.copy_from_slice(&start);
-            self.project_in_steps(q, may, true)
-        })
-    }
-
-    /// [`project`](Self::project) for a position near the constraints: it takes full steps only and fails rather than
-    /// reach another branch.
-    ///
-    /// # Errors
-    /// If no position near it meets the constraints.
-    pub fn project_near(
-        &mut self,
-        q: &mut [DoubleDouble],
-        may: &dyn Fn(usize) -> bool,
-    ) -> Result<(), Fault> {
-        self.project_in_steps(q, may, false)
-    }
-
-    fn project_in_steps(
-        &mut self,
-        q: &mut [DoubleDouble],
-        may: &dyn Fn(usize) -> bool,
-        is_damped: bool,
-    ) -> Result<(), Fault> {
-        let n = q.len();
-        let m = self.holonomic.len();
-        let held: Vec<usize> = (0..m).filter(|k| self.holonomic[*k]).collect();
-        if held.is_empty() {
-            return Ok(());
-        }
-        let mut before = f64::INFINITY;
-        // Damping as in the method of Levenberg and Marquardt; none as long as full steps lower the residuals.
-        let mut damping = 0.0;
-        for _ in 0..MOST_STEPS {
-            let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
-            let (rows, lower) = (self.rows(&near), self.metric(&near));
-            let off = self.positions(q);
-            let mut matrix = DMatrix::zeros(held.len(), n);
-            let mut scale = DVector::zeros(held.len());
-            for (i, &k) in held.iter().enumerate() {
-                let row = DVector::from_fn(n, |j, _| if may(j) { rows[(k, j)] } else { 0.0 });
-                let measured = lower
-                    .solve_lower_triangular(&row)
-                    .ok_or(Fault::Singular(0))?;
-                let size = measured.norm();
-                scale[i] = if size > 0.0 { size } else { 1.0 };
-                matrix.set_row(i, &(measured / scale[i]).transpose());
-            }
-            let scaled = |off: &[f64]| DVector::from_fn(held.len(), |i, _| off[held[i]] / scale[i]);
-            let residuals = scaled(&off);
-            if !residuals.iter().chain(matrix.iter()).all(|x| x.is_finite()) {
-                return Err(Fault::Unmet(held[0]));
-            }
-            let worst = held[residuals.icamax()];
-            let svd = matrix
-                .try_svd(true, true, f64::EPSILON, 10_000)
-                .ok_or(Fault::Unmet(worst))?;
-            // Far from the constraints, as where links are nearly stretched, a full step may increase the
-            // residuals: the damping grows until they decrease.
-            let (step, longest) = loop {
-                let step = damped(&svd, &residuals, damping).ok_or(Fault::Unmet(worst))?;
-                let step = lower.transpose().solve_upper_triangular(&step);
-                let mut step = step.ok_or(Fault::Singular(0))?;
-                (0..n).filter(|j| !may(*j)).for_each(|j| step[j] = 0.0);
-                let longest = largest_relative_change(&step, &near);
-                if !longest.is_finite() {
-                    return Err(Fault::Unmet(worst));
-                }
-                step *= (1.0 / longest).min(1.0);
-                if !is_damped || longest <= NEARLY_MET {
-                    break (step, longest);
-                }
-                let tried: Vec<DoubleDouble> = after_step(q, &step);
-                if scaled(&self.positions(&tried)).norm() < residuals.norm() {
-                    damping = if damping < LEAST_DAMPING {
-                        0.0
-                    } else {
-                        damping / 8.0
-                    };
-                    break (step, longest);
-                }
-                damping = (4.0 * damping).max(LEAST_DAMPING);
-                if damping > MOST_DAMPING {
-                    return Err(Fault::Unmet(worst));
-                }
-            };
-            // The corrections are round-off and no longer decrease.
-            if longest == 0.0 || (longest <= NEARLY_MET && longest >= 0.25 * before) {
-                break;
-            }
-            q.copy_from_slice(&after_step(q, &step));
-            if longest <= 1e-26 {
-                break;
-            }
-            before = longest;
-        }
-        // Checks each row against its round-off.
-        let off = self.positions(q);
-        let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
-        let rows = self.rows(&near);
-        let unmet = held.iter().copied().find(|&k| {
-            let size: f64 = (0..n)
-                .map(|j| (rows[(k, j)] * near[j].abs().max(1.0)).abs())
-                .sum();
-            off[k].is_nan() || off[k].abs() > 1e-12 * size
-        });
-        unmet.map_or(Ok(()), |k| Err(Fault::Unmet(k)))
     }
 
     /// All terms of the equations, over numbers with a derivative.
@@ -987,52 +718,6 @@ fn noise() -> impl FnMut() -> f64 {
 
 fn constants(values: &[f64]) -> Vec<Number> {
     values.iter().map(|x| Number::from_f64(*x)).collect()
-}
-
-/// The component of a vector orthogonal to orthonormal ones, as a unit vector; none where it is shorter than
-/// `least` times the vector.
-fn across(known: &[DVector<f64>], vector: &DVector<f64>, least: f64) -> Option<DVector<f64>> {
-    let mut left = vector.clone();
-    // Orthogonalizing twice is enough: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
-    for _ in 0..2 {
-        for unit in known {
-            left -= unit * unit.dot(&left);
-        }
-    }
-    let length = left.norm();
-    (length > least * vector.norm()).then(|| left / length)
-}
-
-/// The damped least-squares solution of `A x = r` from the singular value decomposition of A. Components whose
-/// singular value is not large beside the damping d are reduced: `x = V (S² + d²)⁻¹ S Uᵀ r` (Marquardt, An algorithm
-/// for least-squares estimation of nonlinear parameters, 1963). `None` where there are no singular vectors.
-fn damped(
-    svd: &SVD<f64, Dyn, Dyn>,
-    residuals: &DVector<f64>,
-    damping: f64,
-) -> Option<DVector<f64>> {
-    if damping == 0.0 {
-        return svd.solve(residuals, INDEPENDENT).ok();
-    }
-    let mut parts = svd.u.as_ref()?.transpose() * residuals;
-    for (part, s) in parts.iter_mut().zip(svd.singular_values.iter()) {
-        *part *= s / (s * s + damping * damping);
-    }
-    Some(svd.v_t.as_ref()?.transpose() * parts)
-}
-
-/// Coordinates after a step.
-fn after_step(q: &[DoubleDouble], step: &DVector<f64>) -> Vec<DoubleDouble> {
-    let pairs = q.iter().zip(step.iter());
-    pairs
-        .map(|(q, step)| *q - DoubleDouble::from(*step))
-        .collect()
-}
-
-/// The largest change, each in rad, m, or relative to its coordinate.
-pub fn largest_relative_change(step: &DVector<f64>, q: &[f64]) -> f64 {
-    let shares = step.iter().zip(q).map(|(x, q)| x.abs() / q.abs().max(1.0));
-    shares.fold(0.0, f64::max)
 }
 
 /// `M⁻¹ B`, in which only the results are rounded to `f64`. `None` where M is singular.

@@ -1,30 +1,32 @@
 //! A plan prepared for running, and its runs.
 
-use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Named, Signals};
-use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::{
-    ContactEventKind, Crossing, Ending, Machine, Observation, Simulation, Solution, State, System,
-};
-use lagrangian_mechanics::Compiled;
-use lagrangian_mechanics::series::ProvedSeries;
-use lagrangian_spec::diagnostic::{Report, Severity, most_similar};
-use lagrangian_spec::model::{Contact, Coordinate, Model, stage};
-use lagrangian_spec::resolve::Formula as OutputFormula;
-use lagrangian_spec::source::Sources;
-use lagrangian_spec::unit::{integral_name, rate_name, rate_unit, state_of};
-use lagrangian_symbolic::{Dag, Rational};
+mod checks;
+mod outcome;
+mod table;
 
 use crate::charts::{self, ChartedPoints, Charts};
 use crate::design;
-use crate::plan::{Function, Plan, RecordedFiles, Reduction};
-use crate::reduce::{Formula, StateCache, StepStates, Tracker};
-use crate::rows::{Cell, Column, ColumnType, Rows};
+use crate::plan::{Function, Plan, RecordedFiles};
+use crate::reduce::{Formula, StateCache, Tracker};
+use crate::rows::{Cell, Column, Rows};
 use crate::signals::{self, without_series};
-use crate::sobol::MOST_VARIABLES;
 use crate::verdict;
+use checks::check;
+use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Named, Signals};
+use lagrangian::methods::{Method, TAYLOR};
+use lagrangian::{Crossing, Ending, Machine, Observation, Simulation, Solution, State, System};
+use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_spec::diagnostic::{Report, Severity, most_similar};
+use lagrangian_spec::model::{Coordinate, Model, stage};
+use lagrangian_spec::resolve::Formula as OutputFormula;
+use lagrangian_spec::source::Sources;
+use lagrangian_spec::unit::{integral_name, rate_unit, state_of};
+use lagrangian_symbolic::{Dag, Rational};
+use outcome::{Outcome, Recorder, sample};
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+use table::{columns, names, reductions};
 
 /// More instants in one run than this are assumed to be a mistake.
 const MOST_INSTANTS: f64 = 1e6;
@@ -736,134 +738,6 @@ struct PreparedRun {
     refused: Option<String>,
 }
 
-/// What is recorded while a run is made.
-struct Recorder {
-    trackers: Vec<Option<Tracker>>,
-    /// The states at recorded instants.
-    at: Vec<Option<State<Named>>>,
-    samples: Option<Rows>,
-    /// The index of the next sample.
-    due: u64,
-    /// The states that the trackers evaluated within the step.
-    cache: StateCache,
-}
-
-impl Recorder {
-    /// Records a step.
-    fn record_step(
-        &mut self,
-        plan: &Plan,
-        run: u64,
-        (system, charts): (&InterpretedSystem, Option<&Charts>),
-        step: &mut dyn lagrangian::StepMotion<InterpretedMachine>,
-    ) -> Result<(), lagrangian::Error> {
-        let [from, to] = step.span();
-        for (t, state) in plan.at.iter().zip(&mut self.at) {
-            if (t - from) * (to - t) >= 0.0 && *t != from {
-                *state = Some(charts::shown(charts, &step.state(*t)?));
-            }
-        }
-        if let (Some(every), Some(samples)) = (plan.every, &mut self.samples) {
-            loop {
-                let t = self.due as f64 * every.copysign(plan.until);
-                if (t - to) * plan.until.signum() > 0.0 || is_end(t, plan.until) {
-                    break;
-                }
-                let state = charts::shown(charts, &step.state(t)?);
-                samples.push(sample(run, &state));
-                self.due += 1;
-            }
-        }
-        let theta = match plan.after {
-            None => 0.0,
-            Some(after) if (after - to) * plan.until.signum() >= 0.0 => return Ok(()),
-            Some(after) => ((after - from) / (to - from)).max(0.0),
-        };
-        if self.trackers.iter().all(Option::is_none) {
-            return Ok(());
-        }
-        let states = StepStates::new(system, step, &mut self.cache);
-        for tracker in self.trackers.iter_mut().flatten() {
-            tracker.add_step(&states, theta)?;
-        }
-        Ok(())
-    }
-
-    /// Adds the recorded instants and samples at the ends of a run, which may have taken no step.
-    fn record_ends(&mut self, plan: &Plan, (run, start, end): (u64, &State<Named>, &State<Named>)) {
-        for (t, state) in plan.at.iter().zip(&mut self.at) {
-            if *t == start.t {
-                *state = Some(start.clone());
-            }
-        }
-        if let (Some(_), Some(samples)) = (plan.every, &mut self.samples) {
-            samples.push(sample(run, end));
-        }
-    }
-}
-
-/// Whether a time is the end of a run, or before it only by round-off.
-fn is_end(t: f64, until: f64) -> bool {
-    (until - t) * until.signum() <= 4.0 * f64::EPSILON * until.abs()
-}
-
-fn sample(run: u64, state: &State<Named>) -> Vec<Cell> {
-    let numbers = std::iter::once(state.t)
-        .chain(state.q.values.iter().copied())
-        .chain(state.v.values.iter().copied());
-    let numbers = numbers.map(|number| Cell::Number(Some(number)));
-    std::iter::once(Cell::Count(run)).chain(numbers).collect()
-}
-
-/// The outcome of a run.
-struct Outcome {
-    status: String,
-    error: Option<String>,
-    end: State<Named>,
-    at: Vec<Option<State<Named>>>,
-    reductions: Vec<Option<f64>>,
-    steps: u64,
-    residual: Option<f64>,
-    samples: Option<Rows>,
-}
-
-impl Outcome {
-    /// The outcome of a run that could not start.
-    fn failed(start: State<Named>, instants: usize, reductions: usize) -> Outcome {
-        Outcome {
-            status: "failed".into(),
-            error: None,
-            end: start,
-            at: vec![None; instants],
-            reductions: vec![None; reductions],
-            steps: 0,
-            residual: None,
-            samples: None,
-        }
-    }
-
-    fn into_cells(self) -> Vec<Cell> {
-        let dimension = self.end.q.values.len();
-        let State { t, q, v } = self.end;
-        let mut cells = vec![Cell::Text(Some(self.status)), Cell::Text(self.error)];
-        let known = std::iter::once(t).chain(q.values).chain(v.values);
-        cells.extend(known.map(|value| Cell::Number(Some(value))));
-        for state in self.at {
-            match state {
-                Some(State { q, v, .. }) => {
-                    let values = q.values.into_iter().chain(v.values);
-                    cells.extend(values.map(|value| Cell::Number(Some(value))));
-                }
-                None => cells.extend(std::iter::repeat_n(Cell::Number(None), 2 * dimension)),
-            }
-        }
-        cells.extend(self.reductions.into_iter().map(Cell::Number));
-        cells.push(Cell::Count(self.steps));
-        cells.push(Cell::Number(self.residual));
-        cells
-    }
-}
-
 /// The model of the plan's spec, with its formulas added.
 fn model<'d>(
     plan: &Plan,
@@ -904,81 +778,6 @@ fn in_cartesian(
     Some(Cartesian { machine, points })
 }
 
-/// The argument of a reduction, and whether its absolute value is reduced.
-fn subject(reduction: &Reduction) -> (&str, bool) {
-    let text = reduction.of.trim();
-    let is_extreme = matches!(reduction.function, Function::Max | Function::WhenMax);
-    let inner = text.strip_prefix("abs").map(str::trim_start);
-    let inner = inner.and_then(|text| text.strip_prefix('(')?.strip_suffix(')'));
-    match inner.filter(|_| is_extreme) {
-        Some(inner) if is_closed(inner) => (inner, true),
-        _ => (text, false),
-    }
-}
-
-/// Whether every closing bracket has been opened before.
-fn is_closed(text: &str) -> bool {
-    let mut depth = 0_i32;
-    let mut closed = text.chars().map(|c| {
-        depth += match c {
-            '(' => 1,
-            ')' => -1,
-            _ => 0,
-        };
-        depth >= 0
-    });
-    closed.all(|is_open| is_open)
-}
-
-/// Name, description for messages, text and unit of every formula of a plan, in the order inputs, events, reductions.
-fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<String>)> {
-    let mut all = Vec::new();
-    for (name, law) in &plan.inputs {
-        if let Some(text) = law.formula() {
-            let input = model
-                .inputs
-                .iter()
-                .find(|input| input.name.to_string() == *name);
-            let unit = input.map(|input| input.unit_text.clone());
-            all.push((
-                format!("input {name}"),
-                format!("--input {name}"),
-                text.to_owned(),
-                unit,
-            ));
-        }
-    }
-    for watch in &plan.events {
-        let option = if watch.ends {
-            "--until-event"
-        } else {
-            "--event"
-        };
-        let name = &watch.name;
-        all.push((
-            format!("event {name}"),
-            format!("{option} {name}"),
-            watch.formula.clone(),
-            None,
-        ));
-    }
-    for reduction in plan
-        .reduce
-        .iter()
-        .filter(|reduction| reduction.function.is_of_formula())
-    {
-        let name = &reduction.name;
-        let (text, _) = subject(reduction);
-        all.push((
-            format!("reduction {name}"),
-            format!("--reduce {name}"),
-            text.to_owned(),
-            None,
-        ));
-    }
-    all
-}
-
 /// The method of a plan.
 fn method(plan: &Plan) -> Result<&'static Method, PlanError> {
     let Some(method) = Method::named(&plan.method) else {
@@ -1000,241 +799,6 @@ fn method(plan: &Plan) -> Result<&'static Method, PlanError> {
     Ok(method)
 }
 
-/// What computes each reduction of a plan, and its unit; `next` is the formula of the next one that has one.
-fn reductions(
-    plan: &Plan,
-    model: &Model<'_>,
-    mut next: impl FnMut() -> Formula,
-) -> (Vec<ReductionSource>, Vec<String>) {
-    let mut units = Vec::new();
-    let mut reductions = Vec::new();
-    for reduction in &plan.reduce {
-        if !reduction.function.is_of_formula() {
-            let unit = match reduction.function {
-                Function::Count => "1",
-                Function::Frequency => "1/s",
-                Function::Power => "W",
-                _ => "s",
-            };
-            units.push(unit.to_owned());
-            reductions.push(ReductionSource::Of(
-                reduction.function,
-                reduction.of.clone(),
-            ));
-            continue;
-        }
-        let formula = next();
-        let (_, of_size) = subject(reduction);
-        let unit = &model.outputs[formula.output].unit_text;
-        units.push(match reduction.function {
-            Function::WhenMax | Function::WhenMin => "s".to_owned(),
-            Function::Integral if unit == "1" => "s".to_owned(),
-            Function::Integral => format!("({unit})*s"),
-            _ => unit.clone(),
-        });
-        reductions.push(ReductionSource::Along(Tracker::new(
-            reduction.function,
-            formula,
-            of_size,
-        )));
-    }
-    (reductions, units)
-}
-
-/// Checks names and numbers of a plan; returns what each varied name stands for.
-fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<VariedQuantity>, PlanError> {
-    check_design(plan)?;
-    check_times(plan)?;
-    check_events(plan, model)?;
-    check_names(plan, model)?;
-    check_powers(plan, model)?;
-    let varied = plan.varied().into_iter();
-    Ok(varied.map(|name| VariedQuantity::of(name, model)).collect())
-}
-
-fn check_design(plan: &Plan) -> Result<(), PlanError> {
-    let wrong = |message: String| Err(PlanError::Plan(message));
-    if design::runs(&plan.design).is_none() {
-        return wrong("there are more than 2^40 runs".into());
-    }
-    if plan.runs() == 0 {
-        return wrong("there are no runs: a factor of the design has no values".into());
-    }
-    for factor in &plan.design {
-        if let design::Factor::Sample {
-            design: design::Sampling::Sobol,
-            variables,
-            ..
-        } = factor
-            && variables.len() > MOST_VARIABLES
-        {
-            return wrong(format!(
-                "a Sobol design has at most {MOST_VARIABLES} variables; --design latin has no such limit"
-            ));
-        }
-    }
-    Ok(())
-}
-
-/// Checks how long runs last, and when they are recorded.
-fn check_times(plan: &Plan) -> Result<(), PlanError> {
-    let wrong = |message: String| Err(PlanError::Plan(message));
-    if !(plan.until.is_finite() && plan.until != 0.0) {
-        return wrong("a sweep needs a duration: --until must be a number other than 0".into());
-    }
-    let is_within = |t: f64| t * plan.until.signum() >= 0.0 && t.abs() <= plan.until.abs();
-    if let Some(t) = plan.at.iter().find(|t| !is_within(**t)) {
-        return wrong(format!(
-            "--record at={t}: that is not within the run, which lasts until {} s",
-            plan.until
-        ));
-    }
-    if let Some(after) = plan
-        .after
-        .filter(|after| !is_within(*after) || *after == plan.until)
-    {
-        return wrong(format!(
-            "--after {after}: that is not within the run, which lasts until {} s",
-            plan.until
-        ));
-    }
-    if plan
-        .every
-        .is_some_and(|every| !(every > 0.0 && plan.until.abs() / every <= MOST_INSTANTS))
-    {
-        return wrong(format!(
-            "--record every: more than {MOST_INSTANTS:e} instants of each run, or none"
-        ));
-    }
-    if plan.every.is_some() && !plan.at_events.is_empty() {
-        return wrong(
-            "--record every and --record event: all samples must be drawn in one way".into(),
-        );
-    }
-    Ok(())
-}
-
-/// Checks the names of events that runs are recorded at, or that are reduced.
-fn check_events(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
-    let wrong = |message: String| Err(PlanError::Plan(message));
-    let of_contacts = contact_events(model);
-    let known = || {
-        let own = plan.events.iter().map(|watch| watch.name.as_str());
-        own.chain(of_contacts.iter().map(String::as_str))
-    };
-    if let Some(name) = plan
-        .at_events
-        .iter()
-        .find(|name| !known().any(|known| known == *name))
-    {
-        let help = match most_similar(name, known()) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("`--event {name}=FORMULA` defines it"),
-        };
-        return wrong(format!(
-            "--record event={name}: there is no such event; {help}"
-        ));
-    }
-    for reduction in plan
-        .reduce
-        .iter()
-        .filter(|reduction| reduction.function.is_of_event())
-    {
-        if !known().any(|name| name == reduction.of) {
-            let help = match most_similar(&reduction.of, known()) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => "name it by --event NAME=FORMULA".into(),
-            };
-            return wrong(format!(
-                "--reduce {}: no event named `{}`; {help}",
-                reduction.name, reduction.of
-            ));
-        }
-    }
-    Ok(())
-}
-
-/// Checks the names of what is varied, set and driven: each is given once.
-fn check_names(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
-    let wrong = |message: String| Err(PlanError::Plan(message));
-    let varied = plan.varied();
-    let mut set: Vec<&str> = plan.set.iter().map(|(name, _)| name.as_str()).collect();
-    set.extend(plan.inputs.iter().map(|(name, _)| name.as_str()));
-    let starts = plan.start.iter().map(|(name, _)| format!("start({name})"));
-    let rates = plan.rate.iter().map(|(name, _)| format!("rate({name})"));
-    let starts_and_rates: Vec<String> = starts.chain(rates).collect();
-    let mut seen = std::collections::BTreeSet::new();
-    for name in &varied {
-        unit_of(model, name).map_err(PlanError::Plan)?;
-        if !seen.insert(*name) {
-            return wrong(format!("`{name}` is varied more than once"));
-        }
-        if set.contains(name) || starts_and_rates.iter().any(|given| given == name) {
-            return wrong(format!(
-                "`{name}` is varied, but also has one value for all runs"
-            ));
-        }
-    }
-    for name in plan
-        .set
-        .iter()
-        .map(|(name, _)| name.as_str())
-        .chain(starts_and_rates.iter().map(String::as_str))
-    {
-        unit_of(model, name).map_err(PlanError::Plan)?;
-    }
-    for (name, _) in &plan.inputs {
-        let mut inputs = model.inputs.iter();
-        if !inputs.any(|input| input.name.to_string() == *name) {
-            return wrong(signals::unknown_input(name, model));
-        }
-        if plan.set.iter().any(|(set, _)| set == name) {
-            return wrong(format!(
-                "`{name}` is driven by --input, and has one value by --set too"
-            ));
-        }
-    }
-    Ok(())
-}
-
-/// Checks the names of contacts whose powers are asked for.
-fn check_powers(plan: &Plan, model: &Model<'_>) -> Result<(), PlanError> {
-    let wrong = |message: String| Err(PlanError::Plan(message));
-    let mut powers = plan.reduce.iter();
-    if let Some(reduction) = powers.find(|reduction| {
-        let is_named = |contact: &Contact<'_>| contact.name.to_string() == reduction.of;
-        reduction.function == Function::Power && !model.contacts.iter().any(is_named)
-    }) {
-        let names: Vec<String> = model
-            .contacts
-            .iter()
-            .map(|of| of.name.to_string())
-            .collect();
-        let help = match most_similar(&reduction.of, names.iter().map(String::as_str)) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None if names.is_empty() => "the machine has no `contacts`".into(),
-            None => format!("there are: {}", names.join(", ")),
-        };
-        return wrong(format!(
-            "--reduce {}: no contact named `{}`; {help}",
-            reduction.name, reduction.of
-        ));
-    }
-    Ok(())
-}
-
-/// The events of the unilateral contacts of a machine, as runs name them: `floor impact`.
-fn contact_events(model: &Model<'_>) -> Vec<String> {
-    let of_contact = |contact: &Contact<'_>| {
-        let kinds = ContactEventKind::ALL.into_iter();
-        let name = contact.name.to_string();
-        kinds
-            .map(move |kind| format!("{name} {}", kind.word()))
-            .collect::<Vec<_>>()
-    };
-    model.contacts.iter().flat_map(of_contact).collect()
-}
-
 /// Sets values, families before their members.
 fn set_all(machine: &mut InterpretedMachine, all: &[(String, f64)]) -> Result<(), String> {
     for is_member in [false, true] {
@@ -1248,62 +812,4 @@ fn set_all(machine: &mut InterpretedMachine, all: &[(String, f64)]) -> Result<()
         }
     }
     Ok(())
-}
-
-/// The columns of rows and those of samples.
-fn columns(
-    plan: &Plan,
-    model: &Model<'_>,
-    machine: &InterpretedMachine,
-    units: &[String],
-) -> (Vec<Column>, Option<Vec<Column>>) {
-    let number = |name: String, unit: &str| Column {
-        name,
-        unit: Some(unit.to_owned()),
-        kind: ColumnType::Number,
-    };
-    let other = |name: &str, kind| Column {
-        name: name.into(),
-        unit: None,
-        kind,
-    };
-    let system = machine.prepare();
-    let state = |suffix: &str| {
-        let positions = system
-            .coordinates()
-            .map(|c| number(format!("{}{suffix}", c.name), c.unit));
-        let rates = system.coordinates().map(|c| {
-            let name = format!("{}{suffix}", rate_name(c.name, ""));
-            number(name, &rate_unit(c.name, c.unit))
-        });
-        positions.chain(rates).collect::<Vec<_>>()
-    };
-    let mut columns = vec![other("run", ColumnType::Count)];
-    for name in plan.varied() {
-        let unit = unit_of(model, name).unwrap_or_default();
-        columns.push(number(name.to_owned(), &unit));
-    }
-    columns.extend([
-        other("status", ColumnType::Text),
-        other("error", ColumnType::Text),
-        number("t".into(), "s"),
-    ]);
-    columns.extend(state(""));
-    for t in &plan.at {
-        columns.extend(state(&format!("@{t}")));
-    }
-    for (reduction, unit) in plan.reduce.iter().zip(units) {
-        columns.push(number(reduction.name.clone(), unit));
-    }
-    columns.push(other("steps", ColumnType::Count));
-    columns.push(number("energy residual".into(), "J"));
-    let samples = plan.has_samples().then(|| {
-        let mut columns = vec![other("run", ColumnType::Count), number("t".into(), "s")];
-        columns.extend(state(""));
-        if !plan.at_events.is_empty() {
-            columns.push(other("event", ColumnType::Text));
-        }
-        columns
-    });
-    (columns, samples)
 }

@@ -1,0 +1,188 @@
+//! The formulas and the columns of a sweep.
+
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::{Machine, System};
+use lagrangian_spec::model::Model;
+use lagrangian_spec::unit::{rate_name, rate_unit};
+
+use super::{ReductionSource, unit_of};
+use crate::plan::{Function, Plan, Reduction};
+use crate::reduce::{Formula, Tracker};
+use crate::rows::{Column, ColumnType};
+
+/// The argument of a reduction, and whether its absolute value is reduced.
+pub(super) fn subject(reduction: &Reduction) -> (&str, bool) {
+    let text = reduction.of.trim();
+    let is_extreme = matches!(reduction.function, Function::Max | Function::WhenMax);
+    let inner = text.strip_prefix("abs").map(str::trim_start);
+    let inner = inner.and_then(|text| text.strip_prefix('(')?.strip_suffix(')'));
+    match inner.filter(|_| is_extreme) {
+        Some(inner) if is_closed(inner) => (inner, true),
+        _ => (text, false),
+    }
+}
+
+/// Whether every closing bracket has been opened before.
+fn is_closed(text: &str) -> bool {
+    let mut depth = 0_i32;
+    let mut closed = text.chars().map(|c| {
+        depth += match c {
+            '(' => 1,
+            ')' => -1,
+            _ => 0,
+        };
+        depth >= 0
+    });
+    closed.all(|is_open| is_open)
+}
+
+/// Name, description for messages, text and unit of every formula of a plan, in the order inputs, events, reductions.
+pub(super) fn names(
+    plan: &Plan,
+    model: &Model<'_>,
+) -> Vec<(String, String, String, Option<String>)> {
+    let mut all = Vec::new();
+    for (name, law) in &plan.inputs {
+        if let Some(text) = law.formula() {
+            let input = model
+                .inputs
+                .iter()
+                .find(|input| input.name.to_string() == *name);
+            let unit = input.map(|input| input.unit_text.clone());
+            all.push((
+                format!("input {name}"),
+                format!("--input {name}"),
+                text.to_owned(),
+                unit,
+            ));
+        }
+    }
+    for watch in &plan.events {
+        let option = if watch.ends {
+            "--until-event"
+        } else {
+            "--event"
+        };
+        let name = &watch.name;
+        all.push((
+            format!("event {name}"),
+            format!("{option} {name}"),
+            watch.formula.clone(),
+            None,
+        ));
+    }
+    for reduction in plan
+        .reduce
+        .iter()
+        .filter(|reduction| reduction.function.is_of_formula())
+    {
+        let name = &reduction.name;
+        let (text, _) = subject(reduction);
+        all.push((
+            format!("reduction {name}"),
+            format!("--reduce {name}"),
+            text.to_owned(),
+            None,
+        ));
+    }
+    all
+}
+
+/// What computes each reduction of a plan, and its unit; `next` is the formula of the next one that has one.
+pub(super) fn reductions(
+    plan: &Plan,
+    model: &Model<'_>,
+    mut next: impl FnMut() -> Formula,
+) -> (Vec<ReductionSource>, Vec<String>) {
+    let mut units = Vec::new();
+    let mut reductions = Vec::new();
+    for reduction in &plan.reduce {
+        if !reduction.function.is_of_formula() {
+            let unit = match reduction.function {
+                Function::Count => "1",
+                Function::Frequency => "1/s",
+                Function::Power => "W",
+                _ => "s",
+            };
+            units.push(unit.to_owned());
+            reductions.push(ReductionSource::Of(
+                reduction.function,
+                reduction.of.clone(),
+            ));
+            continue;
+        }
+        let formula = next();
+        let (_, of_size) = subject(reduction);
+        let unit = &model.outputs[formula.output].unit_text;
+        units.push(match reduction.function {
+            Function::WhenMax | Function::WhenMin => "s".to_owned(),
+            Function::Integral if unit == "1" => "s".to_owned(),
+            Function::Integral => format!("({unit})*s"),
+            _ => unit.clone(),
+        });
+        reductions.push(ReductionSource::Along(Tracker::new(
+            reduction.function,
+            formula,
+            of_size,
+        )));
+    }
+    (reductions, units)
+}
+
+/// The columns of rows and those of samples.
+pub(super) fn columns(
+    plan: &Plan,
+    model: &Model<'_>,
+    machine: &InterpretedMachine,
+    units: &[String],
+) -> (Vec<Column>, Option<Vec<Column>>) {
+    let number = |name: String, unit: &str| Column {
+        name,
+        unit: Some(unit.to_owned()),
+        kind: ColumnType::Number,
+    };
+    let other = |name: &str, kind| Column {
+        name: name.into(),
+        unit: None,
+        kind,
+    };
+    let system = machine.prepare();
+    let state = |suffix: &str| {
+        let positions = system
+            .coordinates()
+            .map(|c| number(format!("{}{suffix}", c.name), c.unit));
+        let rates = system.coordinates().map(|c| {
+            let name = format!("{}{suffix}", rate_name(c.name, ""));
+            number(name, &rate_unit(c.name, c.unit))
+        });
+        positions.chain(rates).collect::<Vec<_>>()
+    };
+    let mut columns = vec![other("run", ColumnType::Count)];
+    for name in plan.varied() {
+        let unit = unit_of(model, name).unwrap_or_default();
+        columns.push(number(name.to_owned(), &unit));
+    }
+    columns.extend([
+        other("status", ColumnType::Text),
+        other("error", ColumnType::Text),
+        number("t".into(), "s"),
+    ]);
+    columns.extend(state(""));
+    for t in &plan.at {
+        columns.extend(state(&format!("@{t}")));
+    }
+    for (reduction, unit) in plan.reduce.iter().zip(units) {
+        columns.push(number(reduction.name.clone(), unit));
+    }
+    columns.push(other("steps", ColumnType::Count));
+    columns.push(number("energy residual".into(), "J"));
+    let samples = plan.has_samples().then(|| {
+        let mut columns = vec![other("run", ColumnType::Count), number("t".into(), "s")];
+        columns.extend(state(""));
+        if !plan.at_events.is_empty() {
+            columns.push(other("event", ColumnType::Text));
+        }
+        columns
+    });
+    (columns, samples)
+}
