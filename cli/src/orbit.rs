@@ -1,13 +1,13 @@
 //! `lagrangian orbit`: periodic motions, their multipliers, and their continuation in a parameter.
 
+mod along;
+
 use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, Simulation, State, System};
 use lagrangian_linear::DMatrix;
-use lagrangian_linear::orbit::{
-    self, Multiplier, NoOrbit, Orbit, Period, Sought, Stability, Trace,
-};
+use lagrangian_linear::orbit::{self, Multiplier, NoOrbit, Orbit, Period, Sought, Stability};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::model::{Variable, stage};
 use lagrangian_symbolic::Dag;
@@ -15,7 +15,6 @@ use lagrangian_units::{integral_name, rate_name, rate_unit, state_of};
 use serde_json::{Value, json};
 
 use crate::call;
-use crate::drawing::{self, Curve, Pane};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::linearize::arrays::{Array, Content};
@@ -25,8 +24,9 @@ use crate::numbers::{self, by_name, shortest};
 use crate::output::{self, Destination, ORBIT, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading, name_error, places};
 use crate::recording::Run;
-use crate::runs::{self, header};
+use crate::runs;
 use crate::{inputs, plot, progress, simulate, table};
+use along::along;
 
 /// The number of recorded samples per period.
 const SAMPLES: f64 = 400.0;
@@ -574,273 +574,5 @@ fn text(orbit: &Orbit, periods: u32) -> String {
         let _ = writeln!(text, "  {value}, accurate to {:.1e}", one.error);
     }
     let _ = writeln!(text, "{}", verdict(orbit));
-    text
-}
-
-/// Continues the orbit, writes the files and prints the results.
-fn along(
-    call: &call::Orbit,
-    ready: &Ready<'_>,
-    sought: &Sought,
-    vary: &call::Vary,
-    files: &[Option<Destination>; 2],
-) -> Result<(), Failure> {
-    let machine = &ready.machine;
-    let unit = machine.unit(&vary.name).map(str::to_owned).ok_or_else(|| {
-        let mut probe = machine.clone();
-        match probe.set(&vary.name, 1.0) {
-            Err(unknown) => match reading::name_error("parameter or input", &unknown) {
-                Failure::Call(message) => {
-                    Failure::Call(format!("--along {}: {message}", vary.name))
-                }
-                other => other,
-            },
-            Ok(()) => Failure::Call(format!("--along {}: it has no unit", vary.name)),
-        }
-    })?;
-    if call
-        .start
-        .parameters
-        .iter()
-        .any(|set| set.name == vary.name)
-    {
-        return Err(Failure::Call(format!(
-            "--set {0}=… and --along {0} both give `{0}` a value: leave out the first",
-            vary.name
-        )));
-    }
-    let end = |set: &call::Assignment| set.value("--along", &unit).map_err(Failure::Call);
-    let (from, to) = (end(&vary.ends[0])?, end(&vary.ends[1])?);
-    if from == to {
-        return Err(Failure::Call(format!(
-            "--along {}: the range from {from} to {to} is empty",
-            vary.name
-        )));
-    }
-    let last = vary.count - 1;
-    let values: Vec<f64> = (0..vary.count)
-        .map(|k| {
-            if k == last {
-                to
-            } else {
-                from + (to - from) * (k as f64 / last as f64)
-            }
-        })
-        .collect();
-    let make = |value: f64| -> Result<(InterpretedMachine, Option<f64>), Stop> {
-        let mut machine = machine.clone();
-        machine
-            .set(&vary.name, value)
-            .map_err(|wrong| Stop::Failed(Failure::run(wrong)))?;
-        reading::set_members(&mut machine, &call.start, &vary.name);
-        let diagnostics = ready
-            .compiled
-            .model
-            .parameter_diagnostics(machine.parameter_values());
-        crate::diagnostics::check(&diagnostics)
-            .map_err(|message| Stop::Failed(Failure::Call(message)))?;
-        let period = match &ready.period {
-            None => None,
-            Some((formula, output)) => {
-                let start = machine.start();
-                let period = runs::period_of(&machine, &start, *output, "--period", formula);
-                Some(period.map_err(Stop::Failed)?)
-            }
-        };
-        Ok((machine, period))
-    };
-    let trace = orbit::follow(make, sought, &values).map_err(|stop| match stop {
-        Stop::Failed(failure) => failure,
-        Stop::None(none) => no_orbit_failure(
-            &none,
-            call,
-            &coordinates_that_must_return(&ready.machine, sought),
-        ),
-    })?;
-    let label = header(&vary.name, Some(&unit));
-    if let Some(file) = &files[0] {
-        let columns = columns(machine, &trace, &label);
-        let columns: Vec<(String, &[f64])> = columns
-            .iter()
-            .map(|(name, values)| (name.clone(), values.as_slice()))
-            .collect();
-        table::write_columns(&columns, file)?;
-    }
-    if let Some(file) = &files[1] {
-        let drawn = drawing::svg(machine.name(), &panes(&trace, &label));
-        file.write_text(&drawn.map_err(Failure::Run)?)?;
-    }
-    if call.spec.json {
-        let points = trace.points.iter().map(|point| match &point.orbit {
-            Ok(orbit) => {
-                let mut document = as_json(machine, orbit);
-                document["value"] = json!(point.value);
-                document
-            }
-            Err(none) => json!({"value": point.value, "error": none.to_string()}),
-        });
-        let changes = trace.changes.iter().map(|changed| {
-            json!({
-                "between": changed.between,
-                "change": changed.change.name(),
-                "multiplier": {"re": changed.multiplier.re, "im": changed.multiplier.im},
-            })
-        });
-        let document = json!({
-            "along": {"name": vary.name, "unit": unit},
-            "points": points.collect::<Vec<Value>>(),
-            "changes": changes.collect::<Vec<Value>>(),
-        });
-        output::line(format_args!("{document:#}"));
-    } else {
-        output::text(&text_of_trace(&trace, &vary.name, &unit))
-    }
-    Ok(())
-}
-
-/// Why a continuation is stopped.
-enum Stop {
-    Failed(Failure),
-    None(NoOrbit),
-}
-
-impl From<NoOrbit> for Stop {
-    fn from(none: NoOrbit) -> Stop {
-        Stop::None(none)
-    }
-}
-
-/// A row for each multiplier of each orbit.
-fn columns(machine: &InterpretedMachine, trace: &Trace, label: &str) -> Vec<(String, Vec<f64>)> {
-    let found: Vec<(f64, &Orbit, &Multiplier)> = trace
-        .points
-        .iter()
-        .filter_map(|point| point.orbit.as_ref().ok().map(|orbit| (point.value, orbit)))
-        .flat_map(|(value, orbit)| orbit.multipliers.iter().map(move |one| (value, orbit, one)))
-        .collect();
-    let column = |name: &str, of: &dyn Fn(&(f64, &Orbit, &Multiplier)) -> f64| {
-        (name.to_owned(), found.iter().map(of).collect())
-    };
-    let mut columns = vec![
-        column(label, &|row| row.0),
-        column("period [s]", &|row| row.1.period),
-        column("re", &|row| row.2.value.re),
-        column("im", &|row| row.2.value.im),
-        column("modulus", &|row| row.2.value.norm()),
-        column("error", &|row| row.2.error),
-        column("trivial", &|row| f64::from(u8::from(row.2.is_trivial))),
-    ];
-    let system = machine.prepare();
-    for (k, coordinate) in system.coordinates().enumerate() {
-        if state_of(coordinate.name).is_some() {
-            continue;
-        }
-        let name = header(coordinate.name, Some(coordinate.unit));
-        columns.push(column(&name, &|row| row.1.start.q.values[k]));
-    }
-    for (k, coordinate) in system.coordinates().enumerate() {
-        let unit = rate_unit(coordinate.name, coordinate.unit);
-        let name = header(&rate_name(coordinate.name, ""), Some(&unit));
-        columns.push(column(&name, &|row| row.1.start.v.values[k]));
-    }
-    columns
-}
-
-/// The period and the moduli of the multipliers.
-fn panes(trace: &Trace, label: &str) -> Vec<Pane> {
-    let found: Vec<(f64, &Orbit)> = trace
-        .points
-        .iter()
-        .filter_map(|point| point.orbit.as_ref().ok().map(|orbit| (point.value, orbit)))
-        .collect();
-    let most = found
-        .iter()
-        .map(|(_, orbit)| orbit.multipliers.len())
-        .max()
-        .unwrap_or(0);
-    // Multipliers are sorted by modulus.
-    let moduli = (0..most).map(|k| Curve {
-        name: format!("multiplier {}", k + 1),
-        points: found
-            .iter()
-            .filter_map(|(value, orbit)| {
-                let mut moduli: Vec<f64> = orbit
-                    .multipliers
-                    .iter()
-                    .map(|one| one.value.norm())
-                    .collect();
-                moduli.sort_by(|a, b| b.total_cmp(a));
-                moduli.get(k).map(|modulus| (*value, *modulus))
-            })
-            .collect(),
-    });
-    let periods = found.iter().map(|(value, orbit)| (*value, orbit.period));
-    let mut panes = vec![Pane {
-        along: [label.to_owned(), "modulus".to_owned()],
-        curves: moduli.collect(),
-        are_points: false,
-    }];
-    // The period of a driven machine is given, and not plotted.
-    if found.iter().any(|(_, orbit)| orbit.is_autonomous) {
-        panes.push(Pane {
-            along: [label.to_owned(), "period [s]".to_owned()],
-            curves: vec![Curve {
-                name: "period".to_owned(),
-                points: periods.collect(),
-            }],
-            are_points: false,
-        });
-    }
-    panes
-}
-
-fn text_of_trace(trace: &Trace, name: &str, unit: &str) -> String {
-    let unit = if unit == "1" {
-        String::new()
-    } else {
-        format!(" {unit}")
-    };
-    let orbits = trace
-        .points
-        .iter()
-        .filter(|point| point.orbit.is_ok())
-        .count();
-    let mut text = format!(
-        "{orbits} orbits at {} values of {name}\n",
-        trace.points.len()
-    );
-    let mut before: Option<&'static str> = None;
-    for point in &trace.points {
-        let now = point
-            .orbit
-            .as_ref()
-            .map_or("lost", |orbit| orbit.stability().name());
-        if before.replace(now) != Some(now) {
-            let why = point.orbit.as_ref().err().map(|none| format!(": {none}"));
-            // Writing to a String cannot fail.
-            let _ = writeln!(
-                text,
-                "  from {name} = {}{unit} on: {now}{}",
-                number(point.value),
-                why.unwrap_or_default()
-            );
-        }
-    }
-    for changed in &trace.changes {
-        let [from, to] = changed.between;
-        let (re, im) = (number(changed.multiplier.re), changed.multiplier.im);
-        let value = if im == 0.0 {
-            re
-        } else {
-            format!("{re} ± {}i", number(im.abs()))
-        };
-        let _ = writeln!(
-            text,
-            "  {} between {name} = {}{unit} and {}{unit}: a multiplier of {value}",
-            changed.change.name(),
-            shortest(from),
-            shortest(to)
-        );
-    }
     text
 }
