@@ -1,13 +1,19 @@
 //! Makes a run: takes step after step, and after each one looks for events, samples, changes of contacts, and ends of assumptions.
 
+mod assumptions;
 mod choosing;
 mod comparing;
 mod contact_search;
 pub(crate) mod contacts;
+mod ending;
 mod explained;
+mod guides;
 mod handing_over;
 pub(crate) mod in_lanes;
+mod reasons;
+mod recording;
 pub(crate) mod sampled;
+mod start;
 mod stepping;
 
 use sampled::Sampling;
@@ -17,40 +23,29 @@ use std::vec::Vec;
 
 use crate::at::At;
 use crate::balance::{Energies, EnergyBalance, EnergyIntegrals, Quadratures};
-use crate::constraints::{Constraints, Violation, closest};
+use crate::constraints::Constraints;
 use crate::contact::Mode;
 use crate::equations::check_equations;
-use crate::error::{KeptContradiction, constraint_name};
-use crate::event::{
-    self, Crossing, EndOfStep, Event, Places, Terminal, Triple, state, step_motion,
-};
-use crate::friction::{Cause, Change, Contacts, Motion};
+use crate::event::{self, EndOfStep, Event, Terminal, state};
+use crate::friction::{Change, Contacts};
 use crate::inputs::{InputLaw, Law, LawInPiece};
 use crate::interpolant::Interpolant;
 use crate::methods::{Method, MethodKind};
-use crate::names::rate_name;
-use crate::observation::{ConstraintState, ObservedSystem};
+use crate::observation::ObservedSystem;
 use crate::phases::UnilateralRecord;
 use crate::piece::Piece;
-use crate::roots;
-use crate::settings::{Callbacks, Progress, Settings, Subject, Task};
-use crate::solution::{
-    Ending, Handover, MethodChoice, MethodReason, RunResult, Solution, Statistics, Steps, handover,
-    is_beyond,
-};
-use crate::stages::Point;
+use crate::settings::{Callbacks, Settings, Subject, Task};
+use crate::solution::{Ending, Handover, MethodChoice, MethodReason, RunResult, Statistics, Steps};
 use crate::step_error::StepError;
 use crate::stepper::{BorrowedOrOwned, Stepper};
-use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
-use crate::{
-    ContactTrouble, Coordinates, Error, Inputs, Machine, Pivot, Singular, State, StepMotion,
-    System, Vector, Warning,
-};
+use crate::tolerance::Tolerance;
+use crate::{Coordinates, Error, Inputs, Machine, State, System, Warning};
 use choosing::{Beginning, CANDIDATES, Choosing};
 use contact_search::ContactLooks;
 use contacts::PendingChange;
 use explained::ExplainedResidual;
 use handing_over::ContactActivity;
+use start::{check_parameters, check_start, project_start};
 
 /// Makes the run of a simulation, and returns it with the error that ended it early, if any.
 ///
@@ -206,16 +201,14 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let quadratures = settings.energy_balance.then(EnergyIntegrals::default);
         let sampling = callbacks.sampled.as_ref().map(|of| of.begin(system));
         let sampled_inputs = sampling.is_some().then(|| system.default_inputs());
+        let law = LawInPiece {
+            law,
+            sampled: sampled_inputs.clone(),
+            piece,
+        };
         let model = Model {
             system,
-            observed_system: ObservedSystem {
-                system,
-                law: LawInPiece {
-                    law,
-                    sampled: sampled_inputs.clone(),
-                    piece,
-                },
-            },
+            observed_system: ObservedSystem { system, law },
             start: (start.t, &*q),
         };
         if let Some((_, assumption)) = model.ended_assumption((start.t, q.clone(), v.clone())) {
@@ -243,15 +236,8 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         }
         let mut stepper = begun_by.map_err(|error| model.explain(error, q, v))?;
         if !*is_resumed {
-            check_equations(
-                system,
-                At {
-                    t: start.t,
-                    q,
-                    v,
-                    u: stepper.inputs(),
-                },
-            )?;
+            let (t, u) = (start.t, stepper.inputs());
+            check_equations(system, At { t, q, v, u })?;
         }
         stepper.set_longest_step(settings.longest_step);
         if let Some(step) = settings.first_step {
@@ -260,14 +246,6 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         if let Some(beginning) = *chosen {
             stepper.count_evaluations(beginning.evaluations);
         }
-        for watch in &mut callbacks.watches {
-            let observe = || model.observed_system.observe::<M, _>(&stepper, start);
-            watch.begin(start, ended.as_ref() == Some(&watch.name), &observe)?;
-        }
-        for stream in &mut callbacks.streams {
-            stream.begin(start);
-        }
-
         let activity = ContactActivity::new(
             settings.hands_over && settings.method.kind == MethodKind::RungeKutta,
             system.unilateral_contacts().len(),
@@ -279,7 +257,6 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             }
             None => Choosing::none(),
         };
-        let others: &[_] = if settings.automatic { &CANDIDATES } else { &[] };
         let mut run = Run {
             model,
             stepper,
@@ -292,185 +269,13 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             activity,
             contact_looks: ContactLooks::default(),
             choosing,
-            record: Record {
-                sampled_inputs: sampled_inputs
-                    .map(|inputs| (start.t, inputs))
-                    .into_iter()
-                    .collect(),
-                pieces: (piece != Piece::ALL).then_some(piece).into_iter().collect(),
-                steps: (settings.keep_steps).then(|| Steps::new(settings.method, others)),
-                samples: settings.every.map(|_| start.clone()).into_iter().collect(),
-                events: Vec::new(),
-                energies: Vec::new(),
-                contacts: Vec::new(),
-                unilateral: UnilateralRecord::default(),
-                handovers: Vec::new(),
-                kinetic_energy: 0.0,
-                explained: ExplainedResidual::default(),
-                is_unexplained: false,
-            },
+            record: Record::begun(settings, start, sampled_inputs, piece),
             settings,
         };
-        let contacts = run
-            .stepper
-            .contacts()
-            .iter()
-            .map(Contacts::for_later_observation);
-        run.record
-            .contacts
-            .extend(contacts.map(|known| (start.t, known)));
-        run.record_energies();
-        if (run.record.energies.first()).is_some_and(|of| (of.kinetic + of.potential).is_nan()) {
-            return Err(Error::EnergiesUnknown { t: start.t });
-        }
-        if <M::System as System>::MAY_COLLIDE {
-            run.resolve_contacts_at_start()?;
-        }
-        run.begin_choosing()?;
+        run.begin_at(start, ended.as_deref())?;
         Ok(run)
     }
-
-    /// Makes the solution from a run that has ended.
-    pub(crate) fn solution(mut self, finished: Finished<M>) -> (Solution<M, ()>, Option<Error>) {
-        let Finished {
-            end,
-            ending,
-            error,
-            record,
-            statistics,
-            balance,
-            warnings,
-            next_step,
-            constraints,
-            choices,
-        } = finished;
-        let Record {
-            sampled_inputs,
-            pieces,
-            steps,
-            samples,
-            events,
-            energies,
-            contacts,
-            unilateral,
-            handovers,
-            ..
-        } = record;
-        self.start_warnings.extend(warnings);
-        let solution = Solution {
-            method: self.settings.method,
-            balance,
-            statistics: Statistics {
-                seconds: self.clock.elapsed().as_secs_f64(),
-                ..statistics
-            },
-            warnings: self.start_warnings,
-            next_step,
-            constraints,
-            contacts,
-            unilateral,
-            handovers,
-            choices,
-            sampled_inputs,
-            pieces,
-            start: self.start,
-            end,
-            steps,
-            samples,
-            events,
-            energies,
-            ending,
-            settings: self.settings,
-            law: (),
-            system: self.system,
-        };
-        (solution, error)
-    }
 }
-
-impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
-    /// Ends the run: returns its results with the energy balance and the warnings.
-    pub(crate) fn end(mut self, ending: Result<Ending, Error>) -> Finished<M> {
-        if ending.is_ok() {
-            self.change_inputs_at_end();
-        }
-        let (ending, error) = match ending {
-            Ok(ending) => (ending, None),
-            Err(error) => (Ending::Error, Some(error)),
-        };
-        let Self {
-            model,
-            stepper,
-            settings,
-            mut record,
-            next_step,
-            callbacks,
-            choosing,
-            ..
-        } = self;
-        let system = model.system;
-        let end = state(
-            system,
-            (stepper.t(), stepper.q().clone(), stepper.v().clone()),
-        );
-        if settings.every.is_some() && end.t != model.start.0 {
-            record.samples.push(end.clone());
-        }
-        for stream in &mut callbacks.streams {
-            stream.end(&end);
-        }
-        if !record.unilateral.events.is_empty() {
-            // The time of a contact event may include the rest of its bounces, within which other events happen.
-            let events = &mut record.events;
-            events.sort_by(|one, other| one.state.t.total_cmp(&other.state.t));
-        }
-        let work = stepper.work();
-        let has_fixed_steps = settings.method.has_fixed_steps() || !record.handovers.is_empty();
-        let balance = balance(
-            &stepper,
-            &record.energies,
-            &record.explained,
-            (record.kinetic_energy, has_fixed_steps),
-        );
-        let mut warnings = warnings(settings, &stepper);
-        if <M::System as System>::MAY_COLLIDE {
-            warnings.extend(record.unilateral.warnings(system));
-            warnings.extend(handover::warning(&record.handovers));
-        }
-        if let Some(balance) = &balance
-            && error.is_none()
-            && balance.residual().abs() > balance.explained
-        {
-            warnings.push(Warning::EnergyUnexplained {
-                residual: balance.residual(),
-                explained: balance.explained,
-                relative: balance.relative(),
-            });
-        }
-        Finished {
-            end,
-            ending,
-            error,
-            record,
-            statistics: Statistics {
-                steps: work.steps,
-                rejected: work.rejected,
-                evaluations: work.evaluations,
-                constraint_residual: stepper.constraint_residual(),
-                stiff_since: stepper.stiff_since(),
-                seconds: 0.0,
-            },
-            balance,
-            warnings,
-            next_step: next_step.unwrap_or(stepper.next_step()).abs(),
-            constraints: stepper.constraints().clone(),
-            choices: choosing.choices,
-        }
-    }
-}
-
-/// The number of changes of contact states at one instant beyond which they are considered not to settle: each contact has three states.
-const MOST_CHANGES_AT_ONCE: usize = 3 * crate::MOST_CONTACTS;
 
 /// A run in progress.
 pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> {
@@ -545,6 +350,31 @@ struct Record<M: Machine> {
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 
 impl<M: Machine> Record<M> {
+    /// The records at the start of a run.
+    fn begun(
+        settings: &Settings,
+        start: &State<Coordinates<M>>,
+        sampled_inputs: Option<Inputs<M>>,
+        piece: Piece,
+    ) -> Self {
+        let others: &[_] = if settings.automatic { &CANDIDATES } else { &[] };
+        let sampled_inputs = sampled_inputs.map(|inputs| (start.t, inputs));
+        Self {
+            sampled_inputs: sampled_inputs.into_iter().collect(),
+            pieces: (piece != Piece::ALL).then_some(piece).into_iter().collect(),
+            steps: (settings.keep_steps).then(|| Steps::new(settings.method, others)),
+            samples: settings.every.map(|_| start.clone()).into_iter().collect(),
+            events: Vec::new(),
+            energies: Vec::new(),
+            contacts: Vec::new(),
+            unilateral: UnilateralRecord::default(),
+            handovers: Vec::new(),
+            kinetic_energy: 0.0,
+            explained: ExplainedResidual::default(),
+            is_unexplained: false,
+        }
+    }
+
     /// Records an event of a watched function.
     fn push_watched(&mut self, event: Event<Coordinates<M>>) {
         self.unilateral.last_watched = event.state.t;
@@ -556,6 +386,39 @@ impl<M: Machine> Record<M> {
 type LastInterpolant<M> = Option<Interpolant<VectorOf<M>>>;
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
+    /// Looks at the start of the run: watched functions, observers, energies, contacts and the choice of the method. `ended` is the event
+    /// that ended there the run that this one resumes.
+    fn begin_at(
+        &mut self,
+        start: &State<Coordinates<M>>,
+        ended: Option<&str>,
+    ) -> Result<(), Error> {
+        let Self {
+            model,
+            stepper,
+            callbacks,
+            ..
+        } = self;
+        for watch in &mut callbacks.watches {
+            let observe = || model.observed_system.observe::<M, _>(stepper, start);
+            watch.begin(start, ended == Some(&watch.name), &observe)?;
+        }
+        for stream in &mut callbacks.streams {
+            stream.begin(start);
+        }
+        let contacts = self.stepper.contacts().iter();
+        let contacts = contacts.map(|known| (start.t, known.for_later_observation()));
+        self.record.contacts.extend(contacts);
+        self.record_energies();
+        if (self.record.energies.first()).is_some_and(|of| (of.kinetic + of.potential).is_nan()) {
+            return Err(Error::EnergiesUnknown { t: start.t });
+        }
+        if <M::System as System>::MAY_COLLIDE {
+            self.resolve_contacts_at_start()?;
+        }
+        self.begin_choosing()
+    }
+
     /// Runs to the end, or until something ends the run earlier.
     fn go_to_end(&mut self) -> Result<Ending, Error> {
         loop {
@@ -618,17 +481,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             pending_change,
         } = between;
         if let Err(error) = stepped {
-            // Where an assumption ends there may be no accelerations to go on with; then the end of the assumption is the reason.
-            std::mem::replace(ending, Ok(Ending::End))?;
-            if self.leave_series(&error) {
-                return Ok(None);
-            }
-            let error = self.vanishing_gradient_error(&error).unwrap_or(error);
-            return Err(self
-                .model
-                .explain(error, self.stepper.q(), self.stepper.v()));
+            return self.examine_failure(ending, error).map(|()| None);
         }
-
         if <M::System as System>::MAY_COLLIDE && self.is_stepped() && self.undo_step_into_motion() {
             return Ok(None);
         }
@@ -699,214 +553,21 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(None)
     }
 
-    /// The error of a run that stops because the gap of a closed contact hardly depends on the coordinates any more: the force that holds
-    /// it shut grows without bound, and steps shrink.
-    fn vanishing_gradient_error(&self, error: &StepError) -> Option<StepError> {
-        let StepError::StepTooSmall { t, .. } = *error else {
-            return None;
-        };
-        self.contact_with_small_gradient(NEAR_FORK, |_| true)
-            .map(|contact| StepError::Contact {
-                contact,
-                trouble: ContactTrouble::NotHeld,
-                t,
-            })
-    }
-
-    /// The first closed contact among those that `counts` selects whose gap has a gradient of less than `share` times its length
-    /// at the start.
-    fn contact_with_small_gradient(
-        &self,
-        share: f64,
-        counts: impl Fn(usize) -> bool,
-    ) -> Option<usize> {
-        let (touching, system) = (self.stepper.touching().as_ref()?, self.model.system);
-        let is_closed = |contact: &usize| touching.modes()[*contact] != Mode::Open;
-        let closed = (0..touching.modes().len()).filter(|k| counts(*k) && is_closed(k));
-        let mut closed = closed.peekable();
-        closed.peek()?;
-        let (begun, start) = self.model.start;
-        let n = start.as_slice().len();
-        let rows = |t, q| {
-            let mut rows = std::vec![0.0; 2 * touching.modes().len() * n];
-            system.contact_matrix(t, q, &mut rows);
-            rows
-        };
-        let (before, now) = (rows(begun, start), rows(self.stepper.t(), self.stepper.q()));
-        let length = |rows: &[f64], contact: usize| {
-            let row = &rows[2 * contact * n..][..n];
-            row.iter().map(|w| w * w).sum::<f64>().sqrt()
-        };
-        closed.find(|contact| length(&now, *contact) < share * length(&before, *contact))
-    }
-
-    /// The time at which the state of a contact ended in the last step, and the change.
-    fn contact_changed(
+    /// Examines a step that failed: the run may go on by another method.
+    #[cold]
+    fn examine_failure(
         &mut self,
-        interpolant: &mut LastInterpolant<M>,
-    ) -> Result<Option<(f64, Change)>, Error> {
-        let Self { model, stepper, .. } = self;
-        let Some(contacts) = stepper.contacts().clone() else {
-            return Ok(None);
-        };
-        let margins = |(t, q, v): &Triple<VectorOf<M>>| {
-            let inputs = model.inputs(*t, q, v);
-            contacts
-                .margins(
-                    model.system,
-                    At {
-                        t: *t,
-                        q,
-                        v,
-                        u: &inputs,
-                    },
-                )
-                .map_err(|error| model.explain(error, q, v))
-        };
-        let mut earliest: Option<(f64, f64, Change)> = None;
-        let mut theta_before = 0.0;
-        let theta_roundoff = event::theta_roundoff(stepper);
-        for theta in event::SAMPLE_FRACTIONS {
-            let ended =
-                contacts.ended_by_margins(&margins(&event::interpolated_at(stepper, theta))?);
-            for (change, kind) in ended.into_iter().flatten() {
-                let interpolant = step_motion(interpolant, stepper, model.system)?;
-                let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
-                let exactly = |theta| Ok(margins(&at(theta)?)?[change.contact][kind]);
-                if !exactly(theta)?.is_lost_since(exactly(theta_before)?) {
-                    continue;
-                }
-                let margin = |theta| exactly(theta).map(|margin| margin.value);
-                let mut root =
-                    event::last_positive([theta_before, theta], theta_roundoff, &mut &margin)?;
-                let mut change = change;
-                if root > contact_search::LEAST_APPROACH {
-                    let (t, q, v) = at(root)?;
-                    if contacts.still_slips(model.system, (t, &q, &v), change) {
-                        root *= contact_search::APPROACH;
-                        change.cause = Cause::Veered;
-                    }
-                }
-                if earliest.is_none_or(|(known, ..)| root < known) {
-                    earliest = Some((root, at(root)?.0, change));
-                }
-            }
-            if let Some((_, t, change)) = earliest {
-                return Ok(Some((t, change)));
-            }
-            theta_before = theta;
+        ending: &mut Result<Ending, Error>,
+        error: StepError,
+    ) -> Result<(), Error> {
+        // Where an assumption ends there may be no accelerations to go on with; then the end of the assumption is the reason.
+        std::mem::replace(ending, Ok(Ending::End))?;
+        if self.leave_series(&error) {
+            return Ok(());
         }
-        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
-        let inputs = model.inputs(t, q, v);
-        contacts
-            .check(
-                model.system,
-                At {
-                    t,
-                    q,
-                    v,
-                    u: &inputs,
-                },
-            )
-            .map_err(|error| model.explain(error, q, v))?;
-        Ok(None)
-    }
-
-    /// Puts contacts into other states if the stepper is at the end of one of their states. The answer is the event that ends the run.
-    fn change(
-        &mut self,
-        pending: &mut Option<(Change, f64)>,
-        (last_t, times): &mut (f64, usize),
-    ) -> Result<Option<Ending>, Error> {
-        let Some((change, step)) = pending.take() else {
-            return Ok(None);
-        };
-        let t = self.stepper.t();
-        let is_at_once = *last_t == t;
-        (*last_t, *times) = (t, if is_at_once { *times + 1 } else { 0 });
-        if *times > MOST_CHANGES_AT_ONCE {
-            let singular = Singular {
-                at: Pivot::Contact(change.contact),
-                ratio: 0.0,
-            };
-            let error = StepError::Singular { singular, t };
-            return Err(self
-                .model
-                .explain(error, self.stepper.q(), self.stepper.v()));
-        }
-        let before = self.stepper.contacts().clone();
-        self.forget_values();
-        let changed = self.stepper.change(change, is_at_once, self.stop, step);
-        if let Err(error) = changed {
-            return Err(self
-                .model
-                .explain(error, self.stepper.q(), self.stepper.v()));
-        }
-        if let Some(steps) = &mut self.record.steps {
-            steps.jump(&self.stepper);
-            self.record_energies();
-        }
-        self.record_contacts(before);
-        let v = self.stepper.v().clone();
-        self.watch_jumps(&v)
-    }
-
-    /// Records the states of the contacts with friction.
-    fn record_contacts(&mut self, before: Option<Contacts>) {
-        let t = self.stepper.t();
-        let Some(now) = self.stepper.contacts() else {
-            return;
-        };
-        let names = self.model.system.contacts().enumerate();
-        let seconds = self.model.system.second_tangents();
-        // Both tangents of a surface are reported under the name of the first.
-        for (k, name) in names.filter(|(k, _)| seconds >> k & 1 == 0) {
-            let Some(was) = before.as_ref().map(|before| before.mode) else {
-                continue;
-            };
-            let (word, crossing) = match now.mode.motion[k] {
-                Motion::Sticks if was.motion[k] == Motion::Sticks => continue,
-                motion if motion == was.motion[k] => match now.mode.press[k] {
-                    press if press == was.press[k] => continue,
-                    press if press > 0.0 => ("presses the other way", Crossing::Rising),
-                    _ => ("presses the other way", Crossing::Falling),
-                },
-                Motion::Sticks => ("sticks", Crossing::Falling),
-                Motion::Slides(_) | Motion::SlidesAlong => ("slides", Crossing::Rising),
-            };
-            let at = (t, self.stepper.q().clone(), self.stepper.v().clone());
-            self.record.events.push(Event {
-                name: std::format!("{name} {word}"),
-                crossing,
-                state: state(self.model.system, at),
-            });
-        }
-        self.record.contacts.push((t, now.for_later_observation()));
-    }
-
-    /// The time at which an assumption of the description ended in the last step, and its text. It may hold again at the end of the step,
-    /// so assumptions are searched like events.
-    fn assumption_ended(
-        &mut self,
-        interpolant: &mut LastInterpolant<M>,
-    ) -> Result<Option<(f64, String)>, Error> {
-        let Self { model, stepper, .. } = self;
-        let Some(looks) = model.isolating_fractions_of_assumptions(stepper, interpolant)? else {
-            return Ok(None);
-        };
-        let interpolant = step_motion(interpolant, stepper, model.system)?;
-        let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
-        for theta in looks {
-            let Some((index, text)) = model.ended_assumption(at(theta)?) else {
-                continue;
-            };
-            let margin = |theta| at(theta).map(|state| model.margin(index, state));
-            // It held at the beginning of the step.
-            let roundoff = event::theta_roundoff(stepper);
-            let theta = event::root([0.0, theta], roundoff, &mut &margin)?;
-            return Ok(Some((at(theta)?.0, text)));
-        }
-        Ok(None)
+        let error = self.vanishing_gradient_error(&error).unwrap_or(error);
+        let (q, v) = (self.stepper.q(), self.stepper.v());
+        Err(self.model.explain(error, q, v))
     }
 
     /// How the last step ends, if `is_pending` says that contacts change where the stepper stops.
@@ -959,256 +620,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         found
     }
 
-    /// Ends the run at an event within the last step, by repeating the step up to the event. So the end and the energy balance are as
-    /// accurate as at every other step. The function must be 0 at the end of that step and not on the dense output of the longer one:
-    /// Newton's method corrects the length of the step until only rounding of time or state remains.
-    fn end_at(&mut self, found: Terminal) -> Result<Ending, Error> {
-        self.next_step = Some(self.stepper.last_step());
-        let to = self.stepper.t();
-        let mut corrected = f64::INFINITY;
-        let mut t = found.t;
-        loop {
-            self.stepper.retreat(t);
-            let mut is_step = false;
-            while !self.stepper.is_done() {
-                if is_step {
-                    self.record_last_step(&mut None)?;
-                }
-                let (q, v) = (self.stepper.q().clone(), self.stepper.v().clone());
-                let step = self.stepper.step();
-                step.map_err(|error| self.model.explain(error, &q, &v))?;
-                is_step = true;
-            }
-            let state = state(
-                self.model.system,
-                (t, self.stepper.q().clone(), self.stepper.v().clone()),
-            );
-            let watch = &mut self.callbacks.watches[found.watch];
-            let observe = || {
-                self.model
-                    .observed_system
-                    .observe::<M, A>(&self.stepper, &state)
-            };
-            let correction = match found.slope {
-                Some(slope) if is_step => -watch.value(&state, &observe)? / slope,
-                _ => 0.0,
-            };
-            let next = t + correction;
-            let from = self.stepper.t_before();
-            let is_within = (next - from) * (to - next) > 0.0;
-            // A correction that is not at most half of the last one is rounding, or the function is not linear there.
-            if next == t || correction.abs() > 0.5 * corrected || !is_within {
-                let name = watch.name.clone();
-                if is_step {
-                    self.record_last_step(&mut None)?;
-                }
-                // Events that the dense output placed later, by its error, happened at the same time.
-                let events = self.record.events.iter_mut().rev();
-                for event in events.take_while(|event| (event.state.t - t) * (to - t) > 0.0) {
-                    event.state = state.clone();
-                }
-                self.record.push_watched(Event {
-                    name: name.clone(),
-                    crossing: found.crossing,
-                    state,
-                });
-                return Ok(Ending::Event(name));
-            }
-            corrected = correction.abs();
-            t = next;
-        }
-    }
-
-    /// Records and shows what the settings request of the last step.
-    fn record_last_step(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
-        self.keep_samples(interpolant)?;
-        self.show_step(interpolant)?;
-        if <M::System as System>::MAY_COLLIDE && self.is_stepped() {
-            self.record_step();
-        }
-        let before = self.record.energies.last().copied();
-        let explained = self.record_energies();
-        if let Some(before) = before {
-            self.explain_residual(&before, explained, interpolant);
-        }
-        if let Some(steps) = &mut self.record.steps {
-            steps.push(&self.stepper);
-        }
-        if let Some(progress) = &self.callbacks.progress {
-            let t = self.stepper.t();
-            (progress.lock())(Progress {
-                t,
-                fraction: (t - self.start) / (self.until - self.start),
-                steps: self.stepper.work().steps,
-                step: (t - self.stepper.t_before()).abs(),
-                stiff_since: (self.stepper.stiff_since()).filter(|_| !self.choosing.is_free()),
-            });
-        }
-        Ok(())
-    }
-
-    /// Shows the last step to the observer of steps, if there is one.
-    fn show_step(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
-        let Self {
-            model,
-            stepper,
-            callbacks,
-            ..
-        } = self;
-        match &callbacks.observer {
-            None => Ok(()),
-            Some(observer) => (observer.lock())(&mut LastStep {
-                model,
-                stepper,
-                interpolant,
-            }),
-        }
-    }
-
-    /// The samples within the last step, to be kept or shown. The sample at the end of the run is added when the run ends.
-    fn keep_samples(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
-        if let Some(interval) = self.settings.every {
-            while let Some(t) = self.next_sample(interval, self.record.samples.len()) {
-                let state = self.state_within(t, interpolant)?;
-                self.record.samples.push(state);
-            }
-        }
-        for number in 0..self.callbacks.streams.len() {
-            loop {
-                let stream = &self.callbacks.streams[number];
-                let Some(t) = self.next_sample(stream.interval, stream.count) else {
-                    break;
-                };
-                let state = self.state_within(t, interpolant)?;
-                self.callbacks.streams[number].show(&state);
-            }
-        }
-        Ok(())
-    }
-
-    /// The time of the next sample after `count` ones, if it is within the last step.
-    fn next_sample(&self, interval: f64, count: usize) -> Option<f64> {
-        let interval = interval.copysign(self.until - self.start);
-        let t = self.start + count as f64 * interval;
-        let is_later = (t - self.stepper.t()) * interval > 0.0;
-        (!is_beyond(t, self.until, interval) && !is_later).then_some(t)
-    }
-
-    /// The state at a time within the last step.
-    fn state_within(
-        &mut self,
-        t: f64,
-        interpolant: &mut LastInterpolant<M>,
-    ) -> Result<State<Coordinates<M>>, Error> {
-        let system = self.model.system;
-        let (q, v) = if t == self.stepper.t() {
-            (self.stepper.q().clone(), self.stepper.v().clone())
-        } else {
-            let (mut q, mut v) = step_motion(interpolant, &mut self.stepper, system)?.state(t);
-            self.stepper
-                .project(t, &mut q, &mut v)
-                .map_err(|error| Error::of_step(error, system))?;
-            (q, v)
-        };
-        Ok(state(system, (t, q, v)))
-    }
-
-    /// Records the present energies, if their balance is kept. Returns the part of the residual of the last step that tolerance and
-    /// rounding explain, in J.
-    fn record_energies(&mut self) -> f64 {
-        let Some(energies) = self.energies_now() else {
-            return f64::INFINITY;
-        };
-        let stored = self.stored_now();
-        let Self {
-            model,
-            stepper,
-            record,
-            ..
-        } = self;
-        record.kinetic_energy = record.kinetic_energy.max(energies.kinetic);
-        let explained = record.explained.take(model.system, stepper, &energies);
-        if !self.settings.keep_energies
-            && record.energies.len() > 1
-            && record.energies.last().is_some_and(Energies::are_finite)
-        {
-            record.energies.pop();
-            record.unilateral.energy_entries.pop();
-        }
-        record.energies.push(Energies {
-            potential: energies.potential + stored,
-            ..energies
-        });
-        if <M::System as System>::MAY_COLLIDE && self.stepper.touching().is_some() {
-            let energy_entry = self.energy_entry();
-            self.record.unilateral.energy_entries.push(energy_entry);
-        }
-        explained
-    }
-
     /// Whether the last step was one of time stepping, whose length follows from no error estimate.
     fn is_stepped(&self) -> bool {
         <M::System as System>::MAY_COLLIDE && self.stepper.is_time_stepping()
-    }
-
-    /// Repeats the quadrature of work and losses along the last step if its energy balance has an unexplained residual. The step may be too
-    /// long for the quadrature, since its length was chosen for the motion alone. Steps of implicit methods are excluded: they are longer
-    /// than fast transients that have decayed, which their dense output does not represent.
-    fn explain_residual(
-        &mut self,
-        before: &Energies,
-        explained: f64,
-        interpolant: &mut LastInterpolant<M>,
-    ) {
-        let is_unexplained =
-            |now: &Energies| now.are_finite() && now.residual_since(before).abs() > explained;
-        if self.record.is_unexplained
-            || self.settings.method.has_fixed_steps()
-            || self.is_stepped()
-            || self.stepper.is_implicit()
-            || !self.record.energies.last().is_some_and(is_unexplained)
-        {
-            return;
-        }
-        let bound = 0.1 * explained;
-        let known = step_motion(interpolant, &mut self.stepper, self.model.system)
-            .is_ok_and(|of_step| matches!(self.stepper.integrate_along(of_step, bound), Ok(true)));
-        // If this did not help once, it is not tried again: the residual stays, and the run reports it.
-        self.record.is_unexplained = !known;
-        if known
-            && let Some(integrals) = self.stepper.quadratures().integrals()
-            && let Some(now) = self.record.energies.last_mut()
-        {
-            (now.work, now.dissipated) = (integrals.work(), integrals.dissipated());
-            self.correct_energy_entry();
-        }
-    }
-
-    /// Present kinetic and potential energy and the integrals so far, if their balance is kept; without [`stored_now`](Self::stored_now).
-    fn energies_now(&self) -> Option<Energies> {
-        let Self { model, stepper, .. } = self;
-        let integrals = stepper.quadratures().integrals()?;
-        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
-        Some(Energies {
-            t,
-            kinetic: model.system.kinetic_energy(t, q, v),
-            potential: model.system.potential_energy(t, q, &model.inputs(t, q, v)),
-            work: integrals.work(),
-            dissipated: integrals.dissipated(),
-        })
-    }
-
-    /// Energy that first-order states and compliant contacts store now, in J.
-    fn stored_now(&self) -> f64 {
-        let Self { model, stepper, .. } = self;
-        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
-        let mut stored = model.system.state_energy(t, q, v);
-        if <M::System as System>::MAY_COLLIDE
-            && let Some(touching) = stepper.touching()
-        {
-            stored += touching.stored(model.system, t, q, v);
-        }
-        stored
     }
 
     fn shall_stop(&mut self) -> bool {
@@ -1228,79 +642,6 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 }
 
-/// The last step, as an observer sees it.
-struct LastStep<'w, 'r, 's, S: System, L, K, A> {
-    model: &'w Model<'r, S, L>,
-    stepper: &'w mut Stepper<'s, S, K, A>,
-    interpolant: &'w mut Option<Interpolant<S::Vector>>,
-}
-
-impl<M, L, K, A> StepMotion<M> for LastStep<'_, '_, '_, M::System, L, K, A>
-where
-    M: Machine,
-    L: InputLaw<M::System>,
-    K: InputLaw<M::System>,
-    A: Quadratures<M::System>,
-{
-    fn span(&self) -> [f64; 2] {
-        [self.stepper.t_before(), self.stepper.t()]
-    }
-
-    fn is_series(&self) -> bool {
-        self.stepper.coefficients().is_some()
-    }
-
-    fn state_at(
-        &mut self,
-        theta: f64,
-        q: &mut VectorOf<M>,
-        v: &mut VectorOf<M>,
-    ) -> Result<f64, Error> {
-        let Self { model, stepper, .. } = self;
-        if theta == 0.0 {
-            q.clone_from(stepper.q_before());
-            v.clone_from(stepper.v_before());
-            return Ok(stepper.t_before());
-        }
-        let interpolant = step_motion(self.interpolant, stepper, model.system)?;
-        event::state_into(model.system, stepper, interpolant, theta, [q, v])
-    }
-
-    fn state(&mut self, t: f64) -> Result<State<Coordinates<M>>, Error> {
-        let Self { model, stepper, .. } = self;
-        let [from, to] = [stepper.t_before(), stepper.t()];
-        let system = model.system;
-        let (q, v) = match t {
-            _ if t == to => (stepper.q().clone(), stepper.v().clone()),
-            _ if t == from => (stepper.q_before().clone(), stepper.v_before().clone()),
-            _ => {
-                let (mut q, mut v) = step_motion(self.interpolant, stepper, system)?.state(t);
-                stepper
-                    .project(t, &mut q, &mut v)
-                    .map_err(|error| Error::of_step(error, system))?;
-                (q, v)
-            }
-        };
-        Ok(state(system, (t, q, v)))
-    }
-
-    fn inputs(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> Inputs<M> {
-        self.model.inputs(t, q, v)
-    }
-
-    fn accelerations(
-        &self,
-        (t, q, v): (f64, &VectorOf<M>, &VectorOf<M>),
-        u: &Inputs<M>,
-        a: &mut VectorOf<M>,
-    ) -> Result<(), Error> {
-        let system = self.model.system;
-        ConstraintState::of(self.stepper)
-            .accelerations(system, At { t, q, v, u }, a)
-            .map_err(|error| Error::of_step(error, system))
-    }
-}
-
 /// A system with its inputs.
 struct Model<'r, S: System, L> {
     system: &'r S,
@@ -1313,565 +654,4 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     fn inputs(&self, t: f64, q: &S::Vector, v: &S::Vector) -> S::Inputs {
         self.observed_system.inputs(t, q, v)
     }
-
-    /// The fractions of the last step at which to evaluate the assumptions: between neighbours none of them fails and holds again. `None`
-    /// if all are known to hold throughout, which a few values decide for most of them. A machine without assumptions pays nothing.
-    #[inline]
-    fn isolating_fractions_of_assumptions<A: Quadratures<S>>(
-        &self,
-        stepper: &mut Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
-        interpolant: &mut Option<Interpolant<S::Vector>>,
-    ) -> Result<Option<Vec<f64>>, Error> {
-        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
-        let count = self.system.assumptions(t, q, v, stepper.inputs()).len();
-        if count == 0 {
-            return Ok(None);
-        }
-        let series = stepper.coefficients();
-        if let Some(coefficients) = series {
-            let holds = |t: f64, q: &S::Vector, v: &S::Vector| {
-                // Assumptions do not depend on inputs, so the present ones will do.
-                let mut facts = self.system.assumptions(t, q, v, stepper.inputs());
-                facts.all(|fact| fact.holds())
-            };
-            let hold = if self.system.has_linear_assumptions() {
-                holds(t, q, v) && self.hold_throughout_series(stepper, coefficients, holds)
-            } else {
-                self.hold_within_bounds(stepper, coefficients)
-            };
-            if hold {
-                return Ok(None);
-            }
-        }
-        let is_by_series = series.is_some();
-        let mut places = std::vec![Some(Places::All); count];
-        if !is_by_series {
-            let is_long = event::is_long(self.system, stepper);
-            let mut values = std::vec![[0.0; roots::FRACTIONS.len()]; count];
-            let mut hold = true;
-            let states = event::at_fractions(self.system, stepper, interpolant)?;
-            for (node, (t, q, v)) in states.iter().enumerate() {
-                let facts = self.system.assumptions(*t, q, v, stepper.inputs());
-                for (values, fact) in values.iter_mut().zip(facts) {
-                    values[node] = fact.margin;
-                    hold &= fact.holds();
-                }
-            }
-            for (place, values) in places.iter_mut().zip(&values) {
-                *place = match roots::sign_changes(values) {
-                    // A margin that does not vary needs no search.
-                    _ if is_long && values.iter().any(|value| *value != values[0]) => {
-                        Some(Places::All)
-                    }
-                    Some(0) if hold => None,
-                    Some(0 | 1) if values[4] <= 0.0 => Some(Places::Few),
-                    // A margin that is 0 throughout holds.
-                    None if hold && *values == [0.0; roots::FRACTIONS.len()] => None,
-                    _ => Some(Places::All),
-                };
-            }
-            if places.iter().all(Option::is_none) {
-                return Ok(None);
-            }
-        }
-        let interpolant = step_motion(interpolant, stepper, self.system)?;
-        let at = |theta| event::state_at(self.system, stepper, interpolant, theta);
-        let mut looks = if places.contains(&Some(Places::Few)) {
-            event::SAMPLE_FRACTIONS.to_vec()
-        } else {
-            Vec::new()
-        };
-        // All searches begin with the same fractions.
-        let mut known: Vec<(f64, Triple<S::Vector>)> = Vec::new();
-        for index in (0..count).filter(|index| places[*index] == Some(Places::All)) {
-            looks.extend(roots::isolating_fractions(|theta| {
-                let found = known.iter().find(|(other, _)| *other == theta);
-                let state = match found {
-                    Some((_, state)) => state.clone(),
-                    None => {
-                        let state = at(theta)?;
-                        if count > 1 {
-                            known.push((theta, state.clone()));
-                        }
-                        state
-                    }
-                };
-                Ok(self.margin(index, state))
-            })?);
-        }
-        looks.sort_by(f64::total_cmp);
-        looks.dedup();
-        Ok(Some(looks))
-    }
-
-    /// Whether facts that are linear in time, coordinates and rates hold throughout a step by series.
-    ///
-    /// The motion is `Σ cⱼ θʲ` with `1 ≥ θ ≥ θ² ≥ …`, which is a convex combination of the partial sums `Σ cⱼ` over `j ≤ k`. So a fact that
-    /// holds at each partial sum holds along the step.
-    fn hold_throughout_series<A: Quadratures<S>>(
-        &self,
-        stepper: &Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
-        coefficients: &[S::Vector],
-        holds: impl Fn(f64, &S::Vector, &S::Vector) -> bool,
-    ) -> bool {
-        let t = stepper.t_before() + stepper.last_step();
-        if !holds(stepper.t_before(), stepper.q_before(), stepper.v_before()) {
-            return false;
-        }
-        self.all_partial_sums(stepper, coefficients, |q, v| holds(t, q, v))
-    }
-
-    /// Whether facts are known to hold at all states that are within the bounds of the same partial sums.
-    fn hold_within_bounds<A: Quadratures<S>>(
-        &self,
-        stepper: &Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
-        coefficients: &[S::Vector],
-    ) -> bool {
-        let [mut low_q, mut high_q] = [(); 2].map(|()| stepper.q_before().clone());
-        let [mut low_v, mut high_v] = [(); 2].map(|()| stepper.v_before().clone());
-        let extend = |low: &mut S::Vector, high: &mut S::Vector, by: &S::Vector| {
-            let all = low.as_mut_slice().iter_mut().zip(high.as_mut_slice());
-            for ((low, high), x) in all.zip(by.as_slice()) {
-                // A sum that is not a number must not be ignored.
-                *low = if *low <= *x { *low } else { *x };
-                *high = if *high >= *x { *high } else { *x };
-            }
-        };
-        self.all_partial_sums(stepper, coefficients, |q, v| {
-            extend(&mut low_q, &mut high_q, q);
-            extend(&mut low_v, &mut high_v, v);
-            true
-        });
-        let (start, end) = (stepper.t_before(), stepper.t_before() + stepper.last_step());
-        let t = [start.min(end), start.max(end)];
-        self.system
-            .assumptions_hold_within(t, [&low_q, &high_q], [&low_v, &high_v])
-    }
-
-    /// Whether something is true of all partial sums of the coordinates and rates in the series of the last step, at its end.
-    #[inline]
-    fn all_partial_sums<A: Quadratures<S>>(
-        &self,
-        stepper: &Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
-        coefficients: &[S::Vector],
-        mut is_true: impl FnMut(&S::Vector, &S::Vector) -> bool,
-    ) -> bool {
-        let h = stepper.last_step();
-        let (mut q, mut v) = (stepper.q_before().clone(), stepper.v_before().clone());
-        let mut power = h;
-        for (k, row) in coefficients.iter().enumerate().skip(1) {
-            let add = |sum: &mut S::Vector, row: &S::Vector, by: f64| {
-                let (sum, row) = (sum.as_mut_slice(), row.as_slice());
-                for i in 0..sum.len().min(row.len()) {
-                    sum[i] += by * row[i];
-                }
-            };
-            add(&mut q, row, power);
-            if let Some(next) = coefficients.get(k + 1) {
-                add(&mut v, next, (k + 1) as f64 * power);
-            }
-            if !is_true(&q, &v) {
-                return false;
-            }
-            power *= h;
-        }
-        true
-    }
-
-    /// The first assumption that does not hold: its index and text.
-    #[inline]
-    fn ended_assumption(&self, state: Triple<S::Vector>) -> Option<(usize, String)> {
-        let (t, q, v) = &state;
-        self.system
-            .assumptions(*t, q, v, &self.inputs(*t, q, v))
-            .enumerate()
-            .find(|(_, assumption)| !assumption.holds())
-            .map(|(index, assumption)| (index, assumption.text.into()))
-    }
-
-    /// The margin by which an assumption holds; NaN counts as violated.
-    fn margin(&self, index: usize, state: Triple<S::Vector>) -> f64 {
-        let (t, q, v) = &state;
-        let inputs = self.inputs(*t, q, v);
-        let margin = self.system.assumptions(*t, q, v, &inputs).nth(index);
-        margin.map_or(0.0, |assumption| assumption.margin.max(f64::NEG_INFINITY))
-    }
-
-    /// Converts the error of a step; `q` and `v` are the state at its beginning.
-    fn explain(&self, error: StepError, q: &S::Vector, v: &S::Vector) -> Error {
-        if let StepError::NotFinite { t, .. } = error {
-            let inputs = self.inputs(t, q, v);
-            let mut values = self.system.input_values(&inputs);
-            if let Some((input, value)) = values.find(|(_, value)| !value.is_finite()) {
-                return Error::InputNotFinite {
-                    input: input.name.into(),
-                    value,
-                    t,
-                };
-            }
-        }
-        match self.fork(&error, q, v) {
-            Some(fork) => fork,
-            None => contradiction(error, self.system, q, v),
-        }
-    }
-
-    /// The error of a run that stops because constraints become linearly dependent.
-    fn fork(&self, error: &StepError, q: &S::Vector, v: &S::Vector) -> Option<Error> {
-        let (StepError::StepTooSmall { t, .. }
-        | StepError::Inconsistent { t, .. }
-        | StepError::Singular { t, .. }) = *error
-        else {
-            return None;
-        };
-        if !S::MAY_BE_CONSTRAINED {
-            return None;
-        }
-        let mut known = Constraints::new(self.system, q, v);
-        let weakest = known.weakest(self.system, self.start, (t, q)).ok()??;
-        let (row, left) = weakest;
-        (left < NEAR_FORK).then(|| Error::Fork {
-            constraint: constraint_name(self.system, row),
-            left,
-            t,
-        })
-    }
-}
-
-/// Projects the start of a run onto the constraints. Returns warnings: how far each number was moved, and which constraints are redundant.
-fn project_start<S: System>(
-    system: &S,
-    t: f64,
-    q: &mut S::Vector,
-    v: &mut S::Vector,
-    kept: Option<[S::Vector; 2]>,
-) -> Result<Vec<Warning>, Error> {
-    let requested = [q.clone(), v.clone()];
-    let mut known = Constraints::new(system, q, v);
-    let mut start = Point::new(t, q.clone(), v.clone());
-    let mut projected = known.begin(system, &mut start.place(), kept.clone());
-    if let (Err(_), Some(kept)) = (&projected, kept) {
-        start = Point::new(t, q.clone(), v.clone());
-        let violations = closest(system, &mut start.place(), &kept);
-        if let Some(error) = contradicts_kept(system, &start, &kept, &violations) {
-            return Err(error);
-        }
-        // The projection converges from here, since this start is near the constraints.
-        known = Constraints::new(system, q, v);
-        projected = known.begin(system, &mut start.place(), Some(kept));
-    }
-    projected.map_err(|error| match error {
-        // At rest in a state in which rows are dependent that are independent next to it.
-        StepError::Singular { singular, t } => match singular.at {
-            Pivot::Constraint(row) => Error::Fork {
-                constraint: constraint_name(system, row),
-                left: 0.0,
-                t,
-            },
-            _ => contradiction(error, system, q, v),
-        },
-        _ => contradiction(error, system, q, v),
-    })?;
-    (*q, *v) = (start.q, start.v);
-
-    let mut found = Vec::new();
-    for (constraint, with) in dependences(&known, system, t, q) {
-        found.push(Warning::RedundantConstraint { constraint, with });
-    }
-    for (level, now) in [&*q, &*v].into_iter().enumerate() {
-        for (j, coordinate) in system.coordinates().enumerate() {
-            let (from, to) = (requested[level].as_slice()[j], now.as_slice()[j]);
-            if (to - from).abs() <= ROUNDING_OF_START * known.sizes(j)[level] {
-                continue;
-            }
-            let name = coordinate_or_rate_name(coordinate.name, level);
-            found.push(Warning::StartMoved { name, from, to });
-        }
-    }
-    Ok(found)
-}
-
-/// The error of a start whose kept numbers contradict the constraints; `best` is the state that violates them least. `None` if no kept
-/// number takes part in a constraint that is violated.
-fn contradicts_kept<S: System>(
-    system: &S,
-    best: &Point<S::Vector>,
-    kept: &[S::Vector; 2],
-    violations: &[Violation],
-) -> Option<Error> {
-    let n = best.q.as_slice().len();
-    let m = system.constraints().len();
-    let mut rows = std::vec![0.0; m * n];
-    system.constraint_matrix(best.t, &best.q, &mut rows);
-    let contradiction = |&(row, level, residual): &Violation| {
-        let is_kept = |j: usize| kept[level].as_slice()[j] != 0.0 && rows[row * n + j] != 0.0;
-        let coordinates = system.coordinates().enumerate();
-        let kept = coordinates.filter(|(j, _)| is_kept(*j));
-        let constraint = system.constraints().nth(row)?;
-        let of_rates = level == 1 && constraint.holonomic;
-        Some(KeptContradiction {
-            constraint: constraint.name.into(),
-            of_rates,
-            kept: kept
-                .map(|(_, of)| coordinate_or_rate_name(of.name, level))
-                .collect(),
-            residual,
-            unit: if of_rates {
-                std::format!("{}/s", constraint.unit)
-            } else {
-                constraint.unit.into()
-            },
-        })
-    };
-    let contradictions: Vec<_> = violations.iter().filter_map(contradiction).collect();
-    let is_kept = contradictions.iter().any(|of| !of.kept.is_empty());
-    is_kept.then_some(Error::KeptStart {
-        contradictions,
-        t: best.t,
-    })
-}
-
-/// The name of a coordinate or of its rate.
-fn coordinate_or_rate_name(coordinate: &str, level: usize) -> String {
-    match level {
-        0 => coordinate.into(),
-        _ => rate_name(coordinate),
-    }
-}
-
-/// If the independent part of a constraint is shorter than this when a run stops, it is the cause: round-off in the residuals of positions
-/// is amplified in the rates by its inverse square, which costs ten digits here.
-const NEAR_FORK: f64 = 1e-2;
-
-/// Moves of the start below this, relative to the size of a number, are not reported: they are about as large as the round-off in a formula
-/// for a start value.
-const ROUNDING_OF_START: f64 = 1e-12;
-
-/// The constraints that were not chosen at a state, by name, each with those that it depends on.
-fn dependences<S: System>(
-    known: &Constraints<S::Vector>,
-    system: &S,
-    t: f64,
-    q: &S::Vector,
-) -> Vec<(String, Vec<String>)> {
-    let names = |index: &usize| constraint_name(system, *index);
-    let dependences = known.dependences(system, t, q).unwrap_or_default();
-    let named = |(row, on): (usize, Vec<usize>)| (names(&row), on.iter().map(names).collect());
-    dependences.into_iter().map(named).collect()
-}
-
-/// The error of a step; if constraints contradict each other, with their names.
-fn contradiction<S: System>(error: StepError, system: &S, q: &S::Vector, v: &S::Vector) -> Error {
-    let mut error_of_run = Error::of_step(error, system);
-    if let Error::FrictionParadox {
-        q: at, v: rates, ..
-    }
-    | Error::Contact {
-        q: at, v: rates, ..
-    } = &mut error_of_run
-    {
-        (*at, *rates) = (q.as_slice().to_vec(), v.as_slice().to_vec());
-    }
-    if S::MAY_BE_CONSTRAINED
-        && let Error::InconsistentConstraints {
-            constraint,
-            with,
-            t,
-            ..
-        } = &mut error_of_run
-    {
-        let mut known = Constraints::new(system, q, v);
-        if known.choose_again(system, *t, q).is_ok() {
-            let on = dependences(&known, system, *t, q);
-            let own = on.into_iter().find(|(name, _)| name == constraint);
-            *with = own.map_or_else(Vec::new, |(_, on)| on);
-        }
-    }
-    error_of_run
-}
-
-impl Settings {
-    /// Checks all settings and returns the end of the run.
-    fn check(&self) -> Result<f64, Error> {
-        let until = self.until.ok_or(Error::NoEnd)?;
-        let check = |setting, value: f64, is_good: bool, needed| {
-            if is_good {
-                Ok(())
-            } else {
-                Err(Error::InvalidSetting {
-                    setting,
-                    value,
-                    needed,
-                })
-            }
-        };
-        let positive = |value: f64| value > 0.0 && value.is_finite();
-        check("until", until, until.is_finite(), "a finite time")?;
-        let is_good = self.relative >= 0.0 && self.relative < 1.0;
-        if self.one_tolerance {
-            let is_good = is_good && positive(self.absolute);
-            let needed = "greater than 0 and less than 1";
-            check("tolerance", self.absolute, is_good, needed)?;
-        }
-        check(
-            "relative",
-            self.relative,
-            is_good,
-            "at least 0 and less than 1",
-        )?;
-        check(
-            "absolute",
-            self.absolute,
-            positive(self.absolute),
-            "greater than 0",
-        )?;
-        for (_, value) in &self.absolute_of {
-            check("absolute_of", *value, positive(*value), "greater than 0")?;
-        }
-        if let Some(step) = self.first_step {
-            check("first_step", step, positive(step), "greater than 0")?;
-        }
-        check(
-            "longest_step",
-            self.longest_step,
-            self.longest_step > 0.0,
-            "greater than 0",
-        )?;
-        if let Some(interval) = self.every {
-            check("every", interval, positive(interval), "greater than 0")?;
-        }
-        for interval in &self.observed_every {
-            check("observe", *interval, positive(*interval), "greater than 0")?;
-        }
-        Ok(until)
-    }
-
-    /// Which numbers of the start are kept, coordinates and rates: those that are not 0 in the result.
-    fn kept_start_values<S: System>(
-        &self,
-        system: &S,
-        is_resumed: bool,
-    ) -> Result<Option<[S::Vector; 2]>, Error> {
-        let names = match &self.kept {
-            Some(names) => names.clone(),
-            // The description's choice refers to its own start.
-            None if is_resumed => Vec::new(),
-            None => system.kept_at_start().map(String::from).collect(),
-        };
-        if names.is_empty() {
-            return Ok(None);
-        }
-        let zeros = || S::Vector::zeros(system.coordinates().len());
-        let mut kept = [zeros(), zeros()];
-        for name in &names {
-            let rate = name
-                .strip_prefix("der(")
-                .and_then(|rest| rest.strip_suffix(')'));
-            let (level, asked) = rate.map_or((0, name.as_str()), |rate| (1, rate));
-            let mut is_known = false;
-            for (j, coordinate) in system.coordinates().enumerate() {
-                let member = coordinate.name.strip_prefix(asked);
-                if member.is_some_and(|member| member.is_empty() || member.starts_with('[')) {
-                    kept[level].as_mut_slice()[j] = 1.0;
-                    is_known = true;
-                }
-            }
-            if !is_known {
-                return Err(Error::UnknownCoordinate { name: name.clone() });
-            }
-        }
-        Ok(Some(kept))
-    }
-
-    fn tolerance<S: System>(&self, system: &S) -> Result<Tolerance<S::Vector>, Error> {
-        let mut absolute = S::Vector::zeros(system.coordinates().len());
-        absolute.as_mut_slice().fill(self.absolute);
-        for (name, tolerance) in &self.absolute_of {
-            let index = system
-                .coordinates()
-                .position(|coordinate| coordinate.name == name)
-                .ok_or_else(|| Error::UnknownCoordinate { name: name.clone() })?;
-            absolute.as_mut_slice()[index] = *tolerance;
-        }
-        Ok(Tolerance {
-            relative: self.relative,
-            absolute,
-        })
-    }
-}
-
-fn check_parameters<M: Machine>(machine: &M) -> Result<(), Error> {
-    let mut parameters = machine.parameters();
-    match parameters.find(|(_, value)| !value.is_finite()) {
-        Some((parameter, value)) => Err(Error::ParameterNotFinite {
-            parameter: parameter.name.into(),
-            value,
-        }),
-        None => Ok(()),
-    }
-}
-
-fn check_start<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Result<(), Error> {
-    if !t.is_finite() {
-        return Err(Error::StartNotFinite {
-            name: "t".into(),
-            value: t,
-        });
-    }
-    let (q, v) = (q.as_slice().iter(), v.as_slice().iter());
-    for (coordinate, (&q, &v)) in system.coordinates().zip(q.zip(v)) {
-        let name = coordinate.name;
-        if !q.is_finite() {
-            return Err(Error::StartNotFinite {
-                name: name.into(),
-                value: q,
-            });
-        }
-        if !v.is_finite() {
-            return Err(Error::StartNotFinite {
-                name: rate_name(name),
-                value: v,
-            });
-        }
-    }
-    Ok(())
-}
-
-fn balance<S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    stepper: &Stepper<'_, S, L, A>,
-    energies: &[Energies],
-    explained: &ExplainedResidual,
-    (kinetic_energy, has_fixed_steps): (f64, bool),
-) -> Option<EnergyBalance> {
-    let integrals = stepper.quadratures().integrals()?;
-    let (first, last) = (energies.first()?, energies.last()?);
-    let exchanged = kinetic_energy + integrals.absolute_work() + last.dissipated;
-    Some(EnergyBalance {
-        explained: if has_fixed_steps {
-            f64::INFINITY
-        } else {
-            explained.total(exchanged)
-        },
-        start: first.kinetic + first.potential,
-        end: last.kinetic + last.potential,
-        work: last.work,
-        dissipated: last.dissipated,
-        exchanged,
-    })
-}
-
-fn warnings<S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    settings: &Settings,
-    stepper: &Stepper<'_, S, L, A>,
-) -> Vec<Warning> {
-    let mut warnings = Vec::new();
-    // A relative tolerance of 0 requests control by the absolute tolerance alone.
-    if settings.relative > 0.0 && settings.relative < LEAST_RELATIVE_TOLERANCE {
-        let (asked, used) = (settings.relative, LEAST_RELATIVE_TOLERANCE);
-        warnings.push(Warning::ToleranceRaised { asked, used });
-    }
-    if let Some(t) = stepper.stiff_since() {
-        warnings.push(Warning::Stiff { t });
-    }
-    warnings
 }
