@@ -852,6 +852,15 @@ pub enum Warning {
         /// The tolerance used.
         used: f64,
     },
+    /// An angle became so large that numbers as large as it are far apart, so forces that depend on it are inaccurate.
+    LargeAngle {
+        /// The coordinate.
+        name: String,
+        /// Its value at the end, in rad.
+        angle: f64,
+        /// The distance from it to the next number, in rad.
+        spacing: f64,
+    },
     /// Stability and not accuracy limits the steps: something in the machine
     /// is far stiffer, or far more strongly damped, than its motion shows.
     Stiff {
@@ -928,6 +937,15 @@ impl Display for Warning {
             Self::ToleranceRaised { asked, used } => write!(
                 f,
                 "a relative tolerance of {asked:e} asks for more digits than the numbers have; {used:e} was used"
+            ),
+            Self::LargeAngle {
+                name,
+                angle,
+                spacing,
+            } => write!(
+                f,
+                "`{name}` reached {angle:.3e} rad, where numbers are {spacing:.1e} rad apart: forces that depend on it are no more \
+                 accurate; start it within a few turns of 0"
             ),
             Self::EnergyUnexplained {
                 residual,

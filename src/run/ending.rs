@@ -11,7 +11,7 @@ use crate::settings::Settings;
 use crate::solution::{Ending, Solution, Statistics, handover};
 use crate::stepper::Stepper;
 use crate::tolerance::LEAST_RELATIVE_TOLERANCE;
-use crate::{Error, Machine, System, Warning};
+use crate::{Error, Machine, System, Vector, Warning};
 
 impl<M: Machine> Prepared<'_, '_, M> {
     /// Makes the solution from a run that has ended.
@@ -116,7 +116,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             &record.explained,
             (record.kinetic_energy, has_fixed_steps),
         );
-        let mut warnings = warnings(settings, &stepper);
+        let mut warnings = warnings(system, settings, &stepper);
         if <M::System as System>::MAY_COLLIDE {
             warnings.extend(record.unilateral.warnings(system));
             warnings.extend(handover::warning(&record.handovers));
@@ -236,7 +236,11 @@ fn balance<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     })
 }
 
+/// Angles between which numbers are further apart than this, in rad, are reported.
+const MOST_SPACING: f64 = 1e-6;
+
 fn warnings<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    system: &S,
     settings: &Settings,
     stepper: &Stepper<'_, S, L, A>,
 ) -> Vec<Warning> {
@@ -245,6 +249,17 @@ fn warnings<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     if settings.relative > 0.0 && settings.relative < LEAST_RELATIVE_TOLERANCE {
         let (asked, used) = (settings.relative, LEAST_RELATIVE_TOLERANCE);
         warnings.push(Warning::ToleranceRaised { asked, used });
+    }
+    for (coordinate, &angle) in system.coordinates().zip(stepper.q().as_slice()) {
+        let spacing = angle.abs().next_up() - angle.abs();
+        if angle.is_finite() && coordinate.unit == "rad" && spacing > MOST_SPACING {
+            let name = coordinate.name.into();
+            warnings.push(Warning::LargeAngle {
+                name,
+                angle,
+                spacing,
+            });
+        }
     }
     if let Some(t) = stepper.stiff_since() {
         warnings.push(Warning::Stiff { t });
