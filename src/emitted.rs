@@ -12,12 +12,13 @@ pub use crate::friction::{
     accelerations_with_friction, contact_workspace, contact_workspace_in_space,
     multipliers_with_friction,
 };
+pub use crate::implement_charted as charted;
 pub use crate::implement_machine as implement;
 pub use crate::native::fast_function;
 pub use crate::{
-    Assumption, Batched, Compliance, Constraint, ContactQuantity, Differentiate, ImpactLaw,
-    ImpactOrder, Lanes, Linearize, Machine, MachineIn, Number, Painleve, Quantity, Real, Scalar,
-    Singular, Staged, State, System, SystemIn, UnilateralContact, scalar,
+    Assumption, Batched, Charted, Compliance, Constraint, ContactQuantity, Differentiate,
+    ImpactLaw, ImpactOrder, Lanes, Linearize, Machine, MachineIn, Number, Painleve, Quantity, Real,
+    Scalar, Singular, Staged, State, System, SystemIn, UnilateralContact, scalar,
 };
 pub use contacts::{ContactPart, ContactParts, fill_least, put};
 pub use pivots::Pivots;

@@ -95,6 +95,25 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// A distance of polar coordinates is negative at the start of a run in Cartesian ones, in which it is not: see
+    /// [`Charted`](crate::Charted).
+    NegativeDistance {
+        /// The distance.
+        distance: String,
+        /// Its value, in the unit of the coordinate.
+        value: f64,
+        /// The angle of its direction.
+        angle: String,
+    },
+    /// A machine in Cartesian coordinates is run for another one whose parameters are not the same.
+    OtherParameters {
+        /// A parameter.
+        parameter: String,
+        /// Its value in the machine that is run.
+        value: f64,
+        /// Its value in the other one.
+        other: f64,
+    },
     /// The function that sets the inputs returned a value that is infinite or not a number.
     InputNotFinite {
         /// The input.
@@ -585,6 +604,31 @@ impl Display for Error {
                     f,
                     "the start value of `{name}` is {value}; it must be a finite number",
                     value = ShortNumber(*value)
+                )
+            }
+            Self::NegativeDistance {
+                distance,
+                value,
+                angle,
+            } => {
+                write!(
+                    f,
+                    "the distance `{distance}` is {value} at the start, and in Cartesian coordinates it is not negative; start from the \
+                     positive distance with `{angle}` changed by pi, or run the machine in the coordinates of its description",
+                    value = ShortNumber(*value)
+                )
+            }
+            Self::OtherParameters {
+                parameter,
+                value,
+                other,
+            } => {
+                write!(
+                    f,
+                    "the parameter `{parameter}` is {value} in the machine in Cartesian coordinates and {other} in that of the description; \
+                     set the parameters first, and then make the one from the other by `in_cartesian`",
+                    value = ShortNumber(*value),
+                    other = ShortNumber(*other)
                 )
             }
             Self::InputNotFinite { input, value, t } => {

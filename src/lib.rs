@@ -58,6 +58,7 @@ mod attempt;
 mod balance;
 #[cfg(feature = "std")]
 mod callbacks;
+mod charts;
 mod compensated;
 mod constraints;
 #[cfg(feature = "std")]
@@ -132,6 +133,9 @@ pub use at::At;
 pub use balance::{
     ContactEnergies, Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures,
 };
+pub use charts::{Charted, to_cartesian, to_polar};
+#[cfg(feature = "std")]
+pub use charts::{ChartedSolution, Turns};
 pub use constraints::{constraint_workspace, least_multipliers};
 pub use control::Work;
 pub use explicit::{Arrival, Ensemble, ExplicitStepper, ExplicitStepperBuilder, Trajectory};

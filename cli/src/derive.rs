@@ -24,8 +24,13 @@ pub fn run(call: &call::Derive) -> Result<(), Failure> {
     keep_document_apart(&out, call.spec.json)?;
     keep_apart(&out, &[(&call.spec.path, "the spec")])?;
     let dag = Dag::new();
-    let compiled = Reading::open(&call.spec)?.compile_beside(&dag, &out)?;
-    let text = text(&compiled, call);
+    let reading = Reading::open(&call.spec)?;
+    let (compiled, cartesian) = if call.form == Form::Rust {
+        reading.compile_to_emit(&dag, &out)?
+    } else {
+        (reading.compile_beside(&dag, &out)?, None)
+    };
+    let text = text((&compiled, cartesian.as_ref()), call);
     if let Some(file) = &out {
         file.write_text(&text)?;
     }
@@ -86,7 +91,7 @@ fn endings(form: Form) -> Endings {
     }
 }
 
-fn text(compiled: &Compiled, call: &call::Derive) -> String {
+fn text((compiled, cartesian): (&Compiled, Option<&Compiled>), call: &call::Derive) -> String {
     let Compiled { program, .. } = compiled;
     let file = call
         .spec
@@ -102,9 +107,7 @@ fn text(compiled: &Compiled, call: &call::Derive) -> String {
             program,
             &emit::rust::Options {
                 origin: origin.clone(),
-                formulas: formulas(),
-                series: compiled.series.clone(),
-                ..Default::default()
+                ..emit::rust::Options::of(compiled, cartesian)
             },
         ),
         Form::C => emit::c::file(program, &origin, &formulas()),

@@ -12,12 +12,13 @@ use lagrangian::Machine;
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
 use lagrangian_fit::least_squares::Trouble;
 use lagrangian_fit::motion::{
-    ConstraintFindings, Experiment, Fit, FitResult, Quantity, Running, Sought, Subject,
+    Chart, ConstraintFindings, Experiment, Fit, FitResult, Quantity, Running, Sought, Subject,
 };
 use lagrangian_fit::searches::{Failed, Search, Sigmas, search};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::{Severity, most_similar};
 use lagrangian_spec::unit::{self, integral_name, state_of};
+use lagrangian_sweep::charts::ChartedPoints;
 use lagrangian_sweep::plan::Law;
 use lagrangian_sweep::signals::{self, InputArgument};
 use lagrangian_symbolic::Dag;
@@ -30,7 +31,7 @@ use crate::interrupt;
 use crate::methods;
 use crate::output::{self, Destination, MACHINE, SVG, TABLE, keep_apart};
 use crate::progress;
-use crate::reading::{self, Reading, places};
+use crate::reading::{self, ChartUse, Reading, places};
 use crate::table;
 use data::{Class, Given};
 
@@ -106,9 +107,10 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let mut reading = Reading::open(&call.spec)?;
     let laws = reading.drive(&everywhere)?;
     let formulas = reading.formulas();
-    let compiled = reading.compile_beside(&dag, files.all());
-    let mut compiled = compiled.map_err(inputs::as_call_failure)?;
+    let compiled = reading.compile_in_charts(&dag, files.all(), ChartUse::IfPossible);
+    let (mut compiled, cartesian) = compiled.map_err(inputs::as_call_failure)?;
     let machine = reading::machine(&compiled, &call.start)?;
+    let chart = chart(&compiled, cartesian.as_ref(), call)?;
     // Formulas of inputs are not reported as outputs of the machine.
     let output_count = compiled.model.outputs.len() - formulas;
     compiled.model.outputs.truncate(output_count);
@@ -121,7 +123,8 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let mut experiments = Vec::new();
     for one in &given {
         let signals = signals_of(one, &laws, output_count, &machine, &compiled)?;
-        experiments.push(one.experiment(&machine, &compiled, &start, signals)?);
+        let chart = chart.as_ref();
+        experiments.push(one.experiment(&machine, &compiled, &start, (chart, signals))?);
     }
     let (classes, ignored) =
         data::measure(call, &machine, &compiled, &mut given, &mut experiments)?;
@@ -179,6 +182,21 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     };
     result.warnings = findings::warnings(&result);
     conclude(result, &files)
+}
+
+/// The machine in the Cartesian coordinates that the spec names, if it names any and the call can be made in them.
+fn chart(
+    compiled: &Compiled<'_>,
+    cartesian: Option<&Compiled<'_>>,
+    call: &call::Fit,
+) -> Result<Option<Chart>, Failure> {
+    let points = ChartedPoints::of(&compiled.model);
+    let Some(cartesian) = cartesian.filter(|_| points.check_kept(&call.keep.names).is_ok()) else {
+        return Ok(None);
+    };
+    let machine = reading::machine(cartesian, &call.start.parameters_alone())?;
+    let points = compiled.chart_points();
+    Ok(Some(Chart { machine, points }))
 }
 
 /// The failure of a search.

@@ -209,6 +209,25 @@ impl Reading {
         compiled.ok_or_else(|| self.failure())
     }
 
+    /// Compiles for code that another program runs: the machine, and if the spec names other charts, the machine in these too, proved to be
+    /// the same.
+    ///
+    /// # Errors
+    /// As [`compile_beside`](Self::compile_beside).
+    pub fn compile_to_emit<'d, 'a>(
+        mut self,
+        dag: &'d Dag,
+        destinations: impl IntoIterator<Item = &'a Destination>,
+    ) -> Result<(Compiled<'d>, Option<Compiled<'d>>), Failure> {
+        let model = self.model(dag);
+        self.keep_from(destinations)?;
+        let compiled = model.and_then(|model| Compiled::in_charts(model, &mut self.report));
+        if compiled.is_some() {
+            self.warn();
+        }
+        compiled.ok_or_else(|| self.failure())
+    }
+
     /// Compiles for a run: the machine, and if the spec names other charts, the machine in these too.
     ///
     /// # Errors
@@ -243,6 +262,8 @@ impl Reading {
         // Its warnings would be those of the spec, which are printed.
         let mut report = Report::new();
         let cartesian = Compiled::new(*cartesian, &mut report);
+        let is_same = |other: &Compiled<'_>| compiled.check_chart(other, &mut report).is_some();
+        let cartesian = cartesian.filter(is_same);
         if cartesian.is_none() && chart_use == ChartUse::Required {
             self.report = report;
             return Err(self.failure());

@@ -420,13 +420,7 @@ impl<'d> MachineInChart<'d> {
         set_start(&mut stated, start)?;
         reading::check_kept(&stated, keep)?;
         if let Some(cartesian) = cartesian {
-            let parameters_alone = call::Start {
-                parameters: start.parameters.clone(),
-                coordinates: Vec::new(),
-                rates: Vec::new(),
-                running: start.running,
-            };
-            let machine = reading::machine(&cartesian, &parameters_alone)?;
+            let machine = reading::machine(&cartesian, &start.parameters_alone())?;
             // A negative distance at the start, or a distance or an angle that is kept there, exists only in the chart of the spec.
             let points = ChartedPoints::of(&compiled.model);
             if points.check_kept(&keep.names).is_ok()

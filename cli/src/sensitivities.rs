@@ -1,18 +1,19 @@
 //! `lagrangian sensitivities`: the derivatives of a motion by parameters, inputs and starts.
 
-use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signals};
+mod asked;
+mod chart;
+mod continued;
+
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{Machine, Sensitive, Simulation, State, System, Varied};
-use lagrangian_linear::across::{self, NoDerivatives};
-use lagrangian_linear::starts::{self, Cause, Change};
-use lagrangian_linear::varied::Direction;
+use lagrangian_linear::starts::{self, Change};
 use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::Dual;
-use lagrangian_spec::diagnostic::most_similar;
-use lagrangian_spec::model::{Model, Variable};
-use lagrangian_spec::unit::{self, integral_name, state_of};
+use lagrangian_spec::model::Variable;
+use lagrangian_spec::unit::integral_name;
 use lagrangian_sweep::verdict;
-use lagrangian_symbolic::{Dag, Expr};
+use lagrangian_symbolic::Dag;
 use serde_json::{Value, json};
 
 use crate::call;
@@ -26,54 +27,11 @@ use crate::reading::{self, Reading, places};
 use crate::runs::{header, warn};
 use crate::simulate::check_samples;
 use crate::{methods, progress, table};
+use asked::{By, Observed, Of, Variation, observed, per, variations};
+use chart::Chart;
 
 /// The default number of recorded samples of a run.
 const SAMPLES: f64 = 1000.0;
-
-/// A variable of differentiation.
-enum By {
-    /// A parameter, by its index.
-    Parameter(usize),
-    /// An input.
-    Input(usize),
-    /// The start of a coordinate.
-    Start(usize),
-    /// The start of its rate.
-    StartRate(usize),
-}
-
-impl By {
-    /// The corresponding cause of a change of the start.
-    fn cause(&self) -> Cause {
-        match self {
-            By::Parameter(index) => Cause::Parameter(*index),
-            By::Input(_) => Cause::Input,
-            By::Start(k) => Cause::Start(*k),
-            By::StartRate(k) => Cause::Rate(*k),
-        }
-    }
-}
-
-/// A variable of differentiation, with its name and unit.
-struct Variation {
-    by: By,
-    name: String,
-    unit: String,
-}
-
-/// A differentiated quantity.
-enum Of {
-    Coordinate(usize),
-    Rate(usize),
-    Output(usize),
-}
-
-/// A differentiated quantity, with its name and unit.
-struct Observed {
-    of: Of,
-    name: String,
-    unit: String,
-}
 
 /// A column of the results.
 struct Column {
@@ -97,7 +55,9 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     let dag = Dag::new();
     let reading = Reading::open(&call.spec)?;
     let wanted = call::names_of(&call.by).map_err(Failure::Call)?;
+    let mut cartesian = None;
     let compiled = modes::compiled_with(reading, &dag, all, "sensitivities", |model| {
+        cartesian = model.cartesian.take();
         let n = model.coordinates.len();
         differentiate(&mut model.derivatives, Variable::of_state(n));
         let is_asked = |name: &str| {
@@ -120,7 +80,12 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     reading::check_kept(&start, &call.keep)?;
     let variations = variations((&compiled.model, &machine), &start, &wanted)?;
     let observed = observed(&machine, &start, &call.of)?;
-    let (times, columns) = run_with_derivatives(call, &machine, &start, &variations, &observed)?;
+    let chart = match cartesian {
+        Some(cartesian) => Chart::of(&compiled, *cartesian, (call, &start))?,
+        None => None,
+    };
+    let machines = (&machine, chart.as_ref());
+    let (times, columns) = run_with_derivatives(call, machines, &start, &variations, &observed)?;
     if let Some(file) = &files[0] {
         let columns = columns.iter().map(|column| {
             (
@@ -164,253 +129,10 @@ pub fn run(call: &call::Sensitivities) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The parameters on which one depends that the spec computes from others, if `name` is one.
-fn followed(model: &Model<'_>, name: &str) -> Option<Vec<String>> {
-    let mut derived = model.derived_parameters.iter();
-    let derived = derived.find(|of| of.name.to_string() == name)?;
-    let parameters = model.parameters.iter();
-    let is_followed = |symbol: Expr<'_>| {
-        let symbol = symbol.as_symbol();
-        symbol.is_some_and(|symbol| derived.value.depends_on(symbol))
-    };
-    let followed = parameters.filter(|parameter| is_followed(parameter.symbol));
-    Some(followed.map(|of| format!("`{}`", of.name)).collect())
-}
-
-/// The variables that `--by` names.
-fn variations(
-    (model, machine): (&Model<'_>, &InterpretedMachine),
-    start: &State<Named>,
-    wanted: &[String],
-) -> Result<Vec<Variation>, Failure> {
-    let program = machine.program();
-    let slots = |slots: &[lagrangian_program::Slot]| -> Vec<(String, String)> {
-        let slots = slots.iter();
-        slots
-            .map(|slot| (slot.name.to_string(), slot.label()))
-            .collect()
-    };
-    let (parameters, inputs) = (slots(&program.parameters), slots(&program.inputs));
-    let coordinates: Vec<(String, String)> = {
-        let system = machine.prepare();
-        let coordinates = system.coordinates();
-        coordinates
-            .map(|q| (q.name.to_owned(), q.unit.to_owned()))
-            .collect()
-    };
-    let mut all = Vec::new();
-    for name in wanted {
-        let before = all.len();
-        let inner = |function: &str| {
-            let inner = name.strip_prefix(function)?.strip_prefix('(')?;
-            Some(inner.strip_suffix(')')?.trim())
-        };
-        let member = format!("{name}[");
-        let is_meant = |known: &str| known == name || known.starts_with(&member);
-        let state = inner("start").map(integral_name);
-        let of_state = state.map_or_else(Vec::new, |integral| places(&start.q, &integral));
-        if !of_state.is_empty() {
-            // A state is the rate of its integral.
-            all.extend(of_state.into_iter().map(|k| Variation {
-                by: By::StartRate(k),
-                name: format!("start({})", shown_rate(&coordinates[k].0)),
-                unit: unit::rate_unit(&coordinates[k].0, &coordinates[k].1),
-            }));
-        } else if let Some(coordinate) = inner("start").filter(|name| !is_integral(name)) {
-            all.extend(places(&start.q, coordinate).into_iter().map(|k| Variation {
-                by: By::Start(k),
-                name: format!("start({})", coordinates[k].0),
-                unit: coordinates[k].1.clone(),
-            }));
-        } else if let Some(coordinate) = inner("rate").filter(|name| !is_integral(name)) {
-            all.extend(places(&start.q, coordinate).into_iter().map(|k| Variation {
-                by: By::StartRate(k),
-                name: format!("rate({})", coordinates[k].0),
-                unit: rate_unit(&coordinates[k].1),
-            }));
-        } else {
-            let of_list = |list: &[(String, String)], by: fn(usize) -> By| -> Vec<Variation> {
-                let list = list
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, (of_list, _))| is_meant(of_list));
-                list.map(|(k, (name, unit))| Variation {
-                    by: by(k),
-                    name: name.clone(),
-                    unit: unit.clone(),
-                })
-                .collect()
-            };
-            all.extend(of_list(&parameters, By::Parameter));
-            all.extend(of_list(&inputs, By::Input));
-        }
-        if all.len() == before
-            && let Some(others) = followed(model, name)
-        {
-            return Err(Failure::Call(format!(
-                "--by {name}: the spec computes it from {}: ask by these, or replace its formula by a value, --set {name}=…",
-                others.join(", ")
-            )));
-        }
-        if all.len() == before {
-            let known: Vec<String> = parameters
-                .iter()
-                .chain(&inputs)
-                .map(|(name, _)| name.clone())
-                .chain(
-                    coordinates
-                        .iter()
-                        .flat_map(|(name, _)| match state_of(name) {
-                            Some(state) => vec![format!("start({state})")],
-                            None => vec![format!("start({name})"), format!("rate({name})")],
-                        }),
-                )
-                .collect();
-            let help = match most_similar(name, known.iter().map(String::as_str)) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("there are: {}", known.join(", ")),
-            };
-            return Err(Failure::Call(format!(
-                "--by {name}: no parameter, input or start of that name; {help}"
-            )));
-        }
-    }
-    call::refuse_twice("--by", all.iter().map(|one| one.name.as_str())).map_err(Failure::Call)?;
-    Ok(all)
-}
-
-/// The quantities that `--of` names.
-fn observed(
-    machine: &InterpretedMachine,
-    start: &State<Named>,
-    lists: &[String],
-) -> Result<Vec<Observed>, Failure> {
-    let system = machine.prepare();
-    let coordinates: Vec<(String, String)> = system
-        .coordinates()
-        .map(|q| (q.name.to_owned(), q.unit.to_owned()))
-        .collect();
-    let outputs: Vec<(String, String)> = machine
-        .program()
-        .outputs
-        .iter()
-        .map(|slot| (slot.name.to_string(), slot.label()))
-        .collect();
-    let coordinate = |k: usize| Observed {
-        of: Of::Coordinate(k),
-        name: coordinates[k].0.clone(),
-        unit: coordinates[k].1.clone(),
-    };
-    let rate = |k: usize| Observed {
-        of: Of::Rate(k),
-        name: shown_rate(&coordinates[k].0),
-        unit: if is_integral(&coordinates[k].0) {
-            unit::rate_unit(&coordinates[k].0, &coordinates[k].1)
-        } else {
-            rate_unit(&coordinates[k].1)
-        },
-    };
-    // The state itself is shown, not its integral, on which nothing depends.
-    let shown = |k: usize| {
-        if is_integral(&coordinates[k].0) {
-            rate(k)
-        } else {
-            coordinate(k)
-        }
-    };
-    let output = |k: usize| Observed {
-        of: Of::Output(k),
-        name: outputs[k].0.clone(),
-        unit: outputs[k].1.clone(),
-    };
-    let wanted = call::names_of(lists).map_err(Failure::Call)?;
-    if wanted.is_empty() {
-        return Ok(if outputs.is_empty() {
-            (0..coordinates.len()).map(shown).collect()
-        } else {
-            (0..outputs.len()).map(output).collect()
-        });
-    }
-    let mut all = Vec::new();
-    for name in &wanted {
-        let before = all.len();
-        let member = format!("{name}[");
-        let matching = (0..outputs.len()).filter(|k| {
-            let output_name = &outputs[*k].0;
-            output_name == name || output_name.starts_with(&member)
-        });
-        all.extend(matching.map(output));
-        if all.len() == before {
-            match name
-                .strip_prefix("der(")
-                .and_then(|inner| inner.strip_suffix(')'))
-            {
-                Some(inner) => all.extend(places(&start.q, inner.trim()).into_iter().map(rate)),
-                None => {
-                    let states = places(&start.q, &integral_name(name));
-                    all.extend(states.into_iter().map(rate));
-                    all.extend(places(&start.q, name).into_iter().map(coordinate));
-                }
-            }
-        }
-        if all.len() == before {
-            let known: Vec<String> = outputs
-                .iter()
-                .map(|(name, _)| name.clone())
-                .chain(
-                    coordinates
-                        .iter()
-                        .flat_map(|(name, _)| match state_of(name) {
-                            Some(state) => vec![state],
-                            None => vec![name.clone(), format!("der({name})")],
-                        }),
-                )
-                .collect();
-            let help = match most_similar(name, known.iter().map(String::as_str)) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("there are: {}", known.join(", ")),
-            };
-            return Err(Failure::Call(format!(
-                "--of {name}: no coordinate, rate or output of that name; {help}"
-            )));
-        }
-    }
-    call::refuse_twice("--of", all.iter().map(|one| one.name.as_str())).map_err(Failure::Call)?;
-    Ok(all)
-}
-
-/// Whether a coordinate is the integral of a state of first order.
-fn is_integral(coordinate: &str) -> bool {
-    state_of(coordinate).is_some()
-}
-
-/// The name of the rate of a coordinate: `der(x)`, or the name of a state.
-fn shown_rate(coordinate: &str) -> String {
-    state_of(coordinate).unwrap_or_else(|| format!("der({coordinate})"))
-}
-
-/// The unit of the rate of a quantity with this unit.
-fn rate_unit(unit: &str) -> String {
-    match unit {
-        "1" => "1/s".to_owned(),
-        unit => format!("{unit}/s"),
-    }
-}
-
-/// The quotient of two units.
-fn per(unit: &str, other: &str) -> String {
-    let is_simple = |unit: &str| !unit.contains(['*', '/', ' ']);
-    match (unit, other) {
-        (unit, "1") => unit.to_owned(),
-        (unit, other) if is_simple(other) => format!("{unit}/{other}"),
-        (unit, other) => format!("{unit}/({other})"),
-    }
-}
-
 /// The run with its derivatives: instants, then values, then the derivative of each value by each variable.
 fn run_with_derivatives(
     call: &call::Sensitivities,
-    machine: &InterpretedMachine,
+    (machine, chart): (&InterpretedMachine, Option<&Chart>),
     start: &State<Named>,
     variations: &[Variation],
     observed: &[Observed],
@@ -428,8 +150,9 @@ fn run_with_derivatives(
         .collect();
     let is_held = machine.prepare().constraints().len() > 0;
     let collides = machine.prepare().unilateral_contacts().len() > 0;
-    // If contacts open and close, no variational equations hold for the whole run.
-    let varied: &[Variation] = if collides { &[] } else { variations };
+    // If contacts open and close, no variational equations hold for the whole run, and in another chart there are others.
+    let is_continued = collides || chart.is_some();
+    let varied: &[Variation] = if is_continued { &[] } else { variations };
     let mut sensitive = Sensitive::new(machine);
     if is_held {
         sensitive = sensitive.with_start_on_constraints();
@@ -454,7 +177,7 @@ fn run_with_derivatives(
         start.clone()
     };
     let mut from = sensitive.start_from(start.clone());
-    if collides {
+    if is_continued {
         from.q.by = vec![start.q.clone(); variations.len()];
         from.v.by = vec![start.v.clone(); variations.len()];
         for (k, variation) in variations.iter().enumerate() {
@@ -491,8 +214,9 @@ fn run_with_derivatives(
     let width = 1 + of_each * (1 + variations.len());
     check_samples("--every", interval, call.until, width)?;
     progress::run(call.until);
-    if collides {
-        return across_impacts(call, machine, method, &from, variations, observed);
+    if is_continued {
+        let machines = (machine, chart);
+        return continued::run(call, machines, method, &from, variations, observed);
     }
     let mut simulation = Simulation::new(&sensitive)
         .tolerance(call.tolerance)
@@ -683,128 +407,6 @@ fn columns(variations: &[Variation], observed: &[Observed]) -> Vec<Column> {
         })
     });
     of_values.chain(derivatives).collect()
-}
-
-/// The run of a machine with unilateral contacts, with derivatives continued across each impact and each change of closed contacts.
-fn across_impacts(
-    call: &call::Sensitivities,
-    machine: &InterpretedMachine,
-    method: &'static Method,
-    from: &State<Varied<Named>>,
-    variations: &[Variation],
-    observed: &[Observed],
-) -> Result<(Vec<f64>, Vec<Column>), Failure> {
-    // Derivatives by variables scaled to size 1, so that one tolerance suits all of them.
-    let sizes = sizes(machine, variations);
-    let direction = |(variation, size): (&Variation, &f64)| {
-        let mut direction = Direction::of_start(machine);
-        match variation.by {
-            By::Parameter(index) => direction.parameters[index] = *size,
-            By::Input(index) => direction.inputs[index] = *size,
-            By::Start(_) | By::StartRate(_) => {}
-        }
-        direction
-    };
-    let all = |list: &Varied<Named>| -> Vec<f64> {
-        let by = list.by.iter().zip(&sizes);
-        let by = by.flat_map(|(by, size)| by.values.iter().map(move |by| by * size));
-        list.value.values.iter().copied().chain(by).collect()
-    };
-    let start = State {
-        t: from.t,
-        q: all(&from.q),
-        v: all(&from.v),
-    };
-    let signals = Signals::default();
-    let wanted = across::Wanted {
-        machine,
-        signals: &signals,
-        directions: variations.iter().zip(&sizes).map(direction).collect(),
-        method,
-        tolerance: call.tolerance,
-        until: call.until,
-        most_steps: call.max_steps,
-    };
-    let failed = |error: lagrangian::Error| Failure::Run(verdict::message_of(&error));
-    let run = across::run(&wanted, &start).map_err(|why| match why {
-        NoDerivatives::Run(error) => failed(error),
-        // The run itself may continue where its derivatives do not.
-        broken => Failure::Run(format!(
-            "{broken}; use differences of runs instead, by `lagrangian compare` with `--set-second`, or by `lagrangian sweep`"
-        )),
-    })?;
-    let n = machine.program().dimension();
-    let split = |list: &[f64]| Varied {
-        value: with_values(&from.q.value, &list[..n]),
-        by: (list[n..].chunks(n).zip(&sizes))
-            .map(|(by, size)| {
-                let by: Vec<f64> = by.iter().map(|by| by / size).collect();
-                with_values(&from.q.value, &by)
-            })
-            .collect(),
-    };
-    let end = run.end();
-    let end = State {
-        t: end.t,
-        q: split(&end.q),
-        v: split(&end.v),
-    };
-    if machine.prepare().constraints().len() > 0 {
-        check_drift(machine, &end, variations)?;
-    }
-    check_differences(call, (machine, method), variations, from, &end)?;
-    let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
-    let count = if call.until == from.t {
-        0
-    } else {
-        ((call.until - from.t) / interval * (1.0 - 1e-9)).floor() as usize
-    };
-    let mut times: Vec<f64> = (0..=count).map(|k| from.t + k as f64 * interval).collect();
-    if call.until != from.t {
-        times.push(call.until);
-    }
-    let system = machine.prepare();
-    let mut columns = columns(variations, observed);
-    for t in &times {
-        let State { q, v, .. } = run.at(*t).map_err(failed)?;
-        let there = run.observe(*t, (&q, &v)).map_err(failed)?;
-        let u = &there.inputs.own.values;
-        let without_derivatives = |list: &Vec<f64>| list[..n].to_vec();
-        let value = |observed: &Observed| match observed.of {
-            Of::Coordinate(i) => q[i],
-            Of::Rate(i) => v[i],
-            Of::Output(i) => system.output(
-                i,
-                *t,
-                &without_derivatives(&q),
-                &without_derivatives(&v),
-                &without_derivatives(&there.a),
-                u,
-            ),
-        };
-        let by = |observed: &Observed| -> Vec<f64> {
-            let part = |list: &[f64], i: usize| list[n..].chunks(n).map(|by| by[i]).collect();
-            let scaled: Vec<f64> = match observed.of {
-                Of::Coordinate(i) => part(&q, i),
-                Of::Rate(i) => part(&v, i),
-                Of::Output(i) => (there.system).output(i, *t, [&q, &v, &there.a], &there.inputs),
-            };
-            scaled
-                .iter()
-                .zip(&sizes)
-                .map(|(by, size)| by / size)
-                .collect()
-        };
-        let row = observed
-            .iter()
-            .map(value)
-            .chain(observed.iter().flat_map(by));
-        let row: Vec<f64> = row.collect();
-        for (column, value) in columns.iter_mut().zip(row) {
-            column.values.push(value);
-        }
-    }
-    Ok((times, columns))
 }
 
 fn with_values(like: &Named, values: &[f64]) -> Named {

@@ -291,13 +291,7 @@ impl<'d> Prepared<'d> {
                         .into(),
                 ));
             }
-            let parameters_alone = call::Start {
-                parameters: call.start.parameters.clone(),
-                coordinates: Vec::new(),
-                rates: Vec::new(),
-                running: call.start.running,
-            };
-            machine = reading::machine(&cartesian, &parameters_alone)?;
+            machine = reading::machine(&cartesian, &call.start.parameters_alone())?;
             let points = ChartedPoints::of(&compiled.model);
             points.check_kept(&call.keep.names).map_err(Failure::Call)?;
             let begun = Charts::begin(&points, machine.start(), &start);

@@ -53,6 +53,9 @@ const STACK: usize = 64 << 20;
 /// parameters. The module contains the functions of the machine (`oscillator::accelerations`, `mass_matrix`, …), generic
 /// over the number type, and the structs `Coordinates`, `Inputs`, `Outputs` and `Prepared`, which implements `System`.
 ///
+/// If the description names Cartesian coordinates for points in polar ones (`charts`), the module `oscillator::cartesian` holds the same
+/// machine in these, and `Oscillator` implements `Charted`.
+///
 /// Attributes before `machine` or before `file` are applied by kind: `#[derive(serde::Serialize)]` and other attributes of
 /// structs to the structs with fields named by the machine (parameters, coordinates, inputs, outputs), lints to the module,
 /// `cfg` to everything. The structs are in the module, so attributes must refer to items imported beside the machine by
@@ -215,13 +218,13 @@ fn compile(job: Job) -> Result<Outcome, String> {
         &mut sources,
         &mut report,
     );
-    let compiled = model.and_then(|model| Compiled::new(model, &mut report));
+    let compiled = model.and_then(|model| Compiled::in_charts(model, &mut report));
     let text = match compiled {
-        Some(compiled) => {
+        Some((compiled, cartesian)) => {
             let options = rust::Options {
-                formulas: compiled.formulas(),
-                series: compiled.series.clone(),
-                ..options
+                runtime: options.runtime,
+                marks: options.marks,
+                ..rust::Options::of(&compiled, cartesian.as_ref())
             };
             rust::expansion(&compiled.program, &options)
         }
@@ -297,14 +300,14 @@ fn opened(
     opened
 }
 
-/// Processes the items of the module.
+/// Processes the items of the module, and of the module of the machine in another chart within it.
 fn with_marks(
     tokens: TokenStream,
     structs: &TokenStream,
     fields: &BTreeMap<String, Span>,
 ) -> TokenStream {
     let mut with_marks = TokenStream::new();
-    let mut is_marked = false;
+    let (mut is_marked, mut opens_module) = (false, false);
     let mut tokens = tokens.into_iter().peekable();
     while let Some(tree) = tokens.next() {
         match (tree, tokens.peek()) {
@@ -330,7 +333,20 @@ fn with_marks(
                 let placed = placed.collect();
                 with_marks.extend(regrouped(&group, placed));
             }
-            (other, _) => with_marks.extend([other]),
+            (TokenTree::Group(group), _)
+                if opens_module && group.delimiter() == Delimiter::Brace =>
+            {
+                opens_module = false;
+                let inside = self::with_marks(group.stream(), structs, fields);
+                with_marks.extend(regrouped(&group, inside));
+            }
+            (other, _) => {
+                // The name of a module comes between.
+                if let TokenTree::Ident(ident) = &other {
+                    opens_module = *ident == "mod" || opens_module;
+                }
+                with_marks.extend([other]);
+            }
         }
     }
     with_marks

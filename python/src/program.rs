@@ -544,6 +544,14 @@ impl Program {
         }
         let text = py.detach(|| {
             self.derived.with_model(|model, report| {
+                if form == "rust" {
+                    let (compiled, cartesian) = Compiled::in_charts(model, report)?;
+                    let options = lagrangian_emit::rust::Options {
+                        origin,
+                        ..lagrangian_emit::rust::Options::of(&compiled, cartesian.as_ref())
+                    };
+                    return Some(lagrangian_emit::rust::module(&compiled.program, &options));
+                }
                 let compiled = Compiled::new(model, report)?;
                 let formulas = || compiled.formulas();
                 Some(match form {
@@ -551,15 +559,6 @@ impl Program {
                     "latex" => latex::text(&Document::new(&compiled)),
                     "html" => html::text(&Document::new(&compiled)),
                     "article" => html::article(&Document::new(&compiled)),
-                    "rust" => lagrangian_emit::rust::module(
-                        &compiled.program,
-                        &lagrangian_emit::rust::Options {
-                            origin,
-                            formulas: formulas(),
-                            series: compiled.series.clone(),
-                            ..Default::default()
-                        },
-                    ),
                     "c" => lagrangian_emit::c::file(&compiled.program, &origin, &formulas()),
                     _ => compiled.program.to_string(),
                 })

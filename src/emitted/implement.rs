@@ -121,6 +121,35 @@ macro_rules! implement_machine {
     };
 }
 
+/// Implements `Charted` for a machine that has a second chart: its fields, which are those of the machine in Cartesian coordinates too,
+/// and for each point the indices of its distance and its angle.
+///
+/// ```text
+/// machine Particle { m, kx, ky } in cartesian::Particle;
+/// points [[0, 1]]
+/// ```
+#[doc(hidden)]
+#[macro_export]
+macro_rules! implement_charted {
+    (
+        machine $Machine:ident { $($fields:tt)* } in $chart:ident::$Cartesian:ident;
+        points [$($point:expr),*]
+    ) => {
+        impl $crate::emitted::Charted for $Machine {
+            type Cartesian = $chart::$Cartesian;
+
+            fn in_cartesian(&self) -> $chart::$Cartesian {
+                let $Machine { $($fields)* } = *self;
+                $chart::$Cartesian { $($fields)* }
+            }
+
+            fn points(&self) -> &[[::core::primitive::usize; 2]] {
+                const { &[$($point),*] }
+            }
+        }
+    };
+}
+
 /// Parts of `implement_machine`.
 #[doc(hidden)]
 #[macro_export]

@@ -2,6 +2,7 @@
 
 #[path = "../by_hand/mod.rs"]
 mod by_hand;
+mod charts;
 mod constraints;
 mod contacts;
 mod derivatives;

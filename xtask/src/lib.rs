@@ -144,14 +144,12 @@ fn compile(root: &Path, path: &Path) -> Result<Machine, String> {
         &mut sources,
         &mut report,
     )
-    .and_then(|model| Compiled::new(model, &mut report))
-    .ok_or_else(|| report.render_short(&sources))?;
+    .and_then(|model| Compiled::in_charts(model, &mut report));
+    let (compiled, cartesian) = compiled.ok_or_else(|| report.render_short(&sources))?;
     let origin = format!("@generated from {shown} by `cargo xtask generate`; edits are lost.");
     let options = rust::Options {
         origin: vec![origin.clone()],
-        formulas: compiled.formulas(),
-        series: compiled.series.clone(),
-        ..rust::Options::default()
+        ..rust::Options::of(&compiled, cartesian.as_ref())
     };
     Ok(Machine {
         name: compiled.program.name.clone(),

@@ -42,6 +42,18 @@ pub struct Start {
     pub running: Running,
 }
 
+impl Start {
+    /// The parameters without the start, for a machine in other coordinates.
+    pub fn parameters_alone(&self) -> Start {
+        Start {
+            parameters: self.parameters.clone(),
+            coordinates: Vec::new(),
+            rates: Vec::new(),
+            running: self.running,
+        }
+    }
+}
+
 /// How it is run.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Running {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
 use lagrangian::{Machine, State, System};
 use lagrangian_fit::least_squares::Trouble;
-use lagrangian_fit::motion::{Column, Experiment, Fit, Quantity};
+use lagrangian_fit::motion::{Chart, Column, Experiment, Fit, Quantity};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::{Severity, most_similar};
 use lagrangian_spec::unit::{self, state_of};
@@ -161,7 +161,7 @@ impl Given {
         machine: &InterpretedMachine,
         compiled: &Compiled<'_>,
         start: &State<Named>,
-        signals: Signals,
+        (chart, signals): (Option<&Chart>, Signals),
     ) -> Result<Experiment, Failure> {
         let option = format!("--data {}:", self.label);
         let wrong = |why: String| Failure::Call(format!("{option} {why}"));
@@ -234,11 +234,26 @@ impl Given {
         Ok(Experiment {
             name: self.label.clone(),
             start: [known_numbers(&start.q), known_numbers(&start.v)],
+            chart: chart.map(|chart| self.chart(chart, &option)).transpose()?,
             machine,
             signals,
             times: Vec::new(),
             columns: Vec::new(),
         })
+    }
+}
+
+impl Given {
+    /// The machine in Cartesian coordinates with what differs in this experiment.
+    fn chart(&self, chart: &Chart, option: &str) -> Result<Chart, Failure> {
+        let mut chart = chart.clone();
+        for set in &self.sets {
+            let unit = chart.machine.unit(&set.name).map(str::to_owned);
+            let value = set.value(option, &unit.unwrap_or_default());
+            // The name was checked for the machine of the spec.
+            let _ = chart.machine.set(&set.name, value.map_err(Failure::Call)?);
+        }
+        Ok(chart)
     }
 }
 

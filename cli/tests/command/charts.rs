@@ -729,3 +729,112 @@ fn other_commands_fall_back_on_the_coordinates_of_the_spec() {
     close(column(&all, "s")[0], -(1.0_f64).cos(), 1e-10, "s");
     close(column(&all, "s")[1], 1.0_f64.cos(), 1e-10, "s");
 }
+
+/// The particle with `x = cos 2t` and `y = w sin 3t`: the changes of `s` and `φ` at a time with the spring along x, and with the start.
+fn closed_derivatives(w: f64, t: f64) -> Vec<[f64; 2]> {
+    let (x, y) = ((2.0 * t).cos(), w * (3.0 * t).sin());
+    let s = x.hypot(y);
+    // Of x₀, ẋ₀, y₀, ẏ₀, as the derivatives of x = s cos φ, y = s sin φ and of the rates at s = 1, φ = 0, ṡ = 0, φ̇ = 3w say; the
+    // frequency along x is √(kx/m).
+    let starts = [
+        [1.0, 0.0, 0.0, 3.0 * w],
+        [0.0, -3.0 * w, 1.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0],
+    ];
+    let of_start = starts.map(|[x0, vx0, y0, vy0]| {
+        let dx = x0 * (2.0 * t).cos() + vx0 * (2.0 * t).sin() / 2.0;
+        let dy = y0 * (3.0 * t).cos() + vy0 * (3.0 * t).sin() / 3.0;
+        [dx, dy]
+    });
+    let by_stiffness = [-t * (2.0 * t).sin() / 8.0, 0.0];
+    let all = [by_stiffness].into_iter().chain(of_start);
+    let polar = |[dx, dy]: [f64; 2]| [(x * dx + y * dy) / s, (x * dy - y * dx) / (s * s)];
+    all.map(polar).collect()
+}
+
+#[test]
+fn derivatives_pass_the_centre_in_closed_form() {
+    let spec = particle();
+    for w in [1e-4, 0.5] {
+        let rate = format!("phi={:e}", 3.0 * w);
+        let run = json(&[
+            "sensitivities",
+            spec.path(),
+            "--by",
+            "kx,start(s),start(phi),rate(s),rate(phi)",
+            "--of",
+            "s,phi,height",
+            "--until",
+            "7",
+            "--every",
+            "0.4",
+            "--tolerance",
+            "1e-12",
+            "--rate",
+            &rate,
+            "--json",
+        ]);
+        let values =
+            |part: &str, k: usize| run[part][k]["values"].as_array().expect("a list").clone();
+        let times = run["t"].as_array().expect("times");
+        assert_eq!(times.len(), 19);
+        for (row, t) in times.iter().enumerate() {
+            let t = number(t);
+            let [s, angle, ..] = closed_form(w, t);
+            close(number(&values("values", 0)[row]), s, 1e-10, "s");
+            close(number(&values("values", 1)[row]), angle, 1e-10 / s, "phi");
+            for (k, by) in closed_derivatives(w, t).into_iter().enumerate() {
+                for (of, expected) in by.into_iter().enumerate() {
+                    let found = number(&values("derivatives", 5 * of + k)[row]);
+                    let what = format!("w = {w}, t = {t}, {of} by {k}");
+                    // Errors of 1e-11 in the components and their derivatives, as the distance magnifies them.
+                    close(found, expected, 1e-9 / (s * s), &what);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_fit_passes_the_centre() {
+    // Measured without errors: both coordinates of the particle, at instants none of which is at its centre.
+    let spec = particle();
+    let w = 0.01;
+    let mut table = "t [s],s [m],phi [rad]\n".to_owned();
+    for k in 0..60 {
+        let t = 0.1 * f64::from(k);
+        let [s, angle, ..] = closed_form(w, t);
+        table.push_str(&format!("{t:?},{s:?},{angle:?}\n"));
+    }
+    let data = Scratch::new("measured.csv", &table);
+    let fitted = json(&[
+        "fit",
+        spec.path(),
+        "--data",
+        data.path(),
+        "--fit",
+        "kx,ky,start(s),rate(phi)",
+        "--set",
+        "kx=7.9",
+        "--set",
+        "ky=18.2",
+        "--start",
+        "s=1.02",
+        "--rate",
+        "phi=0.029",
+        "--sigma",
+        "s=1e-3",
+        "--sigma",
+        "phi=1e-2",
+        "--tolerance",
+        "1e-12",
+        "--json",
+    ]);
+    let all = fitted["fitted"].as_array().expect("a list");
+    for (one, expected) in all.iter().zip([8.0, 18.0, 1.0, 3.0 * w]) {
+        // Errors of the runs, 1e-11 of the components.
+        close(number(&one["value"]), expected, 1e-8, "an estimate");
+    }
+    assert_eq!(fitted["derivatives"], "integrated");
+}

@@ -3,6 +3,7 @@
 //! The module needs only `core` and the runtime. Its arithmetic consists of plain functions that are generic over the
 //! number and take only the arguments that they use; `Machine` and `System` are implemented with them for `f64`.
 
+mod chart;
 mod contact_parts;
 mod derivatives;
 mod docs;
@@ -31,6 +32,9 @@ use lagrangian_program::contact_parts::ContactParts;
 use lagrangian_program::{Counts, Function, Op, PackedStatement, Program, Role, packs};
 use types::{Group, Types};
 
+use chart::ChartOf;
+
+pub use chart::Chart;
 pub use stub::stub;
 
 /// Settings of the text besides the program.
@@ -44,6 +48,8 @@ pub struct Options {
     pub formulas: BTreeMap<Role, Vec<String>>,
     /// The Taylor series of the motion, if the machine asks for it.
     pub series: Option<ProvedSeries>,
+    /// The same machine in its second chart, if its spec names one: a module within that of the machine.
+    pub chart: Option<Chart>,
     /// The most operations of a function that is not cut into pieces. Above some thousand, a compiler that generates debug
     /// information for every variable overflows its stack.
     pub longest_whole: usize,
@@ -76,6 +82,7 @@ impl Default for Options {
             origin: Vec::new(),
             formulas: BTreeMap::new(),
             series: None,
+            chart: None,
             longest_whole: super::cut::LONGEST_WHOLE,
             shortest_rolled: SHORTEST_ROLLED,
             shortest_packed: SHORTEST_PACKED,
@@ -97,7 +104,7 @@ pub fn module_name(machine: &str) -> String {
 
 /// The content of the module of a machine.
 pub fn module(program: &Proved, options: &Options) -> String {
-    Emitter::new(program, options).module()
+    Emitter::new(program, options).module(ChartOf::of(options).as_ref())
 }
 
 /// The content of a module for a library that is called from C: the accelerations and what they need. For a machine with unilateral
@@ -142,11 +149,11 @@ pub const CONTACT_ROLES: [Role; 7] = [
 /// The type is an alias instead of a `use`: it also resolves inside the body of a function, and beside a crate
 /// of the same name.
 pub fn expansion(program: &Proved, options: &Options) -> String {
-    unproved_expansion(program, options)
+    unproved_expansion(program, ChartOf::of(options).as_ref(), options)
 }
 
 /// The expansion of any program, also of the placeholder for an invalid spec, which computes nothing.
-fn unproved_expansion(program: &Program, options: &Options) -> String {
+fn unproved_expansion(program: &Program, chart: Option<&ChartOf<'_>>, options: &Options) -> String {
     let emitter = Emitter::new(program, options);
     let (name, scalar) = (emitter.types.machine.clone(), emitter.types.scalar.clone());
     let module = module_name(&program.name);
@@ -156,7 +163,7 @@ fn unproved_expansion(program: &Program, options: &Options) -> String {
          /// The machine of [`{module}`].\n\
          #[allow(dead_code, non_camel_case_types, unreachable_pub)]\n\
          pub type {name}<{scalar} = {f64}> = {module}::{name}<{scalar}>;\n",
-        emitter.module()
+        emitter.module(chart)
     )
 }
 
@@ -179,6 +186,8 @@ struct Emitter<'a> {
     plans: BTreeMap<Role, Plan>,
     /// The numbers of single contacts, where there are many.
     contact_parts: Option<ContactParts>,
+    /// Whether the module is within that of the machine in its other chart, whose lints it has.
+    is_within: bool,
     /// Whether the function being written leaves the check for large angles to its caller.
     defers_angle_check: bool,
 }
@@ -238,6 +247,7 @@ impl<'a> Emitter<'a> {
             prepared_families,
             plans,
             contact_parts: None,
+            is_within: false,
             defers_angle_check: false,
             types: Types::new(&program.name),
             parameters,
@@ -254,7 +264,15 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    fn module(mut self) -> String {
+    fn module(mut self, chart: Option<&ChartOf<'_>>) -> String {
+        self.write_module();
+        if let Some(chart) = chart {
+            self.second_chart(chart);
+        }
+        self.writer.finish()
+    }
+
+    fn write_module(&mut self) {
         self.contact_parts = ContactParts::of(self.program);
         self.head();
         self.machine();
@@ -265,7 +283,8 @@ impl<'a> Emitter<'a> {
         self.pivots();
         self.derivatives();
         self.stages();
-        for function in &self.program.functions {
+        let program = self.program;
+        for function in &program.functions {
             if self.is_emitted(function) {
                 self.function(function);
             }
@@ -278,7 +297,6 @@ impl<'a> Emitter<'a> {
         self.impl_linearize();
         self.impl_staged();
         self.implementations();
-        self.writer.finish()
     }
 
     /// Writes the head of the file: its origin, its documentation, and the amount of work.
@@ -343,7 +361,8 @@ impl<'a> Emitter<'a> {
              here gives zeros.",
         );
         self.writer.gap();
-        for (reason, lints) in ALLOWED {
+        let lints = if self.is_within { &[] } else { ALLOWED };
+        for (reason, lints) in lints {
             if !reason.is_empty() {
                 self.writer.line(format!("// {reason}"));
             }

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signal, Signals};
 use lagrangian::methods::Method;
-use lagrangian::{InputLaw, Machine, Piece, Simulation, State, System};
+use lagrangian::{InputLaw, Machine, Piece, Simulation, State, System, Turns, to_cartesian};
 use lagrangian_linear::across::{self, NoDerivatives};
-use lagrangian_linear::starts;
 use lagrangian_linear::varied::{Direction, Varied, VariedInputs, VariedLaw, VariedSystem};
+use lagrangian_linear::{charts, starts};
 use nalgebra::DMatrix;
 
 use crate::combinations::{Combination, combinations};
@@ -63,6 +63,15 @@ pub struct Column {
     pub values: Vec<Option<f64>>,
 }
 
+/// A machine in the Cartesian coordinates that its spec names for polar ones.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// The machine, with the inputs of the experiment.
+    pub machine: InterpretedMachine,
+    /// For each point the indices of its distance and its angle.
+    pub points: Vec<[usize; 2]>,
+}
+
 /// One measured motion.
 #[derive(Clone, Debug)]
 pub struct Experiment {
@@ -72,6 +81,8 @@ pub struct Experiment {
     pub machine: InterpretedMachine,
     /// The starts of coordinates and of rates that differ from those of the spec.
     pub start: [Vec<Option<f64>>; 2],
+    /// The same machine in Cartesian coordinates, in which its runs are made, if the spec names any.
+    pub chart: Option<Chart>,
     /// The signals that drive its inputs.
     pub signals: Signals,
     /// The times, in s: increasing, the first not before the start of the machine, and the last one after it.
@@ -145,6 +156,18 @@ pub struct ConstraintFindings {
     pub why: Option<String>,
     /// The largest drift off the constraints of motions or derivatives, relative to the size of their terms.
     pub off: f64,
+}
+
+/// A run before its first step.
+struct Begun<'f> {
+    /// The machine in the coordinates of the run.
+    machine: InterpretedMachine,
+    /// The start in the coordinates of the spec, before the projection onto the constraints.
+    stated: State<Named>,
+    /// The same in those of the run.
+    start: State<Named>,
+    /// For each point that the run has in Cartesian coordinates the indices of its distance and its angle.
+    points: &'f [[usize; 2]],
 }
 
 /// Why there are no integrated derivatives.
@@ -379,6 +402,43 @@ impl Fit<'_> {
         Ok(start)
     }
 
+    /// The machine in whose coordinates a run is made, with its start there; and for each point in polar coordinates that this run has in
+    /// Cartesian ones the indices of its coordinates. A negative distance exists only in polar coordinates.
+    fn begun(&self, experiment: usize, x: &[f64]) -> Result<Begun<'_>, Trouble> {
+        let machine = self.machine(experiment, x)?;
+        let stated = self.start(experiment, x)?;
+        let chart = self.experiments[experiment].chart.as_ref();
+        let is_there = |chart: &&Chart| {
+            let mut points = chart.points.iter();
+            points.all(|[s, _]| stated.q.values[*s] >= 0.0)
+        };
+        let Some(chart) = chart.filter(is_there) else {
+            return Ok(Begun {
+                start: stated.clone(),
+                stated,
+                machine,
+                points: &[],
+            });
+        };
+        let mut other = chart.machine.clone();
+        for (index, value) in machine.parameter_values().iter().enumerate() {
+            if let Some(parameter) = other.parameter_mut(index) {
+                *parameter = *value;
+            }
+        }
+        let mut start = other.start();
+        start.t = stated.t;
+        start.q.values.clone_from(&stated.q.values);
+        start.v.values.clone_from(&stated.v.values);
+        to_cartesian(&chart.points, &mut start.q.values, &mut start.v.values);
+        Ok(Begun {
+            machine: other,
+            stated,
+            start,
+            points: &chart.points,
+        })
+    }
+
     /// The motion of an experiment at the measured times: for each time the values of all columns.
     ///
     /// # Errors
@@ -390,10 +450,15 @@ impl Fit<'_> {
     }
 
     fn run(&self, experiment: usize, x: &[f64]) -> Result<Vec<Row>, Trouble> {
-        let machine = self.machine(experiment, x)?;
-        let start = self.start(experiment, x)?;
+        let Begun {
+            machine,
+            stated,
+            start,
+            points,
+        } = self.begun(experiment, x)?;
         let measured = &self.experiments[experiment];
         let system = machine.prepare();
+        let mut turns = Turns::begin(points, stated.t, &stated.q.values);
         let simulation = measured.signals.drive(Simulation::new(&machine), &machine);
         let simulation = self.keep(self.set(simulation, measured));
         let order = self.running.method.tableau.order;
@@ -401,9 +466,14 @@ impl Fit<'_> {
         let recorded = &mut rows;
         let run = simulation
             .each_step(move |step| {
+                if !points.is_empty() {
+                    turns.follow(step, 0.0)?;
+                }
                 while let Some(t) = next_due_time(&measured.times, recorded.len(), step.span()) {
                     let State { q, v, .. } = step.state(t)?;
                     let (q, v) = (q.values, v.values);
+                    let (mut shown_q, mut shown_v) = (q.clone(), v.clone());
+                    turns.to_polar(t, &mut shown_q, &mut shown_v);
                     let mut a = vec![0.0; q.len()];
                     let mut u = system.default_inputs();
                     if measured.reads_more() {
@@ -414,8 +484,8 @@ impl Fit<'_> {
                         step.accelerations((t, &q, &v), &u, &mut a)?;
                     }
                     let value = |column: &Column| match column.quantity {
-                        Quantity::Coordinate(i) => q[i],
-                        Quantity::Rate(i) => v[i],
+                        Quantity::Coordinate(i) => shown_q[i],
+                        Quantity::Rate(i) => shown_v[i],
                         Quantity::Output(i) => system.output(i, t, &q, &v, &a, &u.values),
                     };
                     recorded.push(Row {
@@ -460,10 +530,9 @@ impl Fit<'_> {
         }
     }
 
-    /// The start of an experiment with the fitted numbers, projected onto the constraints.
+    /// The start of an experiment with the fitted numbers, projected onto the constraints, in the coordinates of its run.
     fn start_on_constraints(&self, experiment: usize, x: &[f64]) -> Result<State<Named>, Trouble> {
-        let machine = self.machine(experiment, x)?;
-        let start = self.start(experiment, x)?;
+        let Begun { machine, start, .. } = self.begun(experiment, x)?;
         let simulation = self.keep(Simulation::new(&machine).until(start.t));
         let run = simulation.run_interpreted(start);
         let run = run.map_err(|error| self.failure(&self.experiments[experiment], error))?;
@@ -477,7 +546,7 @@ impl Fit<'_> {
         x: &[f64],
         sought: usize,
     ) -> Result<starts::Change, RunFailure> {
-        let machine = self.machine(experiment, x)?;
+        let machine = self.begun(experiment, x)?.machine;
         let size = self.sizes()[sought];
         let parameter = match self.sought[sought].subject {
             Subject::Parameter(index) => Some(index),
@@ -535,7 +604,9 @@ impl Fit<'_> {
         experiment: usize,
         x: &[f64],
     ) -> Result<(Vec<Row>, f64), RunFailure> {
-        let machine = self.machine(experiment, x)?;
+        let Begun {
+            machine, points, ..
+        } = self.begun(experiment, x)?;
         let measured = &self.experiments[experiment];
         let sizes = self.sizes();
         // Starts of other experiments do not affect this one.
@@ -559,19 +630,29 @@ impl Fit<'_> {
             signals: &measured.signals,
             phase: None,
         };
-        let mut start = varied.start();
+        let of_spec = self.machine(experiment, x)?;
+        let mut start = Varied {
+            machine: &of_spec,
+            ..varied.clone()
+        }
+        .start();
         let n = machine.program().dimension();
         self.set_varied_start(experiment, x, &machine, &affecting, &mut start)?;
+        charts::to_cartesian(points, n, [&mut start.q, &mut start.v]);
+        self.set_start_on_constraints(experiment, x, (&machine, &affecting), &mut start)?;
         let is_held = self.is_held(experiment);
         let at = |system: &VariedSystem,
                   (t, q, v): (f64, &Vec<f64>, &Vec<f64>),
                   (a, u): (&Vec<f64>, &VariedInputs)| {
+            let (mut shown_q, mut shown_v) = (q.clone(), v.clone());
+            charts::to_polar(points, n, [&mut shown_q, &mut shown_v]);
+            let of_each = |list: &[f64], i: usize| -> Vec<f64> {
+                (1..=affecting.len()).map(|k| list[k * n + i]).collect()
+            };
             let by = |column: &Column| -> Vec<f64> {
-                let scaled: Vec<f64> = match column.quantity {
-                    Quantity::Coordinate(i) => {
-                        (1..=affecting.len()).map(|k| q[k * n + i]).collect()
-                    }
-                    Quantity::Rate(i) => (1..=affecting.len()).map(|k| v[k * n + i]).collect(),
+                let scaled = match column.quantity {
+                    Quantity::Coordinate(i) => of_each(&shown_q, i),
+                    Quantity::Rate(i) => of_each(&shown_v, i),
                     Quantity::Output(i) => system.output(i, t, [q, v, a], u),
                 };
                 let mut all = vec![0.0; sizes.len()];
@@ -686,6 +767,18 @@ impl Fit<'_> {
                 }
             }
         }
+        Ok(())
+    }
+
+    /// Projects a start and its derivatives onto the constraints, if there are any, in the coordinates of the run.
+    fn set_start_on_constraints(
+        &self,
+        experiment: usize,
+        x: &[f64],
+        (machine, affecting): (&InterpretedMachine, &[usize]),
+        start: &mut State<Vec<f64>>,
+    ) -> Result<(), RunFailure> {
+        let n = machine.program().dimension();
         if self.is_held(experiment) {
             let on = self.start_on_constraints(experiment, x)?;
             if let Some(constraint) = starts::dependent_constraint(machine, &on) {
@@ -717,6 +810,12 @@ impl Fit<'_> {
                 "errors of steps move derivatives off the constraints by {off:.1e} of their values"
             )));
         }
+        let mut all = rows.iter().flat_map(|row| row.by.iter().flatten());
+        if self.experiments[experiment].chart.is_some() && all.any(|by| !by.is_finite()) {
+            return Err(RunFailure::WithoutDerivatives(
+                "a point is at its centre at a measured time, where polar coordinates have no derivatives".to_owned(),
+            ));
+        }
         Ok((self.whole(&self.experiments[experiment], rows)?, off))
     }
 
@@ -728,7 +827,7 @@ impl Fit<'_> {
         end: &State<Vec<f64>>,
         sought: &[usize],
     ) -> f64 {
-        let Ok(machine) = self.machine(experiment, x) else {
+        let Ok(Begun { machine, .. }) = self.begun(experiment, x) else {
             return f64::NAN;
         };
         let n = machine.program().dimension();

@@ -298,6 +298,16 @@ impl<'m> Passing<'_, 'm> {
         let mut excursions = vec![0.0; phase.modes.len()];
         let mut changes = 0;
         let all: Vec<_> = base.contact_phases().collect();
+        if all.is_empty() {
+            // Without contacts one part is the whole run.
+            let part = self.part(&phase, state, base.end().t)?;
+            let end = part.run.end().clone();
+            return Ok(Across {
+                parts: vec![part],
+                end,
+                changes,
+            });
+        }
         for (index, event) in all.iter().enumerate() {
             let ends = all.get(index + 1).map_or(base.end().t, |next| next.since);
             let mut after = Phase {

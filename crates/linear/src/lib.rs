@@ -4,10 +4,12 @@
 //! linear model there or at any other state; [`poles`], [`zeros`] and [`response`] evaluate such a model. Derivatives are exact:
 //! everything is evaluated over dual numbers of 32 digits, never by finite differences. [`orbit`] finds periodic motions and their
 //! multipliers by integrating the variational equations. [`varied`] sets these equations up for derivatives by anything that a
-//! motion depends on, and [`across`] continues them across impacts and other changes of unilateral contacts.
+//! motion depends on, [`across`] continues them across impacts and other changes of unilateral contacts, and [`charts`] maps them between
+//! polar and Cartesian coordinates.
 
 pub mod across;
 mod chart;
+pub mod charts;
 pub mod model;
 pub mod motion;
 pub mod orbit;

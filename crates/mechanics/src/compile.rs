@@ -8,6 +8,7 @@ use crate::Proved;
 use crate::equations::refusal::refuse_large;
 use crate::formulas;
 use crate::lower::lower_by;
+use crate::proof::prove_charts;
 use crate::series::ProvedSeries;
 use lagrangian_program::choose::best;
 use lagrangian_program::{Basis, Role};
@@ -75,6 +76,50 @@ impl<'d> Compiled<'d> {
             program,
             series,
         })
+    }
+
+    /// Compiles a machine, and if its spec names another chart, the same machine in this one, proved to be the same: both are to be
+    /// emitted. `None` if that fails, with the reasons in the report.
+    pub fn in_charts(
+        mut model: Model<'d>,
+        report: &mut Report,
+    ) -> Option<(Compiled<'d>, Option<Compiled<'d>>)> {
+        // A formula of the caller may have no meaning in the other chart.
+        let cartesian = model.cartesian.take();
+        let cartesian = cartesian.filter(|machine| machine.uncharted.is_empty());
+        let taylor = model.taylor;
+        let compiled = Compiled::new(model, report)?;
+        let Some(mut cartesian) = cartesian else {
+            return Some((compiled, None));
+        };
+        cartesian.taylor = taylor;
+        // Its warnings would be those of the spec once more.
+        let mut again = Report::new();
+        let Some(cartesian) = Compiled::new(*cartesian, &mut again) else {
+            for diagnostic in again.messages() {
+                report.push(diagnostic.clone());
+            }
+            return None;
+        };
+        compiled.check_chart(&cartesian, report)?;
+        Some((compiled, Some(cartesian)))
+    }
+
+    /// Checks that a machine in its other chart is the same machine; `None` if it is not, with the reason in the report.
+    pub fn check_chart(&self, cartesian: &Compiled<'_>, report: &mut Report) -> Option<()> {
+        match prove_charts(&self.program, &cartesian.program, &self.chart_points()) {
+            Ok(()) => Some(()),
+            Err(uncharted) => {
+                report.push(uncharted.diagnostic(&self.model));
+                None
+            }
+        }
+    }
+
+    /// For each point that is given in two charts the indices of its coordinates.
+    pub fn chart_points(&self) -> Vec<[usize; 2]> {
+        let charts = self.model.charts.iter();
+        charts.map(|charts| charts.polar).collect()
     }
 
     /// For each function the formulas that its documentation shows.

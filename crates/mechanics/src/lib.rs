@@ -29,4 +29,4 @@ use lagrangian_program::Program;
 pub use lower::states::around_start;
 pub use lower::{Quantity, lower, lower_by, of_quantities, quantities};
 pub use proof::symbolic::{Disagreement, POINTS, prove, prove_quantities};
-pub use proof::{Proved, STATES, Unproved, Witness};
+pub use proof::{Proved, STATES, Uncharted, Unproved, Witness, prove_charts};

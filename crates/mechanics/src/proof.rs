@@ -34,6 +34,7 @@
 //! reports the number of the point, which is its seed.
 
 mod accelerations;
+mod charts;
 mod contacts;
 pub(crate) mod derived;
 mod dynamics;
@@ -52,6 +53,7 @@ use crate::equations::literal::{Lagrange, State};
 use crate::proof::symbolic::with_guarded_values;
 use crate::{Dependent, Equations};
 use crate::{Disagreement, POINTS};
+pub use charts::{Uncharted, prove_charts};
 use lagrangian_program::quantity::Use;
 use lagrangian_program::{
     Arguments, Function as PlannedFunction, Interpreter, Op, Program, Role, Shape,

@@ -1,30 +1,16 @@
 //! Runs of machines for which the spec names a second chart: they are made in Cartesian coordinates, in which nothing is singular at
 //! the centre, and shown in the polar coordinates of the spec. Commands and sweeps share it.
 //!
-//! A distance and the direction of an angle follow from the components at each instant. How often the angle has turned does not, so
-//! an observer follows it through every step.
+//! The maps between the two, and the turns of the angles, are those of the runtime ([`Turns`]).
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lagrangian::interpreted::{
     Column, ColumnKind, InterpretedMachine, InterpretedSystem, Named, Recording,
 };
-use lagrangian::{Error, InputLaw, Solution, State, StepMotion};
+use lagrangian::{Error, InputLaw, Solution, State, StepMotion, Turns, to_cartesian};
 use lagrangian_spec::model::Model;
 use lagrangian_spec::unit::{rate_name, rate_unit};
-
-/// The parts of a step between which the angle is looked at, at least; a step by series is longer.
-const PARTS: u32 = 8;
-const PARTS_OF_SERIES: u32 = 64;
-
-/// The largest turn from one look to the next, in rad.
-const LARGEST_TURN: f64 = 0.5;
-
-/// The shortest part of a step. A body that turns by more within it goes through the centre, to rounding.
-const SHORTEST: f64 = 1e-15;
-
-/// The largest turn from a mark to an instant that is referred to it, in rad.
-const BETWEEN_MARKS: f64 = 1.0;
 
 /// The points of a machine that are given in two charts.
 #[derive(Clone, Debug)]
@@ -37,7 +23,7 @@ pub struct Charts {
     /// The start as the call gives it, in the coordinates of the spec, and the same in those of the run.
     stated: State<Named>,
     start: State<Named>,
-    turned: Mutex<Vec<Turned>>,
+    turns: Mutex<Turns>,
 }
 
 /// A point in two charts.
@@ -49,17 +35,6 @@ struct Point {
     polar: [(String, String); 2],
     /// The names of its Cartesian ones.
     cartesian: [String; 2],
-}
-
-/// How far a point has turned about its centre.
-#[derive(Debug)]
-struct Turned {
-    /// The direction in which it was seen last; the centre itself is in none.
-    direction: [f64; 2],
-    /// The angle of this direction, with all its turns.
-    angle: f64,
-    /// Angles with the times from which they may be referred to: from one to the next the point turns by less than half a turn.
-    marks: Vec<(f64, f64)>,
 }
 
 impl ChartedPoints {
@@ -74,6 +49,11 @@ impl ChartedPoints {
             cartesian: [0, 1].map(|k| charts.cartesian[k].to_string()),
         });
         ChartedPoints(points.collect())
+    }
+
+    /// The indices of the coordinates of each.
+    fn places(&self) -> Vec<[usize; 2]> {
+        self.0.iter().map(|point| point.places).collect()
     }
 
     /// Checks the names of start values that are kept, coordinates and `der(…)` of these.
@@ -111,15 +91,8 @@ impl Charts {
         start.t = stated.t;
         start.q.values.clone_from(&stated.q.values);
         start.v.values.clone_from(&stated.v.values);
-        let mut turned = Vec::new();
-        for Point {
-            places: [i, j],
-            polar,
-            ..
-        } in &*points.0
-        {
-            let (q, v) = (&stated.q.values, &stated.v.values);
-            let (s, phi) = (q[*i], q[*j]);
+        for Point { places, polar, .. } in &*points.0 {
+            let s = stated.q.values[places[0]];
             if s < 0.0 {
                 // The opposite point, with a positive distance, is the same place, but a force of `s` would be another one there.
                 let [(distance, unit), (angle, _)] = polar;
@@ -128,28 +101,21 @@ impl Charts {
                      it is not negative; start from the positive distance with `{angle}` changed by pi, or leave `charts` out of the spec"
                 ));
             }
-            let (sin, cos) = phi.sin_cos();
-            start.q.values[*i] = s * cos;
-            start.q.values[*j] = s * sin;
-            start.v.values[*i] = v[*i] * cos - s * v[*j] * sin;
-            start.v.values[*j] = v[*i] * sin + s * v[*j] * cos;
-            turned.push(Turned {
-                direction: [cos, sin],
-                angle: phi,
-                marks: vec![(stated.t, phi)],
-            });
         }
+        let places = points.places();
+        to_cartesian(&places, &mut start.q.values, &mut start.v.values);
+        let turns = Turns::begin(&places, stated.t, &stated.q.values);
         let charts = Charts {
             points: points.clone(),
             stated: stated.clone(),
             start: start.clone(),
-            turned: Mutex::new(turned),
+            turns: Mutex::new(turns),
         };
         Ok((charts, start))
     }
 
-    fn turned(&self) -> MutexGuard<'_, Vec<Turned>> {
-        self.turned.lock().unwrap_or_else(PoisonError::into_inner)
+    fn turns(&self) -> MutexGuard<'_, Turns> {
+        self.turns.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Follows the angles through a step of a run that is recorded every `interval` seconds.
@@ -161,39 +127,7 @@ impl Charts {
         step: &mut dyn StepMotion<InterpretedMachine>,
         interval: f64,
     ) -> Result<(), Error> {
-        let n = self.start.q.values.len();
-        let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
-        let mut turned = self.turned();
-        let parts = if step.is_series() {
-            PARTS_OF_SERIES
-        } else {
-            PARTS
-        };
-        let mut at = 0.0;
-        // The next one is last.
-        let ends = (1..=parts).rev();
-        let mut ends: Vec<f64> = ends
-            .map(|part| f64::from(part) / f64::from(parts))
-            .collect();
-        while let Some(theta) = ends.pop() {
-            let t = step.state_at(theta, &mut q, &mut v)?;
-            let pairs = self.points.0.iter().zip(&*turned);
-            let turns: Vec<f64> = pairs
-                .map(|(point, turned)| turned.turn_to(point.components(&q)))
-                .collect();
-            let middle = 0.5 * (at + theta);
-            let is_far = turns.iter().any(|turn| turn.abs() > LARGEST_TURN);
-            if is_far && theta - at > SHORTEST && at < middle && middle < theta {
-                ends.extend([theta, middle]);
-                continue;
-            }
-            let begin = self.start.t;
-            for ((point, turned), turn) in self.points.0.iter().zip(&mut *turned).zip(turns) {
-                turned.advance(point.components(&q), turn, t, (begin, interval));
-            }
-            at = theta;
-        }
-        Ok(())
+        self.turns().follow(step, interval)
     }
 
     /// A state of the run in the coordinates of the spec. The distance is not negative. At the centre itself, where the polar coordinates
@@ -208,29 +142,8 @@ impl Charts {
         shown.t = state.t;
         shown.q.values.clone_from(&state.q.values);
         shown.v.values.clone_from(&state.v.values);
-        for (point, turned) in self.points.0.iter().zip(&*self.turned()) {
-            let [i, j] = point.places;
-            let ([x, y], [vx, vy]) = (
-                point.components(&state.q.values),
-                point.components(&state.v.values),
-            );
-            let s = x.hypot(y);
-            let polar = if s > 0.0 {
-                let (cos, sin) = (x / s, y / s);
-                let angle = turned.angle_of([x, y], state.t);
-                // The sum with 0 makes -0 an ordinary 0.
-                [
-                    (s, cos * vx + sin * vy),
-                    (angle, (cos * vy - sin * vx) / s + 0.0),
-                ]
-            } else {
-                [(s, vx.hypot(vy)), (turned.last_mark(state.t), 0.0)]
-            };
-            for (place, (q, v)) in [i, j].into_iter().zip(polar) {
-                shown.q.values[place] = q;
-                shown.v.values[place] = v;
-            }
-        }
+        self.turns()
+            .to_polar(state.t, &mut shown.q.values, &mut shown.v.values);
         shown
     }
 
@@ -313,69 +226,4 @@ pub fn record<L: InputLaw<InterpretedSystem>>(
         Some(charts) => charts.in_polar(&recording, states),
         None => recording,
     }
-}
-
-impl Point {
-    fn components(&self, values: &[f64]) -> [f64; 2] {
-        self.places.map(|place| values[place])
-    }
-}
-
-impl Turned {
-    /// The angle from the last direction to that of a point, within half a turn; 0 for the centre.
-    fn turn_to(&self, [x, y]: [f64; 2]) -> f64 {
-        let [a, b] = self.direction;
-        // Scaled, so that products of small numbers do not vanish.
-        let size = x.abs().max(y.abs());
-        if size == 0.0 {
-            return 0.0;
-        }
-        let (x, y) = (x / size, y / size);
-        (a * y - b * x).atan2(a * x + b * y)
-    }
-
-    /// Goes on to the direction of a point, after a turn.
-    fn advance(&mut self, [x, y]: [f64; 2], turn: f64, t: f64, (begin, interval): (f64, f64)) {
-        let size = x.hypot(y);
-        if size == 0.0 {
-            return;
-        }
-        self.direction = [x / size, y / size];
-        // The whole turns are counted, and the rest is exact, so that no error is summed.
-        let angle = y.atan2(x);
-        let sum = self.angle + turn;
-        self.angle = nearest(angle, sum);
-        let (since, marked) = self.marks.last().copied().unwrap_or((t, self.angle));
-        if (self.angle - marked).abs() < BETWEEN_MARKS {
-            return;
-        }
-        // A mark after which nothing is recorded before the next one is not needed.
-        let periods = |t: f64| ((t - begin) / interval).abs();
-        let is_used = (periods(t) + 1e-6).floor() >= (periods(since) - 1e-6).ceil();
-        let is_kept = self.marks.len() < 2 || (interval.is_finite() && is_used);
-        if !is_kept {
-            self.marks.pop();
-        }
-        self.marks.push((t, self.angle));
-    }
-
-    /// The mark that a time of the run is referred to.
-    fn last_mark(&self, t: f64) -> f64 {
-        let (first, last) = (self.marks[0], self.marks[self.marks.len() - 1]);
-        let direction = (last.0 - first.0).signum();
-        let is_before = |(since, _): &(f64, f64)| (since - t) * direction <= 0.0;
-        let after = self.marks.partition_point(is_before);
-        self.marks[after.saturating_sub(1)].1
-    }
-
-    /// The angle of a point at a time of the run.
-    fn angle_of(&self, [x, y]: [f64; 2], t: f64) -> f64 {
-        nearest(y.atan2(x), self.last_mark(t))
-    }
-}
-
-/// The angle that differs from `angle` by whole turns and is nearest to another.
-fn nearest(angle: f64, other: f64) -> f64 {
-    use std::f64::consts::TAU;
-    angle + TAU * ((other - angle) / TAU).round()
 }

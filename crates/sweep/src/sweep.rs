@@ -266,7 +266,7 @@ impl Sweep {
                     .as_ref()
                     .is_none_or(|names| points.check_kept(names).is_ok())
             })
-            .and_then(|model| in_cartesian(&plan, (*model, points), engine, method));
+            .and_then(|model| in_cartesian(&plan, &compiled, (*model, points), engine, method));
         let mut probe = machine.clone();
         for place in &places {
             if let VariedQuantity::Set(name) = place {
@@ -757,6 +757,7 @@ fn model<'d>(
 /// The machine of a plan in Cartesian coordinates; `None` if they cannot express the plan.
 fn in_cartesian(
     plan: &Plan,
+    polar: &Compiled<'_>,
     (model, points): (Model<'_>, ChartedPoints),
     engine: Engine,
     method: &Method,
@@ -764,7 +765,9 @@ fn in_cartesian(
     if !model.uncharted.is_empty() {
         return None;
     }
-    let compiled = Compiled::new(model, &mut Report::new())?;
+    let mut report = Report::new();
+    let compiled = Compiled::new(model, &mut report)?;
+    polar.check_chart(&compiled, &mut report)?;
     let mut machine = InterpretedMachine::new(compiled.program.clone());
     machine.set_engine(engine).ok()?;
     if std::ptr::eq(method, &TAYLOR) {

@@ -14,7 +14,11 @@
 //!
 //! since a corner that passes the end of a face is near that face and the next one, and neither must be taken for a collision.
 //! `p` is on the face while it is outside no other one: its distance beyond the ends, `max dⱼ(p)` over the other faces `j`, is
-//! negative there. (Faces and corners as features: M. C. Lin, J. F. Canny, *A fast algorithm for incremental distance
+//! negative there.
+//!
+//! A corner that yields is pressed out by its own depth: it touches the face whose line it is least deep behind, `argmaxₖ dₖ(p)`, for
+//! which its distance is the gap itself. So the force is the derivative of an energy, and needs no ends of faces: where a corner passes
+//! from one face to the next, the depth is that of both. (Faces and corners as features: M. C. Lin, J. F. Canny, *A fast algorithm for incremental distance
 //! calculation*, Proc. IEEE ICRA 1991, 1008–1014.)
 
 use std::rc::Rc;
@@ -46,6 +50,8 @@ pub struct Corner<'d> {
     pub polygon: Rc<Polygon<'d>>,
     /// The polygon that it may touch.
     pub other_polygon: Rc<Polygon<'d>>,
+    /// Whether it yields: then it touches the face that it is least deep behind.
+    pub yields: bool,
 }
 
 /// The position and motion of a corner relative to a polygon.
@@ -178,6 +184,7 @@ impl<'d> Face<'d> {
             corner,
             polygon,
             other_polygon: other,
+            yields,
         } = corner;
         // All corners in the axes of the other polygon, from their origin.
         let zeros = vec![dag.zero(); 2];
@@ -194,8 +201,14 @@ impl<'d> Face<'d> {
         let faces = normals.len();
         let outside =
             |k: usize, [x, y]: [Expr<'d>; 2]| normals[k][0] * x + normals[k][1] * y - offsets[k];
+        let place = corners[*corner];
+        let separating = if *yields {
+            std::slice::from_ref(&place)
+        } else {
+            &corners[..]
+        };
         let least = |k: usize| {
-            let mut all = corners.iter().map(|at| outside(k, *at));
+            let mut all = separating.iter().map(|at| outside(k, *at));
             let first = all.next();
             all.fold(first.unwrap_or(dag.zero()), Expr::min)
         };
@@ -227,7 +240,6 @@ impl<'d> Face<'d> {
         let normal = [0, 1].map(|i| of_chosen(&|k| normals[k][i]));
         let offset = of_chosen(&|k| offsets[k]);
 
-        let place = corners[*corner];
         let distances: Vec<Expr<'d>> = (0..faces).map(|k| outside(k, place)).collect();
         let beyond = of_chosen(&|k| {
             let others = distances.iter().enumerate().filter(|(j, _)| *j != k);

@@ -130,16 +130,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             self.pairs(member, record, family)
         } else if record.field("against").is_some() {
-            for field in [
-                "gap",
-                "slip",
-                one,
-                "point",
-                "inside",
-                "outside",
-                "along",
-                "compliance",
-            ] {
+            for field in ["gap", "slip", one, "point", "inside", "outside", "along"] {
                 self.conflict(record, field, "against");
             }
             self.polygons(member, record)
@@ -340,12 +331,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return None;
         }
         let base = self.name(member).to_string();
+        let yields = record.get("compliance").is_some();
         let corners_of = |polygon: &Rc<Polygon<'d>>, other: &Rc<Polygon<'d>>| {
             let corner = |corner| {
                 ContactGeometry::Corner(Corner {
                     corner,
                     polygon: polygon.clone(),
                     other_polygon: other.clone(),
+                    yields,
                 })
             };
             (0..polygon.corners.len()).map(corner).collect::<Vec<_>>()

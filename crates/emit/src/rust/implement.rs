@@ -131,8 +131,18 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
+    /// The fields of the struct of parameters, as a pattern without its braces and as an expression.
+    pub(super) fn fields_of_parameters(&self) -> Vec<String> {
+        let group = Group::new(&self.program.parameters);
+        let mut fields = Variables::of(&group).fields;
+        if group.is_empty() {
+            fields.push("scalar: ::core::marker::PhantomData".to_owned());
+        }
+        fields
+    }
+
     /// Writes words between two texts, on one line or on as many as needed; optionally a block begins after them.
-    fn filled(&mut self, before: &str, words: &[String], after: &str, opens: bool) {
+    pub(super) fn filled(&mut self, before: &str, words: &[String], after: &str, opens: bool) {
         let all = words.join(", ");
         let one = if all.is_empty() {
             format!("{before}{after}")

@@ -2,12 +2,15 @@
 
 use lagrangian_symbolic::Rational;
 
+use super::chart::ChartOf;
 use super::{Options, unproved_expansion};
 use lagrangian_program as program;
 use lagrangian_program::quantity::{Needs, Sizes};
 use lagrangian_program::{Function, Op, Program, Role, Shape, Slot, Value};
 use lagrangian_spec::model::{Name, Stages};
-use lagrangian_spec::syntax::{Expression, ExpressionKind, Index, Item, Quantity, Spec};
+use lagrangian_spec::syntax::{
+    Charts, Expression, ExpressionKind, Ident, Index, Item, Quantity, Spec,
+};
 use lagrangian_spec::unit::Unit;
 
 /// The placeholder for a machine whose spec has errors: it has every name that user code may refer to, and no motion.
@@ -16,8 +19,42 @@ pub fn stub(spec: &Spec, options: &Options) -> String {
     if spec.name.text.is_empty() {
         String::new()
     } else {
-        unproved_expansion(&placeholder_program(spec), options)
+        let program = placeholder_program(spec);
+        let chart = placeholder_chart(spec, &program);
+        let chart = chart.as_ref().map(|(program, points)| ChartOf {
+            program,
+            options: options.without_chart(),
+            points,
+        });
+        unproved_expansion(&program, chart.as_ref(), options)
     }
+}
+
+/// The placeholder in Cartesian coordinates with the places of its points, if the spec names any that it has.
+fn placeholder_chart(spec: &Spec, program: &Program) -> Option<(Program, Vec<[usize; 2]>)> {
+    let mut program = program.clone();
+    let mut points = Vec::new();
+    for item in &spec.charts {
+        let Charts { polar, cartesian } = &item.content;
+        let place = |ident: &Ident| {
+            let mut slots = program.coordinates.iter();
+            slots.position(|slot| slot.name.base == ident.text && slot.name.index.is_none())
+        };
+        let [Some(s), Some(phi)] = [place(&polar[0]), place(&polar[1])] else {
+            continue;
+        };
+        let is_free = |ident: &Ident| {
+            let mut slots = program.coordinates.iter();
+            slots.all(|slot| slot.name.base != ident.text)
+        };
+        if cartesian.iter().all(is_free) && cartesian[0].text != cartesian[1].text {
+            for (index, ident) in [s, phi].into_iter().zip(cartesian) {
+                program.coordinates[index].name.base.clone_from(&ident.text);
+            }
+            points.push([s, phi]);
+        }
+    }
+    (!points.is_empty()).then_some((program, points))
 }
 
 /// A machine with the names of a spec, as far as they can be determined, that does not move.

@@ -16,6 +16,8 @@ pub(super) struct Types {
     pub(super) inputs: String,
     pub(super) outputs: String,
     pub(super) prepared: String,
+    /// The module of the second chart.
+    pub(super) chart: String,
     /// Accelerations with their derivatives.
     pub(super) derivatives: String,
     /// For each function that is called often, the type of its call and the names of its pieces.
@@ -45,6 +47,7 @@ impl Types {
             inputs: scope.take("Inputs"),
             outputs: scope.take("Outputs"),
             prepared: scope.take("Prepared"),
+            chart: scope.take("cartesian"),
             derivatives: scope.take("Derivatives"),
             series: scope.take("Series"),
             lists: scope.take("Lists"),

@@ -2,6 +2,7 @@
 //! that leave no code when absent.
 
 mod c;
+mod charts;
 mod loops;
 mod series;
 mod skipping;

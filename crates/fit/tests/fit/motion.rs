@@ -82,6 +82,7 @@ fn fit(columns: Vec<(Quantity, Vec<f64>)>, sigmas: Vec<f64>) -> Fit<'static> {
             name: "made up".into(),
             start: [vec![None], vec![None]],
             machine,
+            chart: None,
             signals: Signals::default(),
             times: times(),
             columns: columns.collect(),

@@ -83,8 +83,10 @@ struct Touch<'d> {
     slip: Expr<'d>,
     /// The other component of the slip, in space.
     across: Option<Expr<'d>>,
-    /// Of a corner on a face: the rate of the gap, and what [`UnilateralEquation::face`] holds.
-    face: Option<(Expr<'d>, [Expr<'d>; 3])>,
+    /// Of a corner of a polygon the rate of the gap.
+    corner_rate: Option<Expr<'d>>,
+    /// What [`UnilateralEquation::face`] holds.
+    face: Option<[Expr<'d>; 3]>,
 }
 
 impl<'d> Touch<'d> {
@@ -98,10 +100,13 @@ impl<'d> Touch<'d> {
                     gap: touching.gap,
                     slip: touching.slip,
                     across: None,
-                    face: Some((
-                        touching.rate,
-                        [touching.height, touching.beyond, beyond_rate],
-                    )),
+                    corner_rate: Some(touching.rate),
+                    // A corner that yields has no ends of faces to leave.
+                    face: (!corner.yields).then_some([
+                        touching.height,
+                        touching.beyond,
+                        beyond_rate,
+                    ]),
                 }
             }
             ContactGeometry::Circles(touching) => {
@@ -112,6 +117,7 @@ impl<'d> Touch<'d> {
                 gap,
                 slip,
                 across,
+                corner_rate: None,
                 face: None,
             },
         }
@@ -141,6 +147,7 @@ impl<'d> Touch<'d> {
             gap,
             slip,
             across,
+            corner_rate: None,
             face: None,
         }
     }
@@ -155,9 +162,9 @@ fn of_contact<'d>(
     let touch = Touch::of(model, x, contact);
     let zero = model.dag.zero();
     let has_friction = contact.friction.is_some();
-    let (gap, rate, slip) = match touch.face {
+    let (gap, rate, slip) = match touch.corner_rate {
         // These select among features, and multiplied out they would be long.
-        Some((rate, _)) => (
+        Some(rate) => (
             touch.gap,
             rate,
             if has_friction { touch.slip } else { zero },
@@ -191,7 +198,7 @@ fn of_contact<'d>(
         has_friction,
         is_rolling_resistance: false,
         is_second_tangent: false,
-        face: touch.face.map(|(_, face)| face),
+        face: touch.face,
     };
     let further = match (touch.across, &contact.geometry, contact.rolling_resistance) {
         (Some(across), ..) if has_friction => {

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod candidates;
+mod charts;
 mod constraints;
 mod derivatives;
 mod disguised;

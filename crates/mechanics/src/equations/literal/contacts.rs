@@ -106,13 +106,13 @@ impl<'d> Lagrange<'_, 'd> {
             ContactGeometry::Corner(corner) => {
                 let known = pair.take().filter(|pair| pair.is_of(corner));
                 let of_corner = known.unwrap_or_else(|| PolygonPair::new(model, corner, x));
-                let corner_motion = of_corner.corner(corner.corner);
+                let corner_motion = of_corner.corner(corner);
                 *pair = Some(of_corner);
                 Touch {
                     gap: corner_motion.height,
                     slip: corner_motion.slip,
                     across: None,
-                    face: Some((corner_motion.opening, corner_motion.beyond)),
+                    face: (!corner.yields).then_some((corner_motion.opening, corner_motion.beyond)),
                 }
             }
             ContactGeometry::Circles(touching) => {
@@ -276,19 +276,7 @@ impl<'d, R: Scalar> PolygonPair<'d, R> {
             }
             separations.push(extreme(&distances, Moving::min));
         }
-        let half = Moving::<R>::from_ratio(1, 2);
-        // From the last face to the first: `left` is 1 as long as no later face separates better than all before it, else 0.
-        let mut so_far = separations.clone();
-        for k in 1..faces {
-            so_far[k] = so_far[k - 1].max(separations[k]);
-        }
-        let mut left = Moving::<R>::ONE;
-        for k in (1..faces).rev() {
-            let is_better = half * (Moving::<R>::ONE + (separations[k] - so_far[k - 1]).sign());
-            pair.weights[k] = left * is_better;
-            left = left * (Moving::<R>::ONE - is_better);
-        }
-        pair.weights[0] = left;
+        pair.weights = weights(&separations);
         pair
     }
 
@@ -305,13 +293,21 @@ impl<'d, R: Scalar> PolygonPair<'d, R> {
     }
 
     /// The position and motion of a corner of the first polygon.
-    fn corner(&self, corner: usize) -> CornerOnPolygon<R> {
-        let place = self.points[corner];
+    fn corner(&self, corner: &Corner<'d>) -> CornerOnPolygon<R> {
+        let place = self.points[corner.corner];
         let faces = self.ends.len();
         let mut distances = Vec::with_capacity(faces);
         for k in 0..faces {
             distances.push(self.distance(k, place));
         }
+        // A corner that yields touches the face that it is least deep behind.
+        let own;
+        let all = if corner.yields {
+            own = weights(&distances);
+            &own
+        } else {
+            &self.weights
+        };
         let mut corner_on_polygon = CornerOnPolygon {
             opening: extreme(&distances, Moving::max),
             height: Moving::<R>::ZERO,
@@ -319,7 +315,7 @@ impl<'d, R: Scalar> PolygonPair<'d, R> {
             slip: Varied::<R>::ZERO,
         };
         for k in 0..faces {
-            let weight = self.weights[k];
+            let weight = all[k];
             let mut others = distances.clone();
             others.remove(k);
             corner_on_polygon.height = corner_on_polygon.height + weight * distances[k];
@@ -334,6 +330,26 @@ impl<'d, R: Scalar> PolygonPair<'d, R> {
         }
         corner_on_polygon
     }
+}
+
+/// 1 for the greatest of some numbers, else 0.
+fn weights<R: Scalar>(separations: &[Moving<R>]) -> Vec<Moving<R>> {
+    let faces = separations.len();
+    let mut weights = vec![Moving::<R>::ZERO; faces];
+    let half = Moving::<R>::from_ratio(1, 2);
+    // From the last face to the first: `left` is 1 as long as no later face separates better than all before it, else 0.
+    let mut so_far = separations.to_vec();
+    for k in 1..faces {
+        so_far[k] = so_far[k - 1].max(separations[k]);
+    }
+    let mut left = Moving::<R>::ONE;
+    for k in (1..faces).rev() {
+        let is_better = half * (Moving::<R>::ONE + (separations[k] - so_far[k - 1]).sign());
+        weights[k] = left * is_better;
+        left = left * (Moving::<R>::ONE - is_better);
+    }
+    weights[0] = left;
+    weights
 }
 
 /// The smallest or the largest of some numbers, compared from the last to the first; 0 of none.

@@ -1,0 +1,152 @@
+//! Runs whose derivatives are continued across impacts and changes of contacts, and those in another chart.
+
+use lagrangian::interpreted::{InterpretedMachine, Named, Signals};
+use lagrangian::methods::Method;
+use lagrangian::{Machine, State, System, Varied};
+use lagrangian_linear::across::{self, NoDerivatives};
+use lagrangian_linear::charts;
+use lagrangian_linear::varied::Direction;
+use lagrangian_sweep::verdict;
+
+use super::asked::{By, Observed, Of, Variation};
+use super::chart::Chart;
+use super::{Column, SAMPLES, check_differences, check_drift, columns, sizes, with_values};
+use crate::call;
+use crate::failure::Failure;
+
+/// The run of a machine with unilateral contacts or in another chart, with derivatives continued across each impact and each change of
+/// closed contacts.
+pub(super) fn run(
+    call: &call::Sensitivities,
+    (of_spec, chart): (&InterpretedMachine, Option<&Chart>),
+    method: &'static Method,
+    from: &State<Varied<Named>>,
+    variations: &[Variation],
+    observed: &[Observed],
+) -> Result<(Vec<f64>, Vec<Column>), Failure> {
+    // Derivatives by variables scaled to size 1, so that one tolerance suits all of them.
+    let sizes = sizes(of_spec, variations);
+    let machine = chart.map_or(of_spec, |chart| &chart.machine);
+    let points = chart.map_or(&[][..], |chart| &chart.points);
+    let turns = chart
+        .map(|chart| chart.turns((call, method), from))
+        .transpose()?;
+    let n = machine.program().dimension();
+    let direction = |(variation, size): (&Variation, &f64)| {
+        let mut direction = Direction::of_start(machine);
+        match variation.by {
+            By::Parameter(index) => direction.parameters[index] = *size,
+            By::Input(index) => direction.inputs[index] = *size,
+            By::Start(_) | By::StartRate(_) => {}
+        }
+        direction
+    };
+    let all = |list: &Varied<Named>| -> Vec<f64> {
+        let by = list.by.iter().zip(&sizes);
+        let by = by.flat_map(|(by, size)| by.values.iter().map(move |by| by * size));
+        list.value.values.iter().copied().chain(by).collect()
+    };
+    let mut start = State {
+        t: from.t,
+        q: all(&from.q),
+        v: all(&from.v),
+    };
+    charts::to_cartesian(points, n, [&mut start.q, &mut start.v]);
+    let signals = Signals::default();
+    let wanted = across::Wanted {
+        machine,
+        signals: &signals,
+        directions: variations.iter().zip(&sizes).map(direction).collect(),
+        method,
+        tolerance: call.tolerance,
+        until: call.until,
+        most_steps: call.max_steps,
+    };
+    let failed = |error: lagrangian::Error| Failure::Run(verdict::message_of(&error));
+    let run = across::run(&wanted, &start).map_err(|why| match why {
+        NoDerivatives::Run(error) => failed(error),
+        // The run itself may continue where its derivatives do not.
+        broken => Failure::Run(format!(
+            "{broken}; use differences of runs instead, by `lagrangian compare` with `--set-second`, or by `lagrangian sweep`"
+        )),
+    })?;
+    let like = machine.start().q;
+    let split = |list: &[f64]| Varied {
+        value: with_values(&like, &list[..n]),
+        by: (list[n..].chunks(n).zip(&sizes))
+            .map(|(by, size)| {
+                let by: Vec<f64> = by.iter().map(|by| by / size).collect();
+                with_values(&like, &by)
+            })
+            .collect(),
+    };
+    let end = run.end();
+    let [begun, end] = [&start, end].map(|state| State {
+        t: state.t,
+        q: split(&state.q),
+        v: split(&state.v),
+    });
+    if machine.prepare().constraints().len() > 0 {
+        check_drift(machine, &end, variations)?;
+    }
+    check_differences(call, (machine, method), variations, &begun, &end)?;
+    let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
+    let interval = interval.copysign(call.until - from.t);
+    let count = if call.until == from.t {
+        0
+    } else {
+        ((call.until - from.t) / interval * (1.0 - 1e-9)).floor() as usize
+    };
+    let mut times: Vec<f64> = (0..=count).map(|k| from.t + k as f64 * interval).collect();
+    if call.until != from.t {
+        times.push(call.until);
+    }
+    let system = machine.prepare();
+    let mut columns = columns(variations, observed);
+    for t in &times {
+        let State { q, v, .. } = run.at(*t).map_err(failed)?;
+        let there = run.observe(*t, (&q, &v)).map_err(failed)?;
+        let u = &there.inputs.own.values;
+        let (mut by_q, mut by_v) = (q.clone(), v.clone());
+        charts::to_polar(points, n, [&mut by_q, &mut by_v]);
+        let (mut own_q, mut own_v) = (q[..n].to_vec(), v[..n].to_vec());
+        if let Some(turns) = &turns {
+            turns.to_polar(*t, &mut own_q, &mut own_v);
+        }
+        let without_derivatives = |list: &Vec<f64>| list[..n].to_vec();
+        let value = |observed: &Observed| match observed.of {
+            Of::Coordinate(i) => own_q[i],
+            Of::Rate(i) => own_v[i],
+            Of::Output(i) => system.output(
+                i,
+                *t,
+                &without_derivatives(&q),
+                &without_derivatives(&v),
+                &without_derivatives(&there.a),
+                u,
+            ),
+        };
+        let by = |observed: &Observed| -> Vec<f64> {
+            let part = |list: &[f64], i: usize| list[n..].chunks(n).map(|by| by[i]).collect();
+            let scaled: Vec<f64> = match observed.of {
+                Of::Coordinate(i) => part(&by_q, i),
+                Of::Rate(i) => part(&by_v, i),
+                Of::Output(i) => (there.system).output(i, *t, [&q, &v, &there.a], &there.inputs),
+            };
+            scaled
+                .iter()
+                .zip(&sizes)
+                .map(|(by, size)| by / size)
+                .collect()
+        };
+        let row = observed
+            .iter()
+            .map(value)
+            .chain(observed.iter().flat_map(by));
+        let row: Vec<f64> = row.collect();
+        for (column, value) in columns.iter_mut().zip(row) {
+            column.values.push(value);
+        }
+    }
+    Ok((times, columns))
+}
