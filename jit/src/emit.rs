@@ -7,6 +7,8 @@
 //!
 //! Invariant between instructions: a value that is still needed is in a register or in memory.
 
+mod orders;
+
 use iced_x86::{Code, Encoder, IcedError, Instruction as Encoded, MemoryOperand, Register};
 use lagrangian_program::Contracted;
 
@@ -15,6 +17,7 @@ use super::encodings::{Encodings, encodings};
 use super::external;
 use super::lower::{Arithmetic, Base, Id, Instruction, Location, Lowered, Node, Predicate};
 use super::work::Work;
+pub use orders::{Orders, assemble_orders};
 
 /// The size of the header of the workspace in bytes; it holds the addresses of arguments.
 pub const HEADER: usize = 128;
@@ -93,16 +96,7 @@ pub fn assemble(
 ) -> Result<Assembled, IcedError> {
     let mut emitter = Emitter::new(lowered, arithmetic, layout);
     emitter.function()?;
-    let entry = emitter.start;
-    let mut bytes = emitter.pool;
-    bytes.resize(entry, 0);
-    bytes.extend(emitter.encoder.take_buffer());
-    Ok(Assembled {
-        bytes,
-        entry,
-        workspace: emitter.slots as usize,
-        work: emitter.work,
-    })
+    Ok(emitter.assembled())
 }
 
 struct Emitter<'a> {
@@ -142,8 +136,8 @@ struct Emitter<'a> {
 enum Goal {
     /// An argument of a call, in the workspace.
     Workspace(u32),
-    /// A result.
-    Result(u32),
+    /// A number of an argument.
+    Argument(Base, u32),
 }
 
 impl<'a> Emitter<'a> {
@@ -189,8 +183,8 @@ impl<'a> Emitter<'a> {
                 wanted.push((*id, Goal::Workspace(call.from + index as u32)));
             }
         }
-        for (index, id) in lowered.results.iter().enumerate() {
-            wanted.push((*id, Goal::Result(index as u32)));
+        for (id, base, index) in &lowered.results {
+            wanted.push((*id, Goal::Argument(*base, *index)));
         }
         wanted.sort_unstable();
         let home = lowered.nodes.iter().map(|node| match node {
@@ -229,6 +223,20 @@ impl<'a> Emitter<'a> {
         }
     }
 
+    /// The code with everything that was written.
+    fn assembled(mut self) -> Assembled {
+        let entry = self.start;
+        let mut bytes = self.pool;
+        bytes.resize(entry, 0);
+        bytes.extend(self.encoder.take_buffer());
+        Assembled {
+            bytes,
+            entry,
+            workspace: self.slots as usize,
+            work: self.work,
+        }
+    }
+
     fn function(&mut self) -> Result<(), IcedError> {
         // This also aligns the stack as calls require.
         self.put(Encoded::with1(Code::Push_r64, WORKSPACE)?)?;
@@ -247,18 +255,24 @@ impl<'a> Emitter<'a> {
                 self.calls(number)?;
             }
         }
-        // Results that are arguments, constants, or results of calls.
-        for (index, id) in lowered.results.iter().enumerate() {
-            if let Node::Leaf(place) = lowered.nodes[*id as usize] {
-                self.copy(place, Goal::Result(index as u32))?;
-            }
-        }
+        self.copy_results()?;
         self.finish_guards()?;
         if self.layout.lanes > 1 {
             self.put(Encoded::with(Code::VEX_Vzeroupper))?;
         }
         self.put(Encoded::with1(Code::Pop_r64, WORKSPACE)?)?;
         self.put(Encoded::with(Code::Retnq))
+    }
+
+    /// Stores results that are arguments, constants, or results of calls.
+    fn copy_results(&mut self) -> Result<(), IcedError> {
+        let lowered = self.lowered;
+        for (id, base, index) in &lowered.results {
+            if let Node::Leaf(place) = lowered.nodes[*id as usize] {
+                self.copy(place, Goal::Argument(*base, *index))?;
+            }
+        }
+        Ok(())
     }
 
     // Registers and memory.
@@ -391,9 +405,9 @@ impl<'a> Emitter<'a> {
             Goal::Workspace(slot) => {
                 MemoryOperand::with_base_displ(WORKSPACE, self.in_workspace(slot))
             }
-            Goal::Result(result) => {
-                let register = self.address(Base::Results)?;
-                let displacement = 8 * self.layout.stride * result as usize;
+            Goal::Argument(base, index) => {
+                let register = self.address(base)?;
+                let displacement = 8 * self.layout.stride * index as usize;
                 MemoryOperand::with_base_displ(register, displacement as i64)
             }
         };

@@ -13,6 +13,17 @@ pub struct Work {
     pub looks: usize,
 }
 
+impl Work {
+    /// Both together.
+    pub(crate) fn and(self, other: Work) -> Work {
+        Work {
+            instructions: self.instructions + other.instructions,
+            evictions: self.evictions + other.evictions,
+            looks: self.looks + other.looks,
+        }
+    }
+}
+
 /// The time to interpret an operation, in ns: 1 to 2 are measured (`cargo bench -p lagrangian-jit --bench engines`).
 const INTERPRETING: f64 = 1.0;
 /// The time to compile an operation, and the additional time per function for allocating pages, in ns.
