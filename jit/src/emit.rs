@@ -7,6 +7,7 @@
 //!
 //! Invariant between instructions: a value that is still needed is in a register or in memory.
 
+mod calls;
 mod orders;
 
 use iced_x86::{Code, Encoder, IcedError, Instruction as Encoded, MemoryOperand, Register};
@@ -14,9 +15,9 @@ use lagrangian_program::Contracted;
 
 use super::Level;
 use super::encodings::{Encodings, encodings};
-use super::external;
 use super::lower::{Arithmetic, Base, Id, Instruction, Location, Lowered, Node, Predicate};
 use super::work::Work;
+use calls::is_inline;
 pub use orders::{Orders, assemble_orders};
 
 /// The size of the header of the workspace in bytes; it holds the addresses of arguments.
@@ -128,6 +129,8 @@ struct Emitter<'a> {
     wanted: Vec<(Id, Goal)>,
     /// Which argument addresses are in their registers.
     is_loaded: [bool; Base::COUNT],
+    /// Whether the addresses that the caller passes are in the workspace.
+    are_saved: bool,
     work: Work,
 }
 
@@ -219,6 +222,7 @@ impl<'a> Emitter<'a> {
             slots: lowered.workspace,
             wanted,
             is_loaded,
+            are_saved: false,
             work: Work::default(),
         }
     }
@@ -257,7 +261,8 @@ impl<'a> Emitter<'a> {
         }
         self.copy_results()?;
         self.finish_guards()?;
-        if self.layout.lanes > 1 {
+        let mut calls = phases.iter().flat_map(|phase| &phase.calls);
+        if self.layout.lanes > 1 || calls.any(is_inline) {
             self.put(Encoded::with(Code::VEX_Vzeroupper))?;
         }
         self.put(Encoded::with1(Code::Pop_r64, WORKSPACE)?)?;
@@ -769,63 +774,6 @@ impl<'a> Emitter<'a> {
                 Encoded::with2(code, Register::EAX, self.guards())?
             }
         })
-    }
-
-    // Calls.
-
-    fn calls(&mut self, phase: usize) -> Result<(), IcedError> {
-        let lowered = self.lowered;
-        let calls = &lowered.phases[phase].calls;
-        for call in calls {
-            for (index, id) in call.arguments.iter().enumerate() {
-                // Computed values were stored at their goals already.
-                if let Node::Leaf(place) = lowered.nodes[*id as usize] {
-                    self.copy(place, Goal::Workspace(call.from + index as u32))?;
-                }
-            }
-        }
-        for index in 0..self.held.len() as u8 {
-            if let Some(id) = self.held[index as usize]
-                && self.next(id) != NEVER
-            {
-                self.save(index)?;
-            }
-            self.release(index);
-        }
-        if phase == 0 {
-            for (base, register) in ADDRESSES.iter().enumerate().take(BROUGHT) {
-                if self.lowered.reads[base] > 0 {
-                    let header = MemoryOperand::with_base_displ(WORKSPACE, saved(base));
-                    self.put(Encoded::with2(Code::Mov_rm64_r64, header, *register)?)?;
-                }
-            }
-        }
-        if self.layout.lanes > 1 {
-            // The called functions may use SSE instructions, which are slow while the upper halves of registers are in use.
-            self.put(Encoded::with(Code::VEX_Vzeroupper))?;
-        }
-        for call in calls {
-            let function = external::address(
-                call.kind,
-                self.arithmetic,
-                self.layout.lanes,
-                call.arguments.len(),
-            );
-            let from = MemoryOperand::with_base_displ(WORKSPACE, self.in_workspace(call.from));
-            let to = MemoryOperand::with_base_displ(WORKSPACE, self.in_workspace(call.to));
-            let count = call.arguments.len() as u32;
-            self.put(Encoded::with2(Code::Lea_r64_m, Register::RDI, from)?)?;
-            self.put(Encoded::with2(Code::Lea_r64_m, Register::RSI, to)?)?;
-            self.put(Encoded::with2(Code::Mov_r32_imm32, Register::EDX, count)?)?;
-            self.put(Encoded::with2(
-                Code::Mov_r64_imm64,
-                Register::RAX,
-                function as u64,
-            )?)?;
-            self.put(Encoded::with1(Code::Call_rm64, Register::RAX)?)?;
-        }
-        self.is_loaded = [false; Base::COUNT];
-        Ok(())
     }
 }
 

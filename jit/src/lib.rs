@@ -44,6 +44,7 @@ mod nowhere;
 mod running;
 #[cfg(target_arch = "x86_64")]
 mod series;
+mod series_library;
 mod several;
 mod unavailable;
 mod work;
@@ -59,6 +60,7 @@ pub use library::Library;
 pub use running::{Running, When};
 #[cfg(target_arch = "x86_64")]
 pub use series::{SeriesCode, SeriesRunning};
+pub use series_library::SeriesLibrary;
 pub use several::Several;
 pub use unavailable::Unavailable;
 pub use work::Work;

@@ -140,6 +140,21 @@ pub enum CallKind {
     Circular,
     /// A function of one or two arguments.
     Named(Named),
+    /// A product of a matrix and a vector, written in line.
+    Matrix(Matrix),
+}
+
+/// A matrix among the coordinates, column by column, whose rows are summed in several lanes of a register. It reads up to 8 numbers behind its last one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Matrix {
+    /// Where it begins.
+    pub place: u32,
+    /// The distance between columns.
+    pub stride: u32,
+    /// The number of rows.
+    pub rows: u32,
+    /// Whether each result is two sums, of the columns with even and with odd indices.
+    pub is_split: bool,
 }
 
 /// How sums and sines are computed.
@@ -247,7 +262,7 @@ impl Builder {
     }
 
     /// The results of a call whose slots are not yet assigned.
-    fn call(&mut self, kind: CallKind, arguments: Vec<Id>, results: usize) -> Vec<Id> {
+    pub fn call(&mut self, kind: CallKind, arguments: Vec<Id>, results: usize) -> Vec<Id> {
         let call = self.wanted.len();
         let place = Node::Leaf(Location::Workspace(0));
         let results: Vec<Id> = (0..results).map(|_| self.add(place)).collect();
@@ -525,11 +540,16 @@ impl Builder {
             let to = from + arguments.len() as u32;
             workspace = to;
             // All first results, then all second ones.
-            for second in 0..2 {
-                for id in calls.iter().filter_map(|call| call.results.get(second)) {
+            let most = calls.iter().map(|call| call.results.len()).max();
+            for index in 0..most.unwrap_or(0) {
+                for id in calls.iter().filter_map(|call| call.results.get(index)) {
                     nodes[*id as usize] = Node::Leaf(Location::Workspace(workspace));
                     workspace += 1;
                 }
+            }
+            if let CallKind::Matrix(_) = kind {
+                // The last register of results may be partly unused.
+                workspace += 8;
             }
             Call {
                 kind,

@@ -7,8 +7,8 @@
 //! | `emit/orders.rs` | the loop over orders, and the sums over orders in registers |
 //!
 //! The code consists of three parts, and the matrices of the unknowns are factored between the first two by the same function as in the
-//! interpreter. It does the operations of the interpreter in the same order, so coefficients have the same bits; only zeros may have another sign,
-//! because sums and products with numbers that are zero in every step are left out.
+//! interpreter. It does the operations of the interpreter in the same order, so coefficients have the same bits. Only sums and products with numbers that
+//! are zero in every step are left out, which decide on nothing but the sign of a zero; so coefficients that are 0 are made positive.
 
 pub(crate) mod memory;
 mod record;
@@ -27,7 +27,7 @@ use super::emit::{HEADER, Orders, assemble, assemble_orders};
 use super::library::Library;
 use super::lower::Arithmetic;
 use super::unavailable::Unavailable;
-use super::work::Work;
+use super::work::{Work, operations_of_series};
 use memory::NUMBERS;
 use record::{Factored, Recorded, record};
 
@@ -76,7 +76,7 @@ impl SeriesCode {
         if !Level::all().any(|own| own == level) {
             return Err(Unavailable::Processor);
         }
-        if operations(series) > MOST {
+        if operations_of_series(series) > MOST {
             return Err(Unavailable::TooLong);
         }
         let layout = Library::one(level);
@@ -106,7 +106,9 @@ impl SeriesCode {
         let mut parts = Vec::new();
         for part in assembled {
             let part = part.map_err(|error| Unavailable::Encoding(error.to_string()))?;
-            work = work.and(part.work);
+            work.instructions += part.work.instructions;
+            work.evictions += part.work.evictions;
+            work.looks += part.work.looks;
             slots = slots.max(part.workspace);
             parts.push(Executable::new(&part)?);
         }
@@ -146,18 +148,6 @@ impl SeriesCode {
     pub fn addresses(&self) -> [std::ops::Range<usize>; 3] {
         std::array::from_fn(|part| self.parts[part].addresses())
     }
-}
-
-/// About how many operations the code of a series has.
-fn operations(series: &Series) -> usize {
-    let gradients: usize = series.depends.iter().map(Vec::len).sum();
-    let blocks = series.blocks();
-    let solved: usize = blocks.iter().map(|members| members.len().pow(2)).sum();
-    let sums = series.rows.iter().map(|row| match row {
-        lagrangian_program::series::Row::Sum(terms) => terms.len(),
-        _ => 1,
-    });
-    2 * gradients + 2 * solved + 5 * sums.sum::<usize>()
 }
 
 /// A series with the values of parameters, to be expanded to a number of orders.
@@ -237,7 +227,7 @@ impl SeriesRunning {
     }
 
     /// Expands the motion through a state, at a time that is the sum of two numbers. Row `j` of `coefficients` becomes the coefficients of order `j` of all
-    /// coordinates. Returns false if a coefficient is not finite, or the mass matrix cannot be inverted, or lengths do not fit; the caller
+    /// coordinates; from the second one on, a zero is positive. Returns false if a coefficient is not finite, or the mass matrix cannot be inverted, or lengths do not fit; the caller
     /// must then use the interpreter, for the coefficients or for the error.
     pub fn expand<V: AsMut<[f64]>>(
         &mut self,
@@ -280,21 +270,25 @@ impl SeriesRunning {
         run(1, numbers, 0);
         run(2, numbers, self.width - 3);
         let n = q.len();
-        let mut size = 0.0;
+        let mut zero = 0.0;
         for (j, row) in coefficients.iter_mut().enumerate() {
             let row = row.as_mut();
-            let of_order = match j {
-                0 => q,
-                1 => v,
-                _ => &numbers[code.records + code.stride * j + code.motion..][..n],
-            };
             if row.len() != n {
                 return false;
             }
-            row.copy_from_slice(of_order);
-            // A sum of products with 0 is not 0 if a factor is not finite.
-            size = of_order.iter().fold(size, |sum, x| sum + 0.0 * x);
+            let start = code.records + code.stride * j + code.motion;
+            match j {
+                0 => row.copy_from_slice(q),
+                1 => row.copy_from_slice(v),
+                _ => {
+                    for (to, x) in row.iter_mut().zip(&numbers[start..start + n]) {
+                        *to = x + 0.0;
+                    }
+                }
+            }
+            // A product with 0 is not 0 if the factor is not finite.
+            zero = row.iter().fold(zero, |sum, x| sum + 0.0 * x);
         }
-        size == 0.0
+        zero == 0.0
     }
 }

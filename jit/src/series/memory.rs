@@ -6,7 +6,7 @@
 //!                       of what depends on accelerations
 //! ```
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use lagrangian_program::series::{Convolution, RowId, Series, TermOrder};
 
@@ -32,9 +32,7 @@ impl Place {
     pub fn to_location(self) -> Location {
         match self {
             Place::Fixed(slot) => Location::Argument(Base::Coordinates, slot),
-            Place::Record(back, slot) => {
-                Location::Argument(Base::Velocities, CODES * back + slot)
-            }
+            Place::Record(back, slot) => Location::Argument(Base::Velocities, CODES * back + slot),
         }
     }
 
@@ -103,13 +101,14 @@ impl Memory {
     pub fn new(series: &Series, width: u32) -> Memory {
         let n = series.dimension() as u32;
         let mut kinds: [Vec<Convolution>; 3] = Default::default();
+        let mut known = HashSet::new();
         for row in (0..series.rows.len() as u32).map(RowId) {
             for convolution in series.convolutions(row) {
                 let kind = match convolution.along {
                     TermOrder::Other => 1 + series.lead(row),
                     _ => 0,
                 };
-                if !kinds.iter().any(|known| known.contains(&convolution)) {
+                if known.insert(convolution) {
                     kinds[kind].push(convolution);
                 }
             }

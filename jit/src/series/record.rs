@@ -18,7 +18,7 @@ use lagrangian_program::series::{
 };
 
 use super::memory::{Memory, NUMBERS, Place};
-use crate::lower::{Base, Builder, Id, Instruction, Location, Lowered, Node};
+use crate::lower::{Base, Builder, CallKind, Id, Instruction, Location, Lowered, Matrix, Node};
 
 /// The parts of the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -115,6 +115,8 @@ pub struct Recorder<'s> {
     pub kept_sums: Vec<Option<X>>,
     /// The newest rates of coordinates.
     pub rates: Vec<X>,
+    /// The effect of accelerations on forces, if it is a product.
+    pub matrix_of_forces: Option<Matrix>,
 }
 
 impl<'s> Recorder<'s> {
@@ -148,6 +150,7 @@ impl<'s> Recorder<'s> {
             gradients: vec![Vec::new(); count],
             kept_sums: vec![None; count],
             rates: Vec::new(),
+            matrix_of_forces: None,
         }
     }
 
@@ -275,6 +278,14 @@ impl<'s> Recorder<'s> {
         let of = of.map(|x| self.here(x));
         let id = build(self.builder(), of);
         self.make(id)
+    }
+
+    /// The product of a matrix among the numbers of the step and a vector.
+    pub fn product(&mut self, matrix: Matrix, of: &[X]) -> Vec<X> {
+        let of = of.iter().map(|x| self.here(*x)).collect();
+        let kind = CallKind::Matrix(matrix);
+        let found = self.builder().call(kind, of, matrix.rows as usize);
+        found.into_iter().map(|id| self.make(id)).collect()
     }
 
     // Orders.
@@ -498,6 +509,7 @@ pub fn record(series: &Series, width: u32) -> Recorded {
     forces.iter().for_each(|row| to.advance(*row, 0));
     to.differentiate();
     let mut blocks = to.matrices();
+    to.store_matrix_of_forces(width);
 
     to.part = Part::First;
     to.compose(&mut blocks);

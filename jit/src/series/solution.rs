@@ -6,6 +6,10 @@ use lagrangian_program::series::{
 
 use super::memory::{NUMBERS, Place};
 use super::record::{Block, ONE, Part, Recorder, X, ZERO};
+use crate::lower::Matrix;
+
+/// What a [`Matrix`] may read behind its end.
+const BEHIND: u32 = 8;
 
 impl Recorder<'_> {
     /// The gradients of all rows at the start, by the chain rule.
@@ -58,7 +62,7 @@ impl Recorder<'_> {
         let mut blocks = Vec::new();
         for members in series.blocks() {
             let count = members.len() as u32;
-            let matrix = self.memory.take(count * count);
+            let matrix = self.memory.take(count * count + BEHIND);
             for (i, member) in (0..).zip(&members) {
                 let row = series.residuals[*member as usize];
                 let is_solved_for = series.level(row) == Level::Acceleration;
@@ -146,18 +150,25 @@ impl Recorder<'_> {
             let residual = self.read(self.series.residuals[*member as usize], m);
             right.push(self.negate(residual));
         }
-        let element = |i: usize, j: usize| {
-            X::Stored(Place::Fixed(block.matrix + (i * n + j) as u32))
-        };
+        let element =
+            |i: usize, j: usize| X::Stored(Place::Fixed(block.matrix + (i * n + j) as u32));
+        if is_inverse(n) && n > MOST_IN_ONE_SUM {
+            let matrix = Matrix {
+                place: block.matrix,
+                stride: n as u32,
+                rows: n as u32,
+                is_split: true,
+            };
+            return self.product(matrix, &right);
+        }
         if is_inverse(n) {
             return (0..n)
                 .map(|i| {
-                    let mut sums = [ZERO; 2];
+                    let mut sum = ZERO;
                     for (j, known) in right.iter().enumerate() {
-                        let side = if n <= MOST_IN_ONE_SUM { 0 } else { j % 2 };
-                        sums[side] = self.multiply_add(element(j, i), *known, sums[side]);
+                        sum = self.multiply_add(element(j, i), *known, sum);
                     }
-                    self.add(sums[0], sums[1])
+                    sum
                 })
                 .collect();
         }
@@ -227,24 +238,64 @@ impl Recorder<'_> {
 
     /// Adds the effect of accelerations on the forces that sums over orders read.
     fn change_forces(&mut self, unknowns: &[X], m: usize) {
-        let series = self.series;
-        let streams = series.streams();
-        let adds_to_forces = series.adds_to_forces();
-        for index in 0..series.rows.len() {
-            let row = RowId(index as u32);
-            let is_read = streams[index] != [false; 2] && !series.depends[index].is_empty();
-            if series.level(row) != Level::Acceleration || !is_read {
-                continue;
-            }
+        let adds_to_forces = self.series.adds_to_forces();
+        let together = match self.matrix_of_forces {
+            Some(matrix) => self.product(matrix, unknowns).into_iter(),
+            None => Vec::new().into_iter(),
+        };
+        let mut together = together.fuse();
+        for row in self.forces_in_sums() {
             let known = self.read(row, m);
             let sum = if adds_to_forces {
                 self.change(row, unknowns, known)
             } else {
-                let change = self.change(row, unknowns, ZERO);
+                let change = match together.next() {
+                    Some(change) => change,
+                    None => self.change(row, unknowns, ZERO),
+                };
                 self.add(known, change)
             };
             self.set(row, m, sum);
         }
+    }
+
+    /// The forces that sums over orders read and accelerations change.
+    fn forces_in_sums(&self) -> Vec<RowId> {
+        let streams = self.series.streams();
+        let rows = (0..self.series.rows.len() as u32).map(RowId);
+        rows.filter(|row| {
+            let index = row.index();
+            streams[index] != [false; 2]
+                && !self.series.depends[index].is_empty()
+                && self.series.level(*row) == Level::Acceleration
+        })
+        .collect()
+    }
+
+    /// Stores the effect of accelerations on forces as a matrix, if that takes fewer operations than each force by itself.
+    pub fn store_matrix_of_forces(&mut self, width: u32) {
+        let series = self.series;
+        let forces = self.forces_in_sums();
+        let gradients = forces.iter().map(|row| series.depends[row.index()].len());
+        let (gradients, rows) = (gradients.sum::<usize>(), forces.len() as u32);
+        let (unknowns, stride) = (series.unknowns() as u32, rows.next_multiple_of(8));
+        let together = unknowns * (rows.div_ceil(width) + 1);
+        if series.adds_to_forces() || together as usize >= gradients {
+            return;
+        }
+        let place = self.memory.take(unknowns * stride + BEHIND);
+        for (at, row) in (0..).zip(forces) {
+            for (j, unknown) in series.depends[row.index()].iter().enumerate() {
+                let gradient = self.gradients[row.index()][j];
+                self.store(gradient, Place::Fixed(place + unknown * stride + at));
+            }
+        }
+        self.matrix_of_forces = Some(Matrix {
+            place,
+            stride,
+            rows,
+            is_split: false,
+        });
     }
 
     /// Stores the coefficients of coordinates, which are returned, and of their rates.

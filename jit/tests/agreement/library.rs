@@ -57,8 +57,11 @@ fn every_machine_of_the_library_has_the_bits_of_the_interpreter() {
         .collect();
     files.sort();
     assert!(files.len() > 40, "most of the library is missing");
-    let (next, has_friction, has_series) =
-        (AtomicUsize::new(0), AtomicUsize::new(0), AtomicUsize::new(0));
+    let (next, has_friction, has_series) = (
+        AtomicUsize::new(0),
+        AtomicUsize::new(0),
+        AtomicUsize::new(0),
+    );
     let seed = random::seed();
     println!("JIT_SEED={seed}");
     let work = || {
@@ -71,7 +74,10 @@ fn every_machine_of_the_library_has_the_bits_of_the_interpreter() {
             assert!(compared > 0, "{file}: nothing was compared");
             let friction = program.function(Role::Friction);
             has_friction.fetch_add(friction.iter().len(), Ordering::Relaxed);
-            for (level, of_motion) in of_motion.iter().flat_map(|of| Level::all().map(move |level| (level, of))) {
+            for (level, of_motion) in of_motion
+                .iter()
+                .flat_map(|of| Level::all().map(move |level| (level, of)))
+            {
                 let compared = series::agrees(of_motion, &parameters, level, seed);
                 let compared = compared.unwrap_or_else(|difference| panic!("{file}: {difference}"));
                 assert!(compared > 0, "{file}: nothing was compared");
