@@ -10,7 +10,6 @@ use super::arguments::SeveralArguments;
 pub use super::emit::Layout;
 use super::emit::{Assembled, HEADER, assemble};
 use super::lower::{Arithmetic, Base, Lowered};
-use super::series::SeriesEntry;
 use super::unavailable::Unavailable;
 use super::work::Work;
 
@@ -24,6 +23,10 @@ type Entry = unsafe extern "sysv64" fn(
     *const f64,
     *mut u8,
 ) -> u32;
+
+/// The signature of the parts of a series: unused, numbers of the step, a record, the number of orders, unused, the workspace.
+pub(super) type SeriesEntry =
+    unsafe extern "sysv64" fn(*const f64, *mut f64, *mut f64, usize, *const f64, *mut u8) -> u32;
 
 /// A function as machine code.
 #[derive(Debug)]

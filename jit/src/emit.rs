@@ -18,7 +18,7 @@ use super::encodings::{Encodings, encodings};
 use super::lower::{Arithmetic, Base, Id, Instruction, Location, Lowered, Node, Predicate};
 use super::work::Work;
 use calls::is_inline;
-pub use orders::{Orders, assemble_orders};
+pub use orders::{Orders, Pack, assemble_orders};
 
 /// The size of the header of the workspace in bytes; it holds the addresses of arguments.
 pub const HEADER: usize = 128;

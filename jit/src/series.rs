@@ -54,10 +54,6 @@ pub struct SeriesCode {
     work: Work,
 }
 
-/// The entry of the first two parts, and of the loop over orders: unused, numbers of the step, a record, the number of orders, unused, the workspace.
-pub(crate) type SeriesEntry =
-    unsafe extern "sysv64" fn(*const f64, *mut f64, *mut f64, usize, *const f64, *mut u8) -> u32;
-
 impl SeriesCode {
     /// Compiles a series.
     ///

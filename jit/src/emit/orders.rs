@@ -9,7 +9,17 @@ use super::{Assembled, Emitter, Layout, WORKSPACE};
 use crate::Level;
 use crate::encodings::{Encodings, encodings};
 use crate::lower::{Arithmetic, Call, CallKind, Lowered};
-use crate::series::memory::Pack;
+
+/// Sums over orders that a register holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pack {
+    /// How many: 4 or 8.
+    pub width: u32,
+    /// Where their factors are in a record.
+    pub slots: [u32; 2],
+    /// Where they are stored.
+    pub sums: u32,
+}
 
 /// The sums that each order begins with.
 pub struct Orders<'a> {

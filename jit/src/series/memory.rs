@@ -10,6 +10,7 @@ use std::collections::{HashMap, HashSet};
 
 use lagrangian_program::series::{Convolution, RowId, Series, TermOrder};
 
+use crate::emit::Pack;
 use crate::lower::{Base, Location};
 
 /// Where in a record the number of the order stands, its reciprocal, and both parts of the divisor `n (n − 1)`.
@@ -65,17 +66,6 @@ pub struct Lane {
     pub slots: [u32; 2],
     /// Where the sum is stored.
     sum: u32,
-}
-
-/// Sums over orders that a register holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pack {
-    /// How many: 4 or 8.
-    pub width: u32,
-    /// Where their factors are in a record.
-    pub slots: [u32; 2],
-    /// Where they are stored.
-    pub sums: u32,
 }
 
 /// The memory under construction.
