@@ -14,7 +14,7 @@ use lagrangian_mechanics::Proved;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_program as program;
 use lagrangian_program::contact_parts::ContactParts;
-use lagrangian_program::series::{Expander, NoSeries, Series};
+use lagrangian_program::series::{NoSeries, Series};
 use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape, Slot};
 use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::{self, Variable};
@@ -23,10 +23,12 @@ use lagrangian_spec::token::normalized;
 mod contact_parts;
 mod enclosure;
 mod engine;
+mod expanding;
 #[cfg(feature = "jit")]
 mod in_lanes;
 mod in_numbers;
 mod in_series;
+mod powers;
 mod precise;
 mod reading;
 mod recording;
@@ -35,6 +37,7 @@ mod signals;
 mod table_file;
 
 use contact_parts::RunningParts;
+use expanding::Expanding;
 
 use crate::settings::TaskWithStart;
 use crate::shared_workspace::SharedWorkspace;
@@ -65,6 +68,7 @@ pub struct InterpretedMachine {
     parameters: Vec<f64>,
     inputs: Vec<f64>,
     series: Result<Arc<Series>, String>,
+    code_of_series: engine::CodeOfSeries,
     machine_code: engine::MachineCode,
     /// The numbers of single contacts, where there are many, and their machine code.
     contact_parts: Option<Arc<ContactParts>>,
@@ -116,7 +120,9 @@ pub struct InterpretedSystem {
     enclosing: SharedWorkspace<Option<Interpreter<Interval>>>,
     series: Result<Arc<Series>, String>,
     has_linear_assumptions: bool,
-    expander: SharedWorkspace<Option<Expander<f64>>>,
+    /// Whether it has work and losses that are not always 0.
+    has_powers: [bool; 2],
+    expanding: SharedWorkspace<Expanding>,
 }
 
 /// Executes the functions of a system.
@@ -165,6 +171,7 @@ impl InterpretedMachine {
             machine_code: engine::MachineCode::default(),
             code_of_parts: engine::MachineCode::default(),
             series: Err("its series was not derived".into()),
+            code_of_series: engine::CodeOfSeries::default(),
         }
     }
 
@@ -201,6 +208,8 @@ impl InterpretedMachine {
             Ok(series) => Ok(series.series().clone()),
             Err(reason) => Err(reason.to_string()),
         };
+        let code = self.series.as_ref().map(engine::CodeOfSeries::new);
+        self.code_of_series = code.unwrap_or_default();
         self
     }
 
@@ -319,7 +328,10 @@ impl Machine for InterpretedMachine {
             enclosing: SharedWorkspace::new(None),
             series: self.series.clone(),
             has_linear_assumptions: self.program.has_linear_assumptions(),
-            expander: SharedWorkspace::new(None),
+            has_powers: powers::has_powers(&self.program),
+            expanding: SharedWorkspace::new(Expanding::new(
+                self.code_of_series.prepared(&self.machine_code),
+            )),
         }
     }
 
@@ -465,22 +477,6 @@ impl Kernel<f64> for Call<'_> {
     }
 }
 
-/// The expansion of a series, executed with the instructions that the processor supports.
-struct Expand<'a> {
-    expander: &'a mut Expander<f64>,
-    at: ([f64; 2], &'a [f64], &'a [f64], &'a [f64]),
-}
-
-impl Kernel<f64> for Expand<'_> {
-    type Output = Result<(), program::Singular>;
-
-    #[inline(always)]
-    fn run<N: Scalar<Stored = f64>>(self) -> Self::Output {
-        let (t, q, v, u) = self.at;
-        self.expander.expand_in::<N>(t, q, v, u)
-    }
-}
-
 impl System for InterpretedSystem {
     type Vector = Vec<f64>;
     type Matrix = Vec<f64>;
@@ -539,26 +535,14 @@ impl System for InterpretedSystem {
         u: &Named,
         coefficients: &mut [Vec<f64>],
     ) -> Result<(), Singular> {
-        let (Ok(series), Some(order)) = (&self.series, coefficients.len().checked_sub(2)) else {
+        let Ok(series) = &self.series else {
             return Ok(());
         };
-        let mut expander = self.expander.lock();
-        let known = expander.take().filter(|known| known.order() == order);
-        let expander = expander.insert(known.unwrap_or_else(|| {
-            let running = self.running.lock();
-            Expander::new(series.clone(), running.interpreter.parameters(), order)
-        }));
-        let expanded = f64::run(Expand {
-            expander,
-            at: (t, q, v, &u.values),
-        });
-        expanded.map_err(|singular| singular_row(&self.program, singular))?;
-        for i in 0..q.len() {
-            for (row, c) in coefficients.iter_mut().zip(expander.coordinate(i)) {
-                row[i] = *c;
-            }
-        }
-        Ok(())
+        let parameters = || self.running.lock().interpreter.parameters().to_vec();
+        let mut expanding = self.expanding.lock();
+        let at = (t, [q.as_slice(), v.as_slice(), u.values.as_slice()]);
+        let expanded = expanding.expand((series, parameters), at, coefficients);
+        expanded.map_err(|singular| singular_row(&self.program, singular))
     }
 
     fn mass_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut Vec<f64>) {
@@ -609,12 +593,22 @@ impl System for InterpretedSystem {
     }
 
     fn work_rate(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &Vec<f64>, u: &Named) -> f64 {
+        if !self.has_powers[0] {
+            return 0.0;
+        }
         let u = &u.values;
         self.number(Role::WorkRate, Arguments { t, q, v, u, a })
     }
 
     fn dissipation_rate(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named) -> f64 {
+        if !self.has_powers[1] {
+            return 0.0;
+        }
         self.number(Role::DissipationRate, at(t, q, v, &u.values))
+    }
+
+    fn has_powers(&self) -> bool {
+        self.has_powers != [false; 2]
     }
 
     fn default_inputs(&self) -> Named {

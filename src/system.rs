@@ -295,6 +295,14 @@ pub trait System {
         0.0
     }
 
+    /// Whether [`work_rate`](Self::work_rate) or [`dissipation_rate`](Self::dissipation_rate) may differ from 0 at any state. By default `true`; where
+    /// it is `false`, a step need not be followed for the energy balance.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn has_powers(&self) -> bool {
+        true
+    }
+
     /// The values of inputs that nobody sets: the defaults of the description.
     fn default_inputs(&self) -> Self::Inputs;
 

@@ -636,12 +636,17 @@ pub(crate) fn state<N: Real, V: Vector<N>>(coefficients: &[V], tau: N) -> (V, V)
 
 /// The accelerations at a time `tau` after the state that was expanded.
 pub(crate) fn accelerations<V: Vector>(coefficients: &[V], tau: f64, a: &mut V) {
-    for (i, a) in a.as_mut_slice().iter_mut().enumerate() {
-        *a = 0.0;
+    in_blocks!(a.as_slice().len(), |start, B| {
+        let mut sums = [0.0; B];
         for j in (2..coefficients.len()).rev() {
-            *a = *a * tau + (j * (j - 1)) as f64 * coefficients[j].as_slice()[i];
+            let factor = (j * (j - 1)) as f64;
+            let terms: [f64; B] = Rows(coefficients).block::<B>(j, start);
+            for k in 0..B {
+                sums[k] = sums[k] * tau + factor * terms[k];
+            }
         }
-    }
+        a.as_mut_slice()[start..start + B].copy_from_slice(&sums);
+    });
 }
 
 #[cfg(test)]

@@ -24,19 +24,20 @@ type Entry = unsafe extern "sysv64" fn(
     *mut u8,
 ) -> u32;
 
+/// The signature of the parts of a series: unused, numbers of the step, a record, the number of orders, unused, the workspace.
+pub(super) type SeriesEntry =
+    unsafe extern "sysv64" fn(*const f64, *mut f64, *mut f64, usize, *const f64, *mut u8) -> u32;
+
 /// A function as machine code.
 #[derive(Debug)]
 pub struct Code {
-    /// Never writable while executable.
-    pages: Mmap,
-    entry: usize,
+    bytes: Executable,
     layout: Layout,
     /// How many numbers of each argument the code reads.
     reads: [usize; READ],
     results: usize,
     workspace: usize,
     work: Work,
-    length: usize,
 }
 
 /// The arguments of a call, as rows of numbers of one state, or of several side by side.
@@ -159,12 +160,66 @@ struct Line([u64; 8]);
 
 impl Workspace {
     #[inline(always)]
-    fn at_least(&mut self, bytes: usize) -> *mut u8 {
+    pub(super) fn at_least(&mut self, bytes: usize) -> *mut u8 {
         let lines = bytes.div_ceil(size_of::<Line>());
         if self.0.len() < lines {
             self.0.resize(lines, Line([0; 8]));
         }
         self.0.as_mut_ptr().cast()
+    }
+
+    /// The workspace as so many numbers, which stay what they were.
+    pub(super) fn numbers(&mut self, count: usize) -> &mut [f64] {
+        let numbers = self.at_least(count * size_of::<f64>()).cast::<f64>();
+        // SAFETY: the lines hold at least this many numbers, for which any bits are valid, and are borrowed as long as the result.
+        unsafe { std::slice::from_raw_parts_mut(numbers, count) }
+    }
+}
+
+/// Bytes of code that can be executed.
+#[derive(Debug)]
+pub(super) struct Executable {
+    /// Never writable while executable.
+    pages: Mmap,
+    entry: usize,
+    length: usize,
+}
+
+impl Executable {
+    /// Copies code to pages of its own.
+    pub(super) fn new(assembled: &Assembled) -> Result<Executable, Unavailable> {
+        let length = assembled.bytes.len();
+        let mut writable = MmapMut::map_anon(length).map_err(Unavailable::Pages)?;
+        writable.copy_from_slice(&assembled.bytes);
+        Ok(Executable {
+            pages: writable.make_exec().map_err(Unavailable::Pages)?,
+            entry: assembled.entry,
+            length,
+        })
+    }
+
+    /// Its length in bytes, including constants.
+    pub(super) fn length(&self) -> usize {
+        self.length
+    }
+
+    /// Its addresses in memory.
+    pub(super) fn addresses(&self) -> std::ops::Range<usize> {
+        let start = self.pages.as_ptr() as usize;
+        start..start + self.pages.len()
+    }
+
+    /// The code of a part of a series as a function.
+    ///
+    /// # Safety
+    /// The code must be such a part.
+    pub(super) unsafe fn series_entry(&self) -> SeriesEntry {
+        // SAFETY: the pages are executable and contain a function at `entry`, of this signature as the caller guarantees.
+        unsafe { std::mem::transmute::<*const u8, SeriesEntry>(self.start()) }
+    }
+
+    fn start(&self) -> *const u8 {
+        self.pages.as_ptr().wrapping_add(self.entry)
     }
 }
 
@@ -181,25 +236,14 @@ impl Code {
         };
         let lowered = Lowered::new(function, arithmetic);
         let assembled = assemble(&lowered, arithmetic, layout);
-        let Assembled {
-            bytes,
-            entry,
-            workspace,
-            work,
-        } = assembled.map_err(|error| Unavailable::Encoding(error.to_string()))?;
-        let length = bytes.len();
-        let mut writable = MmapMut::map_anon(length).map_err(Unavailable::Pages)?;
-        writable.copy_from_slice(&bytes);
-        let pages = writable.make_exec().map_err(Unavailable::Pages)?;
+        let assembled = assembled.map_err(|error| Unavailable::Encoding(error.to_string()))?;
         Ok(Code {
-            pages,
-            entry,
+            bytes: Executable::new(&assembled)?,
             layout,
             reads: std::array::from_fn(|base| lowered.reads[base] as usize),
             results: lowered.results.len(),
-            workspace: HEADER + workspace * layout.width(),
-            work,
-            length,
+            workspace: HEADER + assembled.workspace * layout.width(),
+            work: assembled.work,
         })
     }
 
@@ -210,13 +254,12 @@ impl Code {
 
     /// Its length in bytes, including constants.
     pub fn length(&self) -> usize {
-        self.length
+        self.bytes.length()
     }
 
     /// Its addresses in memory.
     pub fn addresses(&self) -> std::ops::Range<usize> {
-        let start = self.pages.as_ptr() as usize;
-        start..start + self.pages.len()
+        self.bytes.addresses()
     }
 
     /// Runs the code; the result has a bit for each lane, which is set if its guards hold. Returns `None` without running if an
@@ -260,8 +303,7 @@ impl Code {
         // results as there is space for. The workspace has the length that the code requires, and the alignment of its
         // registers. Addresses of arguments that are not read may be arbitrary. It calls only functions of `external.rs`.
         unsafe {
-            let entry =
-                std::mem::transmute::<*const u8, Entry>(self.pages.as_ptr().add(self.entry));
+            let entry = std::mem::transmute::<*const u8, Entry>(self.bytes.start());
             let header = workspace.cast::<*const f64>();
             for base in [Base::Accelerations, Base::AtTime, Base::AtPosition] {
                 header.add(base as usize).write(at(base));

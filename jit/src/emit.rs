@@ -7,14 +7,18 @@
 //!
 //! Invariant between instructions: a value that is still needed is in a register or in memory.
 
+mod calls;
+mod orders;
+
 use iced_x86::{Code, Encoder, IcedError, Instruction as Encoded, MemoryOperand, Register};
 use lagrangian_program::Contracted;
 
 use super::Level;
 use super::encodings::{Encodings, encodings};
-use super::external;
 use super::lower::{Arithmetic, Base, Id, Instruction, Location, Lowered, Node, Predicate};
 use super::work::Work;
+use calls::is_inline;
+pub use orders::{Orders, Pack, assemble_orders};
 
 /// The size of the header of the workspace in bytes; it holds the addresses of arguments.
 pub const HEADER: usize = 128;
@@ -93,16 +97,7 @@ pub fn assemble(
 ) -> Result<Assembled, IcedError> {
     let mut emitter = Emitter::new(lowered, arithmetic, layout);
     emitter.function()?;
-    let entry = emitter.start;
-    let mut bytes = emitter.pool;
-    bytes.resize(entry, 0);
-    bytes.extend(emitter.encoder.take_buffer());
-    Ok(Assembled {
-        bytes,
-        entry,
-        workspace: emitter.slots as usize,
-        work: emitter.work,
-    })
+    Ok(emitter.assembled())
 }
 
 struct Emitter<'a> {
@@ -134,6 +129,8 @@ struct Emitter<'a> {
     wanted: Vec<(Id, Goal)>,
     /// Which argument addresses are in their registers.
     is_loaded: [bool; Base::COUNT],
+    /// Whether the addresses that the caller passes are in the workspace.
+    are_saved: bool,
     work: Work,
 }
 
@@ -142,8 +139,8 @@ struct Emitter<'a> {
 enum Goal {
     /// An argument of a call, in the workspace.
     Workspace(u32),
-    /// A result.
-    Result(u32),
+    /// A number of an argument.
+    Argument(Base, u32),
 }
 
 impl<'a> Emitter<'a> {
@@ -189,8 +186,8 @@ impl<'a> Emitter<'a> {
                 wanted.push((*id, Goal::Workspace(call.from + index as u32)));
             }
         }
-        for (index, id) in lowered.results.iter().enumerate() {
-            wanted.push((*id, Goal::Result(index as u32)));
+        for (id, base, index) in &lowered.results {
+            wanted.push((*id, Goal::Argument(*base, *index)));
         }
         wanted.sort_unstable();
         let home = lowered.nodes.iter().map(|node| match node {
@@ -225,7 +222,22 @@ impl<'a> Emitter<'a> {
             slots: lowered.workspace,
             wanted,
             is_loaded,
+            are_saved: false,
             work: Work::default(),
+        }
+    }
+
+    /// The code with everything that was written.
+    fn assembled(mut self) -> Assembled {
+        let entry = self.start;
+        let mut bytes = self.pool;
+        bytes.resize(entry, 0);
+        bytes.extend(self.encoder.take_buffer());
+        Assembled {
+            bytes,
+            entry,
+            workspace: self.slots as usize,
+            work: self.work,
         }
     }
 
@@ -247,18 +259,25 @@ impl<'a> Emitter<'a> {
                 self.calls(number)?;
             }
         }
-        // Results that are arguments, constants, or results of calls.
-        for (index, id) in lowered.results.iter().enumerate() {
-            if let Node::Leaf(place) = lowered.nodes[*id as usize] {
-                self.copy(place, Goal::Result(index as u32))?;
-            }
-        }
+        self.copy_results()?;
         self.finish_guards()?;
-        if self.layout.lanes > 1 {
+        let mut calls = phases.iter().flat_map(|phase| &phase.calls);
+        if self.layout.lanes > 1 || calls.any(is_inline) {
             self.put(Encoded::with(Code::VEX_Vzeroupper))?;
         }
         self.put(Encoded::with1(Code::Pop_r64, WORKSPACE)?)?;
         self.put(Encoded::with(Code::Retnq))
+    }
+
+    /// Stores results that are arguments, constants, or results of calls.
+    fn copy_results(&mut self) -> Result<(), IcedError> {
+        let lowered = self.lowered;
+        for (id, base, index) in &lowered.results {
+            if let Node::Leaf(place) = lowered.nodes[*id as usize] {
+                self.copy(place, Goal::Argument(*base, *index))?;
+            }
+        }
+        Ok(())
     }
 
     // Registers and memory.
@@ -391,9 +410,9 @@ impl<'a> Emitter<'a> {
             Goal::Workspace(slot) => {
                 MemoryOperand::with_base_displ(WORKSPACE, self.in_workspace(slot))
             }
-            Goal::Result(result) => {
-                let register = self.address(Base::Results)?;
-                let displacement = 8 * self.layout.stride * result as usize;
+            Goal::Argument(base, index) => {
+                let register = self.address(base)?;
+                let displacement = 8 * self.layout.stride * index as usize;
                 MemoryOperand::with_base_displ(register, displacement as i64)
             }
         };
@@ -755,63 +774,6 @@ impl<'a> Emitter<'a> {
                 Encoded::with2(code, Register::EAX, self.guards())?
             }
         })
-    }
-
-    // Calls.
-
-    fn calls(&mut self, phase: usize) -> Result<(), IcedError> {
-        let lowered = self.lowered;
-        let calls = &lowered.phases[phase].calls;
-        for call in calls {
-            for (index, id) in call.arguments.iter().enumerate() {
-                // Computed values were stored at their goals already.
-                if let Node::Leaf(place) = lowered.nodes[*id as usize] {
-                    self.copy(place, Goal::Workspace(call.from + index as u32))?;
-                }
-            }
-        }
-        for index in 0..self.held.len() as u8 {
-            if let Some(id) = self.held[index as usize]
-                && self.next(id) != NEVER
-            {
-                self.save(index)?;
-            }
-            self.release(index);
-        }
-        if phase == 0 {
-            for (base, register) in ADDRESSES.iter().enumerate().take(BROUGHT) {
-                if self.lowered.reads[base] > 0 {
-                    let header = MemoryOperand::with_base_displ(WORKSPACE, saved(base));
-                    self.put(Encoded::with2(Code::Mov_rm64_r64, header, *register)?)?;
-                }
-            }
-        }
-        if self.layout.lanes > 1 {
-            // The called functions may use SSE instructions, which are slow while the upper halves of registers are in use.
-            self.put(Encoded::with(Code::VEX_Vzeroupper))?;
-        }
-        for call in calls {
-            let function = external::address(
-                call.kind,
-                self.arithmetic,
-                self.layout.lanes,
-                call.arguments.len(),
-            );
-            let from = MemoryOperand::with_base_displ(WORKSPACE, self.in_workspace(call.from));
-            let to = MemoryOperand::with_base_displ(WORKSPACE, self.in_workspace(call.to));
-            let count = call.arguments.len() as u32;
-            self.put(Encoded::with2(Code::Lea_r64_m, Register::RDI, from)?)?;
-            self.put(Encoded::with2(Code::Lea_r64_m, Register::RSI, to)?)?;
-            self.put(Encoded::with2(Code::Mov_r32_imm32, Register::EDX, count)?)?;
-            self.put(Encoded::with2(
-                Code::Mov_r64_imm64,
-                Register::RAX,
-                function as u64,
-            )?)?;
-            self.put(Encoded::with1(Code::Call_rm64, Register::RAX)?)?;
-        }
-        self.is_loaded = [false; Base::COUNT];
-        Ok(())
     }
 }
 

@@ -10,8 +10,13 @@ use super::lower::{Arithmetic, CallKind};
 /// as long as a register.
 type External = unsafe extern "sysv64" fn(*const f64, *mut f64, u32);
 
-/// The address of the function for this number of lanes and arguments.
-pub fn address(kind: CallKind, arithmetic: Arithmetic, lanes: usize, arguments: usize) -> usize {
+/// The address of the function for this number of lanes and arguments; `None` for what is written in line.
+pub fn address(
+    kind: CallKind,
+    arithmetic: Arithmetic,
+    lanes: usize,
+    arguments: usize,
+) -> Option<usize> {
     let function: External = match (kind, lanes) {
         (CallKind::Circular, 4) if arithmetic == Arithmetic::Fused => rows::<4>,
         (CallKind::Circular, 8) if arithmetic == Arithmetic::Fused => rows::<8>,
@@ -30,8 +35,9 @@ pub fn address(kind: CallKind, arithmetic: Arithmetic, lanes: usize, arguments: 
         (CallKind::Named(function), 4) => named::<4>(function),
         (CallKind::Named(function), 8) => named::<8>(function),
         (CallKind::Named(function), _) => named::<1>(function),
+        (CallKind::Matrix(_), _) => return None,
     };
-    function as usize
+    Some(function as usize)
 }
 
 /// Sines and cosines of up to eight angles of one state. Angles are loaded one by one: a wide load of numbers that were

@@ -13,6 +13,7 @@
 //! | `lower.rs` | operations of a program | instructions and calls, in phases |
 //! | `emit.rs`, `encodings.rs` | instructions | bytes: registers, places in memory, encodings |
 //! | `code.rs` | bytes | pages that are written, then executable, never both |
+//! | `series.rs` and its folder | recurrences of a Taylor series | the same for a step by series |
 //! | `running.rs`, `several.rs` | calls of one state, of 4 or 8 states | calls of that code, where it pays |
 //!
 //! # Limits
@@ -41,17 +42,25 @@ mod lower;
 #[cfg(not(target_arch = "x86_64"))]
 mod nowhere;
 mod running;
+#[cfg(target_arch = "x86_64")]
+mod series;
+mod series_library;
 mod several;
 mod unavailable;
 mod work;
 
 #[cfg(not(target_arch = "x86_64"))]
 use nowhere as code;
+#[cfg(not(target_arch = "x86_64"))]
+pub use nowhere::{SeriesCode, SeriesRunning};
 
 pub use arguments::SeveralArguments;
 pub use code::{Code, Layout, Workspace};
 pub use library::Library;
 pub use running::{Running, When};
+#[cfg(target_arch = "x86_64")]
+pub use series::{SeriesCode, SeriesRunning};
+pub use series_library::SeriesLibrary;
 pub use several::Several;
 pub use unavailable::Unavailable;
 pub use work::Work;

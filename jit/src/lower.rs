@@ -32,7 +32,7 @@ pub enum Node {
 }
 
 /// An instruction with two operands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Instruction {
     /// a + b
     Add,
@@ -93,7 +93,7 @@ pub enum Location {
 }
 
 /// The arguments of a call, each a row of numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Base {
     /// The time.
     Time,
@@ -140,6 +140,21 @@ pub enum CallKind {
     Circular,
     /// A function of one or two arguments.
     Named(Named),
+    /// A product of a matrix and a vector, written in line.
+    Matrix(Matrix),
+}
+
+/// A matrix among the coordinates, column by column, whose rows are summed in several lanes of a register. It reads up to 8 numbers behind its last one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Matrix {
+    /// Where it begins.
+    pub place: u32,
+    /// The distance between columns.
+    pub stride: u32,
+    /// The number of rows.
+    pub rows: u32,
+    /// Whether each result is two sums, of the columns with even and with odd indices.
+    pub is_split: bool,
 }
 
 /// How sums and sines are computed.
@@ -158,13 +173,13 @@ pub struct Lowered {
     pub nodes: Vec<Node>,
     /// The phases.
     pub phases: Vec<Phase>,
-    /// The results, in their order.
-    pub results: Vec<Id>,
+    /// The values that are stored, each in a number of an argument.
+    pub results: Vec<(Id, Base, u32)>,
     /// The bits of the constants.
     pub constants: Vec<u64>,
     /// The number of workspace slots that the calls need.
     pub workspace: u32,
-    /// The count of numbers read of each argument.
+    /// The count of numbers read or stored of each argument.
     pub reads: [u32; Base::COUNT],
     /// Whether there are guards.
     pub is_guarded: bool,
@@ -186,7 +201,9 @@ struct Wanted {
     results: Vec<Id>,
 }
 
-struct Builder {
+/// The instructions of a function under construction.
+#[derive(Default)]
+pub struct Builder {
     nodes: Vec<Node>,
     /// The values in the order of the program, without leaves.
     order: Vec<Id>,
@@ -203,7 +220,8 @@ struct Builder {
 const SIGN: u64 = 1 << 63;
 
 impl Builder {
-    fn add(&mut self, node: Node) -> Id {
+    /// Appends a value.
+    pub fn add(&mut self, node: Node) -> Id {
         let id = self.nodes.len() as Id;
         self.nodes.push(node);
         if !matches!(node, Node::Leaf(_)) {
@@ -212,11 +230,13 @@ impl Builder {
         id
     }
 
-    fn binary(&mut self, instruction: Instruction, a: Id, b: Id) -> Id {
+    /// An instruction with two operands.
+    pub fn binary(&mut self, instruction: Instruction, a: Id, b: Id) -> Id {
         self.add(Node::Binary(instruction, a, b))
     }
 
-    fn leaf(&mut self, place: Location) -> Id {
+    /// A value in memory.
+    pub fn leaf(&mut self, place: Location) -> Id {
         match self.leaves.get(&place) {
             Some(id) => *id,
             None => {
@@ -236,12 +256,13 @@ impl Builder {
         self.leaf(Location::Constant(index))
     }
 
-    fn number(&mut self, number: f64) -> Id {
+    /// A constant.
+    pub fn number(&mut self, number: f64) -> Id {
         self.bits(number.to_bits())
     }
 
     /// The results of a call whose slots are not yet assigned.
-    fn call(&mut self, kind: CallKind, arguments: Vec<Id>, results: usize) -> Vec<Id> {
+    pub fn call(&mut self, kind: CallKind, arguments: Vec<Id>, results: usize) -> Vec<Id> {
         let call = self.wanted.len();
         let place = Node::Leaf(Location::Workspace(0));
         let results: Vec<Id> = (0..results).map(|_| self.add(place)).collect();
@@ -254,7 +275,8 @@ impl Builder {
         results
     }
 
-    fn circular(&mut self, angle: Id) -> [Id; 2] {
+    /// The sine and the cosine of an angle.
+    pub fn circular(&mut self, angle: Id) -> [Id; 2] {
         if let Some(both) = self.circular.get(&angle) {
             return *both;
         }
@@ -262,6 +284,15 @@ impl Builder {
         let sin_cos = [results[0], results[1]];
         self.circular.insert(angle, sin_cos);
         sin_cos
+    }
+
+    /// Moves values in memory.
+    pub fn relocate(&mut self, to: impl Fn(Location) -> Location) {
+        for node in &mut self.nodes {
+            if let Node::Leaf(location) = node {
+                *location = to(*location);
+            }
+        }
     }
 
     fn read(&mut self, source: Source) -> Id {
@@ -278,7 +309,8 @@ impl Builder {
         self.leaf(Location::Argument(base, index))
     }
 
-    fn product_error(&mut self, arithmetic: Arithmetic, a: Id, b: Id) -> Id {
+    /// The rounding error of a product.
+    pub fn product_error(&mut self, arithmetic: Arithmetic, a: Id, b: Id) -> Id {
         use Instruction::{Mul, Sub};
         let product = self.binary(Mul, a, b);
         if arithmetic == Arithmetic::Fused {
@@ -309,7 +341,14 @@ impl Builder {
         self.binary(Instruction::And, is_finite, error)
     }
 
-    fn sum_error(&mut self, a: Id, b: Id) -> Id {
+    /// The value with the other sign.
+    pub fn negative(&mut self, a: Id) -> Id {
+        let sign = self.bits(SIGN);
+        self.binary(Instruction::Xor, a, sign)
+    }
+
+    /// The rounding error of a sum.
+    pub fn sum_error(&mut self, a: Id, b: Id) -> Id {
         use Instruction::{Add, Sub};
         let sum = self.binary(Add, a, b);
         let b_kept = self.binary(Sub, sum, a);
@@ -351,7 +390,8 @@ impl Builder {
         self.or_undefined(a, of_defined)
     }
 
-    fn unary(&mut self, function: Named, a: Id) -> Id {
+    /// A function of one argument.
+    pub fn unary(&mut self, function: Named, a: Id) -> Id {
         match function {
             Named::Sin => self.circular(a)[0],
             Named::Cos => self.circular(a)[1],
@@ -362,7 +402,8 @@ impl Builder {
         }
     }
 
-    fn pair(&mut self, function: Named, a: Id, b: Id) -> Id {
+    /// A function of two arguments.
+    pub fn pair(&mut self, function: Named, a: Id, b: Id) -> Id {
         match function {
             Named::Min => self.extreme(Instruction::Min, a, b),
             Named::Max => self.extreme(Instruction::Max, a, b),
@@ -374,16 +415,7 @@ impl Builder {
 impl Lowered {
     /// The instructions of a function.
     pub fn new(function: &Function, arithmetic: Arithmetic) -> Lowered {
-        let mut builder = Builder {
-            nodes: Vec::new(),
-            order: Vec::new(),
-            leaves: HashMap::new(),
-            constants: Vec::new(),
-            constant_of: HashMap::new(),
-            wanted: Vec::new(),
-            circular: HashMap::new(),
-            call_of: HashMap::new(),
-        };
+        let mut builder = Builder::default();
         let contractions = match arithmetic {
             Arithmetic::Fused => Contractions::of(function),
             Arithmetic::Plain => Contractions::none(function),
@@ -417,10 +449,7 @@ impl Lowered {
                 Op::Sub(a, b) => builder.binary(Instruction::Sub, at(a), at(b)),
                 Op::Mul(a, b) => builder.binary(Instruction::Mul, at(a), at(b)),
                 Op::Div(a, b) => builder.binary(Instruction::Div, at(a), at(b)),
-                Op::Neg(a) => {
-                    let sign = builder.bits(SIGN);
-                    builder.binary(Instruction::Xor, at(a), sign)
-                }
+                Op::Neg(a) => builder.negative(at(a)),
                 Op::ProductError(a, b) => builder.product_error(arithmetic, at(a), at(b)),
                 Op::SumError(a, b) => builder.sum_error(at(a), at(b)),
                 Op::Sin(a) => builder.circular(at(a))[0],
@@ -437,15 +466,15 @@ impl Lowered {
                 builder.add(Node::Guard(pivot, bound));
             }
         }
-        let results = function.results.iter();
-        let results = results.map(|value| id_of[value.index()]).collect();
-        builder.in_phases(results)
+        let results = (0..).zip(&function.results);
+        let results = results.map(|(at, value)| (id_of[value.index()], Base::Results, at));
+        builder.in_phases(results.collect())
     }
 }
 
 impl Builder {
-    /// Assigns phases to all values.
-    fn in_phases(mut self, results: Vec<Id>) -> Lowered {
+    /// Assigns phases to all values that these results need.
+    pub fn in_phases(mut self, results: Vec<(Id, Base, u32)>) -> Lowered {
         let count = self.nodes.len();
         // The phase in which a value becomes known, and the phase after which a call is made.
         let mut known = vec![0u32; count];
@@ -471,7 +500,7 @@ impl Builder {
         let last = stands.iter().map(|phase| phase + 1).max().unwrap_or(0);
         // The last phase in which a value is early enough, and whether it is needed.
         let mut phase = vec![u32::MAX; count];
-        for id in &results {
+        for (id, ..) in &results {
             phase[*id as usize] = last;
         }
         for (call, stands) in self.wanted.iter().zip(&stands) {
@@ -511,11 +540,16 @@ impl Builder {
             let to = from + arguments.len() as u32;
             workspace = to;
             // All first results, then all second ones.
-            for second in 0..2 {
-                for id in calls.iter().filter_map(|call| call.results.get(second)) {
+            let most = calls.iter().map(|call| call.results.len()).max();
+            for index in 0..most.unwrap_or(0) {
+                for id in calls.iter().filter_map(|call| call.results.get(index)) {
                     nodes[*id as usize] = Node::Leaf(Location::Workspace(workspace));
                     workspace += 1;
                 }
+            }
+            if let CallKind::Matrix(_) = kind {
+                // The last register of results may be partly unused.
+                workspace += 8;
             }
             Call {
                 kind,
@@ -545,6 +579,10 @@ impl Builder {
                 let reads = &mut reads[*base as usize];
                 *reads = (*reads).max(index + 1);
             }
+        }
+        for (_, base, index) in &results {
+            let stores = &mut reads[*base as usize];
+            *stores = (*stores).max(index + 1);
         }
         Lowered {
             nodes: self.nodes,

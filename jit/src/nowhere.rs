@@ -2,8 +2,10 @@
 
 use std::convert::Infallible;
 use std::marker::PhantomData;
+use std::sync::Arc;
 
 use lagrangian_native::Lanes;
+use lagrangian_program::series::{Expander, Series};
 use lagrangian_program::{Arguments, Function};
 
 use super::Level;
@@ -100,5 +102,58 @@ impl Code {
         _: &mut Results<'_>,
     ) -> Option<u32> {
         match self.0 {}
+    }
+}
+
+/// A series as machine code, which cannot exist here.
+#[derive(Debug)]
+pub struct SeriesCode(Infallible);
+
+impl SeriesCode {
+    /// Compiles a series.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn new(_: &Series) -> Result<SeriesCode, Unavailable> {
+        Err(Unavailable::Processor)
+    }
+
+    /// Compiles a series for a processor of this level.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn at(_: &Series, _: Level) -> Result<SeriesCode, Unavailable> {
+        Err(Unavailable::Processor)
+    }
+
+    /// The amount of work of compiling it.
+    pub fn work(&self) -> Work {
+        match self.0 {}
+    }
+
+    /// Its length in bytes.
+    pub fn length(&self) -> usize {
+        match self.0 {}
+    }
+
+    /// The addresses of its parts in memory.
+    pub fn addresses(&self) -> [std::ops::Range<usize>; 3] {
+        match self.0 {}
+    }
+}
+
+/// A series with the values of parameters, which cannot exist here.
+#[derive(Clone, Debug)]
+pub struct SeriesRunning(Arc<SeriesCode>);
+
+impl SeriesRunning {
+    /// The series of an expander.
+    pub fn new(code: Arc<SeriesCode>, _: &Expander<f64>) -> SeriesRunning {
+        SeriesRunning(code)
+    }
+
+    /// Expands the motion through a state.
+    pub fn expand<V: AsMut<[f64]>>(&mut self, _: [f64; 2], _: [&[f64]; 3], _: &mut [V]) -> bool {
+        match self.0.0 {}
     }
 }

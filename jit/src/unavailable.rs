@@ -10,6 +10,8 @@ pub enum Unavailable {
     Processor,
     /// The system provides no executable pages.
     Pages(io::Error),
+    /// The code of a series would be too long.
+    TooLong,
     /// An instruction has no encoding: a defect of this crate.
     Encoding(String),
 }
@@ -23,6 +25,7 @@ impl fmt::Display for Unavailable {
             Unavailable::Pages(error) => {
                 write!(f, "the operating system provides no pages for machine code: {error}")
             }
+            Unavailable::TooLong => f.write_str("the code of the series would be too long"),
             Unavailable::Encoding(error) => write!(f, "an instruction has no encoding: {error}"),
         }
     }

@@ -1,8 +1,10 @@
 //! Engines that execute the functions of a machine read from a spec: the interpreter, or machine code.
 
 use std::sync::Arc;
+use std::vec::Vec;
 
 use crate::error::NoMachineCode;
+use lagrangian_program::series::{Expander, Series};
 use lagrangian_program::{Arguments, Interpreter, Program, Role};
 
 /// The engine that executes the functions of an [`InterpretedMachine`](super::InterpretedMachine). All give the same bits.
@@ -26,6 +28,22 @@ pub(super) struct MachineCode {
     /// Code for several states at once, compiled on first use; `None` if that is not available.
     #[cfg(feature = "jit")]
     of_lanes: Arc<std::sync::OnceLock<Option<Arc<lagrangian_jit::Library>>>>,
+}
+
+/// The machine code of a series, shared by all systems of its machine.
+#[derive(Clone, Debug, Default)]
+pub(super) struct CodeOfSeries {
+    #[cfg(feature = "jit")]
+    library: Option<Arc<lagrangian_jit::SeriesLibrary>>,
+}
+
+/// The machine code of a series with the values of parameters, if it may have any.
+#[derive(Clone, Debug)]
+pub(super) struct CompiledSeries {
+    #[cfg(feature = "jit")]
+    library: Option<(Arc<lagrangian_jit::SeriesLibrary>, lagrangian_jit::When)>,
+    #[cfg(feature = "jit")]
+    running: Option<lagrangian_jit::SeriesRunning>,
 }
 
 /// The machine code of a program with the values of parameters.
@@ -116,6 +134,78 @@ impl Compiled {
         if let Some(running) = &mut self.running {
             running.set_stage_results(role, values);
         }
+    }
+}
+
+#[cfg(feature = "jit")]
+impl CodeOfSeries {
+    /// For a series.
+    pub(super) fn new(series: &Arc<Series>) -> CodeOfSeries {
+        let library = lagrangian_jit::SeriesLibrary::new(series.clone());
+        CodeOfSeries {
+            library: Some(Arc::new(library)),
+        }
+    }
+
+    /// Prepares the code for the engine of a machine.
+    pub(super) fn prepared(&self, engine: &MachineCode) -> CompiledSeries {
+        let when = engine.library.as_ref().map(|(_, when)| *when);
+        CompiledSeries {
+            library: self.library.clone().zip(when),
+            running: None,
+        }
+    }
+}
+
+#[cfg(feature = "jit")]
+impl CompiledSeries {
+    /// Forgets the parameters and the number of orders.
+    pub(super) fn clear(&mut self) {
+        self.running = None;
+    }
+
+    /// Expands the motion through a state by machine code, for the parameters and orders of an expander. Returns false if there is none; then
+    /// the expander has to be used.
+    pub(super) fn expand(
+        &mut self,
+        expander: &Expander<f64>,
+        (t, state): ([f64; 2], [&[f64]; 3]),
+        coefficients: &mut [Vec<f64>],
+    ) -> bool {
+        if self.running.is_none() {
+            let library = self.library.as_ref();
+            let code = library.and_then(|(library, when)| library.code(*when));
+            let running = code.map(|code| lagrangian_jit::SeriesRunning::new(code, expander));
+            self.running = running;
+        }
+        let running = self.running.as_mut();
+        running.is_some_and(|running| running.expand(t, state, coefficients))
+    }
+}
+
+#[cfg(not(feature = "jit"))]
+impl CodeOfSeries {
+    pub(super) fn new(_: &Arc<Series>) -> CodeOfSeries {
+        CodeOfSeries {}
+    }
+
+    pub(super) fn prepared(&self, _: &MachineCode) -> CompiledSeries {
+        CompiledSeries {}
+    }
+}
+
+#[cfg(not(feature = "jit"))]
+impl CompiledSeries {
+    pub(super) fn clear(&mut self) {}
+
+    #[inline(always)]
+    pub(super) fn expand(
+        &mut self,
+        _: &Expander<f64>,
+        _: ([f64; 2], [&[f64]; 3]),
+        _: &mut [Vec<f64>],
+    ) -> bool {
+        false
     }
 }
 

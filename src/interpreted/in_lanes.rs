@@ -5,8 +5,9 @@ use std::vec::Vec;
 
 use lagrangian_jit::{Library, Several, SeveralArguments};
 use lagrangian_native::Lanes;
-use lagrangian_program::{Function, Op, Program, Role};
+use lagrangian_program::{Program, Role};
 
+use super::powers::has_powers;
 use super::{InterpretedMachine, InterpretedSystem, Named, RunTask};
 use crate::run::in_lanes::{self, Machines};
 use crate::run::run;
@@ -25,16 +26,6 @@ struct InLanes {
     has_powers: [bool; 2],
 }
 
-/// Whether all results of a function are 0.
-fn is_zero(function: &Function) -> bool {
-    let zero = |op: &Op| matches!(op, Op::Constant(constant) if constant.is_zero());
-    function.guards.is_empty()
-        && function
-            .results
-            .iter()
-            .all(|value| function.code.get(value.index()).is_some_and(zero))
-}
-
 /// Makes all these runs, in lanes if the machine of the first has code for that.
 pub(super) fn run_tasks(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<InterpretedMachine>> {
     let first = tasks.first().map(|(task, _)| &task.subject);
@@ -45,16 +36,12 @@ pub(super) fn run_tasks(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<Interprete
     let Some(library) = machine.machine_code.of_lanes(&machine.program, WIDTH) else {
         return run_one_by_one(tasks);
     };
-    let has = |role| {
-        let function = machine.program.function(role);
-        function.is_some_and(|function| !is_zero(function))
-    };
     let mut machines = InLanes {
         library,
         program: machine.program.clone(),
         several: None,
         inputs: Vec::new(),
-        has_powers: [Role::WorkRate, Role::DissipationRate].map(has),
+        has_powers: has_powers(&machine.program),
     };
     in_lanes::run_tasks(tasks, &mut machines)
 }

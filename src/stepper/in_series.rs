@@ -91,7 +91,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         // The projection only removes truncation error and rounding.
         model.project(now)?;
-        if quadratures.integrals().is_some() {
+        if quadratures.integrals().is_some() && model.system.get().has_powers() {
             for (i, k) in k.iter_mut().enumerate().take(stages).skip(1) {
                 let tau = method.tableau.c[i] * h;
                 (stage.0, stage.1) = crate::taylor::state(taylor.of_step(), tau);

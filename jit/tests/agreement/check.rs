@@ -31,7 +31,7 @@ impl Numbers {
     }
 
     /// A random number for a state; if `is_wild`, some are NaN, infinite, huge or tiny.
-    fn of_state(&mut self, is_wild: bool) -> f64 {
+    pub fn of_state(&mut self, is_wild: bool) -> f64 {
         const WILD: [f64; 12] = [
             0.0,
             -0.0,

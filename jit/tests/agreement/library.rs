@@ -1,23 +1,25 @@
-//! Every machine of the library.
+//! Every machine of the library: its functions, and the series of its motion.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lagrangian_jit::Level;
-use lagrangian_mechanics::Compiled;
-use lagrangian_program::{Program, Role};
+use lagrangian_mechanics::{Compiled, series::ProvedSeries};
+use lagrangian_program::{Program, Role, series::Series};
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::Dag;
 
 use super::check::agrees;
+use super::{random, series};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../machines");
 
 /// The number of states for each machine; half of them have NaN, infinite or huge neighbours in other lanes.
 const STATES: usize = 48;
 
-pub fn program(path: &str) -> Program {
+/// The program of a machine, and the series of its motion if it has one.
+pub fn program_and_series(path: &str) -> (Program, Option<Arc<Series>>) {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let (name, text) = Disk.read(path, None).expect("the library is there");
     let model = lagrangian_spec::model(
@@ -31,7 +33,9 @@ pub fn program(path: &str) -> Program {
     );
     let compiled = model.and_then(|model| Compiled::new(model, &mut report));
     let compiled = compiled.unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
-    compiled.program.into_program()
+    let series = ProvedSeries::derive(&compiled.model);
+    let series = series.map(|series| series.series().clone());
+    (compiled.program.into_program(), series.ok())
 }
 
 pub fn defaults(program: &Program) -> Vec<f64> {
@@ -53,16 +57,32 @@ fn every_machine_of_the_library_has_the_bits_of_the_interpreter() {
         .collect();
     files.sort();
     assert!(files.len() > 40, "most of the library is missing");
-    let (next, has_friction) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let (next, has_friction, has_series) = (
+        AtomicUsize::new(0),
+        AtomicUsize::new(0),
+        AtomicUsize::new(0),
+    );
+    let seed = random::seed();
+    println!("JIT_SEED={seed}");
     let work = || {
         while let Some(file) = files.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let program = Arc::new(program(file));
+            let (program, of_motion) = program_and_series(file);
+            let program = Arc::new(program);
             let parameters = defaults(&program);
             let compared = agrees(&program, &parameters, 1, STATES);
             let compared = compared.unwrap_or_else(|difference| panic!("{file}: {difference}"));
             assert!(compared > 0, "{file}: nothing was compared");
             let friction = program.function(Role::Friction);
             has_friction.fetch_add(friction.iter().len(), Ordering::Relaxed);
+            for (level, of_motion) in of_motion
+                .iter()
+                .flat_map(|of| Level::all().map(move |level| (level, of)))
+            {
+                let compared = series::agrees(of_motion, &parameters, level, seed);
+                let compared = compared.unwrap_or_else(|difference| panic!("{file}: {difference}"));
+                assert!(compared > 0, "{file}: nothing was compared");
+            }
+            has_series.fetch_add(usize::from(of_motion.is_some()), Ordering::Relaxed);
         }
     };
     std::thread::scope(|scope| {
@@ -71,4 +91,7 @@ fn every_machine_of_the_library_has_the_bits_of_the_interpreter() {
         }
     });
     assert!(has_friction.into_inner() > 0, "no machine has contacts");
+    let has_series = has_series.into_inner();
+    println!("{has_series} machines with series");
+    assert!(has_series > 20, "most series are missing");
 }

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use lagrangian_jit::{Level, Library};
+use lagrangian_jit::{Level, Library, SeriesCode};
 
-use super::library::{defaults, program};
+use super::library::{defaults, program_and_series};
 
 #[test]
 #[cfg(target_os = "linux")]
@@ -17,10 +17,11 @@ fn no_page_is_writable_and_executable_at_once() {
         env!("CARGO_MANIFEST_DIR"),
         "/../machines/double_pendulum.machine"
     );
-    let program = Arc::new(program(path));
+    let (program, series) = program_and_series(path);
+    let program = Arc::new(program);
     assert!(!defaults(&program).is_empty());
     let library = Library::new(program.clone()).expect("there are pages");
-    let codes: Vec<_> = program
+    let mut codes: Vec<_> = program
         .functions
         .iter()
         .map(|function| {
@@ -30,6 +31,8 @@ fn no_page_is_writable_and_executable_at_once() {
                 .addresses()
         })
         .collect();
+    let series = SeriesCode::new(&series.expect("it has a series")).expect("it compiles");
+    codes.extend(series.addresses());
     let maps = std::fs::read_to_string("/proc/self/maps").expect("Linux has it");
     let mut found = 0;
     for line in maps.lines() {

@@ -117,13 +117,9 @@ fn function(
     }
 }
 
-#[test]
-fn random_rows_of_operations_have_the_bits_of_the_interpreter() {
-    if Level::here().is_none() {
-        println!("no machine code on this processor, or not in this build");
-        return;
-    }
-    let seed = match std::env::var("JIT_SEED")
+/// The seed of random numbers: that of the environment, or the time.
+pub fn seed() -> u64 {
+    match std::env::var("JIT_SEED")
         .ok()
         .and_then(|text| text.parse().ok())
     {
@@ -131,7 +127,16 @@ fn random_rows_of_operations_have_the_bits_of_the_interpreter() {
         None => SystemTime::now()
             .duration_since(UNIX_EPOCH)
             .map_or(1, |time| time.as_nanos() as u64 % 1_000_000_007),
-    };
+    }
+}
+
+#[test]
+fn random_rows_of_operations_have_the_bits_of_the_interpreter() {
+    if Level::here().is_none() {
+        println!("no machine code on this processor, or not in this build");
+        return;
+    }
+    let seed = seed();
     println!("JIT_SEED={seed}");
     let frame = frame();
     let parameters = defaults(&frame);

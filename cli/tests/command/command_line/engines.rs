@@ -27,14 +27,17 @@ fn printed(call: &[&str], engine: &[&str]) -> Value {
 
 #[test]
 fn every_engine_prints_the_same() {
-    // A plain run, one with drives and a cushion, one with constraints, one with sticking and sliding, and
-    // a stiff one.
+    // A plain run, one with drives and a cushion, one with constraints, one with sticking and sliding, a stiff one, and steps by series, of which the
+    // second run takes so many that compiling pays off in the middle of it.
     for call in [
         "simulate machines/double_pendulum.machine --until 3 --json",
         "simulate machines/cushioned_crusher.machine --until 0.1 --json",
         "simulate machines/closed_pendulum.machine --until 1 --json",
         "simulate machines/stick_slip.machine --until 1 --json",
         "simulate machines/simple_pendulum.machine --until 1 --method radau5 --json",
+        "simulate machines/vibrating_crusher.machine --until 0.1 --method taylor --json",
+        "simulate machines/double_pendulum.machine --until 20 --method taylor --tolerance 1e-13 --json",
+        "simulate machines/closed_pendulum.machine --until 1 --method taylor --json",
         "evaluate machines/vibrating_crusher.machine --start s1=0.02 --start s2=0.03",
         "modes machines/elastic_pendulum.machine --json",
         "brachistochrone machines/prisms.machine --json",

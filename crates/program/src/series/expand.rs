@@ -300,6 +300,11 @@ impl<T: Copy> Expander<T> {
         self.order
     }
 
+    /// The value of a row: one that depends on parameters alone has it before the first expansion.
+    pub fn value(&self, row: RowId) -> T {
+        self.coefficients[row.index() * self.width]
+    }
+
     /// The `order + 2` coefficients of a coordinate.
     pub fn coordinate(&self, coordinate: usize) -> &[T] {
         &self.motion[coordinate * self.width..][..self.width]

@@ -1,0 +1,76 @@
+//! The coefficients of a motion, by the interpreter of series or by machine code.
+
+use std::sync::Arc;
+use std::vec::Vec;
+
+use lagrangian_program::Singular;
+use lagrangian_program::series::{Expander, Series};
+
+use super::engine::CompiledSeries;
+use crate::Number;
+use crate::scalar::{Kernel, Scalar};
+
+/// The memory of expansions, and what executes them.
+#[derive(Clone, Debug)]
+pub(super) struct Expanding {
+    /// The interpreter of the series, for the number of orders of the last expansion.
+    expander: Option<Expander<f64>>,
+    compiled: CompiledSeries,
+}
+
+/// The expansion of a series, executed with the instructions that the processor supports.
+struct Expand<'a> {
+    expander: &'a mut Expander<f64>,
+    at: ([f64; 2], [&'a [f64]; 3]),
+}
+
+impl Kernel<f64> for Expand<'_> {
+    type Output = Result<(), Singular>;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = f64>>(self) -> Self::Output {
+        let (t, [q, v, u]) = self.at;
+        self.expander.expand_in::<N>(t, q, v, u)
+    }
+}
+
+impl Expanding {
+    pub(super) fn new(compiled: CompiledSeries) -> Expanding {
+        Expanding {
+            expander: None,
+            compiled,
+        }
+    }
+
+    /// Expands the motion of a machine with these parameters through a state: time in two parts, coordinates, rates and inputs.
+    pub(super) fn expand(
+        &mut self,
+        (series, parameters): (&Arc<Series>, impl FnOnce() -> Vec<f64>),
+        at: ([f64; 2], [&[f64]; 3]),
+        coefficients: &mut [Vec<f64>],
+    ) -> Result<(), Singular> {
+        let Some(order) = coefficients.len().checked_sub(2) else {
+            return Ok(());
+        };
+        let known = self.expander.take().filter(|known| known.order() == order);
+        let expander = self.expander.insert(known.unwrap_or_else(|| {
+            self.compiled.clear();
+            Expander::new(series.clone(), &parameters(), order)
+        }));
+        if self.compiled.expand(expander, at, coefficients) {
+            return Ok(());
+        }
+        f64::run(Expand { expander, at })?;
+        let [q, v, _] = at.1;
+        for (row, start) in coefficients.iter_mut().zip([q, v]) {
+            row.copy_from_slice(start);
+        }
+        for i in 0..q.len() {
+            for (row, c) in coefficients.iter_mut().zip(expander.coordinate(i)).skip(2) {
+                // Machine code leaves out sums with 0, which decide on the sign of a zero.
+                row[i] = *c + 0.0;
+            }
+        }
+        Ok(())
+    }
+}
