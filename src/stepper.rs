@@ -28,7 +28,9 @@ mod owned;
 #[cfg(feature = "std")]
 pub(crate) use contact_changes::{Cause, ContactChanges};
 
-pub(crate) use equations::{accelerations, project};
+#[cfg(feature = "std")]
+pub(crate) use equations::accelerations;
+pub(crate) use equations::project;
 pub(crate) use owned::BorrowedOrOwned;
 pub use owned::{ControlledStepper, StepperBuilder};
 

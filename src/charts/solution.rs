@@ -1,5 +1,6 @@
 //! Runs in Cartesian coordinates that are shown in polar ones.
 
+use core::fmt::{self, Debug};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::vec::Vec;
 
@@ -9,8 +10,10 @@ use crate::inputs::InputLaw;
 use crate::names::rate_name;
 use crate::settings::Subject;
 use crate::solution::Solution;
+use crate::stepper::in_lanes::WIDTH;
 use crate::{
-    ContactEvent, Coordinates, Error, Event, Machine, Simulation, State, StepMotion, System, Vector,
+    Batched, ContactEvent, Coordinates, Error, Event, Machine, Simulation, State, StepMotion,
+    System, Vector,
 };
 
 /// The result of a run that was made in Cartesian coordinates, in the polar ones of the description.
@@ -21,8 +24,35 @@ pub struct ChartedSolution<M: Charted, L> {
     system: M::System,
     run: Solution<M::Cartesian, L>,
     turns: Turns,
-    /// The start as it was given, and in Cartesian coordinates, if polar ones have a meaning there.
-    start: Option<(State<Coordinates<M>>, State<VectorOf<M::Cartesian>>)>,
+    start: Option<Start<M>>,
+}
+
+/// The start of a run as it was given, and in Cartesian coordinates, if polar ones have a meaning there.
+type Start<M> = (
+    State<Coordinates<M>>,
+    State<VectorOf<<M as Charted>::Cartesian>>,
+);
+
+/// A run as far as it went, with the error that ended it early, if any; or an error if it could not begin.
+type RunAsFarInCharts<M, L> = Result<(ChartedSolution<M, L>, Option<Error>), Error>;
+
+/// What is known of a run in Cartesian coordinates before it is made.
+struct Begun<M: Charted> {
+    system: M::System,
+    turns: Arc<Mutex<Turns>>,
+    start: Option<Start<M>>,
+}
+
+impl<M: Charted> Begun<M> {
+    fn solution<L>(self, run: Solution<M::Cartesian, L>) -> ChartedSolution<M, L> {
+        let turns = self.turns.lock().unwrap_or_else(PoisonError::into_inner);
+        ChartedSolution {
+            turns: turns.clone(),
+            system: self.system,
+            start: self.start,
+            run,
+        }
+    }
 }
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
@@ -91,16 +121,55 @@ impl<'a, C: Machine, L: InputLaw<C::System>> Simulation<'a, C, L> {
         mut self,
         machine: &M,
         start: State<Coordinates<M>>,
-    ) -> Result<(ChartedSolution<M, L>, Option<Error>), Error> {
+    ) -> RunAsFarInCharts<M, L> {
+        let (charts, begun) = self.begin_in_charts(machine, start)?;
+        let (run, error) = self.run_as_far_as_possible(begun)?;
+        Ok((charts.solution(run), error))
+    }
+
+    /// Makes many runs like [`run_in_charts_as_far_as_possible`](Self::run_in_charts_as_far_as_possible), together in lanes like
+    /// [`run_in_lanes`](Self::run_in_lanes). Returns the results in the order of the runs.
+    pub fn run_in_charts_and_lanes<M: Charted<Cartesian = C>>(
+        runs: Vec<(Self, &M, State<Coordinates<M>>)>,
+    ) -> Vec<RunAsFarInCharts<M, L>>
+    where
+        C: Machine<System: Batched<WIDTH>>,
+    {
+        let (mut begun, mut simulations) = (Vec::new(), Vec::new());
+        for (mut simulation, machine, start) in runs {
+            begun.push(
+                simulation
+                    .begin_in_charts(machine, start)
+                    .map(|(charts, start)| {
+                        simulations.push((simulation, start));
+                        charts
+                    }),
+            );
+        }
+        let mut made = Self::run_in_lanes(simulations).into_iter();
+        let solution = |charts: Result<Begun<M>, Error>| {
+            let charts = charts?;
+            // There is one for each run that could begin.
+            let (run, error) = made.next().unwrap_or(Err(Error::NoEnd))?;
+            Ok((charts.solution(run), error))
+        };
+        begun.into_iter().map(solution).collect()
+    }
+
+    /// Prepares a run in Cartesian coordinates, and returns its start in these.
+    fn begin_in_charts<M: Charted<Cartesian = C>>(
+        &mut self,
+        machine: &M,
+        start: State<Coordinates<M>>,
+    ) -> Result<(Begun<M>, State<Coordinates<C>>), Error> {
         let (system, points) = (machine.prepare(), machine.points());
         let (q, v) = (system.to_vector(&start.q), system.to_vector(&start.v));
         check_start(&system, points, [&q, &v])?;
         if let Subject::Machine(cartesian) = &self.subject {
             check_parameters(*cartesian, machine)?;
         }
-        let cartesian = machine.in_cartesian();
-        // Its values other than its names are not used: the names of numbers depend on no parameter.
-        let of_names = cartesian.prepare();
+        // Only its names are used, which depend on no parameter.
+        let of_names = machine.in_cartesian().prepare();
         let n = q.as_slice().len();
         let [mut to_q, mut to_v] = [(); 2].map(|()| VectorOf::<C>::zeros(n));
         to_q.as_mut_slice().copy_from_slice(q.as_slice());
@@ -117,21 +186,18 @@ impl<'a, C: Machine, L: InputLaw<C::System>> Simulation<'a, C, L> {
             q: of_names.to_coordinates(&to_q),
             v: of_names.to_coordinates(&to_v),
         };
-        let (run, error) = self.run_as_far_as_possible(begun)?;
         let is_stated = points.iter().all(|[s, _]| q.as_slice()[*s] > 0.0);
-        let begun = State {
+        let in_cartesian = State {
             t: start.t,
             q: to_q,
             v: to_v,
         };
-        let turns = turns.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        let solution = ChartedSolution {
-            start: is_stated.then_some((start, begun)),
+        let charts = Begun {
+            start: is_stated.then_some((start, in_cartesian)),
             system,
-            run,
             turns,
         };
-        Ok((solution, error))
+        Ok((charts, begun))
     }
 
     /// Follows the angles through every step, besides an observer of steps that there may be.
@@ -203,6 +269,16 @@ fn check_start<S: System>(
         }
     }
     Ok(())
+}
+
+impl<M: Charted, L> Debug for ChartedSolution<M, L> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ChartedSolution")
+            .field("start", &self.start())
+            .field("end", &self.end())
+            .field("cartesian", &self.run)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<M: Charted, L> ChartedSolution<M, L> {

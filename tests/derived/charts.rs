@@ -217,3 +217,47 @@ fn a_run_has_the_numbers_of_the_command() {
         assert!((observed.outputs.momentum - momentum).abs() < 1e-13);
     }
 }
+
+/// Runs in lanes have the bits of runs alone, with their own turns; one that cannot begin does not concern the others.
+#[test]
+fn runs_in_lanes_pass_the_centre_as_alone() {
+    let machines: Vec<Free> = (1..=12).map(|m| Free { m: f64::from(m) }).collect();
+    let cartesian: Vec<_> = machines.iter().map(Charted::in_cartesian).collect();
+    let start = |k: usize| {
+        let [s, phi, rate, turning] = on_line(1e-3 * k as f64, 0.0);
+        State {
+            t: 0.0,
+            q: free::Coordinates {
+                s: if k == 5 { -s } else { s },
+                phi,
+            },
+            v: free::Coordinates {
+                s: rate,
+                phi: turning,
+            },
+        }
+    };
+    let runs = || {
+        (1..12).map(|k| {
+            (
+                Simulation::new(&cartesian[k]).until(3.0),
+                &machines[k],
+                start(k),
+            )
+        })
+    };
+    let together = Simulation::run_in_charts_and_lanes(runs().collect());
+    for (k, (made, (simulation, machine, start))) in together.into_iter().zip(runs()).enumerate() {
+        let alone = simulation.run_in_charts(machine, start);
+        match (made, alone) {
+            (Ok((made, None)), Ok(alone)) => {
+                assert_eq!(made.end(), alone.end());
+                assert_eq!(made.at(1.3), alone.at(1.3));
+            }
+            (made, alone) => {
+                assert_eq!(k, 4);
+                assert_eq!(made.err(), alone.err());
+            }
+        }
+    }
+}

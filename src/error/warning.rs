@@ -1,0 +1,209 @@
+//! Warnings of runs, with their messages.
+
+use core::fmt::{self, Display};
+use std::string::String;
+
+use super::message::{ShortNumber, quoted};
+
+/// Warnings of a run that ended without an error.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Warning {
+    /// The relative tolerance is finer than the numbers allow, and was raised.
+    ToleranceRaised {
+        /// The requested tolerance.
+        asked: f64,
+        /// The tolerance used.
+        used: f64,
+    },
+    /// An angle became so large that numbers as large as it are far apart, so forces that depend on it are inaccurate.
+    LargeAngle {
+        /// The coordinate.
+        name: String,
+        /// Its value at the end, in rad.
+        angle: f64,
+        /// The distance from it to the next number, in rad.
+        spacing: f64,
+    },
+    /// Stability and not accuracy limits the steps: something in the machine
+    /// is far stiffer, or far more strongly damped, than its motion shows.
+    Stiff {
+        /// When it was detected, in s.
+        t: f64,
+    },
+    /// The residual of the energy balance is larger than tolerance and rounding explain.
+    EnergyUnexplained {
+        /// The residual, in J.
+        residual: f64,
+        /// The part that tolerance and rounding explain, in J: see [`EnergyBalance::explained`](crate::EnergyBalance::explained).
+        explained: f64,
+        /// The residual relative to the energy exchanged.
+        relative: f64,
+    },
+    /// Impacts created energy, as Newton's law with friction may.
+    ImpactGains {
+        /// The contact with the largest gain.
+        contact: String,
+        /// The time of that impact, in s.
+        t: f64,
+        /// The energy that it created, in J.
+        gain: f64,
+        /// The number of impacts that created energy.
+        impacts: usize,
+    },
+    /// The motion depends on how contacts share their load, which rigid bodies leave undetermined. The distribution of contacts that all yield alike could not
+    /// be computed, and another possible one was taken.
+    LoadShared {
+        /// When this was so first, in s.
+        t: f64,
+        /// The contacts that shared their load then.
+        contacts: std::vec::Vec<String>,
+        /// The number of instants, or of steps of time stepping, at which it was so.
+        instants: usize,
+    },
+    /// Unilateral contacts changed too often for each instant to be located,
+    /// and the run changed to time stepping, whose error nothing bounds.
+    HandedOver {
+        /// When it first did so, in s.
+        t: f64,
+        /// The length of the steps then, in s.
+        step: f64,
+        /// The number of instants at which contacts had changed last, and the time in which they did, in s; `None` if contacts did not
+        /// settle at one instant.
+        crowd: Option<(usize, f64)>,
+        /// The number of times that it did so.
+        times: usize,
+        /// When it returned for good to locating every event, in s, if it did.
+        back_at: Option<f64>,
+    },
+    /// A constraint follows from others at the start, so multipliers are not unique: those of least norm are returned, and the motion
+    /// does not depend on this choice.
+    RedundantConstraint {
+        /// The constraint.
+        constraint: String,
+        /// The others.
+        with: std::vec::Vec<String>,
+    },
+    /// The start violated the constraints, and was moved onto them.
+    StartMoved {
+        /// The coordinate, `s1`, or its rate, `der(s1)`.
+        name: String,
+        /// The given value.
+        from: f64,
+        /// The value at the start of the run.
+        to: f64,
+    },
+}
+
+impl Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ToleranceRaised { asked, used } => write!(
+                f,
+                "a relative tolerance of {asked:e} asks for more digits than the numbers have; {used:e} was used"
+            ),
+            Self::LargeAngle {
+                name,
+                angle,
+                spacing,
+            } => write!(
+                f,
+                "`{name}` reached {angle:.3e} rad, where numbers are {spacing:.1e} rad apart: forces that depend on it are no more \
+                 accurate; start it within a few turns of 0"
+            ),
+            Self::EnergyUnexplained {
+                residual,
+                explained,
+                relative,
+            } => write!(
+                f,
+                "the energies do not balance: the residual is {residual:.1e} J, {relative:.1e} of the energy exchanged, \
+                 while tolerance and rounding explain {explained:.1e} J; the motion is less accurate than requested, or \
+                 its equations and its energies are inconsistent"
+            ),
+            Self::ImpactGains {
+                contact,
+                t,
+                gain,
+                impacts,
+            } => write!(
+                f,
+                "impacts created energy, {impacts} of them, the most {gain:.2e} J at t = {t} s when `{contact}` closed: \
+                 Newton's law with friction can do so; `law: stronge` never does",
+                t = ShortNumber(*t)
+            ),
+            Self::LoadShared {
+                t,
+                contacts,
+                instants,
+            } => {
+                write!(
+                    f,
+                    "the motion depends on how {} share their load at t = {t} s: the distribution of contacts that all yield alike \
+                     could not be computed, and another possible one was taken",
+                    quoted(contacts),
+                    t = ShortNumber(*t)
+                )?;
+                match instants {
+                    0 | 1 => Ok(()),
+                    more => write!(f, "; there were {more} such instants"),
+                }
+            }
+            Self::HandedOver {
+                t,
+                step,
+                crowd,
+                times,
+                back_at,
+            } => {
+                match crowd {
+                    Some((count, within)) => write!(
+                        f,
+                        "contacts changed at {count} instants within {within:.1e} s"
+                    )?,
+                    None => write!(f, "contacts did not settle at one instant")?,
+                }
+                write!(
+                    f,
+                    " up to t = {t} s: from there the run continued with time stepping in steps of {step:.1e} s, whose error is not \
+                     controlled; a shorter longest step shows how large it is",
+                    t = ShortNumber(*t)
+                )?;
+                if *times > 1 {
+                    write!(f, "; it did so {times} times")?;
+                }
+                match back_at {
+                    Some(t) => write!(
+                        f,
+                        "; from t = {t} s it located every event again",
+                        t = ShortNumber(*t)
+                    ),
+                    None => Ok(()),
+                }
+            }
+            Self::RedundantConstraint { constraint, with } if with.is_empty() => write!(
+                f,
+                "the constraint `{constraint}` restricts nothing at the start"
+            ),
+            Self::RedundantConstraint { constraint, with } => write!(
+                f,
+                "the constraint `{constraint}` is redundant given {}: the motion is unique, and the multipliers are those \
+                 of least norm",
+                quoted(with)
+            ),
+            Self::StartMoved { name, from, to } => write!(
+                f,
+                "the start was moved onto the constraints: `{name}` from {from} to {to}",
+                from = ShortNumber(*from),
+                to = ShortNumber(*to)
+            ),
+            Self::Stiff { t } => write!(
+                f,
+                "the machine is stiff from t = {t} s: the step size is limited by stability, not by accuracy; the method `radau5` \
+                 takes longer steps",
+                t = ShortNumber(*t)
+            ),
+        }
+    }
+}
