@@ -152,6 +152,11 @@ impl SeriesRunning {
         SeriesRunning(code)
     }
 
+    /// The number of coefficients of a coordinate.
+    pub fn width(&self) -> usize {
+        match self.0.0 {}
+    }
+
     /// Expands the motion through a state.
     pub fn expand<V: AsMut<[f64]>>(&mut self, _: [f64; 2], _: [&[f64]; 3], _: &mut [V]) -> bool {
         match self.0.0 {}
