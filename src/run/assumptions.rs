@@ -1,0 +1,357 @@
+//! Whether the assumptions of a description hold throughout a step, and where one of them ends.
+
+use std::boxed::Box;
+use std::string::String;
+use std::vec::Vec;
+
+use super::{LastInterpolant, Model, Run};
+use crate::balance::Quadratures;
+use crate::event::{self, Places, Triple, step_motion};
+use crate::inputs::{InputLaw, LawInPiece};
+use crate::interpolant::Interpolant;
+use crate::roots;
+use crate::stepper::Stepper;
+use crate::taylor::MotionBounds;
+use crate::{Error, Machine, System, Vector};
+
+/// Bounds within which all assumptions were found to hold in this run, if any were sought.
+pub(super) type Held<V> = Option<Box<HeldBounds<V>>>;
+
+/// Bounds within which all assumptions are known to hold.
+///
+/// Whether they hold is found by interval arithmetic, which takes as long as some evaluations of the machine. A motion that repeats stays within the bounds
+/// of its earlier steps, and others leave bounds that grow in proportion to their width only now and then.
+#[derive(Debug)]
+pub(super) struct HeldBounds<V> {
+    known: Option<([f64; 2], MotionBounds<V>)>,
+    of_step: MotionBounds<V>,
+    wider: MotionBounds<V>,
+    /// By how many of their widths bounds are widened on the sides on which a step leaves them; 0 if they are not. Where assumptions are not known to hold
+    /// within the wider ones, a quarter of this is used from then on.
+    widening: f64,
+}
+
+/// By how many of their widths bounds are widened at first, and at least.
+const WIDENING: [f64; 2] = [4.0, 0.25];
+
+impl<V: Vector> HeldBounds<V> {
+    fn none(q: &V) -> Self {
+        Self {
+            known: None,
+            of_step: MotionBounds::like(q),
+            wider: MotionBounds::like(q),
+            widening: WIDENING[0],
+        }
+    }
+
+    /// Whether all assumptions are known to hold throughout a step with these coefficients and of this length, from a state.
+    fn hold_throughout<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        (coefficients, h): (&[V], f64),
+        (t, q, v): (f64, &V, &V),
+    ) -> bool {
+        if !self.of_step.of_step(coefficients, h, [q, v]) {
+            return false;
+        }
+        let t = [t.min(t + h), t.max(t + h)];
+        let Self {
+            known,
+            of_step,
+            wider,
+            widening,
+        } = self;
+        if let Some((known_t, known)) = known
+            && contain(*known_t, t)
+            && contain_all(known, of_step)
+        {
+            return true;
+        }
+        let hold = |t: [f64; 2], MotionBounds { q, v }: &MotionBounds<V>| {
+            system.assumptions_hold_within(t, [&q[0], &q[1]], [&v[0], &v[1]])
+        };
+        if *widening > 0.0 {
+            let known_t = known.as_ref().map(|(t, _)| *t);
+            let wider_t = widened(known_t, t, *widening);
+            for i in 0..of_step.q[0].as_slice().len() {
+                let pairs = [
+                    (
+                        &of_step.q,
+                        &mut wider.q,
+                        known.as_ref().map(|(_, of)| &of.q),
+                    ),
+                    (
+                        &of_step.v,
+                        &mut wider.v,
+                        known.as_ref().map(|(_, of)| &of.v),
+                    ),
+                ];
+                for (of_step, wider, known) in pairs {
+                    let at = |of: &[V; 2]| [of[0].as_slice()[i], of[1].as_slice()[i]];
+                    let [low, high] = widened(known.map(at), at(of_step), *widening);
+                    wider[0].as_mut_slice()[i] = low;
+                    wider[1].as_mut_slice()[i] = high;
+                }
+            }
+            if hold(wider_t, wider) {
+                take(known, wider_t, wider);
+                return true;
+            }
+            *widening *= 0.25;
+            if *widening < WIDENING[1] {
+                *widening = 0.0;
+            }
+        }
+        let holds = hold(t, of_step);
+        if holds {
+            take(known, t, of_step);
+        }
+        holds
+    }
+}
+
+/// Exchanges the known bounds for others.
+fn take<V: Vector>(
+    known: &mut Option<([f64; 2], MotionBounds<V>)>,
+    t: [f64; 2],
+    bounds: &mut MotionBounds<V>,
+) {
+    match known {
+        Some((known_t, known)) => {
+            *known_t = t;
+            std::mem::swap(known, bounds);
+        }
+        None => *known = Some((t, bounds.clone())),
+    }
+}
+
+/// Whether bounds contain others.
+fn contain(known: [f64; 2], of_step: [f64; 2]) -> bool {
+    known[0] <= of_step[0] && of_step[1] <= known[1]
+}
+
+/// Whether bounds of a motion contain others.
+fn contain_all<V: Vector>(known: &MotionBounds<V>, of_step: &MotionBounds<V>) -> bool {
+    let pairs = [(&known.q, &of_step.q), (&known.v, &of_step.v)];
+    pairs.into_iter().all(|(known, of_step)| {
+        let [known, of_step] = [known, of_step].map(|of| [of[0].as_slice(), of[1].as_slice()]);
+        (0..known[0].len())
+            .all(|i| contain([known[0][i], known[1][i]], [of_step[0][i], of_step[1][i]]))
+    })
+}
+
+/// Bounds that contain known ones and those of a step, and more on the sides on which the step left the known ones, by so many of their widths.
+fn widened(known: Option<[f64; 2]>, [low, high]: [f64; 2], by: f64) -> [f64; 2] {
+    let Some([known_low, known_high]) = known else {
+        let more = by * (high - low);
+        return [low - more, high + more];
+    };
+    let more = by * (high.max(known_high) - low.min(known_low));
+    [
+        if low < known_low {
+            low - more
+        } else {
+            known_low
+        },
+        if high > known_high {
+            high + more
+        } else {
+            known_high
+        },
+    ]
+}
+
+impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
+    /// The time at which an assumption of the description ended in the last step, and its text. It may hold again at the end of the step,
+    /// so assumptions are searched like events.
+    pub(super) fn assumption_ended(
+        &mut self,
+        interpolant: &mut LastInterpolant<M>,
+    ) -> Result<Option<(f64, String)>, Error> {
+        let Self {
+            model,
+            stepper,
+            held,
+            ..
+        } = self;
+        let Some(looks) = model.isolating_fractions_of_assumptions(stepper, interpolant, held)?
+        else {
+            return Ok(None);
+        };
+        let interpolant = step_motion(interpolant, stepper, model.system)?;
+        let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
+        for theta in looks {
+            let Some((index, text)) = model.ended_assumption(at(theta)?) else {
+                continue;
+            };
+            let margin = |theta| at(theta).map(|state| model.margin(index, state));
+            // It held at the beginning of the step.
+            let roundoff = event::theta_roundoff(stepper);
+            let theta = event::root([0.0, theta], roundoff, &mut &margin)?;
+            return Ok(Some((at(theta)?.0, text)));
+        }
+        Ok(None)
+    }
+}
+
+impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
+    /// The fractions of the last step at which to evaluate the assumptions: between neighbours none of them fails and holds again. `None`
+    /// if all are known to hold throughout, which a few values decide for most of them. A machine without assumptions pays nothing.
+    #[inline]
+    fn isolating_fractions_of_assumptions<A: Quadratures<S>>(
+        &self,
+        stepper: &mut Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
+        interpolant: &mut Option<Interpolant<S::Vector>>,
+        held: &mut Held<S::Vector>,
+    ) -> Result<Option<Vec<f64>>, Error> {
+        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
+        let count = self.system.assumptions(t, q, v, stepper.inputs()).len();
+        if count == 0 {
+            return Ok(None);
+        }
+        let series = stepper.coefficients();
+        if let Some(coefficients) = series {
+            let holds = |t: f64, q: &S::Vector, v: &S::Vector| {
+                // Assumptions do not depend on inputs, so the present ones will do.
+                let mut facts = self.system.assumptions(t, q, v, stepper.inputs());
+                facts.all(|fact| fact.holds())
+            };
+            let hold = if self.system.has_linear_assumptions() {
+                holds(t, q, v) && self.hold_throughout_series(stepper, coefficients, holds)
+            } else {
+                let held = held.get_or_insert_with(|| Box::new(HeldBounds::none(q)));
+                let h = stepper.last_step();
+                let from = (stepper.t_before(), stepper.q_before(), stepper.v_before());
+                held.hold_throughout(self.system, (coefficients, h), from)
+            };
+            if hold {
+                return Ok(None);
+            }
+        }
+        let is_by_series = series.is_some();
+        let mut places = std::vec![Some(Places::All); count];
+        if !is_by_series {
+            let is_long = event::is_long(self.system, stepper);
+            let mut values = std::vec![[0.0; roots::FRACTIONS.len()]; count];
+            let mut hold = true;
+            let states = event::at_fractions(self.system, stepper, interpolant)?;
+            for (node, (t, q, v)) in states.iter().enumerate() {
+                let facts = self.system.assumptions(*t, q, v, stepper.inputs());
+                for (values, fact) in values.iter_mut().zip(facts) {
+                    values[node] = fact.margin;
+                    hold &= fact.holds();
+                }
+            }
+            for (place, values) in places.iter_mut().zip(&values) {
+                *place = match roots::sign_changes(values) {
+                    // A margin that does not vary needs no search.
+                    _ if is_long && values.iter().any(|value| *value != values[0]) => {
+                        Some(Places::All)
+                    }
+                    Some(0) if hold => None,
+                    Some(0 | 1) if values[4] <= 0.0 => Some(Places::Few),
+                    // A margin that is 0 throughout holds.
+                    None if hold && *values == [0.0; roots::FRACTIONS.len()] => None,
+                    _ => Some(Places::All),
+                };
+            }
+            if places.iter().all(Option::is_none) {
+                return Ok(None);
+            }
+        }
+        let interpolant = step_motion(interpolant, stepper, self.system)?;
+        let at = |theta| event::state_at(self.system, stepper, interpolant, theta);
+        let mut looks = if places.contains(&Some(Places::Few)) {
+            event::SAMPLE_FRACTIONS.to_vec()
+        } else {
+            Vec::new()
+        };
+        // All searches begin with the same fractions.
+        let mut known: Vec<(f64, Triple<S::Vector>)> = Vec::new();
+        for index in (0..count).filter(|index| places[*index] == Some(Places::All)) {
+            looks.extend(roots::isolating_fractions(|theta| {
+                let found = known.iter().find(|(other, _)| *other == theta);
+                let state = match found {
+                    Some((_, state)) => state.clone(),
+                    None => {
+                        let state = at(theta)?;
+                        if count > 1 {
+                            known.push((theta, state.clone()));
+                        }
+                        state
+                    }
+                };
+                Ok(self.margin(index, state))
+            })?);
+        }
+        looks.sort_by(f64::total_cmp);
+        looks.dedup();
+        Ok(Some(looks))
+    }
+
+    /// Whether facts that are linear in time, coordinates and rates hold throughout a step by series.
+    ///
+    /// The motion is `Σ cⱼ θʲ` with `1 ≥ θ ≥ θ² ≥ …`, which is a convex combination of the partial sums `Σ cⱼ` over `j ≤ k`. So a fact that
+    /// holds at each partial sum holds along the step.
+    fn hold_throughout_series<A: Quadratures<S>>(
+        &self,
+        stepper: &Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
+        coefficients: &[S::Vector],
+        holds: impl Fn(f64, &S::Vector, &S::Vector) -> bool,
+    ) -> bool {
+        let t = stepper.t_before() + stepper.last_step();
+        if !holds(stepper.t_before(), stepper.q_before(), stepper.v_before()) {
+            return false;
+        }
+        self.all_partial_sums(stepper, coefficients, |q, v| holds(t, q, v))
+    }
+
+    /// Whether something is true of all partial sums of the coordinates and rates in the series of the last step, at its end.
+    #[inline]
+    fn all_partial_sums<A: Quadratures<S>>(
+        &self,
+        stepper: &Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
+        coefficients: &[S::Vector],
+        mut is_true: impl FnMut(&S::Vector, &S::Vector) -> bool,
+    ) -> bool {
+        let h = stepper.last_step();
+        let (mut q, mut v) = (stepper.q_before().clone(), stepper.v_before().clone());
+        let mut power = h;
+        for (k, row) in coefficients.iter().enumerate().skip(1) {
+            let add = |sum: &mut S::Vector, row: &S::Vector, by: f64| {
+                let (sum, row) = (sum.as_mut_slice(), row.as_slice());
+                for i in 0..sum.len().min(row.len()) {
+                    sum[i] += by * row[i];
+                }
+            };
+            add(&mut q, row, power);
+            if let Some(next) = coefficients.get(k + 1) {
+                add(&mut v, next, (k + 1) as f64 * power);
+            }
+            if !is_true(&q, &v) {
+                return false;
+            }
+            power *= h;
+        }
+        true
+    }
+
+    /// The first assumption that does not hold: its index and text.
+    #[inline]
+    pub(super) fn ended_assumption(&self, state: Triple<S::Vector>) -> Option<(usize, String)> {
+        let (t, q, v) = &state;
+        self.system
+            .assumptions(*t, q, v, &self.inputs(*t, q, v))
+            .enumerate()
+            .find(|(_, assumption)| !assumption.holds())
+            .map(|(index, assumption)| (index, assumption.text.into()))
+    }
+
+    /// The margin by which an assumption holds; NaN counts as violated.
+    fn margin(&self, index: usize, state: Triple<S::Vector>) -> f64 {
+        let (t, q, v) = &state;
+        let inputs = self.inputs(*t, q, v);
+        let margin = self.system.assumptions(*t, q, v, &inputs).nth(index);
+        margin.map_or(0.0, |assumption| assumption.margin.max(f64::NEG_INFINITY))
+    }
+}
