@@ -17,6 +17,7 @@ mod closest;
 mod fork;
 #[cfg(feature = "std")]
 mod report;
+mod residuals;
 mod scale;
 mod start;
 mod workspace;
@@ -29,6 +30,7 @@ use algebra::{backward, dot, forward, length, remove, share};
 use choice::{Choice, Rank};
 #[cfg(feature = "std")]
 pub(crate) use closest::{Violation, closest};
+use residuals::Changed;
 use scale::Scales;
 use workspace::{Workspace, in_workspace};
 
@@ -265,7 +267,7 @@ impl<V: Vector> Constraints<V> {
         for moved in &mut self.moved {
             moved.as_mut_slice().fill(0.0);
         }
-        let [positions, rates] = self.residuals(system, workspace, place);
+        let [positions, rates] = self.residuals(system, workspace, place, Changed::All);
         self.chosen_residuals = [positions.0, rates.0];
         for (level, roundoff) in self.scales.roundoff().into_iter().enumerate() {
             let before = self.chosen_residuals_before[level] + roundoff;
@@ -299,10 +301,10 @@ impl<V: Vector> Constraints<V> {
         self.scales.record_metric(workspace.metric.as_slice());
         let mut done = Ok(());
         for level in levels {
-            let left = self.residuals(system, workspace, place)[*level as usize];
+            let left = self.residual(system, workspace, place, *level, Changed::Nothing);
             done = done.and_then(|()| self.newton(system, workspace, place, *level, left));
         }
-        let [positions, rates] = self.residuals(system, workspace, place);
+        let [positions, rates] = self.residuals(system, workspace, place, Changed::Nothing);
         self.choice = all;
         done?;
         self.chosen_residuals = [positions.0, rates.0];
@@ -330,6 +332,10 @@ impl<V: Vector> Constraints<V> {
         (mut left, mut worst): (f64, usize),
     ) -> Result<(), StepError> {
         let at = level as usize;
+        let moved = match level {
+            Level::Positions => Changed::All,
+            Level::Rates => Changed::Rates,
+        };
         let mut fresh = true;
         let mut far = self.distance(workspace, level);
         for _ in 0..MOST_ITERATIONS {
@@ -348,7 +354,7 @@ impl<V: Vector> Constraints<V> {
                     }
                     (*y, *low) = two_sum(workspace.before[j], *low + part * by);
                 }
-                (left, worst) = self.residuals(system, workspace, place)[at];
+                (left, worst) = self.residual(system, workspace, place, level, moved);
                 near = self.distance(workspace, level);
                 // Far from the constraints a full step may be too long.
                 if near <= (1.0 - 0.25 * part) * far || part < 0.01 || left < NEAR {
@@ -441,7 +447,7 @@ impl<V: Vector> Constraints<V> {
             for ((y, before), by) in y.zip(&*workspace.before).zip(&*workspace.column) {
                 *y = before + part * by;
             }
-            self.residuals(system, workspace, place);
+            self.residuals(system, workspace, place, Changed::All);
             let (there, slope_there, _) = evaluate(workspace);
             scatters = scatters.max((there - left - part * slope).abs());
             turns = turns.max((slope_there - slope).abs());
@@ -449,117 +455,8 @@ impl<V: Vector> Constraints<V> {
         place.level(level)[0]
             .as_mut_slice()
             .copy_from_slice(workspace.before);
-        self.residuals(system, workspace, place);
+        self.residuals(system, workspace, place, Changed::All);
         turns <= 1e-3 * length && scatters >= 0.0625 * left.abs()
-    }
-
-    /// The largest residuals of the rows at a state, relative to their scale, and their rows. Leaves all residuals and the constraint
-    /// matrix in the workspace.
-    fn residuals<S: System<Vector = V>>(
-        &self,
-        system: &S,
-        workspace: &mut Workspace<'_, S::Matrix>,
-        place: &Unprojected<'_, V>,
-    ) -> [(f64, usize); 2] {
-        let (q, v) = (&*place.q[0], &*place.v[0]);
-        system.constraint_positions(place.t, q, workspace.positions);
-        system.constraint_rates(place.t, q, v, workspace.rates);
-        system.constraint_matrix(place.t, q, workspace.matrix);
-        let mut most = [(0.0, 0), (0.0, 0)];
-        for k in 0..workspace.m {
-            let is_chosen = self.choice.has(k);
-            for (most, now) in most.iter_mut().zip(self.relative(workspace, k, q, v)) {
-                // Other rows approach together with the chosen ones, unless they contradict them.
-                if !is_chosen && !(now.now <= CONTRADICTION) {
-                    continue;
-                }
-                // NaN counts as the largest.
-                if !(now.now <= most.0) {
-                    *most = (now.now, k);
-                }
-            }
-        }
-        most
-    }
-
-    /// The largest residual of the chosen rows on one level, relative to the scale of the guaranteed bound, and its row.
-    fn guaranteed_residual<M>(
-        &self,
-        workspace: &Workspace<'_, M>,
-        place: &Unprojected<'_, V>,
-        level: Level,
-    ) -> (f64, usize) {
-        let mut most = (0.0, 0);
-        for chosen in 0..self.choice.rank {
-            let k = self.choice.row(chosen);
-            let now = self.relative(workspace, k, place.q[0], place.v[0])[level as usize];
-            if !(now.guaranteed <= most.0) {
-                most = (now.guaranteed, k);
-            }
-        }
-        most
-    }
-
-    fn relative<M>(
-        &self,
-        workspace: &Workspace<'_, M>,
-        k: usize,
-        q: &V,
-        v: &V,
-    ) -> [scale::Relative; 2] {
-        let row = &workspace.matrix[k * workspace.n..][..workspace.n];
-        let left = [workspace.positions[k], workspace.rates[k]];
-        self.scales.relative(k, row, left, q, v)
-    }
-
-    /// The largest residual of any row, of positions or rates, relative to the scale of the guaranteed bound, and its row.
-    fn largest_guaranteed<S: System<Vector = V>>(
-        &self,
-        system: &S,
-        workspace: &Workspace<'_, S::Matrix>,
-        (q, v): (&V, &V),
-    ) -> (f64, usize) {
-        let mut most = (0.0, 0);
-        for (k, _) in system.constraints().enumerate() {
-            let [positions, rates] = self.relative(workspace, k, q, v).map(|of| of.guaranteed);
-            let now = if positions > rates { positions } else { rates };
-            if !(now <= most.0) {
-                most = (now, k);
-            }
-        }
-        most
-    }
-
-    /// Checks that the rows that were not chosen agree with the chosen ones; records the residual and the size of the terms.
-    fn check_redundant_rows<S: System<Vector = V>>(
-        &mut self,
-        system: &S,
-        workspace: &Workspace<'_, S::Matrix>,
-        place: &Unprojected<'_, V>,
-    ) -> Result<(), StepError> {
-        let (q, v) = (&*place.q[0], &*place.v[0]);
-        let mut most = self.largest_guaranteed(system, workspace, (q, v));
-        if !(most.0 <= CONTRADICTION) && self.scales.record_drive(system, place.t, q) {
-            most = self.largest_guaranteed(system, workspace, (q, v));
-        }
-        self.residual = most.0;
-        if !(most.0 <= CONTRADICTION) {
-            return Err(StepError::Inconsistent {
-                constraint: most.1,
-                residual: most.0,
-                t: place.t,
-            });
-        }
-        for (k, row) in workspace
-            .matrix
-            .chunks_exact(workspace.n.max(1))
-            .enumerate()
-        {
-            let by_rates = dot(row, v.as_slice());
-            self.scales
-                .record_terms(k, row, (workspace.rates[k] - by_rates).abs());
-        }
-        Ok(())
     }
 
     /// Checks that accelerations satisfy the rows that were not chosen, too.

@@ -76,6 +76,7 @@ mod interpolant;
 mod lanes;
 mod math;
 pub mod methods;
+mod series_memory;
 mod stages;
 mod step_error;
 mod step_number;

@@ -40,6 +40,7 @@ use crate::step_error::StepError;
 use crate::stepper::{BorrowedOrOwned, Stepper};
 use crate::tolerance::Tolerance;
 use crate::{Coordinates, Error, Inputs, Machine, State, System, Warning};
+use assumptions::Held;
 use choosing::{Beginning, CANDIDATES, Choosing};
 use contact_search::ContactLooks;
 use contacts::PendingChange;
@@ -268,6 +269,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             next_step: None,
             activity,
             contact_looks: ContactLooks::default(),
+            held: None,
             choosing,
             record: Record::begun(settings, start, sampled_inputs, piece),
             settings,
@@ -295,6 +297,8 @@ pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures
     activity: ContactActivity,
     /// Memory for looks at unilateral contacts.
     contact_looks: ContactLooks<VectorOf<M>, <M::System as System>::Matrix>,
+    /// Bounds within which all assumptions hold.
+    held: Held<VectorOf<M>>,
     /// The choice of the method, if the run makes it.
     choosing: Choosing,
     record: Record<M>,

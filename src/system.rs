@@ -6,6 +6,7 @@
 
 use core::fmt::{self, Debug, Display};
 
+use crate::series_memory::SeriesMemory;
 use crate::{ContactQuantity, UnilateralContact, Vector};
 
 /// The largest number of coefficients of each coordinate that emitted code computes in [`System::series`].
@@ -598,6 +599,20 @@ pub trait System {
         _coefficients: &mut [Self::Vector],
     ) -> Result<(), Singular> {
         Ok(())
+    }
+
+    /// [`series`](Self::series) with memory that is kept from call to call, in which emitted code writes what it need not clear each time.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn series_with(
+        &self,
+        _memory: &mut SeriesMemory,
+        t: [f64; 2],
+        (q, v): (&Self::Vector, &Self::Vector),
+        u: &Self::Inputs,
+        coefficients: &mut [Self::Vector],
+    ) -> Result<(), Singular> {
+        self.series(t, q, v, u, coefficients)
     }
 
     /// Whether the series of the motion may be that of another motion beyond some instant within a step, since a root of a quantity that may vanish

@@ -8,14 +8,18 @@
 //! State and time are compensated sums: an increment of the state is rounded once, and the rounding error is kept (N. J. Higham,
 //! *Accuracy and Stability of Numerical Algorithms*, 2nd ed., 2002, section 4.3).
 
+mod bounds;
+
 use std::vec::Vec;
 
 use crate::compensated::two_sum;
 use crate::math::{rough_exp2, rough_log2};
 use crate::scalar::Kernel;
+use crate::series_memory::SeriesMemory;
 use crate::stages::{Point, in_blocks};
 use crate::tolerance::Tolerance;
 use crate::{Lanes, Number, Real, Scalar, Singular, System, Vector};
+pub(crate) use bounds::MotionBounds;
 
 /// How large the [`defect`] of a step is at most if the motion is its series. Both last terms of a rate are at most their bound. Those that follow
 /// fall by the ratio r of the step to the radius of convergence, and the derivative of the term of power j, times the step, is j times
@@ -55,6 +59,7 @@ pub(crate) struct Taylor<V> {
     is_taken: bool,
     /// The length of the next step, once computed.
     length: Option<f64>,
+    memory: SeriesMemory,
 }
 
 impl<V: Vector> Taylor<V> {
@@ -69,6 +74,7 @@ impl<V: Vector> Taylor<V> {
             beginning: 0,
             is_taken: false,
             length: None,
+            memory: SeriesMemory::default(),
         }
     }
 
@@ -79,6 +85,7 @@ impl<V: Vector> Taylor<V> {
             beginning: 0,
             is_taken: false,
             length: None,
+            memory: SeriesMemory::default(),
         }
     }
 
@@ -133,7 +140,8 @@ impl<V: Vector> Taylor<V> {
         };
         self.length = None;
         let t = [at.t, at.t_low];
-        system.series(t, &at.q, &at.v, u, &mut self.coefficients[which])
+        let (state, memory) = ((&at.q, &at.v), &mut self.memory);
+        system.series_with(memory, t, state, u, &mut self.coefficients[which])
     }
 
     /// The accelerations at the last expanded state: the present one, or with `ahead` the end of the step that is being tried.
@@ -429,14 +437,14 @@ pub(crate) fn move_to_neighbours<V: Vector>(q: &mut V, v: &mut V) {
     }
 }
 
-/// The bound on the last terms of a step, for a coordinate or a rate of this size: a tenth of the tolerance above 1e-8, and a hundredth
+/// The bound on the last terms of a step, for a coordinate or a rate of this size: a tenth of the tolerance from 1e-8 on, and a hundredth
 /// below 1e-14.
 #[inline(always)]
 pub(crate) fn bound(size: f64, absolute: f64, relative: f64) -> f64 {
     let tolerable = absolute + relative * size;
     match 1.0 + size {
         // Not at round numbers, which tolerances are: there the rounding of these sums would decide.
-        whole if tolerable > 2e-8 * whole => 0.1 * tolerable,
+        whole if tolerable > 0.5e-8 * whole => 0.1 * tolerable,
         whole if tolerable < 0.5e-14 * whole => 0.01 * tolerable,
         _ => tolerable,
     }
@@ -672,7 +680,7 @@ mod tests {
     fn the_bound_does_not_depend_on_the_rounding_of_sizes() {
         for (tolerance, part) in [
             (1e-7, 0.1),
-            (1e-8, 1.0),
+            (1e-8, 0.1),
             (1e-9, 1.0),
             (1e-14, 1.0),
             (3e-15, 0.01),

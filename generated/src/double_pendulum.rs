@@ -751,11 +751,11 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
     system {
-        series series(p, t, q, v, u, coefficients) = Series {
+        series_in_lists series(p, t, q, v, u, lists, coefficients) = Series {
             p,
             q,
             v,
-            lists: &mut Default::default(),
+            lists,
             coefficients,
         };
         costs series_cost(p) = [5.7, 8.5];

@@ -16,7 +16,7 @@
 use super::algebra::{backward, remove};
 use super::choice::Rank;
 use super::workspace::{Workspace, in_workspace};
-use super::{Constraints, Level, Unprojected};
+use super::{Changed, Constraints, Level, Unprojected};
 use crate::at::At;
 use crate::{Singular, StepError, System, Vector};
 
@@ -236,10 +236,10 @@ impl<V: Vector> Constraints<V> {
         };
         in_workspace(system, t, place.q[0].as_slice().len(), |workspace| {
             own.prepare(system, workspace, (t, place.q[0]), Level::Positions)?;
-            let [left, _] = own.residuals(system, workspace, place);
+            let [left, _] = own.residuals(system, workspace, place, Changed::All);
             own.newton(system, workspace, place, Level::Positions, left)?;
             own.prepare(system, workspace, (t, place.q[0]), Level::Rates)?;
-            let [_, left] = own.residuals(system, workspace, place);
+            let [_, left] = own.residuals(system, workspace, place, Changed::All);
             own.newton(system, workspace, place, Level::Rates, left)
         })
     }

@@ -193,25 +193,47 @@ impl<V: Vector> Scales<V> {
 
     /// The residuals of a row, of positions and rates, relative to their scales.
     pub fn relative(&self, k: usize, row: &[f64], left: [f64; 2], q: &V, v: &V) -> [Relative; 2] {
-        let by_rates: f64 = row.iter().zip(v.as_slice()).map(|(g, v)| g * v).sum();
+        [
+            self.relative_of_positions(k, row, left[0], q),
+            self.relative_of_rates(k, row, left[1], v),
+        ]
+    }
+
+    /// The residual of the positions of a row, relative to its scale.
+    #[inline(always)]
+    pub fn relative_of_positions(&self, k: usize, row: &[f64], left: f64, q: &V) -> Relative {
         let positions = self.sum(row, q, 0);
-        let rates = self.sum(row, v, 1) + (left[1] - by_rates).abs();
+        self.relative_to((k, 0), row, left, positions, self.observed_roundoff[0])
+    }
+
+    /// The residual of the rates of a row, relative to its scale.
+    #[inline(always)]
+    pub fn relative_of_rates(&self, k: usize, row: &[f64], left: f64, v: &V) -> Relative {
+        let by_rates: f64 = row.iter().zip(v.as_slice()).map(|(g, v)| g * v).sum();
+        let rates = self.sum(row, v, 1) + (left - by_rates).abs();
+        let inertial = self.observed_roundoff[1] + self.speed(v);
+        self.relative_to((k, 1), row, left, rates, inertial)
+    }
+
+    /// A residual relative to the sum of the terms of its row now, and to the largest so far, each with the round-off in the metric of inertia.
+    #[inline(always)]
+    fn relative_to(
+        &self,
+        (k, level): (usize, usize),
+        row: &[f64],
+        left: f64,
+        now: f64,
+        inertial: f64,
+    ) -> Relative {
         let within = self.length(row) * OF_INERTIA;
-        let inertial = [
-            self.observed_roundoff[0],
-            self.observed_roundoff[1] + self.speed(v),
-        ];
-        let of = |level: usize, now: f64| {
-            let greatest = now.max(slot(&self.terms[level], k));
-            // Relative to the largest size of the row.
-            let reach = if now > 0.0 { greatest / now } else { 1.0 };
-            let floor = within * reach * inertial[level];
-            Relative {
-                now: share(left[level], now + floor),
-                guaranteed: share(left[level], greatest + floor),
-            }
-        };
-        [of(0, positions), of(1, rates)]
+        let greatest = now.max(slot(&self.terms[level], k));
+        // Relative to the largest size of the row.
+        let reach = if now > 0.0 { greatest / now } else { 1.0 };
+        let floor = within * reach * inertial;
+        Relative {
+            now: share(left, now + floor),
+            guaranteed: share(left, greatest + floor),
+        }
     }
 
     /// Records the observed round-off of a row.

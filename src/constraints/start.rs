@@ -2,7 +2,7 @@
 
 use super::choice::{Choice, Rank};
 use super::workspace::{Workspace, in_workspace};
-use super::{Constraints, INDEPENDENT, Level, Unprojected};
+use super::{Changed, Constraints, INDEPENDENT, Level, Unprojected};
 use crate::{Singular, StepError, System, Vector};
 
 /// The independence that rows must have, from afar to near: rows that are dependent where the
@@ -156,7 +156,7 @@ impl<V: Vector> Constraints<V> {
             }
         }
         in_workspace(system, place.t, n, |workspace| {
-            self.residuals(system, workspace, place);
+            self.residuals(system, workspace, place, Changed::All);
             self.check_redundant_rows(system, workspace, place)
         })?;
         Ok(moved)

@@ -643,6 +643,57 @@ macro_rules! implement_method {
         }
     };
 
+    // The same with lists that it writes and need not be cleared.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        series_in_lists $method:ident(
+            $p:ident, $t:ident, $q:ident, $v:ident, $u:ident, $lists:ident, $coefficients:ident
+        ) = $value:expr
+    ) => {
+        fn check_series(&self) -> ::core::result::Result<(), &::core::primitive::str> {
+            ::core::result::Result::Ok(())
+        }
+
+        fn $method(
+            &self,
+            $t: [::core::primitive::f64; 2],
+            $q: &[::core::primitive::f64; $n],
+            $v: &[::core::primitive::f64; $n],
+            $u: &$Inputs,
+            $coefficients: &mut [[::core::primitive::f64; $n]],
+        ) -> ::core::result::Result<(), $crate::emitted::Singular> {
+            let $p = self;
+            let known = $crate::emitted::series::ROWS;
+            for row in $coefficients.iter_mut().skip(known) {
+                *row = [::core::primitive::f64::NAN; $n];
+            }
+            let $lists = &mut ::core::default::Default::default();
+            <::core::primitive::f64 as $crate::emitted::Number>::run($value)
+        }
+
+        fn series_with(
+            &self,
+            memory: &mut $crate::emitted::series::SeriesMemory,
+            $t: [::core::primitive::f64; 2],
+            ($q, $v): (
+                &[::core::primitive::f64; $n],
+                &[::core::primitive::f64; $n],
+            ),
+            $u: &$Inputs,
+            $coefficients: &mut [[::core::primitive::f64; $n]],
+        ) -> ::core::result::Result<(), $crate::emitted::Singular> {
+            let $p = self;
+            let known = $crate::emitted::series::ROWS;
+            let ::core::option::Option::Some($lists) = memory.lists() else {
+                return $p.$method($t, $q, $v, $u, $coefficients);
+            };
+            for row in $coefficients.iter_mut().skip(known) {
+                *row = [::core::primitive::f64::NAN; $n];
+            }
+            <::core::primitive::f64 as $crate::emitted::Number>::run($value)
+        }
+    };
+
     // The costs of a step by the series, in evaluations of the accelerations.
     ($types:tt costs $method:ident($p:ident) = $value:expr) => {
         fn $method(&self) -> ::core::option::Option<[::core::primitive::f64; 2]> {

@@ -2,6 +2,7 @@
 
 pub use lagrangian_scalar::series::{Vanished, apply, factor, keep, solve, solved, sweep};
 
+pub use crate::series_memory::SeriesMemory;
 use crate::system::SERIES_ROWS;
 use crate::{Scalar, Singular};
 

@@ -1,5 +1,6 @@
 //! Whether the assumptions of a description hold throughout a step, and where one of them ends.
 
+use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
@@ -10,7 +11,155 @@ use crate::inputs::{InputLaw, LawInPiece};
 use crate::interpolant::Interpolant;
 use crate::roots;
 use crate::stepper::Stepper;
+use crate::taylor::MotionBounds;
 use crate::{Error, Machine, System, Vector};
+
+/// Bounds within which all assumptions were found to hold in this run, if any were sought.
+pub(super) type Held<V> = Option<Box<HeldBounds<V>>>;
+
+/// Bounds within which all assumptions are known to hold.
+///
+/// Whether they hold is found by interval arithmetic, which takes as long as some evaluations of the machine. A motion that repeats stays within the bounds
+/// of its earlier steps, and others leave bounds that grow in proportion to their width only now and then.
+#[derive(Debug)]
+pub(super) struct HeldBounds<V> {
+    known: Option<([f64; 2], MotionBounds<V>)>,
+    of_step: MotionBounds<V>,
+    wider: MotionBounds<V>,
+    /// By how many of their widths bounds are widened on the sides on which a step leaves them; 0 if they are not. Where assumptions are not known to hold
+    /// within the wider ones, a quarter of this is used from then on.
+    widening: f64,
+}
+
+/// By how many of their widths bounds are widened at first, and at least.
+const WIDENING: [f64; 2] = [4.0, 0.25];
+
+impl<V: Vector> HeldBounds<V> {
+    fn none(q: &V) -> Self {
+        Self {
+            known: None,
+            of_step: MotionBounds::like(q),
+            wider: MotionBounds::like(q),
+            widening: WIDENING[0],
+        }
+    }
+
+    /// Whether all assumptions are known to hold throughout a step with these coefficients and of this length, from a state.
+    fn hold_throughout<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        (coefficients, h): (&[V], f64),
+        (t, q, v): (f64, &V, &V),
+    ) -> bool {
+        if !self.of_step.of_step(coefficients, h, [q, v]) {
+            return false;
+        }
+        let t = [t.min(t + h), t.max(t + h)];
+        let Self {
+            known,
+            of_step,
+            wider,
+            widening,
+        } = self;
+        if let Some((known_t, known)) = known
+            && contain(*known_t, t)
+            && contain_all(known, of_step)
+        {
+            return true;
+        }
+        let hold = |t: [f64; 2], MotionBounds { q, v }: &MotionBounds<V>| {
+            system.assumptions_hold_within(t, [&q[0], &q[1]], [&v[0], &v[1]])
+        };
+        if *widening > 0.0 {
+            let known_t = known.as_ref().map(|(t, _)| *t);
+            let wider_t = widened(known_t, t, *widening);
+            for i in 0..of_step.q[0].as_slice().len() {
+                let pairs = [
+                    (
+                        &of_step.q,
+                        &mut wider.q,
+                        known.as_ref().map(|(_, of)| &of.q),
+                    ),
+                    (
+                        &of_step.v,
+                        &mut wider.v,
+                        known.as_ref().map(|(_, of)| &of.v),
+                    ),
+                ];
+                for (of_step, wider, known) in pairs {
+                    let at = |of: &[V; 2]| [of[0].as_slice()[i], of[1].as_slice()[i]];
+                    let [low, high] = widened(known.map(at), at(of_step), *widening);
+                    wider[0].as_mut_slice()[i] = low;
+                    wider[1].as_mut_slice()[i] = high;
+                }
+            }
+            if hold(wider_t, wider) {
+                take(known, wider_t, wider);
+                return true;
+            }
+            *widening *= 0.25;
+            if *widening < WIDENING[1] {
+                *widening = 0.0;
+            }
+        }
+        let holds = hold(t, of_step);
+        if holds {
+            take(known, t, of_step);
+        }
+        holds
+    }
+}
+
+/// Exchanges the known bounds for others.
+fn take<V: Vector>(
+    known: &mut Option<([f64; 2], MotionBounds<V>)>,
+    t: [f64; 2],
+    bounds: &mut MotionBounds<V>,
+) {
+    match known {
+        Some((known_t, known)) => {
+            *known_t = t;
+            std::mem::swap(known, bounds);
+        }
+        None => *known = Some((t, bounds.clone())),
+    }
+}
+
+/// Whether bounds contain others.
+fn contain(known: [f64; 2], of_step: [f64; 2]) -> bool {
+    known[0] <= of_step[0] && of_step[1] <= known[1]
+}
+
+/// Whether bounds of a motion contain others.
+fn contain_all<V: Vector>(known: &MotionBounds<V>, of_step: &MotionBounds<V>) -> bool {
+    let pairs = [(&known.q, &of_step.q), (&known.v, &of_step.v)];
+    pairs.into_iter().all(|(known, of_step)| {
+        let [known, of_step] = [known, of_step].map(|of| [of[0].as_slice(), of[1].as_slice()]);
+        (0..known[0].len())
+            .all(|i| contain([known[0][i], known[1][i]], [of_step[0][i], of_step[1][i]]))
+    })
+}
+
+/// Bounds that contain known ones and those of a step, and more on the sides on which the step left the known ones, by so many of their widths.
+fn widened(known: Option<[f64; 2]>, [low, high]: [f64; 2], by: f64) -> [f64; 2] {
+    let Some([known_low, known_high]) = known else {
+        let more = by * (high - low);
+        return [low - more, high + more];
+    };
+    let more = by * (high.max(known_high) - low.min(known_low));
+    [
+        if low < known_low {
+            low - more
+        } else {
+            known_low
+        },
+        if high > known_high {
+            high + more
+        } else {
+            known_high
+        },
+    ]
+}
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// The time at which an assumption of the description ended in the last step, and its text. It may hold again at the end of the step,
@@ -19,8 +168,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         &mut self,
         interpolant: &mut LastInterpolant<M>,
     ) -> Result<Option<(f64, String)>, Error> {
-        let Self { model, stepper, .. } = self;
-        let Some(looks) = model.isolating_fractions_of_assumptions(stepper, interpolant)? else {
+        let Self {
+            model,
+            stepper,
+            held,
+            ..
+        } = self;
+        let Some(looks) = model.isolating_fractions_of_assumptions(stepper, interpolant, held)?
+        else {
             return Ok(None);
         };
         let interpolant = step_motion(interpolant, stepper, model.system)?;
@@ -47,6 +202,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         &self,
         stepper: &mut Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
         interpolant: &mut Option<Interpolant<S::Vector>>,
+        held: &mut Held<S::Vector>,
     ) -> Result<Option<Vec<f64>>, Error> {
         let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
         let count = self.system.assumptions(t, q, v, stepper.inputs()).len();
@@ -63,7 +219,10 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             let hold = if self.system.has_linear_assumptions() {
                 holds(t, q, v) && self.hold_throughout_series(stepper, coefficients, holds)
             } else {
-                self.hold_within_bounds(stepper, coefficients)
+                let held = held.get_or_insert_with(|| Box::new(HeldBounds::none(q)));
+                let h = stepper.last_step();
+                let from = (stepper.t_before(), stepper.q_before(), stepper.v_before());
+                held.hold_throughout(self.system, (coefficients, h), from)
             };
             if hold {
                 return Ok(None);
@@ -154,33 +313,6 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             return false;
         }
         self.all_partial_sums(stepper, coefficients, |q, v| holds(t, q, v))
-    }
-
-    /// Whether facts are known to hold at all states that are within the bounds of the same partial sums.
-    fn hold_within_bounds<A: Quadratures<S>>(
-        &self,
-        stepper: &Stepper<'_, S, LawInPiece<'_, L, S::Inputs>, A>,
-        coefficients: &[S::Vector],
-    ) -> bool {
-        let [mut low_q, mut high_q] = [(); 2].map(|()| stepper.q_before().clone());
-        let [mut low_v, mut high_v] = [(); 2].map(|()| stepper.v_before().clone());
-        let extend = |low: &mut S::Vector, high: &mut S::Vector, by: &S::Vector| {
-            let all = low.as_mut_slice().iter_mut().zip(high.as_mut_slice());
-            for ((low, high), x) in all.zip(by.as_slice()) {
-                // A sum that is not a number must not be ignored.
-                *low = if *low <= *x { *low } else { *x };
-                *high = if *high >= *x { *high } else { *x };
-            }
-        };
-        self.all_partial_sums(stepper, coefficients, |q, v| {
-            extend(&mut low_q, &mut high_q, q);
-            extend(&mut low_v, &mut high_v, v);
-            true
-        });
-        let (start, end) = (stepper.t_before(), stepper.t_before() + stepper.last_step());
-        let t = [start.min(end), start.max(end)];
-        self.system
-            .assumptions_hold_within(t, [&low_q, &high_q], [&low_v, &high_v])
     }
 
     /// Whether something is true of all partial sums of the coordinates and rates in the series of the last step, at its end.

@@ -55,6 +55,10 @@ const STEPS_BETWEEN_TESTS: usize = 100;
 /// Number of steps by series between evaluations of the fastest rate, each of which takes some two evaluations for each coordinate.
 const STEPS_BETWEEN_LOOKS: usize = 64;
 
+/// A run that takes no more steps by series than this if all are as long as the first has no look at its start, which would take as long as some of
+/// them. If its steps turn out to be shorter, the first look comes after so many.
+const SHORT_RUN: usize = 32;
+
 /// Stability limits a step by series if it is longer than this, in units of the inverse of the fastest rate: 0.86 of where the stability
 /// regions of the series of orders 12 and 20 end on the negative real axis, 5.82 and 8.82. A harmonic motion of size 1 takes, at the same
 /// tolerances, steps of at most 2.5 and 4.2.
@@ -102,6 +106,8 @@ pub(super) struct Choosing {
     /// Whether the implicit method has cost less in any window since that change.
     has_paid: bool,
     between_tests: usize,
+    /// Whether the run seemed to be so short at its start that the fastest rate was not found there.
+    seemed_short: bool,
 }
 
 /// The cost of explicit steps before a change to an implicit method.
@@ -126,6 +132,7 @@ impl Choosing {
             before: None,
             has_paid: false,
             between_tests: STEPS_BETWEEN_TESTS,
+            seemed_short: false,
         }
     }
 
@@ -253,6 +260,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         self.stepper.test_stiffness_every(STEPS_BETWEEN_TESTS);
         self.choosing.marks = [self.tried(); 2];
+        let left = (self.until - self.stepper.t()).abs();
+        let seems_short = |length: f64| SHORT_RUN as f64 * length >= left;
+        if self.stepper.length_in_series().is_some_and(seems_short) {
+            self.choosing.seemed_short = true;
+            return Ok(());
+        }
         match self.rate_beyond_series() {
             Some(rate) => self.change_method(Method::DOP853, MethodReason::Stiff { rate }),
             None => Ok(()),
@@ -269,7 +282,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         if self.stepper.coefficients().is_some() {
             let steps = self.stepper.work().steps;
-            let is_due = steps.is_multiple_of(STEPS_BETWEEN_LOOKS);
+            let is_first = self.choosing.seemed_short && steps == SHORT_RUN;
+            let is_due = is_first || steps.is_multiple_of(STEPS_BETWEEN_LOOKS);
             let rate = is_due.then(|| self.rate_beyond_series()).flatten();
             return match rate {
                 Some(rate) => self.change_to_implicit(rate),

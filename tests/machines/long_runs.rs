@@ -293,8 +293,9 @@ fn runs_of_every_method_come_back_to_their_start() {
         returns(&FourBar::default(), method, tolerance, 1.0);
         returns(&SphericalPendulum::default(), method, tolerance, 2.0);
     }
+    // Both tolerances are below 5e-9: from there on a step by series errs by a tenth of its tolerance.
     returns(&DoublePendulum::default(), &TAYLOR, 1e-12, 2.0);
-    returns(&Crusher9::default(), &TAYLOR, 1e-10, 0.5);
+    returns(&Crusher9::default(), &TAYLOR, 1e-11, 0.5);
     returns(&Crusher9::default(), Method::DOP853, 1e-10, 0.5);
 }
 

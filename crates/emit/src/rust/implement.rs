@@ -111,7 +111,7 @@ impl Emitter<'_> {
         self.writer.line(format!("absent [{}]", absent.join(" ")));
         self.writer.line(flag("intervals", rounds_prepared, "yes"));
         if let Some(call) = self
-            .call_of_series("lists")
+            .call_of_series()
             .filter(|_| has_lanes && never_collides)
         {
             let runtime = &self.options.runtime;
@@ -280,10 +280,14 @@ impl Emitter<'_> {
     }
 
     fn rows_of_system(&mut self) {
-        let lists = format!("&mut {}::default()", self.types.known("Default"));
-        if let Some(call) = self.call_of_series(&lists) {
-            let arguments = ["p", "t", "q", "v", "u", "coefficients"];
-            self.row("series", "series", &arguments, Some(call));
+        if let Some(call) = self.call_of_series() {
+            if self.has_lists_of_series() {
+                let arguments = ["p", "t", "q", "v", "u", "lists", "coefficients"];
+                self.row("series_in_lists", "series", &arguments, Some(call));
+            } else {
+                let arguments = ["p", "t", "q", "v", "u", "coefficients"];
+                self.row("series", "series", &arguments, Some(call));
+            }
             self.row_of_costs();
             if !self.program.assumptions.is_empty() && self.program.has_linear_assumptions() {
                 let yes = Layout::Atom("true".into());

@@ -194,6 +194,12 @@ impl Emitter<'_> {
         Pack::all(&Recorder::new(series, &self.types.register, &self.inputs.paths).lanes)
     }
 
+    /// Whether the series is requested and keeps lists of coefficients.
+    pub(super) fn has_lists_of_series(&self) -> bool {
+        let packs = self.series().map(|series| self.packs_of_series(&series));
+        packs.is_some_and(|packs| !packs.is_empty())
+    }
+
     /// The type of the packs of the series for a number type; the unit type if there are none.
     pub(super) fn lists_of_series(&self, scalar: &str) -> String {
         let packs = self.series().map(|series| self.packs_of_series(&series));
@@ -302,13 +308,12 @@ impl Emitter<'_> {
             .collect()
     }
 
-    /// The call of the series as a value, if the series is requested, with these lists.
-    pub(super) fn call_of_series(&self, lists: &str) -> Option<Layout> {
+    /// The call of the series as a value, if the series is requested.
+    pub(super) fn call_of_series(&self) -> Option<Layout> {
         let series = self.series()?;
         let names = self.fields_of_series(&series).into_iter();
         let fields = names.map(|(name, _)| {
-            let value = if name == "lists" { lists } else { &name };
-            let value = Layout::Atom(value.to_owned());
+            let value = Layout::Atom(name.clone());
             (name, value)
         });
         Some(Layout::Struct(self.types.series.clone(), fields.collect()))

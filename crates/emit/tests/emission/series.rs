@@ -49,7 +49,10 @@ fn code_without_the_section_is_unchanged() {
         for line in without.lines() {
             assert!(lines.any(|other| other == line), "{name}: {line}");
         }
-        assert!(with.contains("series series(p, t, q, v, u, coefficients) ="));
+        assert!(
+            with.contains("series_in_lists series(p, t, q, v, u, lists, coefficients) ="),
+            "{name}"
+        );
     }
 }
 
