@@ -26,6 +26,7 @@ mod drives;
 mod event;
 mod force;
 mod impact;
+mod jam;
 mod kinematics;
 mod lcp;
 mod nearby;
@@ -36,8 +37,8 @@ mod touching;
 mod undetermined;
 
 pub use event::{ContactEvent, ContactEventKind, ContactImpact, ContactTally, ImpactAcross};
-pub use force::{UnilateralForce, penetrations, unilateral_forces};
-pub(crate) use impact::{Bounce, Impact, ParadoxResolution};
+pub use force::{UnilateralForce, loads_shared_otherwise, penetrations, unilateral_forces};
+pub(crate) use impact::{Bounce, Impact, ParadoxResolution, Told};
 pub(crate) use kinematics::ROUNDING;
 pub(crate) use nearby::{StateBox, StepEnds};
 pub(crate) use stepping::SteppedContacts;

@@ -169,7 +169,7 @@ pub use vector::Vector;
 #[cfg(feature = "std")]
 pub use contact::{
     ContactEvent, ContactEventKind, ContactImpact, ContactTally, ImpactAcross, Mode as ContactMode,
-    UnilateralForce, penetrations, unilateral_forces,
+    UnilateralForce, loads_shared_otherwise, penetrations, unilateral_forces,
 };
 #[cfg(feature = "std")]
 pub use equations::check_equations;

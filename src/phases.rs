@@ -177,6 +177,9 @@ pub(crate) struct UnilateralRecord<C, V> {
     /// the first, and the contacts there.
     pub shared_otherwise: usize,
     pub first_shared_otherwise: Option<(f64, Vec<usize>)>,
+    /// Instants at which the friction of contacts admitted no motion with their slips or with their restitution: their number, the first, and the contacts there.
+    pub jammed: usize,
+    pub first_jammed: Option<(f64, Vec<usize>)>,
 }
 
 impl<C, V> Default for UnilateralRecord<C, V> {
@@ -194,6 +197,8 @@ impl<C, V> Default for UnilateralRecord<C, V> {
             worst: None,
             shared_otherwise: 0,
             first_shared_otherwise: None,
+            jammed: 0,
+            first_jammed: None,
         }
     }
 }
@@ -223,6 +228,17 @@ impl<C, V> UnilateralRecord<C, V> {
         self.first_shared_otherwise.get_or_insert((t, contacts));
     }
 
+    /// Notes that contacts jammed at an instant, if any did.
+    pub fn note_jammed(&mut self, t: f64, mut contacts: Vec<usize>) {
+        if contacts.is_empty() {
+            return;
+        }
+        self.jammed += 1;
+        contacts.sort_unstable();
+        contacts.dedup();
+        self.first_jammed.get_or_insert((t, contacts));
+    }
+
     /// The warnings to be reported.
     pub fn warnings<S: System>(&self, system: &S) -> impl Iterator<Item = Warning> {
         let name = |contact: usize| {
@@ -241,6 +257,12 @@ impl<C, V> UnilateralRecord<C, V> {
             contacts: contacts.iter().map(|contact| name(*contact)).collect(),
             instants: self.shared_otherwise,
         });
-        gains.into_iter().chain(shared)
+        let jammed = self.first_jammed.as_ref();
+        let jammed = jammed.map(|(t, contacts)| Warning::ContactsJammed {
+            t: *t,
+            contacts: contacts.iter().map(|contact| name(*contact)).collect(),
+            instants: self.jammed,
+        });
+        gains.into_iter().chain(shared).chain(jammed)
     }
 }

@@ -106,6 +106,8 @@ pub enum ImpactLaw {
 pub enum ContactTrouble {
     /// The law of friction permits no motion, or several: P. Painlevé's paradox.
     Paradox,
+    /// The friction of this contact and of others that are closed with it permits no motion of all of them together, or none was found.
+    Jammed,
     /// No force along its normal holds it shut: its gap hardly depends on the
     /// coordinates, or constraints, moving walls or other contacts contradict it.
     NotHeld,
@@ -129,6 +131,9 @@ impl ContactTrouble {
         match self {
             Self::Paradox => {
                 "its friction law admits no motion, or more than one (Painlevé's paradox)"
+            }
+            Self::Jammed => {
+                "its friction and that of the contacts that are closed with it admit no motion of all of them together, or none was found"
             }
             Self::NotHeld => {
                 "no force along its normal keeps it closed here: its gap hardly changes with the coordinates, or constraints, moving walls or \

@@ -7,7 +7,7 @@ use std::io::Read;
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{
     At, ContactForce, Error, Evaluation, Machine, Simulation, State, System, check_equations,
-    penetrations,
+    loads_shared_otherwise, penetrations,
 };
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::Dag;
@@ -53,7 +53,8 @@ struct Numbered {
     potential_energy: f64,
     dissipation: f64,
     outputs: Map<String, Value>,
-    /// Facts that the spec assumes and that do not hold here, and rigid contacts that are penetrated; left out if there are none.
+    /// Facts that the spec assumes and that do not hold here, rigid contacts that are penetrated, and loads that could not be shared by the rule; left out if
+    /// there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<String>,
 }
@@ -378,6 +379,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
         warnings: ended_assumptions(system, (t, q, v))
             .into_iter()
             .chain(penetrated_contacts(system, (t, q, v)))
+            .chain(loads_shared(system, At { t, q, v, u: &u }))
             .collect(),
     };
     serde_json::to_value(result).map_err(|error| error.to_string())
@@ -397,6 +399,23 @@ fn penetrated_contacts(system: &InterpretedSystem, at: (f64, &Vec<f64>, &Vec<f64
             )
         })
         .collect()
+}
+
+/// That the motion depends on how contacts share their load in a way that could not be computed, if it does.
+fn loads_shared(system: &InterpretedSystem, at: At<'_, InterpretedSystem>) -> Option<String> {
+    // Where contacts have no forces, their evaluation has said so.
+    let contacts = loads_shared_otherwise(system, at).unwrap_or_default();
+    let names: Vec<String> = (system.unilateral_contacts().enumerate())
+        .filter(|(contact, _)| contacts.contains(contact))
+        .map(|(_, of)| format!("`{}`", of.name))
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "the accelerations depend on how {} share their load: the distribution of contacts that all yield alike could not be computed, and another \
+             possible one was taken",
+            names.join(", ")
+        )
+    })
 }
 
 /// The facts that the spec assumes and that do not hold at a state, with the default inputs: numbers computed from them are

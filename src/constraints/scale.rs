@@ -21,8 +21,67 @@ use super::{REDUCTION_THRESHOLD, RESIDUAL, ROUNDOFF};
 use crate::math::sqrt;
 use crate::{System, Vector};
 
-/// The number of rows for each coordinate whose largest terms are remembered.
+/// The number of rows for each coordinate whose largest terms are remembered without an allocator.
 const REMEMBERED: usize = 4;
+
+/// A number of each row, 0 at first.
+#[derive(Clone, Debug)]
+struct OfRows<V> {
+    first: [V; REMEMBERED],
+    /// Those of further rows: contacts may close in any number.
+    #[cfg(feature = "std")]
+    beyond: std::vec::Vec<f64>,
+}
+
+impl<V: Vector> OfRows<V> {
+    fn new(zeros: &V) -> Self {
+        Self {
+            first: zeros.several_zeros_like(),
+            #[cfg(feature = "std")]
+            beyond: std::vec::Vec::new(),
+        }
+    }
+
+    /// How many rows the vectors have room for, by the number of coordinates.
+    fn coordinates(&self) -> usize {
+        self.first[0].as_slice().len().max(1)
+    }
+
+    /// The number of a row; 0 for a row that is not remembered.
+    fn get(&self, k: usize) -> f64 {
+        let n = self.coordinates();
+        if let Some(column) = self.first.get(k / n) {
+            return column.as_slice().get(k % n).copied().unwrap_or_default();
+        }
+        #[cfg(feature = "std")]
+        return (self.beyond.get(k - REMEMBERED * n).copied()).unwrap_or_default();
+        #[cfg(not(feature = "std"))]
+        0.0
+    }
+
+    /// Makes the number of a row at least as great as this, if that is finite and the row is remembered.
+    fn raise(&mut self, k: usize, to: f64) {
+        let n = self.coordinates();
+        let known = match self.first.get_mut(k / n) {
+            Some(column) => column.as_mut_slice().get_mut(k % n),
+            #[cfg(feature = "std")]
+            None => {
+                let place = k - REMEMBERED * n;
+                if self.beyond.len() <= place {
+                    self.beyond.resize(place + 1, 0.0);
+                }
+                self.beyond.get_mut(place)
+            }
+            #[cfg(not(feature = "std"))]
+            None => None,
+        };
+        if let Some(known) = known
+            && to.is_finite()
+        {
+            *known = known.max(to);
+        }
+    }
+}
 
 /// Weight of the inertial scale, such that the bound of the residuals is some round-offs of it.
 pub(super) const OF_INERTIA: f64 = ROUNDOFF / REDUCTION_THRESHOLD;
@@ -35,9 +94,9 @@ pub(crate) struct Scales<V> {
     /// 1 for a coordinate that is an angle, else 0.
     angles: V,
     /// For each row the largest sum of terms so far, of positions and of rates.
-    terms: [[V; REMEMBERED]; 2],
+    terms: [OfRows<V>; 2],
     /// For each row, the change of its terms over the sizes of the coordinates, at the start.
-    curvatures: [V; REMEMBERED],
+    curvatures: OfRows<V>,
     /// `√Mⱼⱼ`.
     inertia: V,
     /// The observed round-off of positions and rates, as a length in the metric of inertia, relative to the round-off unit.
@@ -75,8 +134,8 @@ impl<V: Vector> Scales<V> {
         Self {
             sizes,
             angles,
-            terms: [zeros.several_zeros_like(), zeros.several_zeros_like()],
-            curvatures: zeros.several_zeros_like(),
+            terms: [OfRows::new(&zeros), OfRows::new(&zeros)],
+            curvatures: OfRows::new(&zeros),
             inertia: zeros.clone(),
             observed_roundoff: [0.0; 2],
         }
@@ -97,32 +156,19 @@ impl<V: Vector> Scales<V> {
         let sum = |sizes: &[f64]| row.iter().zip(sizes).map(|(g, y)| g.abs() * y).sum::<f64>();
         let terms = [sum(sizes_q), sum(sizes_v) + by_time];
         for (greatest, now) in self.terms.iter_mut().zip(terms) {
-            if let Some(greatest) = slot_mut(greatest, k)
-                && now > *greatest
-                && now.is_finite()
-            {
-                *greatest = now;
-            }
+            greatest.raise(k, now);
         }
     }
 
     /// Records the size of the terms of the rate of a row.
     #[cfg(feature = "std")]
     pub fn record_rate(&mut self, k: usize, rate: f64) {
-        if let Some(greatest) = slot_mut(&mut self.terms[1], k)
-            && rate.is_finite()
-        {
-            *greatest = greatest.max(rate);
-        }
+        self.terms[1].raise(k, rate);
     }
 
     /// Records how the terms of a row bend.
     pub fn record_curvature(&mut self, k: usize, curvature: f64) {
-        if let Some(known) = slot_mut(&mut self.curvatures, k)
-            && curvature.is_finite()
-        {
-            *known = known.max(curvature);
-        }
+        self.curvatures.raise(k, curvature);
     }
 
     /// The displacement with index `part`, of the size of the coordinates (1 rad for angles), in a direction
@@ -151,9 +197,7 @@ impl<V: Vector> Scales<V> {
     /// The size of a row's terms in a pose relative to the largest: where it is small, the row is weak.
     pub fn strength(&self, k: usize, row: &[f64], q: &V) -> f64 {
         let now = self.sum(row, q, 0);
-        let greatest = now
-            .max(slot(&self.terms[0], k))
-            .max(slot(&self.curvatures, k));
+        let greatest = now.max(self.terms[0].get(k)).max(self.curvatures.get(k));
         if greatest > 0.0 { now / greatest } else { 1.0 }
     }
 
@@ -226,7 +270,7 @@ impl<V: Vector> Scales<V> {
         inertial: f64,
     ) -> Relative {
         let within = self.length(row) * OF_INERTIA;
-        let greatest = now.max(slot(&self.terms[level], k));
+        let greatest = now.max(self.terms[level].get(k));
         // Relative to the largest size of the row.
         let reach = if now > 0.0 { greatest / now } else { 1.0 };
         let floor = within * reach * inertial;
@@ -272,16 +316,4 @@ impl<V: Vector> Scales<V> {
         let greatest = angles.fold(1.0_f64, |most, (is_angle, size)| most.max(is_angle * size));
         [ROUNDOFF, ROUNDOFF * greatest]
     }
-}
-
-/// The number of a row; 0 for a row that is not remembered.
-fn slot<V: Vector>(of: &[V; REMEMBERED], k: usize) -> f64 {
-    let n = of[0].as_slice().len().max(1);
-    let column = of.get(k / n).map(V::as_slice).unwrap_or_default();
-    column.get(k % n).copied().unwrap_or_default()
-}
-
-fn slot_mut<V: Vector>(of: &mut [V; REMEMBERED], k: usize) -> Option<&mut f64> {
-    let n = of[0].as_slice().len().max(1);
-    of.get_mut(k / n)?.as_mut_slice().get_mut(k % n)
 }

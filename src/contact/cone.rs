@@ -35,6 +35,10 @@ const ROUNDS: usize = 9;
 /// The most steps of Newton's method in one round.
 const STEPS: usize = 40;
 
+/// In so many steps friction grows where a solution is followed from a small one, with at most so many sweeps in each.
+const FRICTIONS: usize = 16;
+const SWEEPS_OF_FRICTION: usize = 64;
+
 /// Directions in which the friction of one contact is looked for first.
 const DIRECTIONS: usize = 48;
 
@@ -86,6 +90,9 @@ pub(super) fn solve(problem: &Problem, mut z: Vec<f64>) -> Result<(Vec<f64>, f64
         if best.0 <= GOOD {
             break;
         }
+    }
+    if best.0 > TOLERABLE {
+        problem.follow_friction(&mut best);
     }
     if best.0 <= TOLERABLE {
         Ok((best.1, best.0))
@@ -185,6 +192,33 @@ impl Problem {
             }
             stalled = if then < missed { 0 } else { stalled + 1 };
             (z, missed) = (next, then);
+        }
+    }
+
+    /// Follows a solution as friction grows from a part of what it is to all of it: without friction sweeps always converge. `best` is the best that has been
+    /// found so far.
+    fn follow_friction(&self, best: &mut (f64, Vec<f64>)) {
+        let mut z = vec![0.0; self.n()];
+        for part in 1..=FRICTIONS {
+            let mut some = self.clone();
+            for part_of_contact in &mut some.parts {
+                if let Part::Disc { friction, .. } = part_of_contact {
+                    *friction *= part as f64 / FRICTIONS as f64;
+                }
+            }
+            let mut own = (some.relative_residual(&z), z.clone());
+            some.polish(&z, &mut own);
+            for _ in 0..SWEEPS_OF_FRICTION {
+                if own.0 <= GOOD || some.sweep(&mut z) <= f64::EPSILON {
+                    break;
+                }
+            }
+            some.polish(&z, &mut own);
+            z = own.1;
+        }
+        let missed = self.relative_residual(&z);
+        if missed < best.0 {
+            *best = (missed, z);
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::vec::Vec;
 
+use super::touching::Settled;
 use super::{Mode, UnilateralState};
 use crate::at::At;
 use crate::{StepError, System};
@@ -44,14 +45,43 @@ pub fn unilateral_forces<S: System>(
     a: &mut S::Vector,
 ) -> Result<Vec<UnilateralForce>, StepError> {
     let At { t, q, v, .. } = at;
-    let mut touching = UnilateralState::new(system);
+    let (mut touching, settled) = settled_at(system, at)?;
+    touching.set_modes(settled.modes);
+    touching.load_layers(system, t, q, v);
+    touching.forces_shared(system, at, a, Some(&settled.forces))
+}
+
+/// The contacts that share their load at a state in another way than contacts that all yield alike, although the motion depends on it, because the rule for such
+/// loads could not be computed there, (E79): the accelerations of [`unilateral_forces`] are then some of several that are possible. Usually there are none.
+///
+/// # Errors
+/// As [`unilateral_forces`].
+pub fn loads_shared_otherwise<S: System>(
+    system: &S,
+    at: At<'_, S>,
+) -> Result<Vec<usize>, StepError> {
+    if system.unilateral_contacts().len() == 0 {
+        return Ok(Vec::new());
+    }
+    let (_, settled) = settled_at(system, at)?;
+    let mut contacts = settled.shared_otherwise;
+    contacts.sort_unstable();
+    contacts.dedup();
+    Ok(contacts)
+}
+
+/// What contacts that touch at a state do next, and these without that.
+fn settled_at<S: System>(
+    system: &S,
+    at: At<'_, S>,
+) -> Result<(UnilateralState, Settled), StepError> {
+    let At { t, q, v, .. } = at;
+    let touching = UnilateralState::new(system);
     let (touches, _) = touching.near(system, (t, q, v), true, &[]);
     let closed = touching.persisting(system, (t, q, v), &touches, true);
     let resting = touching.resting(system, (t, q, v), &closed);
     let settled = touching.settled(system, at, &closed, &resting, &[])?;
-    touching.set_modes(settled.modes);
-    touching.load_layers(system, t, q, v);
-    touching.forces_shared(system, at, a, Some(&settled.forces))
+    Ok((touching, settled))
 }
 
 /// The rigid contacts that are penetrated at a state by more than rounding, each with the depth in m. No run can start there, and

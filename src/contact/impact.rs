@@ -74,6 +74,99 @@ pub(crate) enum ParadoxResolution {
     Impact { impact: Impact, change: Vec<f64> },
 }
 
+/// What is told of the contacts that change at an instant, besides their states.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Told {
+    /// Contacts that share their load in another way than by the rule for undetermined forces, (E79), although the motion depends on it.
+    pub shared_otherwise: Vec<usize>,
+    /// Contacts whose friction permitted no rates with their restitution, or no motion with their slips: they met without restitution.
+    pub jammed: Vec<usize>,
+}
+
+/// Contacts that meet, and what inertia makes of their impulses.
+pub(super) struct Meeting {
+    /// Which contacts, and their directions: two each.
+    pub contacts: Vec<usize>,
+    pub directions: Vec<usize>,
+    pub inertia: Inertia,
+    pub images: Vec<Vec<f64>>,
+    /// The products of the images, row after row.
+    pub g: Vec<f64>,
+    /// The rates along the directions before they meet.
+    pub before: Vec<f64>,
+}
+
+impl Meeting {
+    pub fn new<S: System>(
+        system: &S,
+        (t, q): (f64, &S::Vector),
+        here: &ContactKinematics,
+        contacts: Vec<usize>,
+    ) -> Result<Self, StepError> {
+        let singular = |singular: Singular| StepError::Singular { singular, t };
+        let inertia = Inertia::new(system, t, q).map_err(singular)?;
+        let directions: Vec<usize> = contacts.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
+        let images: Vec<Vec<f64>> = (directions.iter())
+            .map(|direction| inertia.image(here.row(*direction)))
+            .collect();
+        Ok(Self {
+            g: matrix(&images),
+            before: directions.iter().map(|d| here.rates[*d]).collect(),
+            contacts,
+            directions,
+            inertia,
+            images,
+        })
+    }
+
+    /// By how much impulses change the rate of a direction.
+    pub fn change(&self, row: usize, impulses: &[[f64; 2]]) -> f64 {
+        let width = self.directions.len();
+        let own = self.g[row * width..][..width].iter();
+        let terms = own.zip(impulses.iter().flatten());
+        terms.map(|(g, impulse)| g * impulse).sum()
+    }
+
+    /// The impacts that these impulses are, and by how much they change the rates of coordinates.
+    pub fn impacts<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        here: &ContactKinematics,
+        impulses: &[[f64; 2]],
+    ) -> (Vec<Impact>, Vec<f64>) {
+        let change = (self.inertia).response(&self.images, impulses.iter().flatten().copied());
+        let mean = between(v, &change);
+        let mut memory = DrivesMemory::new(q);
+        let mut drives = Drives::new(system, (t, q), &mut memory);
+        let mut impacts = Vec::with_capacity(self.contacts.len());
+        for (place, (&k, &impulse)) in self.contacts.iter().zip(impulses).enumerate() {
+            let [gap_rate, slip] = [0, 1].map(|part| {
+                let row = 2 * place + part;
+                let before = self.before[row];
+                [before, before + self.change(row, impulses)]
+            });
+            let loss = -0.5
+                * (impulse[0] * (gap_rate[0] + gap_rate[1]) + impulse[1] * (slip[0] + slip[1]));
+            let acting = ActingContact {
+                contact: k,
+                forces: impulse,
+                rates: [gap_rate, slip].map(|[before, after]| 0.5 * (before + after)),
+            };
+            let response = || (self.inertia).response(&self.images[2 * place..][..2], impulse);
+            impacts.push(Impact {
+                contact: k,
+                gap_rate,
+                slip,
+                impulse,
+                loss,
+                work: drives.work(here, &acting, &mean, response),
+            });
+        }
+        (impacts, change)
+    }
+}
+
 /// The mean of rates before a change and after it.
 fn between<V: Vector>(v: &V, change: &[f64]) -> V {
     let mut mean = v.clone();
@@ -246,8 +339,7 @@ impl UnilateralState {
         Ok(None)
     }
 
-    /// Changes the rates by an impact of the contacts that touch. Those that share its impulses in another way than by the rule for undetermined forces,
-    /// (E79), although the motion depends on it, are added to `shared_otherwise`.
+    /// Changes the rates by an impact of the contacts that touch.
     pub fn impact<S: System>(
         &mut self,
         system: &S,
@@ -255,11 +347,9 @@ impl UnilateralState {
         q: &S::Vector,
         v: &mut S::Vector,
         (touches, as_held): (&[bool], bool),
-        shared_otherwise: &mut Vec<usize>,
+        told: &mut Told,
     ) -> Result<Vec<Impact>, StepError> {
         let here = self.kinematics(system, (t, q, v));
-        let singular = |singular: Singular| StepError::Singular { singular, t };
-        let inertia = Inertia::new(system, t, q).map_err(singular)?;
         // What opens already has no part in it, nor has what yields: its force is finite.
         let colliding: Vec<usize> = (0..touches.len())
             .filter(|&k| touches[k] && !self.is_compliant(self.carrier(k).unwrap_or(k)))
@@ -268,47 +358,11 @@ impl UnilateralState {
                 is_held || here.rates[2 * k] <= here.rate_rounding(2 * k)
             })
             .collect();
-        let directions: Vec<usize> = colliding.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
-        let images: Vec<Vec<f64>> = (directions.iter())
-            .map(|direction| inertia.image(here.row(*direction)))
-            .collect();
-        let g = matrix(&images);
-        let before: Vec<f64> = directions.iter().map(|d| here.rates[*d]).collect();
-        let impulses = self.impulses((t, &here), &colliding, (&g, &before), shared_otherwise)?;
-
-        let width = directions.len();
-        let change = inertia.response(&images, impulses.iter().flatten().copied());
-        let mean = between(v, &change);
-        let mut memory = DrivesMemory::new(q);
-        let mut drives = Drives::new(system, (t, q), &mut memory);
-        let mut impacts = Vec::with_capacity(colliding.len());
-        for (place, &k) in colliding.iter().enumerate() {
-            let [gap_rate, slip] = [0, 1].map(|part| {
-                let row = 2 * place + part;
-                let own = g[row * width..][..width].iter();
-                let change = own
-                    .zip(impulses.iter().flatten())
-                    .map(|(g, impulse)| g * impulse);
-                [before[row], before[row] + change.sum::<f64>()]
-            });
-            let impulse = impulses[place];
-            let loss = -0.5
-                * (impulse[0] * (gap_rate[0] + gap_rate[1]) + impulse[1] * (slip[0] + slip[1]));
-            self.speed = self.speed.max(-gap_rate[0]);
-            let acting = ActingContact {
-                contact: k,
-                forces: impulse,
-                rates: [gap_rate, slip].map(|[before, after]| 0.5 * (before + after)),
-            };
-            let response = || inertia.response(&images[2 * place..][..2], impulse);
-            impacts.push(Impact {
-                contact: k,
-                gap_rate,
-                slip,
-                impulse,
-                loss,
-                work: drives.work(&here, &acting, &mean, response),
-            });
+        let meeting = Meeting::new(system, (t, q), &here, colliding)?;
+        let impulses = self.impulses((t, &here), &meeting, told)?;
+        let (impacts, change) = meeting.impacts(system, (t, q, v), &here, &impulses);
+        for impact in &impacts {
+            self.speed = self.speed.max(-impact.gap_rate[0]);
         }
         for (v, by) in v.as_mut_slice().iter_mut().zip(change) {
             *v += by;
@@ -343,15 +397,15 @@ impl UnilateralState {
     fn impulses(
         &self,
         (t, here): (f64, &ContactKinematics),
-        colliding: &[usize],
-        (g, before): (&[f64], &[f64]),
-        shared_otherwise: &mut Vec<usize>,
+        meeting: &Meeting,
+        told: &mut Told,
     ) -> Result<Vec<[f64; 2]>, StepError> {
-        let trouble = |place: usize, trouble| StepError::Contact {
-            contact: colliding[place],
-            trouble,
-            t,
-        };
+        let Meeting {
+            contacts: colliding,
+            g,
+            before,
+            ..
+        } = meeting;
         let unsolved = || self.unsolved(colliding, t);
         let width = before.len();
         let mut solved = |known_normal: &[f64], b: &[f64]| -> Result<Answer, StepError> {
@@ -363,7 +417,7 @@ impl UnilateralState {
                 return Err(unsolved());
             }
             let places = answer.shared_otherwise.iter();
-            shared_otherwise.extend(places.map(|place| colliding[*place]));
+            (told.shared_otherwise).extend(places.map(|place| colliding[*place]));
             Ok(answer)
         };
         let after = |b: &[f64], impulses: &[[f64; 2]]| -> Vec<f64> {
@@ -383,7 +437,14 @@ impl UnilateralState {
                     b[0] *= 1.0 + normal;
                     b[1] *= 1.0 + tangential;
                 }
-                Ok(solved(&none, &b)?.forces)
+                if let Ok(answer) = solved(&none, &b) {
+                    return Ok(answer.forces);
+                }
+                // Where bodies are wedged in, friction may permit no rates with restitution. Impacts of one contact at a time, of which there is an endless
+                // sequence, would take all the rates at which the gaps close.
+                let plastic = solved(&none, before)?.forces;
+                told.jammed.extend_from_slice(colliding);
+                Ok(plastic)
             }
             ImpactLaw::PoissonGlocker => {
                 let compression = solved(&none, before)?.forces;
@@ -394,7 +455,11 @@ impl UnilateralState {
                     .collect();
                 // Nothing is given along the normal of what leans, whose impulse there is none.
                 let known_normal: Vec<f64> = given.iter().map(|given| given[0]).collect();
-                let expansion = solved(&known_normal, &after(&middle, &given))?.forces;
+                let Ok(expansion) = solved(&known_normal, &after(&middle, &given)) else {
+                    told.jammed.extend_from_slice(colliding);
+                    return Ok(compression);
+                };
+                let expansion = expansion.forces;
                 let sum = |((c, g), e): ((&[f64; 2], &[f64; 2]), &[f64; 2])| {
                     [c[0] + g[0] + e[0], c[1] + g[1] + e[1]]
                 };
@@ -403,43 +468,61 @@ impl UnilateralState {
                     .map(sum)
                     .collect())
             }
-            ImpactLaw::Poisson | ImpactLaw::Stronge => {
-                let expansion = match self.law {
-                    ImpactLaw::Poisson => Expansion::Impulse,
-                    _ => Expansion::Work,
-                };
-                let mut impulses = vec![[0.0; 2]; colliding.len()];
-                for (place, impulse) in impulses.iter_mut().enumerate() {
-                    let k = colliding[place];
-                    let entry = |i: usize, j: usize| g[(2 * place + i) * width + 2 * place + j];
-                    let is_coupled = |other: usize| {
-                        let pairs = [0, 1].map(|i| {
-                            [0, 1].map(|j| {
-                                let (i, j) = (2 * place + i, 2 * other + j);
-                                let own = (g[i * width + i] * g[j * width + j]).sqrt();
-                                g[i * width + j].abs() > COUPLED * own
-                            })
-                        });
-                        other != place && pairs.as_flattened().contains(&true)
-                    };
-                    if here.rates[2 * k] >= -here.rate_rounding(2 * k) {
-                        continue;
-                    }
-                    if (0..colliding.len()).any(is_coupled) {
-                        return Err(trouble(place, ContactTrouble::SeveralAtOnce));
-                    }
-                    let single_impact = SingleImpact {
-                        inverse_masses: [entry(0, 0), entry(0, 1), entry(1, 1)],
-                        rates: [before[2 * place], before[2 * place + 1]],
-                        restitution: here.restitution(k)[0],
-                        friction: here.friction(k),
-                    };
-                    *impulse = routh::impulse(single_impact, expansion)
-                        .ok_or_else(|| trouble(place, ContactTrouble::Paradox))?;
-                }
-                Ok(impulses)
-            }
+            ImpactLaw::Poisson | ImpactLaw::Stronge => self.single_impulses((t, here), meeting),
         }
+    }
+
+    /// The impulses of contacts that meet by themselves, along Routh's path.
+    fn single_impulses(
+        &self,
+        (t, here): (f64, &ContactKinematics),
+        Meeting {
+            contacts: colliding,
+            g,
+            before,
+            ..
+        }: &Meeting,
+    ) -> Result<Vec<[f64; 2]>, StepError> {
+        let trouble = |place: usize, trouble| StepError::Contact {
+            contact: colliding[place],
+            trouble,
+            t,
+        };
+        let width = before.len();
+        let expansion = match self.law {
+            ImpactLaw::Poisson => Expansion::Impulse,
+            _ => Expansion::Work,
+        };
+        let mut impulses = vec![[0.0; 2]; colliding.len()];
+        for (place, impulse) in impulses.iter_mut().enumerate() {
+            let k = colliding[place];
+            let entry = |i: usize, j: usize| g[(2 * place + i) * width + 2 * place + j];
+            let is_coupled = |other: usize| {
+                let pairs = [0, 1].map(|i| {
+                    [0, 1].map(|j| {
+                        let (i, j) = (2 * place + i, 2 * other + j);
+                        let own = (g[i * width + i] * g[j * width + j]).sqrt();
+                        g[i * width + j].abs() > COUPLED * own
+                    })
+                });
+                other != place && pairs.as_flattened().contains(&true)
+            };
+            if here.rates[2 * k] >= -here.rate_rounding(2 * k) {
+                continue;
+            }
+            if (0..colliding.len()).any(is_coupled) {
+                return Err(trouble(place, ContactTrouble::SeveralAtOnce));
+            }
+            let single_impact = SingleImpact {
+                inverse_masses: [entry(0, 0), entry(0, 1), entry(1, 1)],
+                rates: [before[2 * place], before[2 * place + 1]],
+                restitution: here.restitution(k)[0],
+                friction: here.friction(k),
+            };
+            *impulse = routh::impulse(single_impact, expansion)
+                .ok_or_else(|| trouble(place, ContactTrouble::Paradox))?;
+        }
+        Ok(impulses)
     }
 
     /// The bounce of a contact that touches and opens with the rates that impacts have left. If it `is_hit`, its next bounce is compared with this one; if not,

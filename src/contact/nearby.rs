@@ -4,8 +4,8 @@
 //! a run does not evaluate it until the motion leaves the box: so far contacts cost nothing in most steps, and a bound once in a while. (The lists
 //! of neighbours of molecular dynamics do the same with balls: L. Verlet, Phys. Rev. 159 (1967) 98–103.)
 //!
-//! A step stays in the box if the quintic through its ends does, with a margin for its difference from the dense output. The quintic
-//! lies between the least and the greatest of its Bézier coefficients.
+//! A run looks at gaps along a polynomial: in a step by Taylor series along its own, in other steps along the quintic through its ends. A polynomial lies between
+//! the least and the greatest of its Bézier coefficients, and the box of a step contains these.
 
 use std::sync::Arc;
 use std::vec;
@@ -17,7 +17,8 @@ use crate::{System, Vector};
 /// is 0 to rounding is never taken to be open throughout a box.
 const LEAST_REACH: f64 = 1e-9;
 
-/// By how much of its width the path of a step may differ from its quintic.
+/// By how much of its width a box is wider than the polynomial in it, whose coefficients are rounded; and the dense output of a step differs a little from its
+/// quintic.
 const MARGIN: f64 = 0.1;
 
 /// A box that the motion leaves after fewer steps is followed by a wider one, and one that it leaves after more by a narrower one, with fewer
@@ -90,6 +91,41 @@ impl StateBox {
             (low - margin, high + margin)
         };
         let (low, high) = (0..q.len()).map(range).unzip();
+        let [from, to] = ends.t;
+        StateBox {
+            t: [from.min(to), from.max(to)],
+            low,
+            high,
+        }
+    }
+
+    /// The box that a step stays in whose coordinates are polynomials in the time since its beginning: these are their coefficients, of all coordinates for each
+    /// power. A box that contains the Bézier coefficients contains the polynomial.
+    pub fn of_series<V: Vector>(ends: &StepEnds<'_>, coefficients: &[V]) -> StateBox {
+        let degree = coefficients.len().saturating_sub(1);
+        let mut bezier = vec![0.0; degree + 1];
+        let mut range = |i: usize| {
+            // Powers of the part of the step, each divided by a binomial coefficient.
+            let (mut power, mut binomial) = (1.0, 1.0);
+            for (k, (to, from)) in bezier.iter_mut().zip(coefficients).enumerate() {
+                *to = power * from.as_slice()[i] / binomial;
+                power *= ends.step;
+                binomial *= (degree - k) as f64 / (k + 1) as f64;
+            }
+            for first in 1..=degree {
+                for j in (first..=degree).rev() {
+                    bezier[j] += bezier[j - 1];
+                }
+            }
+            // What the step ends with is rounded in another way.
+            let all = bezier.iter().copied().chain([ends.after[0][i]]);
+            let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            });
+            let margin = MARGIN * (high - low);
+            (low - margin, high + margin)
+        };
+        let (low, high) = (0..ends.before[0].len()).map(&mut range).unzip();
         let [from, to] = ends.t;
         StateBox {
             t: [from.min(to), from.max(to)],
@@ -234,5 +270,47 @@ impl Nearby {
     /// The contacts that are near at a state; `None` if it is not in the box, or too many are.
     pub fn at(&self, t: f64, q: &[f64]) -> Option<&[usize]> {
         (self.last_pause == 0 && self.within.contains(t, q)).then_some(&*self.near)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A step by Taylor series along `sin t` that is 8 rad long stays in its box, and leaves the quintic through its ends by more than any margin of that: what is
+    /// there would be missed.
+    #[test]
+    fn a_long_step_stays_in_its_own_box() {
+        let (h, from) = (8.0_f64, 0.3_f64);
+        let mut factorial = 1.0;
+        let coefficients: Vec<Vec<f64>> = (0..40)
+            .map(|k| {
+                factorial *= if k == 0 { 1.0 } else { f64::from(k) };
+                vec![(from + f64::from(k) * core::f64::consts::FRAC_PI_2).sin() / factorial]
+            })
+            .collect();
+        let state = |t: f64| [[t.sin()], [t.cos()], [-t.sin()]];
+        let (before, after) = (state(from), state(from + h));
+        let ends = StepEnds {
+            t: [0.0, h],
+            step: h,
+            before: [&before[0], &before[1], &before[2]],
+            after: [&after[0], &after[1], &after[2]],
+        };
+        let (own, quintic) = (
+            StateBox::of_series(&ends, &coefficients),
+            StateBox::of_step(&ends),
+        );
+        let (mut most, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
+        for part in 0..=1000 {
+            let theta = f64::from(part) / 1000.0;
+            let q = (from + theta * h).sin();
+            assert!(own.contains(theta * h, &[q]), "{theta}: {q} {own:?}");
+            (most, least) = (most.max(q), least.min(q));
+        }
+        assert!(
+            most > quintic.high[0] || least < quintic.low[0],
+            "{quintic:?}"
+        );
     }
 }

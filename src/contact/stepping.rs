@@ -47,6 +47,8 @@ pub(crate) struct SteppedContacts {
     pub energy_added: f64,
     /// Contacts that shared their impulses in another way than by the rule for undetermined forces, (E79), although the motion depends on it.
     pub shared_otherwise: Vec<usize>,
+    /// Contacts whose friction permitted no rates with their restitution: they met without.
+    pub jammed: Vec<usize>,
 }
 
 impl UnilateralState {
@@ -125,7 +127,13 @@ impl UnilateralState {
             .collect();
         let g = matrix(&images);
         let ways_back: Vec<f64> = active.iter().map(|k| way_back(*k)).collect();
-        let answer = self.impulses_of_step((&here, h), (&active, &ways_back), (&g, &free));
+        let impulses = |has_restitution: bool| {
+            let contacts = (&active[..], &ways_back[..]);
+            self.impulses_of_step((&here, h), contacts, (&g, &free), has_restitution)
+        };
+        let with_restitution = impulses(true);
+        let is_jammed = with_restitution.is_none();
+        let answer = with_restitution.or_else(|| impulses(false));
         let answer = answer.ok_or(StepError::Contact {
             contact: active[0],
             trouble: ContactTrouble::Unsettled,
@@ -157,6 +165,11 @@ impl UnilateralState {
         let shared_otherwise = answer.shared_otherwise.iter();
         let mut stepped = SteppedContacts {
             shared_otherwise: shared_otherwise.map(|place| active[*place]).collect(),
+            jammed: if is_jammed {
+                active.clone()
+            } else {
+                Vec::new()
+            },
             ..SteppedContacts::default()
         };
         // The rates of all directions with the impulses.
@@ -209,16 +222,18 @@ impl UnilateralState {
     }
 
     /// The impulses of the contacts that are active in a step of length `h`, with the rates that there would be at its end without them; none if no impulses
-    /// obey the law. `ways_back` are the rates at which contacts may close that are beside what they touch.
+    /// obey the law, or that without restitution. `ways_back` are the rates at which contacts may close that are beside what they touch.
     fn impulses_of_step(
         &self,
         (here, h): (&ContactKinematics, f64),
         (active, ways_back): (&[usize], &[f64]),
         (g, free): (&[f64], &[f64]),
+        has_restitution: bool,
     ) -> Option<Answer> {
+        let share = f64::from(u8::from(has_restitution));
         let directions = active.iter().flat_map(|k| [2 * k, 2 * k + 1]);
         let mut b: Vec<f64> = directions
-            .map(|d| free[d] + here.restitution(d / 2)[d % 2] * here.rates[d])
+            .map(|d| free[d] + share * here.restitution(d / 2)[d % 2] * here.rates[d])
             .collect();
         for (normal, way_back) in b.iter_mut().step_by(2).zip(ways_back) {
             *normal += way_back;

@@ -24,6 +24,7 @@ pub(crate) use held::Held;
 use held::HeldMemory;
 pub(crate) use margins::Margins;
 pub(crate) use reaction::{ContactMemory, Reaction};
+pub(super) use settled::Settled;
 
 /// Forces and accelerations below this, relative to the terms that they are the sum of, are rounding.
 const ROUNDING_OF_FORCES: f64 = 1e-11;
@@ -474,7 +475,11 @@ impl UnilateralState {
         let trouble = if solved_contacts.iter().any(|k| self.across[*k]) {
             ContactTrouble::Unsolved
         } else if solved_contacts.iter().any(|k| self.has_friction[*k]) {
-            ContactTrouble::Paradox
+            let own = |k: &&usize| self.carrier[**k].is_none();
+            match solved_contacts.iter().filter(own).count() {
+                0 | 1 => ContactTrouble::Paradox,
+                _ => ContactTrouble::Jammed,
+            }
         } else {
             ContactTrouble::NotHeld
         };

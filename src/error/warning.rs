@@ -52,6 +52,16 @@ pub enum Warning {
         /// The number of impacts that created energy.
         impacts: usize,
     },
+    /// The friction of several contacts that were closed together, as those of a disc that is wedged in between two others, permitted no motion with their slips or
+    /// with their restitution. The slips that were in the way stopped at once, by impulses, or the impact was one without restitution.
+    ContactsJammed {
+        /// When this was so first, in s.
+        t: f64,
+        /// The contacts that jammed then.
+        contacts: std::vec::Vec<String>,
+        /// The number of instants at which contacts jammed.
+        instants: usize,
+    },
     /// The motion depends on how contacts share their load, which rigid bodies leave undetermined. The distribution of contacts that all yield alike could not
     /// be computed, and another possible one was taken.
     LoadShared {
@@ -133,6 +143,22 @@ impl Display for Warning {
                  Newton's law with friction can do so; `law: stronge` never does",
                 t = ShortNumber(*t)
             ),
+            Self::ContactsJammed {
+                t,
+                contacts,
+                instants,
+            } => {
+                write!(
+                    f,
+                    "the friction of {} admitted no motion with their slips or their restitution at t = {t} s: they stopped, or met without restitution",
+                    quoted(contacts),
+                    t = ShortNumber(*t)
+                )?;
+                match instants {
+                    0 | 1 => Ok(()),
+                    more => write!(f, "; there were {more} such instants"),
+                }
+            }
             Self::LoadShared {
                 t,
                 contacts,

@@ -124,6 +124,14 @@ impl Interval<'_> {
         to.value < 0.0 || comes_back
     }
 
+    /// Whether a gap begins and ends within its rounding and does not fall by more at first. What has just opened, slowly, is open or closed by rounding for a
+    /// while, and what it does can be told when it has left that.
+    fn stays_within(&self, rounding: f64, k: usize) -> bool {
+        let (from, to) = (self.before.clearances[k], self.now.clearances[k]);
+        let falls = self.may_fall((-from.rate).max(0.0));
+        from.value.abs() <= rounding && to.value.abs() <= rounding && falls <= rounding
+    }
+
     /// Whether the gap of a corner may have been closed in between.
     fn may_dip(&self, k: usize) -> bool {
         let least = (self.before.clearances[k].value).min(self.now.clearances[k].value);
@@ -348,6 +356,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if !closes {
             return Ok(None);
         }
+        let rounding = touching.gap_rounding(system, beginning, k);
+        if !touching.is_compliant(k) && interval.stays_within(rounding, k) {
+            return Ok(None);
+        }
         let interpolant = step_motion(interpolant, stepper, system)?;
         let stepper = &*stepper;
         let at = |theta: f64| {
@@ -359,7 +371,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let found = if is_compliant {
             find_loading_start(between, roundoff, at)?
         } else {
-            closing(between, roundoff, at)?
+            closing(between, (roundoff, rounding), at)?
         };
         let change = FoundChange {
             cause: if is_compliant {
@@ -604,26 +616,27 @@ fn count_of_looks<S: System, L: InputLaw<S>, A: Quadratures<S>>(
 }
 
 /// Where a gap closes between two looks at an open contact, if it does: not before it has opened, where it begins
-/// closed, and not where it comes near and goes away again.
+/// closed, and not where it comes near and goes away again. A gap is known up to a `rounding`.
 fn closing(
     [from, to]: [f64; 2],
-    roundoff: f64,
+    (roundoff, rounding): (f64, f64),
     mut at: impl FnMut(f64) -> Result<[f64; 2], Error>,
 ) -> Result<Option<f64>, Error> {
     let [gap, rate] = at(from)?;
     let [gap_after, rate_after] = at(to)?;
     let mut open = from;
-    if gap <= 0.0 {
+    if gap <= rounding && gap_after < 0.0 && rate > 0.0 && rate_after < 0.0 {
+        // It opens first: up to where it is greatest.
+        open = event::root([from, to], roundoff, &mut |theta| Ok(at(theta)?[1]))?;
+        if at(open)?[0] <= rounding {
+            // So low a flight is known by its rates only, which change evenly in it.
+            return Ok(Some((2.0 * open - from).min(to)));
+        }
+    } else if gap <= 0.0 {
         if gap_after >= 0.0 {
             return Ok(None);
         }
-        if rate > 0.0 && rate_after < 0.0 {
-            // It opens first: up to where it is greatest.
-            open = event::root([from, to], roundoff, &mut |theta| Ok(at(theta)?[1]))?;
-            if at(open)?[0] <= 0.0 {
-                return Ok(Some(open));
-            }
-        } else if let Some(opened) = find_open([from, to], LEAST_FLIGHT, &mut at)? {
+        if let Some(opened) = find_open([from, to], LEAST_FLIGHT, &mut at)? {
             // It opens by its acceleration alone: the rate is rounding.
             open = opened;
         } else {

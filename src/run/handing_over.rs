@@ -153,7 +153,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         match trouble {
             ContactTrouble::Unsettled => {}
             // With several contacts the cause may be one of them or the problem that they form together.
-            ContactTrouble::Paradox | ContactTrouble::Unsolved | ContactTrouble::NotHeld
+            ContactTrouble::Jammed
+            | ContactTrouble::Paradox
+            | ContactTrouble::Unsolved
+            | ContactTrouble::NotHeld
                 if several => {}
             _ => return Ok(false),
         }

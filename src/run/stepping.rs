@@ -43,6 +43,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let (stepped, before) = (stepped.clone(), before.modes().to_vec());
         let impacts = stepped.impacts;
         (self.record.unilateral).note_shared_otherwise(self.stepper.t(), stepped.shared_otherwise);
+        (self.record.unilateral).note_jammed(self.stepper.t(), stepped.jammed);
         let energy_added = stepped.energy_added / stepped.penetrated.len().max(1) as f64;
         for k in stepped.penetrated {
             self.record.unilateral.losses[k] -= energy_added;

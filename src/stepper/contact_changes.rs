@@ -9,7 +9,8 @@ use crate::at::At;
 use crate::balance::{ContactShare, Quadratures};
 use crate::constraints::Constraints;
 use crate::contact::{
-    Bounce, ContactMemory, Impact, Mode, ParadoxResolution, StateBox, StepEnds, UnilateralState,
+    Bounce, ContactMemory, Impact, Mode, ParadoxResolution, StateBox, StepEnds, Told,
+    UnilateralState,
 };
 use crate::inputs::InputLaw;
 use crate::stages::Point;
@@ -62,8 +63,7 @@ pub(crate) struct ContactChanges {
     pub lost_at_end: f64,
     /// Layers whose loading changed direction: whether they are loaded now.
     pub turned: Vec<(usize, bool)>,
-    /// Contacts that share their load in another way than by the rule for undetermined forces, (E79), although the motion depends on it.
-    pub shared_otherwise: Vec<usize>,
+    pub told: Told,
     /// The length of the flight that follows, if there is one and its length is known.
     flight: Option<f64>,
 }
@@ -83,6 +83,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             k,
             newest,
             control,
+            taylor,
             ..
         } = self;
         let ends = StepEnds {
@@ -92,7 +93,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             after: [&now.q, &now.v, &k[*newest]].map(S::Vector::as_slice),
         };
         if let Some(touching) = &mut model.touching {
-            touching.keep_near(model.system.get(), 0.0, || StateBox::of_step(&ends));
+            touching.keep_near(model.system.get(), 0.0, || match taylor {
+                Some(taylor) => StateBox::of_series(&ends, taylor.of_step()),
+                None => StateBox::of_step(&ends),
+            });
         }
     }
 
@@ -171,13 +175,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             &mut changes_at_instant,
         )?;
         touching.copy_from_carriers(&mut closed);
-        let is_hit = !changes_at_instant.impacts.is_empty();
-        model.hold_closed(&mut touching, now, (&closed, &stopped, is_hit))?;
-        let resting = resting_or_stopped(model.system.get(), &touching, now, (&closed, &stopped));
-        model.settle(
+        let (resting, jammed) = model.settle_closed(
             &mut touching,
             now,
-            (cause, &closed, &resting),
+            (cause, &mut closed, stopped),
             &mut changes_at_instant,
         )?;
         touching.record_slips(model.system.get(), t, &now.q, &now.v);
@@ -201,9 +202,9 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         model.touching = Some(touching);
 
         if !changes_at_instant.ended.is_empty() {
-            changes_at_instant.lost_at_end = energy_after - energy(model, now);
+            changes_at_instant.lost_at_end = energy_after + jammed - energy(model, now);
         }
-        let gained = energy_after - energy_before;
+        let gained = energy_after + jammed - energy_before;
         self.book_changes(gained, &changes_at_instant, [&stored_before, &stored_after]);
         self.begin_again(end, step, changes_at_instant.flight)?;
         Ok(changes_at_instant)
@@ -345,6 +346,68 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         Ok(())
     }
 
+    /// Brings a state onto the contacts that are closed and sets what these do next. If their friction jams them, the slips that are in the way stop first. The
+    /// answer is which contacts rest, and by how much that has changed the kinetic energy, in J.
+    fn settle_closed(
+        &self,
+        touching: &mut UnilateralState,
+        now: &mut Point<S::Vector>,
+        (cause, closed, mut stopped): (Cause, &mut [bool], Vec<bool>),
+        changes: &mut ContactChanges,
+    ) -> Result<(Vec<bool>, f64), StepError> {
+        let system = self.system.get();
+        let energy = |now: &Point<S::Vector>| system.kinetic_energy(now.t, &now.q, &now.v);
+        let (mut jammed, mut is_hit) = (0.0, !changes.impacts.is_empty());
+        // Each time at least one contact stops, turns or opens.
+        for _ in 0..=2 * closed.len() {
+            self.hold_closed(touching, now, (closed, &stopped, is_hit))?;
+            let resting = resting_or_stopped(system, touching, now, (closed, &stopped));
+            let settled = self.settle(touching, now, (cause, closed, &resting), changes);
+            let Err(error) = settled else {
+                return Ok((resting, jammed));
+            };
+            if !is_of_several(&error) {
+                return Err(error);
+            }
+            let at = At {
+                t: now.t,
+                q: &now.q,
+                v: &now.v,
+                u: &self.inputs,
+            };
+            let jam = touching.resolve_jam(system, at, (closed, &resting))?;
+            let Some(jam) = jam else {
+                return Err(error);
+            };
+            let before = energy(now);
+            for (v, by) in now.v.as_mut_slice().iter_mut().zip(&jam.change) {
+                *v += by;
+            }
+            now.v_low.as_mut_slice().fill(0.0);
+            let change = energy(now) - before;
+            if change.abs() > SHARE_OF_REST * before {
+                jammed += change;
+                changes.told.jammed.extend(jam.stop.iter().chain(&jam.open));
+                changes.impacts.extend(jam.impacts);
+            }
+            for k in jam
+                .stop
+                .iter()
+                .flat_map(|k| [Some(*k), touching.second(*k)])
+            {
+                k.into_iter().for_each(|k| stopped[k] = true);
+            }
+            jam.open.iter().for_each(|k| closed[*k] = false);
+            touching.copy_from_carriers(closed);
+            is_hit = true;
+        }
+        Err(StepError::Contact {
+            contact: closed.iter().position(|closed| *closed).unwrap_or(0),
+            trouble: ContactTrouble::Unsettled,
+            t: now.t,
+        })
+    }
+
     /// Sets what closed contacts do next, with what the cause of the change says of one of them.
     fn settle(
         &self,
@@ -368,7 +431,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             v: &now.v,
             u: &self.inputs,
         };
-        let mut settled = touching.settled(system, at, closed, resting, known.as_slice())?;
+        let mut settled = touching.settled(system, at, closed, resting, known.as_slice());
+        if known.is_some() && settled.as_ref().is_err_and(is_of_several) {
+            // Several change at this instant: what is known of one does not go with what the others do.
+            settled = touching.settled(system, at, closed, resting, &[]);
+        }
+        let mut settled = settled?;
         let is_same = |modes: &[Mode]| {
             let mut pairs = modes.iter().zip(touching.modes());
             pairs.all(|(after, before)| after.is_like(*before))
@@ -381,12 +449,13 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
         }
         let mut modes = settled.modes;
-        changes.shared_otherwise.extend(settled.shared_otherwise);
+        (changes.told.shared_otherwise).extend(settled.shared_otherwise);
         if let Cause::Lifts(_) = cause {
             // Contacts that lift at the same instant, by symmetry, would otherwise close each other again and again.
             let was_open = |k: usize| changes.before[k] == Mode::Open && !touching.is_compliant(k);
             modes = touching.without_unpressed(system, at, modes, was_open)?;
         }
+        modes = touching.without_contradictions(system, at, modes, (resting, &settled.at_limit));
         touching.set_modes(modes);
         Ok(())
     }
@@ -479,7 +548,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             .map(|k| fading[touching.first(k)])
             .collect();
         let resting = resting_or_stopped(system, touching, now, (&closed, &stops));
-        let next = touching.settled(system, at, &closed, &resting, &[])?.modes;
+        let Ok(next) = touching.settled(system, at, &closed, &resting, &[]) else {
+            // What they do is found out for all contacts.
+            fading.fill(false);
+            return Ok(fading);
+        };
+        let next = next.modes;
         for (fading, next) in fading.iter_mut().zip(next) {
             *fading &= next == Mode::Sticks;
         }
@@ -550,7 +624,10 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             v: &now.v,
             u: &self.inputs,
         };
-        let goes_on = touching.settled(system, at, closed, &resting, &[])?;
+        let goes_on = match touching.settled(system, at, closed, &resting, &[]) {
+            Err(error) if is_of_several(&error) => return Ok(false),
+            other => other?,
+        };
         let mut pairs = goes_on.modes.iter().zip(stopped);
         Ok(!pairs.any(|(mode, stops)| *stops && *mode == Mode::Sticks))
     }
@@ -569,6 +646,14 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
         }
     }
+}
+
+/// Whether an error says that several contacts together admit no motion.
+fn is_of_several(error: &StepError) -> bool {
+    let StepError::Contact { trouble, .. } = error else {
+        return false;
+    };
+    matches!(trouble, ContactTrouble::Jammed | ContactTrouble::Unsolved)
 }
 
 /// Impacts of what touches, until none closes; they are added to the changes at this instant. The answer is what touches.
@@ -603,7 +688,7 @@ fn meet<S: System>(
             &now.q,
             &mut now.v,
             (&takes_part, as_held),
-            &mut changes.shared_otherwise,
+            &mut changes.told,
         )?;
         now.v_low.as_mut_slice().fill(0.0);
         changes.impacts.extend(found);

@@ -407,4 +407,12 @@ fn a_load_that_is_shared_otherwise_is_told() {
     for d in ["d=0.1", "d=1e-3"] {
         is_good(&simulate(spec.path(), 0.1, &[d]));
     }
+    // So it is at a state.
+    let said = "the accelerations depend on how `left`, `middle`, `right` share their load";
+    for (d, is_told) in [("d=1e-5", true), ("d=0.1", false)] {
+        let at_start = lagrangian(&["evaluate", spec.path(), "--set", d]);
+        let text = String::from_utf8_lossy(&at_start.stdout);
+        assert!(at_start.status.success(), "{text}");
+        assert_eq!(text.contains(said), is_told, "{d}: {text}");
+    }
 }

@@ -21,6 +21,7 @@ mod host;
 mod impacts;
 mod import;
 mod in_space;
+mod jams;
 mod library;
 mod linearize;
 mod map;

@@ -8,7 +8,7 @@ use super::super::kinematics::ContactKinematics;
 use super::super::problem::{ContactUnknowns, SATURATED};
 use super::super::{ContactTrouble, undetermined};
 use super::shared::ShareOfLoad;
-use super::{Mode, ROUNDING_OF_FORCES, UnilateralState};
+use super::{Margin, Mode, ROUNDING_OF_FORCES, UnilateralState};
 use crate::at::At;
 use crate::friction::shares::Limit;
 use crate::{Singular, StepError, System};
@@ -38,6 +38,8 @@ struct Settling<'a> {
     breaks: Vec<bool>,
     /// What contacts do, of all that there are.
     modes: Vec<Mode>,
+    /// Contacts at rest whose friction is used up but which others hold, and how they would slip.
+    at_limit: Vec<(usize, Mode)>,
     /// A contact that began to slip last.
     unsettled: usize,
 }
@@ -62,6 +64,8 @@ pub(crate) struct Settled {
     pub forces: Vec<[f64; 2]>,
     /// Contacts that share their load in another way than by the rule for undetermined forces, (E79), although the motion depends on it.
     pub shared_otherwise: Vec<usize>,
+    /// Contacts that stick although their friction is used up, because others hold them, and how they would slip.
+    pub at_limit: Vec<(usize, Mode)>,
 }
 
 impl UnilateralState {
@@ -90,6 +94,7 @@ impl UnilateralState {
                 modes: vec![Mode::Open; closed.len()],
                 forces,
                 shared_otherwise: Vec::new(),
+                at_limit: Vec::new(),
             });
         }
         let free = Self::free(system, at)?;
@@ -132,6 +137,7 @@ impl UnilateralState {
                 modes,
                 forces,
                 shared_otherwise,
+                at_limit: settling.at_limit,
             });
         }
         Err(StepError::Contact {
@@ -191,6 +197,7 @@ impl UnilateralState {
             modes: touching.modes,
             forces: load.forces,
             shared_otherwise: Vec::new(),
+            at_limit: Vec::new(),
         })
     }
 
@@ -223,6 +230,76 @@ impl UnilateralState {
             known.retain(|(_, mode)| *mode != Mode::Open);
         }
         Ok(known)
+    }
+
+    /// These states, corrected where the motion with them contradicts them at once. What slips from rest and is braked sticks, and what exceeds its friction slips.
+    /// First those slip whose friction is used up `at_limit` while others hold them: how a load is shared depends on these limits. If no correction leads to
+    /// states that hold, they stay as they are.
+    pub fn without_contradictions<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        modes: Vec<Mode>,
+        (resting, at_limit): (&[bool], &[(usize, Mode)]),
+    ) -> Vec<Mode> {
+        let slips = |k: usize| resting[k] && matches!(modes[k], Mode::Slides(sign) if sign != 0.0);
+        if at_limit.is_empty() && !(0..modes.len()).any(slips) {
+            return modes;
+        }
+        let mut touching = self.clone();
+        let mut next = modes.clone();
+        let mut tried: Vec<Vec<Mode>> = Vec::new();
+        while tried.len() <= 2 * modes.len() && !tried.contains(&next) {
+            touching.set_modes(next.clone());
+            let Ok(contradicted) = touching.contradicted(system, at, (resting, at_limit)) else {
+                break;
+            };
+            let Some((k, mode)) = contradicted else {
+                return next;
+            };
+            tried.push(next.clone());
+            next[k] = mode;
+            if let Some(second) = self.second(k) {
+                next[second] = mode;
+            }
+        }
+        modes
+    }
+
+    /// A contact whose state the motion contradicts, and the state that it would have instead; none if all hold.
+    fn contradicted<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        (resting, at_limit): (&[bool], &[(usize, Mode)]),
+    ) -> Result<Option<(usize, Mode)>, StepError> {
+        let margins = self.margins(system, at)?.each;
+        let is_lost = |margin: &Margin| margin.value < -margin.rounding;
+        let exceeds = |k: usize| self.modes[k] == Mode::Sticks && is_lost(&margins[k][1]);
+        let contacts = || 0..self.modes.len();
+        if contacts().any(exceeds) {
+            let mut limits = at_limit.iter().copied();
+            if let Some(limit) = limits.find(|(k, _)| self.modes[*k] == Mode::Sticks) {
+                return Ok(Some(limit));
+            }
+        }
+        let here = self.kinematics(system, (at.t, at.q, at.v));
+        let reaction = self.reaction_here(system, at, &here)?;
+        let is_single = |k: &usize| !self.has_two_tangents(*k);
+        if let Some(k) = contacts().filter(is_single).find(|k| exceeds(*k)) {
+            return Ok(Some((k, Mode::Slides(-reaction.forces[k][1].signum()))));
+        }
+        let free = Self::free(system, at)?;
+        let is_braked = |k: &usize| {
+            let Mode::Slides(sign) = self.modes[*k] else {
+                return false;
+            };
+            let [change, terms] = here.acceleration(2 * k + 1, &reaction.a);
+            let [_, of_free] = here.acceleration(2 * k + 1, &free);
+            resting[*k] && sign * change < -ROUNDING_OF_FORCES * (terms + of_free)
+        };
+        let braked = contacts().filter(|k| self.has_friction[*k]).find(is_braked);
+        Ok(braked.map(|k| (k, Mode::Sticks)))
     }
 
     /// These states, but open for those of some contacts that press no more than rounding, and for what leans on these.
@@ -292,6 +369,7 @@ impl<'a> Settling<'a> {
             slipping: Vec::new(),
             breaks: Vec::new(),
             modes: vec![Mode::Open; resting.len()],
+            at_limit: Vec::new(),
             unsettled: asked[0],
             asked,
         };
@@ -473,6 +551,7 @@ impl<'a> Settling<'a> {
     /// Takes what contacts do from their forces. The answer is whether one begins to slip whose friction is less then, so that the forces are others.
     fn take_modes(&mut self, solved: &SettlingForces) -> bool {
         let mut breaks_away = false;
+        self.at_limit.clear();
         for place in 0..self.asked.len() {
             let k = self.asked[place];
             self.modes[k] = if self.opens(solved, place) {
@@ -529,7 +608,11 @@ impl<'a> Settling<'a> {
         // that begins later is found by its friction, one that is assumed here and does not begin would stop at once.
         let is_held = slips.abs() <= rounding;
         // What has friction left sticks, whatever rounding makes of its slip.
-        if is_held || tangential.abs() < most * (1.0 - SATURATED) {
+        let has_friction_left = tangential.abs() < most * (1.0 - SATURATED);
+        if is_held || has_friction_left {
+            if !has_friction_left && tangential != 0.0 {
+                (self.at_limit).push((k, Mode::Slides(-tangential.signum())));
+            }
             return Mode::Sticks;
         }
         let sign = if most > 0.0 {
@@ -577,6 +660,10 @@ impl<'a> Settling<'a> {
             has_friction_left || is_still
         };
         if sticks || (size == 0.0 && is_still && known_direction == [0.0; 2]) {
+            if !has_friction_left && size > 0.0 {
+                let direction = used.map(|used| -used / size);
+                self.at_limit.push((k, Mode::SlidesAlong(direction)));
+            }
             return Mode::Sticks;
         }
         if kinetic != at_rest && !breaks {
