@@ -18,6 +18,7 @@
 
 mod composition;
 mod expand;
+mod gradients;
 mod recurrence;
 mod rows;
 

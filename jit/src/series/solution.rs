@@ -5,55 +5,18 @@ use lagrangian_program::series::{
 };
 
 use super::memory::{NUMBERS, Place};
-use super::record::{Block, ONE, Part, Recorder, X, ZERO};
+use super::record::{Block, Part, Recorder, X, ZERO};
 use crate::lower::Matrix;
 
 /// What a [`Matrix`] may read behind its end.
 const BEHIND: u32 = 8;
 
 impl Recorder<'_> {
-    /// The gradients of all rows at the start, by the chain rule.
+    /// The gradients of all rows at the start.
     pub fn differentiate(&mut self) {
-        let series = self.series;
         (self.m, self.level) = (0, Level::Position);
-        for index in 0..series.rows.len() {
-            let row = RowId(index as u32);
-            let count = series.depends[index].len();
-            if count == 0 {
-                continue;
-            }
-            self.gradients[index] = vec![ZERO; count];
-            match &series.rows[index] {
-                Row::Coordinate(_) | Row::Rate(_) | Row::Acceleration(_) => {
-                    self.gradients[index][0] = ONE;
-                }
-                Row::Sum(terms) => {
-                    for (c, of) in terms {
-                        let slope = c.map_or(ONE, |c| self.value_of(c));
-                        self.add_gradient(row, *of, slope);
-                    }
-                }
-                _ => {
-                    for (of, slope) in series.slopes(row, self).into_iter().flatten() {
-                        self.add_gradient(row, of, slope);
-                    }
-                }
-            }
-        }
-    }
-
-    fn add_gradient(&mut self, to: RowId, of: RowId, slope: X) {
-        if !self.series.propagates(to, of) {
-            return;
-        }
-        let (to, of) = (to.index(), of.index());
-        for (j, unknown) in self.series.depends[of].iter().enumerate() {
-            let Ok(at) = self.series.depends[to].binary_search(unknown) else {
-                continue;
-            };
-            let (known, g) = (self.gradients[to][at], self.gradients[of][j]);
-            self.gradients[to][at] = self.simplified(slope, g, known);
-        }
+        let series = self.series;
+        self.gradients = series.gradients(self, |to, [a, b, c]| to.simplified(a, b, c));
     }
 
     /// Stores the matrices of coupled unknowns.

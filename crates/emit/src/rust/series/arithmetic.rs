@@ -288,44 +288,7 @@ impl<'s> Recorder<'s> {
     /// Records the gradients of all rows at the start.
     pub fn differentiate(&mut self) {
         let series = self.series;
-        for index in 0..series.rows.len() {
-            let row = RowId(index as u32);
-            let count = series.depends[index].len();
-            if count == 0 {
-                continue;
-            }
-            self.gradients[index] = vec![Operand::Zero; count];
-            match &series.rows[index] {
-                Row::Coordinate(_) | Row::Rate(_) | Row::Acceleration(_) => {
-                    self.gradients[index][0] = Operand::One
-                }
-                Row::Sum(terms) => {
-                    for (c, of) in terms {
-                        let slope = c.map_or(Operand::One, |c| self.first(c));
-                        self.add_gradient(row, *of, slope);
-                    }
-                }
-                _ => {
-                    for (of, slope) in series.slopes(row, self).into_iter().flatten() {
-                        self.add_gradient(row, of, slope);
-                    }
-                }
-            }
-        }
-    }
-
-    fn add_gradient(&mut self, to: RowId, of: RowId, slope: Operand) {
-        if !self.series.propagates(to, of) {
-            return;
-        }
-        let (to, of) = (to.index(), of.index());
-        for (j, coordinate) in self.series.depends[of].iter().enumerate() {
-            let Ok(at) = self.series.depends[to].binary_search(coordinate) else {
-                continue;
-            };
-            let (known, g) = (self.gradients[to][at], self.gradients[of][j]);
-            self.gradients[to][at] = self.multiply_add(slope, g, known);
-        }
+        self.gradients = series.gradients(self, |to, [a, b, c]| to.multiply_add(a, b, c));
     }
 
     /// Records the factored matrices of coupled unknowns.
