@@ -105,6 +105,8 @@ pub(crate) struct UnilateralState {
     beginning_slips: Vec<f64>,
     /// Whether a direction is followed through rest, within a step: see [`Mode::SlidesAlong`].
     continues_through_rest: bool,
+    /// When a contact was last taken not to slip although its friction was used up, and which: what is found again at this instant does slip.
+    taken_back: Option<(f64, usize)>,
     /// In time stepping the mean forces of the last step along normal and tangent, in N.
     stepped: Option<Vec<[f64; 2]>>,
 }
@@ -169,6 +171,7 @@ impl UnilateralState {
             nearby: None,
             latest: SharedWorkspace::default(),
             continues_through_rest: true,
+            taken_back: None,
             stepped: None,
         }
     }
@@ -468,6 +471,11 @@ impl UnilateralState {
                 self.slip = self.slip.max(slip[0].hypot(slip[1]));
             }
         }
+    }
+
+    /// Records that a contact is taken not to slip although its friction is used up; whether it was so at this instant before.
+    pub fn take_back(&mut self, t: f64, contact: usize) -> bool {
+        self.taken_back.replace((t, contact)) == Some((t, contact))
     }
 
     /// The error where contacts that are asked together have no answer.

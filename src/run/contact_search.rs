@@ -80,6 +80,8 @@ pub(super) struct ContactLooks<V, M> {
     now: Look,
     /// For each corner of a polygon the greatest rate at which its gap changes at looks at the step; 0 for other contacts.
     falls: Vec<f64>,
+    /// Which contacts with two tangents have slipped faster than errors of rates since they began to.
+    faster: Vec<bool>,
     memory: Option<ContactMemory<V, M>>,
 }
 
@@ -89,6 +91,7 @@ impl<V, M> Default for ContactLooks<V, M> {
             before: Look::default(),
             now: Look::default(),
             falls: Vec::new(),
+            faster: Vec::new(),
             memory: None,
         }
     }
@@ -184,6 +187,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             before,
             now,
             falls,
+            faster,
             memory,
         } = looks;
         let system = self.model.system;
@@ -239,7 +243,17 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
             core::mem::swap(before, now);
         }
-        Ok(None)
+        let faded = self.stepper.faded_slip(memory, faster);
+        let faded = faded
+            .map_err(|error| (self.model).explain(error, self.stepper.q(), self.stepper.v()))?;
+        Ok(faded.map(|k| {
+            let change = FoundChange {
+                cause: Cause::Stops(k),
+                contact: k,
+                closes: false,
+            };
+            (self.stepper.t(), change)
+        }))
     }
 
     /// Looks at an instant of the last step.

@@ -100,6 +100,30 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
     }
 
+    /// A contact whose slip in two directions is next to nothing at the end of the last step, is braked there, and would stay at rest, if there is one. What
+    /// is left of such a slip are errors, which the following steps would turn around rest in ever shorter steps. `memory` knows the contacts there, and
+    /// `faster` which of them have slipped faster.
+    pub(crate) fn faded_slip(
+        &mut self,
+        memory: &ContactMemory<S::Vector, S::Matrix>,
+        faster: &mut Vec<bool>,
+    ) -> Result<Option<usize>, StepError> {
+        let Self { model, now, .. } = self;
+        let error = fading_rate(&self.tolerance, &now.v);
+        let Some(touching) = &model.touching else {
+            return Ok(None);
+        };
+        if !touching.may_fade(memory, &error, faster) {
+            return Ok(None);
+        }
+        let touching = touching.clone();
+        model.set_inputs(now.t, &now.q, &now.v);
+        let errors: Vec<f64> = (0..now.v.as_slice().len()).map(error).collect();
+        let fading = model.fading_slips(&touching, now, &errors)?;
+        let mut pairs = fading.iter().zip(faster);
+        Ok(pairs.position(|(fades, faster)| *fades && *faster))
+    }
+
     /// Lets contacts that touch meet, and continues to `end` with the contacts that are closed then. What yields and is pressed
     /// `at_start` has been pressed before.
     pub(crate) fn resolve_contacts(
@@ -124,10 +148,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         model.set_inputs(t, &now.q, &now.v);
         let fading = match cause {
             Cause::Stops(_) | Cause::Unspecified => {
-                let Tolerance { relative, absolute } = &self.tolerance;
-                let errors: Vec<f64> = (absolute.as_slice().iter().zip(now.v.as_slice()))
-                    .map(|(absolute, v)| FADING * (absolute + relative * v.abs()))
-                    .collect();
+                let error = fading_rate(&self.tolerance, &now.v);
+                let errors: Vec<f64> = (0..now.v.as_slice().len()).map(error).collect();
                 model.fading_slips(&touching, now, &errors)?
             }
             _ => vec![false; touching.modes().len()],
@@ -455,7 +477,17 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             let was_open = |k: usize| changes.before[k] == Mode::Open && !touching.is_compliant(k);
             modes = touching.without_unpressed(system, at, modes, was_open)?;
         }
+        let as_found = modes.clone();
         modes = touching.without_contradictions(system, at, modes, (resting, &settled.at_limit));
+        let mut pairs = modes.iter().zip(&changes.before);
+        if let Cause::Breaks(k, _) = cause
+            && changes.impacts.is_empty()
+            && pairs.all(|(after, before)| after.is_like(*before))
+            && touching.take_back(now.t, k)
+        {
+            // Nothing else happens, and its friction is used up again at this instant.
+            modes = as_found;
+        }
         touching.set_modes(modes);
         Ok(())
     }
@@ -646,6 +678,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
         }
     }
+}
+
+/// For each coordinate the rate up to which it may be what the errors of steps have left of none.
+fn fading_rate<V: Vector>(tolerance: &Tolerance<V>, v: &V) -> impl Fn(usize) -> f64 {
+    let Tolerance { relative, absolute } = tolerance;
+    move |i| FADING * (absolute.as_slice()[i] + relative * v.as_slice()[i].abs())
 }
 
 /// Whether an error says that several contacts together admit no motion.

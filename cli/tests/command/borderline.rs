@@ -416,3 +416,55 @@ fn a_load_that_is_shared_otherwise_is_told() {
         assert_eq!(text.contains(said), is_told, "{d}: {text}");
     }
 }
+
+/// Discs in a box that is shaken: the lowest one stands on the floor by its rolling resistance, others fall on it, and it begins to roll where that is used up.
+/// What it does then does not depend on the order in which the contacts are written.
+#[test]
+fn a_disc_under_others_begins_to_roll() {
+    let runs = [false, true].map(|reversed| {
+        let mut contacts: Vec<String> = Vec::new();
+        for i in 0..4 {
+            contacts.push(format!("f{i} {{ circle: c{i}, along: floor, restitution: 0.2, friction: 0.494, rolling_resistance: 0.0019 }}"));
+            for side in ["left", "right"] {
+                contacts.push(format!("{side}{i} {{ circle: c{i}, along: {side}, restitution: 0.2, friction: 0.494 }}"));
+            }
+            for j in 0..i {
+                contacts.push(format!("p{i}{j} {{ circle: c{i}, outside: c{j}, restitution: 0.2, friction: 0.494 }}"));
+            }
+        }
+        if reversed {
+            contacts.reverse();
+        }
+        let spec = Scratch::new(
+            "discs.machine",
+            &format!(
+                "machine Discs in plane {{
+                    parameters {{ g: m/s^2 = 9.81 }}
+                    coordinates {{ x0: m = 0.0202, y0: m = 0.154, p0: rad, x1: m = -0.0131, y1: m = 0.3776, p1: rad,
+                        x2: m = -0.0412, y2: m = 0.584, p2: rad, x3: m = 0.0346, y3: m = 0.7181, p3: rad }}
+                    frames {{ floor = ground.shift(0.01074*m*sin(25.11*rad/s*t), 0), left = floor.shift(-0.141, 0).turn(-pi/2),
+                        right = floor.shift(0.141, 0).turn(pi/2) }}
+                    bodies {{ d0 {{ mass: 0.273, inertia: 0.00040991, at: (x0, y0), angle: p0 }},
+                        d1 {{ mass: 1.295, inertia: 0.00331018, at: (x1, y1), angle: p1 }},
+                        d2 {{ mass: 0.401, inertia: 0.00020789, at: (x2, y2), angle: p2 }},
+                        d3 {{ mass: 1.743, inertia: 0.00266513, at: (x3, y3), angle: p3 }} }}
+                    circles {{ c0 {{ on: d0, center: (0, 0), radius: 0.0548 }}, c1 {{ on: d1, center: (0, 0), radius: 0.0715 }},
+                        c2 {{ on: d2, center: (0, 0), radius: 0.0322 }}, c3 {{ on: d3, center: (0, 0), radius: 0.0553 }} }}
+                    gravity (0, -g);
+                    contacts {{ {} }}
+                }}",
+                contacts.join(", ")
+            ),
+        );
+        let run = simulate_by(&spec, "0.3", "dop853", "1e-9");
+        is_good(&run);
+        let rolls = events(&run, "slips");
+        let rolls = rolls.iter().filter(|e| e["contact"] == "f0.rolling");
+        assert_eq!(rolls.count(), 1, "{run:#}");
+        run
+    });
+    for coordinate in ["x0", "p0", "x1", "p1", "x2", "y2", "x3", "y3"] {
+        let [one, other] = [0, 1].map(|i| number(&runs[i]["q"][coordinate]));
+        close(one, other, 1e-9);
+    }
+}

@@ -621,3 +621,42 @@ fn plates_come_to_rest_or_turn_about_a_foot() {
         }
     }
 }
+
+/// A table falls on its feet and turns on one of them, whose slip fades without turning and stops: at the same instant, however small the tolerance, and in
+/// few steps.
+#[test]
+fn a_table_comes_to_rest_on_one_foot() {
+    let spec = Scratch::new(
+        "table.machine",
+        "machine Table in space {
+            parameters { g: m/s^2 = 9.81 }
+            coordinates { x: m, y: m, z: m = 0.436, yaw: rad = 0.75, th: rad = 0.171, ph: rad = -0.35,
+                der(x): m/s = 1.288, der(y): m/s = 0.38, der(yaw): rad/s = -5.36 }
+            frames { held = ground.shift(x, y, z).turn(z, yaw).turn(y, th).turn(x, ph) }
+            bodies { box { mass: 2.813, inertia: (0.0457019, 0.0259293, 0.0437187), frame: held } }
+            gravity (0, 0, -g);
+            contacts {
+                foot { corners: ((0.113, 0, -0.122), (0, 0.184, -0.122), (-0.113, 0, -0.122), (0, -0.184, -0.122)), on: held, along: ground,
+                    restitution: 0.2, friction: 1, static_friction: 1.5 }
+            }
+        }",
+    );
+    let sticks = |tolerance: &str| {
+        let arguments = ["simulate", spec.path(), "--until", "0.72", "--json"];
+        let run = json(
+            &[
+                &arguments[..],
+                &["--tolerance", tolerance, "--max-steps", "2000"],
+            ]
+            .concat(),
+        );
+        is_good(&run);
+        let sticks = events(&run, "sticks");
+        number(&sticks.last().expect("a foot that stops")["t"])
+    };
+    let exact = sticks("1e-12");
+    // A slip of some 40 tolerances in m/s, with rates of several rad/s, is braked by 0.23 m/s².
+    for (tolerance, within) in [("1e-9", 1e-6), ("1e-11", 1e-8)] {
+        close(sticks(tolerance), exact, within);
+    }
+}

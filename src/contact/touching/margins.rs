@@ -6,7 +6,7 @@ use super::super::kinematics::ContactKinematics;
 use super::reaction::{ContactMemory, Reaction};
 use super::{Margin, Mode, ROUNDING_OF_FORCES, UnilateralState};
 use crate::at::At;
-use crate::{StepError, System};
+use crate::{StepError, System, Vector};
 
 /// By how much the states of closed contacts hold.
 #[derive(Clone, Debug, Default)]
@@ -75,6 +75,42 @@ impl UnilateralState {
             return Ok(());
         }
         self.share_margins(here, reaction, at.t, margins)
+    }
+
+    /// Whether a contact slips in two directions so slowly that errors of the rates of coordinates, here of each of them, decide where to, and is braked: where
+    /// `memory` was asked about margins last. `faster` tells which contacts have slipped faster since they began to, and is kept up to date: what has just begun
+    /// to slip from rest is slow as well.
+    pub fn may_fade<V: Vector, M: Vector>(
+        &self,
+        memory: &ContactMemory<V, M>,
+        error: impl Fn(usize) -> f64,
+        faster: &mut Vec<bool>,
+    ) -> bool {
+        let ContactMemory {
+            here, equations, ..
+        } = memory;
+        faster.resize(self.modes.len(), false);
+        let mut fades = false;
+        for (k, faster) in faster.iter_mut().enumerate() {
+            let slides = self.first(k) == k && matches!(self.modes[k], Mode::SlidesAlong(_));
+            if !slides {
+                *faster = false;
+                continue;
+            }
+            let rows = [1, 3].map(|part| 2 * k + part);
+            let slip = rows.map(|row| here.rates[row]);
+            let errors = rows.map(|row| {
+                let terms = here.row(row).iter().enumerate();
+                terms.map(|(i, w)| w.abs() * error(i)).sum::<f64>()
+            });
+            if slip[0].hypot(slip[1]) > errors[0].hypot(errors[1]) {
+                *faster = true;
+            } else if *faster {
+                let change = rows.map(|row| here.acceleration(row, &equations.reaction.a)[0]);
+                fades |= slip[0] * change[0] + slip[1] * change[1] < 0.0;
+            }
+        }
+        fades
     }
 
     /// The margins of a closed contact with these forces. `rest` is the rate below which a contact is at rest.
