@@ -274,7 +274,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// times and reasons.
     ///
     /// It begins with [`TAYLOR`](crate::TAYLOR) if the machine has a series whose steps cost less than steps of [`Method::DOP853`] over the
-    /// same time that are as accurate ([`System::series_cost`](crate::System::series_cost)), otherwise with `dop853`. When stability and not
+    /// same time that are as accurate ([`System::series_cost`](crate::System::series_cost)), otherwise with `dop853`. A machine that is read from a spec at run
+    /// time begins with `dop853` in any case, since its series must be derived first: once the run has proved long enough, this is done, and the run goes on by series if their steps cost less. When stability and not
     /// accuracy limits the steps, it changes to a Radau method, of order 5, 9 or 13 depending on the tolerance, and back once its steps,
     /// linear equations included, have cost more than explicit ones would. A machine with unilateral contacts [hands over](Self::hand_over) to
     /// time stepping and back, and is not tested for stiffness. All decisions follow from counts, never from a clock: the same call gives

@@ -304,6 +304,13 @@ pub trait System {
         true
     }
 
+    /// [`to_coordinates`](Self::to_coordinates) into memory that holds coordinates of this machine already.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn copy_to_coordinates(&self, vector: &Self::Vector, coordinates: &mut Self::Coordinates) {
+        *coordinates = self.to_coordinates(vector);
+    }
+
     /// The values of inputs that nobody sets: the defaults of the description.
     fn default_inputs(&self) -> Self::Inputs;
 
@@ -629,6 +636,15 @@ pub trait System {
     /// unknown, `None`, the series is never chosen.
     #[inline(always)]
     fn series_cost(&self) -> Option<[f64; 2]> {
+        None
+    }
+
+    /// If the series is derived only when [`check_series`](Self::check_series) is called for the first time: about how many evaluations of the
+    /// accelerations in steps of `dop853` take as long; infinite where there is no series for certain. A run that chooses its method does not call it
+    /// before. It is an estimate from operation counts, and the same whether the series has been derived or not.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn series_derivation(&self) -> Option<f64> {
         None
     }
 

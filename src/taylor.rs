@@ -642,6 +642,24 @@ pub(crate) fn state<N: Real, V: Vector<N>>(coefficients: &[V], tau: N) -> (V, V)
     (q, v)
 }
 
+/// [`state`] with the accelerations then, into memory of a machine's dimension.
+pub(crate) fn state_with_accelerations<V: Vector>(
+    coefficients: &[V],
+    tau: f64,
+    [q, v, a]: [&mut V; 3],
+) {
+    q.clone_from(&coefficients[0]);
+    v.clone_from(&coefficients[1]);
+    in_blocks!(a.as_slice().len(), |start, B| {
+        let [by_q, by_v, there] = motion::<B, 3, f64>(&Rows(coefficients), start, tau);
+        for k in 0..B {
+            q.as_mut_slice()[start + k] += by_q[k];
+            v.as_mut_slice()[start + k] += by_v[k];
+        }
+        a.as_mut_slice()[start..start + B].copy_from_slice(&there);
+    });
+}
+
 /// The accelerations at a time `tau` after the state that was expanded.
 pub(crate) fn accelerations<V: Vector>(coefficients: &[V], tau: f64, a: &mut V) {
     in_blocks!(a.as_slice().len(), |start, B| {
@@ -663,7 +681,7 @@ mod tests {
 
     use lagrangian_scalar::{DoubleDouble, Scalar};
 
-    use super::{Taylor, bound};
+    use super::{Taylor, bound, state_with_accelerations};
     use crate::stages::Point;
 
     /// The sum of terms in double-double, and the sum of their sizes.
@@ -707,6 +725,9 @@ mod tests {
             let before = Point::new(0.0, coefficients[0], coefficients[1]);
             let (mut now, mut a) = (before.clone(), [0.0; N]);
             assert!(taylor.advance(h, &before, &mut now, (1.0, false), &mut a));
+            let mut there = [[0.0; N]; 3];
+            let [q_there, v_there, a_there] = &mut there;
+            state_with_accelerations(&coefficients, h, [q_there, v_there, a_there]);
             for (i, a) in a.into_iter().enumerate() {
                 let term = |j: usize, derivative: usize| {
                     let factor: f64 = (0..derivative).map(|d| j as f64 - d as f64).product();
@@ -715,7 +736,12 @@ mod tests {
                     c * power * DoubleDouble::from_f64(factor)
                 };
                 let found = [[now.q[i], now.q_low[i]], [now.v[i], now.v_low[i]], [a, 0.0]];
-                for (derivative, [high, low]) in found.into_iter().enumerate() {
+                let others = there.map(|of| [of[i], 0.0]);
+                let all = found
+                    .into_iter()
+                    .enumerate()
+                    .chain(others.into_iter().enumerate());
+                for (derivative, [high, low]) in all {
                     let [exact, size] = sum((derivative..rows).map(|j| term(j, derivative)));
                     // A term is rounded up to 20 times, with its weight, its powers of `h` and the sums that contain it, by half an epsilon each.
                     let error = (high + low - exact).abs();

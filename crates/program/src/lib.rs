@@ -492,6 +492,14 @@ impl Program {
         margins.flatten().all(Function::is_linear)
     }
 
+    /// Whether the machine has work of drives, forces and inputs, and losses in dampers, at any state: a function of them that is not identically 0.
+    pub fn has_powers(&self) -> [bool; 2] {
+        [Role::WorkRate, Role::DissipationRate].map(|role| {
+            let function = self.function(role);
+            function.is_some_and(|function| !function.is_zero())
+        })
+    }
+
     /// The role of the function that solves the equations of motion: the accelerations or, for a
     /// machine with guided contacts, their dependence on the friction forces.
     pub fn solving(&self) -> Role {
@@ -563,6 +571,13 @@ impl Function {
     /// The operation counts of a call.
     pub fn counts(&self) -> Counts {
         Counts::of(self)
+    }
+
+    /// Whether all its results are 0, and it always has them.
+    pub fn is_zero(&self) -> bool {
+        let zero =
+            |value: &Value| matches!(self.op(*value), Op::Constant(constant) if constant.is_zero());
+        self.guards.is_empty() && self.results.iter().all(zero)
     }
 
     /// The estimated time of a call.

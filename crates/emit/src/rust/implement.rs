@@ -298,6 +298,10 @@ impl Emitter<'_> {
                 let no = Layout::Atom("false".into());
                 self.row("boolean", "series_may_branch", &["p"], Some(no));
             }
+            if self.program.has_powers() == [false; 2] {
+                let no = Layout::Atom("false".into());
+                self.row("boolean", "has_powers", &["p"], Some(no));
+            }
         }
         self.rows_of_quantities();
         let value = if self.outputs.is_empty() {
