@@ -350,7 +350,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let is_limited_by_accuracy = self.stepper.is_not_stiff();
         let so_far = EVALUATIONS * (tried - before) as f64;
         let to_come = so_far * (left / (t - since)).abs();
-        if !is_limited_by_accuracy || so_far < INVESTED * derivation || to_come < WORTH * derivation {
+        if !is_limited_by_accuracy || so_far < INVESTED * derivation || to_come < WORTH * derivation
+        {
             return Ok(());
         }
         self.choosing.derivation = None;
