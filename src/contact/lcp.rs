@@ -30,6 +30,9 @@ const GOOD: f64 = 1e-12;
 /// How many paths are tried.
 const PATHS: usize = 8;
 
+/// How many pivots a path takes at most, for each number and beyond two hundred: those of contacts take some three, and one that rounding has led astray goes on and on.
+const MOST_PIVOTS: usize = 12;
+
 /// How often in succession a guess which numbers are positive is corrected without fewer wrong ones than ever before.
 const IN_VAIN: usize = 1;
 
@@ -59,6 +62,9 @@ pub(crate) fn lemke(m: &[f64], q: &[f64]) -> Result<Solution, Unsolved> {
     let rounded: Vec<f64> = (q.iter())
         .map(|q| if q.abs() <= ZERO * size { 0.0 } else { *q })
         .collect();
+    if rounded == q {
+        return found.ok_or(Unsolved);
+    }
     let z = if rounded.iter().all(|q| *q >= 0.0) {
         Some(vec![0.0; n])
     } else {
@@ -141,7 +147,7 @@ fn along(m: &[f64], q: &[f64], size: f64, path: usize) -> Result<Solution, Unsol
     // The covering variable goes in where q is least.
     let mut leaving = tableau.least(2 * n);
     let mut entering = 2 * n;
-    for _ in 0..50 * n + 200 {
+    for _ in 0..MOST_PIVOTS * n + 200 {
         let left = tableau.basis[leaving];
         tableau.pivot(leaving, entering);
         if left == 2 * n {

@@ -238,8 +238,11 @@ pub(super) fn solve_for_motion(
     b: &[f64],
     near: &[[f64; 2]],
 ) -> Result<Answer, Unsolved> {
-    let some = problem::solve(contacts, g, b, Some(near));
-    let some = some.or_else(|_| problem::solve(contacts, g, b, None));
+    let mut some = problem::solve(contacts, g, b, Some(near));
+    // In the plane that has looked for a solution anywhere.
+    if some.is_err() && is_in_space(contacts) {
+        some = problem::solve(contacts, g, b, None);
+    }
     let mut depends = Vec::new();
     if let Ok(answer) = &some {
         depends = motion_depends_on(contacts, (g, b), &answer.forces);
@@ -259,6 +262,11 @@ pub(super) fn solve_for_motion(
             ..answer
         }),
     }
+}
+
+/// Whether some contact has a second tangent.
+fn is_in_space(contacts: &[ContactUnknowns]) -> bool {
+    (contacts.iter()).any(|k| matches!(k, ContactUnknowns::SecondTangent))
 }
 
 /// The contacts on whose distribution of a load the motion depends: those of which one slips whose normal force others depend on, along the directions
@@ -318,7 +326,7 @@ fn distributed(
         b,
         inverse_masses: &inverse_masses(groups, g, contacts.len()),
     };
-    let in_space = (contacts.iter()).any(|k| matches!(k, ContactUnknowns::SecondTangent));
+    let in_space = is_in_space(contacts);
     let is_good = |answer: &Answer| answer.residual <= tolerable;
     let found = |returns| {
         let found = yielding.stiffened(start, (in_space, returns), tolerable);

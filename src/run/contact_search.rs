@@ -145,11 +145,11 @@ impl Interval<'_> {
     /// The margins of closed contacts that are lost at the second look, each with its kind.
     fn doubtful_margins(&self) -> impl Iterator<Item = (usize, usize)> {
         let each = &self.now.margins.each;
-        let of_contact = |k: usize| {
+        let of_contact = move |k: usize| {
             let own: [crate::contact::Margin; 4] = each[k];
             (0..4).filter_map(move |kind| (own[kind].value < 0.0).then_some((k, kind)))
         };
-        (self.touching.in_order().filter(|k| *k < each.len())).flat_map(of_contact)
+        (self.touching.in_order().filter(move |k| *k < each.len())).flat_map(of_contact)
     }
 
     /// Whether something may have changed.

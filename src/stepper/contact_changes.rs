@@ -773,6 +773,7 @@ pub(super) fn project_onto_closed_contacts<S: System>(
         return Ok(None);
     }
     let mut constraints = Constraints::new(&constrained, &now.q, &now.v);
+    let as_found = now.q.clone();
     // The rates of contacts that close are known to the round-off of those with which they closed, however small they are now.
     let first = system.constraints().len();
     for (place, rate) in touching.rates_of_held().enumerate() {
@@ -780,6 +781,7 @@ pub(super) fn project_onto_closed_contacts<S: System>(
     }
     let begun = constraints.begin(&constrained, &mut now.place(), None);
     begun.map_err(|error| touching.explain(system, error))?;
+    touching.check_displacement(system, now.t, (&as_found, &now.q), &now.v)?;
     // Contacts that share a load stay dependent for as long as they are closed.
     constraints.at_fork = false;
     Ok(Some(constraints))

@@ -3,9 +3,9 @@
 use std::vec;
 use std::vec::Vec;
 
+use super::super::UnilateralState;
 use super::super::delassus::{Inertia, matrix};
 use super::super::problem::{self, ContactUnknowns};
-use super::super::{ContactTrouble, UnilateralState};
 use crate::{Singular, StepError, System, Vector};
 
 /// How often a penetration is moved out of, at most: each time squares the remainder.
@@ -14,11 +14,15 @@ const CORRECTIONS: usize = 16;
 /// Contacts that are open by no more than so many times the deepest penetration are near it.
 const NEAR: f64 = 8.0;
 
+/// How large the residual of a displacement may be.
+const MOST_RESIDUAL: f64 = 1e-8;
+
 impl UnilateralState {
-    /// Moves the end of a step out of what it has penetrated. Says which contacts have been penetrated.
+    /// Moves the end of a step out of what it has penetrated. Says which contacts have been penetrated. Where no displacement leads out of all of them, as where a
+    /// body is wedged in, what is left stays until a later step.
     ///
     /// # Errors
-    /// Where the mass matrix is singular, or there is no way out.
+    /// Where the mass matrix is singular.
     pub fn resolve_penetration<S: System>(
         &self,
         system: &S,
@@ -60,14 +64,11 @@ impl UnilateralState {
                 .flat_map(|k| [here.height(*k), 0.0])
                 .collect();
             let unknowns = vec![ContactUnknowns::Normal { share: 0.0 }; touching.len()];
-            let unsolved = |_| StepError::Contact {
-                contact: touching[0],
-                trouble: ContactTrouble::Unsettled,
-                t,
-            };
             // Where to move does not depend on how contacts share the displacement.
-            let answer =
-                problem::solve(&unknowns, &matrix(&images), &gaps, None).map_err(unsolved)?;
+            let answer = problem::solve(&unknowns, &matrix(&images), &gaps, None).ok();
+            let Some(answer) = answer.filter(|answer| answer.residual <= MOST_RESIDUAL) else {
+                break;
+            };
             let by = inertia.response(&images, answer.forces.iter().flatten().copied());
             for (q, by) in q.as_mut_slice().iter_mut().zip(by) {
                 *q += by;

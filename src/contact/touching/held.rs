@@ -6,7 +6,7 @@ use super::super::kinematics::{OnFace, write_some};
 use super::{Mode, UnilateralState};
 use crate::forward::forward;
 use crate::shared_workspace::SharedWorkspace;
-use crate::{Constraint, ContactQuantity, System, Vector};
+use crate::{Constraint, ContactQuantity, ContactTrouble, StepError, System, Vector};
 
 /// A machine whose closed contacts are constraints: a gap that stays 0, and where a contact sticks, a slip that does.
 #[derive(Clone, Copy)]
@@ -134,7 +134,51 @@ impl<'a, S: System> Held<'a, S> {
     }
 }
 
+/// By how much a state may move onto the contacts that are closed: so many times the greatest gap of these, and the second number times the rounding of a gap. Where
+/// it moves further, gaps hardly change with it, as those of a body that is wedged in between faces that are almost parallel.
+const MOST_DISPLACED: [f64; 2] = [1e3, 1e6];
+
 impl UnilateralState {
+    /// Checks that a state has been moved onto the contacts that are closed by no more than their gaps explain.
+    ///
+    /// # Errors
+    /// The contact along whose gap it has been moved further.
+    pub fn check_displacement<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        (from, to): (&S::Vector, &S::Vector),
+        v: &S::Vector,
+    ) -> Result<(), StepError> {
+        if from.as_slice() == to.as_slice() {
+            return Ok(());
+        }
+        let here = self.kinematics(system, (t, from, v));
+        let closed = || {
+            let normals = self
+                .held
+                .iter()
+                .filter(|direction| direction.is_multiple_of(2));
+            normals.map(|direction| direction / 2)
+        };
+        let greatest = closed().fold(0.0_f64, |most, k| most.max(here.height(k).abs()));
+        let [times, roundings] = MOST_DISPLACED;
+        let is_far = |k: &usize| {
+            let by = from.as_slice().iter().zip(to.as_slice());
+            let terms = here.row(2 * k).iter().zip(by);
+            let moved: f64 = terms.map(|(w, (from, to))| (w * (to - from)).abs()).sum();
+            moved > times * greatest + roundings * here.gap_rounding(*k)
+        };
+        match closed().find(is_far) {
+            None => Ok(()),
+            Some(contact) => Err(StepError::Contact {
+                contact,
+                trouble: ContactTrouble::NotHeld,
+                t,
+            }),
+        }
+    }
+
     /// Which directions are held: 2k for the normal of the contact k, and 2k + 1 for its tangent.
     pub(super) fn held_directions(&self, modes: &[Mode]) -> Vec<usize> {
         let mut held = Vec::new();
