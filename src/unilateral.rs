@@ -45,6 +45,19 @@ pub enum ContactQuantity {
     Face,
 }
 
+impl ContactQuantity {
+    /// How many numbers of it a contact has, with so many coordinates.
+    pub(crate) fn width(self, coordinates: usize) -> usize {
+        match self {
+            ContactQuantity::Gap => 1,
+            ContactQuantity::Rates | ContactQuantity::Bias => 2,
+            ContactQuantity::Rows => 2 * coordinates,
+            ContactQuantity::Coefficients => 4,
+            ContactQuantity::Face => 3,
+        }
+    }
+}
+
 /// How closed contacts take part in an impact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ImpactOrder {

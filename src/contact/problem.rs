@@ -104,6 +104,8 @@ struct PlaneProblem<'a> {
     b: &'a [f64],
     /// What is unknown: of which contact, and its kind.
     unknowns: Vec<(usize, Kind)>,
+    /// Which contact has which share of the normal force of another: the contact, the other one, and the share.
+    shares_of_carriers: Vec<(usize, usize, f64)>,
     /// By what rates are multiplied along tangents: a rate of rotation becomes one in the units of the contact that rolls, with the same energy.
     along_tangents: Vec<f64>,
     /// The unit of rates, and of the impulses of each contact.
@@ -118,6 +120,7 @@ impl<'a> PlaneProblem<'a> {
             g,
             b,
             unknowns: Vec::new(),
+            shares_of_carriers: Vec::new(),
             along_tangents: Vec::new(),
             rate: 0.0,
             unit: Vec::new(),
@@ -128,6 +131,9 @@ impl<'a> PlaneProblem<'a> {
                 ContactUnknowns::Both { .. } | ContactUnknowns::Normal { .. }
             ) {
                 problem.unknowns.push((k, Kind::Normal));
+            }
+            if let ContactUnknowns::ShareOfCarrier { share, on } = contact {
+                problem.shares_of_carriers.push((k, *on, *share));
             }
             if contact.has_friction() {
                 let unknowns = [(k, Kind::Forward), (k, Kind::Backward), (k, Kind::Slip)];
@@ -193,14 +199,11 @@ impl<'a> PlaneProblem<'a> {
                     ContactUnknowns::Normal { share } => share,
                     _ => 0.0,
                 };
-                let contacts = self.contacts.iter().enumerate();
-                let carried = contacts.map(|(other, contact)| match contact {
-                    ContactUnknowns::ShareOfCarrier { share, on } if *on == k => {
-                        share * entry(2 * other + 1)
-                    }
-                    _ => 0.0,
+                let carried = self.shares_of_carriers.iter();
+                let carried = carried.filter(|(_, on, _)| *on == k);
+                let carried = carried.fold(0.0, |sum, (other, _, share)| {
+                    sum + share * entry(2 * other + 1)
                 });
-                let carried: f64 = carried.sum();
                 self.unit[k] * (entry(2 * k) + share * entry(2 * k + 1) + carried)
             }
             Kind::Forward => self.unit[k] * entry(2 * k + 1),

@@ -248,15 +248,14 @@ impl UnilateralState {
     }
 
     /// Finds out which contacts are near in a step that stays in this box, and after it; and in what surrounds it by so many times its greatest width.
-    /// Machines with layers that are crushed evaluate all contacts: what is not pressed has a state too.
+    /// A layer presses only where its gap is not positive, however much of it has been crushed: the surface of it recedes.
     pub fn keep_near<S: System>(
         &mut self,
         system: &S,
         surroundings: f64,
         step: impl FnOnce() -> StateBox,
     ) {
-        let has_layers = (0..self.modes.len()).any(|k| self.is_layer(k));
-        let Some(gap_arguments) = system.single_contacts().filter(|_| !has_layers) else {
+        let Some(gap_arguments) = system.single_contacts() else {
             return;
         };
         if self.nearby.as_mut().is_some_and(Nearby::pauses) {

@@ -364,10 +364,8 @@ macro_rules! implement_part {
     (rounded q $p:tt $t:ident $q:ident $v:ident) => { &$q.map($crate::emitted::rounded) };
     (rounded v $p:tt $t:ident $q:ident $v:ident) => { &$v.map($crate::emitted::rounded) };
 
-    // An argument of gaps, as an interval between two values, or of its rounding.
-    (between p $p:tt $t:ident $q:ident) => { &$p.rounded() };
-    (between t $p:tt $t:ident $q:ident) => { $crate::scalar::Interval::new($t[0], $t[1]) };
-    (between q $p:tt $t:ident $q:ident) => { &$crate::emitted::intervals($q) };
+    // The prepared values that gaps depend on, as intervals of their rounding.
+    (between p $p:tt) => { &$p.rounded() };
 }
 
 /// A method of `System`, by the kind of its result.
@@ -571,7 +569,7 @@ macro_rules! implement_method {
         }
     };
 
-    // Lower bounds of gaps; the arguments are those that the gaps depend on.
+    // Lower bounds of gaps, by a `ContactParts` in intervals; prepared values are an argument where gaps depend on them.
     (
         [$n:literal $Inputs:ident $Outputs:ident] least $method:ident($($x:ident),*) = $value:expr
     ) => {
@@ -581,8 +579,10 @@ macro_rules! implement_method {
             q: [&[::core::primitive::f64; $n]; 2],
             result: &mut [::core::primitive::f64],
         ) {
-            $(let $x = $crate::implement_part!(between $x self t q);)*
-            $crate::emitted::fill_least(result, &$value);
+            let t = $crate::scalar::Interval::new(t[0], t[1]);
+            let q = $crate::emitted::intervals(q);
+            $(let $x = $crate::implement_part!(between $x self);)*
+            $value.write_least_gaps((t, &q), result);
         }
     };
 

@@ -12,6 +12,7 @@ mod long_runs;
 mod mechanisms;
 mod motions;
 mod peers;
+mod piles;
 mod stress;
 #[path = "../support/mod.rs"]
 mod support;

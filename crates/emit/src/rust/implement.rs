@@ -103,11 +103,8 @@ impl Emitter<'_> {
             format!("{name} [{}]", if is_there { word } else { "" })
         };
         let slips = self.emitted(Role::Slips);
-        let bounded = self
-            .emitted(Role::Gaps)
-            .filter(|_| self.contact_parts.is_some());
-        let mut intervals = slips.into_iter().chain(bounded);
-        let rounds_prepared = intervals.any(|function| self.needs(function).prepared);
+        let rounds_prepared = slips.is_some_and(|function| self.needs(function).prepared)
+            || self.parts_of_gaps_read_prepared();
         self.writer.line(format!("absent [{}]", absent.join(" ")));
         self.writer.line(flag("intervals", rounds_prepared, "yes"));
         if let Some(call) = self
@@ -336,7 +333,7 @@ impl Emitter<'_> {
         };
         for role in Role::all().filter(is_method) {
             let row = role.row();
-            if row.extent.shape(sizes).is_none() {
+            if row.extent.shape(sizes).is_none() || self.is_by_parts(role) {
                 continue;
             }
             let kind = match row.extent {
