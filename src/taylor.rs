@@ -450,6 +450,25 @@ pub(crate) fn bound(size: f64, absolute: f64, relative: f64) -> f64 {
     }
 }
 
+/// The part of the tolerable error that is the [`bound`], if it is the same for numbers of every size: neither tolerance is at one of the limits, where
+/// rounding decides.
+pub(crate) fn part_for_all_sizes(absolute: f64, relative: f64) -> Option<f64> {
+    let part = |tolerance: f64| {
+        let is_within = |low: f64, high: f64| low < tolerance && tolerance < high;
+        if is_within(0.500_001e-8, f64::INFINITY) {
+            Some(0.1)
+        } else if is_within(0.500_001e-14, 0.499_999e-8) {
+            Some(1.0)
+        } else if is_within(1e-200, 0.499_999e-14) {
+            Some(0.01)
+        } else {
+            None
+        }
+    };
+    let found = part(absolute);
+    found.filter(|_| part(relative) == found)
+}
+
 /// The larger of `worst` and a term's size over its bound; the term is that of the rate, v = Σ (j + 1) cⱼ₊₁ τʲ, in a step of 1 s.
 #[inline(always)]
 pub(crate) fn larger_ratio(worst: f64, c: f64, j: f64, over_bound: f64) -> f64 {
@@ -494,12 +513,26 @@ pub(crate) fn length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
     }
 }
 
-/// [`length`] for two terms that are positive and finite: the same arithmetic without branches, for several at once.
+/// [`length`] of several steps whose terms are positive and finite: the same arithmetic without branches. In a loop for each function, the compiler puts
+/// all of them into one register.
 #[inline(always)]
-pub(crate) fn usual_length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
-    let one = rough_log2(worst[0]) * exponent(powers[0]);
-    let other = rough_log2(worst[1]) * exponent(powers[1]);
-    rough_exp2(if one < other { one } else { other })
+pub(crate) fn usual_lengths<const W: usize>(
+    [mut one, mut other]: [[f64; W]; 2],
+    powers: [usize; 2],
+) -> [f64; W] {
+    for one in &mut one {
+        *one = rough_log2(*one) * exponent(powers[0]);
+    }
+    for other in &mut other {
+        *other = rough_log2(*other) * exponent(powers[1]);
+    }
+    for (one, other) in one.iter_mut().zip(other) {
+        *one = if *one < other { *one } else { other };
+    }
+    for one in &mut one {
+        *one = rough_exp2(*one);
+    }
+    one
 }
 
 /// Access to the coefficients of coordinates for [`motion`].
@@ -663,7 +696,7 @@ mod tests {
 
     use lagrangian_scalar::{DoubleDouble, Scalar};
 
-    use super::{Taylor, bound};
+    use super::{Taylor, bound, part_for_all_sizes};
     use crate::stages::Point;
 
     /// The sum of terms in double-double, and the sum of their sizes.
@@ -690,6 +723,11 @@ mod tests {
                 let expected = part * (tolerance + tolerance * size);
                 assert_eq!(bound(size, tolerance, tolerance), expected);
             }
+            assert_eq!(part_for_all_sizes(tolerance, tolerance), Some(part));
+        }
+        let at_limits = [[0.5e-8; 2], [0.5e-14; 2], [1e-15, 1e-14], [1e-7, 1e-9]];
+        for [absolute, relative] in at_limits {
+            assert_eq!(part_for_all_sizes(absolute, relative), None);
         }
     }
 
