@@ -131,10 +131,10 @@ fn largest_share<M>(workspace: &Workspace<'_, M>, level: Level) -> f64 {
         Level::Positions => &workspace.positions,
         Level::Rates => &workspace.rates,
     };
-    let mut most = 0.0;
+    let mut most = 0.0_f64;
     for (left, reciprocal) in residuals.iter().zip(&*workspace.lengths) {
         let share = left.abs() * reciprocal;
-        if !(share <= most) {
+        if !(share <= most || most.is_nan()) {
             most = share;
         }
     }

@@ -52,7 +52,7 @@ impl<V: Vector> Constraints<V> {
             for (chosen, now) in most.chosen.iter_mut().zip(relative) {
                 self.count_residual(chosen, k, now.now);
                 // NaN counts as the largest.
-                if !(now.guaranteed <= most.guaranteed.0) {
+                if !(now.guaranteed <= most.guaranteed.0 || most.guaranteed.0.is_nan()) {
                     most.guaranteed = (now.guaranteed, k);
                 }
             }
@@ -97,7 +97,7 @@ impl<V: Vector> Constraints<V> {
             return;
         }
         // NaN counts as the largest.
-        if !(now <= most.0) {
+        if !(now <= most.0 || most.0.is_nan()) {
             *most = (now, k);
         }
     }
