@@ -98,7 +98,7 @@ fn a_projection_evaluates_the_constraint_matrix_twice() {
         EVALUATED.set([0; 2]);
         let run = Simulation::new(&machine).method(Method::DOP853);
         let run = run.tolerance(tolerance).until(until).run(machine.start());
-        let statistics = run.expect("it runs").statistics().clone();
+        let statistics = run.expect("it runs").statistics();
         assert!(statistics.constraint_residual <= RESIDUAL);
         (EVALUATED.get(), statistics)
     };
