@@ -437,8 +437,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// Finds the instants at which a function of observed quantities changes its sign: outputs, accelerations, multipliers, contact forces.
     /// It is evaluated at least seven times a step, each time with an evaluation of the accelerations.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use lagrangian::{Crossing, Simulation};
     ///
     /// lagrangian::machine! {

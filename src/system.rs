@@ -689,8 +689,6 @@ pub trait Linearize: System {
 /// The accelerations agree with those of [`System::accelerations`] to rounding; sums and products are evaluated in another order.
 ///
 /// ```
-/// # #[cfg(feature = "macros")]
-/// # mod program {
 /// use lagrangian::{Staged, System};
 ///
 /// lagrangian::machine! {
@@ -704,7 +702,7 @@ pub trait Linearize: System {
 ///     }
 /// }
 ///
-/// # pub fn main() -> Result<(), lagrangian::Singular> {
+/// # fn main() -> Result<(), lagrangian::Singular> {
 /// // A step that is implicit in the rates, v = v0 + h a(q, v): the place is evaluated once.
 /// let brake = Braked::default().prepare();
 /// let (h, v0, u) = (0.05, 2.0, brake.default_inputs());
@@ -719,11 +717,6 @@ pub trait Linearize: System {
 /// assert!((v[0] - exact).abs() < 1e-14);
 /// # Ok(())
 /// # }
-/// # }
-/// # #[cfg(feature = "macros")]
-/// # fn main() -> Result<(), lagrangian::Singular> { program::main() }
-/// # #[cfg(not(feature = "macros"))]
-/// # fn main() {}
 /// ```
 #[diagnostic::on_unimplemented(
     message = "the accelerations of `{Self}` are not evaluated in stages",
