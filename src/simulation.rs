@@ -95,24 +95,9 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
     where
         F: Fn(f64, &Coordinates<M>, &Coordinates<M>, &mut Inputs<M>),
     {
-        let Self {
-            subject,
-            settings,
-            callbacks,
-            resumed,
-            ..
-        } = self;
-        Simulation {
-            subject,
-            law: InputFunction(function),
-            settings,
-            callbacks,
-            resumed,
-        }
+        self.law(InputFunction(function))
     }
-}
 
-impl<'a, M: Machine, L> Simulation<'a, M, L> {
     /// Sets the inputs by a law: like [`inputs`](Self::inputs), for laws that are not functions of named values.
     pub fn law<N: InputLaw<M::System>>(self, law: N) -> Simulation<'a, M, N> {
         let Self {
@@ -130,9 +115,7 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
             resumed,
         }
     }
-}
 
-impl<'a, M: Machine, L> Simulation<'a, M, L> {
     /// Drives the machine by a table, beside any other law of the inputs: at each instant `set` is called with the value of the table and
     /// writes it to the inputs. Steps end wherever the table is not smooth enough for the method.
     ///
