@@ -228,7 +228,7 @@ impl Parts<'_> {
     }
 
     /// The friction forces of contacts in given states.
-    /// Of guides that depend on each other these are forces with the right sums, which give the right accelerations; those that every guide
+    /// If guides depend on each other, these are forces with the right sums, which give the right accelerations; those that every guide
     /// allows are in [`shared_forces`](Self::shared_forces).
     ///
     /// # Errors

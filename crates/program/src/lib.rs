@@ -212,7 +212,7 @@ pub struct Unilateral {
     /// resists this, in N m, and its coefficient of friction a length, in m.
     pub is_rolling_resistance: bool,
     /// Whether it is the second tangent of the preceding contact, in space. It then has the gap, the normal and the coefficients
-    /// of that contact, but its own slip and friction. The resultant of both frictions is at most `μ` times the normal force.
+    /// of that contact, but its own slip and friction. The resultant of both friction forces is at most `μ` times the normal force.
     pub is_second_tangent: bool,
     /// Whether it is a corner on a face of a polygon, which has ends: see [`Role::ContactFaces`].
     pub has_face: bool,
