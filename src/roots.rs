@@ -9,7 +9,7 @@
 //! For most steps of a Runge–Kutta method eight values along the quintic through the ends of the step suffice
 //! ([`sign_changes`]); they cost no evaluation of the machine.
 
-mod extremes;
+mod extent;
 mod signs;
 
 use std::vec::Vec;
@@ -19,7 +19,7 @@ use lagrangian_scalar::Scalar;
 use crate::Error;
 use signs::{PROBE_DISTANCE, ROUNDING_OF_VALUES};
 
-pub use extremes::extremes;
+pub use extent::extremes;
 pub(crate) use signs::{FRACTIONS, sign_changes};
 
 /// Degrees of the interpolants, tried in this order.
