@@ -713,7 +713,7 @@ impl System for InterpretedSystem {
         self.program.reaction_axes
     }
 
-    fn second_tangents(&self) -> usize {
+    fn second_tangents(&self) -> u64 {
         self.program.second_tangents
     }
 

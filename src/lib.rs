@@ -63,6 +63,7 @@ mod compensated;
 mod constraints;
 #[cfg(feature = "std")]
 mod contact;
+mod contact_law;
 mod control;
 #[doc(hidden)]
 pub mod emitted;

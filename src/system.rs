@@ -12,8 +12,8 @@ use crate::{ContactQuantity, UnilateralContact, Vector};
 /// The largest number of coefficients of each coordinate that emitted code computes in [`System::series`].
 pub(crate) const SERIES_ROWS: usize = 24;
 
-/// The largest number of guided contacts of a machine.
-pub const MOST_CONTACTS: usize = 6;
+/// The largest number of guided contacts of a machine, as many as [`System::second_tangents`] has bits. Without the feature `std` it is 6.
+pub const MOST_CONTACTS: usize = 64;
 
 /// The parameters of a machine: a plain struct with a named field for each.
 ///
@@ -446,7 +446,7 @@ pub trait System {
     /// as contact `k − 1`, at right angles to it. It has the normal reaction and the coefficients of that contact, and the two obey
     /// Coulomb's law together. None by default.
     #[inline(always)]
-    fn second_tangents(&self) -> usize {
+    fn second_tangents(&self) -> u64 {
         0
     }
 

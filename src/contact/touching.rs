@@ -66,7 +66,7 @@ impl Mode {
     }
 }
 
-pub(crate) use crate::friction::Margin;
+pub(crate) use crate::contact_law::Margin;
 
 /// What a run knows of its unilateral contacts.
 #[derive(Clone, Debug)]

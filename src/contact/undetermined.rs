@@ -18,7 +18,7 @@ use std::vec::Vec;
 
 use super::lcp::{self, Unsolved};
 use super::problem::{self, Answer, ContactUnknowns};
-use crate::friction::shares::{self, PARTS};
+use crate::contact_law::shares::{self, PARTS};
 
 /// What counts as zero in forces that keep each other in equilibrium, relative to the greatest of them.
 const ZERO: f64 = 1e-10;
@@ -272,7 +272,11 @@ fn sharing_contacts(
             ContactUnknowns::Tangent { friction, normal } => (false, friction * normal > 0.0),
             ContactUnknowns::OnCarrier { friction, .. } => (false, *friction > 0.0),
             ContactUnknowns::SecondTangent => (false, has_friction),
-            ContactUnknowns::Nothing | ContactUnknowns::ShareOfCarrier { .. } => (false, false),
+            // The reaction of a guide is not undetermined, and how its friction is shared is a question of its own.
+            ContactUnknowns::Nothing
+            | ContactUnknowns::ShareOfCarrier { .. }
+            | ContactUnknowns::Guide { .. }
+            | ContactUnknowns::SlidingGuide { .. } => (false, false),
         };
         has_friction = tangent;
         directions.extend((normal && may_be_held(2 * k)).then_some(2 * k));
@@ -414,7 +418,10 @@ fn following(contacts: &[ContactUnknowns], is_held: impl Fn(usize) -> bool) -> V
         ContactUnknowns::Normal { share } => (share != 0.0).then_some(k),
         ContactUnknowns::ShareOfCarrier { share, on } => (share != 0.0).then_some(on),
         ContactUnknowns::SecondTangent => (k > 0 && slips(k)).then(|| k - 1),
-        ContactUnknowns::Tangent { .. } | ContactUnknowns::Nothing => None,
+        ContactUnknowns::Tangent { .. }
+        | ContactUnknowns::Nothing
+        | ContactUnknowns::Guide { .. }
+        | ContactUnknowns::SlidingGuide { .. } => None,
     };
     (0..contacts.len()).filter_map(follows).collect()
 }

@@ -535,6 +535,13 @@ macro_rules! implement_method {
         }
     };
 
+    // A bit for each of some things.
+    ($types:tt bits $method:ident($p:ident) = $value:expr) => {
+        fn $method(&self) -> ::core::primitive::u64 {
+            $value
+        }
+    };
+
     // Unilateral contacts.
     ($types:tt contacts $method:ident($p:ident) = $value:expr) => {
         fn $method(

@@ -105,7 +105,7 @@ pub struct Program {
     pub reaction_axes: usize,
     /// The guided contacts that are second tangents of surfaces, as a bit set: if bit `k` is set, contact `k` is perpendicular to
     /// contact `k − 1` on the same surface.
-    pub second_tangents: usize,
+    pub second_tangents: u64,
     /// The unilateral contacts; functions about them exist only if there are any.
     pub unilateral: Vec<Unilateral>,
     /// The start values, such as `theta` or `der(phi)`, that are kept when a start that violates

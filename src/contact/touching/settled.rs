@@ -10,7 +10,7 @@ use super::super::{ContactTrouble, undetermined};
 use super::shared::ShareOfLoad;
 use super::{Margin, Mode, ROUNDING_OF_FORCES, UnilateralState};
 use crate::at::At;
-use crate::friction::shares::Limit;
+use crate::contact_law::shares::Limit;
 use crate::{Singular, StepError, System};
 
 /// How large the residual of a solution may be.

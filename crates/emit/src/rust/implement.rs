@@ -445,7 +445,7 @@ impl Emitter<'_> {
         }
         if self.program.second_tangents != 0 {
             let seconds = Layout::Atom(self.program.second_tangents.to_string());
-            self.row("count", "second_tangents", &["p"], Some(seconds));
+            self.row("bits", "second_tangents", &["p"], Some(seconds));
         }
         let slips = self.emitted(Role::Slips);
         let needs = slips.map(|function| self.needs(function));

@@ -334,14 +334,14 @@ fn residual(m: &[f64], q: &[f64], z: &[f64]) -> f64 {
 
 /// Solves `A x = b` by elimination with a full search for pivots. What depends on the rest is 0; the second result
 /// is how much does not.
-pub(super) fn solve(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, usize) {
+pub(crate) fn solve(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, usize) {
     let (x, order) = eliminate(a, b);
     (x, order.rank)
 }
 
 /// The order of the unknowns after [`eliminate`]: first those that are determined, then the undetermined ones, which have been set to 0.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Order {
+pub(crate) struct Order {
     columns: Vec<usize>,
     pub rank: usize,
 }
@@ -364,14 +364,14 @@ impl Order {
 }
 
 /// Eliminates `A x = b` like [`solve`], and returns the order of the unknowns in the triangular matrix that `a` then holds.
-pub(super) fn eliminate(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, Order) {
+pub(crate) fn eliminate(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, Order) {
     let (mut x, mut order) = (Vec::new(), Order::default());
     eliminate_into(a, b, (&mut x, &mut order));
     (x, order)
 }
 
 /// Like [`eliminate`], into memory that is there.
-pub(super) fn eliminate_into(
+pub(crate) fn eliminate_into(
     a: &mut [f64],
     b: &mut [f64],
     (x, order): (&mut Vec<f64>, &mut Order),
