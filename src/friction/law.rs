@@ -223,18 +223,26 @@ impl Parts<'_> {
         })
     }
 
-    /// By how much a unit of the friction of a contact changes the normal reaction of another.
-    fn presses_by_unit(&self, contact: usize, friction_of: usize) -> f64 {
-        let components = self.components(contact);
-        if self.layout.axes() == 1 {
-            return self.at(1 + friction_of, components.start).abs();
-        }
+    /// What a unit of the friction of a contact adds to the normal reaction of another: in the plane a number, in space a vector.
+    fn unit_pressing(&self, contact: usize, friction_of: usize) -> [f64; 3] {
         let mut vector = [0.0; 3];
-        for (x, i) in vector.iter_mut().zip(components) {
+        for (x, i) in vector.iter_mut().zip(self.components(contact)) {
             *x = self.at(1 + friction_of, i);
         }
-        let across = self.across(contact, vector);
-        crate::math::sqrt(dot(&across, &across))
+        if self.layout.axes() == 1 {
+            vector
+        } else {
+            self.across(contact, vector)
+        }
+    }
+
+    /// The size of [`unit_pressing`](Self::unit_pressing).
+    fn presses_by_unit(&self, contact: usize, friction_of: usize) -> f64 {
+        let vector = self.unit_pressing(contact, friction_of);
+        match self.layout.axes() {
+            1 => vector[0].abs(),
+            _ => crate::math::sqrt(dot(&vector, &vector)),
+        }
     }
 
     /// Whether no friction force changes a normal reaction.

@@ -13,7 +13,7 @@ use crate::contact_law::problem::{self, ContactUnknowns};
 /// A slip rate below this, relative to its terms, is 0 as far as the solution of a complementarity problem shows.
 const AT_REST: f64 = 1e-9;
 
-/// The lengths of reactions in space are a fixed point if they change by no more than this, relative to the greatest.
+/// The lengths of reactions are a fixed point if they change by no more than this, relative to the greatest.
 const SETTLED: f64 = 4.0 * f64::EPSILON;
 
 /// The largest number of iterations for them: a contraction by a factor of 0.9 takes this many for sixteen digits.
@@ -27,8 +27,8 @@ impl OpenStates {
         let mut open = self.clone();
         loop {
             let forces = match parts.layout.axes() {
-                1 => open.in_plane(parts)?,
-                _ => open.in_space(parts)?,
+                1 => open.in_plane(parts).or_else(|| open.by_lengths(parts))?,
+                _ => open.by_lengths(parts)?,
             };
             let mode = open.mode_with(parts, &forces);
             let (mode, forces) = open.polished(parts, mode)?;
@@ -103,8 +103,8 @@ impl OpenStates {
         Some(Each::from_fn(count, |k| answer.forces[k][1]))
     }
 
-    /// Friction forces in space.
-    fn in_space(&self, parts: &Parts<'_>) -> Option<Each> {
+    /// Friction forces as a fixed point of the normal forces.
+    fn by_lengths(&self, parts: &Parts<'_>) -> Option<Each> {
         let count = parts.layout.contacts();
         let width = 2 * count;
         let mut g = vec![0.0; width * width];
@@ -124,7 +124,7 @@ impl OpenStates {
             _ => self.slip_direction[k],
         };
         let mut forces = Each::new(count, 0.0);
-        let mut normals = Each::from_fn(count, |k| parts.reaction(k, &forces)[0]);
+        let mut normals = Each::from_fn(count, |k| parts.reaction(k, &forces)[0].abs());
         for _ in 0..MOST_STEPS {
             let mut b = vec![0.0; width];
             for k in (0..count).filter(|k| is_known(*k)) {
@@ -154,7 +154,7 @@ impl OpenStates {
             for k in (0..count).filter(|k| !is_known(*k)) {
                 forces[k] = answer.forces[k][1];
             }
-            let next = Each::from_fn(count, |k| parts.reaction(k, &forces)[0]);
+            let next = Each::from_fn(count, |k| parts.reaction(k, &forces)[0].abs());
             let greatest = next.iter().fold(0.0_f64, |most, x| most.max(*x));
             let changes = next.iter().zip(&*normals).map(|(x, y)| (x - y).abs());
             let change = changes.fold(0.0_f64, f64::max);

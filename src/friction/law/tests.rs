@@ -33,9 +33,8 @@ impl Drawn {
         };
         let rows: Vec<Vec<f64>> = (0..count).map(|_| list(coordinates, 1.0)).collect();
         let alone = list(coordinates, 2.0);
-        let normals: Vec<Vec<f64>> = (0..count)
+        let normals: Vec<Vec<f64>> = (0..=count)
             .map(|part| list(axes * count, if part == 0 { 3.0 } else { by_friction }))
-            .chain([list(axes * count, by_friction)])
             .collect();
         let mu: Vec<f64> = list(count, 0.4).iter().map(|x| 0.5 + x).collect();
         let more = list(count, 0.2);
