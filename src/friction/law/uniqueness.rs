@@ -32,12 +32,10 @@ const MOST_IMPROVEMENTS: usize = 100;
 impl OpenStates {
     /// Whether it is proved that no other motion is possible than one in these states.
     pub(in crate::friction) fn has_one_motion(&self, parts: &Parts<'_>, mode: &Mode) -> bool {
-        let mut asked = (0..parts.layout.contacts()).filter(|k| self.motion[*k].is_none());
-        // With more friction at rest this holds for what sticks, since it would hold with the friction of sticking throughout.
-        let holds = |k: usize| {
-            mode.motion[k] == Motion::Sticks || parts.static_friction(k) <= parts.friction(k)
-        };
-        asked.all(holds)
+        let asked = || (0..parts.layout.contacts()).filter(|k| self.motion[*k].is_none());
+        // Where some hold more at rest this shows that no other motion is possible in which all of these stick.
+        let holds_more = asked().any(|k| parts.static_friction(k) > parts.friction(k));
+        (!holds_more || asked().all(|k| mode.motion[k] == Motion::Sticks))
             && (parts.presses_regardless_of_friction()
                 || self.contracts_greatest(parts)
                 || self.contracts_energy(parts))

@@ -2,6 +2,7 @@
 
 use super::*;
 use lagrangian::{ContactForce, contact_forces, unilateral_forces};
+use lagrangian_spec::diagnostic::Code;
 
 const G: f64 = 9.81;
 
@@ -130,7 +131,7 @@ impl Wedges {
             (0..count).map(|_| random.uniform(from, to)).collect()
         };
         Wedges {
-            slopes: list(-0.3, 0.3),
+            slopes: list(-0.05, 0.05),
             masses: list(0.5, 2.0),
             mu: list(0.05, 0.25),
             lifts: list(0.0, lift),
@@ -278,9 +279,7 @@ fn guided(system: &impl System<Vector = Vec<f64>>, v: &Vec<f64>) -> (Vec<f64>, V
         v,
         u: &system.default_inputs(),
     };
-    let found = contact_forces(system, at, &mut a, &mut [], &mut forces);
-    println!("{found:?}");
-    found.expect("one motion");
+    contact_forces(system, at, &mut a, &mut [], &mut forces).expect("one motion");
     (a, forces)
 }
 
@@ -437,4 +436,54 @@ fn a_row_of_blocks_is_pulled_by_a_spring() {
         assert_near(value(&run.end().v, &format!("x{i}")), speed, 1e-6);
         assert_near(ahead - x(i), stretch, 1e-6);
     }
+}
+
+/// Blocks on the ground, each of which slides to rest by itself.
+fn blocks(count: usize) -> String {
+    let line = |line: &dyn Fn(usize) -> String| {
+        let lines: Vec<String> = (0..count).map(line).collect();
+        lines.join(", ")
+    };
+    format!(
+        "machine Blocks in plane {{
+            parameters {{ g: m/s^2 = {G} }}
+            coordinates {{ {} }}
+            bodies {{ {} }}
+            gravity (0, -g);
+            sliding {{ {} }}
+        }}",
+        line(&|i| format!("x{i}: m = 0, der(x{i}): m/s = {}", 1 + i % 5)),
+        line(&|i| format!("b{i} {{ mass: 1, at: (x{i}, 0) }}")),
+        line(&|i| format!("s{i} {{ body: b{i}, on: ground, direction: (1, 0), friction: 0.5 }}")),
+    )
+}
+
+/// Each of the most guides that a machine may have stops at v/(μ g), after v²/(2 μ g); one more is refused by name.
+#[test]
+fn as_many_guides_as_are_allowed_stop_at_their_times() {
+    let run = run(&machine(&blocks(64)), &[], &[], (1e-9, 1.2)).expect("it runs");
+    let known = events(&run);
+    assert_eq!(known.len(), 64, "{known:?}");
+    for i in 0..64 {
+        let speed = (1 + i % 5) as f64;
+        let name = format!("s{i} sticks");
+        let (_, t) = known
+            .iter()
+            .find(|(event, _)| *event == name)
+            .expect("it stops");
+        assert_near(*t, speed / (0.5 * G), 1e-12);
+        assert_near(
+            value(&run.end().q, &format!("x{i}")),
+            speed * speed / G,
+            1e-12,
+        );
+    }
+    let Err(errors) = spelling::read(&blocks(65)) else {
+        panic!("65 are too many");
+    };
+    let [(code, message)] = &errors[..] else {
+        panic!("{errors:?}");
+    };
+    assert_eq!(*code, Code::TooLarge);
+    assert_eq!(message, "65 contacts that stick or slide are too many");
 }
