@@ -276,7 +276,7 @@ impl<R: Number> GuideForces<'_, R> {
         &self,
         openings: &[(usize, Literal<R>)],
         (guides, sides): (&[usize], &[R]),
-        (normals, is_known): (&mut Vec<R>, &[bool]),
+        (normals, is_known): (&mut [R], &[bool]),
     ) -> Result<Option<usize>, Verdict> {
         let Some((opening, later)) = openings.split_first() else {
             return Ok(None);
@@ -304,7 +304,7 @@ impl<R: Number> GuideForces<'_, R> {
                 wrong = wrong.max(Some(opening.0));
                 continue;
             }
-            match self.first_unbalanced(later, (guides, sides), (normals, &is_known))? {
+            match self.first_unbalanced(later, (guides, sides), (&mut *normals, &is_known))? {
                 None => return Ok(None),
                 contact => wrong = wrong.max(contact),
             }
