@@ -2,7 +2,7 @@
 //! digits (`tests/data/references/`).
 //!
 //! ```sh
-//! cargo bench --bench time_against_error [-- --only NAME,NAME] [--methods NAME;NAME] [--repeats COUNT]
+//! cargo bench --bench time_against_error [-- --only NAME,NAME] [--methods NAME;NAME] [--tolerances NUMBER,NUMBER] [--repeats COUNT]
 //! ```
 //!
 //! A second table compares the method that a simulation chooses, `auto`, with the best one at each error.
@@ -72,6 +72,7 @@ const LONG: f64 = 0.5;
 struct Call {
     only: Option<Vec<String>>,
     methods: Option<Vec<String>>,
+    tolerances: Option<Vec<f64>>,
     repeats: usize,
 }
 
@@ -86,9 +87,29 @@ impl Call {
         Self {
             only: after("--only").map(list(',')),
             methods: after("--methods").map(list(';')),
+            tolerances: after("--tolerances").map(|text| {
+                let each = text.split(',');
+                each.map(|x| x.parse().expect("a tolerance")).collect()
+            }),
             repeats: after("--repeats")
                 .map_or(7, |count| count.parse().expect("a number of repeats")),
         }
+    }
+
+    /// Tolerances, or lengths of steps, from coarse to fine.
+    fn settings(&self, method: &Method, until: f64) -> Vec<f64> {
+        if method.has_fixed_steps() {
+            let halvings = 8..=20;
+            return halvings
+                .map(|power| until / f64::from(1 << power))
+                .collect();
+        }
+        self.tolerances.clone().unwrap_or_else(|| {
+            let halves = (4..=30).step_by(2);
+            halves
+                .map(|half| 10_f64.powf(-0.5 * f64::from(half)))
+                .collect()
+        })
     }
 
     fn asks_for(&self, method: &str) -> bool {
@@ -109,7 +130,7 @@ impl Call {
         let known = KnownRun::named(name);
         let mut alone = Vec::new();
         for method in Method::all().filter(|method| self.asks_for(method.tableau.name)) {
-            for setting in settings(method, known.until) {
+            for setting in self.settings(method, known.until) {
                 let point = self.alone(&known, machine, Some(method), setting);
                 let goes_on = print(name, method.tableau.name, setting, point.as_ref());
                 alone.extend(point.map(|point| (method.tableau.name, point)));
@@ -119,7 +140,7 @@ impl Call {
             }
         }
         if self.asks_for(AUTO) {
-            for setting in settings(Method::DOP853, known.until) {
+            for setting in self.settings(Method::DOP853, known.until) {
                 let point = self.alone(&known, machine, None, setting);
                 let goes_on = print(name, AUTO, setting, point.as_ref());
                 alone.extend(point.map(|point| (AUTO, point)));
@@ -134,7 +155,7 @@ impl Call {
             if !self.asks_for(&label) || has_constraints {
                 continue;
             }
-            for setting in settings(method, known.until) {
+            for setting in self.settings(method, known.until) {
                 let point = self.in_lanes(&known, machine, method, setting);
                 if !print(name, &label, setting, point.as_ref()) {
                     break;
@@ -268,20 +289,6 @@ fn beside_the_best(name: &str, points: &[(&str, Point)]) -> Option<String> {
         (_, None) => " |".into(),
     };
     Some(format!("| {AUTO}, {name} |{}", ERRORS.map(cell).concat()))
-}
-
-/// Tolerances, or lengths of steps, from coarse to fine.
-fn settings(method: &Method, until: f64) -> Vec<f64> {
-    if method.has_fixed_steps() {
-        (8..=20)
-            .map(|power| until / f64::from(1 << power))
-            .collect()
-    } else {
-        let halves = (4..=30)
-            .step_by(2)
-            .map(|half| 10_f64.powf(-0.5 * f64::from(half)));
-        halves.collect()
-    }
 }
 
 fn start<S: System>(known: &KnownRun, system: &S) -> State<S::Coordinates> {

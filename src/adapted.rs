@@ -21,8 +21,7 @@ use crate::{
 /// It is a [`Machine`] itself, so everything that runs machines runs it. What is derived from the description alone is missing:
 /// it has neither a Taylor series nor derivatives of the accelerations.
 ///
-#[cfg_attr(all(feature = "macros", feature = "std"), doc = "```")]
-#[cfg_attr(not(all(feature = "macros", feature = "std")), doc = "```ignore")]
+/// ```
 /// use lagrangian::{Adapted, Machine, Simulation};
 ///
 /// lagrangian::machine! {

@@ -15,6 +15,8 @@ mod choice;
 #[cfg(feature = "std")]
 mod closest;
 mod fork;
+mod nearby;
+mod reactions;
 #[cfg(feature = "std")]
 mod report;
 mod residuals;
@@ -26,11 +28,12 @@ use crate::at::At;
 use crate::compensated::two_sum;
 use crate::math::sqrt;
 use crate::{Singular, StepError, System, Vector};
-use algebra::{backward, dot, forward, length, remove, share};
+use algebra::{backward, forward, length, remove, share};
 use choice::{Choice, Rank};
 #[cfg(feature = "std")]
 pub(crate) use closest::{Violation, closest};
-use residuals::Changed;
+use reactions::{reactions_along, reactions_of_inertia};
+use residuals::{Changed, Residuals};
 use scale::Scales;
 use workspace::{Workspace, in_workspace};
 
@@ -247,27 +250,29 @@ impl<V: Vector> Constraints<V> {
         place: &mut Unprojected<'_, V>,
     ) -> Result<bool, StepError> {
         in_workspace(system, place.t, place.q[0].as_slice().len(), |workspace| {
-            let moved =
-                self.approach(system, workspace, place, &[Level::Positions, Level::Rates])?;
-            self.check_redundant_rows(system, workspace, place)?;
+            let levels = [Level::Positions, Level::Rates];
+            let (moved, left) = self.approach(system, workspace, place, &levels)?;
+            self.check_redundant_rows(system, workspace, place, left.guaranteed)?;
             Ok(moved)
         })
     }
 
-    /// Projects on some levels, whatever the residuals of the rows that were not chosen.
+    /// Projects on some levels, whatever the residuals of the rows that were not chosen. Returns whether the state moved, and the residuals that
+    /// are left.
     fn approach<S: System<Vector = V>>(
         &mut self,
         system: &S,
         workspace: &mut Workspace<'_, S::Matrix>,
         place: &mut Unprojected<'_, V>,
         levels: &[Level],
-    ) -> Result<bool, StepError> {
+    ) -> Result<(bool, Residuals), StepError> {
         let t = place.t;
         self.reduces_to_roundoff = false;
         for moved in &mut self.moved {
             moved.as_mut_slice().fill(0.0);
         }
-        let [positions, rates] = self.residuals(system, workspace, place, Changed::All);
+        let residuals = self.residuals(system, workspace, place, Changed::All);
+        let [positions, rates] = residuals.chosen;
         self.chosen_residuals = [positions.0, rates.0];
         for (level, roundoff) in self.scales.roundoff().into_iter().enumerate() {
             let before = self.chosen_residuals_before[level] + roundoff;
@@ -279,22 +284,30 @@ impl<V: Vector> Constraints<V> {
             };
         }
         if positions.0 <= self.reduction_threshold() && rates.0 <= self.reduction_threshold() {
-            return Ok(false);
+            return Ok((false, residuals));
         }
         if self.redundant && self.kept.is_none() {
             self.choice = self.best_choice_at(system, t, place.q[0])?;
         }
-        let all = self.choice.clone();
         let first = levels.first().copied().unwrap_or(Level::Positions);
-        let prepared = self.prepare(system, workspace, (t, place.q[0]), first);
+        let prepared = self.factor(system, workspace, (t, place.q[0]), first);
         let hold = self.strength_after(&prepared, workspace, place.q[0]);
         self.reduces_to_roundoff = hold < fork::TIGHT;
+        if !self.reduces_to_roundoff && prepared.is_ok() && levels.len() > 1 {
+            self.scales.record_metric(workspace.metric.as_slice());
+            if self.approach_nearby(system, workspace, place, self.chosen_residuals)? {
+                let residuals = self.residuals(system, workspace, place, Changed::Nothing);
+                self.chosen_residuals = residuals.chosen.map(|(left, _)| left);
+                return Ok((true, residuals));
+            }
+        }
+        let all = self.choice.clone();
         if self.kept.is_none() && hold < fork::WEAK {
             // Rows this weak would turn round-off of positions into a move.
             let by = (&self.scales, None);
             let holding = Rank::Holding(fork::WEAK);
             self.choice = all.choose(system, (t, place.q[0]), holding, by)?;
-            self.prepare(system, workspace, (t, place.q[0]), first)?;
+            self.factor(system, workspace, (t, place.q[0]), first)?;
         } else {
             prepared?;
         }
@@ -304,11 +317,11 @@ impl<V: Vector> Constraints<V> {
             let left = self.residual(system, workspace, place, *level, Changed::Nothing);
             done = done.and_then(|()| self.newton(system, workspace, place, *level, left));
         }
-        let [positions, rates] = self.residuals(system, workspace, place, Changed::Nothing);
+        let residuals = self.residuals(system, workspace, place, Changed::Nothing);
         self.choice = all;
         done?;
-        self.chosen_residuals = [positions.0, rates.0];
-        Ok(true)
+        self.chosen_residuals = residuals.chosen.map(|(left, _)| left);
+        Ok((true, residuals))
     }
 
     fn reduction_threshold(&self) -> f64 {
@@ -379,7 +392,7 @@ impl<V: Vector> Constraints<V> {
             if fresh {
                 // If rows become dependent on the way, the iteration cannot continue.
                 let at = (place.t, &*place.q[0]);
-                if self.prepare(system, workspace, at, level).is_err() {
+                if self.factor(system, workspace, at, level).is_err() {
                     break;
                 }
                 near = self.distance(workspace, level);
@@ -521,8 +534,20 @@ impl<V: Vector> Constraints<V> {
         at: (f64, &V),
         level: Level,
     ) -> Result<(), StepError> {
+        system.constraint_matrix(at.0, at.1, workspace.matrix);
+        self.factor(system, workspace, at, level)
+    }
+
+    /// The same if the workspace holds the constraint matrix at this pose.
+    fn factor<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        workspace: &mut Workspace<'_, S::Matrix>,
+        at: (f64, &V),
+        level: Level,
+    ) -> Result<(), StepError> {
         let fixed = self.kept.as_ref().map(|kept| &kept[level as usize]);
-        prepare(system, workspace, at, (&self.choice, fixed))
+        factor(system, workspace, at, (&self.choice, fixed))
     }
 
     /// The smallest move, in the metric of inertia, that removes the residual of the constraints to first order: `−L⁻ᵀ Q R⁻ᵀ g`.
@@ -653,8 +678,26 @@ fn prepare<S: System>(
     (choice, fixed): (&Choice<S::Vector>, Option<&S::Vector>),
 ) -> Result<(), StepError> {
     system.constraint_matrix(t, q, workspace.matrix);
+    factor(system, workspace, (t, q), (choice, fixed))
+}
+
+/// The same if the workspace holds the constraint matrix at this pose.
+fn factor<S: System>(
+    system: &S,
+    workspace: &mut Workspace<'_, S::Matrix>,
+    (t, q): (f64, &S::Vector),
+    (choice, fixed): (&Choice<S::Vector>, Option<&S::Vector>),
+) -> Result<(), StepError> {
     workspace.fix_rows(fixed);
     workspace.factor(system, t, q, fixed)?;
+    find_basis(workspace, choice).map_err(|singular| StepError::Singular { singular, t })
+}
+
+/// Computes basis and triangle of the chosen rows in the metric that the workspace holds.
+fn find_basis<V: Vector, M: Vector>(
+    workspace: &mut Workspace<'_, M>,
+    choice: &Choice<V>,
+) -> Result<(), Singular> {
     let (n, rank) = (workspace.n, choice.rank);
     for j in 0..rank {
         let k = choice.row(j);
@@ -673,74 +716,12 @@ fn prepare<S: System>(
         }
         let left = length(new);
         if !(left > STILL_INDEPENDENT * norm) {
-            let singular = Singular::constraint(k, left * left, norm * norm);
-            return Err(StepError::Singular { singular, t });
+            return Err(Singular::constraint(k, left * left, norm * norm));
         }
         new.iter_mut().for_each(|x| *x /= left);
         workspace.triangle[j * rank + j] = left;
     }
     Ok(())
-}
-
-/// Writes `z = L⁻¹ f` to `z`, and the contribution of the reactions along the basis, `R⁻ᵀ γ − Qᵀ z`, to `workspace.row`.
-fn reactions_along<S: System>(
-    system: &S,
-    workspace: &mut Workspace<'_, S::Matrix>,
-    choice: &Choice<S::Vector>,
-    At { t, q, v, u }: At<'_, S>,
-    z: &mut S::Vector,
-) -> Result<(), StepError> {
-    prepare(system, workspace, (t, q), (choice, None))?;
-    system.forces(t, q, v, u, z);
-    system.constraint_bias(t, q, v, workspace.rates);
-    for j in 0..choice.rank {
-        workspace.row[j] = workspace.rates[choice.row(j)];
-    }
-    solve_transposed(workspace, choice.rank, choice.rank);
-    forward(workspace.metric.as_slice(), z.as_mut_slice());
-    for (j, along) in workspace
-        .basis
-        .chunks_exact(workspace.n)
-        .take(choice.rank)
-        .enumerate()
-    {
-        workspace.row[j] -= dot(along, z.as_slice());
-    }
-    Ok(())
-}
-
-/// If `M` is singular and the metric is that of `M + Gᵀ W G`, the reactions along the basis belong to this inertia. Replaces them in
-/// `workspace.row` by those of `M a − f`. `z` is overwritten.
-fn reactions_of_inertia<S: System>(
-    system: &S,
-    workspace: &mut Workspace<'_, S::Matrix>,
-    rank: usize,
-    At { t, q, v, u }: At<'_, S>,
-    z: &mut S::Vector,
-) {
-    let n = workspace.n;
-    let a = z.as_mut_slice();
-    for (along, row) in workspace.basis.chunks_exact(n).zip(&workspace.row[..rank]) {
-        a.iter_mut()
-            .zip(along)
-            .for_each(|(a, along)| *a += row * along);
-    }
-    backward(workspace.metric.as_slice(), a);
-    let mut mass = S::Matrix::zeros(n * n);
-    system.mass_matrix(t, q, &mut mass);
-    let mut reactions = q.zeros_like();
-    system.forces(t, q, v, u, &mut reactions);
-    let rows = mass.as_slice().chunks_exact(n);
-    for (reaction, row) in reactions.as_mut_slice().iter_mut().zip(rows) {
-        *reaction = dot(row, a) - *reaction;
-    }
-    forward(workspace.metric.as_slice(), reactions.as_mut_slice());
-    for (row, along) in workspace.row[..rank]
-        .iter_mut()
-        .zip(workspace.basis.chunks_exact(n))
-    {
-        *row = dot(along, reactions.as_slice());
-    }
 }
 
 /// Computes `R⁻ᵀ row` in place, for the first `count` rows of `rank`.

@@ -12,7 +12,7 @@
 //! slips and what sticks is a state of the run: between two events it stays as it is, the motion is smooth, and
 //! closed contacts are further constraints, kept as those of the machine are. Where a gap closes, a force vanishes,
 //! or a slip stops, all closed contacts are asked together, by a linear complementarity problem that is solved by
-//! pivoting (`lcp`); in space, where friction has two directions, by one on cones (`cone`). (F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996; D. E. Stewart,
+//! pivoting; in space, where friction has two directions, by one on cones (`contact_law`). (F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996; D. E. Stewart,
 //! J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673–2691.)
 //!
 //! In time stepping contacts are asked once in each step for their impulses, whenever in it they meet (`stepping`).
@@ -20,7 +20,6 @@
 //! All of it is for runs, which may allocate. What is evaluated in every step does so only once, in memory of its own (`ContactMemory`), unless contacts
 //! share their load in several ways.
 
-mod cone;
 mod delassus;
 mod drives;
 mod event;
@@ -28,9 +27,7 @@ mod force;
 mod impact;
 mod jam;
 mod kinematics;
-mod lcp;
 mod nearby;
-mod problem;
 mod routh;
 mod stepping;
 mod touching;
@@ -45,4 +42,5 @@ pub(crate) use stepping::SteppedContacts;
 pub use touching::Mode;
 pub(crate) use touching::{Clearance, ContactMemory, Margin, Margins, UnilateralState};
 
+use crate::contact_law::{lcp, problem};
 use crate::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};

@@ -20,7 +20,7 @@ pub use crate::{
     ImpactLaw, ImpactOrder, Lanes, Linearize, Machine, MachineIn, Number, Painleve, Quantity, Real,
     Scalar, Singular, Staged, State, System, SystemIn, UnilateralContact, scalar,
 };
-pub use contacts::{ContactPart, ContactParts, fill_least, put};
+pub use contacts::{ContactPart, ContactParts, put};
 pub use pivots::Pivots;
 pub use values::{
     ConstraintRow, PreparedField, assumptions, constraint, fill, fill_ranges, hold, intervals,

@@ -26,9 +26,7 @@ use std::vec::Vec;
 use crate::at::At;
 use crate::error::constraint_name;
 use crate::math::sqrt;
-use crate::{
-    ContactForce, Error, MOST_CONTACTS, Pivot, System, Vector, contact_forces, least_multipliers,
-};
+use crate::{ContactForce, Error, Pivot, System, Vector, contact_forces, least_multipliers};
 
 /// The tolerable residual of an equation, relative to the sizes of its terms, for each coordinate: seven digits
 /// more than the round-off of `f64`.
@@ -94,13 +92,13 @@ fn worst<S: System>(system: &S, At { t, q, v, u }: At<'_, S>) -> Option<Worst> {
     let (m, k) = (system.constraints().len(), system.contacts().len());
     let mut a = q.zeros_like();
     let mut multipliers = vec![0.0; m];
-    let mut contacts = [ContactForce::default(); MOST_CONTACTS];
+    let mut contacts = vec![ContactForce::default(); k];
     solve(
         system,
         At { t, q, v, u },
         &mut a,
         &mut multipliers,
-        &mut contacts[..k],
+        &mut contacts,
     )?;
 
     let mut mass = S::Matrix::zeros(n * n);

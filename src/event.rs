@@ -19,6 +19,9 @@
 //! function that jumps over zero has one, too. A step of time stepping in which contacts close counts like such an instant: only its ends are looked at,
 //! since impacts are not located within it.
 
+mod last_step;
+mod root;
+
 use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
@@ -31,15 +34,14 @@ use crate::roots;
 use crate::stepper::Stepper;
 use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
 
+pub(crate) use last_step::{
+    Triple, at_fractions, interpolated_at, is_long, state, state_at, state_into, step_motion,
+    theta_roundoff, turn,
+};
+pub(crate) use root::{last_positive, root};
+
 /// Fractions of a step at which the sign is evaluated if it changes at most once.
 pub(crate) const SAMPLE_FRACTIONS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
-
-/// A coordinate that turns by more than this in a step, in rad, may have returned to the same angle between two of the eight points. Functions of the
-/// motion are then interpolated to convergence.
-const FARTHEST_TURN: f64 = core::f64::consts::PI;
-
-/// With a greater tolerance steps may be too long for eight values to decide.
-const LOOSEST: f64 = 1e-3;
 
 /// A function that is zero for at most this fraction of a step and has the same sign on both sides only touches zero.
 const TOUCH: f64 = 1e-6;
@@ -466,6 +468,73 @@ impl<M: Machine> Watch<'_, M> {
         Ok(())
     }
 
+    /// The function's value at a state of the last step.
+    fn value_in_step<L: InputLaw<M::System>, A: Quadratures<M::System>>(
+        &mut self,
+        at: &State<Coordinates<M>>,
+        observed_system: &ObservedSystem<'_, M::System, L>,
+        stepper: &StepperOf<'_, M, L, A>,
+    ) -> Result<f64, Error> {
+        self.value(at, &|| observed_system.observe::<M, A>(stepper, at))
+    }
+
+    /// Decides from the states at the [fractions](roots::FRACTIONS) of the last step, and from the function's value at the first of them if it
+    /// is known, where to look for events; `None` if there is none. If the function is zero to rounding at the end of the step, the second
+    /// part is what it must exceed before its sign counts again.
+    fn look_at_fractions<L: InputLaw<M::System>, A: Quadratures<M::System>>(
+        &mut self,
+        (states, known): (
+            &[State<Coordinates<M>>; roots::FRACTIONS.len()],
+            Option<f64>,
+        ),
+        end: EndOfStep,
+        observed_system: &ObservedSystem<'_, M::System, L>,
+        stepper: &StepperOf<'_, M, L, A>,
+    ) -> Result<Option<(Places, Option<f64>)>, Error> {
+        let mut values = [0.0; roots::FRACTIONS.len()];
+        for (node, (of_node, at)) in values.iter_mut().zip(states).enumerate() {
+            *of_node = match known {
+                Some(known) if node == 0 => known,
+                _ => self.value_in_step(at, observed_system, stepper)?,
+            };
+        }
+        self.latest = Some(values[4]);
+        self.at_end = values[4];
+        let has_sign = self.side != 0.0 || self.touched != 0.0;
+        let stays = !has_sign && values.iter().all(|value| value.abs() <= self.leave);
+        let mut ending = None;
+        if end != EndOfStep::Smooth && !stays && may_be_zero_at_end(&values) {
+            ending = self.zero_at_end(observed_system, stepper)?;
+        }
+        if ending.is_some() {
+            values[4] = 0.0;
+        }
+        let touches = ending.is_some() || self.touched != 0.0;
+        let places = match self.places(&values) {
+            None if touches => Places::Few,
+            None => return Ok(None),
+            Some(places) => places,
+        };
+        if self.side == 0.0 && !touches {
+            let (side, leave) = (self.side, self.leave);
+            let mut suspected = false;
+            let look = |watch: &mut Self, theta: f64| {
+                let at = state(observed_system.system, interpolated_at(stepper, theta));
+                watch.value_in_step(&at, observed_system, stepper)
+            };
+            let looks = (&SAMPLE_FRACTIONS[..], false);
+            self.changes(looks, theta_roundoff(stepper), None, look, |_, _, _| {
+                suspected = true;
+                Ok(())
+            })?;
+            if !suspected && matches!(places, Places::Few) {
+                return Ok(None);
+            }
+            (self.side, self.leave) = (side, leave);
+        }
+        Ok(Some((places, ending)))
+    }
+
     /// Decides from the values at the eight [fractions](roots::FRACTIONS) where in the last step to look for events; `None` if there is none.
     fn places(&self, values: &[f64; roots::FRACTIONS.len()]) -> Option<Places> {
         let changes = roots::sign_changes(values);
@@ -518,16 +587,13 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         if !watch.begun {
             watch.settle(observed_system, stepper)?;
         }
-        let value = |watch: &mut Watch<'_, M>,
-                     stepper: &StepperOf<'_, M, L, A>,
-                     at: &State<Coordinates<M>>| {
-            watch.value(at, &|| observed_system.observe::<M, A>(stepper, at))
-        };
-        let mut places = Places::All;
-        let mut ending = None;
         let known = watch.latest.take();
         watch.at_end = f64::NAN;
-        if !is_series && !is_long {
+        let (places, ending) = if is_series || is_long {
+            let may_end_at_zero = end != EndOfStep::Smooth;
+            let ending = may_end_at_zero.then(|| watch.zero_at_end(observed_system, stepper));
+            (Places::All, ending.transpose()?.flatten())
+        } else {
             let states = match &sampled {
                 Some(states) => states,
                 None => {
@@ -535,49 +601,11 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                     &*sampled.insert(all.map(|at| state(system, at)))
                 }
             };
-            let mut values = [0.0; roots::FRACTIONS.len()];
-            for (node, (of_node, at)) in values.iter_mut().zip(states).enumerate() {
-                *of_node = match known {
-                    Some(known) if node == 0 => known,
-                    _ => value(watch, stepper, at)?,
-                };
-            }
-            watch.latest = Some(values[4]);
-            watch.at_end = values[4];
-            let has_sign = watch.side != 0.0 || watch.touched != 0.0;
-            let stays = !has_sign && values.iter().all(|value| value.abs() <= watch.leave);
-            if end != EndOfStep::Smooth && !stays && may_be_zero_at_end(&values) {
-                ending = watch.zero_at_end(observed_system, stepper)?;
-            }
-            if ending.is_some() {
-                values[4] = 0.0;
-            }
-            let touches = ending.is_some() || watch.touched != 0.0;
-            places = match watch.places(&values) {
-                None if touches => Places::Few,
+            match watch.look_at_fractions((states, known), end, observed_system, stepper)? {
+                Some(seen) => seen,
                 None => continue,
-                Some(of_step) => of_step,
-            };
-            if watch.side == 0.0 && !touches {
-                let (side, leave) = (watch.side, watch.leave);
-                let mut suspected = false;
-                let look = |watch: &mut Watch<'_, M>, theta: f64| {
-                    let at = state(system, interpolated_at(stepper, theta));
-                    value(watch, stepper, &at)
-                };
-                let looks = (&SAMPLE_FRACTIONS[..], false);
-                watch.changes(looks, roundoff, None, look, |_, _, _| {
-                    suspected = true;
-                    Ok(())
-                })?;
-                if !suspected && matches!(places, Places::Few) {
-                    continue;
-                }
-                (watch.side, watch.leave) = (side, leave);
             }
-        } else if end != EndOfStep::Smooth {
-            ending = watch.zero_at_end(observed_system, stepper)?;
-        }
+        };
 
         // There may be something: look again, exactly.
         let interpolant = step_motion(interpolant, stepper, system)?;
@@ -586,7 +614,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                 return Ok(0.0);
             }
             let at = state_at(system, stepper, interpolant, theta)?;
-            let value = value(watch, stepper, &state(system, at))?;
+            let value = watch.value_in_step(&state(system, at), observed_system, stepper)?;
             if theta == 1.0 {
                 watch.at_end = value;
             }
@@ -706,8 +734,6 @@ fn slope(
     Ok(None)
 }
 
-pub(crate) type Triple<V> = (f64, V, V);
-
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 
 /// The state at the end of the last step, known as well as contacts know it where they change; `v_before` are the rates before they jumped.
@@ -747,211 +773,6 @@ pub(crate) fn may_be_zero_after(value: f64, before: f64, is_at_zero: bool) -> bo
 type StepperOf<'s, M, L, A> =
     Stepper<'s, <M as Machine>::System, LawInPiece<'s, L, crate::Inputs<M>>, A>;
 
-/// Time and state at a fraction of the last step, good enough to see an event.
-pub(crate) fn interpolated_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    stepper: &Stepper<'_, S, L, A>,
-    theta: f64,
-) -> Triple<S::Vector> {
-    if theta == 1.0 {
-        return (stepper.t(), stepper.q().clone(), stepper.v().clone());
-    }
-    let (q, v) = stepper.hermite(theta);
-    (stepper.t_before() + theta * stepper.last_step(), q, v)
-}
-
-/// Whether the last step is too long for eight values to decide whether functions of the motion change their sign.
-pub(crate) fn is_long<S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    system: &S,
-    stepper: &Stepper<'_, S, L, A>,
-) -> bool {
-    stepper.relative_tolerance() > LOOSEST || turn(system, stepper, |_| true) > FARTHEST_TURN
-}
-
-/// The greatest angle in rad by which one of these coordinates turned in the last step.
-///
-/// A body that turns uniformly needs no short steps: it may turn many times in one.
-pub(crate) fn turn<S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    system: &S,
-    stepper: &Stepper<'_, S, L, A>,
-    counts: impl Fn(usize) -> bool,
-) -> f64 {
-    let h = stepper.last_step();
-    let of = |vector: &S::Vector, i: usize| vector.as_slice()[i];
-    let mut greatest = 0.0_f64;
-    for (i, coordinate) in system.coordinates().enumerate() {
-        // An angle may be written as a pure number, too.
-        if !matches!(coordinate.unit, "rad" | "1") || !counts(i) {
-            continue;
-        }
-        let between = of(stepper.q(), i) - of(stepper.q_before(), i);
-        let by_rates = [stepper.v(), stepper.v_before()].map(|v| (h * of(v, i)).abs());
-        greatest = greatest
-            .max(between.abs())
-            .max(by_rates[0])
-            .max(by_rates[1]);
-    }
-    greatest
-}
-
-/// Time and state at the [fractions](roots::FRACTIONS) of the last step, good enough to see an event: those of implicit methods on their dense output, since
-/// accelerations at the ends of their steps may know of more than the motion.
-pub(crate) fn at_fractions<S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    system: &S,
-    stepper: &mut Stepper<'_, S, L, A>,
-    interpolant: &mut Option<Interpolant<S::Vector>>,
-) -> Result<[Triple<S::Vector>; roots::FRACTIONS.len()], Error> {
-    if stepper.is_implicit() {
-        step_motion(interpolant, stepper, system)?;
-    }
-    let along = interpolant.as_ref().filter(|_| stepper.is_implicit());
-    Ok(roots::FRACTIONS.map(|theta| match along {
-        _ if theta == 0.0 => {
-            let (q, v) = (stepper.q_before().clone(), stepper.v_before().clone());
-            (stepper.t_before(), q, v)
-        }
-        Some(along) if theta != 1.0 => {
-            let (q, v) = along.state_at(theta);
-            (along.time_at(theta), q, v)
-        }
-        _ => interpolated_at(stepper, theta),
-    }))
-}
-
-/// Time and state at a fraction of the last step, on the constraints.
-pub(crate) fn state_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    system: &S,
-    stepper: &Stepper<'_, S, L, A>,
-    interpolant: &Interpolant<S::Vector>,
-    theta: f64,
-) -> Result<Triple<S::Vector>, Error> {
-    let (mut q, mut v) = (stepper.q().clone(), stepper.v().clone());
-    let t = state_into(system, stepper, interpolant, theta, [&mut q, &mut v])?;
-    Ok((t, q, v))
-}
-
-/// [`state_at`], into vectors that are there; returns the time.
-pub(crate) fn state_into<S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    system: &S,
-    stepper: &Stepper<'_, S, L, A>,
-    interpolant: &Interpolant<S::Vector>,
-    theta: f64,
-    [q, v]: [&mut S::Vector; 2],
-) -> Result<f64, Error> {
-    if theta == 1.0 {
-        q.clone_from(stepper.q());
-        v.clone_from(stepper.v());
-        return Ok(stepper.t());
-    }
-    let t = interpolant.time_at(theta);
-    interpolant.state_into(theta, [&mut *q, &mut *v]);
-    stepper
-        .project(t, q, v)
-        .map_err(|error| Error::of_step(error, system))?;
-    Ok(t)
-}
-
-pub(crate) fn state<S: System>(system: &S, (t, q, v): Triple<S::Vector>) -> State<S::Coordinates> {
-    State {
-        t,
-        q: system.to_coordinates(&q),
-        v: system.to_coordinates(&v),
-    }
-}
-
-/// The roundoff of time, as a fraction of the last step.
-pub(crate) fn theta_roundoff<S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    stepper: &Stepper<'_, S, L, A>,
-) -> f64 {
-    let (from, to) = (stepper.t_before(), stepper.t());
-    f64::EPSILON * (from.abs().max(to.abs()) / (to - from).abs()).max(1.0)
-}
-
-/// A zero of a function that has opposite signs, or is zero, at both ends, to within `roundoff`.
-///
-/// T. R. Chandrupatla, *A new hybrid quadratic/bisection algorithm for finding the zero of a
-/// nonlinear function without using derivatives*, Adv. Eng. Software 28 (1997) 145–149: inverse
-/// quadratic interpolation where that is safe, else bisection.
-///
-/// The function is called through a pointer: it evaluates a motion, and one copy of the search serves all machines and
-/// events, where each would compile its own.
-pub(crate) fn root(
-    [mut a, mut b]: [f64; 2],
-    roundoff: f64,
-    f: &mut dyn FnMut(f64) -> Result<f64, Error>,
-) -> Result<f64, Error> {
-    let (mut f_a, mut f_b) = (f(a)?, f(b)?);
-    // The newest point and the one on the other side are `b` and `a`; `c` was there before.
-    let mut fraction = 0.5_f64;
-    loop {
-        if f_a == 0.0 {
-            return Ok(a);
-        }
-        let nearest = if f_a.abs() < f_b.abs() { a } else { b };
-        let tolerance = (roundoff / (b - a).abs()).min(0.5);
-        if f_b == 0.0 || tolerance >= 0.5 || !(b - a).is_normal() {
-            return Ok(if f_b == 0.0 { b } else { nearest });
-        }
-        let x = a + fraction.clamp(tolerance, 1.0 - tolerance) * (b - a);
-        let f_x = f(x)?;
-        let (c, f_c);
-        if (f_x > 0.0) == (f_a > 0.0) {
-            (c, f_c) = (a, f_a);
-        } else {
-            (c, f_c) = (b, f_b);
-            (b, f_b) = (a, f_a);
-        }
-        (a, f_a) = (x, f_x);
-
-        let xi = (a - b) / (c - b);
-        let phi = (f_a - f_b) / (f_c - f_b);
-        let safe = phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi;
-        fraction = if safe {
-            f_a / (f_b - f_a) * f_c / (f_b - f_c)
-                + (c - a) / (b - a) * f_a / (f_c - f_a) * f_b / (f_c - f_b)
-        } else {
-            0.5
-        };
-    }
-}
-
-/// Where a function that is negative at the second of two places was positive last. What has just begun may be
-/// positive only a little later than at the first; where it never is, that is the answer.
-pub(crate) fn last_positive(
-    [from, to]: [f64; 2],
-    roundoff: f64,
-    f: &mut dyn FnMut(f64) -> Result<f64, Error>,
-) -> Result<f64, Error> {
-    let mut positive = from;
-    if f(from)? <= 0.0 {
-        let mut part = 0.5 * (to - from);
-        while part > roundoff && f(from + part)? <= 0.0 {
-            part *= 0.5;
-        }
-        if part <= roundoff {
-            return Ok(from);
-        }
-        positive = from + part;
-    }
-    root([positive, to], roundoff, f)
-}
-
 fn sign(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x.signum() }
-}
-
-/// The motion within the last step.
-pub(crate) fn step_motion<'p, S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    interpolant: &'p mut Option<Interpolant<S::Vector>>,
-    stepper: &mut Stepper<'_, S, L, A>,
-    system: &S,
-) -> Result<&'p Interpolant<S::Vector>, Error> {
-    match interpolant {
-        Some(interpolant) => Ok(interpolant),
-        None => {
-            let step_motion = stepper
-                .interpolant()
-                .map_err(|error| Error::of_step(error, system))?;
-            Ok(interpolant.insert(step_motion))
-        }
-    }
 }

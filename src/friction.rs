@@ -26,24 +26,30 @@
 //! there if the slip has vanished, and shortly before if it has turned.
 //!
 //! The states of all contacts have to be determined together. This is done only when a contact comes to rest, breaks away, or changes
-//! the side on which it presses. Then all combinations are examined, which shows whether there is exactly one solution. (F. Pfeiffer, C.
-//! Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996, chapters 5 and 6, state the same as a linear complementarity problem.)
+//! the side on which it presses. In the plane this is a linear complementarity problem, that of pairs of opposite unilateral contacts
+//! ([`contact_law`](crate::contact_law); F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996, chapters 5 and 6). Contacts
+//! that do not depend on each other are asked apart. If it is not proved that there is one solution (E80), all combinations are
+//! examined, if these are not too many, which shows whether there is.
 //! In between, the states are kept: the motion is smooth, and sticking contacts are held at `w = 0` itself. In the plane contacts that stick
 //! and depend on each other hold as long as any distribution of their forces permits it (`shares`); then they break away together.
 
+mod at_rest;
 mod law;
-pub(crate) mod shares;
+mod per_contact;
 
 #[cfg(feature = "std")]
-use law::ROUNDING;
-use law::{Each, Layout, OpenStates, Paradox, Parts, length, solve};
-pub(crate) use law::{Mode, Motion};
+use crate::contact_law::Margin;
 #[cfg(feature = "std")]
-use shares::Limit;
+use crate::contact_law::shares::Limit;
+#[cfg(feature = "std")]
+use law::ROUNDING;
+use law::{Each, Layout, OpenStates, Paradox, Parts, length};
+pub(crate) use law::{Mode, Motion};
+
+use per_contact::{FEW_CONTACTS, PerContact};
 
 use crate::at::At;
 use crate::scalar::friction::FrictionLayout;
-use crate::system::MOST_CONTACTS;
 use crate::{Pivot, Singular, StepError, System, Vector};
 
 /// When another contact comes to rest, slips below this, relative to the largest of the same contact in the run, count as rest.
@@ -107,7 +113,7 @@ pub struct ContactForce {
 pub(crate) struct Contacts {
     count: usize,
     /// The contacts that are second tangents of surfaces, as a bit mask.
-    seconds: usize,
+    seconds: u64,
     /// The state of each contact. The direction of a sliding contact is the one at the beginning of the step: the motion is continued
     /// smoothly through rest, as if the slip reversed, and the step then ends there.
     pub mode: Mode,
@@ -124,29 +130,6 @@ pub(crate) struct Change {
     /// The index of the contact.
     pub contact: usize,
     pub cause: Cause,
-}
-
-/// The margin by which the state of a contact holds, negative if it does not, and the round-off of that margin.
-#[cfg(feature = "std")]
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Margin {
-    pub value: f64,
-    pub rounding: f64,
-}
-
-#[cfg(feature = "std")]
-impl Margin {
-    /// The margin of a state that does not end.
-    pub(crate) const ENDLESS: Margin = Margin {
-        value: f64::INFINITY,
-        rounding: 0.0,
-    };
-
-    /// Whether a state with this margin has ended, given its margin before: it is clearly lost now, or it was clearly there before. A
-    /// margin that is zero to rounding throughout has not ended. The *time* at which a state ended depends on the value alone.
-    pub fn is_lost_since(self, before: Margin) -> bool {
-        self.value < -self.rounding || (self.value < 0.0 && before.value > before.rounding)
-    }
 }
 
 #[cfg(feature = "std")]
@@ -178,6 +161,7 @@ pub fn contact_forces<S: System>(
     multipliers: &mut [f64],
     forces: &mut [ContactForce],
 ) -> Result<(), Singular> {
+    require_memory(system)?;
     let slips = resting_slips(system, t, q, v);
     with_parts(system, t, q, v, u, |parts, _| {
         let known = OpenStates::from_slips(&slips, parts.layout);
@@ -202,7 +186,7 @@ pub fn accelerations_with_friction<S: System>(
         At { t, q, v, u },
         a.as_mut_slice(),
         &mut [],
-        &mut [ContactForce::default(); MOST_CONTACTS],
+        &mut [],
     )
 }
 
@@ -215,13 +199,7 @@ pub fn multipliers_with_friction<S: System>(
     u: &S::Inputs,
     multipliers: &mut [f64],
 ) -> Result<(), Singular> {
-    contact_forces(
-        system,
-        At { t, q, v, u },
-        &mut [],
-        multipliers,
-        &mut [ContactForce::default(); MOST_CONTACTS],
-    )
+    contact_forces(system, At { t, q, v, u }, &mut [], multipliers, &mut [])
 }
 
 /// Calls `work` with the response of the machine to friction forces, and with the remaining workspace.
@@ -255,32 +233,41 @@ fn with_parts<S: System, R>(
         let Some((values, rest)) =
             workspace.and_then(|workspace| workspace.split_at_mut_checked(response.len()))
         else {
-            return Err(Singular {
-                at: Pivot::NoWorkspace,
-                ratio: 0.0,
-            });
+            return Err(NO_WORKSPACE);
         };
         system.friction(t, q, v, u, values)?;
         work(&Parts { layout, values }, rest)
     })
 }
 
+/// Without an allocator there is memory for few contacts only.
+fn require_memory<S: System>(system: &S) -> Result<(), Singular> {
+    if cfg!(feature = "std") || system.contacts().len() <= FEW_CONTACTS {
+        return Ok(());
+    }
+    Err(NO_WORKSPACE)
+}
+
+const NO_WORKSPACE: Singular = Singular {
+    at: Pivot::NoWorkspace,
+    ratio: 0.0,
+};
+
 fn slips<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Each {
-    let mut slips = [0.0; MOST_CONTACTS];
-    let count = system.contacts().len();
-    system.slips(t, q, v, &mut slips[..count]);
+    let mut slips = Each::new(system.contacts().len(), 0.0);
+    system.slips(t, q, v, &mut slips);
     slips
 }
 
 /// The slips, with 0 for contacts that rest to rounding.
 fn resting_slips<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Each {
     let mut slips = slips(system, t, q, v);
-    if slips == [0.0; MOST_CONTACTS] {
+    if slips.iter().all(|slip| *slip == 0.0) {
         return slips;
     }
-    let mut ranges = [[f64::INFINITY; 2]; MOST_CONTACTS];
-    system.slip_ranges(t, q, v, &mut ranges[..system.contacts().len()]);
-    for (slip, [from, to]) in slips.iter_mut().zip(ranges) {
+    let mut ranges = PerContact::new(slips.len(), [f64::INFINITY; 2]);
+    system.slip_ranges(t, q, v, &mut ranges);
+    for (slip, [from, to]) in slips.iter_mut().zip(ranges.iter().copied()) {
         if from.is_finite() && to.is_finite() && from <= 0.0 && to >= 0.0 {
             *slip = 0.0;
         }
@@ -326,6 +313,7 @@ impl Contacts {
         v: &S::Vector,
         u: &S::Inputs,
     ) -> Result<Contacts, StepError> {
+        require_memory(system).map_err(|singular| StepError::Singular { singular, t })?;
         let slips = resting_slips(system, t, q, v);
         let mode = with_parts(system, t, q, v, u, |parts, _| {
             let open_states = OpenStates::from_slips(&slips, parts.layout);
@@ -337,7 +325,7 @@ impl Contacts {
             seconds: system.second_tangents(),
             continues_through_rest: true,
             mode: mode.map_err(|singular| StepError::Singular { singular, t })?,
-            sizes: [0.0; MOST_CONTACTS],
+            sizes: Each::new(slips.len(), 0.0),
         };
         contacts.accept(system, t, q, v);
         Ok(contacts)
@@ -345,7 +333,7 @@ impl Contacts {
 
     /// Records a state.
     pub fn accept<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
-        for (size, slip) in self.sizes.iter_mut().zip(slips(system, t, q, v)) {
+        for (size, slip) in self.sizes.iter_mut().zip(&*slips(system, t, q, v)) {
             *size = size.max(slip.abs());
         }
     }
@@ -371,13 +359,18 @@ impl Contacts {
     }
 
     fn slides_on_surface(&self) -> bool {
-        self.seconds != 0 && self.mode.motion[..self.count].contains(&Motion::SlidesAlong)
+        self.seconds != 0 && self.mode.motion.contains(&Motion::SlidesAlong)
+    }
+
+    /// Whether a contact is the first of the two tangents of a surface.
+    fn has_second(&self, contact: usize) -> bool {
+        // The last contact is none, so that no bit is shifted out.
+        contact + 1 < self.count && self.seconds >> (contact + 1) & 1 != 0
     }
 
     /// The first of the two tangents of each contact on a surface.
-    fn on_surfaces(&self) -> impl Iterator<Item = usize> + use<> {
-        let (count, seconds) = (self.count, self.seconds);
-        (0..count).filter(move |k| seconds >> (k + 1) & 1 != 0)
+    fn on_surfaces(&self) -> impl Iterator<Item = usize> {
+        (0..self.count).filter(|k| self.has_second(*k))
     }
 
     /// Whether a slip counts as rest, relative to the largest so far of the same contact.
@@ -391,7 +384,7 @@ impl Contacts {
     /// The state of each contact with these slips. A sliding contact goes along its slip, or has come through rest since the step
     /// began, in which case its slip counts as reversed.
     fn mode_of(&self, slips: &Each) -> Mode {
-        let mut mode = self.mode;
+        let mut mode = self.mode.clone();
         if !self.slides_on_surface() {
             return mode;
         }
@@ -417,12 +410,12 @@ impl Contacts {
         mode
     }
 
-    /// [`mode_of`](Self::mode_of) at a state.
-    fn mode_at<S: System>(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Mode {
+    /// The state of each contact as [`mode_of`](Self::mode_of) says, which in most machines is the one at the beginning of the step.
+    fn seen<'m>(&'m self, slips: impl FnOnce() -> Each, memory: &'m mut Option<Mode>) -> &'m Mode {
         if self.slides_on_surface() {
-            self.mode_of(&slips(system, t, q, v))
+            memory.insert(self.mode_of(&slips()))
         } else {
-            self.mode
+            &self.mode
         }
     }
 
@@ -433,9 +426,10 @@ impl Contacts {
         At { t, q, v, u }: At<'_, S>,
         a: &mut S::Vector,
     ) -> Result<(), Singular> {
-        let mode = self.mode_at(system, t, q, v);
+        let mut memory = None;
+        let mode = self.seen(|| slips(system, t, q, v), &mut memory);
         with_parts(system, t, q, v, u, |parts, workspace| {
-            let friction_forces = friction_forces(parts, &mode)?;
+            let friction_forces = friction_forces(parts, mode)?;
             results(parts, &friction_forces, a.as_mut_slice(), &mut []);
             if self.sticks() {
                 self.correct_sticking_accelerations(system, (t, q, v), a, workspace);
@@ -468,7 +462,9 @@ impl Contacts {
     pub fn power<S: System>(&self, system: &S, At { t, q, v, u }: At<'_, S>) -> [f64; 2] {
         let slips = slips(system, t, q, v);
         let power = with_parts(system, t, q, v, u, |parts, workspace| {
-            let friction_forces = friction_forces(parts, &self.mode_of(&slips))?;
+            let mut memory = None;
+            let mode = self.seen(|| slips.clone(), &mut memory);
+            let friction_forces = friction_forces(parts, mode)?;
             let n = parts.layout.response.coordinates;
             let rows = &mut workspace[..self.count * n];
             system.slip_matrix(t, q, rows);
@@ -493,13 +489,13 @@ impl Contacts {
         &self,
         system: &S,
         At { t, q, v, u }: At<'_, S>,
-    ) -> Result<[[Margin; 2]; MOST_CONTACTS], StepError> {
+    ) -> Result<PerContact<[Margin; 2]>, StepError> {
         let slips = slips(system, t, q, v);
         let margins = with_parts(system, t, q, v, u, |parts, _| {
             let shared = parts.shared_forces(&self.mode_of(&slips));
             let (friction_forces, shared) = shared.map_err(Paradox::singular)?;
-            let mut margins = [[Margin::ENDLESS; 2]; MOST_CONTACTS];
-            for (k, margin) in margins[..self.count].iter_mut().enumerate() {
+            let mut margins = PerContact::new(self.count, [Margin::ENDLESS; 2]);
+            for (k, margin) in margins.iter_mut().enumerate() {
                 // The margins along both tangents are those of the first.
                 if parts.layout.is_second(k) {
                     continue;
@@ -552,24 +548,20 @@ impl Contacts {
     #[cfg(feature = "std")]
     pub fn ended_by_margins(
         &self,
-        margins: &[[Margin; 2]; MOST_CONTACTS],
-    ) -> [Option<(Change, usize)>; 2 * MOST_CONTACTS] {
-        let mut ended = [None; 2 * MOST_CONTACTS];
-        for (k, margins) in margins[..self.count].iter().enumerate() {
-            for (kind, margin) in margins.iter().enumerate() {
-                if margin.value >= 0.0 {
-                    continue;
-                }
-                let cause = match (self.mode.motion[k], kind) {
-                    (Motion::Sticks, _) => Cause::BrokeAway,
-                    (Motion::Slides(_), 0) | (Motion::SlidesAlong, _) => Cause::Stopped,
-                    (Motion::Slides(_), _) => Cause::Turned,
-                };
-                let contact = k;
-                ended[2 * k + kind] = Some((Change { contact, cause }, kind));
-            }
-        }
-        ended
+        margins: &[[Margin; 2]],
+    ) -> impl Iterator<Item = (Change, usize)> {
+        let lost = |margins: &[Margin; 2], kind: usize| margins[kind].value < 0.0;
+        let both = margins.iter().enumerate();
+        let both = both.flat_map(|(contact, margins)| [0, 1].map(|kind| (contact, margins, kind)));
+        let ended = both.filter(move |(_, margins, kind)| lost(margins, *kind));
+        ended.map(|(contact, _, kind)| {
+            let cause = match (self.mode.motion[contact], kind) {
+                (Motion::Sticks, _) => Cause::BrokeAway,
+                (Motion::Slides(_), 0) | (Motion::SlidesAlong, _) => Cause::Stopped,
+                (Motion::Slides(_), _) => Cause::Turned,
+            };
+            (Change { contact, cause }, kind)
+        })
     }
 
     /// Checks that the motion is determined: with these contacts sticking and
@@ -580,14 +572,18 @@ impl Contacts {
         system: &S,
         At { t, q, v, u }: At<'_, S>,
     ) -> Result<(), StepError> {
-        let mode = self.mode_at(system, t, q, v);
+        let mut memory = None;
+        let mode = self.seen(|| slips(system, t, q, v), &mut memory);
         let open_states = OpenStates {
-            motion: mode.motion.map(Some),
-            slip_direction: mode.slip_direction,
+            motion: PerContact::from_fn(self.count, |k| Some(mode.motion[k])),
+            slip_direction: mode.slip_direction.clone(),
             excluded: None,
             turned: None,
         };
         with_parts(system, t, q, v, u, |parts, _| {
+            if open_states.has_one_motion(parts, mode) {
+                return Ok(());
+            }
             match open_states.answer(parts) {
                 Err(paradox) if paradox.several => Err(paradox.singular()),
                 // If there is no motion, the state has ended, which is detected elsewhere.
@@ -620,8 +616,8 @@ impl Contacts {
             self.record_headings(system, t, q, v[0]);
             return Ok(true);
         }
-        let mut resting = [false; MOST_CONTACTS];
-        for (k, rests) in resting[..self.count].iter_mut().enumerate() {
+        let mut resting = PerContact::new(self.count, false);
+        for (k, rests) in resting.iter_mut().enumerate() {
             *rests = match self.mode.motion[k] {
                 Motion::Sticks => true,
                 Motion::Slides(_) => now[k].abs() <= AT_REST * self.sizes[k],
@@ -639,11 +635,11 @@ impl Contacts {
         resting[k] |= change.cause == Cause::Stopped;
         let [v, v_low] = v;
         self.stop_contacts(system, (t, q, u), [&mut *v, v_low], &resting)?;
-        let mut motion: [Option<Motion>; MOST_CONTACTS] =
-            core::array::from_fn(|k| (!resting[k]).then_some(self.mode.motion[k]));
+        let mut motion =
+            PerContact::from_fn(self.count, |k| (!resting[k]).then_some(self.mode.motion[k]));
         let own = (k, self.mode.motion[k]);
         // These contacts break away together.
-        let mut together = [false; MOST_CONTACTS];
+        let mut together = PerContact::new(self.count, false);
         let mut slip_direction = self.mode_of(&now).slip_direction;
         let at = |singular| StepError::Singular { singular, t };
         if change.cause == Cause::BrokeAway {
@@ -671,7 +667,7 @@ impl Contacts {
                 let Some(direction) = direction else {
                     continue;
                 };
-                if self.seconds >> (j + 1) & 1 == 0 {
+                if !self.has_second(j) {
                     (motion[j], together[j]) = (Some(Motion::Slides(direction)), is_shared);
                     continue;
                 }
@@ -706,10 +702,10 @@ impl Contacts {
             let mut answer = open_states.answer(parts);
             if answer.is_err() && together.contains(&true) {
                 // Reactions that change with the friction may let some of them go on sticking.
-                let is_open = |k: usize| motion[k].filter(|_| !together[k]);
+                let is_open = |k: usize| open_states.motion[k].filter(|_| !together[k]);
                 let all_open = OpenStates {
-                    motion: core::array::from_fn(is_open),
-                    ..open_states
+                    motion: PerContact::from_fn(self.count, is_open),
+                    ..open_states.clone()
                 };
                 answer = all_open.answer(parts);
             }
@@ -717,25 +713,6 @@ impl Contacts {
         });
         (self.mode, _) = decided.map_err(at)?;
         Ok(false)
-    }
-
-    /// Keeps sticking contacts at rest after a step.
-    #[inline]
-    pub fn hold<S: System>(
-        &self,
-        system: &S,
-        (t, q, u): (f64, &S::Vector, &S::Inputs),
-        v: [&mut S::Vector; 2],
-    ) -> Result<(), StepError> {
-        if !self.sticks() {
-            return Ok(());
-        }
-        let resting = self.mode.motion.map(|motion| motion == Motion::Sticks);
-        self.stop_contacts(system, (t, q, u), v, &resting)
-    }
-
-    fn sticks(&self) -> bool {
-        self.mode.motion[..self.count].contains(&Motion::Sticks)
     }
 
     /// Whether a sliding contact whose slip has become perpendicular to its direction at the beginning of the step has come to rest:
@@ -773,99 +750,8 @@ impl Contacts {
             && self.mode.motion[change.contact] == Motion::SlidesAlong
             && !self.is_slow(change.contact, &slips(system, t, q, v))
     }
-
-    /// Corrects accelerations of sticking contacts by their round-off: if one coordinate alone produces the slip, its acceleration is
-    /// known without friction.
-    fn correct_sticking_accelerations<S: System>(
-        &self,
-        system: &S,
-        (t, q, v): (f64, &S::Vector, &S::Vector),
-        a: &mut S::Vector,
-        workspace: &mut [f64],
-    ) {
-        let n = q.as_slice().len();
-        let (rows, bias) = workspace[..self.count * (n + 1)].split_at_mut(self.count * n);
-        system.slip_matrix(t, q, rows);
-        system.slip_bias(t, q, v, bias);
-        for (k, row) in rows.chunks_exact(n).enumerate() {
-            if self.mode.motion[k] == Motion::Sticks
-                && let Some(i) = only_entry(row)
-            {
-                a.as_mut_slice()[i] = -bias[k] / row[i];
-            }
-        }
-    }
-
-    /// Stops the contacts that are to rest, by the smallest change of the rates in the metric of inertia. If one coordinate alone
-    /// produces the slip, it stops to the last bit.
-    fn stop_contacts<S: System>(
-        &self,
-        system: &S,
-        (t, q, u): (f64, &S::Vector, &S::Inputs),
-        [v, v_low]: [&mut S::Vector; 2],
-        resting: &[bool; MOST_CONTACTS],
-    ) -> Result<(), StepError> {
-        let before = v.clone();
-        let now = slips(system, t, q, v);
-        let moving = |k: usize| resting[k] && now[k] != 0.0;
-        if !(0..self.count).any(moving) {
-            return Ok(());
-        }
-        let stopped = with_parts(system, t, q, &before, u, |parts, workspace| {
-            let (n, count) = (parts.layout.response.coordinates, self.count);
-            // dw = W Λ for impulses Λ along the contacts, with dw = −w for those that rest.
-            let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
-            for (k, row) in rows[..count].iter_mut().enumerate() {
-                if !resting[k] {
-                    row[k] = 1.0;
-                    continue;
-                }
-                for (j, x) in row[..count].iter_mut().enumerate() {
-                    if resting[j] {
-                        *x = parts.at(1 + j, parts.slip_rate(k));
-                    }
-                }
-                row[count] = -now[k];
-            }
-            if let Some(impulses) = solve(&mut rows, count) {
-                for (i, v) in v.as_mut_slice().iter_mut().enumerate() {
-                    let by = (0..count).map(|k| parts.at(1 + k, i) * impulses[k]);
-                    let by: f64 = by.sum();
-                    if by != 0.0 {
-                        *v += by;
-                        v_low.as_mut_slice()[i] = 0.0;
-                    }
-                }
-            }
-            let matrix = &mut workspace[..count * n];
-            system.slip_matrix(t, q, matrix);
-            for (k, row) in matrix.chunks_exact(n).enumerate() {
-                if resting[k]
-                    && let Some(i) = only_entry(row)
-                {
-                    v.as_mut_slice()[i] = 0.0;
-                    v_low.as_mut_slice()[i] = 0.0;
-                    let left = slips(system, t, q, v)[k];
-                    if left != 0.0 {
-                        v.as_mut_slice()[i] = -left / row[i];
-                    }
-                }
-            }
-            Ok(())
-        });
-        stopped.map_err(|singular| StepError::Singular { singular, t })
-    }
 }
 
 fn friction_forces(parts: &Parts<'_>, mode: &Mode) -> Result<Each, Singular> {
     parts.friction_forces(mode).map_err(Paradox::singular)
-}
-
-/// The index of the only nonzero entry of a row, if there is exactly one.
-fn only_entry(row: &[f64]) -> Option<usize> {
-    let mut entries = row.iter().enumerate().filter(|(_, x)| **x != 0.0);
-    match (entries.next(), entries.next()) {
-        (Some((i, _)), None) => Some(i),
-        _ => None,
-    }
 }

@@ -5,6 +5,7 @@
 //! which is as fast as emitted code.
 
 use core::fmt;
+use std::boxed::Box;
 use std::string::{String, ToString};
 use std::sync::{Arc, MutexGuard};
 use std::vec;
@@ -14,7 +15,7 @@ use lagrangian_mechanics::Proved;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_program as program;
 use lagrangian_program::contact_parts::ContactParts;
-use lagrangian_program::series::{NoSeries, Series};
+use lagrangian_program::series::NoSeries;
 use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape, Slot};
 use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::{self, Variable};
@@ -28,7 +29,7 @@ mod expanding;
 mod in_lanes;
 mod in_numbers;
 mod in_series;
-mod powers;
+mod motion_series;
 mod precise;
 mod reading;
 mod recording;
@@ -38,6 +39,7 @@ mod table_file;
 
 use contact_parts::RunningParts;
 use expanding::Expanding;
+use motion_series::MotionSeries;
 
 use crate::settings::TaskWithStart;
 use crate::shared_workspace::SharedWorkspace;
@@ -67,8 +69,7 @@ pub struct InterpretedMachine {
     names: Arc<Names>,
     parameters: Vec<f64>,
     inputs: Vec<f64>,
-    series: Result<Arc<Series>, String>,
-    code_of_series: engine::CodeOfSeries,
+    series: MotionSeries,
     machine_code: engine::MachineCode,
     /// The numbers of single contacts, where there are many, and their machine code.
     contact_parts: Option<Arc<ContactParts>>,
@@ -118,8 +119,9 @@ pub struct InterpretedSystem {
     /// [many](ContactParts) unilateral ones.
     parameters: Vec<f64>,
     enclosing: SharedWorkspace<Option<Interpreter<Interval>>>,
-    series: Result<Arc<Series>, String>,
+    series: MotionSeries,
     has_linear_assumptions: bool,
+    has_state_energy: bool,
     /// Whether it has work and losses that are not always 0.
     has_powers: [bool; 2],
     expanding: SharedWorkspace<Expanding>,
@@ -170,8 +172,7 @@ impl InterpretedMachine {
             program: Arc::new(program),
             machine_code: engine::MachineCode::default(),
             code_of_parts: engine::MachineCode::default(),
-            series: Err("its series was not derived".into()),
-            code_of_series: engine::CodeOfSeries::default(),
+            series: MotionSeries::none("its series was not derived"),
         }
     }
 
@@ -204,12 +205,21 @@ impl InterpretedMachine {
     /// # Ok::<(), lagrangian::Error>(())
     /// ```
     pub fn with_series(mut self, series: Result<ProvedSeries, NoSeries>) -> InterpretedMachine {
-        self.series = match series {
-            Ok(series) => Ok(series.series().clone()),
-            Err(reason) => Err(reason.to_string()),
-        };
-        let code = self.series.as_ref().map(engine::CodeOfSeries::new);
-        self.code_of_series = code.unwrap_or_default();
+        self.series = MotionSeries::given(series);
+        self
+    }
+
+    /// This machine with a function that derives the Taylor series of its motion: once for the machine, its clones and their runs, when the first of
+    /// them needs it. Machines that are read by [`from_text`](Self::from_text) and [`from_file`](Self::from_file) have one.
+    ///
+    /// Runs by [`TAYLOR`](crate::TAYLOR) need the series from the start. A run that [chooses its method](crate::Simulation::automatic) begins without it,
+    /// and asks for it after as many steps as take about as long as its derivation, if the rest of the run is longer still. When that is follows from counts of steps and
+    /// operations, and not from whether another run has derived the series before.
+    pub fn with_series_on_demand(
+        mut self,
+        derive: impl Fn() -> Result<ProvedSeries, NoSeries> + Send + Sync + 'static,
+    ) -> InterpretedMachine {
+        self.series = MotionSeries::on_demand(Box::new(derive));
         self
     }
 
@@ -328,10 +338,9 @@ impl Machine for InterpretedMachine {
             enclosing: SharedWorkspace::new(None),
             series: self.series.clone(),
             has_linear_assumptions: self.program.has_linear_assumptions(),
-            has_powers: powers::has_powers(&self.program),
-            expanding: SharedWorkspace::new(Expanding::new(
-                self.code_of_series.prepared(&self.machine_code),
-            )),
+            has_state_energy: self.program.function(Role::StateEnergy).is_some(),
+            has_powers: self.program.has_powers(),
+            expanding: SharedWorkspace::new(Expanding::new(self.machine_code.clone())),
         }
     }
 
@@ -495,6 +504,10 @@ impl System for InterpretedSystem {
         }
     }
 
+    fn copy_to_coordinates(&self, vector: &Vec<f64>, coordinates: &mut Named) {
+        coordinates.values.clone_from(vector);
+    }
+
     fn to_vector(&self, coordinates: &Named) -> Vec<f64> {
         coordinates.values.clone()
     }
@@ -521,10 +534,25 @@ impl System for InterpretedSystem {
         if !self.program.unilateral.is_empty() {
             return Err("it has contacts that close and open");
         }
-        match &self.series {
+        match &self.series.known().series {
             Ok(_) => Ok(()),
             Err(reason) => Err(reason),
         }
+    }
+
+    fn series_cost(&self) -> Option<[f64; 2]> {
+        self.series.cost(&self.program)
+    }
+
+    fn series_derivation(&self) -> Option<f64> {
+        let may_have_one = self.program.contacts.is_empty()
+            && self.program.unilateral.is_empty()
+            && self.program.constraints.iter().all(|of| of.holonomic);
+        let evaluations = || match may_have_one {
+            true => motion_series::derivation(&self.program),
+            false => f64::INFINITY,
+        };
+        self.series.is_on_demand().then(evaluations)
     }
 
     fn series(
@@ -535,13 +563,10 @@ impl System for InterpretedSystem {
         u: &Named,
         coefficients: &mut [Vec<f64>],
     ) -> Result<(), Singular> {
-        let Ok(series) = &self.series else {
-            return Ok(());
-        };
         let parameters = || self.running.lock().interpreter.parameters().to_vec();
         let mut expanding = self.expanding.lock();
         let at = (t, [q.as_slice(), v.as_slice(), u.values.as_slice()]);
-        let expanded = expanding.expand((series, parameters), at, coefficients);
+        let expanded = expanding.expand((self.series.known(), parameters), at, coefficients);
         expanded.map_err(|singular| singular_row(&self.program, singular))
     }
 
@@ -582,10 +607,10 @@ impl System for InterpretedSystem {
     }
 
     fn state_energy(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> f64 {
-        match self.program.function(Role::StateEnergy) {
-            Some(_) => self.number(Role::StateEnergy, at(t, q, v, &[])),
-            None => 0.0,
+        if !self.has_state_energy {
+            return 0.0;
         }
+        self.number(Role::StateEnergy, at(t, q, v, &[]))
     }
 
     fn dissipation(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named) -> f64 {
@@ -713,7 +738,7 @@ impl System for InterpretedSystem {
         self.program.reaction_axes
     }
 
-    fn second_tangents(&self) -> usize {
+    fn second_tangents(&self) -> u64 {
         self.program.second_tangents
     }
 

@@ -271,6 +271,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             contact_looks: ContactLooks::default(),
             held: None,
             choosing,
+            shown: None,
             record: Record::begun(settings, start, sampled_inputs, piece),
             settings,
         };
@@ -301,6 +302,8 @@ pub(crate) struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures
     held: Held<VectorOf<M>>,
     /// The choice of the method, if the run makes it.
     choosing: Choosing,
+    /// Memory of the state that is shown to the function that may stop the run.
+    shown: Option<State<Coordinates<M>>>,
     record: Record<M>,
 }
 
@@ -346,7 +349,7 @@ struct Record<M: Machine> {
     /// The largest kinetic energy so far, in J.
     kinetic_energy: f64,
     /// The part of the residual of the energy balance that tolerance and rounding explain.
-    explained: ExplainedResidual,
+    explained: ExplainedResidual<VectorOf<M>>,
     /// Whether a step had a residual that remained unexplained.
     is_unexplained: bool,
 }
@@ -634,15 +637,22 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             model,
             stepper,
             callbacks,
+            shown,
             ..
         } = self;
         let Some(stop) = &mut callbacks.stop else {
             return false;
         };
-        stop(&state(
-            model.system,
-            (stepper.t(), stepper.q().clone(), stepper.v().clone()),
-        ))
+        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
+        match shown {
+            Some(shown) => {
+                shown.t = t;
+                model.system.copy_to_coordinates(q, &mut shown.q);
+                model.system.copy_to_coordinates(v, &mut shown.v);
+                stop(shown)
+            }
+            none => stop(none.insert(state(model.system, (t, q.clone(), v.clone())))),
+        }
     }
 }
 

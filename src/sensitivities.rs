@@ -48,8 +48,7 @@ use crate::{
 /// interpreter. Inputs must be constant or functions of time: a law that depends on the *state*
 /// ([`inputs`](crate::Simulation::inputs)) is not differentiated.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use lagrangian::{Machine, Sensitive, Simulation};
 ///
 /// lagrangian::machine! {

@@ -95,24 +95,9 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
     where
         F: Fn(f64, &Coordinates<M>, &Coordinates<M>, &mut Inputs<M>),
     {
-        let Self {
-            subject,
-            settings,
-            callbacks,
-            resumed,
-            ..
-        } = self;
-        Simulation {
-            subject,
-            law: InputFunction(function),
-            settings,
-            callbacks,
-            resumed,
-        }
+        self.law(InputFunction(function))
     }
-}
 
-impl<'a, M: Machine, L> Simulation<'a, M, L> {
     /// Sets the inputs by a law: like [`inputs`](Self::inputs), for laws that are not functions of named values.
     pub fn law<N: InputLaw<M::System>>(self, law: N) -> Simulation<'a, M, N> {
         let Self {
@@ -130,9 +115,7 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
             resumed,
         }
     }
-}
 
-impl<'a, M: Machine, L> Simulation<'a, M, L> {
     /// Drives the machine by a table, beside any other law of the inputs: at each instant `set` is called with the value of the table and
     /// writes it to the inputs. Steps end wherever the table is not smooth enough for the method.
     ///
@@ -274,7 +257,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// times and reasons.
     ///
     /// It begins with [`TAYLOR`](crate::TAYLOR) if the machine has a series whose steps cost less than steps of [`Method::DOP853`] over the
-    /// same time that are as accurate ([`System::series_cost`](crate::System::series_cost)), otherwise with `dop853`. When stability and not
+    /// same time that are as accurate ([`System::series_cost`](crate::System::series_cost)), otherwise with `dop853`. A machine that is read from a spec at run
+    /// time begins with `dop853` in any case, since its series must be derived first: once the run has proved long enough, this is done, and the run goes on by series if their steps cost less. When stability and not
     /// accuracy limits the steps, it changes to a Radau method, of order 5, 9 or 13 depending on the tolerance, and back once its steps,
     /// linear equations included, have cost more than explicit ones would. A machine with unilateral contacts [hands over](Self::hand_over) to
     /// time stepping and back, and is not tested for stiffness. All decisions follow from counts, never from a clock: the same call gives
@@ -437,8 +421,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// Finds the instants at which a function of observed quantities changes its sign: outputs, accelerations, multipliers, contact forces.
     /// It is evaluated at least seven times a step, each time with an evaluation of the accelerations.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use lagrangian::{Crossing, Simulation};
     ///
     /// lagrangian::machine! {

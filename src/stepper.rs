@@ -146,6 +146,7 @@ struct Model<'s, S: System, L> {
 /// State of the stiffness test of DOP853 (section IV.2 of the second volume).
 #[derive(Clone, Copy, Debug, Default)]
 struct Stiffness {
+    is_tested: bool,
     signs: u32,
     none_since: u32,
     /// The length of the longest step among those with positive tests, in s.

@@ -12,8 +12,8 @@ use crate::{ContactQuantity, UnilateralContact, Vector};
 /// The largest number of coefficients of each coordinate that emitted code computes in [`System::series`].
 pub(crate) const SERIES_ROWS: usize = 24;
 
-/// The largest number of guided contacts of a machine.
-pub const MOST_CONTACTS: usize = 6;
+/// The largest number of guided contacts of a machine, as many as [`System::second_tangents`] has bits. Without the feature `std` it is 6.
+pub const MOST_CONTACTS: usize = 64;
 
 /// The parameters of a machine: a plain struct with a named field for each.
 ///
@@ -304,6 +304,13 @@ pub trait System {
         true
     }
 
+    /// [`to_coordinates`](Self::to_coordinates) into memory that holds coordinates of this machine already.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn copy_to_coordinates(&self, vector: &Self::Vector, coordinates: &mut Self::Coordinates) {
+        *coordinates = self.to_coordinates(vector);
+    }
+
     /// The values of inputs that nobody sets: the defaults of the description.
     fn default_inputs(&self) -> Self::Inputs;
 
@@ -446,7 +453,7 @@ pub trait System {
     /// as contact `k − 1`, at right angles to it. It has the normal reaction and the coefficients of that contact, and the two obey
     /// Coulomb's law together. None by default.
     #[inline(always)]
-    fn second_tangents(&self) -> usize {
+    fn second_tangents(&self) -> u64 {
         0
     }
 
@@ -505,37 +512,51 @@ pub trait System {
     }
 
     /// The gaps `g(q, t)` of the unilateral contacts, in m: positive where they are open.
+    ///
+    /// By default this, and each quantity of all contacts that follows, is that of [`of_contacts`](Self::of_contacts), one contact after the other, if
+    /// [`single_contacts`](Self::single_contacts) are known.
     #[inline(always)]
-    fn gaps(&self, _t: f64, _q: &Self::Vector, _gaps: &mut [f64]) {}
+    fn gaps(&self, t: f64, q: &Self::Vector, gaps: &mut [f64]) {
+        write_each(self, ContactQuantity::Gap, (t, q, q), gaps);
+    }
 
     /// Three numbers for each unilateral contact that is [with a face](UnilateralContact::has_face) of a polygon: the distance of its corner
     /// outside of that face and the distance beyond the ends of it (negative between them), both in m, and the rate of the second, in m/s.
     /// The [gap](Self::gaps) is the larger of the first two; [rates](Self::contact_rates) are those of the face.
     #[inline(always)]
-    fn contact_faces(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _faces: &mut [f64]) {}
+    fn contact_faces(&self, t: f64, q: &Self::Vector, v: &Self::Vector, faces: &mut [f64]) {
+        write_each(self, ContactQuantity::Face, (t, q, v), faces);
+    }
 
     /// For each unilateral contact the rate `dg/dt` at which its gap opens and its slip rate, in m/s.
     #[inline(always)]
-    fn contact_rates(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _rates: &mut [f64]) {}
+    fn contact_rates(&self, t: f64, q: &Self::Vector, v: &Self::Vector, rates: &mut [f64]) {
+        write_each(self, ContactQuantity::Rates, (t, q, v), rates);
+    }
 
     /// The derivatives of these rates with respect to the rates of the coordinates, row after row.
     #[inline(always)]
-    fn contact_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
+    fn contact_matrix(&self, t: f64, q: &Self::Vector, matrix: &mut [f64]) {
+        write_each(self, ContactQuantity::Rows, (t, q, q), matrix);
+    }
 
     /// The time derivatives of these rates at `a = 0`.
     #[inline(always)]
-    fn contact_bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
+    fn contact_bias(&self, t: f64, q: &Self::Vector, v: &Self::Vector, drift: &mut [f64]) {
+        write_each(self, ContactQuantity::Bias, (t, q, v), drift);
+    }
 
     /// For each unilateral contact its coefficients: restitution along the normal and along the tangent, or the parameters of its
     /// [`Compliance`](crate::Compliance); then friction in slip and in stick.
     #[inline(always)]
     fn contact_coefficients(
         &self,
-        _t: f64,
-        _q: &Self::Vector,
-        _v: &Self::Vector,
-        _coefficients: &mut [f64],
+        t: f64,
+        q: &Self::Vector,
+        v: &Self::Vector,
+        coefficients: &mut [f64],
     ) {
+        write_each(self, ContactQuantity::Coefficients, (t, q, v), coefficients);
     }
 
     /// For each coordinate, and last for the time, whether any gap depends on it; `None` if [`of_contacts`](Self::of_contacts) and
@@ -547,7 +568,7 @@ pub trait System {
     }
 
     /// Writes a quantity of some unilateral contacts, by their indices, at a time and a state: their numbers one after the other, with the
-    /// bits of the method for all contacts. Called only if [`single_contacts`](Self::single_contacts) are known.
+    /// bits of the method for all contacts, if that is implemented too. Gaps and rows do not depend on the rates. Called only if [`single_contacts`](Self::single_contacts) are known.
     #[inline(always)]
     fn of_contacts(
         &self,
@@ -632,6 +653,15 @@ pub trait System {
         None
     }
 
+    /// If the series is derived only when [`check_series`](Self::check_series) is called for the first time: about how many evaluations of the
+    /// accelerations in steps of `dop853` take as long; infinite where there is no series for certain. A run that chooses its method does not call it
+    /// before. It is an estimate from operation counts, and the same whether the series has been derived or not.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn series_derivation(&self) -> Option<f64> {
+        None
+    }
+
     /// Calls `work` with the workspace in which a state is projected onto the constraints: `length` numbers of any value, or `None` if
     /// there is no workspace.
     ///
@@ -647,6 +677,24 @@ pub trait System {
             let _ = length;
             work(None)
         }
+    }
+}
+
+/// Writes a quantity of all contacts that have it, one after the other, by [`System::of_contacts`]; nothing where that is not implemented.
+fn write_each<S: System + ?Sized>(
+    system: &S,
+    quantity: ContactQuantity,
+    state: (f64, &S::Vector, &S::Vector),
+    numbers: &mut [f64],
+) {
+    if system.single_contacts().is_none() {
+        return;
+    }
+    let width = quantity.width(state.1.as_slice().len());
+    let contacts = system.unilateral_contacts().enumerate();
+    let have_it = contacts.filter(|(_, one)| quantity != ContactQuantity::Face || one.has_face);
+    for ((contact, _), own) in have_it.zip(numbers.chunks_exact_mut(width.max(1))) {
+        system.of_contacts(quantity, &[contact], state, own);
     }
 }
 
@@ -689,8 +737,6 @@ pub trait Linearize: System {
 /// The accelerations agree with those of [`System::accelerations`] to rounding; sums and products are evaluated in another order.
 ///
 /// ```
-/// # #[cfg(feature = "macros")]
-/// # mod program {
 /// use lagrangian::{Staged, System};
 ///
 /// lagrangian::machine! {
@@ -704,7 +750,7 @@ pub trait Linearize: System {
 ///     }
 /// }
 ///
-/// # pub fn main() -> Result<(), lagrangian::Singular> {
+/// # fn main() -> Result<(), lagrangian::Singular> {
 /// // A step that is implicit in the rates, v = v0 + h a(q, v): the place is evaluated once.
 /// let brake = Braked::default().prepare();
 /// let (h, v0, u) = (0.05, 2.0, brake.default_inputs());
@@ -719,11 +765,6 @@ pub trait Linearize: System {
 /// assert!((v[0] - exact).abs() < 1e-14);
 /// # Ok(())
 /// # }
-/// # }
-/// # #[cfg(feature = "macros")]
-/// # fn main() -> Result<(), lagrangian::Singular> { program::main() }
-/// # #[cfg(not(feature = "macros"))]
-/// # fn main() {}
 /// ```
 #[diagnostic::on_unimplemented(
     message = "the accelerations of `{Self}` are not evaluated in stages",

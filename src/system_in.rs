@@ -9,8 +9,7 @@ use crate::{Quantity, Real, Singular, State, Vector};
 /// Emitted code implements it for machines without constraints and contacts. The method `map` of a machine converts it to other
 /// numbers: `machine.map(DoubleDouble::from_f64)`.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use lagrangian::scalar::{DoubleDouble, Scalar};
 /// use lagrangian::{ExplicitStepper, MachineIn, Real, StepError, SystemIn, Vector};
 ///

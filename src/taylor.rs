@@ -450,6 +450,25 @@ pub(crate) fn bound(size: f64, absolute: f64, relative: f64) -> f64 {
     }
 }
 
+/// The part of the tolerable error that is the [`bound`], if it is the same for numbers of every size: neither tolerance is at one of the limits, where
+/// rounding decides.
+pub(crate) fn part_for_all_sizes(absolute: f64, relative: f64) -> Option<f64> {
+    let part = |tolerance: f64| {
+        let is_within = |low: f64, high: f64| low < tolerance && tolerance < high;
+        if is_within(0.500_001e-8, f64::INFINITY) {
+            Some(0.1)
+        } else if is_within(0.500_001e-14, 0.499_999e-8) {
+            Some(1.0)
+        } else if is_within(1e-200, 0.499_999e-14) {
+            Some(0.01)
+        } else {
+            None
+        }
+    };
+    let found = part(absolute);
+    found.filter(|_| part(relative) == found)
+}
+
 /// The larger of `worst` and a term's size over its bound; the term is that of the rate, v = Σ (j + 1) cⱼ₊₁ τʲ, in a step of 1 s.
 #[inline(always)]
 pub(crate) fn larger_ratio(worst: f64, c: f64, j: f64, over_bound: f64) -> f64 {
@@ -494,12 +513,26 @@ pub(crate) fn length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
     }
 }
 
-/// [`length`] for two terms that are positive and finite: the same arithmetic without branches, for several at once.
+/// [`length`] of several steps whose terms are positive and finite: the same arithmetic without branches. In a loop for each function, the compiler puts
+/// all of them into one register.
 #[inline(always)]
-pub(crate) fn usual_length(worst: [f64; 2], powers: [usize; 2]) -> f64 {
-    let one = rough_log2(worst[0]) * exponent(powers[0]);
-    let other = rough_log2(worst[1]) * exponent(powers[1]);
-    rough_exp2(if one < other { one } else { other })
+pub(crate) fn usual_lengths<const W: usize>(
+    [mut one, mut other]: [[f64; W]; 2],
+    powers: [usize; 2],
+) -> [f64; W] {
+    for one in &mut one {
+        *one = rough_log2(*one) * exponent(powers[0]);
+    }
+    for other in &mut other {
+        *other = rough_log2(*other) * exponent(powers[1]);
+    }
+    for (one, other) in one.iter_mut().zip(other) {
+        *one = if *one < other { *one } else { other };
+    }
+    for one in &mut one {
+        *one = rough_exp2(*one);
+    }
+    one
 }
 
 /// Access to the coefficients of coordinates for [`motion`].
@@ -642,6 +675,24 @@ pub(crate) fn state<N: Real, V: Vector<N>>(coefficients: &[V], tau: N) -> (V, V)
     (q, v)
 }
 
+/// [`state`] with the accelerations then, into memory of a machine's dimension.
+pub(crate) fn state_with_accelerations<V: Vector>(
+    coefficients: &[V],
+    tau: f64,
+    [q, v, a]: [&mut V; 3],
+) {
+    q.clone_from(&coefficients[0]);
+    v.clone_from(&coefficients[1]);
+    in_blocks!(a.as_slice().len(), |start, B| {
+        let [by_q, by_v, there] = motion::<B, 3, f64>(&Rows(coefficients), start, tau);
+        for k in 0..B {
+            q.as_mut_slice()[start + k] += by_q[k];
+            v.as_mut_slice()[start + k] += by_v[k];
+        }
+        a.as_mut_slice()[start..start + B].copy_from_slice(&there);
+    });
+}
+
 /// The accelerations at a time `tau` after the state that was expanded.
 pub(crate) fn accelerations<V: Vector>(coefficients: &[V], tau: f64, a: &mut V) {
     in_blocks!(a.as_slice().len(), |start, B| {
@@ -663,7 +714,7 @@ mod tests {
 
     use lagrangian_scalar::{DoubleDouble, Scalar};
 
-    use super::{Taylor, bound};
+    use super::{Taylor, bound, part_for_all_sizes, state_with_accelerations};
     use crate::stages::Point;
 
     /// The sum of terms in double-double, and the sum of their sizes.
@@ -690,6 +741,11 @@ mod tests {
                 let expected = part * (tolerance + tolerance * size);
                 assert_eq!(bound(size, tolerance, tolerance), expected);
             }
+            assert_eq!(part_for_all_sizes(tolerance, tolerance), Some(part));
+        }
+        let at_limits = [[0.5e-8; 2], [0.5e-14; 2], [1e-15, 1e-14], [1e-7, 1e-9]];
+        for [absolute, relative] in at_limits {
+            assert_eq!(part_for_all_sizes(absolute, relative), None);
         }
     }
 
@@ -707,6 +763,9 @@ mod tests {
             let before = Point::new(0.0, coefficients[0], coefficients[1]);
             let (mut now, mut a) = (before.clone(), [0.0; N]);
             assert!(taylor.advance(h, &before, &mut now, (1.0, false), &mut a));
+            let mut there = [[0.0; N]; 3];
+            let [q_there, v_there, a_there] = &mut there;
+            state_with_accelerations(&coefficients, h, [q_there, v_there, a_there]);
             for (i, a) in a.into_iter().enumerate() {
                 let term = |j: usize, derivative: usize| {
                     let factor: f64 = (0..derivative).map(|d| j as f64 - d as f64).product();
@@ -715,7 +774,12 @@ mod tests {
                     c * power * DoubleDouble::from_f64(factor)
                 };
                 let found = [[now.q[i], now.q_low[i]], [now.v[i], now.v_low[i]], [a, 0.0]];
-                for (derivative, [high, low]) in found.into_iter().enumerate() {
+                let others = there.map(|of| [of[i], 0.0]);
+                let all = found
+                    .into_iter()
+                    .enumerate()
+                    .chain(others.into_iter().enumerate());
+                for (derivative, [high, low]) in all {
                     let [exact, size] = sum((derivative..rows).map(|j| term(j, derivative)));
                     // A term is rounded up to 20 times, with its weight, its powers of `h` and the sums that contain it, by half an epsilon each.
                     let error = (high + low - exact).abs();

@@ -45,6 +45,19 @@ pub enum ContactQuantity {
     Face,
 }
 
+impl ContactQuantity {
+    /// How many numbers of it a contact has, with so many coordinates.
+    pub(crate) fn width(self, coordinates: usize) -> usize {
+        match self {
+            ContactQuantity::Gap => 1,
+            ContactQuantity::Rates | ContactQuantity::Bias => 2,
+            ContactQuantity::Rows => 2 * coordinates,
+            ContactQuantity::Coefficients => 4,
+            ContactQuantity::Face => 3,
+        }
+    }
+}
+
 /// How closed contacts take part in an impact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ImpactOrder {
@@ -119,7 +132,7 @@ pub enum ContactTrouble {
     SeveralAtOnce,
     /// The states of contacts change again and again at one instant.
     Unsettled,
-    /// Moreau's time stepping does not support its law.
+    /// Moreau's time stepping does not support contacts that yield.
     NotStepped,
     /// A [`Stepper`](crate::Stepper) alone does not search for impacts; a [`Simulation`](crate::Simulation) does.
     NotFollowed,
@@ -149,8 +162,7 @@ impl ContactTrouble {
             }
             Self::Unsettled => "its state changes again and again at this instant",
             Self::NotStepped => {
-                "the method `moreau` supports contacts with the law `newton`, all at once, without `compliance`, and with `static_friction` equal to \
-                 `friction`"
+                "the method `moreau` supports rigid contacts, with any law, and none with `compliance`"
             }
             Self::NotFollowed => "impacts are found by a `Simulation`, not by a stepper alone",
         }

@@ -39,7 +39,7 @@ impl Crate {
             "Cargo.toml",
             &format!(
                 "[package]\nname = {name:?}\nversion = \"0.1.0\"\nedition = \"2021\"\n\n\
-                 [dependencies]\nlagrangian = {{ path = {root:?}{settings} }}\n\n[workspace]\n"
+                 [dependencies]\nlagrangian = {{ path = \"{root}/lagrangian\"{settings} }}\n\n[workspace]\n"
             ),
         );
         // Uses the versions that are present already, so that nothing is downloaded.

@@ -31,7 +31,7 @@ use crate::interrupt;
 use crate::methods;
 use crate::output::{self, Destination, MACHINE, SVG, TABLE, keep_apart};
 use crate::progress;
-use crate::reading::{self, ChartUse, Reading, places};
+use crate::reading::{self, ChartUse, InCharts, Reading, places};
 use crate::table;
 use data::{Class, Given};
 
@@ -108,7 +108,11 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     let laws = reading.drive(&everywhere)?;
     let formulas = reading.formulas();
     let compiled = reading.compile_in_charts(&dag, files.all(), ChartUse::IfPossible);
-    let (mut compiled, cartesian) = compiled.map_err(inputs::as_call_failure)?;
+    let InCharts {
+        mut compiled,
+        cartesian,
+        ..
+    } = compiled.map_err(inputs::as_call_failure)?;
     let machine = reading::machine(&compiled, &call.start)?;
     let chart = chart(&compiled, cartesian.as_ref(), call)?;
     // Formulas of inputs are not reported as outputs of the machine.

@@ -50,6 +50,9 @@ fn warn_of_constraints(program: &Proved) {
     }
 }
 
+/// The most unilateral contacts of a library, which returns the rows of all of them in one array on the stack.
+const MOST_CONTACTS: usize = 250;
+
 /// Runs the command.
 ///
 /// # Errors
@@ -74,6 +77,13 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
         ));
     }
     warn_of_constraints(&program);
+    if program.unilateral.len() > MOST_CONTACTS {
+        return Err(Failure::run(&format!(
+            "a library evaluates all contacts of a machine at once, and has at most {MOST_CONTACTS}; this machine has {}: run it with `lagrangian simulate` \
+             or the crate, which evaluate those that are near",
+            program.unilateral.len()
+        )));
+    }
     if !program.unilateral.is_empty() {
         output::print_error(
             "warning: whether contacts are closed is not a function of q and v alone: `eval` gives the accelerations with all of them open, and \

@@ -5,10 +5,11 @@ use std::path::Path;
 use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Named, UnknownName};
 use lagrangian::{InputLaw, Machine, Simulation, State};
 use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::series::SeriesText;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::{Coordinate, Model};
 use lagrangian_spec::resolve::Formula;
-use lagrangian_spec::source::{Files, SourceId, Sources};
+use lagrangian_spec::source::{Files, ReadTexts, Recorder, SourceId, Sources};
 use lagrangian_spec::unit::{Unit, integral_name, rate_unit};
 use lagrangian_sweep::plan::Law;
 use lagrangian_sweep::signals::InputArgument;
@@ -30,12 +31,24 @@ pub struct Reading {
     given: Vec<String>,
     /// Formulas of the call besides those of the spec: the option, the text, and the required unit if any.
     formulas: Vec<(String, String, Option<String>)>,
+    /// What was read for the model.
+    files: ReadTexts,
     /// The source texts for messages.
     pub sources: Sources,
     /// The diagnostics.
     pub report: Report,
     /// Whether the warnings of this spec have been printed.
     is_warned: bool,
+}
+
+/// A machine that was compiled for a run.
+pub struct InCharts<'d> {
+    /// The machine of the spec.
+    pub compiled: Compiled<'d>,
+    /// The same machine in the other charts, if the spec names any and the run is made in them.
+    pub cartesian: Option<Compiled<'d>>,
+    /// The texts from which the series of the machine that runs can be derived.
+    pub series: SeriesText,
 }
 
 /// Whether a run has to be made in the other charts that a spec names.
@@ -63,6 +76,7 @@ impl Reading {
             constants: spec.constants.clone(),
             given: spec.given.clone(),
             formulas: Vec::new(),
+            files: ReadTexts::default(),
             sources: Sources::new(),
             report: Report::new(),
             is_warned: false,
@@ -77,6 +91,7 @@ impl Reading {
             constants: self.constants.clone(),
             given: self.given.clone(),
             formulas: Vec::new(),
+            files: ReadTexts::default(),
             sources: Sources::new(),
             report: Report::new(),
             is_warned: self.is_warned,
@@ -121,6 +136,7 @@ impl Reading {
             constants,
             given,
             formulas,
+            files,
             sources,
             report,
             ..
@@ -134,9 +150,19 @@ impl Reading {
         let requested: Vec<Formula<'_>> = requested.collect();
         let spec = lagrangian_spec::parse(sources, name, text, report);
         let spec = spec.with_given(given.iter().cloned());
-        Model::resolve_with(
-            spec, dag, constants, &requested, &mut Specs, sources, report,
-        )
+        let mut specs = Specs;
+        let mut recorder = Recorder::new(&mut specs);
+        let model = Model::resolve_with(
+            spec,
+            dag,
+            constants,
+            &requested,
+            &mut recorder,
+            sources,
+            report,
+        );
+        *files = recorder.read;
+        model
     }
 
     /// Adds the formulas that drive inputs, as outputs after those of the spec.
@@ -238,7 +264,7 @@ impl Reading {
         dag: &'d Dag,
         destinations: impl IntoIterator<Item = &'a Destination>,
         chart_use: ChartUse,
-    ) -> Result<(Compiled<'d>, Option<Compiled<'d>>), Failure> {
+    ) -> Result<InCharts<'d>, Failure> {
         let model = self.model(dag);
         self.keep_from(destinations)?;
         let Some(mut model) = model else {
@@ -257,7 +283,12 @@ impl Reading {
         };
         self.warn();
         let Some(cartesian) = cartesian else {
-            return Ok((compiled, None));
+            let series = self.text_of_series(false);
+            return Ok(InCharts {
+                compiled,
+                cartesian: None,
+                series,
+            });
         };
         // Its warnings would be those of the spec, which are printed.
         let mut report = Report::new();
@@ -268,7 +299,24 @@ impl Reading {
             self.report = report;
             return Err(self.failure());
         }
-        Ok((compiled, cartesian))
+        let series = self.text_of_series(cartesian.is_some());
+        Ok(InCharts {
+            compiled,
+            cartesian,
+            series,
+        })
+    }
+
+    /// The texts from which the series of the machine is derived, after its model was made.
+    fn text_of_series(self, in_charts: bool) -> SeriesText {
+        SeriesText {
+            name: self.name,
+            text: self.text,
+            constants: self.constants,
+            given: self.given,
+            files: self.files,
+            in_charts,
+        }
     }
 
     /// Prints the warnings of a valid spec.

@@ -21,7 +21,7 @@ use crate::evaluate::set_start;
 use crate::exactness::Exactness;
 use crate::failure::Failure;
 use crate::output::{self, Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
-use crate::reading::{self, ChartUse, Reading};
+use crate::reading::{self, ChartUse, InCharts, Reading};
 use crate::recording::{ColumnKind, Recording, Run};
 use crate::{inputs, methods, progress, simulate};
 
@@ -410,7 +410,11 @@ struct MachineInChart<'d> {
 
 impl<'d> MachineInChart<'d> {
     fn new(
-        (compiled, cartesian): (Compiled<'d>, Option<Compiled<'d>>),
+        InCharts {
+            compiled,
+            cartesian,
+            ..
+        }: InCharts<'d>,
         start: &call::Start,
         keep: &call::Keep,
     ) -> Result<MachineInChart<'d>, Failure> {

@@ -178,37 +178,9 @@ fn run_with_derivatives(
     };
     let mut from = sensitive.start_from(start.clone());
     if is_continued {
-        from.q.by = vec![start.q.clone(); variations.len()];
-        from.v.by = vec![start.v.clone(); variations.len()];
-        for (k, variation) in variations.iter().enumerate() {
-            from.q.by[k].values.fill(0.0);
-            from.v.by[k].values.fill(0.0);
-            match variation.by {
-                By::Start(i) => from.q.by[k].values[i] = 1.0,
-                By::StartRate(i) => from.v.by[k].values[i] = 1.0,
-                By::Parameter(_) | By::Input(_) => {}
-            }
-        }
+        vary_start(&mut from, &start, variations);
     }
-    for (k, variation) in variations.iter().enumerate() {
-        if is_held {
-            [from.q.by[k].values, from.v.by[k].values] = change_of_start(call, machine, variation)?;
-            continue;
-        }
-        // A start that the spec computes from a parameter changes with it, unless the call sets it.
-        if let By::Parameter(index) = variation.by {
-            let (q, v) = start_by(machine, index);
-            let [q_set, v_set] = set_by_call(&start, call);
-            for (j, (q, v)) in q.into_iter().zip(v).enumerate() {
-                if !q_set[j] {
-                    from.q.by[k].values[j] = q;
-                }
-                if !v_set[j] {
-                    from.v.by[k].values[j] = v;
-                }
-            }
-        }
-    }
+    set_derivatives_of_start(call, machine, (&start, &mut from), variations)?;
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
     let of_each = observed.len() + 2 * start.q.values.len();
     let width = 1 + of_each * (1 + variations.len());
@@ -252,6 +224,51 @@ fn run_with_derivatives(
         }
     }
     Ok((states.iter().map(|state| state.t).collect(), columns))
+}
+
+/// Gives a start its derivative in each direction: 1 for the number that the direction varies, otherwise 0.
+fn vary_start(from: &mut State<Varied<Named>>, start: &State<Named>, variations: &[Variation]) {
+    from.q.by = vec![start.q.clone(); variations.len()];
+    from.v.by = vec![start.v.clone(); variations.len()];
+    for (k, variation) in variations.iter().enumerate() {
+        from.q.by[k].values.fill(0.0);
+        from.v.by[k].values.fill(0.0);
+        match variation.by {
+            By::Start(i) => from.q.by[k].values[i] = 1.0,
+            By::StartRate(i) => from.v.by[k].values[i] = 1.0,
+            By::Parameter(_) | By::Input(_) => {}
+        }
+    }
+}
+
+/// Adds to the derivatives of a start how it changes with the parameters that the spec computes it from, and on constraints.
+fn set_derivatives_of_start(
+    call: &call::Sensitivities,
+    machine: &InterpretedMachine,
+    (start, from): (&State<Named>, &mut State<Varied<Named>>),
+    variations: &[Variation],
+) -> Result<(), Failure> {
+    let is_held = machine.prepare().constraints().len() > 0;
+    for (k, variation) in variations.iter().enumerate() {
+        if is_held {
+            [from.q.by[k].values, from.v.by[k].values] = change_of_start(call, machine, variation)?;
+            continue;
+        }
+        // A start that the spec computes from a parameter changes with it, unless the call sets it.
+        if let By::Parameter(index) = variation.by {
+            let (q, v) = start_by(machine, index);
+            let [q_set, v_set] = set_by_call(start, call);
+            for (j, (q, v)) in q.into_iter().zip(v).enumerate() {
+                if !q_set[j] {
+                    from.q.by[k].values[j] = q;
+                }
+                if !v_set[j] {
+                    from.v.by[k].values[j] = v;
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The distance of runs whose differences are compared with the derivatives, relative to the sizes of the variables.

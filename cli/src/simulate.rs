@@ -30,7 +30,7 @@ use crate::numbers::{by_name, shortest, states};
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
 use crate::precise;
 use crate::progress;
-use crate::reading::{self, ChartUse, Reading};
+use crate::reading::{self, ChartUse, InCharts, Reading};
 use crate::recording::{Recording, Run};
 use crate::report::{self, CallSettings, Live, Report};
 use crate::{plot, table};
@@ -277,7 +277,11 @@ impl<'d> Prepared<'d> {
         let laws = reading.drive(written)?;
         let formulas = reading.formulas();
         let compiled = reading.compile_in_charts(dag, files.all(), ChartUse::Required);
-        let (mut compiled, cartesian) = compiled.map_err(inputs::as_call_failure)?;
+        let InCharts {
+            mut compiled,
+            cartesian,
+            series: text_of_series,
+        } = compiled.map_err(inputs::as_call_failure)?;
         let mut machine = reading::machine(&compiled, &call.start)?;
         reading::check_parameters(&machine)?;
         let mut start = machine.start();
@@ -306,6 +310,9 @@ impl<'d> Prepared<'d> {
         let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(output_count));
         let signals = signals.map_err(Failure::Call)?;
         let mut other_method = None;
+        if call.method == AUTO {
+            machine = machine.with_series_on_demand(move || text_of_series.derive());
+        }
         if std::ptr::eq(method, &TAYLOR) {
             progress::now("deriving the series");
             let series = ProvedSeries::derive(&compiled.model);

@@ -610,7 +610,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         outputs outputs(p, t, q, v, a, u) = Outputs {};
         names contacts(p) = ["shells", "shells.across"];
         count reaction_axes(p) = 3;
-        count second_tangents(p) = 2;
+        bits second_tangents(p) = 2;
         ranges slip_ranges(p, q, v) = slips(p, q, v);
         solved friction(p, t, q, v, u) = friction(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::contact_workspace_in_space(2, 0, 2);

@@ -760,6 +760,7 @@ fn series_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
         };
         costs series_cost(p) = [5.7, 8.5];
         boolean series_may_branch(p) = false;
+        boolean has_powers(p) = false;
         matrix mass_matrix(p, t, q) = mass_matrix(p, q);
         vector bias(p, t, q, v) = bias(p, q, v);
         vector applied(p, t, q, v, u) = applied(p, q);

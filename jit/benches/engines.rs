@@ -8,18 +8,16 @@
 #[path = "../../benches/timing/mod.rs"]
 mod timing;
 
+mod machines;
+
 use std::hint::black_box;
 use std::sync::Arc;
 
 use lagrangian::interpreted::{Engine, InterpretedMachine};
 use lagrangian::{Batch, Batched, Lanes, Machine, Number, System, Vector};
 use lagrangian_jit::{Code, Level, Library, Running, Several, SeveralArguments, When};
-use lagrangian_mechanics::Compiled;
-use lagrangian_mechanics::Proved;
 use lagrangian_program::{Arguments, Interpreter, Program, Role};
-use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::source::{Disk, Files, Sources};
-use lagrangian_symbolic::{Dag, Rational};
+use lagrangian_symbolic::Rational;
 use timing::{median_of, per_call};
 
 lagrangian::machine!(file = "../machines/double_pendulum.machine");
@@ -48,24 +46,6 @@ fn main() {
         "chain",
         &[("N".into(), Rational::from(64))],
     );
-}
-
-fn program(name: &str, constants: &[(String, Rational)]) -> Proved {
-    let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
-    let path = format!("{}/../machines/{name}.machine", env!("CARGO_MANIFEST_DIR"));
-    let (name, text) = Disk.read(&path, None).expect("the library is there");
-    lagrangian_spec::model(
-        &dag,
-        &name,
-        &text,
-        constants,
-        &mut Disk,
-        &mut sources,
-        &mut report,
-    )
-    .and_then(|model| Compiled::new(model, &mut report))
-    .expect("the library compiles")
-    .program
 }
 
 struct State {
@@ -99,7 +79,7 @@ fn row<M: Machine>(machine: &M, name: &str, constants: &[(String, Rational)])
 where
     M::System: Batched<4> + Batched<8>,
 {
-    let (derived_in, proved) = median_of(3, || program(name, constants));
+    let (derived_in, proved) = median_of(3, || machines::compiled(name, constants).program);
     let interpreted = InterpretedMachine::new(proved.clone());
     let mut jitted = interpreted.clone();
     jitted

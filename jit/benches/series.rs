@@ -7,15 +7,15 @@
 #[path = "../../benches/timing/mod.rs"]
 mod timing;
 
+mod machines;
+
 use std::hint::black_box;
 
 use lagrangian::interpreted::{Engine, InterpretedMachine};
 use lagrangian::{Machine, System, Vector};
 use lagrangian_jit::{Level, SeriesCode};
-use lagrangian_mechanics::{Compiled, series::ProvedSeries};
-use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::source::{Disk, Files, Sources};
-use lagrangian_symbolic::{Dag, Rational};
+use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_symbolic::Rational;
 use timing::{median_of, per_call};
 
 lagrangian::machine!(file = "../machines/double_pendulum.machine");
@@ -51,20 +51,7 @@ fn main() {
 }
 
 fn row<M: Machine>(machine: &M, name: &str, constants: &[(String, Rational)]) {
-    let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
-    let path = format!("{}/../machines/{name}.machine", env!("CARGO_MANIFEST_DIR"));
-    let (name, text) = Disk.read(&path, None).expect("the library is there");
-    let model = lagrangian_spec::model(
-        &dag,
-        &name,
-        &text,
-        constants,
-        &mut Disk,
-        &mut sources,
-        &mut report,
-    );
-    let compiled = model.and_then(|model| Compiled::new(model, &mut report));
-    let compiled = compiled.expect("the library compiles");
+    let compiled = machines::compiled(name, constants);
     let (derived_in, proved) = median_of(3, || ProvedSeries::derive(&compiled.model));
     let proved = proved.expect("it has a series");
     let series = proved.series().clone();

@@ -460,8 +460,9 @@ pub enum Surface {
     Along(PoseId),
 }
 
-/// The largest number of unilateral contacts of a machine.
-pub const MOST_UNILATERAL: usize = 250;
+/// The largest number of unilateral contacts of a machine: 85 discs in a bowl, which have 255 coordinates, make 3655. Contacts with long formulas reach the bound on
+/// the size of equations before.
+pub const MOST_UNILATERAL: usize = 4000;
 
 /// A unilateral contact: gap ≥ 0.
 #[derive(Clone)]

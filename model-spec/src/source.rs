@@ -256,9 +256,68 @@ impl Files for InMemory {
     }
 }
 
+/// What was read from files, to be read again without them: their names and texts, by the path and the file that named it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ReadTexts {
+    texts: BTreeMap<(String, Option<String>), (String, String)>,
+}
+
+impl ReadTexts {
+    /// Records that the file `path`, named by the file `from`, has this name and this text.
+    pub fn insert(&mut self, (path, from): (&str, Option<&str>), read: (String, String)) {
+        let asked = (path.to_owned(), from.map(str::to_owned));
+        self.texts.insert(asked, read);
+    }
+}
+
+impl Files for ReadTexts {
+    fn read(&mut self, path: &str, from: Option<&str>) -> Result<(String, String), String> {
+        let asked = (path.to_owned(), from.map(str::to_owned));
+        let read = self.texts.get(&asked).cloned();
+        read.ok_or_else(|| "it was not read before".to_owned())
+    }
+}
+
+/// Reads files, and records what it reads.
+pub struct Recorder<'f> {
+    files: &'f mut dyn Files,
+    /// What was read so far.
+    pub read: ReadTexts,
+}
+
+impl<'f> Recorder<'f> {
+    /// Nothing has been read yet.
+    pub fn new(files: &'f mut dyn Files) -> Recorder<'f> {
+        Recorder {
+            files,
+            read: ReadTexts::default(),
+        }
+    }
+}
+
+impl Files for Recorder<'_> {
+    fn read(&mut self, path: &str, from: Option<&str>) -> Result<(String, String), String> {
+        let read = self.files.read(path, from)?;
+        self.read.insert((path, from), read.clone());
+        Ok(read)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_was_read_is_read_again_without_its_files() {
+        let mut files = InMemory::new().with("a", "one").with("b", "two");
+        let mut recorder = Recorder::new(&mut files);
+        assert!(recorder.read("a", None).is_ok() && recorder.read("b", Some("a")).is_ok());
+        assert!(recorder.read("c", None).is_err());
+        let mut read = recorder.read;
+        assert_eq!(read.read("b", Some("a")), Ok(("b".into(), "two".into())));
+        // The same path may be another file elsewhere.
+        assert!(read.read("b", None).is_err() && read.read("c", None).is_err());
+    }
 
     #[test]
     fn columns_count_characters_not_bytes() {

@@ -7,7 +7,6 @@ use std::thread;
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_jit::Library;
 use lagrangian_mechanics::Compiled;
-use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_program::Slot;
 use lagrangian_spec::diagnostic::{Report, Severity};
 use lagrangian_spec::model::Model;
@@ -52,7 +51,6 @@ pub struct Derived {
     pub warnings: Vec<Told>,
     /// For each formula the index of its output.
     pub numbers: Vec<usize>,
-    series: OnceLock<Result<ProvedSeries, String>>,
     library: OnceLock<Option<Arc<Library>>>,
 }
 
@@ -198,7 +196,11 @@ impl Derived {
             let (name, unit, docs) = plain(slot);
             (name, unit, docs, default(slot))
         };
-        let machine = InterpretedMachine::new(program.clone());
+        let mut machine = InterpretedMachine::new(program.clone());
+        // Its constants were numbers when the model was made.
+        if let Ok(text) = text.of_series(false) {
+            machine = machine.with_series_on_demand(move || text.derive());
+        }
         let system = lagrangian::Machine::prepare(&machine);
         let constraints = lagrangian::System::constraints(&system);
         let constraints = constraints.map(|c| (c.name.to_owned(), c.multiplier_unit.to_owned()));
@@ -238,7 +240,6 @@ impl Derived {
             machine,
             text,
             formulas,
-            series: OnceLock::new(),
             library: OnceLock::new(),
         }
     }
@@ -287,17 +288,6 @@ impl Derived {
                 "cannot start a thread for the derivation: {error}"
             ))),
         }
-    }
-
-    /// The Taylor series of the motion, derived on first use; or why there is none.
-    pub fn series(&self) -> Result<ProvedSeries, String> {
-        let derive = || {
-            let derived = self.with_model(|model, _| {
-                ProvedSeries::derive(&model).map_err(|reason| reason.to_string())
-            });
-            derived.unwrap_or_else(|_| Err("it could not be derived".into()))
-        };
-        self.series.get_or_init(derive).clone()
     }
 
     /// Machine code for this number of states, compiled on first use; `None` if it is not available.

@@ -171,13 +171,12 @@ pub fn simulate(
             "every={every:e} would keep more than {MOST_SAMPLES:e} instants"
         )));
     }
-    let mut machine = of.machine.clone();
+    let machine = of.machine.clone();
     if std::ptr::eq(method, &TAYLOR) {
-        let series = py.detach(|| of.derived.series());
-        let series = series.map_err(|reason| {
+        let checked = py.detach(|| machine.prepare().check_series().map_err(str::to_owned));
+        checked.map_err(|reason| {
             PyValueError::new_err(format!("method taylor: no series: {reason}"))
         })?;
-        machine = machine.with_series(Ok(series));
     }
     let raised = Raised::default();
     let signals = inputs::driven(&machine, settings.rules, &raised)?;

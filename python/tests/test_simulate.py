@@ -222,6 +222,28 @@ def test_taylor_and_stiff_methods(oscillator):
         np.testing.assert_allclose(run["x"], np.cos(2 * run.t), atol=1e-5)
 
 
+def test_a_long_run_goes_on_by_series():
+    # x = cos t over 300 periods; the errors of two thousand steps add up.
+    oscillator = lg.loads(
+        """machine Oscillating in plane {
+            parameters { k: N/m = 1 }
+            coordinates { x: m = 1 }
+            bodies { a { mass: 1, at: (x, 0) } }
+            springs { back { stiffness: k, stretch: x } }
+        }"""
+    )
+    run = oscillator.simulate(1885, method="auto", tolerance=1e-12)
+    assert [of[1] for of in run.choices] == ["dop853", "taylor"]
+    assert run.choices[1][2].startswith("a step by series costs")
+    assert abs(run.end.q["x"] - math.cos(1885)) < 2e3 * 1e-12
+    # The series is known now, which makes no difference, and a short run needs none.
+    again = oscillator.simulate(1885, method="auto", tolerance=1e-12)
+    assert again.choices == run.choices and again.end.q["x"] == run.end.q["x"]
+    assert [of[1] for of in oscillator.simulate(1, method="auto").choices] == ["dop853"]
+    taylor = oscillator.simulate(1885, method="taylor", tolerance=1e-12)
+    assert abs(taylor.end.q["x"] - math.cos(1885)) < 2e3 * 1e-12
+
+
 def test_a_run_chooses_its_methods():
     # x = cos t beside a mass that returns slowly in thick oil, y'' + 2e4 y' + 1e4 y = 0: the fast component decays at once.
     stiff = lg.loads(

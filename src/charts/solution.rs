@@ -69,8 +69,6 @@ impl<'a, C: Machine, L: InputLaw<C::System>> Simulation<'a, C, L> {
     /// Those of [`run`](Self::run), and if a distance is negative at the start.
     ///
     /// ```
-    /// # #[cfg(feature = "macros")]
-    /// # mod program {
     /// use lagrangian::{Charted, Machine, Simulation};
     ///
     /// lagrangian::machine! {
@@ -84,7 +82,6 @@ impl<'a, C: Machine, L: InputLaw<C::System>> Simulation<'a, C, L> {
     ///     }
     /// }
     ///
-    /// # pub
     /// fn main() -> Result<(), lagrangian::Error> {
     ///     let particle = Particle::default();
     ///     let cartesian = particle.in_cartesian();
@@ -96,11 +93,6 @@ impl<'a, C: Machine, L: InputLaw<C::System>> Simulation<'a, C, L> {
     ///     assert!((state.q.phi - y.atan2(x)).abs() < 1e-12);
     ///     Ok(())
     /// }
-    /// # }
-    /// # #[cfg(feature = "macros")]
-    /// # fn main() -> Result<(), lagrangian::Error> { program::main() }
-    /// # #[cfg(not(feature = "macros"))]
-    /// # fn main() {}
     /// ```
     pub fn run_in_charts<M: Charted<Cartesian = C>>(
         self,

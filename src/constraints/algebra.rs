@@ -7,8 +7,8 @@
 use crate::Singular;
 use crate::math::sqrt;
 
-/// Computes the Cholesky factorization `L Lᵀ` in the lower triangle, and in `shares` the remainder of each diagonal element,
-/// `Lᵢᵢ / √aᵢᵢ`.
+/// Computes the Cholesky factorization `L Lᵀ` in the lower triangle, and in `shares` what elimination leaves of each diagonal element,
+/// `Lᵢᵢ² / aᵢᵢ`.
 pub(crate) fn cholesky(a: &mut [f64], shares: &mut [f64]) -> Result<(), Singular> {
     let n = root(a.len());
     let roundoff = 4.0 * n as f64 * f64::EPSILON;
@@ -27,7 +27,7 @@ pub(crate) fn cholesky(a: &mut [f64], shares: &mut [f64]) -> Result<(), Singular
                 return Err(Singular::new(j, sum, diagonal));
             }
             a[j * n + j] = sqrt(sum);
-            shares[j] = sqrt(sum / diagonal);
+            shares[j] = sum / diagonal;
         }
     }
     Ok(())

@@ -236,10 +236,10 @@ impl<V: Vector> Constraints<V> {
         };
         in_workspace(system, t, place.q[0].as_slice().len(), |workspace| {
             own.prepare(system, workspace, (t, place.q[0]), Level::Positions)?;
-            let [left, _] = own.residuals(system, workspace, place, Changed::All);
+            let [left, _] = own.residuals(system, workspace, place, Changed::All).chosen;
             own.newton(system, workspace, place, Level::Positions, left)?;
             own.prepare(system, workspace, (t, place.q[0]), Level::Rates)?;
-            let [_, left] = own.residuals(system, workspace, place, Changed::All);
+            let [_, left] = own.residuals(system, workspace, place, Changed::All).chosen;
             own.newton(system, workspace, place, Level::Rates, left)
         })
     }

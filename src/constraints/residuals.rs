@@ -13,27 +13,48 @@ use crate::{StepError, System, Vector};
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Changed {
     All,
+    /// The coordinates, of which only the residuals of positions are needed for now: the matrix and the rates remain those of the pose before, until
+    /// they are evaluated as those of another [`Pose`](Self::Pose).
+    Positions,
+    /// The coordinates, whose residuals of positions are known.
+    Pose,
     Rates,
     Nothing,
 }
 
+/// The largest residuals of rows, each with its row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Residuals {
+    /// Of the chosen rows, of positions and of rates, relative to their scale.
+    pub chosen: [(f64, usize); 2],
+    /// Of any row and level, relative to the scale of the guaranteed bound.
+    pub guaranteed: (f64, usize),
+}
+
 impl<V: Vector> Constraints<V> {
-    /// The largest residuals of the rows at a state, relative to their scale, and their rows. Leaves all residuals and the constraint
-    /// matrix in the workspace, and evaluates only those of what has changed since it was called last.
+    /// The largest residuals of the rows at a state. Leaves all residuals and the constraint matrix in the workspace, and evaluates only those
+    /// of what has changed since it was called last.
     pub(super) fn residuals<S: System<Vector = V>>(
         &self,
         system: &S,
         workspace: &mut Workspace<'_, S::Matrix>,
         place: &Unprojected<'_, V>,
         changed: Changed,
-    ) -> [(f64, usize); 2] {
+    ) -> Residuals {
         self.evaluate(system, workspace, place, changed);
         let (q, v) = (&*place.q[0], &*place.v[0]);
-        let mut most = [(0.0, 0), (0.0, 0)];
+        let mut most = Residuals {
+            chosen: [(0.0, 0); 2],
+            guaranteed: (0.0, 0),
+        };
         for k in 0..workspace.m {
             let relative = self.relative(workspace, k, q, v);
-            for (most, now) in most.iter_mut().zip(relative) {
-                self.count_residual(most, k, now.now);
+            for (chosen, now) in most.chosen.iter_mut().zip(relative) {
+                self.count_residual(chosen, k, now.now);
+                // NaN counts as the largest.
+                if !(now.guaranteed <= most.guaranteed.0 || most.guaranteed.0.is_nan()) {
+                    most.guaranteed = (now.guaranteed, k);
+                }
             }
         }
         most
@@ -76,13 +97,13 @@ impl<V: Vector> Constraints<V> {
             return;
         }
         // NaN counts as the largest.
-        if !(now <= most.0) {
+        if !(now <= most.0 || most.0.is_nan()) {
             *most = (now, k);
         }
     }
 
     /// Evaluates the residuals and the constraint matrix, as far as they have changed.
-    fn evaluate<S: System<Vector = V>>(
+    pub(super) fn evaluate<S: System<Vector = V>>(
         &self,
         system: &S,
         workspace: &mut Workspace<'_, S::Matrix>,
@@ -95,11 +116,13 @@ impl<V: Vector> Constraints<V> {
             Some(_) => Changed::All,
             None => changed,
         };
-        if let Changed::All = changed {
+        if let Changed::All | Changed::Positions = changed {
             system.constraint_positions(place.t, q, workspace.positions);
+        }
+        if let Changed::All | Changed::Pose = changed {
             system.constraint_matrix(place.t, q, workspace.matrix);
         }
-        if let Changed::All | Changed::Rates = changed {
+        if let Changed::All | Changed::Pose | Changed::Rates = changed {
             system.constraint_rates(place.t, q, v, workspace.rates);
         }
     }
@@ -134,35 +157,19 @@ impl<V: Vector> Constraints<V> {
         self.scales.relative(k, row, left, q, v)
     }
 
-    /// The largest residual of any row, of positions or rates, relative to the scale of the guaranteed bound, and its row.
-    pub(super) fn largest_guaranteed<S: System<Vector = V>>(
-        &self,
-        system: &S,
-        workspace: &Workspace<'_, S::Matrix>,
-        (q, v): (&V, &V),
-    ) -> (f64, usize) {
-        let mut most = (0.0, 0);
-        for (k, _) in system.constraints().enumerate() {
-            let [positions, rates] = self.relative(workspace, k, q, v).map(|of| of.guaranteed);
-            let now = if positions > rates { positions } else { rates };
-            if !(now <= most.0) {
-                most = (now, k);
-            }
-        }
-        most
-    }
-
-    /// Checks that the rows that were not chosen agree with the chosen ones; records the residual and the size of the terms.
+    /// Checks that the rows that were not chosen agree with the chosen ones, given the largest residual relative to the scale of the guaranteed
+    /// bound; records this residual and the size of the terms.
     pub(super) fn check_redundant_rows<S: System<Vector = V>>(
         &mut self,
         system: &S,
-        workspace: &Workspace<'_, S::Matrix>,
+        workspace: &mut Workspace<'_, S::Matrix>,
         place: &Unprojected<'_, V>,
+        mut most: (f64, usize),
     ) -> Result<(), StepError> {
         let (q, v) = (&*place.q[0], &*place.v[0]);
-        let mut most = self.largest_guaranteed(system, workspace, (q, v));
         if !(most.0 <= CONTRADICTION) && self.scales.record_drive(system, place.t, q) {
-            most = self.largest_guaranteed(system, workspace, (q, v));
+            let again = self.residuals(system, workspace, place, Changed::Nothing);
+            most = again.guaranteed;
         }
         self.residual = most.0;
         if !(most.0 <= CONTRADICTION) {

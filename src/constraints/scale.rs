@@ -97,8 +97,8 @@ pub(crate) struct Scales<V> {
     terms: [OfRows<V>; 2],
     /// For each row, the change of its terms over the sizes of the coordinates, at the start.
     curvatures: OfRows<V>,
-    /// `√Mⱼⱼ`.
-    inertia: V,
+    /// `Mⱼⱼ`, and its reciprocal; 0 for both of a coordinate without inertia.
+    inertia: [V; 2],
     /// The observed round-off of positions and rates, as a length in the metric of inertia, relative to the round-off unit.
     observed_roundoff: [f64; 2],
 }
@@ -136,7 +136,7 @@ impl<V: Vector> Scales<V> {
             angles,
             terms: [OfRows::new(&zeros), OfRows::new(&zeros)],
             curvatures: OfRows::new(&zeros),
-            inertia: zeros.clone(),
+            inertia: [zeros.clone(), zeros.clone()],
             observed_roundoff: [0.0; 2],
         }
     }
@@ -212,25 +212,30 @@ impl<V: Vector> Scales<V> {
     /// Records the metric from its factor `L`.
     pub fn record_metric(&mut self, l: &[f64]) {
         let n = root(l.len());
-        for (j, inertia) in self.inertia.as_mut_slice().iter_mut().enumerate() {
-            *inertia = sqrt(l[j * n..][..=j].iter().map(|x| x * x).sum());
+        let [inertias, yields] = &mut self.inertia;
+        let both = inertias
+            .as_mut_slice()
+            .iter_mut()
+            .zip(yields.as_mut_slice());
+        for (j, (inertia, yields)) in both.enumerate() {
+            *inertia = l[j * n..][..=j].iter().map(|x| x * x).sum();
+            *yields = if *inertia > 0.0 { 1.0 / *inertia } else { 0.0 };
         }
     }
 
     /// `√Σⱼ Gₖⱼ²/Mⱼⱼ`.
     fn length(&self, row: &[f64]) -> f64 {
-        let by = row.iter().zip(self.inertia.as_slice());
-        let by = by.filter(|(_, inertia)| **inertia > 0.0);
-        sqrt(by.map(|(g, inertia)| (g / inertia) * (g / inertia)).sum())
+        let by = row.iter().zip(self.inertia[1].as_slice());
+        sqrt(by.map(|(g, yields)| g * g * yields).sum())
     }
 
     /// `√Σⱼ Mⱼⱼ vⱼ²` with the largest rates so far.
     fn speed(&self, v: &V) -> f64 {
-        let by = self.inertia.as_slice().iter().zip(self.sizes[1].as_slice());
+        let by = (self.inertia[0].as_slice().iter()).zip(self.sizes[1].as_slice());
         let by = by.zip(v.as_slice());
         let squares = by.map(|((inertia, size), v)| {
-            let part = inertia * size.max(v.abs());
-            part * part
+            let most = size.max(v.abs());
+            inertia * most * most
         });
         sqrt(squares.sum())
     }
@@ -259,6 +264,32 @@ impl<V: Vector> Scales<V> {
         self.relative_to((k, 1), row, left, rates, inertial)
     }
 
+    /// What the residual of the positions of a row is relative to now.
+    pub fn of_positions(&self, k: usize, row: &[f64], q: &V) -> f64 {
+        let positions = self.sum(row, q, 0);
+        positions + self.floor((k, 0), row, positions, self.observed_roundoff[0])
+    }
+
+    /// What the residual of the rates of a row, `left`, is relative to now.
+    pub fn of_rates(&self, k: usize, row: &[f64], left: f64, v: &V) -> f64 {
+        let by_rates: f64 = row.iter().zip(v.as_slice()).map(|(g, v)| g * v).sum();
+        let rates = self.sum(row, v, 1) + (left - by_rates).abs();
+        let inertial = self.observed_roundoff[1] + self.speed(v);
+        rates + self.floor((k, 1), row, rates, inertial)
+    }
+
+    /// The round-off of a row in the metric of inertia, whose terms now are `now`.
+    #[inline(always)]
+    fn floor(&self, (k, level): (usize, usize), row: &[f64], now: f64, inertial: f64) -> f64 {
+        if inertial == 0.0 {
+            return 0.0;
+        }
+        let greatest = now.max(self.terms[level].get(k));
+        // Relative to the largest size of the row.
+        let reach = if now > 0.0 { greatest / now } else { 1.0 };
+        self.length(row) * OF_INERTIA * reach * inertial
+    }
+
     /// A residual relative to the sum of the terms of its row now, and to the largest so far, each with the round-off in the metric of inertia.
     #[inline(always)]
     fn relative_to(
@@ -269,11 +300,8 @@ impl<V: Vector> Scales<V> {
         now: f64,
         inertial: f64,
     ) -> Relative {
-        let within = self.length(row) * OF_INERTIA;
         let greatest = now.max(self.terms[level].get(k));
-        // Relative to the largest size of the row.
-        let reach = if now > 0.0 { greatest / now } else { 1.0 };
-        let floor = within * reach * inertial;
+        let floor = self.floor((k, level), row, now, inertial);
         Relative {
             now: share(left, now + floor),
             guaranteed: share(left, greatest + floor),

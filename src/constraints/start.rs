@@ -148,7 +148,7 @@ impl<V: Vector> Constraints<V> {
                 self.approach(system, workspace, place, &[level])
             });
             match approached {
-                Ok(has_moved) => moved |= has_moved,
+                Ok((has_moved, _)) => moved |= has_moved,
                 Err(error) => {
                     set_state(place, &before);
                     return Err(error);
@@ -156,8 +156,8 @@ impl<V: Vector> Constraints<V> {
             }
         }
         in_workspace(system, place.t, n, |workspace| {
-            self.residuals(system, workspace, place, Changed::All);
-            self.check_redundant_rows(system, workspace, place)
+            let left = self.residuals(system, workspace, place, Changed::All);
+            self.check_redundant_rows(system, workspace, place, left.guaranteed)
         })?;
         Ok(moved)
     }

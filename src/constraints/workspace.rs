@@ -2,6 +2,7 @@
 
 use super::algebra::{backward, cholesky, dot, forward, length, solve_triangle};
 use super::constraint_workspace;
+use crate::math::sqrt;
 use crate::{StepError, System, Vector};
 
 /// The workspace, divided into parts.
@@ -85,7 +86,7 @@ impl<M: Vector> Workspace<'_, M> {
     /// what elimination left of the diagonal.
     pub fn roundoff(&self) -> f64 {
         let least = self.lengths.iter().fold(1.0, |least: f64, x| least.min(*x));
-        8.0 * (self.n + self.m) as f64 * f64::EPSILON / least
+        8.0 * (self.n + self.m) as f64 * f64::EPSILON / sqrt(least)
     }
 
     /// Removes the coordinates that are nonzero in `fixed` from the metric.

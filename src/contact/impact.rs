@@ -163,6 +163,7 @@ impl Meeting {
                 work: drives.work(here, &acting, &mean, response),
             });
         }
+        impacts.sort_by_key(|impact| impact.contact);
         (impacts, change)
     }
 }
@@ -251,7 +252,7 @@ impl UnilateralState {
         let here = self.kinematics(system, (t, q, v));
         let rate = |k: &usize| here.rates[2 * k];
         let may = |k: &usize| touches[*k] && !self.is_compliant(*k) && self.carrier(*k).is_none();
-        let closing = (0..touches.len()).filter(may);
+        let closing = self.in_order().filter(may);
         let fastest = closing.min_by(|a, b| rate(a).total_cmp(&rate(b)));
         let mut next: Vec<bool> = (0..touches.len()).map(|k| Some(k) == fastest).collect();
         self.copy_from_carriers(&mut next);
@@ -351,7 +352,8 @@ impl UnilateralState {
     ) -> Result<Vec<Impact>, StepError> {
         let here = self.kinematics(system, (t, q, v));
         // What opens already has no part in it, nor has what yields: its force is finite.
-        let colliding: Vec<usize> = (0..touches.len())
+        let colliding: Vec<usize> = self
+            .in_order()
             .filter(|&k| touches[k] && !self.is_compliant(self.carrier(k).unwrap_or(k)))
             .filter(|&k| {
                 let is_held = as_held && self.modes()[k] != Mode::Open;
@@ -359,7 +361,8 @@ impl UnilateralState {
             })
             .collect();
         let meeting = Meeting::new(system, (t, q), &here, colliding)?;
-        let impulses = self.impulses((t, &here), &meeting, told)?;
+        let asked = (&meeting.contacts[..], &meeting.g[..], &meeting.before[..]);
+        let impulses = self.impulses((t, &here), asked, told)?;
         let (impacts, change) = meeting.impacts(system, (t, q, v), &here, &impulses);
         for impact in &impacts {
             self.speed = self.speed.max(-impact.gap_rate[0]);
@@ -393,19 +396,13 @@ impl UnilateralState {
         }
     }
 
-    /// The impulses of contacts that meet.
-    fn impulses(
+    /// The impulses of contacts that meet, with the products of the images of their directions and the rates along these before.
+    pub(super) fn impulses(
         &self,
         (t, here): (f64, &ContactKinematics),
-        meeting: &Meeting,
+        (colliding, g, before): (&[usize], &[f64], &[f64]),
         told: &mut Told,
     ) -> Result<Vec<[f64; 2]>, StepError> {
-        let Meeting {
-            contacts: colliding,
-            g,
-            before,
-            ..
-        } = meeting;
         let unsolved = || self.unsolved(colliding, t);
         let width = before.len();
         let mut solved = |known_normal: &[f64], b: &[f64]| -> Result<Answer, StepError> {
@@ -468,7 +465,9 @@ impl UnilateralState {
                     .map(sum)
                     .collect())
             }
-            ImpactLaw::Poisson | ImpactLaw::Stronge => self.single_impulses((t, here), meeting),
+            ImpactLaw::Poisson | ImpactLaw::Stronge => {
+                self.single_impulses((t, here), (colliding, g, before))
+            }
         }
     }
 
@@ -476,12 +475,7 @@ impl UnilateralState {
     fn single_impulses(
         &self,
         (t, here): (f64, &ContactKinematics),
-        Meeting {
-            contacts: colliding,
-            g,
-            before,
-            ..
-        }: &Meeting,
+        (colliding, g, before): (&[usize], &[f64], &[f64]),
     ) -> Result<Vec<[f64; 2]>, StepError> {
         let trouble = |place: usize, trouble| StepError::Contact {
             contact: colliding[place],
@@ -507,7 +501,7 @@ impl UnilateralState {
                 });
                 other != place && pairs.as_flattened().contains(&true)
             };
-            if here.rates[2 * k] >= -here.rate_rounding(2 * k) {
+            if before[2 * place] >= -here.rate_rounding(2 * k) {
                 continue;
             }
             if (0..colliding.len()).any(is_coupled) {

@@ -61,7 +61,7 @@ impl UnilateralState {
         (closed, resting): (&[bool], &[bool]),
     ) -> Result<Option<Jam>, StepError> {
         let At { t, q, v, .. } = at;
-        let closed: Vec<usize> = (0..closed.len()).filter(|k| closed[*k]).collect();
+        let closed: Vec<usize> = self.in_order().filter(|k| closed[*k]).collect();
         let several = closed
             .iter()
             .filter(|k| self.carrier(**k).is_none())

@@ -64,17 +64,6 @@ pub(super) struct OnFace {
     pub beyond_rate: f64,
 }
 
-/// How many numbers of a quantity a contact has, with so many coordinates.
-fn width(quantity: ContactQuantity, n: usize) -> usize {
-    match quantity {
-        ContactQuantity::Gap => 1,
-        ContactQuantity::Rates | ContactQuantity::Bias => 2,
-        ContactQuantity::Rows => 2 * n,
-        ContactQuantity::Coefficients => 4,
-        ContactQuantity::Face => 3,
-    }
-}
-
 /// Writes a quantity of some contacts, one after the other. Of machines that evaluate no single contacts, all are evaluated, in memory `all`.
 /// Of faces `which` are all contacts that have any.
 pub(super) fn write_some<S: System>(
@@ -85,7 +74,7 @@ pub(super) fn write_some<S: System>(
     all: &mut Vec<f64>,
     numbers: &mut Vec<f64>,
 ) {
-    let width = width(quantity, q.as_slice().len());
+    let width = quantity.width(q.as_slice().len());
     numbers.clear();
     numbers.resize(width * which.len(), 0.0);
     if system.single_contacts().is_some() {

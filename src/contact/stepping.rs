@@ -7,31 +7,27 @@
 //!
 //! with everything in the middle of the step; for those that were closed, and are beside it there, by
 //! `0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ + 2/h g ≥ 0`. (J. J. Moreau, *Unilateral contact and dry friction in finite freedom dynamics*, 1988,
-//! section 8.) What then is penetrated at the end of a step is moved out of it by the least that inertia allows (V. Acary,
+//! section 8.) This is the law `newton`, with all contacts at once; with other laws, and with static friction, a step is that of `laws`. What then is
+//! penetrated at the end of a step is moved out of it by the least that inertia allows (V. Acary,
 //! *Projected event-capturing time-stepping schemes for nonsmooth mechanical systems with unilateral contact and Coulomb's
 //! friction*, Comput. Methods Appl. Mech. Eng. 256 (2013) 224–250).
+
+mod laws;
+mod penetration;
 
 use std::vec;
 use std::vec::Vec;
 
-use super::delassus::{Inertia, matrix};
+use super::delassus::Inertia;
 use super::drives::{ActingContact, Drives, DrivesMemory};
+use super::impact::Meeting;
 use super::kinematics::ContactKinematics;
-use super::problem::{self, Answer, ContactUnknowns, SATURATED};
+use super::problem::SATURATED;
 use super::touching::Reaction;
-use super::undetermined;
-use super::{ContactTrouble, Impact, ImpactLaw, ImpactOrder, Mode, UnilateralState};
+use super::{ContactTrouble, Impact, Mode, UnilateralState};
 use crate::at::At;
 use crate::{Singular, StepError, System, Vector};
-
-/// How often a penetration is moved out of, at most: each time squares the remainder.
-const CORRECTIONS: usize = 16;
-
-/// Contacts that are open by no more than so many times the deepest penetration are near it.
-const NEAR: f64 = 8.0;
-
-/// How large the residual of impulses may be.
-const MOST_RESIDUAL: f64 = 1e-8;
+use laws::{ContactsOfStep, ImpulsesOfStep};
 
 /// What contacts did in a step.
 #[derive(Clone, Debug, Default)]
@@ -52,26 +48,12 @@ pub(crate) struct SteppedContacts {
 }
 
 impl UnilateralState {
-    /// Whether time stepping knows the laws of the contacts.
+    /// Whether time stepping knows the laws of the contacts: all rigid ones.
     ///
     /// # Errors
-    /// The first contact whose law it does not know.
-    pub fn check_stepping<S: System>(
-        &self,
-        system: &S,
-        (t, q, v): (f64, &S::Vector, &S::Vector),
-    ) -> Result<(), StepError> {
-        let here = self.kinematics_of_all(system, (t, q, v));
-        let is_known = |k: usize| {
-            let [kinetic, at_rest] = here.friction(k);
-            !self.is_compliant(k) && kinetic == at_rest
-        };
-        let count = self.modes().len();
-        let other = match (self.law, self.order) {
-            (ImpactLaw::Newton, ImpactOrder::AtOnce) => (0..count).find(|k| !is_known(*k)),
-            _ => (0..count).next(),
-        };
-        match other {
+    /// The first contact that yields.
+    pub fn check_stepping(&self, t: f64) -> Result<(), StepError> {
+        match (0..self.modes().len()).find(|k| self.is_compliant(*k)) {
             Some(contact) => Err(StepError::Contact {
                 contact,
                 trouble: ContactTrouble::NotStepped,
@@ -112,38 +94,45 @@ impl UnilateralState {
                 0.0
             }
         };
-        let active: Vec<usize> = (0..count).filter(is_active).collect();
+        let active: Vec<usize> = self.in_order().filter(is_active).collect();
         let mut modes = vec![Mode::Open; count];
         let mut forces = vec![[0.0; 2]; count];
         if active.is_empty() {
             self.set_stepped(modes, forces);
             return Ok(SteppedContacts::default());
         }
-        let singular = |singular: Singular| StepError::Singular { singular, t };
-        let inertia = Inertia::new(system, t, q).map_err(singular)?;
-        let directions: Vec<usize> = active.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
-        let images: Vec<Vec<f64>> = (directions.iter())
-            .map(|direction| inertia.image(here.row(*direction)))
-            .collect();
-        let g = matrix(&images);
+        let meeting = Meeting::new(system, (t, q), &here, active)?;
+        let Meeting {
+            contacts: active,
+            directions,
+            inertia,
+            images,
+            g,
+            ..
+        } = &meeting;
+        let free: Vec<f64> = directions.iter().map(|d| free[*d]).collect();
         let ways_back: Vec<f64> = active.iter().map(|k| way_back(*k)).collect();
-        let impulses = |has_restitution: bool| {
-            let contacts = (&active[..], &ways_back[..]);
-            self.impulses_of_step((&here, h), contacts, (&g, &free), has_restitution)
-        };
-        let with_restitution = impulses(true);
-        let is_jammed = with_restitution.is_none();
-        let answer = with_restitution.or_else(|| impulses(false));
-        let answer = answer.ok_or(StepError::Contact {
-            contact: active[0],
-            trouble: ContactTrouble::Unsettled,
+        let contacts_of_step = ContactsOfStep {
+            touching: self,
+            here: &here,
+            meeting: &meeting,
             t,
-        })?;
+            h,
+            free: &free,
+            ways_back: &ways_back,
+        };
+        let ImpulsesOfStep {
+            all: impulses,
+            last,
+            rests,
+            shared_otherwise,
+            jammed,
+        } = contacts_of_step.impulses()?;
 
         let energy_free = system.kinetic_energy(t, q, v);
         // The impulses along the changes of the rates that are not theirs.
         let mut known_normal = 0.0;
-        for (&direction, impulse) in directions.iter().zip(answer.forces.as_flattened()) {
+        for (&direction, impulse) in directions.iter().zip(impulses.as_flattened()) {
             let row = here.row(direction).iter();
             let terms = row.zip(before.as_slice().iter().zip(v.as_slice()));
             known_normal += impulse
@@ -151,7 +140,7 @@ impl UnilateralState {
                     .map(|(w, (before, free))| w * (before - free))
                     .sum::<f64>();
         }
-        let change = inertia.response(&images, answer.forces.iter().flatten().copied());
+        let change = inertia.response(images, impulses.iter().flatten().copied());
         for (v, by) in v.as_mut_slice().iter_mut().zip(change) {
             *v += by;
         }
@@ -162,24 +151,20 @@ impl UnilateralState {
         }
         let mut memory = DrivesMemory::new(q);
         let mut drives = Drives::new(system, (t, q), &mut memory);
-        let shared_otherwise = answer.shared_otherwise.iter();
+        let contacts_at = |places: Vec<usize>| places.into_iter().map(|place| active[place]);
         let mut stepped = SteppedContacts {
-            shared_otherwise: shared_otherwise.map(|place| active[*place]).collect(),
-            jammed: if is_jammed {
-                active.clone()
-            } else {
-                Vec::new()
-            },
+            shared_otherwise: contacts_at(shared_otherwise).collect(),
+            jammed: contacts_at(jammed).collect(),
             ..SteppedContacts::default()
         };
         // The rates of all directions with the impulses.
-        let after: Vec<f64> = (directions.iter().zip(g.chunks_exact(directions.len())))
-            .map(|(direction, row)| {
-                let by = row.iter().zip(answer.forces.as_flattened());
-                free[*direction] + by.map(|(g, i)| g * i).sum::<f64>()
+        let after: Vec<f64> = (free.iter().zip(g.chunks_exact(directions.len())))
+            .map(|(free, row)| {
+                let by = row.iter().zip(impulses.as_flattened());
+                free + by.map(|(g, i)| g * i).sum::<f64>()
             })
             .collect();
-        for (place, (&k, &impulse)) in active.iter().zip(&answer.forces).enumerate() {
+        for (place, (&k, &impulse)) in active.iter().zip(&impulses).enumerate() {
             let [gap_rate, slip] =
                 [0, 1].map(|part| [here.rates[2 * k + part], after[2 * place + part]]);
             // Of contacts that share a load some may press and some not, from step to step: what does not open is closed.
@@ -192,8 +177,10 @@ impl UnilateralState {
                 * (impulse[0] * (gap_rate[0] + gap_rate[1]) + impulse[1] * (slip[0] + slip[1]));
             modes[k] = if self.first(k) != k {
                 modes[k - 1]
+            } else if rests[place] {
+                Mode::Sticks
             } else {
-                self.mode_after_step(&here, (k, place), (&answer.forces, &after))
+                self.mode_after_step(&here, (k, place), (&last, &after))
             };
             forces[k] = impulse.map(|impulse| impulse / h);
             stepped.lost += loss;
@@ -212,6 +199,7 @@ impl UnilateralState {
                 work: drives.work(&here, &acting, &mean, response),
             });
         }
+        stepped.impacts.sort_by_key(|impact| impact.contact);
         if !stepped.impacts.is_empty() {
             // What the impulses did to the rates in the mean of the step; that beyond the losses is done by what moves.
             let gained = system.kinetic_energy(t, q, v) - energy_free + 0.5 * known_normal;
@@ -219,38 +207,6 @@ impl UnilateralState {
         }
         self.set_stepped(modes, forces);
         Ok(stepped)
-    }
-
-    /// The impulses of the contacts that are active in a step of length `h`, with the rates that there would be at its end without them; none if no impulses
-    /// obey the law, or that without restitution. `ways_back` are the rates at which contacts may close that are beside what they touch.
-    fn impulses_of_step(
-        &self,
-        (here, h): (&ContactKinematics, f64),
-        (active, ways_back): (&[usize], &[f64]),
-        (g, free): (&[f64], &[f64]),
-        has_restitution: bool,
-    ) -> Option<Answer> {
-        let share = f64::from(u8::from(has_restitution));
-        let directions = active.iter().flat_map(|k| [2 * k, 2 * k + 1]);
-        let mut b: Vec<f64> = directions
-            .map(|d| free[d] + share * here.restitution(d / 2)[d % 2] * here.rates[d])
-            .collect();
-        for (normal, way_back) in b.iter_mut().step_by(2).zip(ways_back) {
-            *normal += way_back;
-        }
-        let none = vec![0.0; active.len()];
-        let unknowns: Vec<ContactUnknowns> = (active.iter().enumerate())
-            .map(|(place, &k)| self.unknowns_of_impact(here, (place, k), &none))
-            .collect();
-        // Most contacts do what they did in the step before.
-        let near: Vec<[f64; 2]> = (active.iter())
-            .map(|k| match self.stepped() {
-                Some(forces) => forces[*k].map(|force| h * force),
-                None => [0.0; 2],
-            })
-            .collect();
-        let answer = undetermined::solve_for_motion(&unknowns, g, &b, &near).ok()?;
-        (answer.residual <= MOST_RESIDUAL).then_some(answer)
     }
 
     /// What a contact did in a step that is not the second tangent of another one, with the impulses of those that touched, among which it has this place, and
@@ -296,68 +252,6 @@ impl UnilateralState {
         } else {
             Mode::Sticks
         }
-    }
-
-    /// Moves the end of a step out of what it has penetrated. Says which contacts have been penetrated.
-    ///
-    /// # Errors
-    /// Where the mass matrix is singular, or there is no way out.
-    pub fn resolve_penetration<S: System>(
-        &self,
-        system: &S,
-        t: f64,
-        q: &mut S::Vector,
-        v: &S::Vector,
-    ) -> Result<Vec<usize>, StepError> {
-        let mut penetrated = Vec::new();
-        for _ in 0..CORRECTIONS {
-            let here = self.kinematics(system, (t, q, v));
-            let is_deep = |k: &usize| {
-                let gap = here.gaps[*k];
-                self.carrier(*k).is_none() && gap < 0.0 && gap < -0.5 * here.gap_rounding(*k)
-            };
-            let deep: Vec<usize> = (0..here.gaps.len()).filter(is_deep).collect();
-            if deep.is_empty() {
-                break;
-            }
-            let deepest = deep
-                .iter()
-                .fold(0.0, |most, k| f64::max(most, -here.gaps[*k]));
-            penetrated.extend(deep);
-            // What is near takes part, lest what is moved out of one penetrates the other.
-            let touching: Vec<usize> = (0..here.gaps.len())
-                .filter(|k| self.carrier(*k).is_none())
-                .filter(|k| here.gaps[*k] <= NEAR * deepest || here.is_gap_closed(*k))
-                .filter(|k| here.is_within(*k, q.as_slice()))
-                .collect();
-            let singular = |singular: Singular| StepError::Singular { singular, t };
-            let inertia = Inertia::new(system, t, q).map_err(singular)?;
-            // The tangents have rows and columns of zeros: nothing is asked of them.
-            let none = vec![0.0; here.n];
-            let images: Vec<Vec<f64>> = (touching.iter())
-                .flat_map(|k| [inertia.image(here.row(2 * k)), none.clone()])
-                .collect();
-            let gaps: Vec<f64> = touching
-                .iter()
-                .flat_map(|k| [here.height(*k), 0.0])
-                .collect();
-            let unknowns = vec![ContactUnknowns::Normal { share: 0.0 }; touching.len()];
-            let unsolved = |_| StepError::Contact {
-                contact: touching[0],
-                trouble: ContactTrouble::Unsettled,
-                t,
-            };
-            // Where to move does not depend on how contacts share the displacement.
-            let answer =
-                problem::solve(&unknowns, &matrix(&images), &gaps, None).map_err(unsolved)?;
-            let by = inertia.response(&images, answer.forces.iter().flatten().copied());
-            for (q, by) in q.as_mut_slice().iter_mut().zip(by) {
-                *q += by;
-            }
-        }
-        penetrated.sort_unstable();
-        penetrated.dedup();
-        Ok(penetrated)
     }
 
     /// Accelerations with the forces of the last step.

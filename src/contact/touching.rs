@@ -8,6 +8,8 @@ mod reaction;
 mod settled;
 mod shared;
 
+use core::cmp::Ordering;
+use std::string::String;
 use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
@@ -66,13 +68,15 @@ impl Mode {
     }
 }
 
-pub(crate) use crate::friction::Margin;
+pub(crate) use crate::contact_law::Margin;
 
 /// What a run knows of its unilateral contacts.
 #[derive(Clone, Debug)]
 pub(crate) struct UnilateralState {
     modes: Vec<Mode>,
     has_friction: Vec<bool>,
+    /// The contacts in the order in which problems are written: see [`order_of_problems`].
+    order_of_problems: Arc<[usize]>,
     /// How large each coordinate is at least as part of a gap.
     least_sizes: Arc<[f64]>,
     /// The contacts with faces of polygons.
@@ -122,6 +126,44 @@ impl Clone for LatestKinematics {
     }
 }
 
+/// The contacts of a machine in the order of their names, each followed by what leans on it. A problem of several contacts may have several solutions, and which of
+/// them is found depends on the order of its unknowns. In this order it does not depend on the order in which a spec lists the contacts.
+fn order_of_problems<S: System>(system: &S) -> Arc<[usize]> {
+    let contacts: Vec<_> = system.unilateral_contacts().collect();
+    let leans = |k: usize| contacts[k].is_rolling_resistance || contacts[k].is_second_tangent;
+    let mut own: Vec<usize> = (0..contacts.len()).filter(|k| !leans(*k)).collect();
+    own.sort_by(|a, b| by_words_and_numbers(contacts[*a].name, contacts[*b].name));
+    let with_leaning = |k: usize| {
+        let end = (k + 1..contacts.len()).find(|next| !leans(*next));
+        k..end.unwrap_or(contacts.len())
+    };
+    own.into_iter().flat_map(with_leaning).collect()
+}
+
+/// Compares names, with the numbers in them by their values: members of a family are in their order.
+fn by_words_and_numbers(a: &str, b: &str) -> Ordering {
+    let parts = |name: &'_ str| -> Vec<(usize, String)> {
+        let is_digit = |c: char| c.is_ascii_digit();
+        let mut parts = Vec::new();
+        let mut rest = name;
+        while let Some(first) = rest.chars().next() {
+            let end = rest.find(|c| is_digit(c) != is_digit(first));
+            let (part, next) = rest.split_at(end.unwrap_or(rest.len()));
+            // A longer number without leading zeros is greater.
+            let part = if is_digit(first) {
+                part.trim_start_matches('0')
+            } else {
+                part
+            };
+            let length = if is_digit(first) { part.len() } else { 0 };
+            parts.push((length, part.into()));
+            rest = next;
+        }
+        parts
+    };
+    parts(a).cmp(&parts(b)).then_with(|| a.cmp(b))
+}
+
 impl UnilateralState {
     /// All contacts open.
     pub fn new<S: System>(system: &S) -> UnilateralState {
@@ -163,6 +205,7 @@ impl UnilateralState {
             turning: 0.0,
             openings: vec![0.0; has_friction.len()],
             beginning_slips: vec![0.0; has_friction.len()],
+            order_of_problems: order_of_problems(system),
             carrier,
             across,
             has_friction,
@@ -248,15 +291,14 @@ impl UnilateralState {
     }
 
     /// Finds out which contacts are near in a step that stays in this box, and after it; and in what surrounds it by so many times its greatest width.
-    /// Machines with layers that are crushed evaluate all contacts: what is not pressed has a state too.
+    /// A layer presses only where its gap is not positive, however much of it has been crushed: the surface of it recedes.
     pub fn keep_near<S: System>(
         &mut self,
         system: &S,
         surroundings: f64,
         step: impl FnOnce() -> StateBox,
     ) {
-        let has_layers = (0..self.modes.len()).any(|k| self.is_layer(k));
-        let Some(gap_arguments) = system.single_contacts().filter(|_| !has_layers) else {
+        let Some(gap_arguments) = system.single_contacts() else {
             return;
         };
         if self.nearby.as_mut().is_some_and(Nearby::pauses) {
@@ -330,6 +372,11 @@ impl UnilateralState {
 
     pub fn modes(&self) -> &[Mode] {
         &self.modes
+    }
+
+    /// The contacts in the order in which problems are written.
+    pub fn in_order(&self) -> impl Iterator<Item = usize> + '_ {
+        self.order_of_problems.iter().copied()
     }
 
     pub fn set_modes(&mut self, modes: Vec<Mode>) {

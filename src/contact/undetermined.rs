@@ -13,18 +13,18 @@
 //! Where all contacts press, these are the normal forces with the least sum of squares of all that are in equilibrium with the same forces.
 //! They depend neither on the coordinates nor on the order in which contacts are listed.
 
+mod distribution;
+
 use std::vec;
 use std::vec::Vec;
 
 use super::lcp::{self, Unsolved};
 use super::problem::{self, Answer, ContactUnknowns};
-use crate::friction::shares::{self, PARTS};
+use crate::contact_law::shares::{self, PARTS};
+pub(super) use distribution::OpenForces;
 
 /// What counts as zero in forces that keep each other in equilibrium, relative to the greatest of them.
 const ZERO: f64 = 1e-10;
-
-/// Forces below this, relative to the greatest one, press nothing.
-const PRESSES: f64 = 1e-12;
 
 /// Forces whose effect on accelerations is below this, relative to the sum of the effects of each, are in equilibrium.
 const EQUILIBRIUM: f64 = 1e-9;
@@ -88,124 +88,6 @@ fn greatest(values: &[f64]) -> f64 {
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// The equations of forces of contacts whose states are known, which leave some of them undetermined.
-pub(super) struct OpenForces<'a> {
-    /// The change of all forces for each undetermined one.
-    pub by: &'a [Vec<f64>],
-    /// `Wᵀ M⁻¹ W` for the directions of the forces, whatever friction follows them.
-    pub g: &'a [f64],
-    /// Which of them are normal forces.
-    pub is_normal: &'a [bool],
-}
-
-impl OpenForces<'_> {
-    /// Adds what the rule adds to the forces; the answer is which of them are normal forces that it sets to 0.
-    pub fn distribute(&self, forces: &mut [f64]) -> Vec<bool> {
-        let n = forces.len();
-        let mut opens = vec![false; n];
-        let mut pressing = self.pressing(&opens);
-        if pressing.is_empty() {
-            return opens;
-        }
-        let given = forces.to_vec();
-        // Each contact opens or presses; as in principal pivoting one state at a time is corrected, the worst one.
-        for _ in 0..4 * n + 8 {
-            forces.copy_from_slice(&given);
-            self.put(forces, &pressing, &opens);
-            let size = greatest(forces);
-            let is_shared = |i: &usize| pressing.iter().any(|kappa| kappa[*i] != 0.0);
-            let pulling = (0..n)
-                .filter(|i| self.is_normal[*i] && !opens[*i])
-                .filter(is_shared)
-                .min_by(|a, b| forces[*a].total_cmp(&forces[*b]));
-            if let Some(i) = pulling.filter(|i| forces[*i] < -PRESSES * size) {
-                opens[i] = true;
-                pressing = self.pressing(&opens);
-                continue;
-            }
-            // What the small motion of the others makes of the penetration of an open one.
-            let penetration = |i: usize| {
-                let mut others = opens.clone();
-                others[i] = false;
-                let pressing = self.pressing(&others);
-                let kappa = pressing.iter().find(|kappa| kappa[i] != 0.0)?;
-                let rest: f64 = (0..n)
-                    .filter(|j| *j != i && self.is_normal[*j] && !opens[*j])
-                    .map(|j| kappa[j] * forces[j])
-                    .sum();
-                Some(-rest / kappa[i])
-            };
-            let pressed = (0..n)
-                .filter(|i| opens[*i])
-                .filter_map(|i| Some((penetration(i)?, i)))
-                .max_by(|a, b| a.0.total_cmp(&b.0));
-            match pressed {
-                Some((depth, i)) if depth > PRESSES * size => {
-                    opens[i] = false;
-                    pressing = self.pressing(&opens);
-                }
-                _ => break,
-            }
-        }
-        opens
-    }
-
-    /// Forces in equilibrium in which normal forces take part, without those of some contacts.
-    fn pressing(&self, opens: &[bool]) -> Vec<Vec<f64>> {
-        let n = opens.len();
-        let kept: Vec<usize> = (0..n).filter(|i| !opens[*i]).collect();
-        let g: Vec<f64> = kept
-            .iter()
-            .flat_map(|i| kept.iter().map(move |j| self.g[i * n + j]))
-            .collect();
-        let basis = in_equilibrium(&g, kept.len()).into_iter().map(|vector| {
-            let mut whole = vec![0.0; n];
-            for (i, x) in kept.iter().zip(vector) {
-                whole[*i] = if self.is_normal[*i] { x } else { 0.0 };
-            }
-            whole
-        });
-        basis
-            .filter(|vector| vector.iter().any(|x| *x != 0.0))
-            .collect()
-    }
-
-    /// Adds to the forces what makes them fulfil the conditions: `κₙ·λ = 0`, and none of those that open.
-    fn put(&self, forces: &mut [f64], pressing: &[Vec<f64>], opens: &[bool]) {
-        let conditions =
-            pressing
-                .iter()
-                .cloned()
-                .chain((0..opens.len()).filter(|i| opens[*i]).map(|i| {
-                    (0..opens.len())
-                        .map(|j| f64::from(u8::from(i == j)))
-                        .collect()
-                }));
-        let d = self.by.len();
-        let (mut left, mut right) = (vec![0.0; d * d], vec![0.0; d]);
-        for condition in conditions {
-            let scale = 1.0 / greatest(&condition);
-            let row: Vec<f64> = (self.by.iter())
-                .map(|by| scale * dot(&condition, by) / greatest(by))
-                .collect();
-            let missed = scale * dot(&condition, forces);
-            for (i, x) in row.iter().enumerate() {
-                right[i] -= x * missed;
-                for (j, y) in row.iter().enumerate() {
-                    left[i * d + j] += x * y;
-                }
-            }
-        }
-        let (added, _) = lcp::solve(&mut left, &mut right);
-        for (added, by) in added.iter().zip(self.by) {
-            let size = greatest(by);
-            for (force, by) in forces.iter_mut().zip(by) {
-                *force += added * by / size;
-            }
-        }
-    }
 }
 
 /// The effect of forces along images, in axes in which the square of its length is twice the power that goes into it, and the sum of the sizes of its terms.
@@ -272,7 +154,11 @@ fn sharing_contacts(
             ContactUnknowns::Tangent { friction, normal } => (false, friction * normal > 0.0),
             ContactUnknowns::OnCarrier { friction, .. } => (false, *friction > 0.0),
             ContactUnknowns::SecondTangent => (false, has_friction),
-            ContactUnknowns::Nothing | ContactUnknowns::ShareOfCarrier { .. } => (false, false),
+            // The reaction of a guide is not undetermined, and how its friction is shared is a question of its own.
+            ContactUnknowns::Nothing
+            | ContactUnknowns::ShareOfCarrier { .. }
+            | ContactUnknowns::Guide { .. }
+            | ContactUnknowns::SlidingGuide { .. } => (false, false),
         };
         has_friction = tangent;
         directions.extend((normal && may_be_held(2 * k)).then_some(2 * k));
@@ -356,8 +242,11 @@ pub(super) fn solve_for_motion(
     b: &[f64],
     near: &[[f64; 2]],
 ) -> Result<Answer, Unsolved> {
-    let some = problem::solve(contacts, g, b, Some(near));
-    let some = some.or_else(|_| problem::solve(contacts, g, b, None));
+    let mut some = problem::solve(contacts, g, b, Some(near));
+    // In the plane that has looked for a solution anywhere.
+    if some.is_err() && is_in_space(contacts) {
+        some = problem::solve(contacts, g, b, None);
+    }
     let mut depends = Vec::new();
     if let Ok(answer) = &some {
         depends = motion_depends_on(contacts, (g, b), &answer.forces);
@@ -377,6 +266,11 @@ pub(super) fn solve_for_motion(
             ..answer
         }),
     }
+}
+
+/// Whether some contact has a second tangent.
+fn is_in_space(contacts: &[ContactUnknowns]) -> bool {
+    (contacts.iter()).any(|k| matches!(k, ContactUnknowns::SecondTangent))
 }
 
 /// The contacts on whose distribution of a load the motion depends: those of which one slips whose normal force others depend on, along the directions
@@ -414,7 +308,10 @@ fn following(contacts: &[ContactUnknowns], is_held: impl Fn(usize) -> bool) -> V
         ContactUnknowns::Normal { share } => (share != 0.0).then_some(k),
         ContactUnknowns::ShareOfCarrier { share, on } => (share != 0.0).then_some(on),
         ContactUnknowns::SecondTangent => (k > 0 && slips(k)).then(|| k - 1),
-        ContactUnknowns::Tangent { .. } | ContactUnknowns::Nothing => None,
+        ContactUnknowns::Tangent { .. }
+        | ContactUnknowns::Nothing
+        | ContactUnknowns::Guide { .. }
+        | ContactUnknowns::SlidingGuide { .. } => None,
     };
     (0..contacts.len()).filter_map(follows).collect()
 }
@@ -436,7 +333,7 @@ fn distributed(
         b,
         inverse_masses: &inverse_masses(groups, g, contacts.len()),
     };
-    let in_space = (contacts.iter()).any(|k| matches!(k, ContactUnknowns::SecondTangent));
+    let in_space = is_in_space(contacts);
     let is_good = |answer: &Answer| answer.residual <= tolerable;
     let found = |returns| {
         let found = yielding.stiffened(start, (in_space, returns), tolerable);

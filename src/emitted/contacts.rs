@@ -1,33 +1,33 @@
 //! Numbers of single contacts of an emitted machine.
 
 use crate::ContactQuantity;
-use crate::scalar::Interval;
+use crate::scalar::{Interval, Scalar};
 
 /// How a quantity of a contact is computed: by which function, of which arguments, and where its results stand among the
 /// numbers of the contact, of which the others are 0. An argument is a number of `q`, of `v` or of [`ContactParts::prepared`], counted in this
 /// order. A part without results has no function.
 pub type ContactPart = (u32, &'static [u32], &'static [u32]);
 
-/// The parts of the contacts of a machine whose functions have `L` arguments.
-pub struct ContactParts<'a, const L: usize> {
+/// The parts of the contacts of a machine whose functions have `L` arguments, in numbers of one type.
+pub struct ContactParts<'a, N, const L: usize> {
     /// For each quantity, in the order of [`ContactQuantity`], the part of each contact.
     pub parts: &'static [&'static [ContactPart]],
     /// The prepared values that are arguments.
-    pub prepared: &'a [f64],
+    pub prepared: &'a [N],
     /// Calls a function at a time, and puts its results into places among numbers.
-    pub call: fn(u32, f64, &[f64; L], &[u32], &mut [f64]),
+    pub call: fn(u32, N, &[N; L], &[u32], &mut [N]),
 }
 
-impl<const L: usize> ContactParts<'_, L> {
+impl<N: Scalar, const L: usize> ContactParts<'_, N, L> {
     /// Writes a quantity of some contacts, one after the other; each has as many numbers.
     pub fn write(
         &self,
         quantity: ContactQuantity,
         which: &[usize],
-        (t, q, v): (f64, &[f64], &[f64]),
-        numbers: &mut [f64],
+        (t, q, v): (N, &[N], &[N]),
+        numbers: &mut [N],
     ) {
-        numbers.fill(0.0);
+        numbers.fill(N::ZERO);
         let Some(parts) = self.parts.get(quantity as usize) else {
             return;
         };
@@ -39,7 +39,7 @@ impl<const L: usize> ContactParts<'_, L> {
             if places.is_empty() {
                 continue;
             }
-            let mut values = [0.0; L];
+            let mut values = [N::ZERO; L];
             for (value, argument) in values.iter_mut().zip(*arguments) {
                 let argument = *argument as usize;
                 let (of_rates, of_prepared) = (q.len(), q.len() + v.len());
@@ -50,25 +50,31 @@ impl<const L: usize> ContactParts<'_, L> {
                 } else {
                     self.prepared.get(argument - of_prepared)
                 };
-                *value = source.copied().unwrap_or(f64::NAN);
+                // Not a number, where the table of another machine were used.
+                *value = source.copied().unwrap_or(N::ZERO / N::ZERO);
             }
             (self.call)(*function, t, &values, places, numbers);
         }
     }
 }
 
-/// Puts results into their places.
-pub fn put(results: &[f64], places: &[u32], numbers: &mut [f64]) {
-    for (result, place) in results.iter().zip(places) {
-        if let Some(number) = numbers.get_mut(*place as usize) {
-            *number = *result;
+impl<const L: usize> ContactParts<'_, Interval, L> {
+    /// Writes a lower bound of the gap of each contact.
+    pub fn write_least_gaps(&self, (t, q): (Interval, &[Interval]), least: &mut [f64]) {
+        for (contact, least) in least.iter_mut().enumerate() {
+            let mut gap = [Interval::UNKNOWN];
+            // Gaps do not depend on rates.
+            self.write(ContactQuantity::Gap, &[contact], (t, q, q), &mut gap);
+            *least = gap[0].lo();
         }
     }
 }
 
-/// Writes the lower bounds of intervals.
-pub fn fill_least(to: &mut [f64], from: &[Interval]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = from.lo();
+/// Puts results into their places.
+pub fn put<N: Copy>(results: &[N], places: &[u32], numbers: &mut [N]) {
+    for (result, place) in results.iter().zip(places) {
+        if let Some(number) = numbers.get_mut(*place as usize) {
+            *number = *result;
+        }
     }
 }

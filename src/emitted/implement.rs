@@ -364,10 +364,8 @@ macro_rules! implement_part {
     (rounded q $p:tt $t:ident $q:ident $v:ident) => { &$q.map($crate::emitted::rounded) };
     (rounded v $p:tt $t:ident $q:ident $v:ident) => { &$v.map($crate::emitted::rounded) };
 
-    // An argument of gaps, as an interval between two values, or of its rounding.
-    (between p $p:tt $t:ident $q:ident) => { &$p.rounded() };
-    (between t $p:tt $t:ident $q:ident) => { $crate::scalar::Interval::new($t[0], $t[1]) };
-    (between q $p:tt $t:ident $q:ident) => { &$crate::emitted::intervals($q) };
+    // The prepared values that gaps depend on, as intervals of their rounding.
+    (between p $p:tt) => { &$p.rounded() };
 }
 
 /// A method of `System`, by the kind of its result.
@@ -535,6 +533,13 @@ macro_rules! implement_method {
         }
     };
 
+    // A bit for each of some things.
+    ($types:tt bits $method:ident($p:ident) = $value:expr) => {
+        fn $method(&self) -> ::core::primitive::u64 {
+            $value
+        }
+    };
+
     // Unilateral contacts.
     ($types:tt contacts $method:ident($p:ident) = $value:expr) => {
         fn $method(
@@ -571,7 +576,7 @@ macro_rules! implement_method {
         }
     };
 
-    // Lower bounds of gaps; the arguments are those that the gaps depend on.
+    // Lower bounds of gaps, by a `ContactParts` in intervals; prepared values are an argument where gaps depend on them.
     (
         [$n:literal $Inputs:ident $Outputs:ident] least $method:ident($($x:ident),*) = $value:expr
     ) => {
@@ -581,8 +586,10 @@ macro_rules! implement_method {
             q: [&[::core::primitive::f64; $n]; 2],
             result: &mut [::core::primitive::f64],
         ) {
-            $(let $x = $crate::implement_part!(between $x self t q);)*
-            $crate::emitted::fill_least(result, &$value);
+            let t = $crate::scalar::Interval::new(t[0], t[1]);
+            let q = $crate::emitted::intervals(q);
+            $(let $x = $crate::implement_part!(between $x self);)*
+            $value.write_least_gaps((t, &q), result);
         }
     };
 
@@ -618,57 +625,24 @@ macro_rules! implement_method {
 
     // The Taylor series of the motion, with a call as a value.
     (
-        [$n:literal $Inputs:ident $Outputs:ident]
+        $types:tt
         series $method:ident($p:ident, $t:ident, $q:ident, $v:ident, $u:ident, $coefficients:ident)
             = $value:expr
     ) => {
-        fn check_series(&self) -> ::core::result::Result<(), &::core::primitive::str> {
-            ::core::result::Result::Ok(())
-        }
-
-        fn $method(
-            &self,
-            $t: [::core::primitive::f64; 2],
-            $q: &[::core::primitive::f64; $n],
-            $v: &[::core::primitive::f64; $n],
-            $u: &$Inputs,
-            $coefficients: &mut [[::core::primitive::f64; $n]],
-        ) -> ::core::result::Result<(), $crate::emitted::Singular> {
-            let $p = self;
-            let known = $crate::emitted::series::ROWS;
-            for row in $coefficients.iter_mut().skip(known) {
-                *row = [::core::primitive::f64::NAN; $n];
-            }
-            <::core::primitive::f64 as $crate::emitted::Number>::run($value)
+        $crate::implement_method! {
+            $types expansion $method($p, $t, $q, $v, $u, $coefficients) [] = $value
         }
     };
 
-    // The same with lists that it writes and need not be cleared.
+    // A Taylor series that writes lists which need not be cleared: with lists of its own, and with those that the caller keeps.
     (
         [$n:literal $Inputs:ident $Outputs:ident]
         series_in_lists $method:ident(
             $p:ident, $t:ident, $q:ident, $v:ident, $u:ident, $lists:ident, $coefficients:ident
         ) = $value:expr
     ) => {
-        fn check_series(&self) -> ::core::result::Result<(), &::core::primitive::str> {
-            ::core::result::Result::Ok(())
-        }
-
-        fn $method(
-            &self,
-            $t: [::core::primitive::f64; 2],
-            $q: &[::core::primitive::f64; $n],
-            $v: &[::core::primitive::f64; $n],
-            $u: &$Inputs,
-            $coefficients: &mut [[::core::primitive::f64; $n]],
-        ) -> ::core::result::Result<(), $crate::emitted::Singular> {
-            let $p = self;
-            let known = $crate::emitted::series::ROWS;
-            for row in $coefficients.iter_mut().skip(known) {
-                *row = [::core::primitive::f64::NAN; $n];
-            }
-            let $lists = &mut ::core::default::Default::default();
-            <::core::primitive::f64 as $crate::emitted::Number>::run($value)
+        $crate::implement_method! {
+            [$n $Inputs $Outputs] expansion $method($p, $t, $q, $v, $u, $coefficients) [$lists] = $value
         }
 
         fn series_with(
@@ -683,13 +657,35 @@ macro_rules! implement_method {
             $coefficients: &mut [[::core::primitive::f64; $n]],
         ) -> ::core::result::Result<(), $crate::emitted::Singular> {
             let $p = self;
-            let known = $crate::emitted::series::ROWS;
             let ::core::option::Option::Some($lists) = memory.lists() else {
                 return $p.$method($t, $q, $v, $u, $coefficients);
             };
-            for row in $coefficients.iter_mut().skip(known) {
-                *row = [::core::primitive::f64::NAN; $n];
-            }
+            $crate::emitted::series::leave_out_late_rows($coefficients);
+            <::core::primitive::f64 as $crate::emitted::Number>::run($value)
+        }
+    };
+
+    // What every machine with a Taylor series has, with lists that are made for a call if it needs any.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        expansion $method:ident($p:ident, $t:ident, $q:ident, $v:ident, $u:ident, $coefficients:ident)
+            [$($lists:ident)?] = $value:expr
+    ) => {
+        fn check_series(&self) -> ::core::result::Result<(), &::core::primitive::str> {
+            ::core::result::Result::Ok(())
+        }
+
+        fn $method(
+            &self,
+            $t: [::core::primitive::f64; 2],
+            $q: &[::core::primitive::f64; $n],
+            $v: &[::core::primitive::f64; $n],
+            $u: &$Inputs,
+            $coefficients: &mut [[::core::primitive::f64; $n]],
+        ) -> ::core::result::Result<(), $crate::emitted::Singular> {
+            let $p = self;
+            $crate::emitted::series::leave_out_late_rows($coefficients);
+            $(let $lists = &mut ::core::default::Default::default();)?
             <::core::primitive::f64 as $crate::emitted::Number>::run($value)
         }
     };

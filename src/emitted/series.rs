@@ -9,6 +9,14 @@ use crate::{Scalar, Singular};
 /// The largest number of coefficients of each coordinate that emitted code computes; [`TAYLOR`](crate::TAYLOR) needs 22.
 pub const ROWS: usize = SERIES_ROWS;
 
+/// Marks the rows of coefficients beyond those that emitted code computes as not computed.
+#[inline(always)]
+pub fn leave_out_late_rows<const N: usize>(coefficients: &mut [[f64; N]]) {
+    for row in coefficients.iter_mut().skip(ROWS) {
+        *row = [f64::NAN; N];
+    }
+}
+
 /// Coefficients of `P` lists side by side, order by order, aligned to cache lines so that a vector register is loaded in one piece.
 #[repr(align(64))]
 pub struct Pack<S, const P: usize>(pub [[S; P]; ROWS]);

@@ -147,35 +147,26 @@ impl Display for Warning {
                 t,
                 contacts,
                 instants,
-            } => {
-                write!(
-                    f,
-                    "the friction of {} admitted no motion with their slips or their restitution at t = {t} s: they stopped, or met without restitution",
-                    quoted(contacts),
-                    t = ShortNumber(*t)
-                )?;
-                match instants {
-                    0 | 1 => Ok(()),
-                    more => write!(f, "; there were {more} such instants"),
-                }
-            }
+            } => write!(
+                f,
+                "the friction of {} admitted no motion with their slips or their restitution at t = {t} s: they stopped, or met without \
+                 restitution{}",
+                quoted(contacts),
+                InstantsOfMany(*instants),
+                t = ShortNumber(*t)
+            ),
             Self::LoadShared {
                 t,
                 contacts,
                 instants,
-            } => {
-                write!(
-                    f,
-                    "the motion depends on how {} share their load at t = {t} s: the distribution of contacts that all yield alike \
-                     could not be computed, and another possible one was taken",
-                    quoted(contacts),
-                    t = ShortNumber(*t)
-                )?;
-                match instants {
-                    0 | 1 => Ok(()),
-                    more => write!(f, "; there were {more} such instants"),
-                }
-            }
+            } => write!(
+                f,
+                "the motion depends on how {} share their load at t = {t} s: the distribution of contacts that all yield alike \
+                 could not be computed, and another possible one was taken{}",
+                quoted(contacts),
+                InstantsOfMany(*instants),
+                t = ShortNumber(*t)
+            ),
             Self::HandedOver {
                 t,
                 step,
@@ -230,6 +221,18 @@ impl Display for Warning {
                  takes longer steps",
                 t = ShortNumber(*t)
             ),
+        }
+    }
+}
+
+/// The number of instants to which a warning applies, as the end of its sentence; nothing for a single one, which the sentence names.
+struct InstantsOfMany(usize);
+
+impl Display for InstantsOfMany {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            0 | 1 => Ok(()),
+            instants => write!(f, "; there were {instants} such instants"),
         }
     }
 }

@@ -35,6 +35,8 @@ struct Lane {
 /// Trajectories in parallel. `L` is the working memory of the machine for their expansion, which is cleared once.
 pub(super) struct InSeries<V, L, const W: usize> {
     tolerance: Tolerance<V>,
+    /// The [part](taylor::part_for_all_sizes) of a tolerable error that is the bound on the last terms of a step.
+    part: Option<f64>,
     longest: f64,
     end: Lanes<W>,
     now: Point<V, Lanes<W>>,
@@ -54,6 +56,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         let rows = taylor::rows(relative + tolerance);
         Self {
             tolerance: Tolerance { relative, absolute },
+            part: taylor::part_for_all_sizes(tolerance, relative),
             longest: control::longest_step_or_infinity(longest),
             end: now.t,
             ahead: now.clone(),
@@ -169,6 +172,7 @@ impl<V: LaneVector<W>, L: Default, const W: usize> InSeries<V, L, W> {
         let lengths = V::run(Lengths {
             coefficients: &self.coefficients[0],
             tolerance: &self.tolerance,
+            part: self.part,
         });
         for (lane, length) in self.lanes.iter_mut().zip(lengths) {
             lane.length = length;
@@ -432,6 +436,37 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Advance<'_, V, W> {
 struct Lengths<'a, V, const W: usize> {
     coefficients: &'a [V],
     tolerance: &'a Tolerance<V>,
+    /// The [part](taylor::part_for_all_sizes) of a tolerable error that is the bound.
+    part: Option<f64>,
+}
+
+/// The largest ratios of both last terms of rates to their bounds, in all trajectories at once, and whether all of them are positive and finite. The
+/// bounds are this part of the tolerable errors.
+#[inline(always)]
+fn usual_ratios<N: Scalar<Stored = Lanes<W>>, V: LaneVector<W>, const W: usize>(
+    coefficients: &[V],
+    tolerance: &Tolerance<V>,
+    part: f64,
+) -> ([[f64; W]; 2], bool) {
+    let last = coefficients.len() - 1;
+    let [part, relative] = [N::from_f64(part), N::from_f64(tolerance.relative)];
+    let powers = [N::from_f64((last - 1) as f64), N::from_f64(last as f64)];
+    // The sum is not finite if a ratio is not; a maximum may lose it.
+    let (mut worst, mut sum) = ([N::ZERO; 2], N::ZERO);
+    for (i, absolute) in tolerance.absolute.as_ref().iter().enumerate() {
+        let q = N::load(coefficients[0].as_ref()[i]);
+        let v = N::load(coefficients[1].as_ref()[i]);
+        let size = v.abs().max(q.abs().min(N::ONE));
+        let over = N::ONE / (part * (N::load(*absolute) + relative * size));
+        for k in 0..2 {
+            let term = N::load(coefficients[last - 1 + k].as_ref()[i]);
+            let ratio = (powers[k] * term.abs()) * over;
+            sum = sum + ratio;
+            worst[k] = worst[k].max(ratio);
+        }
+    }
+    let are_usual = sum.is_finite() && worst[0].exceeds(N::ZERO) && worst[1].exceeds(N::ZERO);
+    ([worst[0].store().0, worst[1].store().0], are_usual)
 }
 
 impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Lengths<'_, V, W> {
@@ -442,9 +477,17 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Lengths<'_, V, W> {
         let Self {
             coefficients,
             tolerance,
+            part,
         } = self;
         let last = coefficients.len() - 1;
         let powers = [last - 1, last];
+        if let Some(part) = part {
+            let (worst, are_usual) = usual_ratios::<N, V, W>(coefficients, tolerance, part);
+            if are_usual {
+                let lengths = taylor::usual_lengths(worst, powers);
+                return not_in_slow_motion(coefficients, tolerance, lengths);
+            }
+        }
         let mut worst = [[0.0; W]; 2];
         for (i, absolute) in tolerance.absolute.as_ref().iter().enumerate() {
             let (q, v) = (coefficients[0].as_ref()[i].0, coefficients[1].as_ref()[i].0);
@@ -460,32 +503,33 @@ impl<V: LaneVector<W>, const W: usize> Kernel<Lanes<W>> for Lengths<'_, V, W> {
             }
         }
         let [one, other] = worst;
-        let mut are_usual = true;
-        for worst in worst {
-            for worst in worst {
-                are_usual &= worst > 0.0 && worst < f64::INFINITY;
-            }
-        }
         // A loop and not a closure for each lane: a closure would not be compiled into its caller for wide registers.
         let mut lengths = one;
         for (one, other) in lengths.iter_mut().zip(other) {
-            *one = if are_usual {
-                taylor::usual_length([*one, other], powers)
-            } else {
-                taylor::length([*one, other], powers)
-            };
+            *one = taylor::length([*one, other], powers);
         }
-        for (lane, length) in lengths.iter_mut().enumerate() {
-            if taylor::is_slow(*length, last) {
-                let coordinates = tolerance.absolute.as_ref().iter().enumerate();
-                let all = coordinates.map(|(i, absolute)| {
-                    let of_power = |j: usize| coefficients[j].as_ref()[i].0[lane];
-                    let [q, v] = [of_power(0), of_power(1)];
-                    [q, v, of_power(last - 1), of_power(last), absolute[lane]]
-                });
-                *length = taylor::length_in_slow_motion(*length, last, all, tolerance.relative);
-            }
-        }
-        lengths
+        not_in_slow_motion(coefficients, tolerance, lengths)
     }
+}
+
+/// These lengths of steps, except of trajectories in slow motion, in which the terms of coordinates must be tolerable as well.
+#[inline(always)]
+fn not_in_slow_motion<V: LaneVector<W>, const W: usize>(
+    coefficients: &[V],
+    tolerance: &Tolerance<V>,
+    mut lengths: [f64; W],
+) -> [f64; W] {
+    let last = coefficients.len() - 1;
+    for (lane, length) in lengths.iter_mut().enumerate() {
+        if taylor::is_slow(*length, last) {
+            let coordinates = tolerance.absolute.as_ref().iter().enumerate();
+            let all = coordinates.map(|(i, absolute)| {
+                let of_power = |j: usize| coefficients[j].as_ref()[i].0[lane];
+                let [q, v] = [of_power(0), of_power(1)];
+                [q, v, of_power(last - 1), of_power(last), absolute[lane]]
+            });
+            *length = taylor::length_in_slow_motion(*length, last, all, tolerance.relative);
+        }
+    }
+    lengths
 }

@@ -17,8 +17,7 @@ use crate::{Singular, State, SystemIn, Vector};
 /// system and allocates nothing. Inputs are constant, or a [law](ExplicitStepperBuilder::input_law) sets them by time and state. It
 /// evaluates the motion within its last step to the precision of its numbers.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use lagrangian::ExplicitStepper;
 /// use lagrangian::scalar::Dual;
 ///
@@ -354,8 +353,7 @@ impl<S: SystemIn<N>, N: Real, L> ExplicitStepperBuilder<S, N, L> {
     /// The law by which time and state set the inputs, in the numbers of the run, so that the derivative of a controlled run is that of
     /// machine and controller together.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use lagrangian::scalar::Dual;
     /// use lagrangian::{ExplicitStepper, InputFunction};
     ///

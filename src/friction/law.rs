@@ -1,21 +1,30 @@
 //! Coulomb's law for contacts in given states, and the search for the states that are possible.
 
+#[cfg(feature = "std")]
+mod blocks;
 mod elimination;
 mod in_space;
 mod open_states;
+#[cfg(feature = "std")]
+mod pivoting;
 mod sharing;
+#[cfg(all(test, feature = "std"))]
+mod tests;
+#[cfg(feature = "std")]
+mod uniqueness;
 
-use super::MOST_CONTACTS;
+use super::per_contact::PerContact;
 use crate::scalar::friction::{FrictionLayout, FrictionResponse};
+use crate::system::MOST_CONTACTS;
 use crate::{Pivot, Singular};
-pub(super) use elimination::solve;
-use elimination::{SINGULAR, eliminate};
+pub(super) use elimination::Equations;
+use elimination::SINGULAR;
 pub(super) use open_states::{OpenStates, Turned};
 pub(super) use sharing::Shared;
 use sharing::{Undetermined, beyond};
 
 /// One number for each contact.
-pub(super) type Each = [f64; MOST_CONTACTS];
+pub(super) type Each = PerContact<f64>;
 
 /// Round-off of a condition, relative to its terms.
 pub(super) const ROUNDING: f64 = 1e-12;
@@ -24,9 +33,10 @@ pub(super) const ROUNDING: f64 = 1e-12;
 const SAME: f64 = 1e-9;
 
 /// The motion of a contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) enum Motion {
     /// It is at rest on its guide.
+    #[default]
     Sticks,
     /// It slides forward (1) or backward (−1).
     Slides(f64),
@@ -35,15 +45,24 @@ pub(crate) enum Motion {
 }
 
 /// The states of the contacts: their motion, and the sides to which they press (1 or −1).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Mode {
-    pub motion: [Motion; MOST_CONTACTS],
+    pub motion: PerContact<Motion>,
     pub press: Each,
     /// For sliding contacts the components of their direction along the two tangents; both are 0 if the direction is not known.
     pub slip_direction: Each,
 }
 
 impl Mode {
+    /// That all of so many contacts stick.
+    pub(super) fn sticking(contacts: usize) -> Mode {
+        Mode {
+            motion: PerContact::new(contacts, Motion::Sticks),
+            press: Each::new(contacts, 1.0),
+            slip_direction: Each::new(contacts, 0.0),
+        }
+    }
+
     /// The component along this tangent of a unit friction force that opposes the slip.
     fn share(&self, contact: usize) -> f64 {
         match self.motion[contact] {
@@ -76,13 +95,13 @@ pub(super) struct Layout {
     pub response: FrictionLayout,
     /// The contacts that are second tangents of surfaces ([`System::second_tangents`](crate::System::second_tangents)),
     /// as a bit mask.
-    pub seconds: usize,
+    pub seconds: u64,
 }
 
 impl Layout {
     /// Whether a contact is the second tangent of the surface of the contact before it.
     pub const fn is_second(self, contact: usize) -> bool {
-        self.seconds >> contact & 1 != 0
+        contact < MOST_CONTACTS && self.seconds >> contact & 1 != 0
     }
 
     /// Whether a contact is the first of two tangents.
@@ -125,7 +144,7 @@ impl Parts<'_> {
     pub fn sum(&self, i: usize, friction_forces: &Each) -> [f64; 2] {
         let alone = self.at(0, i);
         let mut sum = [alone, alone.abs()];
-        for (k, friction) in friction_forces[..self.layout.contacts()].iter().enumerate() {
+        for (k, friction) in friction_forces.iter().enumerate() {
             let term = self.at(1 + k, i) * friction;
             sum = [sum[0] + term, sum[1] + term.abs()];
         }
@@ -165,11 +184,11 @@ impl Parts<'_> {
     }
 
     /// What friction forces that are undetermined add to its normal reaction: in the plane a number, in space a vector.
-    fn presses_by(&self, contact: usize, of_unit: &Each) -> [f64; 3] {
+    fn presses_by(&self, contact: usize, of_unit: &[f64]) -> [f64; 3] {
         let (mut vector, mut size) = ([0.0; 3], 0.0_f64);
         for (x, i) in vector.iter_mut().zip(self.components(contact)) {
             let mut terms = 0.0;
-            for (j, force) in of_unit[..self.layout.contacts()].iter().enumerate() {
+            for (j, force) in of_unit.iter().enumerate() {
                 let term = self.at(1 + j, i) * force;
                 *x += term;
                 terms += term.abs();
@@ -204,19 +223,32 @@ impl Parts<'_> {
         })
     }
 
-    /// Whether no friction force changes a normal reaction, in space.
-    fn presses_regardless_of_friction(&self) -> bool {
-        let by_friction = |contact: usize, part: usize| {
-            let mut vector = [0.0; 3];
-            for (x, i) in vector.iter_mut().zip(self.components(contact)) {
-                *x = self.at(1 + part, i);
-            }
+    /// What a unit of the friction of a contact adds to the normal reaction of another: in the plane a number, in space a vector.
+    fn unit_pressing(&self, contact: usize, friction_of: usize) -> [f64; 3] {
+        let mut vector = [0.0; 3];
+        for (x, i) in vector.iter_mut().zip(self.components(contact)) {
+            *x = self.at(1 + friction_of, i);
+        }
+        if self.layout.axes() == 1 {
+            vector
+        } else {
             self.across(contact, vector)
-        };
+        }
+    }
+
+    /// The size of [`unit_pressing`](Self::unit_pressing).
+    fn presses_by_unit(&self, contact: usize, friction_of: usize) -> f64 {
+        let vector = self.unit_pressing(contact, friction_of);
+        match self.layout.axes() {
+            1 => vector[0].abs(),
+            _ => crate::math::sqrt(dot(&vector, &vector)),
+        }
+    }
+
+    /// Whether no friction force changes a normal reaction.
+    fn presses_regardless_of_friction(&self) -> bool {
         let all = || 0..self.layout.contacts();
-        let is_none = |x: f64| x.abs() <= SINGULAR;
-        self.layout.axes() == 3
-            && all().all(|k| all().all(|part| by_friction(k, part).into_iter().all(is_none)))
+        all().all(|k| all().all(|by| self.presses_by_unit(k, by) <= SINGULAR))
     }
 
     pub fn friction(&self, contact: usize) -> f64 {
@@ -228,7 +260,7 @@ impl Parts<'_> {
     }
 
     /// The friction forces of contacts in given states.
-    /// Of guides that depend on each other these are forces with the right sums, which give the right accelerations; those that every guide
+    /// If guides depend on each other, these are forces with the right sums, which give the right accelerations; those that every guide
     /// allows are in [`shared_forces`](Self::shared_forces).
     ///
     /// # Errors
@@ -256,7 +288,7 @@ impl Parts<'_> {
         let (mut found, mut several) = (None, false);
         let known = self.by_sizes(mode, &mut |friction_forces, undetermined| {
             several |= found.is_some();
-            found = Some((friction_forces, *undetermined));
+            found = Some((friction_forces, undetermined.clone()));
         });
         let sliding = |k: &usize| mode.motion[*k] != Motion::Sticks;
         let contact = (0..self.layout.contacts()).find(sliding).unwrap_or(0);
@@ -287,8 +319,8 @@ impl Parts<'_> {
     /// In the plane the side to which each contact presses is given, and the equations are linear.
     fn along_normals(&self, mode: &Mode) -> Option<(Each, Undetermined)> {
         let count = self.layout.contacts();
-        let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
-        for (k, row) in rows[..count].iter_mut().enumerate() {
+        let mut equations = Equations::new(count);
+        for (k, row) in equations.rows_mut().enumerate() {
             let (entry, factor, own) = match mode.motion[k] {
                 Motion::Sticks => (self.slip_rate(k), 1.0, 0.0),
                 Motion::Slides(_) | Motion::SlidesAlong => {
@@ -306,8 +338,8 @@ impl Parts<'_> {
             row[k] += own;
             row[count] = -factor * self.at(0, entry);
         }
-        let (forces, column_of) = eliminate(&mut rows, count)?;
-        Some((forces, Undetermined::of(&rows, count, column_of)))
+        let (forces, column_of) = equations.eliminate()?;
+        Some((forces, Undetermined::of(&equations, &column_of)))
     }
 
     /// Whether contacts in given states can have these friction forces: sticking contacts need no more friction than they have,
@@ -315,25 +347,26 @@ impl Parts<'_> {
     /// zero, since rounding would decide.
     fn admits(&self, mode: &Mode, friction_forces: &Each, turned: Option<Turned>) -> bool {
         (0..self.layout.contacts()).all(|k| {
-            if turned == Some((k, mode.motion[k], mode.press[k])) {
-                return true;
-            }
-            // The condition for both tangents is checked at the first.
-            if self.layout.is_second(k) {
-                return true;
-            }
-            let [normal, terms] = self.reaction(k, friction_forces);
-            match mode.motion[k] {
-                Motion::Sticks => {
-                    let most = self.static_friction(k) * normal.abs();
-                    self.used(k, friction_forces)
-                        <= most + ROUNDING * (most + self.static_friction(k) * terms)
-                }
-                Motion::Slides(_) | Motion::SlidesAlong => {
-                    mode.press[k] * normal >= -ROUNDING * terms
-                }
-            }
+            turned == Some((k, mode.motion[k], mode.press[k]))
+                // The condition for both tangents is checked at the first.
+                || self.layout.is_second(k)
+                || self.admits_one(mode, friction_forces, k)
         })
+    }
+
+    /// Whether one contact in its state can have these friction forces.
+    fn admits_one(&self, mode: &Mode, friction_forces: &Each, contact: usize) -> bool {
+        let [normal, terms] = self.reaction(contact, friction_forces);
+        match mode.motion[contact] {
+            Motion::Sticks => {
+                let most = self.static_friction(contact) * normal.abs();
+                self.used(contact, friction_forces)
+                    <= most + ROUNDING * (most + self.static_friction(contact) * terms)
+            }
+            Motion::Slides(_) | Motion::SlidesAlong => {
+                mode.press[contact] * normal >= -ROUNDING * terms
+            }
+        }
     }
 
     /// Whether a contact that starts to slide accelerates in its direction.

@@ -188,7 +188,7 @@ impl Enclosure {
         let n = machine.program.dimension();
         assert_eq!([q.len(), v.len()], [n, n], "one number for each coordinate");
         machine.check_numbers()?;
-        let series = machine.series.as_ref();
+        let series = machine.series.known().series.as_ref();
         let series: Arc<Series> = series
             .map_err(|why| NoNumbers { why: why.clone() })?
             .clone();

@@ -159,11 +159,6 @@ impl CodeOfSeries {
 
 #[cfg(feature = "jit")]
 impl CompiledSeries {
-    /// Forgets the parameters and the number of orders.
-    pub(super) fn clear(&mut self) {
-        self.running = None;
-    }
-
     /// Expands the motion through a state by machine code, for the parameters and orders of an expander. Returns false if there is none; then
     /// the expander has to be used.
     pub(super) fn expand(
@@ -196,8 +191,6 @@ impl CodeOfSeries {
 
 #[cfg(not(feature = "jit"))]
 impl CompiledSeries {
-    pub(super) fn clear(&mut self) {}
-
     #[inline(always)]
     pub(super) fn expand(
         &mut self,

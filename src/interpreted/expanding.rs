@@ -1,12 +1,12 @@
 //! The coefficients of a motion, by the interpreter of series or by machine code.
 
-use std::sync::Arc;
 use std::vec::Vec;
 
 use lagrangian_program::Singular;
-use lagrangian_program::series::{Expander, Series};
+use lagrangian_program::series::Expander;
 
-use super::engine::CompiledSeries;
+use super::engine::{CompiledSeries, MachineCode};
+use super::motion_series::Known;
 use crate::Number;
 use crate::scalar::{Kernel, Scalar};
 
@@ -15,7 +15,9 @@ use crate::scalar::{Kernel, Scalar};
 pub(super) struct Expanding {
     /// The interpreter of the series, for the number of orders of the last expansion.
     expander: Option<Expander<f64>>,
-    compiled: CompiledSeries,
+    engine: MachineCode,
+    /// Its machine code with parameters; `None` before the first expansion.
+    compiled: Option<CompiledSeries>,
 }
 
 /// The expansion of a series, executed with the instructions that the processor supports.
@@ -35,29 +37,36 @@ impl Kernel<f64> for Expand<'_> {
 }
 
 impl Expanding {
-    pub(super) fn new(compiled: CompiledSeries) -> Expanding {
+    pub(super) fn new(engine: MachineCode) -> Expanding {
         Expanding {
             expander: None,
-            compiled,
+            engine,
+            compiled: None,
         }
     }
 
     /// Expands the motion of a machine with these parameters through a state: time in two parts, coordinates, rates and inputs.
     pub(super) fn expand(
         &mut self,
-        (series, parameters): (&Arc<Series>, impl FnOnce() -> Vec<f64>),
+        (known, parameters): (&Known, impl FnOnce() -> Vec<f64>),
         at: ([f64; 2], [&[f64]; 3]),
         coefficients: &mut [Vec<f64>],
     ) -> Result<(), Singular> {
-        let Some(order) = coefficients.len().checked_sub(2) else {
+        let (Ok(series), Some(order)) = (&known.series, coefficients.len().checked_sub(2)) else {
             return Ok(());
         };
-        let known = self.expander.take().filter(|known| known.order() == order);
-        let expander = self.expander.insert(known.unwrap_or_else(|| {
-            self.compiled.clear();
-            Expander::new(series.clone(), &parameters(), order)
-        }));
-        if self.compiled.expand(expander, at, coefficients) {
+        if self
+            .expander
+            .as_ref()
+            .is_some_and(|last| last.order() != order)
+        {
+            (self.expander, self.compiled) = (None, None);
+        }
+        let begin = || Expander::new(series.clone(), &parameters(), order);
+        let expander = self.expander.get_or_insert_with(begin);
+        let prepare = || known.code.prepared(&self.engine);
+        let compiled = self.compiled.get_or_insert_with(prepare);
+        if compiled.expand(expander, at, coefficients) {
             return Ok(());
         }
         f64::run(Expand { expander, at })?;

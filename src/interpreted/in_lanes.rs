@@ -7,7 +7,6 @@ use lagrangian_jit::{Library, Several, SeveralArguments};
 use lagrangian_native::Lanes;
 use lagrangian_program::{Program, Role};
 
-use super::powers::has_powers;
 use super::{InterpretedMachine, InterpretedSystem, Named, RunTask};
 use crate::run::in_lanes::{self, Machines};
 use crate::run::run;
@@ -41,7 +40,7 @@ pub(super) fn run_tasks(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<Interprete
         program: machine.program.clone(),
         several: None,
         inputs: Vec::new(),
-        has_powers: has_powers(&machine.program),
+        has_powers: machine.program.has_powers(),
     };
     in_lanes::run_tasks(tasks, &mut machines)
 }

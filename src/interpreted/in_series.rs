@@ -122,7 +122,7 @@ impl<N: Real + lagrangian_scalar::Scalar<Stored = N>> SeriesStepper<N> {
         let n = machine.program.dimension();
         assert_eq!([q.len(), v.len()], [n, n], "one number for each coordinate");
         machine.check_numbers()?;
-        let series = machine.series.as_ref();
+        let series = machine.series.known().series.as_ref();
         let series = series.map_err(|why| NoNumbers { why: why.clone() })?;
         let numbers = |values: &[f64]| values.iter().map(|x| N::from_f64(*x)).collect();
         let tolerance = tolerance.max(10.0 * N::EPSILON);

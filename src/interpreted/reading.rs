@@ -7,11 +7,11 @@ use std::thread;
 use std::vec;
 use std::vec::Vec;
 
-use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_mechanics::series::{ProvedSeries, SeriesText};
 use lagrangian_mechanics::{Compiled, Proved};
 use lagrangian_program::series::NoSeries;
 use lagrangian_spec::diagnostic::{self, Code, Report, Severity};
-use lagrangian_spec::source::{Disk, Files, Sources, Span};
+use lagrangian_spec::source::{Disk, Files, Recorder, Sources, Span};
 use lagrangian_symbolic::{Dag, Rational};
 
 use super::InterpretedMachine;
@@ -35,6 +35,12 @@ pub struct Reading {
 enum Spec {
     File(PathBuf),
     Text { name: String, text: String },
+}
+
+/// The series of a machine that was read.
+enum SeriesSource {
+    Derived(Result<ProvedSeries, NoSeries>),
+    Text(SeriesText),
 }
 
 impl InterpretedMachine {
@@ -120,7 +126,8 @@ impl Reading {
         self
     }
 
-    /// Also derives the Taylor series of the motion, which the method [`TAYLOR`](crate::TAYLOR) needs.
+    /// Also derives the Taylor series of the motion, which the method [`TAYLOR`](crate::TAYLOR) needs; without this it is derived when a run first
+    /// needs it. A run that [chooses its method](crate::Simulation::automatic) then considers series from its start on.
     pub fn with_series(mut self) -> Reading {
         self.series = true;
         self
@@ -140,8 +147,10 @@ impl Reading {
                 let (program, series) = machine?;
                 let machine = InterpretedMachine::new(program);
                 Ok(match series {
-                    Some(series) => machine.with_series(series),
-                    None => machine,
+                    SeriesSource::Derived(series) => machine.with_series(series),
+                    SeriesSource::Text(text) => {
+                        machine.with_series_on_demand(move || text.derive())
+                    }
                 })
             }
             Ok(Err(panic)) => std::panic::resume_unwind(panic),
@@ -152,7 +161,7 @@ impl Reading {
         }
     }
 
-    fn derive(self) -> Result<(Proved, Option<Result<ProvedSeries, NoSeries>>), Error> {
+    fn derive(self) -> Result<(Proved, SeriesSource), Error> {
         let (name, text) = match self.spec {
             Spec::Text { name, text } => (name, text),
             Spec::File(path) => {
@@ -171,18 +180,31 @@ impl Reading {
             constants.push((constant, value));
         }
         let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
+        let mut disk = Disk;
+        let mut files = Recorder::new(&mut disk);
         let model = lagrangian_spec::model(
             &dag,
             &name,
             &text,
             &constants,
-            &mut Disk,
+            &mut files,
             &mut sources,
             &mut report,
         );
+        let files = files.read;
         match model.and_then(|model| Compiled::new(model, &mut report)) {
             Some(compiled) => {
-                let series = self.series.then(|| ProvedSeries::derive(&compiled.model));
+                let series = if self.series {
+                    SeriesSource::Derived(ProvedSeries::derive(&compiled.model))
+                } else {
+                    SeriesSource::Text(SeriesText {
+                        name,
+                        text,
+                        constants,
+                        files,
+                        ..SeriesText::default()
+                    })
+                };
                 Ok((compiled.program, series))
             }
             None => Err(everything_wrong(&report, &sources)),

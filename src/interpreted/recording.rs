@@ -117,7 +117,7 @@ impl Recording {
 
 /// Which quantities of a run are recorded.
 struct Recorded {
-    /// Of each coordinate, whether it is the integral of a state of first order, which is recorded by its value alone.
+    /// Whether each coordinate is the integral of a state of first order, which is recorded by its value alone.
     is_integral: Vec<bool>,
     /// The outputs, and which of them are shown: formulas that were added have names that no spec can contain.
     outputs: Named,
@@ -125,7 +125,7 @@ struct Recorded {
     /// The inputs; they are recorded if they are driven.
     inputs: Named,
     is_driven: bool,
-    /// Of each unilateral contact, whether it is a layer that is crushed.
+    /// Whether each unilateral contact is a layer that is crushed.
     is_layer: Vec<bool>,
     /// Whether the energies of contacts are kept.
     has_books: bool,

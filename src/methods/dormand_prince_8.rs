@@ -296,7 +296,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
     stages: 12,
     c: C,
     a: A,
-    // Of order 5.
+    // b − b̂ with b̂ of order 5.
     error: ERROR,
     // b − b̂ with b̂ of order 3, nonzero in stages 1, 9 and 12.
     coarse_error: Some(COARSE),

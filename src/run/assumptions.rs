@@ -29,6 +29,9 @@ pub(super) struct HeldBounds<V> {
     /// By how many of their widths bounds are widened on the sides on which a step leaves them; 0 if they are not. Where assumptions are not known to hold
     /// within the wider ones, a quarter of this is used from then on.
     widening: f64,
+    /// Whether rates may matter to the assumptions, as soon as this was examined. They do not where these are known to hold for rates of any size;
+    /// all bounds of rates are infinite then.
+    rates_matter: Option<bool>,
 }
 
 /// By how many of their widths bounds are widened at first, and at least.
@@ -41,7 +44,40 @@ impl<V: Vector> HeldBounds<V> {
             of_step: MotionBounds::like(q),
             wider: MotionBounds::like(q),
             widening: WIDENING[0],
+            rates_matter: None,
         }
+    }
+
+    /// Whether all assumptions are known to hold throughout a step whose bounds are known, and throughout wider ones, for rates of any size.
+    fn hold_for_any_rates<S: System<Vector = V>>(&mut self, system: &S, t: [f64; 2]) -> bool {
+        let Self {
+            known,
+            of_step,
+            wider,
+            ..
+        } = self;
+        let [low, high] = &mut wider.v;
+        low.as_mut_slice().fill(f64::NEG_INFINITY);
+        high.as_mut_slice().fill(f64::INFINITY);
+        for widening in [self.widening, 0.0] {
+            let wider_t = widened(None, t, widening);
+            for i in 0..of_step.q[0].as_slice().len() {
+                let at = [0, 1].map(|end: usize| of_step.q[end].as_slice()[i]);
+                let wide = widened(None, at, widening);
+                for (wider, wide) in wider.q.iter_mut().zip(wide) {
+                    wider.as_mut_slice()[i] = wide;
+                }
+            }
+            let MotionBounds { q, v } = &*wider;
+            if system.assumptions_hold_within(wider_t, [&q[0], &q[1]], [&v[0], &v[1]]) {
+                of_step.v.clone_from(v);
+                take(known, wider_t, wider);
+                self.rates_matter = Some(false);
+                return true;
+            }
+        }
+        self.rates_matter = Some(true);
+        false
     }
 
     /// Whether all assumptions are known to hold throughout a step with these coefficients and of this length, from a state.
@@ -51,15 +87,23 @@ impl<V: Vector> HeldBounds<V> {
         (coefficients, h): (&[V], f64),
         (t, q, v): (f64, &V, &V),
     ) -> bool {
-        if !self.of_step.of_step(coefficients, h, [q, v]) {
+        let are_finite = match self.rates_matter {
+            Some(false) => self.of_step.of_step::<false>(coefficients, h, [q, v]),
+            _ => self.of_step.of_step::<true>(coefficients, h, [q, v]),
+        };
+        if !are_finite {
             return false;
         }
         let t = [t.min(t + h), t.max(t + h)];
+        if self.rates_matter.is_none() && self.hold_for_any_rates(system, t) {
+            return true;
+        }
         let Self {
             known,
             of_step,
             wider,
             widening,
+            ..
         } = self;
         if let Some((known_t, known)) = known
             && contain(*known_t, t)

@@ -5,6 +5,8 @@
 //!
 //! * At the start the costs decide: of a step by Taylor series, and of the steps of `dop853` that cover it. Their number is known within a factor
 //!   of [`SPREAD`]; if that does not decide, it is measured at the start.
+//! * If the series is derived on demand, a run begins with `dop853`. Once its steps so far and those to come are worth the derivation
+//!   ([`INVESTED`], [`WORTH`]), the series is derived and the same is decided at the state that the run has reached.
 //! * If stability limits explicit steps, the run changes to a Radau method. The test of DOP853 detects this, and in series the fastest
 //!   rate of the machine does.
 //! * It changes from a Radau method back to `dop853` if its steps have cost more than explicit ones would: evaluations, and the solution of
@@ -16,7 +18,7 @@ use super::comparing::compare;
 use crate::balance::Quadratures;
 use crate::control::Work;
 use crate::inputs::InputLaw;
-use crate::methods::{Method, RADAU_OF_HIGH_ORDER};
+use crate::methods::{Method, MethodKind, RADAU_OF_HIGH_ORDER};
 use crate::solution::{MethodChoice, MethodReason};
 use crate::taylor;
 use crate::tolerance::Tolerance;
@@ -52,12 +54,23 @@ const ACCUMULATION: [[f64; 2]; 2] = [[1.57, 1.3], [1.13, 0.92]];
 /// of an implicit method for the whole motion.
 const STEPS_BETWEEN_TESTS: usize = 100;
 
-/// Number of steps by series between evaluations of the fastest rate, each of which takes some two evaluations for each coordinate.
-const STEPS_BETWEEN_LOOKS: usize = 64;
+/// Number of steps by series between evaluations of the fastest rate, each of which takes some two evaluations for each coordinate: at first, and at most.
+/// It doubles with each look that finds steps shorter than [`COMFORTABLE`] of what is stable.
+const STEPS_BETWEEN_LOOKS: [usize; 2] = [64, 1024];
+
+/// Of steps by series, limited by accuracy, those of a harmonic motion are 0.55 of the longest that are stable.
+const COMFORTABLE: f64 = 0.75;
 
 /// A run that takes no more steps by series than this if all are as long as the first has no look at its start, which would take as long as some of
 /// them. If its steps turn out to be shorter, the first look comes after so many.
 const SHORT_RUN: usize = 32;
+
+/// A series is derived on demand when the evaluations by `dop853` so far take at least this share of the time that the derivation takes. A run that then ends
+/// earlier than it is given, by an event, has lost at most so many times what it took before.
+const INVESTED: f64 = 0.25;
+
+/// And when those to come, if steps stay as long as they have been, take so many times as long: steps by series then cost less than half of them.
+const WORTH: f64 = 2.0;
 
 /// Stability limits a step by series if it is longer than this, in units of the inverse of the fastest rate: 0.86 of where the stability
 /// regions of the series of orders 12 and 20 end on the negative real axis, 5.82 and 8.82. A harmonic motion of size 1 takes, at the same
@@ -101,13 +114,18 @@ pub(super) struct Choosing {
     /// Two instants in the explicit steps so far, at least [`MEASURED`] steps apart, and the number of steps tried until then. The earlier one is
     /// where the measurement of their cost begins.
     marks: [(f64, usize); 2],
+    /// Where the present method began.
+    begun: (f64, usize),
     /// What explicit steps have cost before the change to the implicit method.
     before: Option<Explicit>,
     /// Whether the implicit method has cost less in any window since that change.
     has_paid: bool,
     between_tests: usize,
-    /// Whether the run seemed to be so short at its start that the fastest rate was not found there.
-    seemed_short: bool,
+    /// The number of steps, of the whole run, after which the fastest rate is found next while it goes by series, and the number until the one after that.
+    next_look: usize,
+    between_looks: usize,
+    /// The evaluations that take as long as the derivation of the series, until it is derived; `None` if it never is.
+    derivation: Option<f64>,
 }
 
 /// The cost of explicit steps before a change to an implicit method.
@@ -129,10 +147,13 @@ impl Choosing {
             paying: 0,
             needed: WINDOWS[0],
             marks: [(0.0, 0); 2],
+            begun: (0.0, 0),
             before: None,
             has_paid: false,
             between_tests: STEPS_BETWEEN_TESTS,
-            seemed_short: false,
+            next_look: STEPS_BETWEEN_LOOKS[0],
+            between_looks: STEPS_BETWEEN_LOOKS[0],
+            derivation: None,
         }
     }
 
@@ -147,6 +168,7 @@ impl Choosing {
         Self {
             is_free: may_change,
             choices: [MethodChoice { t, method, reason }].into(),
+            derivation: beginning.derivation,
             ..Self::none()
         }
     }
@@ -179,6 +201,8 @@ pub(super) struct Beginning {
     pub reason: MethodReason,
     /// The evaluations that the choice took.
     pub evaluations: usize,
+    /// The evaluations that take as long as the derivation of the series, if that is done on demand.
+    derivation: Option<f64>,
 }
 
 impl Beginning {
@@ -188,6 +212,7 @@ impl Beginning {
             method,
             reason,
             evaluations: 0,
+            derivation: None,
         }
     }
 }
@@ -195,16 +220,32 @@ impl Beginning {
 /// The method to begin with at this state, at the signed distance `left` from the end.
 pub(super) fn first<S: System>(
     system: &S,
-    (t, q, v): (f64, &S::Vector, &S::Vector),
+    at: (f64, &S::Vector, &S::Vector),
     tolerance: &Tolerance<S::Vector>,
     (left, inputs_stay): (f64, bool),
 ) -> Beginning {
     let explicit = Beginning::with(Method::DOP853, MethodReason::Explicit);
-    let is_possible = inputs_stay && system.check_series().is_ok();
-    let costs = is_possible.then(|| system.series_cost()).flatten();
-    let Some(costs) = costs else {
+    if !inputs_stay {
         return explicit;
-    };
+    }
+    match system.series_derivation() {
+        None => by_costs(system, at, tolerance, left).unwrap_or(explicit),
+        derivation => Beginning {
+            derivation,
+            ..explicit
+        },
+    }
+}
+
+/// The method that costs less from this state on, at the signed distance `left` from the end: by series or `dop853`. `None` if there is no series.
+fn by_costs<S: System>(
+    system: &S,
+    (t, q, v): (f64, &S::Vector, &S::Vector),
+    tolerance: &Tolerance<S::Vector>,
+    left: f64,
+) -> Option<Beginning> {
+    system.check_series().ok()?;
+    let costs = system.series_cost()?;
     let finest = finest_tolerance(tolerance);
     let order = usize::from(finest <= taylor::FINE);
     let inputs = system.default_inputs();
@@ -229,11 +270,10 @@ pub(super) fn first<S: System>(
     } else {
         (Method::DOP853, MethodReason::SeriesCosts { cost, saved })
     };
-    Beginning {
-        method,
-        reason,
+    Some(Beginning {
         evaluations,
-    }
+        ..Beginning::with(method, reason)
+    })
 }
 
 /// Whether any damper takes power where all rates are 1.
@@ -259,11 +299,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Ok(());
         }
         self.stepper.test_stiffness_every(STEPS_BETWEEN_TESTS);
-        self.choosing.marks = [self.tried(); 2];
+        self.choosing.begun = self.tried();
+        self.choosing.marks = [self.choosing.begun; 2];
         let left = (self.until - self.stepper.t()).abs();
         let seems_short = |length: f64| SHORT_RUN as f64 * length >= left;
         if self.stepper.length_in_series().is_some_and(seems_short) {
-            self.choosing.seemed_short = true;
+            self.choosing.next_look = SHORT_RUN;
             return Ok(());
         }
         match self.rate_beyond_series() {
@@ -281,9 +322,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return self.leave_implicit();
         }
         if self.stepper.coefficients().is_some() {
-            let steps = self.stepper.work().steps;
-            let is_first = self.choosing.seemed_short && steps == SHORT_RUN;
-            let is_due = is_first || steps.is_multiple_of(STEPS_BETWEEN_LOOKS);
+            let is_due = self.stepper.work().steps >= self.choosing.next_look;
             let rate = is_due.then(|| self.rate_beyond_series()).flatten();
             return match rate {
                 Some(rate) => self.change_to_implicit(rate),
@@ -296,6 +335,40 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 let rate = self.stepper.fastest_rate().unwrap_or(0.0);
                 self.change_to_implicit(rate)
             }
+            None => self.consider_series(),
+        }
+    }
+
+    /// Changes to series that are derived on demand, if deriving them is worth it and their steps cost less. Both are decided once.
+    fn consider_series(&mut self) -> Result<(), Error> {
+        let Some(derivation) = self.choosing.derivation else {
+            return Ok(());
+        };
+        let ((since, before), (t, tried)) = (self.choosing.begun, self.tried());
+        let left = self.until - t;
+        // Steps that stability limits say nothing of accuracy.
+        let is_limited_by_accuracy = self.stepper.is_not_stiff();
+        let so_far = EVALUATIONS * (tried - before) as f64;
+        let to_come = so_far * (left / (t - since)).abs();
+        if !is_limited_by_accuracy || so_far < INVESTED * derivation || to_come < WORTH * derivation
+        {
+            return Ok(());
+        }
+        self.choosing.derivation = None;
+        let at = (t, self.stepper.q(), self.stepper.v());
+        let beginning = by_costs(self.model.system, at, self.stepper.tolerance(), left);
+        let Some(beginning) = beginning else {
+            return Ok(());
+        };
+        self.stepper.count_evaluations(beginning.evaluations);
+        if beginning.method.kind != MethodKind::Series {
+            return Ok(());
+        }
+        if (self.change_method(beginning.method, beginning.reason)).is_err() {
+            return self.change_method(Method::DOP853, MethodReason::NoSeries);
+        }
+        match self.rate_beyond_series() {
+            Some(rate) => self.change_method(Method::DOP853, MethodReason::Stiff { rate }),
             None => Ok(()),
         }
     }
@@ -320,9 +393,16 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     fn rate_beyond_series(&mut self) -> Option<f64> {
         let length = self.stepper.length_in_series()?;
         let is_fine = finest_tolerance(self.stepper.tolerance()) <= taylor::FINE;
-        let rate = self.stepper.fastest_rate()?;
-        let is_beyond = length * rate > REACH_OF_SERIES[usize::from(is_fine)];
-        (is_beyond && length.is_finite()).then_some(rate)
+        let reach = REACH_OF_SERIES[usize::from(is_fine)];
+        let rate = self.stepper.fastest_rate().unwrap_or(0.0);
+        let choosing = &mut self.choosing;
+        choosing.next_look = self.stepper.work().steps + choosing.between_looks;
+        let [fewest, most] = STEPS_BETWEEN_LOOKS;
+        choosing.between_looks = match length * rate {
+            product if product < COMFORTABLE * reach => most.min(2 * choosing.between_looks),
+            _ => fewest,
+        };
+        (length * rate > reach && length.is_finite()).then_some(rate)
     }
 
     /// The present instant and the number of steps tried so far. Evaluations would not do, since a record of the run takes some as well.
@@ -430,15 +510,16 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if let Some(steps) = &mut self.record.steps {
             steps.begin_method(method);
         }
-        self.choosing.marks = [self.tried(); 2];
+        self.choosing.begun = self.tried();
+        self.choosing.marks = [self.choosing.begun; 2];
         let t = self.stepper.t();
         // A method that was chosen at the start and left before the first step was never used.
-        if (self.choosing.choices.last()).is_some_and(|last| last.t == t) {
-            self.choosing.choices.pop();
+        let choices = &mut self.choosing.choices;
+        choices.pop_if(|last| last.t == t);
+        // One that was left and resumed at one instant goes on for its first reason.
+        if !(choices.last()).is_some_and(|last| std::ptr::eq(last.method, method)) {
+            choices.push(MethodChoice { t, method, reason });
         }
-        self.choosing
-            .choices
-            .push(MethodChoice { t, method, reason });
         Ok(())
     }
 }

@@ -144,12 +144,12 @@ impl Interval<'_> {
 
     /// The margins of closed contacts that are lost at the second look, each with its kind.
     fn doubtful_margins(&self) -> impl Iterator<Item = (usize, usize)> {
-        let each = self.now.margins.each.iter().enumerate();
-        let of_contact = |(k, own): (usize, &[_; 4])| {
-            let own: [crate::contact::Margin; 4] = *own;
+        let each = &self.now.margins.each;
+        let of_contact = move |k: usize| {
+            let own: [crate::contact::Margin; 4] = each[k];
             (0..4).filter_map(move |kind| (own[kind].value < 0.0).then_some((k, kind)))
         };
-        each.flat_map(of_contact)
+        (self.touching.in_order().filter(move |k| *k < each.len())).flat_map(of_contact)
     }
 
     /// Whether something may have changed.
@@ -324,7 +324,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         interpolant: &mut LastInterpolant<M>,
     ) -> Result<Option<(f64, FoundChange)>, Error> {
         let mut earliest = None;
-        for k in 0..interval.touching.modes().len() {
+        for k in interval.touching.in_order() {
             if interval.may_close(k)
                 && let Some((theta, change)) = self.closing_found(interval, interpolant, k)?
             {

@@ -303,6 +303,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 reported.push((contact, ContactEventKind::Impact, [0.0; 2], Some(impact)));
             }
         }
+        for impact in &changes_at_instant.slight_impacts {
+            self.record.unilateral.losses[impact.contact] += impact.loss;
+        }
         self.record_energy_gains(&changes_at_instant.impacts, t);
         let hit: Vec<usize> = reported.iter().map(|(contact, ..)| *contact).collect();
         for (contact, (before, after)) in changes_at_instant

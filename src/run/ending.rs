@@ -216,7 +216,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 fn balance<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     stepper: &Stepper<'_, S, L, A>,
     energies: &[Energies],
-    explained: &ExplainedResidual,
+    explained: &ExplainedResidual<impl Vector>,
     (kinetic_energy, has_fixed_steps): (f64, bool),
 ) -> Option<EnergyBalance> {
     let integrals = stepper.quadratures().integrals()?;

@@ -15,8 +15,8 @@ const MARGIN: f64 = 20.0;
 const ROUNDINGS: f64 = 16.0;
 
 /// Contributions so far.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct ExplainedResidual {
+#[derive(Clone, Debug)]
+pub(crate) struct ExplainedResidual<V> {
     steps: usize,
     /// The sum over all steps, in J.
     by_tolerance: f64,
@@ -25,12 +25,29 @@ pub(crate) struct ExplainedResidual {
     greatest_energy: f64,
     /// `√Mᵢᵢ`, from the last step whose number was a power of two.
     inertia: Vec<f64>,
+    /// Memory of each step: the tolerable errors of coordinates and of rates, and the applied forces.
+    tolerable: [Vec<f64>; 2],
+    applied: Option<V>,
 }
 
-impl ExplainedResidual {
+impl<V> Default for ExplainedResidual<V> {
+    fn default() -> Self {
+        Self {
+            steps: 0,
+            by_tolerance: 0.0,
+            by_rounding: 0.0,
+            greatest_energy: 0.0,
+            inertia: Vec::new(),
+            tolerable: [Vec::new(), Vec::new()],
+            applied: None,
+        }
+    }
+}
+
+impl<V: Vector> ExplainedResidual<V> {
     /// Adds the contribution of the last step, given the energies at its end. Returns the part of the residual of this step that
     /// tolerance and rounding explain, in J.
-    pub fn take<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    pub fn take<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
         &mut self,
         system: &S,
         stepper: &Stepper<'_, S, L, A>,
@@ -47,25 +64,23 @@ impl ExplainedResidual {
         if self.steps.is_power_of_two() {
             self.update_costly_bounds(system, (t, q, u), energies.potential);
         }
-        let tolerable = |of: &S::Vector| {
-            let mut tolerable = of.clone();
-            for (i, x) in tolerable.as_mut_slice().iter_mut().enumerate() {
-                *x = stepper.tolerable(i, *x);
-            }
-            tolerable
-        };
-        let (of_q, of_v) = (tolerable(q), tolerable(v));
-        let length = |of: &S::Vector| {
-            let each = self.inertia.iter().zip(of.as_slice());
+        for (tolerable, of) in self.tolerable.iter_mut().zip([q, v]) {
+            tolerable.clear();
+            let of = of.as_slice().iter().enumerate();
+            tolerable.extend(of.map(|(i, x)| stepper.tolerable(i, *x)));
+        }
+        let [of_q, of_v] = [&self.tolerable[0], &self.tolerable[1]];
+        let length = |of: &[f64]| {
+            let each = self.inertia.iter().zip(of);
             each.map(|(d, x)| d * x.abs()).sum::<f64>()
         };
-        let mut applied = q.zeros_like();
-        system.applied(t, q, v, u, &mut applied);
-        let work = applied.as_slice().iter().zip(of_q.as_slice());
+        let applied = self.applied.get_or_insert_with(|| q.zeros_like());
+        system.applied(t, q, v, u, applied);
+        let work = applied.as_slice().iter().zip(of_q);
         let mut change = work.map(|(force, by)| (force * by).abs()).sum::<f64>();
-        let (by_q, by_v) = (length(&of_q), length(&of_v));
-        change +=
-            length(a) * by_q + (sqrt(2.0 * (energies.kinetic.abs() + of_states)) + by_v) * by_v;
+        let (by_q, by_v) = (length(of_q), length(of_v));
+        change += length(a.as_slice()) * by_q
+            + (sqrt(2.0 * (energies.kinetic.abs() + of_states)) + by_v) * by_v;
         if stepper.is_implicit() {
             let power = |q: &S::Vector, v: &S::Vector| {
                 system.work_rate(t, q, v, a, u) - system.dissipation_rate(t, q, v, u)
@@ -73,15 +88,15 @@ impl ExplainedResidual {
             let here = power(q, v);
             let mut most = 0.0_f64;
             for alternating in [1.0, -1.0] {
-                let moved = |of: &S::Vector, by: &S::Vector| {
+                let moved = |of: &V, by: &[f64]| {
                     let (mut moved, mut sign) = (of.clone(), 1.0);
-                    for (x, by) in moved.as_mut_slice().iter_mut().zip(by.as_slice()) {
+                    for (x, by) in moved.as_mut_slice().iter_mut().zip(by) {
                         *x += sign * by;
                         sign *= alternating;
                     }
                     moved
                 };
-                let (q, v) = (moved(q, &of_q), moved(v, &of_v));
+                let (q, v) = (moved(q, of_q), moved(v, of_v));
                 most = most.max((power(&q, &v) - here).abs());
                 change += (system.potential_energy(t, &q, u) - energies.potential).abs();
             }
@@ -93,7 +108,7 @@ impl ExplainedResidual {
     }
 
     /// Updates the quantities that take many evaluations.
-    fn update_costly_bounds<S: System>(
+    fn update_costly_bounds<S: System<Vector = V>>(
         &mut self,
         system: &S,
         (t, q, u): (f64, &S::Vector, &S::Inputs),

@@ -10,8 +10,9 @@ use crate::solution::Ending;
 use crate::step_error::StepError;
 use crate::{Error, Machine, Pivot, Singular, System};
 
-/// The number of changes of contact states at one instant beyond which they are considered not to settle: each contact has three states.
-const MOST_CHANGES_AT_ONCE: usize = 3 * crate::MOST_CONTACTS;
+/// The number of changes of contact states at one instant beyond which they are considered not to settle, unless there are so many contacts
+/// that three for each of them, which has three states, are more.
+const CHANGES_AT_ONCE: usize = 18;
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// The time at which the state of a contact ended in the last step, and the change.
@@ -41,9 +42,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let mut theta_before = 0.0;
         let theta_roundoff = event::theta_roundoff(stepper);
         for theta in event::SAMPLE_FRACTIONS {
-            let ended =
-                contacts.ended_by_margins(&margins(&event::interpolated_at(stepper, theta))?);
-            for (change, kind) in ended.into_iter().flatten() {
+            let here = margins(&event::interpolated_at(stepper, theta))?;
+            for (change, kind) in contacts.ended_by_margins(&here) {
                 let interpolant = step_motion(interpolant, stepper, model.system)?;
                 let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
                 let exactly = |theta| Ok(margins(&at(theta)?)?[change.contact][kind]);
@@ -98,7 +98,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let t = self.stepper.t();
         let is_at_once = *last_t == t;
         (*last_t, *times) = (t, if is_at_once { *times + 1 } else { 0 });
-        if *times > MOST_CHANGES_AT_ONCE {
+        let contacts = self.model.system.contacts().len();
+        if *times > CHANGES_AT_ONCE.max(3 * contacts) {
             let singular = Singular {
                 at: Pivot::Contact(change.contact),
                 ratio: 0.0,
@@ -135,7 +136,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let seconds = self.model.system.second_tangents();
         // Both tangents of a surface are reported under the name of the first.
         for (k, name) in names.filter(|(k, _)| seconds >> k & 1 == 0) {
-            let Some(was) = before.as_ref().map(|before| before.mode) else {
+            let Some(was) = before.as_ref().map(|before| &before.mode) else {
                 continue;
             };
             let (word, crossing) = match now.mode.motion[k] {

@@ -17,7 +17,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     pub(super) fn begin_stepping(&mut self, touching: &UnilateralState) -> Result<(), Error> {
         let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
         touching
-            .check_stepping(self.model.system, (t, q, v))
+            .check_stepping(t)
             .map_err(|error| self.model.explain(error, q, v))?;
         self.record.unilateral.last = vec![false; touching.modes().len()];
         self.push_phase(Phase {

@@ -26,8 +26,7 @@ where
     ///
     /// If only the ends of motions without constraints and contacts are asked for, [`Ensemble`](crate::Ensemble) is faster.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use lagrangian::Simulation;
     ///
     /// lagrangian::machine! {

@@ -36,6 +36,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         self.between_tests = steps;
     }
 
+    /// Whether stiffness was tested since the method began, and nothing speaks for it now.
+    pub(crate) fn is_not_stiff(&self) -> bool {
+        self.stiffness.is_tested && self.stiffness.signs == 0
+    }
+
     /// The tolerance of steps.
     pub(crate) fn tolerance(&self) -> &Tolerance<S::Vector> {
         &self.tolerance

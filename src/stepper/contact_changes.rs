@@ -54,6 +54,8 @@ pub(crate) enum Cause {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ContactChanges {
     pub impacts: Vec<Impact>,
+    /// Impulses that stop slips which are rounding beside the motion: they are no events, and what they take is a loss of their contacts like any other.
+    pub slight_impacts: Vec<Impact>,
     /// The states of contacts before, and now.
     pub before: Vec<Mode>,
     pub after: Vec<Mode>,
@@ -234,14 +236,15 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
     /// Books the energy that an instant of changes took: what impacts added to the kinetic energy, and what each contact stored before and after.
     fn book_changes(&mut self, gained: f64, changes: &ContactChanges, stored: [&[f64]; 2]) {
-        if !changes.impacts.is_empty() {
+        let all_impacts = || changes.impacts.iter().chain(&changes.slight_impacts);
+        if all_impacts().next().is_some() {
             // The energy that impulses add beyond the losses is work of prescribed motion. Whatever else changes energy at this instant is
             // neither work nor a loss, and shows in the energy balance.
-            let impact_losses: f64 = changes.impacts.iter().map(|impact| impact.loss).sum();
+            let impact_losses: f64 = all_impacts().map(|impact| impact.loss).sum();
             let (work, lost) = (gained + impact_losses, impact_losses + changes.lost_at_end);
             self.quadratures.add_instantaneous(work, lost);
         }
-        for impact in &changes.impacts {
+        for impact in all_impacts() {
             let part = ContactShare {
                 work: impact.work,
                 ..ContactShare::default()
@@ -407,10 +410,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
             now.v_low.as_mut_slice().fill(0.0);
             let change = energy(now) - before;
+            jammed += change;
             if change.abs() > SHARE_OF_REST * before {
-                jammed += change;
                 changes.told.jammed.extend(jam.stop.iter().chain(&jam.open));
                 changes.impacts.extend(jam.impacts);
+            } else {
+                changes.slight_impacts.extend(jam.impacts);
             }
             for k in jam
                 .stop
@@ -768,6 +773,7 @@ pub(super) fn project_onto_closed_contacts<S: System>(
         return Ok(None);
     }
     let mut constraints = Constraints::new(&constrained, &now.q, &now.v);
+    let as_found = now.q.clone();
     // The rates of contacts that close are known to the round-off of those with which they closed, however small they are now.
     let first = system.constraints().len();
     for (place, rate) in touching.rates_of_held().enumerate() {
@@ -775,6 +781,7 @@ pub(super) fn project_onto_closed_contacts<S: System>(
     }
     let begun = constraints.begin(&constrained, &mut now.place(), None);
     begun.map_err(|error| touching.explain(system, error))?;
+    touching.check_displacement(system, now.t, (&as_found, &now.q), &now.v)?;
     // Contacts that share a load stay dependent for as long as they are closed.
     constraints.at_fork = false;
     Ok(Some(constraints))

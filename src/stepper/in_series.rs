@@ -94,8 +94,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if quadratures.integrals().is_some() && model.system.get().has_powers() {
             for (i, k) in k.iter_mut().enumerate().take(stages).skip(1) {
                 let tau = method.tableau.c[i] * h;
-                (stage.0, stage.1) = crate::taylor::state(taylor.of_step(), tau);
-                crate::taylor::accelerations(taylor.of_step(), tau, k);
+                let at_stage = [&mut stage.0, &mut stage.1, &mut *k];
+                crate::taylor::state_with_accelerations(taylor.of_step(), tau, at_stage);
                 let t = before.t + (before.t_low + tau);
                 model.take_rates(quadratures, i, (t, &stage.0, &stage.1, k));
             }

@@ -440,6 +440,7 @@ impl Stiffness {
     /// brings a body to rest, the step shrinks as fast as the accelerations change, and `h |λ|` stays as it is; but such steps are few,
     /// however close they come, and an implicit method needs as many.
     fn take(&mut self, stiff: bool, h: f64, t: f64) {
+        self.is_tested = true;
         if stiff {
             self.none_since = 0;
             if h < 0.5 * self.longest {

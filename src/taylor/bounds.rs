@@ -20,17 +20,22 @@ impl<V: Vector> MotionBounds<V> {
         }
     }
 
-    /// Computes the bounds for a step of length `h` from a state through which the motion has these coefficients. Returns whether they are
-    /// finite.
+    /// Computes the bounds for a step of length `h` from a state through which the motion has these coefficients; those of rates only with
+    /// `RATES`. Returns whether they are finite.
     ///
     /// The motion is `Σ cⱼ θʲ` with `1 ≥ θ ≥ θ² ≥ …`, which is a convex combination of the partial sums `Σ cⱼ` over `j ≤ k`: it lies between
     /// the lowest and the highest of them.
-    pub fn of_step(&mut self, coefficients: &[V], h: f64, state: [&V; 2]) -> bool {
+    pub fn of_step<const RATES: bool>(
+        &mut self,
+        coefficients: &[V],
+        h: f64,
+        state: [&V; 2],
+    ) -> bool {
         let n = state[0].as_slice().len();
         let bounds = self;
         macro_rules! part {
             ($start:expr, $end:expr) => {
-                Bound {
+                Bound::<V, RATES> {
                     coefficients,
                     h,
                     state,
@@ -55,7 +60,7 @@ impl<V: Vector> MotionBounds<V> {
 }
 
 /// [`MotionBounds::of_step`] for a range of coordinates whose number is a multiple of that of a block, as a kernel.
-struct Bound<'a, V> {
+struct Bound<'a, V, const RATES: bool> {
     coefficients: &'a [V],
     h: f64,
     state: [&'a V; 2],
@@ -87,7 +92,7 @@ fn with<N: Scalar>([low, high]: [N; 2], x: N) -> [N; 2] {
     [low.min(x), high.max(x)]
 }
 
-impl<T: Block, V: Vector> Kernel<T> for Bound<'_, V> {
+impl<T: Block, V: Vector, const RATES: bool> Kernel<T> for Bound<'_, V, RATES> {
     type Output = bool;
 
     #[inline(always)]
@@ -108,7 +113,7 @@ impl<T: Block, V: Vector> Kernel<T> for Bound<'_, V> {
             for (k, row) in coefficients.iter().enumerate().skip(1) {
                 q = read::<T, N, V>(row, start).mul_add(power, q);
                 of_q = with(of_q, q);
-                if let Some(next) = coefficients.get(k + 1) {
+                if RATES && let Some(next) = coefficients.get(k + 1) {
                     order = order + N::ONE;
                     v = (order * read::<T, N, V>(next, start)).mul_add(power, v);
                     of_v = with(of_v, v);
@@ -116,9 +121,12 @@ impl<T: Block, V: Vector> Kernel<T> for Bound<'_, V> {
                 power = power * h;
             }
             // A sum that is not finite makes all later ones so.
-            are_finite &= q.store().are_finite() && v.store().are_finite();
+            are_finite &= q.store().are_finite();
             write(of_q, &mut bounds.q, start);
-            write(of_v, &mut bounds.v, start);
+            if RATES {
+                are_finite &= v.store().are_finite();
+                write(of_v, &mut bounds.v, start);
+            }
             start += T::COUNT;
         }
         are_finite
@@ -144,7 +152,10 @@ mod tests {
             for h in [0.8, -0.3] {
                 let mut bounds = MotionBounds::like(&coefficients[0]);
                 let from = [&coefficients[0], &coefficients[1]];
-                assert!(bounds.of_step(&coefficients, h, from));
+                assert!(bounds.of_step::<true>(&coefficients, h, from));
+                let mut of_coordinates = MotionBounds::like(&coefficients[0]);
+                assert!(of_coordinates.of_step::<false>(&coefficients, h, from));
+                assert_eq!(of_coordinates.q, bounds.q);
                 let mut reached = [[f64::INFINITY, f64::NEG_INFINITY]; N];
                 for part in 0..=100 {
                     let (q, v) = state(&coefficients, h * f64::from(part) / 100.0);
@@ -169,7 +180,9 @@ mod tests {
                 let mut broken = coefficients.clone();
                 broken[rows - 1][i] = f64::INFINITY;
                 let mut bounds = MotionBounds::like(&broken[0]);
-                assert!(!bounds.of_step(&broken, 0.5, [&broken[0], &broken[1]]));
+                let from = [&broken[0], &broken[1]];
+                assert!(!bounds.of_step::<true>(&broken, 0.5, from));
+                assert!(!bounds.of_step::<false>(&broken, 0.5, from));
             }
         }
     }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lagrangian::{
-    ContactQuantity, ImpactLaw, ImpactOrder, Machine, Painleve, Quantity, Singular, State, System,
-    UnilateralContact,
+    Compliance, ContactQuantity, ImpactLaw, ImpactOrder, Machine, Painleve, Quantity, Singular,
+    State, System, UnilateralContact,
 };
 
 /// The number of balls.
@@ -16,11 +16,13 @@ pub const PAIRS: usize = BALLS * (BALLS - 1) / 2;
 
 const DIAMETER: f64 = 0.2;
 
-/// Equal balls that bounce without loss, 1 m apart, of which the first moves at 1 m/s.
+/// Equal balls of 1 kg, 1 m apart, of which the first moves at 1 m/s. They bounce without loss, or each two have a layer between them.
 #[derive(Clone, Debug, Default)]
 pub struct Train {
     /// Whether pairs can be evaluated one by one.
     pub is_single: bool,
+    /// The stiffness of the layers in loading and in unloading, if there are any.
+    pub layers: Option<[f64; 2]>,
     pub asked: Arc<Asked>,
 }
 
@@ -160,7 +162,7 @@ impl System for Train {
             law: ImpactLaw::Newton,
             order: ImpactOrder::AtOnce,
             painleve: Painleve::Error,
-            compliance: None,
+            compliance: self.layers.map(|_| Compliance::Layer),
             has_friction: false,
             is_rolling_resistance: false,
             is_second_tangent: false,
@@ -195,7 +197,8 @@ impl System for Train {
 
     fn contact_coefficients(&self, _: f64, _: &Self::Vector, _: &Self::Vector, to: &mut [f64]) {
         for own in to.chunks_exact_mut(4) {
-            own.copy_from_slice(&[1.0, 0.0, 0.0, 0.0]);
+            let [first, second] = self.layers.unwrap_or([1.0, 0.0]);
+            own.copy_from_slice(&[first, second, 0.0, 0.0]);
         }
     }
 
@@ -226,7 +229,9 @@ impl System for Train {
                 }
                 ContactQuantity::Rates => numbers[0] = v[j] - v[i],
                 ContactQuantity::Rows => (numbers[i], numbers[j]) = (-1.0, 1.0),
-                ContactQuantity::Coefficients => numbers[0] = 1.0,
+                ContactQuantity::Coefficients => {
+                    numbers[..2].copy_from_slice(&self.layers.unwrap_or([1.0, 0.0]));
+                }
                 _ => {}
             }
         }

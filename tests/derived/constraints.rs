@@ -1,5 +1,7 @@
 //! Machines with constraints, tested against closed forms and against the same machine in minimal coordinates.
 
+use std::cell::Cell;
+
 use crate::by_hand::constrained::{
     Constrained, bead, circle, double_pendulum, parallelogram, rope, sleigh, winch,
 };
@@ -67,6 +69,52 @@ fn run<const N: usize, const M: usize, const NN: usize>(
 fn assert_near(found: &[f64], known: &[f64], tolerance: f64) {
     for (found, known) in found.iter().zip(known) {
         assert!((found - known).abs() <= tolerance, "{found} {known}");
+    }
+}
+
+thread_local! {
+    /// How often the positions and the matrix of a constraint were evaluated.
+    static EVALUATED: Cell<[usize; 2]> = const { Cell::new([0; 2]) };
+}
+
+/// The end of a step is projected onto the constraints by the matrices of two poses, however many corrections that takes: those of the end, by which
+/// residuals are measured, and those where the projection arrives.
+#[test]
+fn a_projection_evaluates_the_constraint_matrix_twice() {
+    let machine = Constrained {
+        positions: |_, [x, y], _| {
+            let [positions, matrices] = EVALUATED.get();
+            EVALUATED.set([positions + 1, matrices]);
+            [0.5 * (x * x + y * y - 1.0)]
+        },
+        matrix: |_, [x, y], _| {
+            let [positions, matrices] = EVALUATED.get();
+            EVALUATED.set([positions, matrices + 1]);
+            [[*x, *y]]
+        },
+        ..circle::<1>()
+    };
+    let evaluated = |tolerance: f64, until: f64| {
+        EVALUATED.set([0; 2]);
+        let run = Simulation::new(&machine).method(Method::DOP853);
+        let run = run.tolerance(tolerance).until(until).run(machine.start());
+        let statistics = run.expect("it runs").statistics();
+        assert!(statistics.constraint_residual <= RESIDUAL);
+        (EVALUATED.get(), statistics)
+    };
+    for tolerance in [1e-4, 1e-6, 1e-10] {
+        let (before, one) = evaluated(tolerance, 1.0);
+        let (after, other) = evaluated(tolerance, 11.0);
+        let [positions, matrices] = [0, 1].map(|of: usize| after[of] - before[of]);
+        let tries = (other.steps + other.rejected) - (one.steps + one.rejected);
+        // The machine evaluates the matrix for its accelerations and, in `G v`, for the rates of its constraint: before the corrections, at the pose
+        // where those of positions arrive, and after each correction of rates, of which there is one, and two where the rows have turned little.
+        let of_machine = other.evaluations - one.evaluations;
+        assert!(positions > tries, "{tolerance}: {positions} {tries}");
+        assert!(
+            matrices <= of_machine + (2 + 4) * tries,
+            "{tolerance}: {matrices} {of_machine} {tries}"
+        );
     }
 }
 

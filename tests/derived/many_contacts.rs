@@ -7,7 +7,7 @@ use lagrangian::{
 
 use std::sync::atomic::Ordering;
 
-use crate::by_hand::train::{BALLS, Train};
+use crate::by_hand::train::{BALLS, PAIRS, Train};
 use crate::support::random::SplitMix;
 
 lagrangian::machine! {
@@ -31,6 +31,26 @@ lagrangian::machine! {
         }
     }
 }
+
+/// Grains between which layers are crushed, in a bowl with a layer.
+const LAYERS: &str = "machine Grains in plane {
+    parameters { m: kg = 0.05, r[i in 1..6]: m = 0.05, d: m = 0.12, R: m = 0.4, k1: N/m = 400, k2: N/m = 1000, mu: 1 = 0.3, g: m/s^2 = 9.81 }
+    coordinates {
+        x[i in 1..6]: m = d*sqrt(i)*cos(2.4*i*rad),
+        y[i in 1..6]: m = d*sqrt(i)*sin(2.4*i*rad),
+        theta[i in 1..6]: rad,
+    }
+    bodies { disc[i in 1..6] { mass: m, inertia: m*r[i]^2/2, at: (x[i], y[i]), angle: theta[i] } }
+    circles {
+        bowl { on: ground, center: (0, 0), radius: R },
+        rim[i in 1..6] { on: disc[i], center: (0, 0), radius: r[i] },
+    }
+    gravity (0, -g);
+    contacts {
+        wall[i in 1..6] { circle: rim[i], inside: bowl, compliance: layer(k1, k2), friction: mu },
+        pair { circles: rim, compliance: layer(k1, k2), friction: mu },
+    }
+}";
 
 const HEAP: &str = "machine Heap in plane {
     parameters { m: kg = 0.05, r[i in 1..7]: m = 0.05, d: m = 0.12, R: m = 0.4, e: 1 = 0.3, mu: 1 = 0.3, g: m/s^2 = 9.81 }
@@ -74,7 +94,10 @@ fn machine(text: &str) -> InterpretedMachine {
 
 fn run<M: Machine>(machine: &M, until: f64, method: &str) -> Solution<M> {
     let method_by_name = Method::named(method).expect("a method");
-    let mut simulation = Simulation::new(machine).method(method_by_name).until(until);
+    let mut simulation = Simulation::new(machine)
+        .method(method_by_name)
+        .until(until)
+        .energy_balance(true);
     if method == "moreau" {
         simulation = simulation.longest_step(1e-3);
     }
@@ -91,11 +114,12 @@ fn told<C>(events: &[ContactEvent<C>]) -> Vec<(u64, String, ContactEventKind)> {
     events.iter().map(told).collect()
 }
 
-/// The numbers of single contacts are those of all contacts together, to the bit, in the interpreter, in machine code and in compiled code.
+/// The numbers of single contacts are those of all contacts together, to the bit, in the interpreter, in machine code and in compiled code, which has no
+/// functions for all of them.
 #[test]
 fn numbers_of_single_contacts_are_those_of_all() {
     let mut random = SplitMix::new(20);
-    for text in [HEAP, BOXES] {
+    for text in [HEAP, BOXES, LAYERS] {
         for engine in [Engine::Interpreter, Engine::Jit] {
             let mut machine = machine(text);
             if machine.set_engine(engine).is_err() {
@@ -107,20 +131,41 @@ fn numbers_of_single_contacts_are_those_of_all() {
                 let mut numbers =
                     || -> Vec<f64> { (0..n).map(|_| random.uniform(-1.0, 1.0)).collect() };
                 let (q, v) = (numbers(), numbers());
-                singles_are_those_of_all(&system, 0.3, &q, &v);
+                singles_are_those_of_all((&system, &q, &v), (&system, &q, &v), 0.3);
             }
         }
     }
-    let compiled = Heap::default();
-    let system = compiled.prepare();
+    let (system, whole) = (Heap::default().prepare(), machine(HEAP).prepare());
     for _ in 0..20 {
         let [q, v]: [[f64; 21]; 2] =
             [(); 2].map(|()| std::array::from_fn(|_| random.uniform(-1.0, 1.0)));
-        singles_are_those_of_all(&system, 0.3, &q, &v);
+        let of_whole = (&whole, &q.to_vec(), &v.to_vec());
+        singles_are_those_of_all((&system, &q, &v), of_whole, 0.3);
+        let m = system.unilateral_contacts().len();
+        let bounds = |least: &dyn Fn(&mut [f64])| {
+            let mut bounds = vec![0.0; m];
+            least(&mut bounds);
+            bounds
+        };
+        let high = q.map(|q| q + 0.1);
+        let (found, expected) = (
+            bounds(&|to| system.least_gaps([0.3, 0.4], [&q, &high], to)),
+            bounds(&|to| whole.least_gaps([0.3, 0.4], [&q.to_vec(), &high.to_vec()], to)),
+        );
+        for (found, expected) in found.iter().zip(&expected) {
+            // Prepared values are intervals of their rounding here, and of that of their formulas there: numbers of up to 3 m.
+            let rounding = 16.0 * f64::EPSILON;
+            assert!(found == expected || (found - expected).abs() <= rounding);
+        }
     }
 }
 
-fn singles_are_those_of_all<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+/// Compares numbers of single contacts of a system with those of all contacts of the same machine, each at the same state.
+fn singles_are_those_of_all<S: System, W: System>(
+    (system, q, v): (&S, &S::Vector, &S::Vector),
+    whole: (&W, &W::Vector, &W::Vector),
+    t: f64,
+) {
     use lagrangian::Vector;
     assert!(system.single_contacts().is_some(), "it has many contacts");
     let (n, m) = (q.as_slice().len(), system.unilateral_contacts().len());
@@ -131,13 +176,11 @@ fn singles_are_those_of_all<S: System>(system: &S, t: f64, q: &S::Vector, v: &S:
         (ContactQuantity::Bias, 2),
         (ContactQuantity::Coefficients, 4),
     ] {
-        let mut all = vec![0.0; width * m];
-        match quantity {
-            ContactQuantity::Gap => system.gaps(t, q, &mut all),
-            ContactQuantity::Rates => system.contact_rates(t, q, v, &mut all),
-            ContactQuantity::Rows => system.contact_matrix(t, q, &mut all),
-            ContactQuantity::Bias => system.contact_bias(t, q, v, &mut all),
-            _ => system.contact_coefficients(t, q, v, &mut all),
+        let all = numbers_of_all(whole, quantity, (t, width * m));
+        let own = numbers_of_all((system, q, v), quantity, (t, width * m));
+        let are_same = |a: &f64, b: &f64| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan();
+        for (i, (own, all)) in own.iter().zip(&all).enumerate() {
+            assert!(are_same(own, all), "{quantity:?} {i}: {own:e}, not {all:e}");
         }
         // Every third contact: numbers of the others must not appear among these.
         let which: Vec<usize> = (0..m).filter(|k| k % 3 == 1).collect();
@@ -146,11 +189,30 @@ fn singles_are_those_of_all<S: System>(system: &S, t: f64, q: &S::Vector, v: &S:
         assert!(some.iter().any(|x| *x != 0.0), "{quantity:?} are not all 0");
         for (own, k) in some.chunks_exact(width).zip(&which) {
             for (own, all) in own.iter().zip(&all[width * k..][..width]) {
-                let same = own.to_bits() == all.to_bits() || own.is_nan() && all.is_nan();
-                assert!(same, "{quantity:?} of {k}: {own:e}, not {all:e}");
+                assert!(
+                    are_same(own, all),
+                    "{quantity:?} of {k}: {own:e}, not {all:e}"
+                );
             }
         }
     }
+}
+
+/// A quantity of all contacts, so many numbers.
+fn numbers_of_all<S: System>(
+    (system, q, v): (&S, &S::Vector, &S::Vector),
+    quantity: ContactQuantity,
+    (t, count): (f64, usize),
+) -> Vec<f64> {
+    let mut all = vec![0.0; count];
+    match quantity {
+        ContactQuantity::Gap => system.gaps(t, q, &mut all),
+        ContactQuantity::Rates => system.contact_rates(t, q, v, &mut all),
+        ContactQuantity::Rows => system.contact_matrix(t, q, &mut all),
+        ContactQuantity::Bias => system.contact_bias(t, q, v, &mut all),
+        _ => system.contact_coefficients(t, q, v, &mut all),
+    }
+    all
 }
 
 /// No gap in a box is below its bound there, and where the box is a point the bound is the gap but for rounding.
@@ -209,6 +271,7 @@ fn far_contacts_change_no_bit() {
         (HEAP, "moreau", 0.5),
         (BOXES, "dop853", 0.45),
         (BOXES, "moreau", 0.5),
+        (LAYERS, "dop853", 0.4),
     ] {
         let whole = machine(text).without_single_contacts();
         let expected = run(&whole, until, method);
@@ -225,6 +288,7 @@ fn far_contacts_change_no_bit() {
             );
             assert_eq!(found.end().q, expected.end().q);
             assert_eq!(found.end().v, expected.end().v);
+            assert_eq!(found.contact_energies(), expected.contact_energies());
             assert_eq!(
                 found.statistics().evaluations,
                 expected.statistics().evaluations
@@ -358,4 +422,66 @@ fn pairs_that_are_far_are_not_evaluated() {
         counted(&train.asked.together),
         counted(&shorter.asked.together)
     );
+}
+
+/// Layers between balls on a line, which only neighbours crush: a ball leaves the layer that it has crushed at `e = √(k₁/k₂)` of the rate at which it came, so
+/// that balls of equal mass go on at `(1 − e)/2` and `(1 + e)/2` of it. Of the bounds of gaps nothing but the layers that are near is evaluated.
+#[test]
+fn layers_that_are_far_are_not_evaluated() {
+    let run = |is_single: bool, until: f64| {
+        let train = Train {
+            is_single,
+            layers: Some([4e3, 1.6e4]),
+            ..Train::default()
+        };
+        let run = Simulation::new(&train)
+            .method(Method::named("dop853").expect("a method"))
+            .longest_step(0.05)
+            .energy_balance(true)
+            .until(until)
+            .run(train.start())
+            .unwrap_or_else(|error| panic!("{error}"));
+        (train, run)
+    };
+    // The second ball reaches the third 0.8 m later, at less than 0.8 + 0.8/0.75 s.
+    let (_, first) = run(true, 1.5);
+    let [v1, v2, ..] = first.end().v;
+    for (v, expected) in [(v1, 0.25), (v2, 0.75)] {
+        // A tolerance of 1e-9 in each of some hundred steps, and a rate of change of up to 45 m/s² within errors of instants.
+        assert!((v - expected).abs() < 1e-6, "{v}, not {expected}");
+    }
+    let crushed: f64 = first
+        .contact_energies()
+        .iter()
+        .map(|own| own.crushing_work)
+        .sum();
+    // Of the energy of the relative motion, m/4 u², the part 1 − e² is lost.
+    assert!((crushed - 0.25 * 0.75).abs() < 1e-6, "{crushed}");
+
+    let (_, expected) = run(false, 6.0);
+    let (train, found) = run(true, 6.0);
+    assert!(found.contact_events().len() >= 8);
+    assert_eq!(
+        told(found.contact_events()),
+        told(expected.contact_events())
+    );
+    assert_eq!(
+        (found.end().q, found.end().v),
+        (expected.end().q, expected.end().v)
+    );
+    assert_eq!(found.contact_energies(), expected.contact_energies());
+    let counted = |of: &std::sync::atomic::AtomicUsize| of.load(Ordering::Relaxed);
+    // A run that evaluates all pairs does so at four looks at each step.
+    let steps = found.statistics().steps;
+    let together = counted(&train.asked.together);
+    assert!(together < steps, "{together} in {steps} steps");
+    let single = train
+        .asked
+        .each
+        .iter()
+        .flatten()
+        .map(counted)
+        .sum::<usize>();
+    assert!(single < PAIRS * steps, "{single} in {steps} steps");
+    assert!(counted(&train.asked.each[0][1]) > 0);
 }

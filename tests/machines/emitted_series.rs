@@ -47,6 +47,16 @@ lagrangian::machine! {
     machine SphericalPendulum extends "../../machines/spherical_pendulum.machine" { methods { taylor } }
 }
 lagrangian::machine! {
+    machine SlowOscillator in plane {
+        parameters { m: kg = 1, k: N/m = 9, most: m/s = 3.0001 }
+        coordinates { x: m = 1 }
+        bodies { block { mass: m, at: (x, 0) } }
+        springs { spring { stiffness: k, stretch: x } }
+        assume { most^3 - der(x)^3 > 0 }
+        methods { taylor }
+    }
+}
+lagrangian::machine! {
     machine FlyballGovernor extends "../../machines/flyball_governor.machine" { methods { taylor } }
 }
 lagrangian::machine! {
@@ -282,6 +292,10 @@ fn an_assumption_is_decided_by_bounds() {
     assert!(holds_within(0.1, 3.0) && holds_within(7.0, 9.0));
     assert!(!holds_within(-0.1, 1.0) && !holds_within(3.0, 3.5) && !holds_within(1.0, 8.0));
     assert!(!holds_within(1.0, f64::NAN));
+    // Whatever the rates, on which it does not depend.
+    let [low, high] = [f64::NEG_INFINITY, f64::INFINITY].map(|end| [end; 3]);
+    let within = [0.1, 3.0].map(|theta| [0.0, theta, 0.0]);
+    assert!(system.assumptions_hold_within([0.0, 1.0], [&within[0], &within[1]], [&low, &high]));
 
     let machine = SphericalPendulum::default();
     let run = |speed: f64| {
@@ -298,6 +312,27 @@ fn an_assumption_is_decided_by_bounds() {
         panic!("{ended:?}");
     };
     assert!((t - quarter).abs() < 1e-9, "{t} {quarter}");
+}
+
+/// The rate of x = cos 3t has its maximum, 3 m/s, at 3t = 3π/2. An assumption that it is less than 3 cos 0.01 fails for a moment.
+#[test]
+fn an_assumption_about_rates_is_decided_by_their_bounds() {
+    let run = |most: f64| {
+        let machine = SlowOscillator {
+            most,
+            ..SlowOscillator::default()
+        };
+        let run = Simulation::new(&machine).method(&TAYLOR).tolerance(1e-13);
+        run.until(20.0).run(machine.start()).map(|run| run.end().t)
+    };
+    assert_eq!(run(3.0001), Ok(20.0));
+    let ended = run(3.0 * 0.01_f64.cos());
+    let Err(Error::AssumptionEnded { t, .. }) = ended else {
+        panic!("{ended:?}");
+    };
+    // The rate changes by 0.09 m/s² there, so an error of 1e-12 m/s is one of 1e-11 s.
+    let exact = (1.5 * std::f64::consts::PI - 0.01) / 3.0;
+    assert!((t - exact).abs() < 1e-10, "{t} {exact}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Coulomb friction: bodies that stick stay in place, sliding bodies lose the right energy, and where
 //! the law does not determine the motion the run reports that.
 
+mod many;
 mod shared;
 mod shared_in_space;
 mod space;

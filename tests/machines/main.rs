@@ -12,6 +12,8 @@ mod long_runs;
 mod mechanisms;
 mod motions;
 mod peers;
+mod piles;
+mod series_on_demand;
 mod stress;
 #[path = "../support/mod.rs"]
 mod support;

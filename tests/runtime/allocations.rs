@@ -3,9 +3,10 @@
 use crate::by_hand::constrained::{Constrained, circle, parallelogram};
 use crate::by_hand::double_pendulum::DoublePendulum;
 use crate::by_hand::toy::oscillator;
+use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{
     DefaultInputs, EnergyIntegrals, InputFunction, METHODS, Machine, Method, NoBalance, Simulation,
-    Stepper, System, Tolerance,
+    Stepper, System, TAYLOR, Tolerance,
 };
 
 fn allocations(of: impl FnOnce()) -> u64 {
@@ -102,6 +103,40 @@ fn a_longer_run_that_keeps_nothing_allocates_no_more() {
             })
         });
         assert_eq!(short, long, "{}", method.tableau.name);
+    }
+}
+
+/// What a run of a machine that is read does at each step besides: energies, what explains their residual, and the question whether to stop.
+#[test]
+fn a_longer_run_of_a_machine_that_is_read_allocates_hardly_more() {
+    let text = "machine Swing in plane {
+        parameters { m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }
+        coordinates { theta: rad = 2, phi: rad = 1 }
+        bodies { bob { mass: m, at: l*(sin(theta), -cos(theta)) }, other { mass: m, at: l*(sin(phi), -cos(phi)) } }
+        gravity (0, -g);
+    }";
+    let machine = InterpretedMachine::from_text(text).build().unwrap();
+    for method in [Method::DOP853, &TAYLOR] {
+        let run = |until: f64| {
+            let simulation = Simulation::new(&machine).method(method).tolerance(1e-10);
+            let simulation = simulation
+                .energy_balance(true)
+                .forget_steps()
+                .forget_energies();
+            let simulation = simulation.stop_if(|_| false).until(until);
+            simulation.run(machine.start()).unwrap().statistics().steps
+        };
+        let mut steps = [run(1.0); 2];
+        let of_short = allocations(|| steps[0] = run(50.0));
+        let of_long = allocations(|| steps[1] = run(100.0));
+        let [fewer, more] = steps;
+        // Costly bounds are computed anew when the number of steps is a power of two: once more, with two vectors of their own, two for each of the
+        // two coordinates, and four of moved coordinates.
+        assert!(
+            of_long - of_short <= 2 + 2 * 2 + 4 && more > fewer + 100,
+            "{}: {of_short} for {fewer} steps, {of_long} for {more}",
+            method.tableau.name
+        );
     }
 }
 

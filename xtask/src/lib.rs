@@ -188,7 +188,8 @@ fn quantities() -> String {
          What a machine can be asked for. Each is a function of emitted Rust and C and of the listing that\n\
          `lagrangian derive --as program` prints; those that depend on the state are methods of `System` under the same\n\
          name, unless they are one of a kind that only some machines are asked for. Letters: t time, q coordinates, v\n\
-         their rates, a accelerations, u inputs. Definitions are those of [equations.md](equations.md).\n\n\
+         their rates, a accelerations, u inputs. Definitions are those of [equations.md](equations.md). In emitted Rust, a\n\
+         machine with at least 16 unilateral contacts has a function for each kind of contact in place of those for all.\n\n\
          | function | symbol | numbers | of | machines | definition | what it is |\n\
          | --- | --- | --- | --- | --- | --- | --- |\n",
     );

@@ -440,7 +440,15 @@ mod tests {
         let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let crates = fs::read_dir(project.join("crates")).expect("a folder");
         let supporting = crates.map(|entry| entry.expect("an entry").path());
-        let others = [".", "cli", "derive-macros", "jit", "model-spec", "xtask"];
+        let others = [
+            ".",
+            "cli",
+            "derive-macros",
+            "jit",
+            "lagrangian",
+            "model-spec",
+            "xtask",
+        ];
         supporting
             .chain(others.map(|name| project.join(name)))
             .flat_map(|folder| ["lib", "main"].map(|name| folder.join(format!("src/{name}.rs"))))

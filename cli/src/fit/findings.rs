@@ -421,8 +421,6 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
     let statistics = &result.found.statistics;
     let minimum = &result.found.minimum;
     let sought = &result.fit.sought;
-    let names: Vec<String> = sought.iter().map(|one| one.name.clone()).collect();
-    let units: Vec<String> = sought.iter().map(|one| one.unit.clone()).collect();
     let standing = |standing: Standing| match standing {
         Standing::Estimated => "estimated",
         Standing::Bound => "bound",
@@ -460,25 +458,6 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
         statistics.correlation(j, k)?;
         Some(statistics.covariance[(j, k)])
     });
-    let combinations: Vec<Value> = result
-        .found
-        .combinations
-        .iter()
-        .map(|combination| {
-            json!({
-                "formula": combination.formula(&names),
-                "kind": match combination.kind {
-                    CombinationForm::Product => "product",
-                    CombinationForm::Sum => "sum",
-                    CombinationForm::Local => "local",
-                },
-                "unit": combination.unit(&units),
-                "value": combination.value(&minimum.x),
-                "standard_error": statistics.standard_error_of(&combination.gradient(&minimum.x)),
-                "terms": combination.terms.iter().map(|(j, c)| json!({"name": names[*j], "factor": c})).collect::<Vec<_>>(),
-            })
-        })
-        .collect();
     let columns: Vec<Value> = result
         .classes
         .iter()
@@ -491,19 +470,6 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
                 "residual": root,
                 "sigma": (result.sigmas != Sigmas::Equal).then(|| result.fit.sigmas[place]),
             })
-        })
-        .collect();
-    let searches: Vec<Value> = result
-        .searches
-        .iter()
-        .map(|search| match &search.end {
-            Ok(minimum) => json!({
-                "from": search.from,
-                "value": minimum.x,
-                "sum": minimum.sums.last(),
-                "converged": minimum.ending.is_minimum(),
-            }),
-            Err(why) => json!({"from": search.from, "error": why}),
         })
         .collect();
     json!({
@@ -521,7 +487,7 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
         "fitted": fitted,
         "covariance": covariance,
         "correlation": matrix(&|j, k| statistics.correlation(j, k)),
-        "combinations": combinations,
+        "combinations": combinations_as_json(result),
         "measurements": statistics.measurements,
         "degrees_of_freedom": statistics.freedom,
         "chi_squared": statistics.chi_squared,
@@ -534,7 +500,52 @@ pub fn document(result: &Fitted<'_, '_>) -> Value {
         "columns": columns,
         "singular_values": statistics.singular_values,
         "sums": minimum.sums,
-        "searches": searches,
+        "searches": searches_as_json(result),
         "warnings": result.warnings,
     })
+}
+
+/// The combinations of numbers that the data determine better than the numbers themselves, as JSON.
+fn combinations_as_json(result: &Fitted<'_, '_>) -> Vec<Value> {
+    let statistics = &result.found.statistics;
+    let minimum = &result.found.minimum;
+    let sought = &result.fit.sought;
+    let names: Vec<String> = sought.iter().map(|one| one.name.clone()).collect();
+    let units: Vec<String> = sought.iter().map(|one| one.unit.clone()).collect();
+    result
+        .found
+        .combinations
+        .iter()
+        .map(|combination| {
+            json!({
+                "formula": combination.formula(&names),
+                "kind": match combination.kind {
+                    CombinationForm::Product => "product",
+                    CombinationForm::Sum => "sum",
+                    CombinationForm::Local => "local",
+                },
+                "unit": combination.unit(&units),
+                "value": combination.value(&minimum.x),
+                "standard_error": statistics.standard_error_of(&combination.gradient(&minimum.x)),
+                "terms": combination.terms.iter().map(|(j, c)| json!({"name": names[*j], "factor": c})).collect::<Vec<_>>(),
+            })
+        })
+        .collect()
+}
+
+/// The searches from all starts, as JSON.
+fn searches_as_json(result: &Fitted<'_, '_>) -> Vec<Value> {
+    result
+        .searches
+        .iter()
+        .map(|search| match &search.end {
+            Ok(minimum) => json!({
+                "from": search.from,
+                "value": minimum.x,
+                "sum": minimum.sums.last(),
+                "converged": minimum.ending.is_minimum(),
+            }),
+            Err(why) => json!({"from": search.from, "error": why}),
+        })
+        .collect()
 }

@@ -356,7 +356,7 @@ impl<'e> Reader<'_, '_, 'e> {
         Item::of(element, class, owner)
     }
 
-    /// The same for an element to which its class gives the defaults of elements with another name.
+    /// An element to which its class gives the defaults of elements with another name.
     fn item_as(&mut self, element: &'e Element, tag: &'e str) -> Item<'e> {
         let item = self.item(element, 0);
         Item { tag, ..item }

@@ -32,15 +32,6 @@ pub(super) fn run(
         .map(|chart| chart.turns((call, method), from))
         .transpose()?;
     let n = machine.program().dimension();
-    let direction = |(variation, size): (&Variation, &f64)| {
-        let mut direction = Direction::of_start(machine);
-        match variation.by {
-            By::Parameter(index) => direction.parameters[index] = *size,
-            By::Input(index) => direction.inputs[index] = *size,
-            By::Start(_) | By::StartRate(_) => {}
-        }
-        direction
-    };
     let all = |list: &Varied<Named>| -> Vec<f64> {
         let by = list.by.iter().zip(&sizes);
         let by = by.flat_map(|(by, size)| by.values.iter().map(move |by| by * size));
@@ -56,7 +47,7 @@ pub(super) fn run(
     let wanted = across::Wanted {
         machine,
         signals: &signals,
-        directions: variations.iter().zip(&sizes).map(direction).collect(),
+        directions: directions(machine, variations, &sizes),
         method,
         tolerance: call.tolerance,
         until: call.until,
@@ -90,17 +81,7 @@ pub(super) fn run(
         check_drift(machine, &end, variations)?;
     }
     check_differences(call, (machine, method), variations, &begun, &end)?;
-    let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
-    let interval = interval.copysign(call.until - from.t);
-    let count = if call.until == from.t {
-        0
-    } else {
-        ((call.until - from.t) / interval * (1.0 - 1e-9)).floor() as usize
-    };
-    let mut times: Vec<f64> = (0..=count).map(|k| from.t + k as f64 * interval).collect();
-    if call.until != from.t {
-        times.push(call.until);
-    }
+    let times = times(call, from.t);
     let system = machine.prepare();
     let mut columns = columns(variations, observed);
     for t in &times {
@@ -149,4 +130,34 @@ pub(super) fn run(
         }
     }
     Ok((times, columns))
+}
+
+/// The instants of the rows: at equal intervals from the start, and the end.
+fn times(call: &call::Sensitivities, start: f64) -> Vec<f64> {
+    if call.until == start {
+        return vec![start];
+    }
+    let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
+    let interval = interval.copysign(call.until - start);
+    let count = ((call.until - start) / interval * (1.0 - 1e-9)).floor() as usize;
+    let inside = (0..=count).map(|k| start + k as f64 * interval);
+    inside.chain([call.until]).collect()
+}
+
+/// The directions of differentiation, each scaled to the size of its variable.
+fn directions(
+    machine: &InterpretedMachine,
+    variations: &[Variation],
+    sizes: &[f64],
+) -> Vec<Direction> {
+    let direction = |(variation, size): (&Variation, &f64)| {
+        let mut direction = Direction::of_start(machine);
+        match variation.by {
+            By::Parameter(index) => direction.parameters[index] = *size,
+            By::Input(index) => direction.inputs[index] = *size,
+            By::Start(_) | By::StartRate(_) => {}
+        }
+        direction
+    };
+    variations.iter().zip(sizes).map(direction).collect()
 }

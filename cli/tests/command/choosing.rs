@@ -128,6 +128,44 @@ fn a_run_that_changes_its_method_has_the_same_bits_each_time_and_whatever_is_rec
     }
 }
 
+/// An oscillation, x = cos t, of 300 periods.
+const OSCILLATING: &str = "machine Oscillating in plane {
+    parameters { k: N/m = 1 }
+    coordinates { x: m = 1 }
+    bodies { a { mass: 1, at: (x, 0) } }
+    springs { back { stiffness: k, stretch: x } }
+}";
+
+#[test]
+fn what_runs_long_goes_on_by_series_with_either_engine() {
+    let scratch = Scratch::new("oscillating.machine", OSCILLATING);
+    let call = [scratch.path(), "--until", "1885", "--tolerance", "1e-12"];
+    let run = answer(&call);
+    assert_eq!(methods(&run), ["dop853", "taylor"], "{run:#}");
+    let since = run["methods"][1]["t"].as_f64().expect("a number");
+    assert!((1.0..1885.0 / 4.0).contains(&since), "{since}");
+    let reason = run["methods"][1]["reason"].as_str().expect("a reason");
+    assert!(reason.starts_with("a step by series costs"), "{reason}");
+    // Two thousand steps, with errors of the phase that add up.
+    let x = run["q"]["x"].as_f64().expect("a number");
+    assert!((x - 1885.0_f64.cos()).abs() < 2e3 * 1e-12, "{x}");
+    let interpreted = answer(&[&call[..], &["--engine", "interpreter"]].concat());
+    let table = Scratch::new("oscillating.csv", "");
+    let recorded = answer(&[&call[..], &["--out", table.path(), "--every", "0.5"]].concat());
+    for other in [interpreted, recorded] {
+        for name in ["q", "v", "steps", "methods"] {
+            assert_eq!(other[name], run[name], "{name}");
+        }
+    }
+    // The derivation and the comparison of both methods are all that the choice costs.
+    let alone = answer(&[&call[..], &["--method", "taylor"]].concat());
+    let steps = |run: &Value| run["steps"].as_f64().expect("a number");
+    assert!(steps(&run) < 1.2 * steps(&alone) + 1000.0, "{run:#}");
+    let text = String::from_utf8(lagrangian(&[&["simulate"], &call[..]].concat()).stdout);
+    let text = text.expect("text");
+    assert!(text.contains("  taylor from t = "), "{text}");
+}
+
 #[test]
 fn the_summary_says_what_was_chosen_and_why() {
     let scratch = Scratch::new("told.machine", DAMPED);

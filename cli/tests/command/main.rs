@@ -12,6 +12,7 @@ mod command_line;
 mod compliance;
 mod constraints;
 mod contacts;
+mod contacts_in_any_order;
 mod derived_parameters;
 mod exported;
 mod fit;
@@ -37,6 +38,7 @@ mod runs;
 mod scripts;
 mod signals;
 mod states;
+mod stepped_laws;
 #[path = "../support/mod.rs"]
 mod support;
 mod sweep;

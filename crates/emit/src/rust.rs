@@ -21,6 +21,7 @@ mod stub;
 mod types;
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use super::body::Plan;
 use super::layout::Writer;
@@ -185,7 +186,7 @@ struct Emitter<'a> {
     /// The loops of functions that have loops.
     plans: BTreeMap<Role, Plan>,
     /// The numbers of single contacts, where there are many.
-    contact_parts: Option<ContactParts>,
+    contact_parts: Option<Rc<ContactParts>>,
     /// Whether the module is within that of the machine in its other chart, whose lints it has.
     is_within: bool,
     /// Whether the function being written leaves the check for large angles to its caller.
@@ -273,7 +274,7 @@ impl<'a> Emitter<'a> {
     }
 
     fn write_module(&mut self) {
-        self.contact_parts = ContactParts::of(self.program);
+        self.contact_parts = ContactParts::of(self.program).map(Rc::new);
         self.head();
         self.machine();
         self.coordinates();
@@ -329,30 +330,8 @@ impl<'a> Emitter<'a> {
             .line("//! | function | mul | add | div | sin cos | other | temporaries |");
         self.writer
             .line("//! | --- | --: | --: | --: | --: | --: | --: |");
-        for function in program.all_functions() {
-            let Counts {
-                multiplications,
-                additions,
-                divisions,
-                sincos,
-                other,
-                ..
-            } = function.counts();
-            let work = [
-                multiplications,
-                additions,
-                divisions,
-                sincos,
-                other,
-                temporaries(function),
-            ];
-            if work.iter().any(|&n| n > 0) {
-                let work = work.map(|n| n.to_string()).join(" | ");
-                self.writer.line(format!(
-                    "//! | `{}` | {work} |",
-                    self.function_name(function.role)
-                ));
-            }
+        for row in self.rows_of_work() {
+            self.writer.line(row);
         }
         self.writer.line("//!");
         self.writer.comment(
@@ -373,6 +352,38 @@ impl<'a> Emitter<'a> {
                 .line("// One counter for several arrays, some of them read backwards.");
             self.writer.line("#![allow(clippy::needless_range_loop)]");
         }
+    }
+
+    /// The rows of the table of work: one for each function that computes anything.
+    fn rows_of_work(&self) -> Vec<String> {
+        let of_parts = self
+            .contact_parts
+            .iter()
+            .flat_map(|parts| &parts.program.functions);
+        let functions = self.program.all_functions();
+        let functions = functions.filter(|function| !self.is_by_parts(function.role));
+        let row = |function: &Function| {
+            let Counts {
+                multiplications,
+                additions,
+                divisions,
+                sincos,
+                other,
+                ..
+            } = function.counts();
+            let work = [
+                multiplications,
+                additions,
+                divisions,
+                sincos,
+                other,
+                temporaries(function),
+            ];
+            let is_any = work.iter().any(|&n| n > 0);
+            let work = work.map(|n| n.to_string()).join(" | ");
+            is_any.then(|| format!("//! | `{}` | {work} |", self.function_name(function.role)))
+        };
+        functions.chain(of_parts).filter_map(row).collect()
     }
 
     fn docs(&mut self, text: &str) {

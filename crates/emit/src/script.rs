@@ -77,7 +77,9 @@ trait Syntax: Sync {
     /// An element of a list, with the index counted from 0.
     fn element(&self, list: &str, index: usize) -> String;
     /// A list of numbers.
-    fn list(&self, entries: &[String]) -> String;
+    fn list(&self, entries: &[String]) -> String {
+        format!("[{}]", entries.join(", "))
+    }
     /// A matrix, given row by row.
     fn matrix(&self, rows: &[Vec<String>]) -> String;
     /// A number.
@@ -88,8 +90,14 @@ trait Syntax: Sync {
     fn pi(&self) -> &'static str;
     /// The name of a function.
     fn call(&self, function: symbolic::Function) -> &'static str;
-    /// The rounding error of a product or a sum.
-    fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression;
+    /// The rounding error of a product or a sum; by default a call of one of the helpers that the file defines.
+    fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression {
+        let name = match of {
+            Rounded::Product => "product_error",
+            Rounded::Sum => "sum_error",
+        };
+        Expression::call(format!("{name}({}, {})", a.text, b.text))
+    }
     /// Writes an early return for a vanishing pivot: where `pivot > limit` does not hold.
     fn guard(&self, writer: &mut Writer, pivot: &str, limit: &str, message: &str);
 }
@@ -98,6 +106,23 @@ trait Syntax: Sync {
 struct Table {
     name: &'static str,
     entries: Entries,
+}
+
+impl Table {
+    /// The entries, texts as `text` quotes them.
+    fn entries(&self, text: impl Fn(&str) -> String, nan: &str) -> Vec<String> {
+        let number = |x: &f64| {
+            if x.is_nan() {
+                nan.to_owned()
+            } else {
+                format!("{x:?}")
+            }
+        };
+        match &self.entries {
+            Entries::Texts(texts) => texts.iter().map(|entry| text(entry)).collect(),
+            Entries::Numbers(numbers) => numbers.iter().map(number).collect(),
+        }
+    }
 }
 
 enum Entries {
@@ -402,13 +427,4 @@ fn plain(line: &str) -> String {
 fn quoted(text: &str) -> String {
     let escaped = text.replace('\\', "\\\\").replace('"', "\\\"");
     format!("\"{}\"", plain(&escaped))
-}
-
-/// A call of one of the helpers that a file defines.
-fn helper(of: Rounded, a: &Expression, b: &Expression) -> Expression {
-    let name = match of {
-        Rounded::Product => "product_error",
-        Rounded::Sum => "sum_error",
-    };
-    Expression::call(format!("{name}({}, {})", a.text, b.text))
 }

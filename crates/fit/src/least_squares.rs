@@ -238,15 +238,8 @@ pub fn minimize(
         };
         at.evaluations += 1;
         let promised = promise(&at, &step);
-        let reduced = residuals.as_ref().map(|new| {
-            // The difference of squares, factored to avoid cancellation between the sums.
-            let pairs = at.residuals.iter().zip(new);
-            0.5 * pairs
-                .map(|(old, new)| (old - new) * (old + new))
-                .sum::<f64>()
-        });
-        let ratio = match reduced {
-            Some(reduced) if promised > 0.0 => reduced / promised,
+        let ratio = match &residuals {
+            Some(new) if promised > 0.0 => reduction(&at.residuals, new) / promised,
             _ => f64::NEG_INFINITY,
         };
         let is_still = taken <= options.step * length(&scale, &trial) || taken == 0.0;
@@ -273,15 +266,7 @@ pub fn minimize(
             at = next;
             continue;
         }
-        if ratio < 0.25 {
-            radius = if ratio > 0.0 {
-                0.5 * taken
-            } else {
-                0.2 * taken.min(radius)
-            };
-        } else if ratio > 0.75 {
-            radius = radius.max(2.0 * taken);
-        }
+        radius = next_radius(radius, taken, ratio);
         if ratio > KEPT
             && let Some(residuals) = residuals
         {
@@ -291,6 +276,29 @@ pub fn minimize(
         }
     }
     Ok(at)
+}
+
+/// By how much half the sum of squares falls, as a sum of factored differences, which avoids cancellation between the sums.
+fn reduction(old: &[f64], new: &[f64]) -> f64 {
+    let pairs = old.iter().zip(new);
+    0.5 * pairs
+        .map(|(old, new)| (old - new) * (old + new))
+        .sum::<f64>()
+}
+
+/// The radius of the trust region after a step of the length `taken`, whose reduction was `ratio` of what the linear model predicts.
+fn next_radius(radius: f64, taken: f64, ratio: f64) -> f64 {
+    if ratio < 0.25 {
+        if ratio > 0.0 {
+            0.5 * taken
+        } else {
+            0.2 * taken.min(radius)
+        }
+    } else if ratio > 0.75 {
+        radius.max(2.0 * taken)
+    } else {
+        radius
+    }
 }
 
 /// The search after an accepted step.

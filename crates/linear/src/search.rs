@@ -263,7 +263,7 @@ fn without_balanced(mut matrix: DMatrix<f64>, by_rates: &[Direction]) -> DMatrix
 /// Cholesky factors of the inertia `Tᵀ M T`.
 struct Factors {
     lower: DMatrix<f64>,
-    /// The same with coordinates that stay decoupled from the others.
+    /// The factor of the inertia in which coordinates that are decoupled from the others stay so.
     apart: DMatrix<f64>,
     /// The absolute values of `L⁻¹` and `L̃⁻ᵀ`, through which bounds propagate.
     size_left: DMatrix<f64>,

@@ -231,7 +231,7 @@ impl<'d> Equations<'d> {
         equations.residual_derivatives = slopes;
         if !model.dag.is_exhausted() {
             equations.sliding = sliding::sliding(model, report)?;
-            equations.unilateral = unilateral::unilateral(model);
+            equations.unilateral = unilateral::unilateral(model, report)?;
         }
         equations.reduction = reduction::reduction(model, &equations.constraints);
         if model.dag.is_exhausted() {

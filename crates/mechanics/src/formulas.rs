@@ -14,7 +14,7 @@ use lagrangian_spec::model::Model;
 /// The largest number of numbers, symbols and operations of a formula that is shown. Longer ones can be read in the printed derivation.
 const LONGEST_LINE: u64 = 250;
 
-/// The same limit for the comment of one function.
+/// The largest number of these in the comment of one function.
 const LONGEST_COMMENT: u64 = 2500;
 
 /// For each function the lines of its formulas, `M[theta, x] = m*l*cos(theta)`, in the spec language; zeros are left out,

@@ -9,6 +9,7 @@
 
 mod lower;
 mod residual;
+mod text;
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -17,6 +18,8 @@ use lagrangian_program::series::{Expander, NoSeries, Series};
 use lagrangian_scalar::{Ball, Jet, Residue};
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Function as Call, Node, reachable};
+
+pub use text::SeriesText;
 
 use crate::equations::literal::{Lagrange, State};
 use crate::proof::number::{Number, ZeroTest};

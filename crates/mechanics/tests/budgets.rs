@@ -188,6 +188,65 @@ fn many_constraints_end_within_bounds() {
     is_derived("2000 constraints", &constrained(2000));
 }
 
+/// Discs that may all touch each other, in a bowl: so many, and as many contacts as there are pairs and discs.
+fn pile(discs: usize) -> String {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let path = path.join("../../machines/contacts/pile.machine");
+    let text = std::fs::read_to_string(path).expect("the library is there");
+    assert!(text.contains("N = 20"));
+    text.replace("N = 20", &format!("N = {discs}"))
+}
+
+/// Four times as many contacts take about four times the memory and work; only their rows have as many columns as there are coordinates.
+#[test]
+fn contacts_take_memory_in_proportion() {
+    let [few, many] = [20, 40].map(|discs| {
+        let (used, codes) = compile(&pile(discs));
+        assert!(codes.is_empty(), "{discs} discs: {codes:?}");
+        [used.bytes_max, used.bytes_total]
+    });
+    println!("210 contacts: {few:?} bytes; 820: {many:?}");
+    for (few, many) in few.into_iter().zip(many) {
+        // 820/210 for what is proportional, twice that for rows.
+        assert!(many < 6 * few, "{many} bytes after {few}");
+    }
+}
+
+/// Spheres with three angles each, whose contacts have the longest formulas: the bound on the size of equations comes before that on contacts.
+fn spheres(count: usize) -> String {
+    format!(
+        "machine Spheres in space {{
+            constants {{ N = {count} }}
+            parameters {{ m: kg = 0.05, r: m = 0.05, d: m = 0.12, mu: 1 = 0.3 }}
+            coordinates {{
+                x[i in 1..N]: m = d*i, y[i in 1..N]: m, z[i in 1..N]: m = 0.1*d*i,
+                a[i in 1..N]: rad, b[i in 1..N]: rad = 0.5, c[i in 1..N]: rad,
+            }}
+            frames {{ axes[i in 1..N] = ground.shift(x[i], y[i], z[i]).turn(x, a[i]).turn(y, b[i]).turn(z, c[i]) }}
+            bodies {{ ball[i in 1..N] {{ mass: m, inertia: (0.4*m*r^2, 0.4*m*r^2, 0.4*m*r^2), frame: axes[i] }} }}
+            spheres {{ s[i in 1..N] {{ on: ball[i], center: (0, 0, 0), radius: r }} }}
+            contacts {{ pair {{ spheres: s, restitution: 0, friction: mu }} }}
+        }}"
+    )
+}
+
+#[test]
+fn many_long_contacts_end_within_bounds() {
+    assert!(is_derived("120 contacts of spheres", &spheres(16)));
+    assert!(!is_derived("861 contacts of spheres", &spheres(42)));
+}
+
+/// The most contacts that `docs/limits.md` names, and more, which are refused.
+#[test]
+#[ignore = "10 s of work, for the figures in docs/limits.md"]
+fn the_most_contacts_that_are_derived() {
+    assert!(is_derived("3655 contacts", &pile(85)));
+    assert!(!is_derived("4005 contacts", &pile(90)));
+    for count in [20, 24, 28, 32] {
+        is_derived(&format!("{count} spheres"), &spheres(count));
+    }
+}
+
 /// Words that are put into damaged texts, in addition to their own words.
 const WORDS: [&str; 30] = [
     "0", "1", "-1", "1/0", "1e9", "1e308", "-", "+", "*", "/", "^", "(", ")", "[", "]", "{", "}",

@@ -48,7 +48,7 @@ impl<T: Copy, const K: usize> Kernel<T> for Chained<'_, T, K> {
     }
 }
 
-/// The same with the standard library's functions.
+/// Evaluates them by the functions of the standard library.
 struct Plain<'a, const K: usize>(&'a [[f64; K]]);
 
 impl<const K: usize> Plain<'_, K> {

@@ -71,9 +71,10 @@ macro_rules! each_of_two {
     )*};
 }
 
-/// 1/n for small n; the first is not a reciprocal.
-const RECIPROCALS: [f64; 32] = {
-    let mut all = [f64::INFINITY; 32];
+/// 1/n for orders n of series and for products of two successive ones; the first is not a reciprocal. A division by such a number would take as long
+/// as the chain of operations that an order of a series waits for.
+static RECIPROCALS: [f64; 600] = {
+    let mut all = [f64::INFINITY; 600];
     let mut n = 1;
     while n < all.len() {
         all[n] = 1.0 / n as f64;
@@ -114,7 +115,11 @@ impl<V: Sines> Scalar for Register<V> {
     /// The reciprocal of `n` in two parts: `high`, and what `high` lacks.
     #[inline(always)]
     fn divisor(n: i64) -> [Self; 2] {
-        let high = V::splat(1.0 / n as f64);
+        let high = match RECIPROCALS.get(n as usize) {
+            Some(reciprocal) => *reciprocal,
+            None => 1.0 / n as f64,
+        };
+        let high = V::splat(high);
         let low = high.neg_mul_add(V::splat(n as f64), V::ONE).mul(high);
         [Register(high), Register(low)]
     }

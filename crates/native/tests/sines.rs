@@ -104,7 +104,7 @@ fn the_bound_holds_next_to_every_multiple_of_a_right_angle() {
     worst("multiples of π/2", &angles);
 }
 
-/// The same half way between, where the quarter changes.
+/// The bound holds half way between multiples of a right angle, where the quarter changes.
 #[test]
 fn the_bound_holds_where_quarters_meet() {
     let mut angles = Vec::new();

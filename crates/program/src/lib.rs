@@ -105,7 +105,7 @@ pub struct Program {
     pub reaction_axes: usize,
     /// The guided contacts that are second tangents of surfaces, as a bit set: if bit `k` is set, contact `k` is perpendicular to
     /// contact `k − 1` on the same surface.
-    pub second_tangents: usize,
+    pub second_tangents: u64,
     /// The unilateral contacts; functions about them exist only if there are any.
     pub unilateral: Vec<Unilateral>,
     /// The start values, such as `theta` or `der(phi)`, that are kept when a start that violates
@@ -212,7 +212,7 @@ pub struct Unilateral {
     /// resists this, in N m, and its coefficient of friction a length, in m.
     pub is_rolling_resistance: bool,
     /// Whether it is the second tangent of the preceding contact, in space. It then has the gap, the normal and the coefficients
-    /// of that contact, but its own slip and friction. The resultant of both frictions is at most `μ` times the normal force.
+    /// of that contact, but its own slip and friction. The resultant of both friction forces is at most `μ` times the normal force.
     pub is_second_tangent: bool,
     /// Whether it is a corner on a face of a polygon, which has ends: see [`Role::ContactFaces`].
     pub has_face: bool,
@@ -492,6 +492,14 @@ impl Program {
         margins.flatten().all(Function::is_linear)
     }
 
+    /// Whether the machine has work of drives, forces and inputs, and losses in dampers, at any state: a function of them that is not identically 0.
+    pub fn has_powers(&self) -> [bool; 2] {
+        [Role::WorkRate, Role::DissipationRate].map(|role| {
+            let function = self.function(role);
+            function.is_some_and(|function| !function.is_zero())
+        })
+    }
+
     /// The role of the function that solves the equations of motion: the accelerations or, for a
     /// machine with guided contacts, their dependence on the friction forces.
     pub fn solving(&self) -> Role {
@@ -563,6 +571,13 @@ impl Function {
     /// The operation counts of a call.
     pub fn counts(&self) -> Counts {
         Counts::of(self)
+    }
+
+    /// Whether all its results are 0, and it always has them.
+    pub fn is_zero(&self) -> bool {
+        let zero =
+            |value: &Value| matches!(self.op(*value), Op::Constant(constant) if constant.is_zero());
+        self.guards.is_empty() && self.results.iter().all(zero)
     }
 
     /// The estimated time of a call.

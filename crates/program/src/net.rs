@@ -81,7 +81,7 @@ impl Net {
         Net::with_steps(graph, roots, &[], cut)
     }
 
-    /// The same with the steps of an elimination, as far as the roots need them.
+    /// The items that the roots need, with those steps of an elimination that belong to them.
     fn with_steps(
         graph: &Graph,
         roots: &[(Id, bool)],
@@ -116,7 +116,7 @@ impl Net {
         Net::of_elimination(graph, values, &[], cut)
     }
 
-    /// The same for values that are found by an elimination with these steps.
+    /// The items that the values of an elimination with these steps need.
     pub fn of_elimination(
         graph: &mut Graph,
         values: &[Scaled],

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use lagrangian::{Extrapolation, Interpolation};
-use lagrangian_spec::source::Files;
+use lagrangian_mechanics::series::SeriesText;
+use lagrangian_spec::source::{Files, ReadTexts};
 use lagrangian_symbolic::Rational;
 use serde::{Deserialize, Serialize};
 
@@ -318,6 +319,26 @@ impl Plan {
 }
 
 impl SpecText {
+    /// The same for the series of its machine, or of that in the other charts of the spec.
+    ///
+    /// # Errors
+    /// As for [`constants`](Self::constants).
+    pub fn of_series(&self, in_charts: bool) -> Result<SeriesText, String> {
+        let mut files = ReadTexts::default();
+        for file in &self.files {
+            let read = (file.name.clone(), file.text.clone());
+            files.insert((&file.path, file.from.as_deref()), read);
+        }
+        Ok(SeriesText {
+            name: self.name.clone(),
+            text: self.text.clone(),
+            constants: self.constants()?,
+            given: self.given.clone(),
+            files,
+            in_charts,
+        })
+    }
+
     /// The values of its constants.
     ///
     /// # Errors

@@ -57,7 +57,7 @@ const NODES: [(f64, f64, f64); 17] = [
 /// An interval whose integral may be wrong by more than this fraction of the integral of the size so far is bisected.
 const TOLERANCE: f64 = 1e-11;
 
-/// The same for a part of a step that has been bisected: at a kink the two formulas may agree by chance to some hundredths of the error.
+/// [`TOLERANCE`] for a part of a step that has been bisected: at a kink the two formulas may agree by chance to some hundredths of the error.
 const TOLERANCE_OF_PART: f64 = 1e-13;
 
 /// The shortest interval that is bisected, as a fraction of a step: what it contributes does not matter, even if the formula jumps there.

@@ -405,36 +405,21 @@ mod with_parquet {
     /// # Errors
     /// If the file is invalid, or a value is not a number.
     pub fn numbers(path: &Path) -> io::Result<(Vec<String>, Vec<Vec<f64>>)> {
-        let reader = opened(path)?;
-        let fields = reader
-            .metadata()
-            .file_metadata()
-            .schema()
-            .get_fields()
-            .to_vec();
-        let names = fields.iter().map(|field| field.name().to_owned()).collect();
-        let mut rows = Vec::new();
-        for row in reader.get_row_iter(None)? {
-            let row = row?;
-            let cells = row.get_column_iter().map(|(name, field)| match field {
-                Field::Double(x) => Ok(*x),
-                Field::Float(x) => Ok(f64::from(*x)),
-                Field::Byte(x) => Ok(f64::from(*x)),
-                Field::Short(x) => Ok(f64::from(*x)),
-                Field::Int(x) => Ok(f64::from(*x)),
-                Field::Long(x) => Ok(*x as f64),
-                Field::UByte(x) => Ok(f64::from(*x)),
-                Field::UShort(x) => Ok(f64::from(*x)),
-                Field::UInt(x) => Ok(f64::from(*x)),
-                Field::ULong(x) => Ok(*x as f64),
-                _ => Err(io::Error::other(format!(
-                    "row {}: column `{name}` holds a value that is not a number",
-                    rows.len()
-                ))),
-            });
-            rows.push(cells.collect::<io::Result<Vec<f64>>>()?);
-        }
-        Ok((names, rows))
+        rows_of(path, |row, name, field| match field {
+            Field::Double(x) => Ok(*x),
+            Field::Float(x) => Ok(f64::from(*x)),
+            Field::Byte(x) => Ok(f64::from(*x)),
+            Field::Short(x) => Ok(f64::from(*x)),
+            Field::Int(x) => Ok(f64::from(*x)),
+            Field::Long(x) => Ok(*x as f64),
+            Field::UByte(x) => Ok(f64::from(*x)),
+            Field::UShort(x) => Ok(f64::from(*x)),
+            Field::UInt(x) => Ok(f64::from(*x)),
+            Field::ULong(x) => Ok(*x as f64),
+            _ => Err(io::Error::other(format!(
+                "row {row}: column `{name}` holds a value that is not a number"
+            ))),
+        })
     }
 
     /// The column names and rows of a Parquet file, as texts like those of comma-separated text.
@@ -442,26 +427,35 @@ mod with_parquet {
     /// # Errors
     /// If the file is invalid: what is wrong with it.
     pub fn cells(path: &Path) -> io::Result<Vec<Vec<String>>> {
-        let reader = opened(path)?;
-        let fields = reader
-            .metadata()
-            .file_metadata()
-            .schema()
-            .get_fields()
-            .to_vec();
-        let names = fields.iter().map(|field| field.name().to_owned()).collect();
-        let mut rows = vec![names];
-        for row in reader.get_row_iter(None)? {
-            let row = row?;
-            let cell = |(_, field): (&String, &Field)| match field {
+        let (names, mut rows) = rows_of(path, |_, _, field| {
+            Ok(match field {
                 Field::Null => String::new(),
                 Field::Str(text) => text.clone(),
                 Field::Double(x) => format!("{x:?}"),
                 other => other.to_string(),
-            };
-            rows.push(row.get_column_iter().map(cell).collect());
-        }
+            })
+        })?;
+        rows.insert(0, names);
         Ok(rows)
+    }
+
+    /// The column names and rows of a Parquet file; `cell` is given the number of its row, the name of its column, and the value.
+    fn rows_of<T>(
+        path: &Path,
+        cell: impl Fn(usize, &str, &Field) -> io::Result<T>,
+    ) -> io::Result<(Vec<String>, Vec<Vec<T>>)> {
+        let reader = opened(path)?;
+        let schema = reader.metadata().file_metadata().schema();
+        let fields = schema.get_fields().iter();
+        let names = fields.map(|field| field.name().to_owned()).collect();
+        let mut rows = Vec::new();
+        for row in reader.get_row_iter(None)? {
+            let row = row?;
+            let cells = row.get_column_iter();
+            let cells = cells.map(|(name, field)| cell(rows.len(), name, field));
+            rows.push(cells.collect::<io::Result<Vec<T>>>()?);
+        }
+        Ok((names, rows))
     }
 
     /// The metadata value under a name in a Parquet file.

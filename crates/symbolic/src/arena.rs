@@ -1,5 +1,6 @@
 //! Storage of nodes, each of them once, found by content.
 
+use core::cell::Cell;
 use core::hash::{Hash, Hasher};
 use std::rc::Rc;
 
@@ -24,6 +25,8 @@ pub(crate) struct Arena {
     /// construction allocates nothing else.
     pub(crate) spare_terms: Vec<Term>,
     pub(crate) spare_factors: Vec<Factor>,
+    /// The words of an empty set: a new one for every search would take memory in proportion to all nodes.
+    spare_set: Cell<Vec<u64>>,
 }
 
 pub(crate) struct SymbolEntry {
@@ -67,6 +70,7 @@ impl Arena {
             symbols: Vec::new(),
             spare_terms: Vec::new(),
             spare_factors: Vec::new(),
+            spare_set: Cell::default(),
         };
         arena.constant(Rational::ZERO);
         arena.constant(Rational::ONE);
@@ -310,11 +314,6 @@ fn fingerprint(content: &impl Hash) -> u32 {
 pub(crate) struct BitSet(Vec<u64>);
 
 impl BitSet {
-    /// An empty set of ids below `len`.
-    pub(crate) fn new(len: usize) -> BitSet {
-        BitSet(vec![0; len.div_ceil(64)])
-    }
-
     /// Inserts an id; returns whether it was absent.
     pub(crate) fn insert(&mut self, id: Id) -> bool {
         let word = &mut self.0[id.index() / 64];
@@ -330,7 +329,63 @@ impl BitSet {
     }
 }
 
+/// The place of each of some nodes among these, which are in order of age.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Places {
+    /// For each id one more than its place; 0 stands for none. Empty if the nodes are few among all.
+    table: Vec<u32>,
+    /// The nodes, if they are few.
+    sorted: Vec<Id>,
+}
+
+impl Places {
+    /// Nodes are few if there are so many times as many up to the last of them. Then they are searched: a table would take memory in proportion to all nodes.
+    const FEW: usize = 16;
+
+    pub(crate) fn of(nodes: &[Id]) -> Places {
+        let len = nodes.last().map_or(0, |id| id.index() + 1);
+        if len > Self::FEW * nodes.len() {
+            return Places {
+                table: Vec::new(),
+                sorted: nodes.to_vec(),
+            };
+        }
+        let mut table = vec![0; len];
+        for (id, place) in nodes.iter().zip(1..) {
+            table[id.index()] = place;
+        }
+        Places {
+            table,
+            sorted: Vec::new(),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn get(&self, id: Id) -> Option<usize> {
+        if self.sorted.is_empty() {
+            (*self.table.get(id.index())? as usize).checked_sub(1)
+        } else {
+            self.sorted.binary_search(&id).ok()
+        }
+    }
+}
+
 impl Arena {
+    /// An empty set for all ids. To be given back with [`clear`](Self::clear).
+    pub(crate) fn empty_set(&self) -> BitSet {
+        let mut words = self.spare_set.take();
+        words.resize(self.len().div_ceil(64), 0);
+        BitSet(words)
+    }
+
+    /// Takes back a set, with all ids that it contains.
+    pub(crate) fn clear(&self, mut set: BitSet, ids: impl Iterator<Item = Id>) {
+        for id in ids {
+            set.0[id.index() / 64] = 0;
+        }
+        self.spare_set.set(set.0);
+    }
+
     /// The nodes that the roots are built from, in order of age; nodes that are not to be entered
     /// and everything below them are left out.
     pub(crate) fn reachable(
@@ -338,7 +393,7 @@ impl Arena {
         roots: impl Iterator<Item = Id>,
         enter: impl Fn(Id) -> bool,
     ) -> Vec<Id> {
-        let mut seen = BitSet::new(self.len());
+        let mut seen = self.empty_set();
         let mut found: Vec<Id> = roots
             .filter(|&root| enter(root) && seen.insert(root))
             .collect();
@@ -351,6 +406,7 @@ impl Arena {
                 }
             });
         }
+        self.clear(seen, found.iter().copied());
         found.sort_unstable();
         found
     }

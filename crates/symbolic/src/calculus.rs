@@ -2,7 +2,7 @@
 //!
 //! No function here recurses into children: a chain of a hundred thousand nodes takes memory, not stack.
 
-use crate::arena::{Arena, BitSet};
+use crate::arena::{Arena, Places};
 use crate::dag::{Dag, Expr};
 use crate::node::{Factor, Function, Id, Node, Symbol, Term};
 use crate::rational::Rational;
@@ -257,9 +257,11 @@ pub fn reverse<'d>(dag: &'d Dag, seeds: &[(Expr<'d>, Expr<'d>)], wrt: &[Symbol])
 /// Keeps the nodes, given in order, in which some of the symbols occur. The bits of many symbols
 /// coincide, so [`Arena::touches`] alone would keep far too many.
 fn keep_dependent(arena: &Arena, nodes: &mut Vec<Id>, symbols: &[Symbol]) {
-    let mut dependent = BitSet::new(arena.len());
-    for symbol in symbols {
-        dependent.insert(arena.symbols[symbol.index()].id);
+    let mut dependent = arena.empty_set();
+    let symbols = symbols.iter();
+    let symbols = symbols.map(|symbol| arena.symbols[symbol.index()].id);
+    for symbol in symbols.clone() {
+        dependent.insert(symbol);
     }
     nodes.retain(|&id| {
         let mut found = dependent.contains(id);
@@ -270,6 +272,7 @@ fn keep_dependent(arena: &Arena, nodes: &mut Vec<Id>, symbols: &[Symbol]) {
         }
         found
     });
+    arena.clear(dependent, symbols.chain(nodes.iter().copied()));
 }
 
 /// `weight·∂(Π xⁿ)/∂x` for the factor at `position`.
@@ -496,7 +499,7 @@ impl Memo {
 /// Contributions to the adjoints of the needed nodes: one linked list for each, all in one vector.
 struct Adjoints {
     /// From a node to its index among the needed ones.
-    place: Memo,
+    place: Places,
     heads: Vec<u32>,
     links: Vec<(Term, u32)>,
     totals: Vec<Id>,
@@ -506,12 +509,8 @@ const END: u32 = u32::MAX;
 
 impl Adjoints {
     fn new(needed: &[Id]) -> Adjoints {
-        let mut place = Memo::default();
-        for (index, &id) in needed.iter().enumerate().rev() {
-            place.set(id, Id(index as u32));
-        }
         Adjoints {
-            place,
+            place: Places::of(needed),
             heads: vec![END; needed.len()],
             links: Vec::new(),
             totals: vec![Arena::ZERO; needed.len()],
@@ -526,7 +525,7 @@ impl Adjoints {
     /// Adds to the adjoint of a node, if it is needed.
     fn add(&mut self, id: Id, term: Term) {
         if let Some(place) = self.place.get(id) {
-            let head = &mut self.heads[place.index()];
+            let head = &mut self.heads[place];
             let next = core::mem::replace(head, self.links.len() as u32);
             self.links.push((term, next));
         }
@@ -535,7 +534,7 @@ impl Adjoints {
     fn take(&mut self, id: Id) -> Vec<Term> {
         let mut terms = Vec::new();
         if let Some(place) = self.place.get(id) {
-            let mut link = self.heads[place.index()];
+            let mut link = self.heads[place];
             while let Some((term, next)) = self.links.get(link as usize) {
                 terms.push(term.clone());
                 link = *next;
@@ -546,12 +545,12 @@ impl Adjoints {
 
     fn set_total(&mut self, id: Id, total: Id) {
         if let Some(place) = self.place.get(id) {
-            self.totals[place.index()] = total;
+            self.totals[place] = total;
         }
     }
 
     fn total(&self, id: Id) -> Option<Id> {
-        Some(self.totals[self.place.get(id)?.index()])
+        Some(self.totals[self.place.get(id)?])
     }
 }
 

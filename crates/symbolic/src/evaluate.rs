@@ -2,6 +2,7 @@
 
 use lagrangian_scalar::{DoubleDouble, Scalar};
 
+use crate::arena::Places;
 use crate::dag::{Dag, Expr};
 use crate::node::{Function, Id, Node, Symbol};
 
@@ -40,24 +41,23 @@ pub struct Evaluation<'d> {
     /// The symbols among these nodes.
     symbols: Vec<Symbol>,
     /// The index of each node among these.
-    place: Vec<u32>,
+    place: Places,
     /// The indices of the expressions among these.
-    roots: Vec<u32>,
+    roots: Vec<usize>,
 }
 
 impl<'d> Evaluation<'d> {
     /// Prepares the evaluation of these expressions.
     pub fn new(dag: &'d Dag, roots: &[Expr<'_>]) -> Evaluation<'d> {
         let needed = crate::reachable(dag, roots);
-        let mut place = vec![0u32; needed.last().map_or(0, |id| id.index() + 1)];
-        for (index, id) in needed.iter().enumerate() {
-            place[id.index()] = index as u32;
-        }
+        let place = Places::of(&needed);
+        let roots = roots.iter();
+        let roots = roots.map(|root| place.get(root.id()).unwrap_or_default());
         let symbols = needed.iter().filter_map(|&id| dag.expr(id).as_symbol());
         Evaluation {
             dag,
             symbols: symbols.collect(),
-            roots: roots.iter().map(|root| place[root.id().index()]).collect(),
+            roots: roots.collect(),
             needed,
             place,
         }
@@ -82,7 +82,7 @@ impl<'d> Evaluation<'d> {
         let mut next_symbol = 0;
         let mut values: Vec<S> = Vec::with_capacity(self.needed.len());
         for &id in &self.needed {
-            let at = |child: Id| values[self.place[child.index()] as usize];
+            let at = |child: Id| values[self.place.get(child).unwrap_or_default()];
             let value = match arena.node(id) {
                 Node::Constant(value) => value.evaluate(),
                 Node::Pi => S::pi(),
@@ -140,7 +140,7 @@ impl<'d> Evaluation<'d> {
         }
         let mut results = Vec::with_capacity(self.roots.len());
         for &root in &self.roots {
-            results.push(values[root as usize]);
+            results.push(values[root]);
         }
         results
     }

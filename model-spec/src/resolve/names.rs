@@ -1,5 +1,8 @@
 //! Declarations: items, families and their members, over all layers of a variant.
 
+mod declare;
+mod unknown;
+
 use std::collections::BTreeMap;
 
 use lagrangian_symbolic::Expr;
@@ -8,14 +11,16 @@ use super::Resolver;
 use super::text::show;
 use super::value::{MemberId, Scalar, Scope, Value, limits};
 use super::work::{Need, State};
-use crate::diagnostic::{Code, Diagnostic, most_similar};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Name, stage};
 use crate::source::Span;
 use crate::syntax::{
-    Approximation, Charts, Declared, ElementContent, Equation, Expression, Form, Ident, Index,
-    Item, Quantity, Range, Record, Reference, Remove, SectionKind, Spanned, Spec,
+    Approximation, Charts, Declared, Equation, Expression, Ident, Index, Quantity, Range, Record,
+    Reference, Remove, SectionKind, Spanned,
 };
 use crate::unit::{Measure, Unit, rate_name};
+
+pub(super) use unknown::{suggestion, with_help};
 
 /// The largest total number of members of all families of a machine.
 ///
@@ -25,20 +30,11 @@ pub const MEMBER_LIMIT: usize = 100_000;
 
 const MEMBERS: &str = "a machine has at most 100000 members, all families together";
 
-/// The largest number of names that a help line lists.
-const LISTED: usize = 12;
-
-/// The largest number of names that are compared with an unknown one.
-const COMPARED: usize = 1000;
-
 /// Names with a fixed meaning in every expression.
 pub(super) const RESERVED_VALUES: [(&str, &str); 2] = [("t", "the time"), ("pi", "the number π")];
 
 /// The advice for a branch.
 pub(super) const NO_BRANCHES: &str = crate::syntax::NO_BRANCHES;
-
-/// Words that are not identifiers in Rust, raw or not.
-const NO_RUST_NAMES: [&str; 5] = ["self", "Self", "super", "crate", "_"];
 
 /// A namespace; within it a name has one meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -131,167 +127,6 @@ struct UnnumberedMember {
 }
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// Collects the declarations and removals of every layer.
-    pub fn declare_all(&mut self, layers: &'a [Spec]) {
-        for (layer, spec) in layers.iter().enumerate() {
-            self.declare_layer(layer, spec);
-            for remove in &spec.remove {
-                self.declare_removal(layers, layer, remove);
-            }
-        }
-    }
-
-    fn declare_layer(&mut self, layer: usize, spec: &'a Spec) {
-        use SectionKind::*;
-        // Symbols are made in this order: parameters before coordinates before inputs.
-        for (section, items) in [
-            (Constants, &spec.constants),
-            (Parameters, &spec.parameters),
-            (Coordinates, &spec.coordinates),
-            (States, &spec.states),
-            (Inputs, &spec.inputs),
-            (Outputs, &spec.outputs),
-            (Define, &spec.shared_outputs),
-        ] {
-            self.declare_section(layer, section, items, Content::Quantity);
-        }
-        for (section, items) in [
-            (Define, &spec.define),
-            (Frames, &spec.frames),
-            (Brachistochrone, &spec.brachistochrone),
-        ] {
-            self.declare_section(layer, section, items, |content| {
-                Content::Expression(content)
-            });
-        }
-        for (section, items) in [
-            (Bodies, &spec.bodies),
-            (Circles, &spec.circles),
-            (Spheres, &spec.spheres),
-            (Contacts, &spec.contacts),
-        ] {
-            self.declare_section(layer, section, items, Content::Record);
-        }
-        for row in self.language.elements {
-            let items = spec.elements.iter();
-            let items = items.filter(|element| element.section == row.section);
-            let items = items.map(|element| &element.item);
-            let section = SectionKind::Element(row.section);
-            self.declare_section(layer, section, items, |content| match content {
-                ElementContent::Record(record) => Content::Record(record),
-                ElementContent::Expression(expression) => Content::Expression(expression),
-                ElementContent::Equation(equation) => Content::Equation(equation),
-            });
-        }
-        self.declare_section(layer, Approximations, &spec.approximations, |content| {
-            Content::Approximation(content)
-        });
-        self.declare_section(layer, Derivatives, &spec.derivatives, |()| Content::Nothing);
-        self.declare_section(layer, Stages, &spec.stages, |()| Content::Nothing);
-        self.declare_section(layer, Methods, &spec.methods, |()| Content::Nothing);
-        self.declare_section(layer, SectionKind::Charts, &spec.charts, Content::Charts);
-        self.declare_section(layer, Keep, &spec.keep, |()| Content::Nothing);
-    }
-
-    fn declare_section<C>(
-        &mut self,
-        layer: usize,
-        section: SectionKind,
-        items: impl IntoIterator<Item = &'a Item<C>>,
-        content: impl Fn(&'a C) -> Content<'a>,
-    ) where
-        C: 'a,
-    {
-        for item in items {
-            let base = &item.name.base;
-            if base.text.is_empty() {
-                continue; // the parser has reported the missing name
-            }
-            self.check_declared(section, &item.name);
-            if Namespace::of(section) == Namespace::FRAMES && base.text == "ground" {
-                continue; // references to it still mean the ground
-            }
-            let declaration = self.declarations.len();
-            self.declarations.push(Declaration {
-                layer,
-                section,
-                name: &item.name,
-                docs: &item.docs,
-                content: content(&item.content),
-            });
-            let group = self.group(Namespace::of(section), &base.text);
-            self.groups[group].declarations.push(declaration);
-        }
-    }
-
-    fn declare_removal(&mut self, layers: &'a [Spec], layer: usize, remove: &'a Remove) {
-        let section = remove.section.value;
-        let Some(name) = &remove.name else {
-            let mut bases = layers[..layer].iter();
-            if !self.incomplete && !bases.any(|base| base.section(section).is_some()) {
-                let message = format!("the base has no `{section}`");
-                self.error(Code::UnknownName, remove.span, message);
-            }
-            // `remove springs;` takes all of them.
-            let namespace = Namespace::of(section);
-            for group in self.groups.iter_mut().filter(|g| g.namespace == namespace) {
-                group.removals.push((layer, remove));
-            }
-            return;
-        };
-        let known = self.find_group(Namespace::of(section), &name.base.text);
-        let inherited = known.filter(|&group| {
-            self.groups[group].declarations.iter().any(|&declaration| {
-                let declaration = &self.declarations[declaration];
-                declaration.layer < layer && declaration.section == section
-            })
-        });
-        match inherited {
-            Some(group) => self.groups[group].removals.push((layer, remove)),
-            None => self.unknown_removal(layer, section, &name.base),
-        }
-    }
-
-    fn unknown_removal(&mut self, layer: usize, section: SectionKind, name: &'a Ident) {
-        if self.incomplete || name.text.is_empty() {
-            return;
-        }
-        let message = format!("the base has no `{}` under `{section}`", name.text);
-        let inherited = self
-            .declarations
-            .iter()
-            .filter(|declaration| declaration.layer < layer && declaration.section == section);
-        let help = suggestion(
-            &name.text,
-            inherited.map(|declaration| declaration.name.base.text.as_str()),
-        );
-        self.push(with_help(
-            Diagnostic::new(Code::UnknownName, name.span, message),
-            help,
-        ));
-    }
-
-    /// Refuses names that have another meaning, or that are not allowed as Rust fields.
-    fn check_declared(&mut self, section: SectionKind, name: &'a Declared) {
-        let base = &name.base;
-        if NO_RUST_NAMES.contains(&base.text.as_str()) {
-            let message = format!("`{}` cannot be a name", base.text);
-            let diagnostic = Diagnostic::new(Code::ReservedName, base.span, message);
-            self.push(diagnostic.help("it becomes a name in Rust, where it means something else"));
-        }
-        match Namespace::of(section) {
-            Namespace::Values => self.check_reserved(base),
-            Namespace::FRAMES | Namespace::BODIES if base.text == "ground" => {
-                let message = "`ground` is the fixed frame and cannot be declared";
-                self.error(Code::ReservedName, base.span, message);
-            }
-            Namespace::Section(_) => {}
-        }
-        if let Index::Range(range) = &name.index {
-            self.check_index_variable(range);
-        }
-    }
-
     /// Refuses an index that hides a reserved name.
     pub fn check_index_variable(&mut self, range: &'a Range) {
         if let Some(variable) = &range.variable {
@@ -789,100 +624,6 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         integer
     }
 
-    /// Reports a name that is not declared.
-    pub(super) fn unknown_name(&mut self, noun: &str, name: &'a Ident, namespaces: &[Namespace]) {
-        if self.incomplete || name.text.is_empty() {
-            return;
-        }
-        let is_formula = |section: &SectionKind| match section {
-            SectionKind::Element(section) => matches!(section.form, Form::Expressions),
-            section => *section == SectionKind::Outputs,
-        };
-        let mut formulas = self.language.sections.iter().copied().filter(is_formula);
-        let elsewhere = formulas.find(|&section| {
-            let group = self.find_group(Namespace::of(section), &name.text);
-            group.is_some()
-        });
-        let candidates = self
-            .groups
-            .iter()
-            .filter(|group| namespaces.contains(&group.namespace))
-            .map(|group| group.base);
-        let habit = if namespaces.contains(&Namespace::Values) {
-            self.foreign_word_help(&name.text)
-        } else {
-            None
-        };
-        let help = match elsewhere {
-            _ if self.report.omitted() > 0 => None, // the message will be omitted anyway
-            _ if habit.is_some() => habit,
-            Some(section) if namespaces.contains(&Namespace::Values) => Some(format!(
-                "`{}` is {}, which formulas cannot use: put what they share under `define`",
-                name.text,
-                section.item()
-            )),
-            _ => {
-                let word = name.text.as_str();
-                let is_value = namespaces.contains(&Namespace::Values);
-                let unit = Measure::named(word).filter(|_| is_value && word.len() > 1);
-                let candidates: Vec<&str> = candidates.take(COMPARED).collect();
-                let near = most_similar(word, candidates.iter().copied());
-                match (unit, near) {
-                    (Some(_), Some(near)) => Some(format!(
-                        "did you mean `{near}`? `{word}` is a unit too: it is written after a number, `2*{word}`"
-                    )),
-                    (Some(_), None) => Some(format!(
-                        "`{word}` is a unit: it is written after a number, `2*{word}`"
-                    )),
-                    // A single letter is more often a name than a unit.
-                    (None, None) if is_value && Measure::named(word).is_some() => {
-                        let as_unit =
-                            format!("the unit `{word}` is written after a number, `2*{word}`");
-                        Some(match suggestion(word, candidates) {
-                            Some(names) => format!("{names}; {as_unit}"),
-                            None => as_unit,
-                        })
-                    }
-                    (None, _) if is_value => with_unit(word, suggestion(word, candidates)),
-                    (None, _) => suggestion(word, candidates),
-                }
-            }
-        };
-        let message = format!("{noun} named `{}`", name.text);
-        self.push(with_help(
-            Diagnostic::new(Code::UnknownName, name.span, message),
-            help,
-        ));
-    }
-
-    /// The help for a word that is common in other languages.
-    fn foreign_word_help(&self, word: &str) -> Option<String> {
-        let is_coordinate = |base: &str| {
-            let mut declarations = self.declarations.iter();
-            declarations.any(|declaration| {
-                declaration.section == SectionKind::Coordinates
-                    && declaration.name.base.text == base
-            })
-        };
-        let twice = ["_ddot", "ddot", "dotdot", "_dotdot"];
-        let ends = twice.map(|end| (end, 2)).into_iter();
-        for (end, order) in ends.chain([("_dot", 1), ("dot", 1)]) {
-            let base = word.strip_suffix(end);
-            if let Some(base) = base.filter(|base| is_coordinate(base)) {
-                return Some(match order {
-                    1 => format!("the rate of `{base}` is `der({base})`"),
-                    _ => format!("the acceleration of `{base}` is `der(der({base}))`"),
-                });
-            }
-        }
-        match word {
-            "time" => Some("the time is `t`".to_owned()),
-            "PI" | "Pi" | "π" => Some("the number π is `pi`".to_owned()),
-            "if" | "else" | "then" | "where" => Some(NO_BRANCHES.to_owned()),
-            _ => None,
-        }
-    }
-
     /// The group that a reference names; an unknown name is reported.
     pub(super) fn known_group(
         &mut self,
@@ -907,51 +648,6 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<MemberId> {
         let group = self.known_group(namespace, noun, &reference.base)?;
         self.member(group, &reference.base, reference.index.as_deref(), scope)
-    }
-}
-
-/// The help line for an unknown word: the most similar word, or all possible ones if there are few.
-pub(super) fn suggestion<'n>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'n str>,
-) -> Option<String> {
-    let mut names: Vec<&str> = candidates.into_iter().take(COMPARED).collect();
-    let mut seen = std::collections::BTreeSet::new();
-    names.retain(|name| seen.insert(*name));
-    if let Some(near) = most_similar(word, names.iter().copied()) {
-        return Some(format!("did you mean `{near}`?"));
-    }
-    match names.len() {
-        0 => None,
-        1..=LISTED => Some(format!("declared here: `{}`", names.join("`, `"))),
-        _ => None,
-    }
-}
-
-/// The help for an unknown word that may also have been a unit: `degs` is near `deg`.
-fn with_unit(word: &str, help: Option<String>) -> Option<String> {
-    let unit = match word.chars().count() {
-        // One different letter out of two is no similarity.
-        0..=2 => None,
-        _ => most_similar(word, Measure::names()),
-    };
-    match (unit, help) {
-        (Some(unit), Some(help)) => Some(format!(
-            "{}, or the unit `{unit}`? A unit is written after a number: `2*{unit}`",
-            help.trim_end_matches('?')
-        )),
-        (Some(unit), None) => Some(format!(
-            "did you mean the unit `{unit}`? It is written after a number: `2*{unit}`"
-        )),
-        (None, help) => help,
-    }
-}
-
-/// A message with a help line, if there is one.
-pub(super) fn with_help(diagnostic: Diagnostic, help: Option<String>) -> Diagnostic {
-    match help {
-        Some(help) => diagnostic.help(help),
-        None => diagnostic,
     }
 }
 

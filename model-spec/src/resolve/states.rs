@@ -199,13 +199,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         noun: &str,
         help: &'static str,
     ) -> bool {
-        let coordinates = self.members_of(SectionKind::Coordinates);
-        let found = coordinates.into_iter().find(|&member| {
-            let symbols = self.members[member].symbols;
-            let symbol = symbols.and_then(|[_, rate, _]| rate.as_symbol());
-            symbol.is_some_and(|symbol| expression.depends_on(symbol))
-        });
-        let Some(member) = found else {
+        let Some(member) = self.rate_within(expression, SectionKind::Coordinates) else {
             return false;
         };
         let message = format!(
@@ -224,17 +218,20 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         noun: &str,
         help: &'static str,
     ) -> bool {
-        let states = self.members_of(SectionKind::States);
-        let found = states.into_iter().find(|&member| {
-            let symbols = self.members[member].symbols;
-            let symbol = symbols.and_then(|[_, state, _]| state.as_symbol());
-            symbol.is_some_and(|symbol| expression.depends_on(symbol))
-        });
-        let Some(member) = found else {
+        let Some(member) = self.rate_within(expression, SectionKind::States) else {
             return false;
         };
         let message = format!("{noun} cannot depend on the state `{}`", self.name(member));
         self.push(Diagnostic::new(Code::ForbiddenDependence, span, message).help(help));
         true
+    }
+
+    /// The first coordinate whose rate an expression contains, or the first state, whose value stands where a coordinate has its rate.
+    fn rate_within(&self, expression: Expr<'d>, section: SectionKind) -> Option<MemberId> {
+        self.members_of(section).into_iter().find(|&member| {
+            let symbols = self.members[member].symbols;
+            let symbol = symbols.and_then(|[_, rate, _]| rate.as_symbol());
+            symbol.is_some_and(|symbol| expression.depends_on(symbol))
+        })
     }
 }

@@ -148,7 +148,8 @@ impl UnilateralState {
         contact: usize,
     ) -> Clearance {
         let of_gap = here.clearance(contact);
-        let Some(own) = self.compliance[contact] else {
+        // Of a far contact nothing is known but that it is open.
+        let Some(own) = self.compliance[contact].filter(|_| of_gap.value.is_finite()) else {
             return of_gap;
         };
         let is_open = of_gap.value >= -here.gap_rounding(contact);
@@ -293,15 +294,27 @@ impl UnilateralState {
     pub fn crushing_works<S: System>(
         &self,
         system: &S,
-        (t, q, v): (f64, &S::Vector, &S::Vector),
+        place: (f64, &S::Vector, &S::Vector),
     ) -> Vec<f64> {
-        if !(0..self.compliance.len()).any(|k| self.is_layer(k)) {
-            return vec![0.0; self.compliance.len()];
+        let mut works = vec![0.0; self.compliance.len()];
+        // No other layer has been pressed yet.
+        let is_pressed = |own: &ComplianceState| {
+            own.law == Compliance::Layer && (own.is_loaded || own.depth > 0.0)
+        };
+        let layers = self.compliance.iter().enumerate();
+        let pressed: Vec<usize> = layers
+            .filter_map(|(k, own)| own.as_ref().is_some_and(is_pressed).then_some(k))
+            .collect();
+        if pressed.is_empty() {
+            return works;
         }
-        let here = self.kinematics_of_all(system, (t, q, v));
-        (0..self.compliance.len())
-            .map(|k| self.crushing_work(&here, k))
-            .collect()
+        let mut here = self.memory_for_kinematics();
+        let is_single = system.single_contacts().is_some();
+        here.evaluate(system, place, is_single.then_some(&*pressed));
+        for k in pressed {
+            works[k] = self.crushing_work(&here, k);
+        }
+        works
     }
 
     /// Whether it goes on being pressed, and being loaded or unloaded as it is, of a contact that yields.

@@ -6,7 +6,7 @@ use super::super::kinematics::{OnFace, write_some};
 use super::{Mode, UnilateralState};
 use crate::forward::forward;
 use crate::shared_workspace::SharedWorkspace;
-use crate::{Constraint, ContactQuantity, System, UnilateralContact, Vector};
+use crate::{Constraint, ContactQuantity, ContactTrouble, StepError, System, Vector};
 
 /// A machine whose closed contacts are constraints: a gap that stays 0, and where a contact sticks, a slip that does.
 #[derive(Clone, Copy)]
@@ -94,7 +94,8 @@ impl<'a, S: System> Held<'a, S> {
         }
         let mut place = 0;
         for (to, &direction) in rest.chunks_mut(width.max(1)).zip(self.directions) {
-            while which[place] < direction / 2 {
+            // The directions of a contact follow each other.
+            if which[place] != direction / 2 {
                 place += 1;
             }
             // A gap is a number along the normal only.
@@ -126,22 +127,67 @@ impl<'a, S: System> Held<'a, S> {
             .collect();
         write_some(self.system, ContactQuantity::Face, &held, state, all, faces);
         for (k, face) in held.iter().zip(faces.chunks_exact(3)) {
-            if let Ok(place) = which.binary_search(k) {
+            if let Some(place) = which.iter().position(|own| own == k) {
                 gaps[place] = OnFace::new(face).height;
             }
         }
     }
 }
 
+/// By how much a state may move onto the contacts that are closed: so many times the greatest gap of these, and the second number times the rounding of a gap. Where
+/// it moves further, gaps hardly change with it, as those of a body that is wedged in between faces that are almost parallel.
+const MOST_DISPLACED: [f64; 2] = [1e3, 1e6];
+
 impl UnilateralState {
+    /// Checks that a state has been moved onto the contacts that are closed by no more than their gaps explain.
+    ///
+    /// # Errors
+    /// The contact along whose gap it has been moved further.
+    pub fn check_displacement<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        (from, to): (&S::Vector, &S::Vector),
+        v: &S::Vector,
+    ) -> Result<(), StepError> {
+        if from.as_slice() == to.as_slice() {
+            return Ok(());
+        }
+        let here = self.kinematics(system, (t, from, v));
+        let closed = || {
+            let normals = self
+                .held
+                .iter()
+                .filter(|direction| direction.is_multiple_of(2));
+            normals.map(|direction| direction / 2)
+        };
+        let greatest = closed().fold(0.0_f64, |most, k| most.max(here.height(k).abs()));
+        let [times, roundings] = MOST_DISPLACED;
+        let is_far = |k: &usize| {
+            let by = from.as_slice().iter().zip(to.as_slice());
+            let terms = here.row(2 * k).iter().zip(by);
+            let moved: f64 = terms.map(|(w, (from, to))| (w * (to - from)).abs()).sum();
+            moved > times * greatest + roundings * here.gap_rounding(*k)
+        };
+        match closed().find(is_far) {
+            None => Ok(()),
+            Some(contact) => Err(StepError::Contact {
+                contact,
+                trouble: ContactTrouble::NotHeld,
+                t,
+            }),
+        }
+    }
+
     /// Which directions are held: 2k for the normal of the contact k, and 2k + 1 for its tangent.
     pub(super) fn held_directions(&self, modes: &[Mode]) -> Vec<usize> {
         let mut held = Vec::new();
-        for (k, mode) in modes.iter().enumerate() {
-            if *mode != Mode::Open && !self.is_compliant(k) && self.carrier(k).is_none() {
+        for k in self.in_order() {
+            let mode = modes[k];
+            if mode != Mode::Open && !self.is_compliant(k) && self.carrier(k).is_none() {
                 held.push(2 * k);
             }
-            if *mode == Mode::Sticks && self.has_friction(k) {
+            if mode == Mode::Sticks && self.has_friction(k) {
                 held.push(2 * k + 1);
             }
         }
@@ -182,25 +228,18 @@ impl<S: System> System for Held<'_, S> {
     );
 
     fn constraints(&self) -> impl ExactSizeIterator<Item = Constraint<'_>> {
-        // How many there are is asked often, what they are called seldom. Directions are in the order of contacts.
+        // How many there are is asked often, what they are called seldom.
         let mut own = self.system.constraints();
-        let mut contacts = self.system.unilateral_contacts().enumerate();
-        let mut contact: Option<(usize, UnilateralContact<'_>)> = None;
         let mut held = self.directions.iter();
         (0..own.len() + held.len()).map(move |_| {
             if let Some(constraint) = own.next() {
                 return constraint;
             }
             let direction = held.next().copied().unwrap_or(0);
-            while contact.is_none_or(|(number, _)| number < direction / 2) {
-                contact = contacts.next();
-                if contact.is_none() {
-                    break;
-                }
-            }
-            let rolls = contact.is_some_and(|(_, contact)| contact.is_rolling_resistance);
+            let contact = self.system.unilateral_contacts().nth(direction / 2);
+            let rolls = contact.is_some_and(|contact| contact.is_rolling_resistance);
             Constraint {
-                name: contact.map_or("", |(_, contact)| contact.name),
+                name: contact.map_or("", |contact| contact.name),
                 unit: match direction % 2 {
                     0 => "m",
                     _ if rolls => "rad/s",

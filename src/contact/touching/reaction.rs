@@ -240,8 +240,7 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
             .evaluate(system, (t, q), &mut self.mass_matrix)?;
         self.closed.clear();
         let is_closed = |k: &usize| touching.modes[*k] != Mode::Open;
-        self.closed
-            .extend((0..touching.modes.len()).filter(is_closed));
+        self.closed.extend(touching.in_order().filter(is_closed));
         self.ratios.clear();
         let ratio = |k: &usize| touching.share(here, *k);
         self.ratios.extend(self.closed.iter().map(ratio));

@@ -10,7 +10,7 @@ use super::super::{ContactTrouble, undetermined};
 use super::shared::ShareOfLoad;
 use super::{Margin, Mode, ROUNDING_OF_FORCES, UnilateralState};
 use crate::at::At;
-use crate::friction::shares::Limit;
+use crate::contact_law::shares::Limit;
 use crate::{Singular, StepError, System};
 
 /// How large the residual of a solution may be.
@@ -87,7 +87,7 @@ impl UnilateralState {
             let pressing = self.carrier[*k].unwrap_or(*k);
             closed[*k] && !known_modes.contains(&(pressing, Mode::Open))
         };
-        let asked: Vec<usize> = (0..closed.len()).filter(is_asked).collect();
+        let asked: Vec<usize> = self.in_order().filter(is_asked).collect();
         let mut forces = vec![[0.0; 2]; closed.len()];
         if asked.is_empty() {
             return Ok(Settled {
@@ -276,7 +276,7 @@ impl UnilateralState {
         let margins = self.margins(system, at)?.each;
         let is_lost = |margin: &Margin| margin.value < -margin.rounding;
         let exceeds = |k: usize| self.modes[k] == Mode::Sticks && is_lost(&margins[k][1]);
-        let contacts = || 0..self.modes.len();
+        let contacts = || self.in_order();
         if contacts().any(exceeds) {
             let mut limits = at_limit.iter().copied();
             if let Some(limit) = limits.find(|(k, _)| self.modes[*k] == Mode::Sticks) {

@@ -8,7 +8,7 @@ use super::super::kinematics::ContactKinematics;
 use super::reaction::{OpenEquations, Reaction};
 use super::{Margin, Mode, ROUNDING_OF_FORCES, UnilateralState};
 use crate::StepError;
-use crate::friction::shares::{self, Limit, PARTS, Sharer};
+use crate::contact_law::shares::{self, Limit, PARTS, Sharer};
 
 /// The distribution of forces among contacts at which the least margin is greatest.
 pub(super) struct SharedLoad {

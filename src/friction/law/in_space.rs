@@ -1,7 +1,7 @@
 //! Friction in space: its size depends on the length of a vector, and on a surface its direction is sought.
 
-use super::super::MOST_CONTACTS;
-use super::elimination::{eliminate, solve};
+use super::super::per_contact::{FEW_CONTACTS, PerContact, Values};
+use super::elimination::Equations;
 use super::sharing::Undetermined;
 use super::{Each, Mode, Motion, Parts, SAME, dot};
 use crate::scalar::Scalar;
@@ -14,21 +14,18 @@ impl Parts<'_> {
     /// Calls `look` with the forces, of which undetermined ones are 0.
     pub(super) fn by_sizes(&self, mode: &Mode, look: &mut dyn FnMut(Each, &Undetermined)) -> bool {
         let count = self.layout.contacts();
-        let mut sliding = [0; MOST_CONTACTS];
-        let mut number = 0;
-        for (k, motion) in mode.motion[..count].iter().enumerate() {
-            if *motion != Motion::Sticks && !self.layout.is_second(k) {
-                sliding[number] = k;
-                number += 1;
-            }
+        let slides = |k: &usize| mode.motion[*k] != Motion::Sticks && !self.layout.is_second(*k);
+        let mut sliding = PerContact::new((0..count).filter(slides).count(), 0);
+        for (place, k) in sliding.iter_mut().zip((0..count).filter(slides)) {
+            *place = k;
         }
-        let sliding = &sliding[..number];
+        let number = sliding.len();
         // The forces without friction in the sliding contacts, and per unit of the friction of each of them.
-        let mut forces = [[0.0; MOST_CONTACTS]; MOST_CONTACTS + 1];
-        let mut undetermined = Undetermined::NONE;
-        for (part, forces) in forces[..=number].iter_mut().enumerate() {
-            let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
-            for (k, row) in rows[..count].iter_mut().enumerate() {
+        let mut forces: Columns<f64> = Columns::new((number + 1) * count, 0.0);
+        let mut undetermined = Undetermined::none(count);
+        for (part, forces) in forces.chunks_exact_mut(count.max(1)).enumerate() {
+            let mut equations = Equations::new(count);
+            for (k, row) in equations.rows_mut().enumerate() {
                 if mode.motion[k] == Motion::Sticks {
                     let entry = self.slip_rate(k);
                     for (j, x) in row[..count].iter_mut().enumerate() {
@@ -42,38 +39,34 @@ impl Parts<'_> {
                     row[count] = if own { -mode.share(k) } else { 0.0 };
                 }
             }
-            let Some((solved, column_of)) = eliminate(&mut rows, count) else {
+            let Some((solved, column_of)) = equations.eliminate() else {
                 return true;
             };
             if part == 0 {
-                undetermined = Undetermined::of(&rows, count, column_of);
+                undetermined = Undetermined::of(&equations, &column_of);
             }
-            *forces = solved;
+            forces.copy_from_slice(&solved);
         }
         // `N` of each sliding contact, in the same parts.
-        let mut pressing = [[[0.0; 3]; MOST_CONTACTS + 1]; MOST_CONTACTS];
-        for (&k, pressing) in sliding.iter().zip(&mut pressing) {
-            for (part, vector) in pressing[..=number].iter_mut().enumerate() {
+        let mut pressing: Columns<[f64; 3]> = Columns::new(number * (number + 1), [0.0; 3]);
+        for (&k, pressing) in (sliding.iter()).zip(pressing.chunks_exact_mut(number + 1)) {
+            for (part, vector) in pressing.iter_mut().enumerate() {
                 for (x, i) in vector.iter_mut().zip(self.components(k)) {
                     let start = if part == 0 { self.at(0, i) } else { 0.0 };
-                    let by = forces[part][..count].iter().enumerate();
+                    let by = forces[part * count..][..count].iter().enumerate();
                     *x = by.fold(start, |sum, (j, force)| sum + self.at(1 + j, i) * force);
                 }
                 *vector = self.across(k, *vector);
             }
         }
-        let mut coefficients = [0.0; MOST_CONTACTS];
-        for (&k, coefficient) in sliding.iter().zip(&mut coefficients) {
-            *coefficient = self.friction(k);
-        }
         let sizes = Sizes {
-            number,
-            coefficients,
+            coefficients: Each::from_fn(number, |i| self.friction(sliding[i])),
             pressing,
         };
         sizes.each(&mut |sizes: &Each| {
-            let mut all = forces[0];
-            for (of_unit, size) in forces[1..=number].iter().zip(sizes) {
+            let mut all = Each::new(count, 0.0);
+            all.copy_from_slice(&forces[..count]);
+            for (of_unit, size) in forces[count..].chunks_exact(count.max(1)).zip(&**sizes) {
                 for (force, by) in all.iter_mut().zip(of_unit) {
                     *force += size * by;
                 }
@@ -91,16 +84,17 @@ impl Parts<'_> {
         look: &mut dyn FnMut(Mode, Each),
     ) -> bool {
         match *open {
-            [] => self.each_solution(&mode, &mut |forces| look(mode, forces)),
+            [] => self.each_solution(&mode, &mut |forces| look(mode.clone(), forces)),
             [contact] => {
                 let mut known = true;
                 self.find_slip_directions(mode, contact, &mut |mode| {
-                    known &= self.each_solution(&mode, &mut |forces| look(mode, forces));
+                    let each = &mut |forces| look(mode.clone(), forces);
+                    known &= self.each_solution(&mode, each);
                 });
                 known
             }
             _ => match self.find_slip_directions_together(mode, open) {
-                Some(mode) => self.each_solution(&mode, &mut |forces| look(mode, forces)),
+                Some(mode) => self.each_solution(&mode, &mut |forces| look(mode.clone(), forces)),
                 None => false,
             },
         }
@@ -120,7 +114,7 @@ impl Parts<'_> {
                 mode.slip_direction[contact],
                 mode.slip_direction[contact + 1],
             ) = (cos, sin);
-            mode
+            mode.clone()
         };
         // The growth of the slip to the left of the direction, and along it.
         let grows = |mode: &Mode| {
@@ -175,12 +169,12 @@ impl Parts<'_> {
             let mut turned = 0.0_f64;
             for &contact in open {
                 let (mut found, mut several) = (None, false);
-                self.find_slip_directions(mode, contact, &mut |next| {
+                self.find_slip_directions(mode.clone(), contact, &mut |next| {
                     let forces = self.friction_forces(&next).ok();
                     if forces.is_some_and(|forces| {
                         self.accelerates_in_its_direction(&next, &forces, contact)
                     }) {
-                        several |= found.is_some_and(|known: Mode| {
+                        several |= found.as_ref().is_some_and(|known: &Mode| {
                             let [a, b] = [
                                 known.slip_direction[contact],
                                 known.slip_direction[contact + 1],
@@ -223,18 +217,30 @@ const SETTLED: f64 = 1e-15;
 
 /// The unknown friction forces of sliding contacts in space: `f = μ |A + B f|`.
 struct Sizes {
-    number: usize,
     coefficients: Each,
-    /// `A` of each contact, followed by the columns of `B`.
-    pressing: [[[f64; 3]; MOST_CONTACTS + 1]; MOST_CONTACTS],
+    /// `A` of each contact, followed by its columns of `B`.
+    pressing: Columns<[f64; 3]>,
 }
 
+/// For each contact a value, and one for each contact that slides.
+type Columns<T> = Values<T, { FEW_CONTACTS * (FEW_CONTACTS + 1) }>;
+
 impl Sizes {
+    /// How many contacts slide.
+    fn number(&self) -> usize {
+        self.coefficients.len()
+    }
+
+    /// `A` of a contact (part 0), or what the friction of another adds to its `N` (1 + the index of that).
+    fn pressing(&self, contact: usize, part: usize) -> &[f64; 3] {
+        &self.pressing[contact * (self.number() + 1) + part]
+    }
+
     /// Calls `look` with all solutions; returns false if there may be others.
     fn each(&self, look: &mut dyn FnMut(&Each)) -> bool {
-        match self.number {
+        match self.number() {
             0 => {
-                look(&[0.0; MOST_CONTACTS]);
+                look(&Each::new(0, 0.0));
                 true
             }
             1 => {
@@ -254,7 +260,7 @@ impl Sizes {
 
     /// Finds the nonnegative roots of `(1 − μ²B²) f² − 2μ² A·B f − μ²A² = 0`.
     fn of_one(&self, look: &mut dyn FnMut(&Each)) {
-        let [a, b] = [self.pressing[0][0], self.pressing[0][1]];
+        let [a, b] = [*self.pressing(0, 0), *self.pressing(0, 1)];
         let square = self.coefficients[0] * self.coefficients[0];
         let (first, half, last) = (
             1.0 - square * dot(&b, &b),
@@ -263,9 +269,7 @@ impl Sizes {
         );
         let discriminant = half * half + first * last;
         let mut found = |size: f64| {
-            let mut sizes = [0.0; MOST_CONTACTS];
-            sizes[0] = size;
-            look(&sizes);
+            look(&Each::new(1, size));
         };
         let root = crate::math::sqrt(discriminant.max(0.0));
         if last == 0.0 {
@@ -291,33 +295,34 @@ impl Sizes {
     /// `(1 − L) x = 1` has a nonnegative solution (A. Berman, R. J. Plemmons, *Nonnegative Matrices in the Mathematical Sciences*,
     /// 1979, chapter 6, condition N38).
     fn is_contraction(&self) -> bool {
-        let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
-        for (i, row) in rows[..self.number].iter_mut().enumerate() {
-            for (j, x) in row[..self.number].iter_mut().enumerate() {
-                let by = &self.pressing[i][1 + j];
+        let number = self.number();
+        let mut equations = Equations::new(number);
+        for (i, row) in equations.rows_mut().enumerate() {
+            for (j, x) in row[..number].iter_mut().enumerate() {
+                let by = self.pressing(i, 1 + j);
                 *x = -self.coefficients[i] * crate::math::sqrt(dot(by, by));
             }
             row[i] += 1.0;
-            row[self.number] = 1.0;
+            row[number] = 1.0;
         }
-        let solved = solve(&mut rows, self.number);
-        solved.is_some_and(|x| x[..self.number].iter().all(|x| *x > 0.0))
+        let solved = equations.solve();
+        solved.is_some_and(|x| x.iter().all(|x| *x > 0.0))
     }
 
     /// The fixed point of a contraction. Newton's step linearizes the length of a reaction as its product with its present
     /// direction. If a step does not reduce the residual, it is replaced by the step of the contraction, which does.
     fn by_newton(&self) -> Option<Each> {
-        let number = self.number;
-        let mut sizes = [0.0; MOST_CONTACTS];
+        let number = self.number();
+        let mut sizes = Each::new(number, 0.0);
         let mut off = f64::INFINITY;
         for _ in 0..MOST_STEPS {
-            let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
-            let mut contracted = [0.0; MOST_CONTACTS];
+            let mut equations = Equations::new(number);
+            let mut contracted = Each::new(number, 0.0);
             let mut here = 0.0_f64;
-            for (i, row) in rows[..number].iter_mut().enumerate() {
-                let mut vector = self.pressing[i][0];
-                for (by, size) in self.pressing[i][1..=number].iter().zip(sizes) {
-                    for (x, by) in vector.iter_mut().zip(by) {
+            for (i, row) in equations.rows_mut().enumerate() {
+                let mut vector = *self.pressing(i, 0);
+                for (j, size) in sizes.iter().enumerate() {
+                    for (x, by) in vector.iter_mut().zip(self.pressing(i, 1 + j)) {
                         *x += by * size;
                     }
                 }
@@ -330,16 +335,16 @@ impl Sizes {
                     0.0
                 };
                 for (j, x) in row[..number].iter_mut().enumerate() {
-                    *x = -factor * dot(&vector, &self.pressing[i][1 + j]);
+                    *x = -factor * dot(&vector, self.pressing(i, 1 + j));
                 }
                 row[i] += 1.0;
-                row[number] = factor * dot(&vector, &self.pressing[i][0]);
+                row[number] = factor * dot(&vector, self.pressing(i, 0));
             }
             let largest = contracted.iter().fold(0.0_f64, |most, x| most.max(*x));
             if here <= 4.0 * f64::EPSILON * largest {
                 return Some(contracted);
             }
-            sizes = match solve(&mut rows, number) {
+            sizes = match equations.solve() {
                 Some(next) if here < off => next,
                 _ => contracted,
             };

@@ -1,9 +1,9 @@
 //! How guides that depend on each other share forces that the equations leave undetermined.
 
-use super::super::shares::{Limit, PARTS, Sharer};
-use super::super::{MOST_CONTACTS, shares};
-use super::elimination::SINGULAR;
+use super::super::per_contact::{FEW_CONTACTS, PerContact, Values};
+use super::elimination::{Equations, SINGULAR};
 use super::{Each, Mode, Motion, Parts, ROUNDING, dot, unit};
+use crate::contact_law::shares::{self, Limit, PARTS, Sharer};
 
 impl Parts<'_> {
     /// Replaces forces that the equations leave undetermined, which are 0 in `forces`, by those that sticking guides allow best.
@@ -13,19 +13,19 @@ impl Parts<'_> {
         mut forces: Each,
         undetermined: &Undetermined,
     ) -> (Each, Shared) {
-        let (free, count) = (undetermined.number, self.layout.contacts());
+        let count = self.layout.contacts();
         // Where friction of what slides is undetermined, so is the motion, and nothing is shared.
         let slides = |k: &usize| mode.motion[*k] != Motion::Sticks;
-        let moves = |of_unit: &Each| {
+        let moves = |of_unit: &[f64]| {
             (0..count).filter(slides).any(|k| {
                 let in_space = self.layout.axes() != 1 && self.presses_by(k, of_unit) != [0.0; 3];
                 of_unit[k] != 0.0 || in_space
             })
         };
-        if free == 0 || undetermined.of_unit[..free].iter().any(moves) {
-            return (forces, Shared::NONE);
+        let mut shared = Shared::none(count);
+        if undetermined.number == 0 || undetermined.of_units().any(moves) {
+            return (forces, shared);
         }
-        let mut shared = Shared::NONE;
         let mut sides = self.sides(mode, &forces, undetermined);
         for _ in 0..MOST_TURNS {
             let before = shared.least_margin();
@@ -36,8 +36,8 @@ impl Parts<'_> {
                 break;
             }
         }
-        for (of_unit, y) in undetermined.of_unit[..free].iter().zip(shared.undetermined) {
-            for (force, x) in forces[..count].iter_mut().zip(of_unit) {
+        for (of_unit, y) in undetermined.of_units().zip(&*shared.undetermined) {
+            for (force, x) in forces.iter_mut().zip(of_unit) {
                 *force += y * x;
             }
         }
@@ -53,11 +53,9 @@ impl Parts<'_> {
         shared: &mut Shared,
     ) {
         let (free, count) = (undetermined.number, self.layout.contacts());
-        let of_unit = &undetermined.of_unit[..free];
         // What each undetermined force adds to the forces of each contact.
-        let mut by = [0.0; PARTS * MOST_CONTACTS * MOST_CONTACTS];
-        let by = &mut by[..PARTS * free * count];
-        let mut sharers = [Sharer::default(); MOST_CONTACTS];
+        let mut by: Effects = Effects::new(PARTS * free * count, 0.0);
+        let mut sharers = PerContact::new(count, Sharer::default());
         for (k, (sharer, by)) in sharers
             .iter_mut()
             .zip(by.chunks_exact_mut(PARTS * free))
@@ -78,7 +76,7 @@ impl Parts<'_> {
                 tangential: [forces[k], if has_second { forces[k + 1] } else { 0.0 }],
             };
             let (normals, tangentials) = by.split_at_mut(free);
-            for (i, of_unit) in of_unit.iter().enumerate() {
+            for (i, of_unit) in undetermined.of_units().enumerate() {
                 normals[i] = dot(&self.presses_by(k, of_unit), &sides[k]);
                 tangentials[i] = of_unit[k];
                 if has_second {
@@ -86,13 +84,11 @@ impl Parts<'_> {
                 }
             }
         }
-        let mut groups = [0; MOST_CONTACTS];
-        let groups = &mut groups[..free];
-        shares::group(by, groups);
-        let (by, groups) = (&*by, &*groups);
+        let mut groups = PerContact::new(free, 0);
+        shares::group(&by, &mut groups);
         for group in 0..free {
             if groups[group] == group {
-                share_group((&sharers[..count], by, groups, group), shared);
+                share_group((&sharers, &by, &groups, group), shared);
             }
         }
     }
@@ -100,11 +96,11 @@ impl Parts<'_> {
     /// The directions along which normal reactions are measured: in the plane they are numbers, on a surface along its normal, and at a curve
     /// across it, where its reaction is without undetermined forces.
     fn sides(&self, mode: &Mode, forces: &Each, undetermined: &Undetermined) -> Sides {
-        let mut sides = [[1.0, 0.0, 0.0]; MOST_CONTACTS];
+        let mut sides = Sides::new(self.layout.contacts(), [1.0, 0.0, 0.0]);
         if self.layout.axes() == 1 {
             return sides;
         }
-        for (k, side) in sides[..self.layout.contacts()].iter_mut().enumerate() {
+        for (k, side) in sides.iter_mut().enumerate() {
             if mode.motion[k] != Motion::Sticks {
                 continue;
             }
@@ -112,8 +108,9 @@ impl Parts<'_> {
             *side = if on_surface {
                 self.direction(k)
             } else {
-                let of_units = undetermined.of_unit[..undetermined.number].iter();
-                let by = of_units.map(|of_unit| self.presses_by(k, of_unit));
+                let by = undetermined
+                    .of_units()
+                    .map(|of_unit| self.presses_by(k, of_unit));
                 let mut all = core::iter::once(self.pressing(k, forces)).chain(by);
                 all.find_map(unit).unwrap_or(*side)
             };
@@ -140,9 +137,8 @@ impl Parts<'_> {
         };
         for k in all.filter(on_curve).filter(sticks) {
             let mut vector = self.pressing(k, forces);
-            let of_units = undetermined.of_unit[..undetermined.number].iter();
             let mut depends = false;
-            for (of_unit, y) in of_units.zip(shared.undetermined) {
+            for (of_unit, y) in undetermined.of_units().zip(&*shared.undetermined) {
                 let by = self.presses_by(k, of_unit);
                 depends |= by != [0.0; 3];
                 for (x, by) in vector.iter_mut().zip(by) {
@@ -180,101 +176,160 @@ impl Parts<'_> {
 /// How often the directions of reactions at curves in space are turned to where the shared forces have them.
 const MOST_TURNS: usize = 50;
 
-/// Shares the forces of a group. A guide presses to either side, so all combinations are tried for contacts whose normal reactions depend on
-/// what is shared.
+/// Shares the forces of a group. A guide presses to either side: of contacts whose normal reactions depend on what is shared, all combinations
+/// of sides are tried if they are few, and else one after the other is turned as long as that helps.
 fn share_group(
     (sharers, by, groups, group): (&[Sharer], &[f64], &[usize], usize),
     shared: &mut Shared,
 ) {
-    let (count, free) = (sharers.len(), groups.len());
+    let free = groups.len();
     let of_contact = |k: usize| &by[PARTS * free * k..][..PARTS * free];
-    let (mut turning, mut number) = ([0; MOST_CONTACTS], 0);
-    for k in (0..count).filter(|k| shares::is_in(of_contact(*k), groups, group)) {
-        if of_contact(k)[..free].iter().any(|x| *x != 0.0) {
-            turning[number] = k;
-            number += 1;
+    let turns = |k: &usize| {
+        let own = of_contact(*k);
+        shares::is_in(own, groups, group) && own[..free].iter().any(|x| *x != 0.0)
+    };
+    let turning = || (0..sharers.len()).filter(turns);
+    // Every other contact presses as it does without undetermined forces.
+    let mut sides = Each::from_fn(sharers.len(), |k| {
+        if turns(&k) {
+            1.0
+        } else {
+            sharers[k].normal.signum()
         }
-    }
+    });
+    let of_group = (sharers, by, groups, group);
     let mut best = f64::NEG_INFINITY;
-    for combination in 0..1_usize << number {
-        let mut sided = [Sharer::default(); MOST_CONTACTS];
-        sided[..count].copy_from_slice(sharers);
-        let mut sided_by = [0.0; PARTS * MOST_CONTACTS * MOST_CONTACTS];
-        sided_by[..by.len()].copy_from_slice(by);
-        for (k, sharer) in sided[..count].iter_mut().enumerate() {
-            let side = match turning[..number].iter().position(|turning| *turning == k) {
-                Some(place) if combination >> place & 1 != 0 => -1.0,
-                Some(_) => 1.0,
-                None => sharer.normal.signum(),
-            };
-            sharer.normal *= side;
-            let normals = &mut sided_by[PARTS * free * k..][..free];
-            normals.iter_mut().for_each(|x| *x *= side);
+    if turning().count() <= FEW_CONTACTS {
+        for combination in 0..1_usize << turning().count() {
+            for (place, k) in turning().enumerate() {
+                sides[k] = if combination >> place & 1 != 0 {
+                    -1.0
+                } else {
+                    1.0
+                };
+            }
+            share_on_sides(of_group, &sides, &mut best, shared);
         }
-        let mut numbers = [0.0; shares::numbers_length(MOST_CONTACTS, MOST_CONTACTS)];
-        let mut places = [0; shares::places_length(MOST_CONTACTS, MOST_CONTACTS)];
-        let (mut undetermined, mut limits) = ([0.0; MOST_CONTACTS], [None; MOST_CONTACTS]);
-        let margin = shares::share(
-            &sided[..count],
-            (&sided_by[..by.len()], groups, group),
-            (
-                &mut numbers[..shares::numbers_length(count, free)],
-                &mut places[..shares::places_length(count, free)],
-            ),
-            (&mut undetermined, &mut limits),
-        );
-        let Some(margin) = margin.filter(|margin| margin.value > best) else {
-            continue;
-        };
-        best = margin.value;
-        for i in (0..free).filter(|i| groups[*i] == group) {
-            shared.undetermined[i] = undetermined[i];
+        return;
+    }
+    share_on_sides(of_group, &sides, &mut best, shared);
+    for _ in 0..MOST_TURNS {
+        let before = best;
+        for k in turning() {
+            let so_far = best;
+            sides[k] = -sides[k];
+            share_on_sides(of_group, &sides, &mut best, shared);
+            if best <= so_far {
+                sides[k] = -sides[k];
+            }
         }
-        for k in (0..count).filter(|k| shares::is_in(of_contact(*k), groups, group)) {
-            shared.margin[k] = Some(margin.value);
-            shared.residual[k] = margin.residual;
-            shared.limit[k] = limits[k];
-            shared.group[k] = group;
+        if best <= before {
+            return;
         }
     }
 }
 
+/// Shares the forces of a group whose contacts press to given sides, if that gives more than the best margin so far.
+fn share_on_sides(
+    (sharers, by, groups, group): (&[Sharer], &[f64], &[usize], usize),
+    sides: &Each,
+    best: &mut f64,
+    shared: &mut Shared,
+) {
+    let (count, free) = (sharers.len(), groups.len());
+    let of_contact = |k: usize| &by[PARTS * free * k..][..PARTS * free];
+    let mut sided_by: Effects = Effects::new(by.len(), 0.0);
+    sided_by.copy_from_slice(by);
+    for (own, side) in sided_by.chunks_exact_mut(PARTS * free).zip(&**sides) {
+        own[..free].iter_mut().for_each(|x| *x *= side);
+    }
+    let sided = PerContact::from_fn(count, |k| Sharer {
+        normal: sides[k] * sharers[k].normal,
+        ..sharers[k]
+    });
+    let mut numbers: Values<f64, { shares::numbers_length(FEW_CONTACTS, FEW_CONTACTS) }> =
+        Values::new(shares::numbers_length(count, free), 0.0);
+    let mut places: Values<usize, { shares::places_length(FEW_CONTACTS, FEW_CONTACTS) }> =
+        Values::new(shares::places_length(count, free), 0);
+    let (mut undetermined, mut limits) = (Each::new(free, 0.0), PerContact::new(count, None));
+    let margin = shares::share(
+        &sided,
+        (&sided_by, groups, group),
+        (&mut numbers, &mut places),
+        (&mut undetermined, &mut limits),
+    );
+    let Some(margin) = margin.filter(|margin| margin.value > *best) else {
+        return;
+    };
+    *best = margin.value;
+    for i in (0..free).filter(|i| groups[*i] == group) {
+        shared.undetermined[i] = undetermined[i];
+    }
+    for k in (0..count).filter(|k| shares::is_in(of_contact(*k), groups, group)) {
+        shared.margin[k] = Some(margin.value);
+        shared.residual[k] = margin.residual;
+        shared.limit[k] = limits[k];
+        shared.group[k] = group;
+    }
+}
+
+/// What undetermined forces add to the forces of contacts.
+type Effects = Values<f64, { PARTS * FEW_CONTACTS * FEW_CONTACTS }>;
+
 /// The directions along which the normal reactions of the contacts are measured.
-type Sides = [[f64; 3]; MOST_CONTACTS];
+type Sides = PerContact<[f64; 3]>;
 
 /// Friction forces that the equations of contacts in given states leave open.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Undetermined {
     /// How many of the forces are undetermined.
     pub(super) number: usize,
-    /// What a unit of each of them adds to all friction forces.
-    pub(super) of_unit: [Each; MOST_CONTACTS],
+    /// What a unit of each of them adds to all friction forces, one list after the other.
+    of_unit: Values<f64, { FEW_CONTACTS * FEW_CONTACTS }>,
+    /// The number of contacts.
+    contacts: usize,
 }
 
 impl Undetermined {
-    pub(super) const NONE: Undetermined = Undetermined {
-        number: 0,
-        of_unit: [[0.0; MOST_CONTACTS]; MOST_CONTACTS],
-    };
+    /// That nothing is undetermined.
+    pub(super) fn none(contacts: usize) -> Undetermined {
+        Undetermined {
+            number: 0,
+            of_unit: Values::new(0, 0.0),
+            contacts,
+        }
+    }
 
-    /// From equations that [`eliminate`] has solved.
-    pub(super) fn of(
-        rows: &[[f64; MOST_CONTACTS + 1]; MOST_CONTACTS],
-        count: usize,
-        column_of: [Option<usize>; MOST_CONTACTS],
-    ) -> Undetermined {
-        let mut undetermined = Undetermined::NONE;
-        for free in (0..count).filter(|j| !column_of.contains(&Some(*j))) {
-            let of_unit = &mut undetermined.of_unit[undetermined.number];
+    /// From equations that have been [eliminated](Equations::eliminate).
+    pub(super) fn of(equations: &Equations, column_of: &PerContact<Option<usize>>) -> Undetermined {
+        let contacts = column_of.len();
+        let is_free = |j: &usize| !column_of.contains(&Some(*j));
+        let number = (0..contacts).filter(is_free).count();
+        if number == 0 {
+            return Self::none(contacts);
+        }
+        let mut of_unit = Values::new(number * contacts, 0.0);
+        for (free, of_unit) in (0..contacts)
+            .filter(is_free)
+            .zip(of_unit.chunks_exact_mut(contacts))
+        {
             of_unit[free] = 1.0;
-            for (row, column) in rows.iter().zip(column_of) {
+            for (row, column) in equations.rows().zip(&**column_of) {
                 if let Some(j) = column {
-                    of_unit[j] = beyond(-row[free] / row[j], SINGULAR);
+                    of_unit[*j] = beyond(-row[free] / row[*j], SINGULAR);
                 }
             }
-            undetermined.number += 1;
         }
-        undetermined
+        Undetermined {
+            number,
+            of_unit,
+            contacts,
+        }
+    }
+
+    /// What a unit of each undetermined force adds to all friction forces.
+    fn of_units(&self) -> impl Iterator<Item = &[f64]> {
+        self.of_unit.chunks_exact(self.contacts.max(1))
     }
 }
 
@@ -284,26 +339,28 @@ pub(super) fn beyond(x: f64, rounding: f64) -> f64 {
 }
 
 /// How guides that depend on each other share their forces: by (E78).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(in crate::friction) struct Shared {
     /// The undetermined forces.
     undetermined: Each,
     /// The margin of each contact that shares forces with others: by how much the normal reactions of all of them could be smaller.
-    pub margin: [Option<f64>; MOST_CONTACTS],
+    pub margin: PerContact<Option<f64>>,
     /// By how much a greater margin may be possible.
     residual: Each,
     /// How each contact limits the margin.
-    pub limit: [Option<Limit>; MOST_CONTACTS],
+    pub limit: PerContact<Option<Limit>>,
     /// With which others it shares: contacts with the same number.
-    pub group: [usize; MOST_CONTACTS],
+    pub group: PerContact<usize>,
 }
 
 impl Shared {
-    const NONE: Shared = Shared {
-        undetermined: [0.0; MOST_CONTACTS],
-        margin: [None; MOST_CONTACTS],
-        residual: [0.0; MOST_CONTACTS],
-        limit: [None; MOST_CONTACTS],
-        group: [0; MOST_CONTACTS],
-    };
+    fn none(contacts: usize) -> Shared {
+        Shared {
+            undetermined: Each::new(contacts, 0.0),
+            margin: PerContact::new(contacts, None),
+            residual: Each::new(contacts, 0.0),
+            limit: PerContact::new(contacts, None),
+            group: PerContact::new(contacts, 0),
+        }
+    }
 }

@@ -147,7 +147,7 @@ impl<V: Vector, M: Vector> Canonical<V, M> {
         rates.clone_from(v);
         for (i, &first) in first_of_unit.iter().enumerate() {
             let here = v.as_slice()[i];
-            // Of the size of the rates; any increment is exact except for rounding.
+            // The increment has the size of the rates; any is exact except for rounding.
             let by = match greatest_rates[first] {
                 0.0 => 1.0,
                 size => size,

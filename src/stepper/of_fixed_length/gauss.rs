@@ -15,9 +15,10 @@ use super::canonical::{Canonical, ConvergenceTest};
 use super::{Fixed, Stepper, add, check_finite};
 use crate::at::At;
 use crate::balance::Quadratures;
-use crate::methods::Method;
+use crate::methods::{Method, Tableau};
 use crate::stages::Point;
-use crate::{InputLaw, StepError, System, Vector};
+use crate::stepper::Model;
+use crate::{InputLaw, Singular, StepError, System, Vector};
 
 /// Memory for the stages.
 #[derive(Clone, Debug)]
@@ -50,6 +51,88 @@ impl<V: Vector, M: Vector> Gauss<V, M> {
     }
 }
 
+impl<V: Vector, M: Vector> Gauss<V, M> {
+    /// Sets the momenta at the beginning of a step of length `h`, and rates at the stages with the accelerations there, where the iterations
+    /// start.
+    fn begin<S: System<Vector = V, Matrix = M>>(
+        &mut self,
+        system: &S,
+        (before, a): (&Point<V>, &V),
+        (tableau, h): (&Tableau, f64),
+    ) -> Result<(), Singular> {
+        self.canonical.go_to(system, before.t, &before.q)?;
+        self.momenta.as_mut_slice().fill(0.0);
+        self.canonical
+            .add_momenta(1.0, &before.v, &mut self.momenta);
+        self.canonical
+            .add_momenta(1.0, &before.v_low, &mut self.momenta);
+        for (i, rates) in self.rates.iter_mut().enumerate() {
+            rates.clone_from(&before.v);
+            for (rate, a) in rates.as_mut_slice().iter_mut().zip(a.as_slice()) {
+                *rate += tableau.c[i + 1] * h * a;
+            }
+        }
+        Ok(())
+    }
+
+    /// An iteration for the rates at the stages. Returns their change and their size, in the metric of inertia.
+    fn iterate<S: System<Vector = V, Matrix = M>, L: InputLaw<S>>(
+        &mut self,
+        model: &mut Model<'_, S, L>,
+        before: &Point<V>,
+        (tableau, h): (&Tableau, f64),
+    ) -> Result<[f64; 2], Singular> {
+        let Self {
+            canonical,
+            places,
+            rates,
+            forces,
+            momenta,
+            scratch,
+        } = self;
+        let time = |stage: usize| stage_time(before, tableau, stage, h);
+        for (i, (place, force)) in places.iter_mut().zip(&mut *forces).enumerate() {
+            for j in 0..before.q.as_slice().len() {
+                let change = weighted(&tableau.a[i + 1][1..], rates, j);
+                place.as_mut_slice()[j] =
+                    before.q.as_slice()[j] + (before.q_low.as_slice()[j] + h * change);
+            }
+            let t = time(i + 1);
+            model.set_inputs(t, place, &rates[i]);
+            let at = At {
+                t,
+                q: &*place,
+                v: &rates[i],
+                u: &model.inputs,
+            };
+            canonical.force(model.system.get(), at, force);
+        }
+        let (mut change, mut size) = (0.0, 0.0);
+        for (i, place) in places.iter().enumerate() {
+            canonical.go_to(model.system.get(), time(i + 1), place)?;
+            // The residual of the equation of this stage, and the resulting change of its rates.
+            scratch.clone_from(momenta);
+            for (j, p) in scratch.as_mut_slice().iter_mut().enumerate() {
+                *p += h * weighted(&tableau.a[i + 1][1..], forces, j);
+            }
+            size += dot(scratch, &rates[i]).abs();
+            canonical.add_momenta(-1.0, &rates[i], scratch);
+            let mut by = scratch.clone();
+            canonical.to_rates(by.as_mut_slice());
+            change += dot(scratch, &by).abs();
+            for (rate, by) in rates[i].as_mut_slice().iter_mut().zip(by.as_slice()) {
+                *rate += by;
+            }
+        }
+        Ok([change, size])
+    }
+}
+
+/// The instant of a stage.
+fn stage_time<V>(before: &Point<V>, tableau: &Tableau, stage: usize, h: f64) -> f64 {
+    before.t + (before.t_low + tableau.c[stage] * h)
+}
+
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Takes a step of length `h` from `before` to `now`.
     pub(super) fn attempt_by_gauss(&mut self, h: f64, last: bool) -> Result<(), StepError> {
@@ -68,6 +151,25 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let Some(Fixed::Gauss(gauss)) = fixed.as_deref_mut() else {
             return Ok(());
         };
+        let tableau = &method.tableau;
+        let (stages, n) = (tableau.stages, before.q.as_slice().len());
+        let t = before.t;
+        let singular = |singular| StepError::Singular { singular, t };
+        gauss
+            .begin(model.system.get(), (before, &k[0]), (tableau, h))
+            .map_err(singular)?;
+        let mut rounds = ConvergenceTest::START;
+        loop {
+            control.work.evaluations += stages - 1;
+            let iterated = gauss.iterate(model, before, (tableau, h));
+            let [change, size] = iterated.map_err(singular)?;
+            match rounds.is_last(change, size) {
+                Some(true) => break,
+                Some(false) => {}
+                None => return Err(StepError::NotSolved { t, step: h }),
+            }
+        }
+
         let Gauss {
             canonical,
             places,
@@ -76,75 +178,6 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             momenta,
             scratch,
         } = gauss;
-        let tableau = &method.tableau;
-        let (stages, n) = (tableau.stages, before.q.as_slice().len());
-        let singular = |singular| StepError::Singular {
-            singular,
-            t: before.t,
-        };
-        let time = |stage: usize| before.t + (before.t_low + tableau.c[stage] * h);
-        canonical
-            .go_to(model.system.get(), before.t, &before.q)
-            .map_err(singular)?;
-        momenta.as_mut_slice().fill(0.0);
-        canonical.add_momenta(1.0, &before.v, momenta);
-        canonical.add_momenta(1.0, &before.v_low, momenta);
-        for (i, rates) in rates.iter_mut().enumerate() {
-            rates.clone_from(&before.v);
-            for (rate, a) in rates.as_mut_slice().iter_mut().zip(k[0].as_slice()) {
-                *rate += tableau.c[i + 1] * h * a;
-            }
-        }
-        let mut rounds = ConvergenceTest::START;
-        loop {
-            for (i, (place, force)) in places.iter_mut().zip(&mut *forces).enumerate() {
-                for j in 0..n {
-                    let change = weighted(&tableau.a[i + 1][1..], rates, j);
-                    place.as_mut_slice()[j] =
-                        before.q.as_slice()[j] + (before.q_low.as_slice()[j] + h * change);
-                }
-                let t = time(i + 1);
-                model.set_inputs(t, place, &rates[i]);
-                let at = At {
-                    t,
-                    q: &*place,
-                    v: &rates[i],
-                    u: &model.inputs,
-                };
-                canonical.force(model.system.get(), at, force);
-            }
-            control.work.evaluations += stages - 1;
-            let (mut change, mut size) = (0.0, 0.0);
-            for (i, place) in places.iter().enumerate() {
-                canonical
-                    .go_to(model.system.get(), time(i + 1), place)
-                    .map_err(singular)?;
-                // The residual of the equation of this stage, and the resulting change of its rates.
-                scratch.clone_from(momenta);
-                for (j, p) in scratch.as_mut_slice().iter_mut().enumerate() {
-                    *p += h * weighted(&tableau.a[i + 1][1..], forces, j);
-                }
-                size += dot(scratch, &rates[i]).abs();
-                canonical.add_momenta(-1.0, &rates[i], scratch);
-                let mut by = scratch.clone();
-                canonical.to_rates(by.as_mut_slice());
-                change += dot(scratch, &by).abs();
-                for (rate, by) in rates[i].as_mut_slice().iter_mut().zip(by.as_slice()) {
-                    *rate += by;
-                }
-            }
-            match rounds.is_last(change, size) {
-                Some(true) => break,
-                Some(false) => {}
-                None => {
-                    return Err(StepError::NotSolved {
-                        t: before.t,
-                        step: h,
-                    });
-                }
-            }
-        }
-
         let b = &tableau.a[stages][1..];
         for j in 0..n {
             add(&mut now.q, &mut now.q_low, j, h * weighted(b, rates, j));
@@ -166,7 +199,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         check_finite(now)?;
         if quadratures.integrals().is_some() {
             for (i, (place, rates)) in places.iter().zip(&*rates).enumerate() {
-                let t = time(i + 1);
+                let t = stage_time(before, tableau, i + 1, h);
                 model.accelerations(t, place, rates, &mut k[i + 1], &mut control.work)?;
                 model.take_rates(quadratures, i + 1, (t, place, rates, &k[i + 1]));
             }

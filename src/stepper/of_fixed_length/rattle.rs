@@ -18,7 +18,8 @@ use crate::at::At;
 use crate::balance::Quadratures;
 use crate::constraints::algebra::{backward, cholesky, forward};
 use crate::stages::Point;
-use crate::{InputLaw, StepError, System, Vector};
+use crate::stepper::Model;
+use crate::{InputLaw, Singular, StepError, System, Vector};
 
 /// Memory for both ends of a step.
 #[derive(Clone, Debug)]
@@ -129,6 +130,167 @@ impl EndConstraints {
     }
 }
 
+impl<V: Vector, M: Vector> Rattle<V, M> {
+    /// Sets the momenta at the beginning of a step of length `h`, and factorizes the matrix from which the constraints at its end determine
+    /// the multipliers. Returns whether this matrix is invertible.
+    fn begin<S: System<Vector = V, Matrix = M>>(
+        &mut self,
+        system: &S,
+        before: &Point<V>,
+        h: f64,
+    ) -> Result<bool, Singular> {
+        let [start, _] = &mut self.ends;
+        start.go_to(system, before.t, &before.q)?;
+        self.momenta.as_mut_slice().fill(0.0);
+        start.add_momenta(1.0, &before.v, &mut self.momenta);
+        start.add_momenta(1.0, &before.v_low, &mut self.momenta);
+        let constraints = &mut self.constraints;
+        if constraints.is_empty() {
+            return Ok(true);
+        }
+        system.constraint_matrix(before.t, &before.q, &mut constraints.rows[0]);
+        constraints.multipliers.fill(0.0);
+        Ok(constraints.factor(0, start, 0.5 * h * h))
+    }
+
+    /// The effect of round-off in the constraints on the rates, in the metric of inertia: they change however slow they are, and from rest it is
+    /// their only change.
+    fn rounding(&mut self, before: &Point<V>, h: f64) -> f64 {
+        if self.constraints.is_empty() {
+            return 0.0;
+        }
+        self.scratch.as_mut_slice().fill(0.0);
+        self.ends[0].add_momenta(1.0, &before.q, &mut self.scratch);
+        16.0 * f64::EPSILON * f64::EPSILON * dot(&self.scratch, &before.q).abs() / (h * h)
+    }
+
+    /// Takes the rates half a step ahead with the accelerations at the beginning, where the iterations start.
+    fn predict(&mut self, before: &Point<V>, a: &V, half: f64) {
+        let [here, there] = &mut self.rates;
+        here.clone_from(&before.v);
+        for (rate, a) in here.as_mut_slice().iter_mut().zip(a.as_slice()) {
+            *rate += half * a;
+        }
+        there.clone_from(here);
+    }
+
+    /// An iteration for `p½`, `q₁` and the multipliers. Returns the change of the rates and their size, in the metric of inertia.
+    fn iterate<S: System<Vector = V, Matrix = M>, L: InputLaw<S>>(
+        &mut self,
+        model: &mut Model<'_, S, L>,
+        (before, now): (&Point<V>, &mut Point<V>),
+        half: f64,
+    ) -> Result<[f64; 2], Singular> {
+        let Self {
+            ends: [start, ahead],
+            rates: [here, there],
+            force,
+            momenta,
+            half_way,
+            scratch,
+            constraints,
+        } = self;
+        model.set_inputs(before.t, &before.q, here);
+        let system = model.system.get();
+        let at = At {
+            t: before.t,
+            q: &before.q,
+            v: &*here,
+            u: &model.inputs,
+        };
+        start.force(system, at, force);
+        half_way.clone_from(momenta);
+        for (p, force) in half_way.as_mut_slice().iter_mut().zip(force.as_slice()) {
+            *p += half * force;
+        }
+        constraints.add_forces(0, half, &constraints.multipliers, half_way);
+        let mut change = 0.0;
+        let mut size = dot(half_way, here).abs();
+        // The resulting change of the rates at the beginning, then of those at the end.
+        set_rates(start, half_way, here, scratch, &mut change);
+        for j in 0..before.q.as_slice().len() {
+            let rates = here.as_slice()[j] + there.as_slice()[j];
+            now.q.as_mut_slice()[j] =
+                before.q.as_slice()[j] + (before.q_low.as_slice()[j] + half * rates);
+        }
+        ahead.go_to(system, now.t, &now.q)?;
+        size += dot(half_way, there).abs();
+        set_rates(ahead, half_way, there, scratch, &mut change);
+        if !constraints.is_empty() {
+            system.constraint_positions(now.t, &now.q, &mut constraints.residuals);
+            constraints.solve();
+            let residuals = constraints.residuals.iter();
+            for (multiplier, residual) in constraints.multipliers.iter_mut().zip(residuals) {
+                *multiplier -= residual;
+            }
+            // The resulting change of the rates at both ends, so that the next iteration begins on the constraints.
+            for (at, rates) in [(&*start, &mut *here), (&*ahead, &mut *there)] {
+                scratch.as_mut_slice().fill(0.0);
+                constraints.add_forces(0, -half, &constraints.residuals, scratch);
+                force.clone_from(scratch);
+                at.to_rates(scratch.as_mut_slice());
+                change += dot(force, scratch).abs();
+                for (rate, by) in rates.as_mut_slice().iter_mut().zip(scratch.as_slice()) {
+                    *rate += by;
+                }
+            }
+        }
+        Ok([change, size])
+    }
+
+    /// Sets the rates at the end of the step, which obey the constraints there. Returns whether these are independent.
+    fn arrive<S: System<Vector = V, Matrix = M>, L: InputLaw<S>>(
+        &mut self,
+        model: &mut Model<'_, S, L>,
+        (before, now): (&Point<V>, &mut Point<V>),
+        half: f64,
+    ) -> bool {
+        let Self {
+            ends: [_, ahead],
+            rates: [_, there],
+            force,
+            half_way,
+            scratch,
+            constraints,
+            ..
+        } = self;
+        model.set_inputs(now.t, &now.q, there);
+        let system = model.system.get();
+        let at = At {
+            t: now.t,
+            q: &now.q,
+            v: &*there,
+            u: &model.inputs,
+        };
+        ahead.force(system, at, force);
+        for (p, force) in half_way.as_mut_slice().iter_mut().zip(force.as_slice()) {
+            *p += half * force;
+        }
+        ahead.add_momenta(-1.0, &before.v, half_way);
+        ahead.add_momenta(-1.0, &before.v_low, half_way);
+        ahead.to_rates(half_way.as_mut_slice());
+        for (j, by) in half_way.as_slice().iter().enumerate() {
+            add(&mut now.v, &mut now.v_low, j, *by);
+        }
+        if constraints.is_empty() {
+            return true;
+        }
+        system.constraint_matrix(now.t, &now.q, &mut constraints.rows[1]);
+        if !constraints.factor(1, ahead, 1.0) {
+            return false;
+        }
+        system.constraint_rates(now.t, &now.q, &now.v, &mut constraints.residuals);
+        constraints.solve();
+        scratch.as_mut_slice().fill(0.0);
+        constraints.add_forces(1, 1.0, &constraints.residuals, scratch);
+        ahead.to_rates(scratch.as_mut_slice());
+        for (j, by) in scratch.as_slice().iter().enumerate() {
+            add(&mut now.v, &mut now.v_low, j, -by);
+        }
+        true
+    }
+}
+
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Takes a step of length `h` from `before` to `now`.
     pub(super) fn attempt_by_rattle(&mut self, h: f64, last: bool) -> Result<(), StepError> {
@@ -145,151 +307,36 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let Some(Fixed::Rattle(rattle)) = fixed.as_deref_mut() else {
             return Ok(());
         };
-        let Rattle {
-            ends: [start, ahead],
-            rates: [here, there],
-            force,
-            momenta,
-            half_way,
-            scratch,
-            constraints,
-        } = rattle;
-        let singular = |singular| StepError::Singular {
-            singular,
-            t: before.t,
-        };
-        let not_solved = StepError::NotSolved {
-            t: before.t,
-            step: h,
-        };
-        let n = before.q.as_slice().len();
+        let t = before.t;
+        let singular = |singular| StepError::Singular { singular, t };
+        let not_solved = StepError::NotSolved { t, step: h };
         let half = 0.5 * h;
         now.set_time(before, h, (*end, &[last]));
-        let system = model.system.get();
-        start.go_to(system, before.t, &before.q).map_err(singular)?;
-        momenta.as_mut_slice().fill(0.0);
-        start.add_momenta(1.0, &before.v, momenta);
-        start.add_momenta(1.0, &before.v_low, momenta);
-        if !constraints.is_empty() {
-            system.constraint_matrix(before.t, &before.q, &mut constraints.rows[0]);
-            if !constraints.factor(0, start, half * h) {
-                return Err(not_solved);
-            }
-            constraints.multipliers.fill(0.0);
+        let is_regular = rattle.begin(model.system.get(), before, h);
+        if !is_regular.map_err(singular)? {
+            return Err(not_solved);
         }
-        // Round-off in the constraints changes the rates too, however slow they are; from rest it is their only change.
-        let mut rounding = 0.0;
-        if !constraints.is_empty() {
-            scratch.as_mut_slice().fill(0.0);
-            start.add_momenta(1.0, &before.q, scratch);
-            rounding = 16.0 * f64::EPSILON * f64::EPSILON * dot(scratch, &before.q).abs() / (h * h);
-        }
-        here.clone_from(&before.v);
-        for (rate, a) in here.as_mut_slice().iter_mut().zip(k[0].as_slice()) {
-            *rate += half * a;
-        }
-        there.clone_from(here);
+        let rounding = rattle.rounding(before, h);
+        rattle.predict(before, &k[0], half);
         let mut rounds = ConvergenceTest::START;
         loop {
-            model.set_inputs(before.t, &before.q, here);
-            let system = model.system.get();
-            start.force(
-                system,
-                At {
-                    t: before.t,
-                    q: &before.q,
-                    v: here,
-                    u: &model.inputs,
-                },
-                force,
-            );
             control.work.evaluations += 1;
-            half_way.clone_from(momenta);
-            for (p, force) in half_way.as_mut_slice().iter_mut().zip(force.as_slice()) {
-                *p += half * force;
-            }
-            constraints.add_forces(0, half, &constraints.multipliers, half_way);
-            let mut change = 0.0;
-            let mut size = dot(half_way, here).abs();
-            // The resulting change of the rates at the beginning, then of those at the end.
-            set_rates(start, half_way, here, scratch, &mut change);
-            for j in 0..n {
-                let rates = here.as_slice()[j] + there.as_slice()[j];
-                now.q.as_mut_slice()[j] =
-                    before.q.as_slice()[j] + (before.q_low.as_slice()[j] + half * rates);
-            }
-            ahead.go_to(system, now.t, &now.q).map_err(singular)?;
-            size += dot(half_way, there).abs();
-            set_rates(ahead, half_way, there, scratch, &mut change);
-            if !constraints.is_empty() {
-                system.constraint_positions(now.t, &now.q, &mut constraints.residuals);
-                constraints.solve();
-                for (multiplier, residual) in constraints
-                    .multipliers
-                    .iter_mut()
-                    .zip(&constraints.residuals)
-                {
-                    *multiplier -= residual;
-                }
-                // The resulting change of the rates at both ends, so that the next iteration begins on the constraints.
-                for (at, rates) in [(&*start, &mut *here), (&*ahead, &mut *there)] {
-                    scratch.as_mut_slice().fill(0.0);
-                    constraints.add_forces(0, -half, &constraints.residuals, scratch);
-                    force.clone_from(scratch);
-                    at.to_rates(scratch.as_mut_slice());
-                    change += dot(force, scratch).abs();
-                    for (rate, by) in rates.as_mut_slice().iter_mut().zip(scratch.as_slice()) {
-                        *rate += by;
-                    }
-                }
-            }
+            let iterated = rattle.iterate(model, (&*before, &mut *now), half);
+            let [change, size] = iterated.map_err(singular)?;
             match rounds.is_last_with_rounding(change, (size, rounding)) {
                 Some(true) => break,
                 Some(false) => {}
                 None => return Err(not_solved),
             }
         }
-        for j in 0..n {
-            let rates = here.as_slice()[j] + there.as_slice()[j];
+        let [here, there] = &rattle.rates;
+        for (j, (here, there)) in here.as_slice().iter().zip(there.as_slice()).enumerate() {
             now.q.as_mut_slice()[j] = before.q.as_slice()[j];
-            add(&mut now.q, &mut now.q_low, j, half * rates);
+            add(&mut now.q, &mut now.q_low, j, half * (here + there));
         }
-
-        model.set_inputs(now.t, &now.q, there);
-        let system = model.system.get();
-        ahead.force(
-            system,
-            At {
-                t: now.t,
-                q: &now.q,
-                v: there,
-                u: &model.inputs,
-            },
-            force,
-        );
         control.work.evaluations += 1;
-        for (p, force) in half_way.as_mut_slice().iter_mut().zip(force.as_slice()) {
-            *p += half * force;
-        }
-        ahead.add_momenta(-1.0, &before.v, half_way);
-        ahead.add_momenta(-1.0, &before.v_low, half_way);
-        ahead.to_rates(half_way.as_mut_slice());
-        for (j, by) in half_way.as_slice().iter().enumerate() {
-            add(&mut now.v, &mut now.v_low, j, *by);
-        }
-        if !constraints.is_empty() {
-            system.constraint_matrix(now.t, &now.q, &mut constraints.rows[1]);
-            if !constraints.factor(1, ahead, 1.0) {
-                return Err(not_solved);
-            }
-            system.constraint_rates(now.t, &now.q, &now.v, &mut constraints.residuals);
-            constraints.solve();
-            scratch.as_mut_slice().fill(0.0);
-            constraints.add_forces(1, 1.0, &constraints.residuals, scratch);
-            ahead.to_rates(scratch.as_mut_slice());
-            for (j, by) in scratch.as_slice().iter().enumerate() {
-                add(&mut now.v, &mut now.v_low, j, -by);
-            }
+        if !rattle.arrive(model, (&*before, &mut *now), half) {
+            return Err(not_solved);
         }
         self.arrive_without_stages(h)
     }

@@ -293,7 +293,7 @@ fn draw(random: &mut SplitMix, loose: f64) -> Drawn {
 }
 
 /// Compiles a text to a machine, or returns its errors.
-fn read(text: &str) -> Result<InterpretedMachine, Vec<(Code, String)>> {
+pub(super) fn read(text: &str) -> Result<InterpretedMachine, Vec<(Code, String)>> {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let files = &mut Disk;
     let model = lagrangian_spec::model(&dag, "drawn", text, &[], files, &mut sources, &mut report);

@@ -14,8 +14,11 @@ use lagrangian_program::quantity::{Entry, Extent, ItemKind};
 use lagrangian_program::{Function, Op, PackedStatement, Reads, Role, Shape, Source};
 
 impl<'a> Emitter<'a> {
-    /// Whether a function computes anything: one whose results are zero has no code.
+    /// Whether a function computes anything: one whose results are zero has no code; nor has one that [parts](Self::is_by_parts) replace.
     pub(super) fn is_emitted(&self, function: &Function) -> bool {
+        if self.is_by_parts(function.role) {
+            return false;
+        }
         let is_zero =
             |value: &_| matches!(function.op(*value), Op::Constant(rational) if rational.is_zero());
         function.role.is_kept() || !function.results.iter().all(is_zero)

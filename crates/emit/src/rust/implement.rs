@@ -103,11 +103,8 @@ impl Emitter<'_> {
             format!("{name} [{}]", if is_there { word } else { "" })
         };
         let slips = self.emitted(Role::Slips);
-        let bounded = self
-            .emitted(Role::Gaps)
-            .filter(|_| self.contact_parts.is_some());
-        let mut intervals = slips.into_iter().chain(bounded);
-        let rounds_prepared = intervals.any(|function| self.needs(function).prepared);
+        let rounds_prepared = slips.is_some_and(|function| self.needs(function).prepared)
+            || self.parts_of_gaps_read_prepared();
         self.writer.line(format!("absent [{}]", absent.join(" ")));
         self.writer.line(flag("intervals", rounds_prepared, "yes"));
         if let Some(call) = self
@@ -298,6 +295,10 @@ impl Emitter<'_> {
                 let no = Layout::Atom("false".into());
                 self.row("boolean", "series_may_branch", &["p"], Some(no));
             }
+            if self.program.has_powers() == [false; 2] {
+                let no = Layout::Atom("false".into());
+                self.row("boolean", "has_powers", &["p"], Some(no));
+            }
         }
         self.rows_of_quantities();
         let value = if self.outputs.is_empty() {
@@ -336,7 +337,7 @@ impl Emitter<'_> {
         };
         for role in Role::all().filter(is_method) {
             let row = role.row();
-            if row.extent.shape(sizes).is_none() {
+            if row.extent.shape(sizes).is_none() || self.is_by_parts(role) {
                 continue;
             }
             let kind = match row.extent {
@@ -445,7 +446,7 @@ impl Emitter<'_> {
         }
         if self.program.second_tangents != 0 {
             let seconds = Layout::Atom(self.program.second_tangents.to_string());
-            self.row("count", "second_tangents", &["p"], Some(seconds));
+            self.row("bits", "second_tangents", &["p"], Some(seconds));
         }
         let slips = self.emitted(Role::Slips);
         let needs = slips.map(|function| self.needs(function));

@@ -3,8 +3,7 @@
 
 use lagrangian_symbolic::Function;
 
-use super::{Dialect, Entries, Syntax, Table, helper, quoted};
-use crate::body::{Expression, Rounded};
+use super::{Dialect, Syntax, Table, quoted};
 use crate::layout::Writer;
 
 /// JavaScript.
@@ -104,10 +103,7 @@ impl Syntax for JavaScript {
         writer.gap();
         writer.open("return {");
         for table in tables {
-            let entries: Vec<String> = match &table.entries {
-                Entries::Texts(texts) => texts.iter().map(|text| quoted(text)).collect(),
-                Entries::Numbers(numbers) => numbers.iter().map(|x| format!("{x:?}")).collect(),
-            };
+            let entries = table.entries(quoted, "NaN");
             writer.line(format!("{}: [{}],", table.name, entries.join(", ")));
         }
         let is_output = |name: &&String| name.starts_with("output_");
@@ -144,10 +140,6 @@ impl Syntax for JavaScript {
         format!("{list}[{index}]")
     }
 
-    fn list(&self, entries: &[String]) -> String {
-        format!("[{}]", entries.join(", "))
-    }
-
     fn matrix(&self, rows: &[Vec<String>]) -> String {
         let rows: Vec<String> = rows.iter().map(|row| self.list(row)).collect();
         format!("[{}]", rows.join(", "))
@@ -179,10 +171,6 @@ impl Syntax for JavaScript {
             Max => "Math.max",
             Pow => "Math.pow",
         }
-    }
-
-    fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression {
-        helper(of, a, b)
     }
 
     fn guard(&self, writer: &mut Writer, pivot: &str, limit: &str, message: &str) {

@@ -2,8 +2,7 @@
 
 use lagrangian_symbolic::Function;
 
-use super::{Dialect, Entries, Syntax, Table, helper, quoted};
-use crate::body::{Expression, Rounded};
+use super::{Dialect, Entries, Syntax, Table, quoted};
 use crate::layout::Writer;
 
 pub(super) const JULIA: Dialect = Dialect {
@@ -80,24 +79,12 @@ impl Syntax for Julia {
         writer.line(format!("module {}", camel(name)));
         writer.gap();
         for table in tables {
-            let value = match &table.entries {
-                Entries::Texts(texts) => {
-                    let texts: Vec<String> = texts.iter().map(|text| literal(text)).collect();
-                    format!("String[{}]", texts.join(", "))
-                }
-                Entries::Numbers(numbers) => {
-                    let one = |x: &f64| {
-                        if x.is_nan() {
-                            "NaN".to_owned()
-                        } else {
-                            format!("{x:?}")
-                        }
-                    };
-                    let numbers: Vec<String> = numbers.iter().map(one).collect();
-                    format!("Float64[{}]", numbers.join(", "))
-                }
+            let element = match &table.entries {
+                Entries::Texts(_) => "String",
+                Entries::Numbers(_) => "Float64",
             };
-            writer.line(format!("const {} = {value}", table.name));
+            let entries = table.entries(literal, "NaN").join(", ");
+            writer.line(format!("const {} = {element}[{entries}]", table.name));
         }
         writer.gap();
         writer.line("# What rounding took from a*b and from a + b.");
@@ -134,10 +121,6 @@ impl Syntax for Julia {
         format!("{list}[{}]", index + 1)
     }
 
-    fn list(&self, entries: &[String]) -> String {
-        format!("[{}]", entries.join(", "))
-    }
-
     fn matrix(&self, rows: &[Vec<String>]) -> String {
         let rows: Vec<String> = rows.iter().map(|row| row.join(" ")).collect();
         format!("[{}]", rows.join("; "))
@@ -155,10 +138,6 @@ impl Syntax for Julia {
             Pow => "^",
             other => other.name(),
         }
-    }
-
-    fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression {
-        helper(of, a, b)
     }
 
     fn guard(&self, writer: &mut Writer, pivot: &str, limit: &str, message: &str) {

@@ -2,8 +2,7 @@
 
 use lagrangian_symbolic::Function;
 
-use super::{Dialect, Entries, Syntax, Table, helper};
-use crate::body::{Expression, Rounded};
+use super::{Dialect, Entries, Syntax, Table};
 use crate::layout::Writer;
 
 pub(super) const MATLAB: Dialect = Dialect {
@@ -76,21 +75,10 @@ impl Syntax for Matlab {
         writer.gap();
         writer.open(format!("function machine = {name}()"));
         for table in tables {
+            let entries = table.entries(text_of, "NaN");
             let value = match &table.entries {
-                Entries::Texts(texts) => {
-                    let texts: Vec<String> = texts.iter().map(|text| text_of(text)).collect();
-                    format!("{{{}}}", texts.join(", "))
-                }
-                Entries::Numbers(numbers) => {
-                    let one = |x: &f64| {
-                        if x.is_nan() {
-                            "NaN".to_owned()
-                        } else {
-                            format!("{x:?}")
-                        }
-                    };
-                    self.list(&numbers.iter().map(one).collect::<Vec<_>>())
-                }
+                Entries::Texts(_) => format!("{{{}}}", entries.join(", ")),
+                Entries::Numbers(_) => self.list(&entries),
             };
             writer.line(format!("machine.{} = {value};", table.name));
         }
@@ -156,10 +144,6 @@ impl Syntax for Matlab {
             Pow => "power",
             other => other.name(),
         }
-    }
-
-    fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression {
-        helper(of, a, b)
     }
 
     fn guard(&self, writer: &mut Writer, pivot: &str, limit: &str, message: &str) {

@@ -5,7 +5,7 @@
 
 use lagrangian_symbolic::{Function, Rational};
 
-use super::{Dialect, Entries, Syntax, Table, quoted};
+use super::{Dialect, Syntax, Table, quoted};
 use crate::body::{Expression, Precedence, Rounded};
 use crate::layout::Writer;
 
@@ -62,19 +62,7 @@ impl Syntax for Sympy {
         PRELUDE.lines().for_each(|line| writer.line(line));
         writer.gap();
         for table in tables {
-            let entries: Vec<String> = match &table.entries {
-                Entries::Texts(texts) => texts.iter().map(|text| quoted(text)).collect(),
-                Entries::Numbers(numbers) => {
-                    let one = |x: &f64| {
-                        if x.is_nan() {
-                            "sp.nan".to_owned()
-                        } else {
-                            format!("{x:?}")
-                        }
-                    };
-                    numbers.iter().map(one).collect()
-                }
-            };
+            let entries = table.entries(quoted, "sp.nan");
             writer.line(format!(
                 "{} = [{}]",
                 table.name.to_uppercase(),
@@ -103,10 +91,6 @@ impl Syntax for Sympy {
 
     fn element(&self, list: &str, index: usize) -> String {
         format!("{list}[{index}]")
-    }
-
-    fn list(&self, entries: &[String]) -> String {
-        format!("[{}]", entries.join(", "))
     }
 
     fn matrix(&self, rows: &[Vec<String>]) -> String {

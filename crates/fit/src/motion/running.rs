@@ -15,7 +15,7 @@ struct Begun<'f> {
     machine: InterpretedMachine,
     /// The start in the coordinates of the spec, before the projection onto the constraints.
     stated: State<Named>,
-    /// The same in those of the run.
+    /// That start in the coordinates of the run.
     start: State<Named>,
     /// For each point that the run has in Cartesian coordinates the indices of its distance and its angle.
     points: &'f [[usize; 2]],
@@ -239,24 +239,10 @@ impl Fit<'_> {
         } = self.begun(experiment, x)?;
         let measured = &self.experiments[experiment];
         let sizes = self.sizes();
-        // Starts of other experiments do not affect this one.
-        let affecting: Vec<usize> = (0..self.sought.len())
-            .filter(|j| match self.sought[*j].subject {
-                Subject::Parameter(_) => true,
-                Subject::Start(of, _) | Subject::Rate(of, _) => of == experiment,
-            })
-            .collect();
-        // Derivatives by numbers scaled to size 1, so that one tolerance suits all of them.
-        let directions = affecting.iter().map(|j| {
-            let mut direction = Direction::of_start(&machine);
-            if let Subject::Parameter(index) = self.sought[*j].subject {
-                direction.parameters[index] = sizes[*j];
-            }
-            direction
-        });
+        let (affecting, directions) = self.directions(experiment, &machine, &sizes);
         let varied = Varied {
             machine: &machine,
-            directions: directions.collect(),
+            directions,
             signals: &measured.signals,
             phase: None,
         };
@@ -270,7 +256,13 @@ impl Fit<'_> {
         self.set_varied_start(experiment, x, &machine, &affecting, &mut start)?;
         charts::to_cartesian(points, n, [&mut start.q, &mut start.v]);
         self.set_start_on_constraints(experiment, x, (&machine, &affecting), &mut start)?;
-        let is_held = self.is_held(experiment);
+        let off_constraints = |end: &State<Vec<f64>>| {
+            if self.is_held(experiment) {
+                self.off_constraints(experiment, x, end, &affecting)
+            } else {
+                0.0
+            }
+        };
         let at = |system: &VariedSystem,
                   (t, q, v): (f64, &Vec<f64>, &Vec<f64>),
                   (a, u): (&Vec<f64>, &VariedInputs)| {
@@ -321,11 +313,7 @@ impl Fit<'_> {
             };
             let rows: Result<Vec<Row>, _> = measured.times.iter().map(row).collect();
             let rows = rows.map_err(|error| self.failure(measured, error))?;
-            let off = if is_held {
-                self.off_constraints(experiment, x, run.end(), &affecting)
-            } else {
-                0.0
-            };
+            let off = off_constraints(run.end());
             return self.checked(experiment, rows, off);
         }
         let system = varied.prepare();
@@ -353,12 +341,34 @@ impl Fit<'_> {
         });
         let run = VariedLaw::run(simulation, start);
         let run = run.map_err(|error| self.failure(measured, error))?;
-        let off = if is_held {
-            self.off_constraints(experiment, x, run.end(), &affecting)
-        } else {
-            0.0
-        };
+        let off = off_constraints(run.end());
         self.checked(experiment, rows, off)
+    }
+
+    /// The places of the numbers that affect an experiment, and the directions of differentiation by these numbers, scaled by their sizes so
+    /// that one tolerance suits all of them.
+    fn directions(
+        &self,
+        experiment: usize,
+        machine: &InterpretedMachine,
+        sizes: &[f64],
+    ) -> (Vec<usize>, Vec<Direction>) {
+        // Starts of other experiments do not affect this one.
+        let affecting: Vec<usize> = (0..self.sought.len())
+            .filter(|j| match self.sought[*j].subject {
+                Subject::Parameter(_) => true,
+                Subject::Start(of, _) | Subject::Rate(of, _) => of == experiment,
+            })
+            .collect();
+        let directions = affecting.iter().map(|j| {
+            let mut direction = Direction::of_start(machine);
+            if let Subject::Parameter(index) = self.sought[*j].subject {
+                direction.parameters[index] = sizes[*j];
+            }
+            direction
+        });
+        let directions = directions.collect();
+        (affecting, directions)
     }
 
     /// Sets a start and its derivatives by the scaled numbers that affect it; `start` holds those that follow from the spec.

@@ -371,6 +371,19 @@ pub(crate) fn refuse_large(model: &Model<'_>, report: &mut Report) {
     report.push(Diagnostic::new(Code::TooLarge, model.span, message).help(help));
 }
 
+/// Reports that the equations are too large with the contacts up to this one.
+pub(super) fn refuse_large_contact(model: &Model<'_>, contact: &Contact<'_>, report: &mut Report) {
+    let message = format!(
+        "the gaps and slips of {} unilateral contacts are too large to be derived; those up to `{}` are as large as is possible",
+        model.contacts.len(),
+        contact.name
+    );
+    let help = format!(
+        "written out, the equations of a machine may have at most {MOST_SIZE} terms and factors: make fewer contacts, or simpler ones"
+    );
+    report.push(Diagnostic::new(Code::TooLarge, contact.span, message).help(help));
+}
+
 /// Refuses equations that contain an undefined value. Returns true if refused.
 pub(super) fn refuse_undefined(
     model: &Model<'_>,

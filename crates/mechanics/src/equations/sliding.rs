@@ -34,9 +34,9 @@ use lagrangian_spec::identity;
 use lagrangian_spec::model::element::{self, Sliding};
 use lagrangian_spec::model::{Model, Space, stage};
 
-/// The largest number of contacts of a machine: at a stop, every combination of sticking and sliding
-/// is tried, and for six contacts there are 46 656.
-pub const MOST_CONTACTS: usize = 6;
+/// The largest number of contacts of a machine: which of them are second tangents of surfaces is a mask of 64 bits, and the response to the
+/// friction of each contact is evaluated in every step.
+pub const MOST_CONTACTS: usize = 64;
 
 /// A guided contact with Coulomb friction.
 #[derive(Clone, Debug)]

@@ -13,10 +13,12 @@
 //! `D` is the total time derivative (E8), so a moving wall is in `γ` and in `δ`. Contact forces,
 //! sticking, and the rates after an impact are found by the run.
 
-use lagrangian_symbolic::{Expr, normal};
+use lagrangian_symbolic::{Expr, Tangent, normal};
 
 use super::kinematics::Variables;
 use super::kinematics::gradient;
+use super::refusal::refuse_large_contact;
+use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::{self, RelativeMotion};
 use lagrangian_spec::model::{
@@ -68,13 +70,22 @@ pub struct DirectionEquation<'d> {
     pub bias: Expr<'d>,
 }
 
-/// The unilateral contacts of a machine, in their order.
-pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
+/// The unilateral contacts of a machine, in their order; `None` if they are too large to be derived, with the first one that is in the report.
+pub(super) fn unilateral<'d>(
+    model: &Model<'d>,
+    report: &mut Report,
+) -> Option<Vec<UnilateralEquation<'d>>> {
     let x = Variables::of(model);
-    let contacts = model.contacts.iter();
-    contacts
-        .flat_map(|contact| of_contact(model, &x, contact))
-        .collect()
+    let mut coasting = x.without_acceleration(model);
+    let mut all = Vec::with_capacity(model.contacts.len());
+    for contact in &model.contacts {
+        all.extend(of_contact(model, (&x, &mut coasting), contact));
+        if model.dag.is_exhausted() {
+            refuse_large_contact(model, contact, report);
+            return None;
+        }
+    }
+    Some(all)
 }
 
 /// The relative motion of what touches.
@@ -90,12 +101,15 @@ struct Touch<'d> {
 }
 
 impl<'d> Touch<'d> {
-    fn of(model: &Model<'d>, x: &Variables<'d>, contact: &model::Contact<'d>) -> Touch<'d> {
+    fn of(
+        model: &Model<'d>,
+        coasting: &mut Tangent<'d>,
+        contact: &model::Contact<'d>,
+    ) -> Touch<'d> {
         match &contact.geometry {
             ContactGeometry::Corner(corner) => {
-                let touching =
-                    polygons::relative_motion(model, corner, &mut x.without_acceleration(model));
-                let beyond_rate = x.without_acceleration(model).of(touching.beyond);
+                let touching = polygons::relative_motion(model, corner, coasting);
+                let beyond_rate = coasting.of(touching.beyond);
                 Touch {
                     gap: touching.gap,
                     slip: touching.slip,
@@ -110,9 +124,12 @@ impl<'d> Touch<'d> {
                 }
             }
             ContactGeometry::Circles(touching) => {
-                Touch::of_round(model, x, &model.circles[touching.circle], touching.surface)
+                let circle = &model.circles[touching.circle];
+                Touch::of_round(model, coasting, circle, touching.surface)
             }
-            ContactGeometry::Point { point, surface } => Touch::of_round(model, x, point, *surface),
+            ContactGeometry::Point { point, surface } => {
+                Touch::of_round(model, coasting, point, *surface)
+            }
             &ContactGeometry::Expressions { gap, slip, across } => Touch {
                 gap,
                 slip,
@@ -126,20 +143,19 @@ impl<'d> Touch<'d> {
     /// Of a circle, or in space of a sphere.
     fn of_round(
         model: &Model<'d>,
-        x: &Variables<'d>,
+        coasting: &mut Tangent<'d>,
         round: &Circle<'d>,
         surface: Surface,
     ) -> Touch<'d> {
-        let mut coasting = x.without_acceleration(model);
         let (gap, slip, across) = match model.space {
             Space::Plane => {
                 let RelativeMotion { gap, slip } =
-                    circles::relative_motion(model, round, surface, &mut coasting);
+                    circles::relative_motion(model, round, surface, coasting);
                 (gap, slip, None)
             }
             Space::Space => {
                 let spheres::RelativeMotion { gap, slip } =
-                    spheres::relative_motion(model, round, surface, &mut coasting);
+                    spheres::relative_motion(model, round, surface, coasting);
                 (gap, slip[0], Some(slip[1]))
             }
         };
@@ -156,10 +172,10 @@ impl<'d> Touch<'d> {
 /// The equations of a contact: its own, and those of its second tangent or its rolling resistance if it has one.
 fn of_contact<'d>(
     model: &Model<'d>,
-    x: &Variables<'d>,
+    (x, coasting): (&Variables<'d>, &mut Tangent<'d>),
     contact: &model::Contact<'d>,
 ) -> Vec<UnilateralEquation<'d>> {
-    let touch = Touch::of(model, x, contact);
+    let touch = Touch::of(model, coasting, contact);
     let zero = model.dag.zero();
     let has_friction = contact.friction.is_some();
     let (gap, rate, slip) = match touch.corner_rate {
@@ -176,7 +192,7 @@ fn of_contact<'d>(
             } else {
                 zero
             };
-            (gap, x.without_acceleration(model).of(gap), slip)
+            (gap, coasting.of(gap), slip)
         }
     };
     let friction = contact.friction.unwrap_or(zero);
@@ -184,7 +200,7 @@ fn of_contact<'d>(
     let own = UnilateralEquation {
         name: contact.name.to_string(),
         gap,
-        directions: [rate, slip].map(|rate| direction(model, x, rate)),
+        directions: [rate, slip].map(|rate| direction(model, (x, &mut *coasting), rate)),
         coefficients: [
             first,
             second,
@@ -202,12 +218,13 @@ fn of_contact<'d>(
     };
     let further = match (touch.across, &contact.geometry, contact.rolling_resistance) {
         (Some(across), ..) if has_friction => {
-            Some(second_tangent(&own, direction(model, x, plain(across))))
+            let across = direction(model, (x, &mut *coasting), plain(across));
+            Some(second_tangent(&own, across))
         }
         (_, ContactGeometry::Circles(touching), Some(resistance)) => {
-            let mut coasting = x.without_acceleration(model);
-            let rate = plain(circles::rolling_rate(model, touching, &mut coasting));
-            Some(rolling(&own, direction(model, x, rate), resistance))
+            let rate = plain(circles::rolling_rate(model, touching, coasting));
+            let turning = direction(model, (x, &mut *coasting), rate);
+            Some(rolling(&own, turning, resistance))
         }
         _ => None,
     };
@@ -259,12 +276,16 @@ fn plain(e: Expr<'_>) -> Expr<'_> {
     }
 }
 
-fn direction<'d>(model: &Model<'d>, x: &Variables<'d>, rate: Expr<'d>) -> DirectionEquation<'d> {
+fn direction<'d>(
+    model: &Model<'d>,
+    (x, coasting): (&Variables<'d>, &mut Tangent<'d>),
+    rate: Expr<'d>,
+) -> DirectionEquation<'d> {
     let mut row = gradient(model.dag, rate, &x.v);
     identity::write_zeros(model.dag, &mut row);
     DirectionEquation {
         rate,
         row,
-        bias: x.without_acceleration(model).of(rate),
+        bias: coasting.of(rate),
     }
 }

@@ -1,6 +1,6 @@
 //! Comparison of slips, gaps, friction and reactions with the literal equations.
 
-use super::number::Number;
+use super::number::{Number, ZeroTest};
 use super::{Computed, Prover, Sum, Verdict, equal, first_difference};
 use crate::Disagreement;
 use crate::equations::guide::{guides_of, occurs_in_equation};
@@ -212,30 +212,17 @@ impl<R: Number> Prover<'_, '_, R> {
             return Err(Verdict::Undefined);
         }
         let openings = openings(relaxed, at, contacts, (&guides, &sides));
-        // The side is unknown in a field, where any combination is accepted. In space there are no sides.
-        let patterns = if R::IS_ORDERED || relaxed.model.space == Space::Space {
-            1
-        } else {
-            1u32 << contacts.len()
-        };
-        let mut wrong = 0;
-        for pattern in 0..patterns {
-            let normal = |(i, &normal): (usize, &R)| match pattern >> (i / pressed.axes) & 1 {
-                0 => normal,
-                _ => -normal,
-            };
-            let normals: Vec<R> = pressed.normals.iter().enumerate().map(normal).collect();
-            let pressed = GuideForces {
-                normals: &normals,
-                ..*pressed
-            };
-            match pressed.first_unbalanced(&openings, &guides, &sides)? {
-                None => return Ok(()),
-                Some(contact) => wrong = wrong.max(contact),
+        // The side is unknown in a field, where either is accepted. In space there are no sides.
+        let is_known = R::IS_ORDERED || relaxed.model.space == Space::Space;
+        let mut normals = pressed.normals.to_vec();
+        let is_known = vec![is_known; contacts.len()];
+        match pressed.first_unbalanced(&openings, (&guides, &sides), (&mut normals, &is_known))? {
+            None => Ok(()),
+            Some(contact) => {
+                let point = self.number;
+                Err(Disagreement::Reaction { contact, point }.into())
             }
         }
-        let (contact, point) = (wrong, self.number);
-        Err(Disagreement::Reaction { contact, point }.into())
     }
 }
 
@@ -282,36 +269,77 @@ struct GuideForces<'a, R> {
 }
 
 impl<R: Number> GuideForces<'_, R> {
-    /// The first contact with an opening displacement along which these forces are not balanced.
+    /// A contact with an opening displacement along which these forces are not balanced, whatever the signs of the normal reactions that
+    /// are not known; the last one if that depends on them. A displacement opens few guides, so that signs are tried for few at once, and
+    /// each equation decides on those in it.
     fn first_unbalanced(
         &self,
         openings: &[(usize, Literal<R>)],
-        guides: &[usize],
-        sides: &[R],
+        (guides, sides): (&[usize], &[R]),
+        (normals, is_known): (&mut [R], &[bool]),
     ) -> Result<Option<usize>, Verdict> {
-        for (k, literal) in openings {
-            let mut open = Sum::of([literal.inertia, -literal.applied]);
-            for (constraint, &multiplier) in literal.constraints.iter().zip(self.multipliers) {
-                open = open.plus(-(constraint.along * multiplier));
+        let Some((opening, later)) = openings.split_first() else {
+            return Ok(None);
+        };
+        let has_effect = |off: &R| !matches!(off.test_zero(off.size()), ZeroTest::Zero);
+        let unknown = |j: &usize| {
+            !is_known[*j]
+                && occurs_in_equation(guides, opening.0, *j)
+                && opening.1.sliding[*j].off_along.iter().any(has_effect)
+        };
+        let open: Vec<usize> = (0..is_known.len()).filter(unknown).collect();
+        if open.len() > MOST_SIGNS {
+            return Err(Verdict::Undefined);
+        }
+        let mut is_known = is_known.to_vec();
+        open.iter().for_each(|j| is_known[*j] = true);
+        let mut wrong = None;
+        for pattern in 0..1_usize << open.len() {
+            for (place, &j) in open.iter().enumerate() {
+                let is_opposite = pattern >> place & 1 != 0;
+                let own = self.normals[j];
+                normals[j] = if is_opposite { -own } else { own };
             }
-            let normals = self.normals.chunks_exact(self.axes);
-            for ((j, contact), normals) in literal.sliding.iter().enumerate().zip(normals) {
-                let friction = self.signs[j] * self.friction_forces[j];
-                open = open.plus(-(contact.slip_along * friction));
-                if !occurs_in_equation(guides, *k, j) {
-                    continue;
-                }
-                for (&off, &normal) in contact.off_along.iter().zip(normals) {
-                    open = open.plus(-(sides[j] * off * normal));
-                }
+            if !self.balance(opening, (guides, sides), normals)? {
+                wrong = wrong.max(Some(opening.0));
+                continue;
             }
-            if !open.value.is_finite() {
-                return Err(Verdict::Undefined);
-            }
-            if !open.vanishes()? {
-                return Ok(Some(*k));
+            match self.first_unbalanced(later, (guides, sides), (&mut *normals, &is_known))? {
+                None => return Ok(None),
+                contact => wrong = wrong.max(contact),
             }
         }
-        Ok(None)
+        Ok(wrong)
+    }
+
+    /// Whether forces are balanced along a displacement with these normal reactions.
+    fn balance(
+        &self,
+        (k, literal): &(usize, Literal<R>),
+        (guides, sides): (&[usize], &[R]),
+        normals: &[R],
+    ) -> Result<bool, Verdict> {
+        let mut open = Sum::of([literal.inertia, -literal.applied]);
+        for (constraint, &multiplier) in literal.constraints.iter().zip(self.multipliers) {
+            open = open.plus(-(constraint.along * multiplier));
+        }
+        let normals = normals.chunks_exact(self.axes);
+        for ((j, contact), normals) in literal.sliding.iter().enumerate().zip(normals) {
+            let friction = self.signs[j] * self.friction_forces[j];
+            open = open.plus(-(contact.slip_along * friction));
+            if !occurs_in_equation(guides, *k, j) {
+                continue;
+            }
+            for (&off, &normal) in contact.off_along.iter().zip(normals) {
+                open = open.plus(-(sides[j] * off * normal));
+            }
+        }
+        if !open.value.is_finite() {
+            return Err(Verdict::Undefined);
+        }
+        open.vanishes()
     }
 }
+
+/// The largest number of guides that one displacement opens of which the signs of the reactions are tried.
+const MOST_SIGNS: usize = 12;

@@ -567,7 +567,7 @@ fn flipped(statement: &Statement) -> Vec<(Span, Statement)> {
     all
 }
 
-/// The same for an expression; a single term counts as a sum, unless it is 0.
+/// Copies of an expression with the sign of one term flipped; a single term counts as a sum, unless it is 0.
 fn flips(expression: &Expression) -> Vec<(Span, Expression)> {
     match &expression.kind {
         ExpressionKind::Tuple(components) => {

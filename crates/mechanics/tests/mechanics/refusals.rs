@@ -125,6 +125,21 @@ fn too_many_coordinates_are_counted() {
 }
 
 #[test]
+fn too_many_contacts_are_counted() {
+    let codes = refused(
+        "machine Steps in plane {
+            parameters { m: kg = 1, a: m = 1 }
+            coordinates { x: m, y: m }
+            bodies { ball { mass: m, at: (x, y) } }
+            contacts { step[i in 1..4100] { gap: y + i*a - x, restitution: 0 } }
+        }",
+    );
+    assert_eq!(codes.len(), 1, "{codes:?}");
+    assert_eq!(codes[0].0, Code::TooLarge);
+    assert!(codes[0].1.contains("4100"), "{codes:?}");
+}
+
+#[test]
 fn equations_that_outgrow_every_computer_are_refused() {
     // Each of many bodies depends on each of many coordinates in its own way.
     let codes = refused(

@@ -72,7 +72,7 @@ pub trait Arithmetic {
     fn weighted(&mut self, row: RowId) -> Self::X;
     /// Coefficient `m + 1` of a row of positions, or of rates, times `m + 1`.
     fn derivative(&mut self, row: RowId) -> Self::X;
-    /// The same for a row of rates as two factors: `m + 1`, and the coefficient, which was just computed.
+    /// The [derivative](Self::derivative) of a row of rates as two factors: `m + 1`, and the coefficient, which was just computed.
     fn derivative_factors(&mut self, row: RowId) -> [Self::X; 2];
     /// Coefficient `m + 2` of a row of positions, which was just computed, times `(m + 1)(m + 2)`.
     fn second_derivative(&mut self, row: RowId) -> Self::X;

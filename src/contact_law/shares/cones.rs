@@ -168,7 +168,7 @@ struct Programme<'w> {
     cones: usize,
     /// Equations by which some of the forces follow from the others.
     equations: usize,
-    /// Of each cone three rows of A, each followed by its entry of b.
+    /// Three rows of A for each cone, each followed by its entry of b.
     rows: &'w mut [f64],
     slack: &'w mut [f64],
     multiplier: &'w mut [f64],

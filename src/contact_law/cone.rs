@@ -32,6 +32,9 @@ const FIRST_SWEEPS: usize = 8;
 /// How often sweeps and Newton's method follow each other: some 4000 sweeps in all.
 const ROUNDS: usize = 9;
 
+/// A solution that is good enough is not improved further if a round leaves more than this share of Φ.
+const LESS: f64 = 0.1;
+
 /// The most steps of Newton's method in one round.
 const STEPS: usize = 40;
 
@@ -80,6 +83,7 @@ pub(super) fn solve(problem: &Problem, mut z: Vec<f64>) -> Result<(Vec<f64>, f64
         }
     }
     for round in 0..ROUNDS {
+        let known = best.0;
         for _ in 0..FIRST_SWEEPS << round {
             let moved = problem.sweep(&mut z);
             if moved <= f64::EPSILON {
@@ -87,7 +91,9 @@ pub(super) fn solve(problem: &Problem, mut z: Vec<f64>) -> Result<(Vec<f64>, f64
             }
         }
         problem.polish(&z, &mut best);
-        if best.0 <= GOOD {
+        // Where contacts depend on each other, rounding may leave more than is good, which no further sweeps change.
+        let is_stalled = best.0 <= TOLERABLE && best.0 > LESS * known;
+        if best.0 <= GOOD || is_stalled {
             break;
         }
     }
@@ -299,8 +305,10 @@ impl Problem {
                         }
                         None => (&[][..], 0.0, 0.0),
                     };
-                    let all: Vec<usize> = [*i].into_iter().chain(places.iter().copied()).collect();
-                    let found = self.single_contact_forces(&all, friction, known_normal, z);
+                    let mut all = [*i; 3];
+                    all[1..=places.len()].copy_from_slice(places);
+                    let all = &all[..=places.len()];
+                    let found = self.single_contact_forces(all, friction, known_normal, z);
                     for (&i, value) in all.iter().zip(found) {
                         moved = moved.max((value - z[i]).abs());
                         (z[i], solved[i]) = (value, true);
@@ -325,29 +333,33 @@ impl Problem {
         moved
     }
 
-    /// The rates of some directions without the forces along these.
-    fn rates_without(&self, places: &[usize], z: &[f64]) -> Vec<f64> {
+    /// The rates of up to three directions without the forces along these.
+    fn rates_without(&self, places: &[usize], z: &[f64]) -> [f64; 3] {
         let own = |i: usize| {
             let row = self.row(i);
             places.iter().map(|&j| row[j] * z[j]).sum::<f64>()
         };
-        places.iter().map(|&i| self.rate(i, z) - own(i)).collect()
+        let mut rates = [0.0; 3];
+        for (rate, &i) in rates.iter_mut().zip(places) {
+            *rate = self.rate(i, z) - own(i);
+        }
+        rates
     }
 
-    /// The forces of one contact, normal and tangents, with all others as they are.
+    /// The forces of one contact, normal and tangents, with all others as they are: as many as it has places.
     fn single_contact_forces(
         &self,
         places: &[usize],
         friction: f64,
         known_normal: f64,
         z: &[f64],
-    ) -> Vec<f64> {
+    ) -> [f64; 3] {
         let m = places.len();
         let w = |i: usize, j: usize| self.matrix[places[i] * self.n() + places[j]];
         let q = self.rates_without(places, z);
         // What is beside the normal force rubs even where the contact opens.
         if q[0] >= 0.0 {
-            let mut found = vec![0.0; m];
+            let mut found = [0.0; 3];
             if known_normal > 0.0 && m > 1 {
                 let mut open = z.to_vec();
                 open[places[0]] = 0.0;
@@ -362,19 +374,17 @@ impl Problem {
             }
         }
         if m == 1 {
-            return vec![(-q[0] / w(0, 0)).max(0.0)];
+            return [(-q[0] / w(0, 0)).max(0.0), 0.0, 0.0];
         }
         // Nothing slips.
-        let mut left: Vec<f64> = (0..m * m).map(|k| w(k / m, k % m)).collect();
-        let mut right: Vec<f64> = q.iter().map(|q| -q).collect();
-        let (held, _) = lcp::solve(&mut left, &mut right);
+        let held = self.held(places, &q);
         let most = friction * (held[0] + known_normal);
-        if held[0] >= 0.0 && norm(&held[1..]) <= most {
+        if held[0] >= 0.0 && norm(&held[1..m]) <= most {
             return held;
         }
         // It slips in a direction e: with Λₜ = −r e and γₙ = 0, γₜ is to lie along e.
-        let slipping = |e: &[f64]| -> Option<(Vec<f64>, Vec<f64>)> {
-            let against = |i: usize| e.iter().zip(1..m).map(|(e, j)| w(i, j) * e).sum::<f64>();
+        let slipping = |e: [f64; 2]| -> Option<([f64; 3], [f64; 2])> {
+            let against = |i: usize| (1..m).map(|j| w(i, j) * e[j - 1]).sum::<f64>();
             let given = friction * known_normal;
             let own = w(0, 0) - friction * against(0);
             let normal = -(q[0] - given * against(0)) / own;
@@ -382,49 +392,71 @@ impl Problem {
                 return None;
             }
             let radius = friction * normal + given;
-            let slip = |i: usize| q[i] + w(i, 0) * normal - radius * against(i);
-            let slip = (1..m).map(slip).collect();
-            let forces = [normal].into_iter().chain(e.iter().map(|e| -radius * e));
-            Some((forces.collect(), slip))
+            let (mut forces, mut slip) = ([normal, 0.0, 0.0], [0.0; 2]);
+            for i in 1..m {
+                forces[i] = -radius * e[i - 1];
+                slip[i - 1] = q[i] + w(i, 0) * normal - radius * against(i);
+            }
+            Some((forces, slip))
         };
-        slipping_direction(m - 1, slipping).unwrap_or_else(|| {
+        slipping_direction(m - 1, true, slipping).unwrap_or_else(|| {
             // None is found: a small step towards one.
             let normal = (z[places[0]] - 0.5 * self.rate(places[0], z)).max(0.0);
             let radius = friction * (normal + known_normal);
-            let rest = places[1..].iter();
-            let towards: Vec<f64> = rest.map(|&i| z[i] - 0.5 * self.rate(i, z)).collect();
-            let length = norm(&towards);
-            let factor = if length > radius {
-                radius / length
-            } else {
-                1.0
-            };
-            let tangents = towards.iter().map(|y| factor * y);
-            [normal].into_iter().chain(tangents).collect()
+            let mut found = [normal, 0.0, 0.0];
+            for (towards, &i) in found[1..].iter_mut().zip(&places[1..]) {
+                *towards = z[i] - 0.5 * self.rate(i, z);
+            }
+            let length = norm(&found[1..m]);
+            if length > radius {
+                let factor = radius / length;
+                found[1..].iter_mut().for_each(|y| *y *= factor);
+            }
+            found
         })
     }
 
-    /// Tangential forces of which is known how large they may be together, with all others as they are.
-    fn on_disc(&self, places: &[usize], radius: f64, z: &[f64]) -> Vec<f64> {
+    /// The forces of one contact with which none of its directions moves at these rates without them.
+    fn held(&self, places: &[usize], q: &[f64; 3]) -> [f64; 3] {
+        let m = places.len();
+        let mut left = [0.0; 9];
+        for (k, entry) in left[..m * m].iter_mut().enumerate() {
+            *entry = self.matrix[places[k / m] * self.n() + places[k % m]];
+        }
+        let mut right = q.map(|q| -q);
+        let (found, _) = lcp::solve(&mut left[..m * m], &mut right[..m]);
+        let mut held = [0.0; 3];
+        held[..m].copy_from_slice(&found);
+        held
+    }
+
+    /// Tangential forces of which is known how large they may be together, with all others as they are: as many as there are places.
+    fn on_disc(&self, places: &[usize], radius: f64, z: &[f64]) -> [f64; 2] {
         let m = places.len();
         let w = |i: usize, j: usize| self.matrix[places[i] * self.n() + places[j]];
         let q = self.rates_without(places, z);
-        let mut left: Vec<f64> = (0..m * m).map(|k| w(k / m, k % m)).collect();
-        let mut right: Vec<f64> = q.iter().map(|q| -q).collect();
-        let (held, _) = lcp::solve(&mut left, &mut right);
-        if norm(&held) <= radius {
+        let [first, second, _] = self.held(places, &q);
+        let held = [first, second];
+        if norm(&held[..m]) <= radius {
             return held;
         }
-        let slipping = |e: &[f64]| {
-            let forces: Vec<f64> = e.iter().map(|e| -radius * e).collect();
-            let slip = |i: usize| (0..m).fold(q[i], |slip, j| slip + w(i, j) * forces[j]);
-            let slip: Vec<f64> = (0..m).map(slip).collect();
+        let slipping = |e: [f64; 2]| {
+            let (mut forces, mut slip) = ([0.0; 3], [0.0; 2]);
+            for (force, e) in forces[..m].iter_mut().zip(e) {
+                *force = -radius * e;
+            }
+            for i in 0..m {
+                slip[i] = (0..m).fold(q[i], |slip, j| slip + w(i, j) * forces[j]);
+            }
             Some((forces, slip))
         };
-        slipping_direction(m, slipping).unwrap_or_else(|| {
-            let length = norm(&held);
-            held.iter().map(|held| held * radius / length).collect()
-        })
+        match slipping_direction(m, false, slipping) {
+            Some([first, second, _]) => [first, second],
+            None => {
+                let length = norm(&held[..m]);
+                held.map(|held| held * radius / length)
+            }
+        }
     }
 }
 
@@ -432,15 +464,16 @@ fn norm(x: &[f64]) -> f64 {
     x.iter().fold(0.0_f64, |length, x| length.hypot(*x))
 }
 
-/// The direction `e` in which a contact slips along itself, of those with the least normal force if there are several: what its
-/// forces then are. `slipping` gives these for a direction, and how the contact then slips.
+/// The direction `e` in which a contact slips along itself, of those with the least normal force if there are several and its normal force depends on them: what
+/// its forces then are. `slipping` gives these for a direction, and how the contact then slips.
 fn slipping_direction(
     dimension: usize,
-    slipping: impl Fn(&[f64]) -> Option<(Vec<f64>, Vec<f64>)>,
-) -> Option<Vec<f64>> {
+    has_normal: bool,
+    slipping: impl Fn([f64; 2]) -> Option<([f64; 3], [f64; 2])>,
+) -> Option<[f64; 3]> {
     if dimension == 1 {
         let along = |sign: f64| {
-            let (forces, slip) = slipping(&[sign])?;
+            let (forces, slip) = slipping([sign, 0.0])?;
             (sign * slip[0] >= 0.0).then_some(forces)
         };
         return along(1.0).or_else(|| along(-1.0));
@@ -449,10 +482,10 @@ fn slipping_direction(
     // How far the slip is to the left of the direction: 0 where it is along it, or against it.
     let aside = |angle: f64| {
         let e = direction(angle);
-        let (_, slip) = slipping(&e)?;
+        let (_, slip) = slipping(e)?;
         Some(e[0] * slip[1] - e[1] * slip[0])
     };
-    let mut best: Option<Vec<f64>> = None;
+    let mut best: Option<[f64; 3]> = None;
     let whole = 2.0 * core::f64::consts::PI;
     let at = |look: usize| whole * look as f64 / DIRECTIONS as f64;
     let mut before = aside(at(0));
@@ -482,12 +515,12 @@ fn slipping_direction(
             }
         }
         let e = direction(if low == 0.0 { from } else { 0.5 * (from + to) });
-        let Some((forces, slip)) = slipping(&e) else {
+        let Some((forces, slip)) = slipping(e) else {
             continue;
         };
         let is_along = e[0] * slip[0] + e[1] * slip[1] >= 0.0;
         let is_less = best.as_ref().is_none_or(|best| forces[0] < best[0]);
-        if is_along && (dimension + 1 != forces.len() || is_less) {
+        if is_along && (!has_normal || is_less) {
             best = Some(forces);
         }
     }

@@ -16,6 +16,14 @@
 //! (D. E. Stewart, J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673–2691.) Where it is known how a contact
 //! slips, `Λₜ = κ Λₙ` and there is no question of β and σ.
 //!
+//! A guide is a pair of opposite contacts without play, of which at most one presses. Its reaction is known as an affine function of the friction
+//! forces, `N = N₀ + K Λₜ`, and the pair is one contact whose force is that on the far side and whose "rate" is that on the near side, times any
+//! positive `c = G_nn`:
+//!
+//! ```text
+//! γₙ = c N⁺,  Λₙ = N⁻,    γₙ = G_nn Λₙ + c (N₀ + K Λₜ),    0 ≤ Λₙ ⊥ γₙ ≥ 0,    −Λₜ ∈ μ (Λₙ + γₙ/c) Sgn γₜ
+//! ```
+//!
 //! In space a contact has two tangents, and friction a disc: that problem is not linear, and `cone` solves it.
 
 use std::vec;
@@ -25,11 +33,11 @@ use super::cone::{self, Part};
 use super::lcp::{Unsolved, from_guess, lemke};
 
 /// Friction within this of the greatest that there is, relative to that, is used up.
-pub(super) const SATURATED: f64 = 1e-10;
+pub(crate) const SATURATED: f64 = 1e-10;
 
 /// What is asked of a contact.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum ContactUnknowns {
+pub(crate) enum ContactUnknowns {
     /// Both directions, with friction `μ`, and a normal impulse `Λ₀` that counts beside its own.
     Both { friction: f64, known_normal: f64 },
     /// The normal; the tangential force is `κ` times the normal one.
@@ -48,14 +56,35 @@ pub(super) enum ContactUnknowns {
     ShareOfCarrier { share: f64, on: usize },
     /// The second tangent of the contact before it, whose friction limits both together.
     SecondTangent,
+    /// The reaction on the far side of a guide in the plane, and its friction.
+    Guide { friction: f64 },
+    /// The same of a guide that slides forwards or backwards.
+    SlidingGuide { friction: f64, forward: bool },
 }
 
 impl ContactUnknowns {
+    /// Whether a normal force is unknown. What a guide without friction presses does not matter.
+    fn has_normal(&self) -> bool {
+        matches!(self, Self::Both { .. } | Self::Normal { .. })
+            || (self.is_guide() && self.has_friction())
+    }
+
+    /// Whether it presses from both sides.
+    fn is_guide(&self) -> bool {
+        matches!(self, Self::Guide { .. } | Self::SlidingGuide { .. })
+    }
+
+    /// Whether its slip is known, so that the friction force is the greatest one against it.
+    fn slides(&self) -> bool {
+        matches!(self, Self::SlidingGuide { .. })
+    }
+
     /// Whether it has a friction force that is unknown and can be more than 0.
     fn has_friction(&self) -> bool {
         match self {
             Self::Both { friction, .. } | Self::OnCarrier { friction, .. } => *friction > 0.0,
             Self::Tangent { friction, normal } => friction * normal > 0.0,
+            Self::Guide { friction } | Self::SlidingGuide { friction, .. } => *friction > 0.0,
             Self::Normal { .. }
             | Self::Nothing
             | Self::ShareOfCarrier { .. }
@@ -67,7 +96,7 @@ impl ContactUnknowns {
 /// Solves for normal and tangential forces or impulses of each contact: finds one solution where there are several. `g` has two rows and columns
 /// for each, its normal and its tangent, and so has `b`. The search begins `near` these forces, if they are given: in the plane with the states
 /// that they imply, which contacts press, slip and stick.
-pub(super) fn solve(
+pub(crate) fn solve(
     contacts: &[ContactUnknowns],
     g: &[f64],
     b: &[f64],
@@ -84,6 +113,7 @@ pub(super) fn solve(
         return Ok(Answer::new(vec![[0.0; 2]; contacts.len()], 0.0));
     }
     let (matrix, q) = problem.complementarity();
+    let near = near.filter(|_| !contacts.iter().any(ContactUnknowns::is_guide));
     let guessed = near.and_then(|near| {
         let guess = positive_near(contacts, &problem.unknowns, (g, b), near);
         from_guess(&matrix, &q, guess, |wrong, guess| {
@@ -104,6 +134,8 @@ struct PlaneProblem<'a> {
     b: &'a [f64],
     /// What is unknown: of which contact, and its kind.
     unknowns: Vec<(usize, Kind)>,
+    /// Which contact has which share of the normal force of another: the contact, the other one, and the share.
+    shares_of_carriers: Vec<(usize, usize, f64)>,
     /// By what rates are multiplied along tangents: a rate of rotation becomes one in the units of the contact that rolls, with the same energy.
     along_tangents: Vec<f64>,
     /// The unit of rates, and of the impulses of each contact.
@@ -118,20 +150,27 @@ impl<'a> PlaneProblem<'a> {
             g,
             b,
             unknowns: Vec::new(),
+            shares_of_carriers: Vec::new(),
             along_tangents: Vec::new(),
             rate: 0.0,
             unit: Vec::new(),
         };
         for (k, contact) in contacts.iter().enumerate() {
-            if matches!(
-                contact,
-                ContactUnknowns::Both { .. } | ContactUnknowns::Normal { .. }
-            ) {
+            if contact.has_normal() {
                 problem.unknowns.push((k, Kind::Normal));
             }
+            if let ContactUnknowns::ShareOfCarrier { share, on } = contact {
+                problem.shares_of_carriers.push((k, *on, *share));
+            }
             if contact.has_friction() {
-                let unknowns = [(k, Kind::Forward), (k, Kind::Backward), (k, Kind::Slip)];
-                problem.unknowns.extend(unknowns);
+                let directions = match contact {
+                    // Its friction acts backwards.
+                    ContactUnknowns::SlidingGuide { forward: true, .. } => &[Kind::Backward][..],
+                    ContactUnknowns::SlidingGuide { .. } => &[Kind::Forward],
+                    _ => &[Kind::Forward, Kind::Backward],
+                };
+                let kinds = directions.iter().chain(&[Kind::Slip]);
+                problem.unknowns.extend(kinds.map(|kind| (k, *kind)));
             }
         }
         let places = 0..contacts.len();
@@ -193,14 +232,11 @@ impl<'a> PlaneProblem<'a> {
                     ContactUnknowns::Normal { share } => share,
                     _ => 0.0,
                 };
-                let contacts = self.contacts.iter().enumerate();
-                let carried = contacts.map(|(other, contact)| match contact {
-                    ContactUnknowns::ShareOfCarrier { share, on } if *on == k => {
-                        share * entry(2 * other + 1)
-                    }
-                    _ => 0.0,
+                let carried = self.shares_of_carriers.iter();
+                let carried = carried.filter(|(_, on, _)| *on == k);
+                let carried = carried.fold(0.0, |sum, (other, _, share)| {
+                    sum + share * entry(2 * other + 1)
                 });
-                let carried: f64 = carried.sum();
                 self.unit[k] * (entry(2 * k) + share * entry(2 * k + 1) + carried)
             }
             Kind::Forward => self.unit[k] * entry(2 * k + 1),
@@ -228,6 +264,11 @@ impl<'a> PlaneProblem<'a> {
                 let carrier = Some((on, self.unit[on] / self.unit[k]));
                 (friction, in_units(known_normal), carrier)
             }
+            // What presses without unknown forces, in the same unit: that of a guide is 1/c.
+            ContactUnknowns::Guide { friction }
+            | ContactUnknowns::SlidingGuide { friction, .. } => {
+                (friction, self.b[2 * k] / self.rate, None)
+            }
             ContactUnknowns::Normal { .. }
             | ContactUnknowns::Nothing
             | ContactUnknowns::ShareOfCarrier { .. }
@@ -246,6 +287,20 @@ impl<'a> PlaneProblem<'a> {
                 let is_own = unknown.0 == k;
                 *entry = match (kind, unknown.1) {
                     (Kind::Normal, _) => self.effect(2 * k, unknown),
+                    (Kind::Slip, of) if self.contacts[k].is_guide() => {
+                        // It presses on both sides: Λₙ + γₙ/c.
+                        let (own_side, own_friction) = match of {
+                            Kind::Normal => (f64::from(u8::from(is_own)), 0.0),
+                            Kind::Slip => (0.0, 0.0),
+                            _ => (0.0, f64::from(u8::from(is_own))),
+                        };
+                        friction * (own_side + self.effect(2 * k, unknown)) - own_friction
+                    }
+                    // Whatever its slip does, it slides on.
+                    (
+                        Kind::Forward | Kind::Backward,
+                        Kind::Normal | Kind::Forward | Kind::Backward,
+                    ) if self.contacts[k].slides() => 0.0,
                     (Kind::Forward | Kind::Backward, Kind::Slip) => f64::from(u8::from(is_own)),
                     (Kind::Forward, _) => self.effect(2 * k + 1, unknown),
                     (Kind::Backward, _) => -self.effect(2 * k + 1, unknown),
@@ -261,6 +316,7 @@ impl<'a> PlaneProblem<'a> {
             let along_tangent = || self.multiple(2 * k + 1) * self.b[2 * k + 1] / self.rate;
             q[i] = match kind {
                 Kind::Normal => self.b[2 * k] / self.rate,
+                Kind::Forward | Kind::Backward if self.contacts[k].slides() => -1.0,
                 Kind::Forward => along_tangent(),
                 Kind::Backward => -along_tangent(),
                 Kind::Slip => friction * known_normal,
@@ -396,6 +452,10 @@ fn in_space(
     b: &[f64],
     near: Option<&[[f64; 2]]>,
 ) -> Result<Answer, Unsolved> {
+    // In space a guide has no sides.
+    if contacts.iter().any(ContactUnknowns::is_guide) {
+        return Err(Unsolved);
+    }
     let (m, all_contacts) = (contacts.len(), contacts);
     let entry = |i: usize, j: usize| g[i * 2 * m + j];
     let rate = b.iter().fold(0.0_f64, |size, b| size.max(b.abs()));
@@ -440,6 +500,8 @@ fn in_space(
             ContactUnknowns::Normal { .. }
             | ContactUnknowns::ShareOfCarrier { .. }
             | ContactUnknowns::Nothing
+            | ContactUnknowns::Guide { .. }
+            | ContactUnknowns::SlidingGuide { .. }
             | ContactUnknowns::SecondTangent => {
                 parts.extend(normals[k].map(Part::Normal));
                 continue;
@@ -529,7 +591,7 @@ fn in_space(
 
 /// The forces or impulses of contacts, along normal and tangent.
 #[derive(Clone, Debug)]
-pub(super) struct Answer {
+pub(crate) struct Answer {
     pub forces: Vec<[f64; 2]>,
     /// By how much they miss the conditions, relative to the size of the terms.
     pub residual: f64,

@@ -1,0 +1,433 @@
+//! The laws by which contacts give their impulses in a step of time stepping.
+//!
+//! **Static friction.** A contact that rests when the step begins, because it stuck in the step before or because neither its gap nor its slip changes, may stick
+//! with its static friction; any other one slips, or is stopped, with its kinetic friction:
+//!
+//! ```text
+//! |Λₜ| ≤ μ₀ Λₙ  where ξ = γₜ⁺ + eₜ γₜ = 0,      Λₜ = −μ Λₙ ξ/|ξ|  elsewhere
+//! ```
+//!
+//! For fixed normal impulses the values of this law are convex and its graph is closed, so that there always is a solution, and often there are two: one that sticks
+//! and one that slips. Contacts begin with the cone of their static friction; those that slip with it get that of their kinetic friction, and all are asked again.
+//! A contact that was closed and whose slip turns within the step has passed through rest, and may stick there with its static friction if all then hold. Each cone
+//! changes at most twice, so this ends after at most `2 n + 1` problems of fixed cones. (Laws with a friction that falls at rest: R. I. Leine, N. van de Wouw,
+//! *Stability and Convergence of Mechanical Systems with Unilateral Constraints*, 2008, chapter 5.)
+//!
+//! **Laws of impact.** `newton` with all contacts at once is part of the problem of the step, as Moreau has it. Other laws say what impulses do at an instant,
+//! and know no forces that act meanwhile: with them a compression by the weight of what rests would be followed by an expansion. So a step in which something
+//! that was open meets is taken as a half with the forces, the impact, and the other half:
+//!
+//! ```text
+//! M (v' − v)   = h/2 f + W Λ'      for what was closed in the step before, without restitution
+//! M (v* − v')  = W Λ*              by the law of impact
+//! M (v⁺ − v*)  = h/2 f + W Λ''     for what touches, without restitution
+//! ```
+//!
+//! and any other step is one problem without restitution. The halves take energy and never add any beside the work of the forces, so that impulses add none but
+//! what the law of impact does. A law for one contact at a time, or that of a `sequence`, takes the contacts one after the other, the one that closes fastest first,
+//! a limited number of times; what still closes then is stopped by the second half, without restitution.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::super::impact::{Meeting, Told};
+use super::super::kinematics::{ContactKinematics, ROUNDING};
+use super::super::problem::{Answer, ContactUnknowns, SATURATED};
+use super::super::{ContactTrouble, ImpactLaw, ImpactOrder, Mode, UnilateralState, undetermined};
+use crate::StepError;
+
+/// How large the residual of impulses may be.
+const MOST_RESIDUAL: f64 = 1e-8;
+
+/// Rates up to this, relative to the greatest rate, are those of contacts that are held.
+const HELD: f64 = 1e-9;
+
+/// How often a contact is hit in one step by a law that takes contacts one after the other, at most, for each of the contacts.
+const MOST_HITS: usize = 32;
+
+/// The contacts that touch in a step.
+pub(super) struct ContactsOfStep<'a> {
+    pub touching: &'a UnilateralState,
+    pub here: &'a ContactKinematics,
+    /// These contacts, and their rates at the beginning of the step.
+    pub meeting: &'a Meeting,
+    /// Time and length of the step.
+    pub t: f64,
+    pub h: f64,
+    /// The rates that there would be at its end if nothing touched.
+    pub free: &'a [f64],
+    /// The rates at which contacts may close that are beside what they touch.
+    pub ways_back: &'a [f64],
+}
+
+/// Impulses of the contacts that touch in a step.
+pub(super) struct ImpulsesOfStep {
+    pub all: Vec<[f64; 2]>,
+    /// What of these acted last, from which follows what contacts do at the end of the step.
+    pub last: Vec<[f64; 2]>,
+    /// Which contacts are held by their static friction.
+    pub rests: Vec<bool>,
+    /// The places of contacts that share their impulses in another way than by the rule, and of those whose friction permitted no rates with their restitution.
+    pub shared_otherwise: Vec<usize>,
+    pub jammed: Vec<usize>,
+}
+
+/// Impulses with known cones of friction.
+struct Held {
+    answer: Answer,
+    rests: Vec<bool>,
+}
+
+impl ContactsOfStep<'_> {
+    /// The impulses by the laws of the machine.
+    ///
+    /// # Errors
+    /// Where none obey the law.
+    pub fn impulses(&self) -> Result<ImpulsesOfStep, StepError> {
+        let at_once = self.touching.order == ImpactOrder::AtOnce;
+        let in_one_problem = at_once && self.touching.law == ImpactLaw::Newton;
+        if !in_one_problem && self.meets() {
+            return self.in_halves();
+        }
+        let whole = |has_restitution| self.whole(in_one_problem && has_restitution);
+        let (held, is_jammed) = match whole(true) {
+            Some(held) => (held, false),
+            None if in_one_problem => (whole(false).ok_or_else(|| self.unsettled())?, true),
+            None => return Err(self.unsettled()),
+        };
+        let places = 0..self.meeting.contacts.len();
+        Ok(ImpulsesOfStep {
+            last: held.answer.forces.clone(),
+            all: held.answer.forces,
+            rests: held.rests,
+            shared_otherwise: held.answer.shared_otherwise,
+            jammed: places.filter(|_| is_jammed).collect(),
+        })
+    }
+
+    fn unsettled(&self) -> StepError {
+        StepError::Contact {
+            contact: self.meeting.contacts[0],
+            trouble: ContactTrouble::Unsettled,
+            t: self.t,
+        }
+    }
+
+    fn width(&self) -> usize {
+        self.meeting.directions.len()
+    }
+
+    fn was_closed(&self, place: usize) -> bool {
+        self.touching.modes()[self.meeting.contacts[place]] != Mode::Open
+    }
+
+    /// Whether a contact is that whose gap another one has too.
+    fn is_own(&self, place: usize) -> bool {
+        self.touching
+            .carrier(self.meeting.contacts[place])
+            .is_none()
+    }
+
+    /// The place of the contact whose normal impulse one leans on.
+    fn carrier(&self, place: usize) -> usize {
+        place - usize::from(!self.is_own(place))
+    }
+
+    /// Whether something that was open closes.
+    fn meets(&self) -> bool {
+        (0..self.meeting.contacts.len()).any(|place| {
+            let closes = self.meeting.before[2 * place] < -self.rate_rounding(place);
+            self.is_own(place) && !self.was_closed(place) && closes
+        })
+    }
+
+    fn rate_rounding(&self, place: usize) -> f64 {
+        let own = self.here.rate_rounding(2 * self.meeting.contacts[place]);
+        own.max(ROUNDING * self.touching.greatest_rate())
+    }
+
+    /// Rates changed by impulses.
+    fn after(&self, rates: &[f64], impulses: &[[f64; 2]]) -> Vec<f64> {
+        let rows = self.meeting.g.chunks_exact(self.width());
+        (rates.iter().zip(rows))
+            .map(|(rate, row)| {
+                let by = row.iter().zip(impulses.as_flattened());
+                rate + by.map(|(g, impulse)| g * impulse).sum::<f64>()
+            })
+            .collect()
+    }
+
+    /// The slip of a contact along both of its tangents.
+    fn slip(&self, rates: &[f64], place: usize) -> [f64; 2] {
+        let is_double = self.touching.second(self.meeting.contacts[place]).is_some();
+        let across = if is_double { rates[2 * place + 3] } else { 0.0 };
+        [rates[2 * place + 1], across]
+    }
+
+    /// Which contacts have more static than kinetic friction and rest when the step begins.
+    fn resting(&self) -> Vec<bool> {
+        let rests = |place: usize| {
+            let k = self.meeting.contacts[place];
+            let [kinetic, at_rest] = self.here.friction(k);
+            if at_rest <= kinetic || self.touching.first(k) != k {
+                return false;
+            }
+            match self.touching.modes()[k] {
+                Mode::Sticks => true,
+                // It touches and does not move.
+                Mode::Open => {
+                    let rest = self.rate_rounding(place);
+                    let slip = self.slip(&self.meeting.before, place);
+                    let still = self.here.rate_rounding(2 * k + 1).max(rest);
+                    self.meeting.before[2 * place].abs() <= rest && slip[0].hypot(slip[1]) <= still
+                }
+                Mode::Slides(_) | Mode::SlidesAlong(_) => false,
+            }
+        };
+        (0..self.meeting.contacts.len()).map(rests).collect()
+    }
+
+    /// The impulses of the whole step in one problem.
+    fn whole(&self, has_restitution: bool) -> Option<Held> {
+        let share = f64::from(u8::from(has_restitution));
+        let directions = self.meeting.directions.iter();
+        let mut b: Vec<f64> = (directions.zip(self.free).zip(&self.meeting.before))
+            .map(|((d, free), before)| free + share * self.here.restitution(d / 2)[d % 2] * before)
+            .collect();
+        for (normal, way_back) in b.iter_mut().step_by(2).zip(self.ways_back) {
+            *normal += way_back;
+        }
+        self.held(&b, (&self.meeting.before, 1.0), self.resting(), |_| true)
+    }
+
+    /// The impulses of a step in which something meets by a law for an instant.
+    fn in_halves(&self) -> Result<ImpulsesOfStep, StepError> {
+        let meeting = self.meeting;
+        let of_forces: Vec<f64> = (self.free.iter().zip(&meeting.before))
+            .map(|(free, before)| 0.5 * (free - before))
+            .collect();
+        let with_forces = |rates: &[f64]| -> Vec<f64> {
+            let pairs = rates.iter().zip(&of_forces);
+            pairs.map(|(rate, by)| rate + by).collect()
+        };
+        let resting = self.resting();
+        let was_closed = |place: usize| self.was_closed(self.carrier(place));
+        let b = with_forces(&meeting.before);
+        let first = self.held(&b, (&meeting.before, 0.5), resting, was_closed);
+        let first = first.ok_or_else(|| self.unsettled())?;
+        let rates = self.after(&b, &first.answer.forces);
+
+        let mut told = Told::default();
+        let of_impact = self.impact(&rates, &mut told)?;
+        let rates = self.after(&rates, &of_impact);
+
+        let mut b = with_forces(&rates);
+        for (normal, way_back) in b.iter_mut().step_by(2).zip(self.ways_back) {
+            *normal += way_back;
+        }
+        // What the impact made slip does not rest any more.
+        let still = HELD * greatest(&rates);
+        let rests = (0..meeting.contacts.len()).map(|place| {
+            let slip = self.slip(&rates, place);
+            first.rests[place] && slip[0].hypot(slip[1]) <= still
+        });
+        let last = self.held(&b, (&rates, 0.5), rests.collect(), |_| true);
+        let last = last.ok_or_else(|| self.unsettled())?;
+
+        let parts = (first.answer.forces.iter().zip(&of_impact)).zip(&last.answer.forces);
+        let all = parts.map(|((a, b), c)| [a[0] + b[0] + c[0], a[1] + b[1] + c[1]]);
+        let place_of = |k: &usize| meeting.contacts.iter().position(|own| own == k);
+        let mut shared_otherwise: Vec<usize> =
+            told.shared_otherwise.iter().filter_map(place_of).collect();
+        shared_otherwise.extend(first.answer.shared_otherwise);
+        shared_otherwise.extend(last.answer.shared_otherwise);
+        shared_otherwise.sort_unstable();
+        shared_otherwise.dedup();
+        Ok(ImpulsesOfStep {
+            all: all.collect(),
+            last: last.answer.forces,
+            rests: last.rests,
+            shared_otherwise,
+            jammed: told.jammed.iter().filter_map(place_of).collect(),
+        })
+    }
+
+    /// The impulses of an impact at these rates.
+    fn impact(&self, rates: &[f64], told: &mut Told) -> Result<Vec<[f64; 2]>, StepError> {
+        let Self {
+            touching,
+            here,
+            meeting,
+            t,
+            ..
+        } = *self;
+        let is_single = matches!(touching.law, ImpactLaw::Poisson | ImpactLaw::Stronge);
+        if touching.order == ImpactOrder::AtOnce && !is_single {
+            let all = (&meeting.contacts[..], &meeting.g[..], rates);
+            return Ok(match touching.impulses((t, here), all, told) {
+                Ok(impulses) => impulses,
+                // Without restitution, by the second half.
+                Err(_) => {
+                    told.jammed.extend_from_slice(&meeting.contacts);
+                    vec![[0.0; 2]; meeting.contacts.len()]
+                }
+            });
+        }
+        let (width, count) = (self.width(), meeting.contacts.len());
+        let mut impulses = vec![[0.0; 2]; count];
+        let mut rates = rates.to_vec();
+        let mut has_failed = vec![false; count];
+        for _ in 0..MOST_HITS * count {
+            let closes = |place: &usize| {
+                let is_own = self.is_own(*place) && !has_failed[*place];
+                is_own && rates[2 * place] < -self.rate_rounding(*place)
+            };
+            let closing = (0..count).filter(closes);
+            let fastest = closing.min_by(|a, b| rates[2 * a].total_cmp(&rates[2 * b]));
+            let Some(place) = fastest else {
+                break;
+            };
+            // With it what leans on it, which follows it.
+            let end = (place + 1..count).find(|next| self.is_own(*next));
+            let own = 2 * place..2 * end.unwrap_or(count);
+            let g: Vec<f64> = (own.clone())
+                .flat_map(|i| &meeting.g[i * width..][own.clone()])
+                .copied()
+                .collect();
+            let contacts = &meeting.contacts[own.start / 2..own.end / 2];
+            let hit = (contacts, &g[..], &rates[own.clone()]);
+            let Ok(found) = touching.impulses((t, here), hit, told) else {
+                told.jammed.push(meeting.contacts[place]);
+                has_failed[place] = true;
+                continue;
+            };
+            for (row, rate) in rates.iter_mut().enumerate() {
+                let by = meeting.g[row * width..][own.clone()].iter();
+                let by = by.zip(found.as_flattened());
+                *rate += by.map(|(g, impulse)| g * impulse).sum::<f64>();
+            }
+            for (sum, found) in impulses[own.start / 2..].iter_mut().zip(found) {
+                (sum[0], sum[1]) = (sum[0] + found[0], sum[1] + found[1]);
+            }
+        }
+        Ok(impulses)
+    }
+
+    /// Impulses of the contacts that take part, with the rates `b` without these, over a part of the step; `before` are the rates before the forces that act in
+    /// it. `rests` says which contacts may stick with their static friction. None if no impulses obey the law.
+    fn held(
+        &self,
+        b: &[f64],
+        (before, part): (&[f64], f64),
+        mut rests: Vec<bool>,
+        takes_part: impl Fn(usize) -> bool,
+    ) -> Option<Held> {
+        let Self {
+            touching,
+            here,
+            meeting,
+            h,
+            ..
+        } = *self;
+        let places = || 0..meeting.contacts.len();
+        // Most contacts do what they did in the step before.
+        let near: Vec<[f64; 2]> = (meeting.contacts.iter())
+            .map(|k| match touching.stepped() {
+                Some(forces) => forces[*k].map(|force| part * h * force),
+                None => [0.0; 2],
+            })
+            .collect();
+        let none = vec![0.0; meeting.contacts.len()];
+        // What slips, has more static friction, and may come to rest within the step.
+        let mut may_stop: Vec<bool> = places()
+            .map(|place| {
+                let k = meeting.contacts[place];
+                let [kinetic, at_rest] = here.friction(k);
+                let is_first = touching.first(k) == k;
+                is_first && at_rest > kinetic && self.was_closed(place) && !rests[place]
+            })
+            .collect();
+        let still = HELD * greatest(b);
+        loop {
+            let unknowns: Vec<ContactUnknowns> = places()
+                .map(|place| {
+                    if !takes_part(place) {
+                        return ContactUnknowns::Nothing;
+                    }
+                    let own =
+                        touching.unknowns_of_impact(here, (place, meeting.contacts[place]), &none);
+                    if rests[place] {
+                        with_friction(own, here.friction(meeting.contacts[place])[1])
+                    } else {
+                        own
+                    }
+                })
+                .collect();
+            let answer = undetermined::solve_for_motion(&unknowns, &meeting.g, b, &near).ok()?;
+            if answer.residual > MOST_RESIDUAL {
+                return None;
+            }
+            let has_cones = |cones: &[bool]| cones.contains(&true);
+            if !has_cones(&rests) && !has_cones(&may_stop) {
+                return Some(Held { answer, rests });
+            }
+            let rates = self.after(b, &answer.forces);
+            let mut changes = false;
+            for place in places().filter(|place| rests[*place]).collect::<Vec<_>>() {
+                let slip = self.slip(&rates, place);
+                if slip[0].hypot(slip[1]) > still && self.is_used_up(&answer, place) {
+                    rests[place] = false;
+                    changes = true;
+                }
+            }
+            if !changes {
+                for place in places()
+                    .filter(|place| may_stop[*place])
+                    .collect::<Vec<_>>()
+                {
+                    let [was, is] = [before, &rates].map(|rates| self.slip(rates, place));
+                    if was[0] * is[0] + was[1] * is[1] < 0.0 {
+                        (rests[place], may_stop[place], changes) = (true, false, true);
+                    }
+                }
+            }
+            if !changes {
+                return Some(Held { answer, rests });
+            }
+        }
+    }
+
+    /// Whether the static friction of a contact is used up.
+    fn is_used_up(&self, answer: &Answer, place: usize) -> bool {
+        let k = self.meeting.contacts[place];
+        let [_, at_rest] = self.here.friction(k);
+        let most = at_rest * answer.forces[self.carrier(place)][0];
+        let across = match self.touching.second(k) {
+            Some(_) => answer.forces[place + 1][1],
+            None => 0.0,
+        };
+        answer.forces[place][1].hypot(across) >= most * (1.0 - SATURATED)
+    }
+}
+
+/// The same unknowns with another coefficient of friction.
+fn with_friction(unknowns: ContactUnknowns, coefficient: f64) -> ContactUnknowns {
+    match unknowns {
+        ContactUnknowns::Both { known_normal, .. } => ContactUnknowns::Both {
+            friction: coefficient,
+            known_normal,
+        },
+        ContactUnknowns::OnCarrier {
+            known_normal, on, ..
+        } => ContactUnknowns::OnCarrier {
+            friction: coefficient,
+            known_normal,
+            on,
+        },
+        other => other,
+    }
+}
+
+fn greatest(rates: &[f64]) -> f64 {
+    rates.iter().fold(0.0, |most, rate| most.max(rate.abs()))
+}
