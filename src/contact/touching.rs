@@ -370,6 +370,11 @@ impl UnilateralState {
         falls.fold(0.0, f64::max)
     }
 
+    /// Whether impacts of touching contacts follow each other, instead of being one.
+    pub fn takes_impacts_in_sequence(&self) -> bool {
+        self.order == ImpactOrder::Sequence
+    }
+
     pub fn modes(&self) -> &[Mode] {
         &self.modes
     }

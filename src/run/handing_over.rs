@@ -197,7 +197,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let Some(touching) = self.stepper.touching() else {
             return Ok(false);
         };
-        let is_possible = self.settings.method.kind == MethodKind::RungeKutta
+        // Impacts that follow each other in many instants are what `order: sequence` asks for.
+        let is_called_for = crowd.is_none() || !touching.takes_impacts_in_sequence();
+        let is_possible = is_called_for
+            && self.settings.method.kind == MethodKind::RungeKutta
             && step > 16.0 * f64::EPSILON * t.abs()
             && step.is_finite()
             && touching.check_stepping(t).is_ok();
