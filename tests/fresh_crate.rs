@@ -119,7 +119,7 @@ fn has_no_code_of_absent_features(program: &str) {
     for (name, source) in [
         (
             "resolve_penetration",
-            include_str!("../src/contact/stepping.rs"),
+            include_str!("../src/contact/stepping/penetration.rs"),
         ),
         ("find_branch", include_str!("../src/constraints/start.rs")),
     ] {
