@@ -50,8 +50,9 @@ impl<N: Scalar, const L: usize> ContactParts<'_, N, L> {
                 } else {
                     self.prepared.get(argument - of_prepared)
                 };
-                // Not a number, where the table of another machine were used.
-                *value = source.copied().unwrap_or(N::ZERO / N::ZERO);
+                // Not a number, or an interval of all numbers, if the table of another machine were used.
+                let zero = N::ZERO;
+                *value = source.copied().unwrap_or(N::ZERO / zero);
             }
             (self.call)(*function, t, &values, places, numbers);
         }

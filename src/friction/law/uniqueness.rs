@@ -148,7 +148,7 @@ impl OpenStates {
         // Elimination of a symmetric matrix that is positive definite has positive pivots.
         for k in rough() {
             let pivot = matrix[k * count + k];
-            if !(pivot > MORE_THAN_ROUNDING * own[k]) {
+            if pivot.is_nan() || pivot <= MORE_THAN_ROUNDING * own[k] {
                 return false;
             }
             for i in rough().filter(|i| *i > k) {
