@@ -345,6 +345,11 @@ impl ContactKinematics {
         // The coordinate along the face need not be one of those that move the corner off it.
         let size = q.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let rounding = self.gap_rounding(contact) + ROUNDING * size;
+        // A corner that is inside the other polygon by less than it is behind its face has come in by another face: it does not touch this one. Corners of the other
+        // polygon touch then.
+        if face.height < 2.0 * self.gaps[contact].min(0.0) - rounding {
+            return false;
+        }
         let stays = face.beyond_rate <= self.rate_rounding(2 * contact);
         face.beyond < -rounding || (face.beyond <= rounding && stays)
     }

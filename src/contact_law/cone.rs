@@ -32,6 +32,9 @@ const FIRST_SWEEPS: usize = 8;
 /// How often sweeps and Newton's method follow each other: some 4000 sweeps in all.
 const ROUNDS: usize = 9;
 
+/// After so many of these, with 120 sweeps in all, a solution is followed from a small friction.
+const ROUNDS_BEFORE_FRICTION_IS_FOLLOWED: usize = 4;
+
 /// A solution that is good enough is not improved further if a round leaves more than this share of Φ.
 const LESS: f64 = 0.1;
 
@@ -44,6 +47,12 @@ const SWEEPS_OF_FRICTION: usize = 64;
 
 /// Directions in which the friction of one contact is looked for first.
 const DIRECTIONS: usize = 48;
+
+/// The cosine and the sine of the angle between two of these.
+const TURN: [f64; 2] = [0.991_444_861_373_810_4, 0.130_526_192_220_051_57];
+
+/// The most estimates of a direction between two of these.
+const MOST_ESTIMATES: usize = 60;
 
 /// A normal direction, or the tangent or both tangents of a contact.
 #[derive(Clone, Debug)]
@@ -83,6 +92,13 @@ pub(super) fn solve(problem: &Problem, mut z: Vec<f64>) -> Result<(Vec<f64>, f64
         }
     }
     for round in 0..ROUNDS {
+        // Where some hundred sweeps have found nothing, thousands seldom do.
+        if round == ROUNDS_BEFORE_FRICTION_IS_FOLLOWED && best.0 > TOLERABLE {
+            problem.follow_friction(&mut best);
+            if best.0 <= GOOD {
+                break;
+            }
+        }
         let known = best.0;
         for _ in 0..FIRST_SWEEPS << round {
             let moved = problem.sweep(&mut z);
@@ -96,9 +112,6 @@ pub(super) fn solve(problem: &Problem, mut z: Vec<f64>) -> Result<(Vec<f64>, f64
         if best.0 <= GOOD || is_stalled {
             break;
         }
-    }
-    if best.0 > TOLERABLE {
-        problem.follow_friction(&mut best);
     }
     if best.0 <= TOLERABLE {
         Ok((best.1, best.0))
@@ -478,43 +491,30 @@ fn slipping_direction(
         };
         return along(1.0).or_else(|| along(-1.0));
     }
-    let direction = |angle: f64| [angle.cos(), angle.sin()];
     // How far the slip is to the left of the direction: 0 where it is along it, or against it.
-    let aside = |angle: f64| {
-        let e = direction(angle);
+    let aside = |e: [f64; 2]| {
         let (_, slip) = slipping(e)?;
         Some(e[0] * slip[1] - e[1] * slip[0])
     };
     let mut best: Option<[f64; 3]> = None;
-    let whole = 2.0 * core::f64::consts::PI;
-    let at = |look: usize| whole * look as f64 / DIRECTIONS as f64;
-    let mut before = aside(at(0));
-    for look in 1..=DIRECTIONS {
-        let (mut from, mut to) = (at(look - 1), at(look));
+    let mut from = [1.0, 0.0];
+    let mut before = aside(from);
+    for _ in 0..DIRECTIONS {
+        let to = [
+            from[0] * TURN[0] - from[1] * TURN[1],
+            from[0] * TURN[1] + from[1] * TURN[0],
+        ];
         let after = aside(to);
-        let (Some(mut low), Some(high)) = (before, after) else {
-            before = after;
+        let sector = [from, to];
+        let values = (before, after);
+        (from, before) = (to, after);
+        let (Some(low), Some(high)) = values else {
             continue;
         };
-        before = after;
         if low != 0.0 && (low > 0.0) == (high > 0.0) {
             continue;
         }
-        if low != 0.0 {
-            // Bisection to rounding: what is found is the start of Newton's method, or a contact alone.
-            for _ in 0..60 {
-                let middle = 0.5 * (from + to);
-                let Some(value) = aside(middle) else {
-                    break;
-                };
-                if (value > 0.0) == (low > 0.0) {
-                    (from, low) = (middle, value);
-                } else {
-                    to = middle;
-                }
-            }
-        }
-        let e = direction(if low == 0.0 { from } else { 0.5 * (from + to) });
+        let e = zero_between(sector, [low, high], aside);
         let Some((forces, slip)) = slipping(e) else {
             continue;
         };
@@ -525,6 +525,55 @@ fn slipping_direction(
         }
     }
     best
+}
+
+/// The direction between two, at which a function has these values of different signs, where it is 0. By the regula falsi, in which the value at an end that
+/// stays twice is halved (M. Dowell, P. Jarratt, BIT 11 (1971) 168–174), to rounding: what is found is the start of Newton's method, or a contact alone.
+fn zero_between(
+    ends: [[f64; 2]; 2],
+    [mut low, mut high]: [f64; 2],
+    function: impl Fn([f64; 2]) -> Option<f64>,
+) -> [f64; 2] {
+    let [from, to] = ends;
+    let direction = |part: f64| {
+        let e = [0, 1].map(|i| (1.0 - part) * from[i] + part * to[i]);
+        let length = (e[0] * e[0] + e[1] * e[1]).sqrt();
+        e.map(|e| e / length)
+    };
+    if low == 0.0 {
+        return from;
+    }
+    let (mut first, mut last) = (0.0_f64, 1.0_f64);
+    let mut found = 0.5;
+    let mut replaced_first = None;
+    for _ in 0..MOST_ESTIMATES {
+        let estimate = first + (last - first) * (low / (low - high));
+        let estimate = if estimate > first && estimate < last {
+            estimate
+        } else {
+            0.5 * (first + last)
+        };
+        let moved = (estimate - found).abs();
+        found = estimate;
+        let Some(value) = function(direction(found)) else {
+            break;
+        };
+        if value == 0.0 || moved <= f64::EPSILON || last - first <= f64::EPSILON {
+            break;
+        }
+        let is_first = (value > 0.0) == (low > 0.0);
+        if is_first {
+            (first, low) = (found, value);
+        } else {
+            (last, high) = (found, value);
+        }
+        if replaced_first == Some(is_first) {
+            let kept = if is_first { &mut high } else { &mut low };
+            *kept *= 0.5;
+        }
+        replaced_first = Some(is_first);
+    }
+    direction(found)
 }
 
 #[cfg(test)]

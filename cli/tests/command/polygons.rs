@@ -837,3 +837,21 @@ fn a_box_that_slides_off_a_tip_keeps_its_energy() {
     );
     assert!(number(&run["q"]["y"]) < -0.2, "{}", run["q"]);
 }
+
+/// Seven polygons between walls, of which some lie wedged when the run changes over to time stepping. A corner that has come in by one face by 1 µm is
+/// centimetres behind another one, and may not be moved out by that: the bodies would gain the potential energy of centimetres, 0.03 J, as the balance of the energy showed.
+/// Of a step the balance knows all powers to rounding, and energies are sums of some 10 J.
+#[test]
+fn wedged_polygons_are_not_moved_out_by_a_face_far_away() {
+    let run = json(&[
+        "simulate",
+        "tests/command/data/wedged_polygons.machine",
+        "--until",
+        "0.66",
+        "--json",
+    ]);
+    let handovers = run["handovers"].as_array().map(Vec::len);
+    assert_eq!(handovers, Some(1), "the run does not change over to time stepping");
+    let residual = number(&run["energy_residual"]);
+    assert!(residual.abs() < 1e-9, "{residual:e}");
+}

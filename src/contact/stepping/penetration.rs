@@ -35,7 +35,10 @@ impl UnilateralState {
             let here = self.kinematics(system, (t, q, v));
             let is_deep = |k: &usize| {
                 let gap = here.gaps[*k];
-                self.carrier(*k).is_none() && gap < 0.0 && gap < -0.5 * here.gap_rounding(*k)
+                self.carrier(*k).is_none()
+                    && gap < 0.0
+                    && gap < -0.5 * here.gap_rounding(*k)
+                    && here.is_within(*k, q.as_slice())
             };
             let deep: Vec<usize> = (0..here.gaps.len()).filter(is_deep).collect();
             if deep.is_empty() {
