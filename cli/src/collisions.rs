@@ -29,6 +29,21 @@ struct Account {
     is_closed: bool,
 }
 
+/// From so many contacts on, the summary counts those that were never closed in one line.
+const MANY: usize = 32;
+
+impl Account {
+    /// Whether the contact was never closed. Of a compliant one only an energy balance tells.
+    fn was_open_throughout(&self) -> bool {
+        let is_known = self.has_balance || !self.is_compliant;
+        is_known
+            && self.impacts == 0
+            && self.closed_at.is_none()
+            && !self.is_closed
+            && self.energies == ContactEnergies::default()
+    }
+}
+
 fn accounts(run: &Run) -> Vec<Account> {
     let closed = run.closed_contacts(run.end().t);
     let crushing = run.crushing_work();
@@ -173,7 +188,18 @@ pub fn lines(run: &Run) -> Vec<String> {
         });
         line
     };
-    accounts(run).into_iter().map(line).collect()
+    let all = accounts(run);
+    let are_many = all.len() >= MANY;
+    let (open, told): (Vec<Account>, Vec<Account>) = all
+        .into_iter()
+        .partition(|account| are_many && account.was_open_throughout());
+    let mut lines: Vec<String> = told.into_iter().map(line).collect();
+    match open.iter().filter(|account| !account.rolls).count() {
+        0 => {}
+        1 => lines.push("1 contact was open throughout".to_owned()),
+        count => lines.push(format!("{count} contacts were open throughout")),
+    }
+    lines
 }
 
 /// The fields of the contacts in a JSON document; empty if there are none. `shown` gives the coordinates in which a state is shown.

@@ -1055,3 +1055,27 @@ fn evaluate_tells_what_is_penetrated() {
         "{said}"
     );
 }
+
+/// Of many contacts the summary names those that were closed, and counts the others: 8 discs, which fall freely for 50 ms, and later meet the bowl and each other.
+#[test]
+fn contacts_that_were_open_throughout_are_counted() {
+    for (until, all_are_open) in [("0.05", true), ("0.4", false)] {
+        let output = lagrangian(&[
+            "simulate",
+            "machines/contacts/pile.machine",
+            "--const",
+            "N=8",
+            "--until",
+            until,
+        ]);
+        let text = String::from_utf8(output.stdout).expect("text");
+        let named = text.lines().filter(|line| line.contains(" at the end"));
+        let named = named.filter(|line| line.contains("impact")).count();
+        let counted = text.lines().find_map(|line| {
+            let (count, _) = line.split_once(" contacts were open throughout")?;
+            count.trim().parse::<usize>().ok()
+        });
+        assert_eq!(named + counted.unwrap_or(0), 36, "{text}");
+        assert_eq!(named == 0, all_are_open, "{text}");
+    }
+}

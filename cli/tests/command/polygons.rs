@@ -4,7 +4,7 @@
 use serde_json::Value;
 
 use crate::collisions::{close, events, is_good, number, simulate};
-use crate::support::{Scratch, lagrangian};
+use crate::support::{Scratch, json, lagrangian};
 
 const BOXES: &str = "machines/contacts/box_on_box.machine";
 const G: f64 = 9.81;
@@ -845,13 +845,17 @@ fn a_box_that_slides_off_a_tip_keeps_its_energy() {
 fn wedged_polygons_are_not_moved_out_by_a_face_far_away() {
     let run = json(&[
         "simulate",
-        "tests/command/data/wedged_polygons.machine",
+        "cli/tests/command/wedged_polygons.machine",
         "--until",
         "0.66",
         "--json",
     ]);
     let handovers = run["handovers"].as_array().map(Vec::len);
-    assert_eq!(handovers, Some(1), "the run does not change over to time stepping");
+    assert_eq!(
+        handovers,
+        Some(1),
+        "the run does not change over to time stepping"
+    );
     let residual = number(&run["energy_residual"]);
     assert!(residual.abs() < 1e-9, "{residual:e}");
 }
