@@ -78,7 +78,7 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     }
     warn_of_constraints(&program);
     if program.unilateral.len() > MOST_CONTACTS {
-        return Err(Failure::run(&format!(
+        return Err(Failure::run(format!(
             "a library evaluates all contacts of a machine at once, and has at most {MOST_CONTACTS}; this machine has {}: run it with `lagrangian simulate` \
              or the crate, which evaluate those that are near",
             program.unilateral.len()
