@@ -17,7 +17,7 @@ use lagrangian::interpreted::{Engine, InterpretedMachine};
 use lagrangian::{Batch, Batched, Lanes, Machine, Number, System, Vector};
 use lagrangian_jit::{Code, Level, Library, Running, Several, SeveralArguments, When};
 use lagrangian_program::{Arguments, Interpreter, Program, Role};
-use lagrangian_symbolic::Rational;
+use lagrangian_symbolic::{Dag, Rational};
 use timing::{median_of, per_call};
 
 lagrangian::machine!(file = "../machines/double_pendulum.machine");
@@ -79,7 +79,9 @@ fn row<M: Machine>(machine: &M, name: &str, constants: &[(String, Rational)])
 where
     M::System: Batched<4> + Batched<8>,
 {
-    let (derived_in, proved) = median_of(3, || machines::compiled(name, constants).program);
+    let (derived_in, proved) = median_of(3, || {
+        machines::compiled(&Dag::new(), name, constants).program
+    });
     let interpreted = InterpretedMachine::new(proved.clone());
     let mut jitted = interpreted.clone();
     jitted

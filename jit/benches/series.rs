@@ -15,7 +15,7 @@ use lagrangian::interpreted::{Engine, InterpretedMachine};
 use lagrangian::{Machine, System, Vector};
 use lagrangian_jit::{Level, SeriesCode};
 use lagrangian_mechanics::series::ProvedSeries;
-use lagrangian_symbolic::Rational;
+use lagrangian_symbolic::{Dag, Rational};
 use timing::{median_of, per_call};
 
 lagrangian::machine!(file = "../machines/double_pendulum.machine");
@@ -51,7 +51,8 @@ fn main() {
 }
 
 fn row<M: Machine>(machine: &M, name: &str, constants: &[(String, Rational)]) {
-    let compiled = machines::compiled(name, constants);
+    let dag = Dag::new();
+    let compiled = machines::compiled(&dag, name, constants);
     let (derived_in, proved) = median_of(3, || ProvedSeries::derive(&compiled.model));
     let proved = proved.expect("it has a series");
     let series = proved.series().clone();

@@ -6,12 +6,12 @@ use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
 /// A machine of `machines/`, with these values for its constants.
-pub fn compiled(name: &str, constants: &[(String, Rational)]) -> Compiled {
-    let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
+pub fn compiled<'d>(dag: &'d Dag, name: &str, constants: &[(String, Rational)]) -> Compiled<'d> {
+    let (mut sources, mut report) = (Sources::new(), Report::new());
     let path = format!("{}/../machines/{name}.machine", env!("CARGO_MANIFEST_DIR"));
     let (name, text) = Disk.read(&path, None).expect("the library is there");
     lagrangian_spec::model(
-        &dag,
+        dag,
         &name,
         &text,
         constants,
