@@ -287,7 +287,7 @@ fn no_step_adds_energy_by_the_law_of_stronge() {
 }
 
 /// Discs with static friction and a law of Poisson fall into a bowl: without any option the run continues by time stepping where contacts become too frequent,
-/// and the discs come to rest.
+/// and the discs come to rest. Impacts in sequence, which are asked for one by one, are all located.
 #[test]
 fn a_run_hands_over_whatever_the_law() {
     let pile = std::fs::read_to_string("../machines/contacts/pile.machine").expect("a spec");
@@ -312,8 +312,11 @@ fn a_run_hands_over_whatever_the_law() {
         let output = lagrangian(&arguments);
         let run: Value = serde_json::from_slice(&output.stdout).expect("a document");
         assert_eq!(run["error"], Value::Null, "{law}: {run:#}");
-        let handovers = run["handovers"].as_array().expect("handovers");
-        assert_eq!(handovers[0]["to"], "moreau", "{law}: {handovers:#?}");
+        if law == "order: sequence" {
+            assert_eq!(run["handovers"], Value::Null, "{law}");
+        } else {
+            assert_eq!(run["handovers"][0]["to"], "moreau", "{law}: {run:#}");
+        }
         for (name, rate) in run["v"].as_object().expect("rates") {
             assert!(number(rate).abs() <= 1e-9, "{law}: der({name}) = {rate}");
         }
