@@ -262,7 +262,7 @@ def section(
     *,
     every_period: Optional[Union[float, str]] = None,
     crossing: Optional[str] = None,
-    direction: str = "up",
+    direction: Optional[str] = None,
     after: Optional[float] = None,
     start: Any = None,
     rate: Any = None,
@@ -272,7 +272,8 @@ def section(
     max_steps: Optional[int] = None,
 ) -> Section:
     """A run at the points of a section, as ``lagrangian section``: once ``every_period``, in s or a formula ``"2*pi/omega"``, or where
-    a formula passes 0, ``crossing="theta"``, or a value, ``"x=5*mm"``; ``direction`` is ``"up"``, ``"down"`` or ``"both"``.
+    a formula passes 0, ``crossing="theta"``, or a value, ``"x=5*mm"``. ``direction`` is of a crossing: ``"up"``, as by default,
+    ``"down"`` or ``"both"``.
     """
     period = every_period if every_period is None or isinstance(every_period, str) else f"{float(every_period)!r}*s"
     options = _run(self, until, of, start, rate, keep, {
