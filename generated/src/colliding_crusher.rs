@@ -16,10 +16,10 @@
 //! | `applied` | 14 | 19 | 0 | 0 | 0 | 33 |
 //! | `forces` | 22 | 23 | 0 | 1 | 0 | 47 |
 //! | `accelerations` | 29 | 25 | 0 | 1 | 0 | 56 |
-//! | `gaps` | 8 | 11 | 0 | 0 | 2 | 21 |
-//! | `contact_rates` | 38 | 37 | 2 | 0 | 2 | 79 |
-//! | `contact_matrix` | 12 | 17 | 2 | 0 | 2 | 33 |
-//! | `contact_bias` | 87 | 63 | 4 | 0 | 2 | 156 |
+//! | `gaps` | 4 | 8 | 0 | 0 | 2 | 14 |
+//! | `contact_rates` | 20 | 20 | 2 | 0 | 2 | 44 |
+//! | `contact_matrix` | 8 | 10 | 2 | 0 | 2 | 22 |
+//! | `contact_bias` | 26 | 20 | 4 | 0 | 2 | 52 |
 //! | `kinetic_energy` | 27 | 16 | 0 | 1 | 0 | 45 |
 //! | `potential_energy` | 7 | 7 | 0 | 0 | 0 | 14 |
 //! | `dissipation` | 7 | 7 | 0 | 0 | 0 | 14 |
@@ -606,8 +606,8 @@ fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
 /// Gaps `g` of the unilateral contacts, in m: positive where they are open.
 ///
 /// ```text
-/// [outer] = R - sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2) - r1
-/// [inner] = rho - sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2) - r2 - delta
+/// [outer] = R - sqrt((x1 - x)^2 + (y1 - y)^2) - r1
+/// [inner] = rho - sqrt((x2 - x1)^2 + (y2 - y1)^2) - r2 - delta
 /// ```
 pub fn gaps<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [S; 2] {
     let x = q[0];
@@ -616,25 +616,26 @@ pub fn gaps<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [S
     let y1 = q[4];
     let x2 = q[6];
     let y2 = q[7];
-    let t0 = x1 * S::from_f64(2.0);
-    let t1 = y1 * S::from_f64(2.0);
-    let t2 = y1 * y1 + x1 * x1;
-    let t3 = (y2 * (y2 - t1) + (t2 + x2 * (x2 - t0))).sqrt();
-    let gap1 = p.R_minus_r1 - (y * (y - t1) + (t2 + x * (x - t0))).sqrt();
-    let gap2 = p.rho_minus_r2_minus_delta - t3;
+    let t0 = x - x1;
+    let t1 = x1 - x2;
+    let t2 = y - y1;
+    let t3 = y1 - y2;
+    let gap1 = p.R_minus_r1 - (t2 * t2 + t0 * t0).sqrt();
+    let gap2 = p.rho_minus_r2_minus_delta - (t3 * t3 + t1 * t1).sqrt();
     [gap1, gap2]
 }
 
 /// Rates `gamma` at which the gaps of unilateral contacts open and at which these slip, in m/s.
 ///
 /// ```text
-/// [outer.gap] = -1/2*(2*x*der(x) + 2*y*der(y) + 2*x1*der(x1) + 2*y1*der(y1) - 2*(x1*der(x) +
-///     x*der(x1)) - 2*(y1*der(y) + y*der(y1)))/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-/// [outer.slip] = …
-/// [inner.gap] = -1/2*(2*x1*der(x1) + 2*y1*der(y1) + 2*x2*der(x2) + 2*y2*der(y2) - 2*(x2*der(x1) +
-///     x1*der(x2)) - 2*(y2*der(y1) + y1*der(y2)))/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 +
-///     y2^2)
-/// [inner.slip] = …
+/// [outer.gap] = -1/2*(2*(x1 - x)*(der(x1) - der(x)) + 2*(y1 - y)*(der(y1) - der(y)))/sqrt((x1 -
+///     x)^2 + (y1 - y)^2)
+/// [outer.slip] = r1*der(theta1) - R*der(theta)
+///     + ((x1 - x)*(der(y1) - der(y)) - (y1 - y)*(der(x1) - der(x)))/sqrt((x1 - x)^2 + (y1 - y)^2)
+/// [inner.gap] = -1/2*(2*(x2 - x1)*(der(x2) - der(x1)) + 2*(y2 - y1)*(der(y2) - der(y1)))/sqrt((x2
+///     - x1)^2 + (y2 - y1)^2)
+/// [inner.slip] = r2*der(theta2) - (rho - delta)*der(theta1) + ((x2 - x1)*(der(y2) - der(y1)) - (y2
+///     - y1)*(der(x2) - der(x1)))/sqrt((x2 - x1)^2 + (y2 - y1)^2)
 /// ```
 pub fn contact_rates<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
@@ -656,65 +657,46 @@ pub fn contact_rates<S: ::lagrangian::emitted::Scalar>(
     let x2_dot = v[6];
     let y2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = x1 * S::from_f64(2.0);
-    let t1 = S::from_f64(2.0) * y1;
-    let t2 = x1 * x1 + y1 * y1;
-    let t3 = x1 * x1_dot + y1 * y1_dot;
-    let t4 = y1 - y;
-    let t5 = y2 - y1;
-    let t6 = x - x1;
-    let t7 = x1 - x2;
-    let t8 = x2 * x2_dot + y2 * y2_dot - (y1_dot * y2 + y1 * y2_dot);
-    let t9 = y1 * y_dot + y1_dot * y + (x1 * x_dot + x1_dot * x);
-    let t10 = S::ONE / (t2 + x2 * (x2 - t0) + y2 * (y2 - t1)).sqrt();
-    let t11 = S::ONE / (t2 + x * (x - t0) + y * (y - t1)).sqrt();
-    let t12 = (x1_dot * t5 + y1_dot * t7 - (x2_dot * t5 + y2_dot * t7)) * t10;
-    let t13 = (x_dot * t4 + y_dot * t6 - (x1_dot * t4 + y1_dot * t6)) * t11;
-    let rate1 = (t9 - (t3 + (x * x_dot + y_dot * y))) * t11;
-    let rate2 = theta1_dot * p.r1 - theta_dot * p.R + t13;
-    let rate3 = -((t3 - (x1_dot * x2 + x1 * x2_dot) + t8) * t10);
-    let rate4 = theta2_dot * p.r2 - theta1_dot * p.rho_minus_delta + t12;
+    let t0 = x - x1;
+    let t1 = x1 - x2;
+    let t2 = y - y1;
+    let t3 = y1 - y2;
+    let t4 = x_dot - x1_dot;
+    let t5 = x1_dot - x2_dot;
+    let t6 = y_dot - y1_dot;
+    let t7 = y1_dot - y2_dot;
+    let t8 = S::ONE / (t2 * t2 + t0 * t0).sqrt();
+    let t9 = S::ONE / (t3 * t3 + t1 * t1).sqrt();
+    let t10 = theta2_dot * p.r2 - theta1_dot * p.rho_minus_delta;
+    let rate1 = -(t8 * (t2 * t6 + t0 * t4));
+    let rate2 = t8 * (t0 * t6 - t2 * t4) + (theta1_dot * p.r1 - theta_dot * p.R);
+    let rate3 = -(t9 * (t3 * t7 + t1 * t5));
+    let rate4 = t9 * (t1 * t7 - t3 * t5) + t10;
     [rate1, rate2, rate3, rate4]
 }
 
 /// Derivatives of the rates of unilateral contacts by the rates of the coordinates.
 ///
 /// ```text
-/// [outer.gap, x] = x1/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-///     - x/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-/// [outer.gap, y] = y1/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-///     - y/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-/// [outer.gap, x1] = x/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-///     - x1/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-/// [outer.gap, y1] = y/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-///     - y1/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-/// [outer.slip, x] = y1/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-///     - y/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-/// [outer.slip, y] = x/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-///     - x1/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
+/// [outer.gap, x] = (x1 - x)/sqrt((x1 - x)^2 + (y1 - y)^2)
+/// [outer.gap, y] = (y1 - y)/sqrt((x1 - x)^2 + (y1 - y)^2)
+/// [outer.gap, x1] = -(x1 - x)/sqrt((x1 - x)^2 + (y1 - y)^2)
+/// [outer.gap, y1] = -(y1 - y)/sqrt((x1 - x)^2 + (y1 - y)^2)
+/// [outer.slip, x] = (y1 - y)/sqrt((x1 - x)^2 + (y1 - y)^2)
+/// [outer.slip, y] = -(x1 - x)/sqrt((x1 - x)^2 + (y1 - y)^2)
 /// [outer.slip, theta] = -R
-/// [outer.slip, x1] = y/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-///     - y1/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-/// [outer.slip, y1] = x1/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
-///     - x/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)
+/// [outer.slip, x1] = -(y1 - y)/sqrt((x1 - x)^2 + (y1 - y)^2)
+/// [outer.slip, y1] = (x1 - x)/sqrt((x1 - x)^2 + (y1 - y)^2)
 /// [outer.slip, theta1] = r1
-/// [inner.gap, x1] = x2/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-///     - x1/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-/// [inner.gap, y1] = y2/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-///     - y1/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-/// [inner.gap, x2] = x1/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-///     - x2/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-/// [inner.gap, y2] = y1/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-///     - y2/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-/// [inner.slip, x1] = y2/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-///     - y1/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-/// [inner.slip, y1] = x1/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-///     - x2/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
+/// [inner.gap, x1] = (x2 - x1)/sqrt((x2 - x1)^2 + (y2 - y1)^2)
+/// [inner.gap, y1] = (y2 - y1)/sqrt((x2 - x1)^2 + (y2 - y1)^2)
+/// [inner.gap, x2] = -(x2 - x1)/sqrt((x2 - x1)^2 + (y2 - y1)^2)
+/// [inner.gap, y2] = -(y2 - y1)/sqrt((x2 - x1)^2 + (y2 - y1)^2)
+/// [inner.slip, x1] = (y2 - y1)/sqrt((x2 - x1)^2 + (y2 - y1)^2)
+/// [inner.slip, y1] = -(x2 - x1)/sqrt((x2 - x1)^2 + (y2 - y1)^2)
 /// [inner.slip, theta1] = delta - rho
-/// [inner.slip, x2] = y1/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-///     - y2/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-/// [inner.slip, y2] = x2/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-///     - x1/sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
+/// [inner.slip, x2] = -(y2 - y1)/sqrt((x2 - x1)^2 + (y2 - y1)^2)
+/// [inner.slip, y2] = (x2 - x1)/sqrt((x2 - x1)^2 + (y2 - y1)^2)
 /// [inner.slip, theta2] = r2
 /// ```
 pub fn contact_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [S; 36] {
@@ -724,19 +706,20 @@ pub fn contact_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S;
     let y1 = q[4];
     let x2 = q[6];
     let y2 = q[7];
-    let t0 = x1 * S::from_f64(2.0);
-    let t1 = y1 * S::from_f64(2.0);
-    let t2 = y1 * y1 + x1 * x1;
-    let t3 = S::ONE / (y * (y - t1) + (t2 + x * (x - t0))).sqrt();
-    let t4 = S::ONE / (y2 * (y2 - t1) + (t2 + x2 * (x2 - t0))).sqrt();
-    let w1_1 = t3 * (x1 - x);
-    let w1_2 = t3 * (y1 - y);
-    let w3_4 = t4 * (x2 - x1);
-    let w3_5 = t4 * (y2 - y1);
-    let w1_4 = -w1_1;
-    let w1_5 = -w1_2;
-    let w3_7 = -w3_4;
-    let w3_8 = -w3_5;
+    let t0 = x - x1;
+    let t1 = x1 - x2;
+    let t2 = y - y1;
+    let t3 = y1 - y2;
+    let t4 = S::ONE / (t2 * t2 + t0 * t0).sqrt();
+    let t5 = S::ONE / (t3 * t3 + t1 * t1).sqrt();
+    let w1_4 = t0 * t4;
+    let w1_5 = t2 * t4;
+    let w3_7 = t1 * t5;
+    let w3_8 = t3 * t5;
+    let w1_1 = -w1_4;
+    let w1_2 = -w1_5;
+    let w3_4 = -w3_7;
+    let w3_5 = -w3_8;
     let zero = S::ZERO;
     [
         w1_1, w1_2, zero, w1_4, w1_5, zero, zero, zero, zero, w1_2, w1_4, p.minus_R, w1_5, w1_1,
@@ -748,18 +731,18 @@ pub fn contact_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S;
 /// Rates `dgamma/dt` of unilateral contacts where all accelerations are 0.
 ///
 /// ```text
-/// [outer.gap] = 1/4*(2*x*der(x) + 2*y*der(y) + 2*x1*der(x1) + 2*y1*der(y1) - 2*(x1*der(x) +
-///     x*der(x1)) - 2*(y1*der(y) + y*der(y1)))^2/(sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 +
-///     y1^2)*(x^2 - 2*x*x1 + y^2 - 2*y*y1 + x1^2 + y1^2)) - 1/2*(2*der(x)^2 - 4*der(x)*der(x1) +
-///     2*der(y)^2 - 4*der(y)*der(y1) + 2*der(x1)^2 + 2*der(y1)^2)/sqrt(x^2 - 2*x*x1 + y^2 - 2*y*y1
-///     + x1^2 + y1^2)
-/// [outer.slip] = …
-/// [inner.gap] = 1/4*(2*x1*der(x1) + 2*y1*der(y1) + 2*x2*der(x2) + 2*y2*der(y2) - 2*(x2*der(x1) +
-///     x1*der(x2)) - 2*(y2*der(y1) + y1*der(y2)))^2/(sqrt(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 +
-///     y2^2)*(x1^2 - 2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)) - 1/2*(2*der(x1)^2 -
-///     4*der(x1)*der(x2) + 2*der(y1)^2 - 4*der(y1)*der(y2) + 2*der(x2)^2 + 2*der(y2)^2)/sqrt(x1^2 -
-///     2*x1*x2 + y1^2 - 2*y1*y2 + x2^2 + y2^2)
-/// [inner.slip] = …
+/// [outer.gap] = 1/4*(2*(x1 - x)*(der(x1) - der(x)) + 2*(y1 - y)*(der(y1) - der(y)))^2/(sqrt((x1 -
+///     x)^2 + (y1 - y)^2)*((x1 - x)^2 + (y1 - y)^2))
+///     - 1/2*(2*(der(x1) - der(x))^2 + 2*(der(y1) - der(y))^2)/sqrt((x1 - x)^2 + (y1 - y)^2)
+/// [outer.slip] = -1/2*((x1 - x)*(der(y1) - der(y)) - (y1 - y)*(der(x1) - der(x)))*(2*(x1 -
+///     x)*(der(x1) - der(x)) + 2*(y1 - y)*(der(y1) - der(y)))/(sqrt((x1 - x)^2 + (y1 - y)^2)*((x1 -
+///     x)^2 + (y1 - y)^2))
+/// [inner.gap] = 1/4*(2*(x2 - x1)*(der(x2) - der(x1)) + 2*(y2 - y1)*(der(y2) -
+///     der(y1)))^2/(sqrt((x2 - x1)^2 + (y2 - y1)^2)*((x2 - x1)^2 + (y2 - y1)^2))
+///     - 1/2*(2*(der(x2) - der(x1))^2 + 2*(der(y2) - der(y1))^2)/sqrt((x2 - x1)^2 + (y2 - y1)^2)
+/// [inner.slip] = -1/2*((x2 - x1)*(der(y2) - der(y1)) - (y2 - y1)*(der(x2) - der(x1)))*(2*(x2 -
+///     x1)*(der(x2) - der(x1)) + 2*(y2 - y1)*(der(y2) - der(y1)))/(sqrt((x2 - x1)^2 + (y2 -
+///     y1)^2)*((x2 - x1)^2 + (y2 - y1)^2))
 /// ```
 pub fn contact_bias<S: ::lagrangian::emitted::Scalar>(q: &[S; 9], v: &[S; 9]) -> [S; 4] {
     let x = q[0];
@@ -774,57 +757,26 @@ pub fn contact_bias<S: ::lagrangian::emitted::Scalar>(q: &[S; 9], v: &[S; 9]) ->
     let y1_dot = v[4];
     let x2_dot = v[6];
     let y2_dot = v[7];
-    let t0 = y1 * y1_dot + x1 * x1_dot;
-    let t1 = y * y1_dot + y1 * y_dot + (x * x1_dot + x1 * x_dot);
-    let t2 = t1 - (t0 + (y * y_dot + x * x_dot));
-    let t3 = y1 * y1 + x1 * x1;
-    let t4 = x1 * S::from_f64(2.0);
-    let t5 = y1 * S::from_f64(2.0);
-    let t6 = y * (y - t5) + (t3 + x * (x - t4));
-    let t7 = S::ONE / t6 * t2;
-    let t8 = y1_dot * S::from_f64(4.0);
-    let t9 = x1_dot * S::from_f64(4.0);
-    let t10 = x_dot * (S::from_f64(2.0) * x_dot - t9);
-    let t11 = x1_dot * (S::from_f64(2.0) * x1_dot);
-    let t12 = y1_dot * (S::from_f64(2.0) * y1_dot) + t11;
-    let t13 = t12 + (y_dot * (S::from_f64(2.0) * y_dot - t8) + t10);
-    let t14 = S::ONE / t6.sqrt();
-    let t15 = t14 * t7;
-    let t16 = x1 * y1_dot;
-    let t17 = y1_dot * x1_dot;
-    let t18 = t14 * t17;
-    let t19 = t14 * (x1_dot * y_dot);
-    let t20 = y1 * x1_dot;
-    let t21 = t18 + t20 * t15 + (t19 + t15 * (x1 * y_dot));
-    let t22 = x_dot * t15;
-    let t23 = t14 * x_dot;
-    let t24 = y1_dot * t23;
-    let t25 = x * t15;
-    let t26 = y_dot * t23;
-    let t27 = t26 + y * t22 + (t24 + y1_dot * t25);
-    let t28 = t18 + t15 * t16 + (t19 + t15 * (y * x1_dot)) - t21;
-    let t29 = y2 * y2_dot + x2 * x2_dot - (y1 * y2_dot + y1_dot * y2);
-    let t30 = t0 - (x1 * x2_dot + x1_dot * x2) + t29;
-    let t31 = y2 * (y2 - t5) + (t3 + x2 * (x2 - t4));
-    let t32 = S::ONE / t31 * t30;
-    let t33 = x2_dot * (S::from_f64(2.0) * x2_dot - t9);
-    let t34 = t12 + (y2_dot * (S::from_f64(2.0) * y2_dot - t8) + t33);
-    let t35 = S::ONE / t31.sqrt();
-    let t36 = t35 * t32;
-    let t37 = t35 * (x1_dot * y2_dot);
-    let t38 = t17 * t35;
-    let t39 = t38 - t20 * t36 + (t37 - t36 * (x1 * y2_dot));
-    let t40 = x2 * t36;
-    let t41 = t35 * x2_dot;
-    let t42 = y2_dot * t41;
-    let t43 = x2_dot * t36;
-    let t44 = y1_dot * t41;
-    let t45 = t42 - y2 * t43 + (t44 - y1_dot * t40);
-    let t46 = t37 - t36 * (x1_dot * y2) + (t38 - t16 * t36) - t39;
-    let bias1 = t14 * (S::from_f64(-0.5) * (t13 - t7 * (S::from_f64(2.0) * t2)));
-    let bias2 = t28 + (t24 + y1 * t22 + (t26 + y_dot * t25) - t27);
-    let bias3 = t35 * (S::from_f64(-0.5) * (t34 - t32 * (S::from_f64(2.0) * t30)));
-    let bias4 = t46 + (t42 - y2_dot * t40 + (t44 - y1 * t43) - t45);
+    let t0 = x - x1;
+    let t1 = x1 - x2;
+    let t2 = y - y1;
+    let t3 = y1 - y2;
+    let t4 = x_dot - x1_dot;
+    let t5 = x1_dot - x2_dot;
+    let t6 = y_dot - y1_dot;
+    let t7 = y1_dot - y2_dot;
+    let t8 = t2 * t2 + t0 * t0;
+    let t9 = t3 * t3 + t1 * t1;
+    let t10 = t2 * t6 + t0 * t4;
+    let t11 = t3 * t7 + t1 * t5;
+    let t12 = S::ONE / t8 * t10;
+    let t13 = S::ONE / t9 * t11;
+    let t14 = S::ONE / t8.sqrt();
+    let t15 = S::ONE / t9.sqrt();
+    let bias1 = t14 * (t10 * t12 - (t6 * t6 + t4 * t4));
+    let bias2 = -(t14 * (t12 * (t0 * t6 - t2 * t4)));
+    let bias3 = t15 * (t11 * t13 - (t7 * t7 + t5 * t5));
+    let bias4 = -(t15 * (t13 * (t1 * t7 - t3 * t5)));
     [bias1, bias2, bias3, bias4]
 }
 

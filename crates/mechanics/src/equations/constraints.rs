@@ -173,10 +173,7 @@ fn of_rolling<'d>(
 ) -> [ConstraintEquation<'d>; 2] {
     let RelativeMotion { gap, slip } =
         circles::contact_motion(model, &rolling.circles, &mut x.without_acceleration(model));
-    let plain = |e: Expr<'d>| match normal::expand(e, TERMS) {
-        Some(expanded) => normal::readable(expanded.to_expr(), TERMS),
-        None => e,
-    };
+    let plain = |e: Expr<'d>| normal::readable(e, TERMS);
     let part = |part: &str| format!("{}.{part}", rolling.name);
     let gap = Statement::Position(plain(gap));
     let slip = Statement::Rate(plain(slip));

@@ -270,10 +270,7 @@ fn rolling<'d>(
 
 /// The expression multiplied out, if that is short.
 fn plain(e: Expr<'_>) -> Expr<'_> {
-    match normal::expand(e, TERMS) {
-        Some(expanded) => normal::readable(expanded.to_expr(), TERMS),
-        None => e,
-    }
+    normal::readable(e, TERMS)
 }
 
 fn direction<'d>(
