@@ -212,3 +212,68 @@ fn centres_of_mass_between_the_joints_save_operations() {
         assert_eq!(operations(assumed), anywhere, "{assumed}");
     }
 }
+
+/// Discs that roll on each other, each at two coordinates and an angle.
+const DISCS: &str = "machine Discs in plane {
+    parameters { r: m = 0.1, s: m = 0.2 }
+    coordinates { x: m, y: m = 0.3, p: rad, X: m, Y: m, P: rad }
+    bodies { a { mass: 2*kg, inertia: 1*kg*m^2, at: (x, y), angle: p }, b { mass: 2*kg, inertia: 1*kg*m^2, at: (X, Y), angle: P } }
+    circles { ca { on: a, center: (0, 0), radius: r }, cb { on: b, center: (0, 0), radius: s } }
+    rolling { roll { circle: ca, outside: cb } }
+}";
+
+/// A disc that rolls along a line, in frames turned by 16/64 and by −31/64.
+const TURNED: &str = "machine Turned in plane {
+    parameters { r: m = 0.1 }
+    coordinates { x: m, y: m, p: rad }
+    frames { one = ground.turn(0.25), line = one.turn(-0.484375) }
+    bodies { a { mass: 2*kg, inertia: 1*kg*m^2, frame: one.shift(x, y).turn(p) } }
+    circles { c { on: a, center: (0, 0), radius: r } }
+    rolling { roll { circle: c, along: line } }
+}";
+
+/// The positions of constraints are compared with formulas in double-doubles. A difference of coordinates, its square, a sum, a root and two further
+/// differences are each rounded once, and so are a product with the sine of a constant angle and this sine.
+#[test]
+fn gaps_of_circles_lose_no_digits_to_their_place_or_to_turned_frames() {
+    let wide = DoubleDouble::from_f64;
+    let (mut discs, mut turned) = (0.0_f64, 0.0_f64);
+    let programs = [program(DISCS), program(TURNED)];
+    let radii = [defaults(&programs[0]), defaults(&programs[1])];
+    let mut runners = [0, 1].map(|k| Runner::<f64>::new(&programs[k], &radii[k]));
+    for seed in 1..50 {
+        let number = |i: usize| ((seed * 37 + i * 101) % 89) as f64 / 60.0 + 0.1;
+        let far = 1000.0 * number(7);
+        let q = vec![
+            far + number(0),
+            far - number(1),
+            number(2),
+            far - number(3),
+            far + number(4),
+            number(5),
+        ];
+        let [dx, dy] = [0, 1].map(|i| wide(q[i]) - wide(q[i + 3]));
+        let distance = (dx * dx + dy * dy).sqrt();
+        let radii_sum = wide(radii[0][0]) + wide(radii[0][1]);
+        let v = vec![0.0; 6];
+        let gap = runners[0].call(Role::ConstraintPositions, &State { q, v, u: vec![] })[0];
+        let error = (wide(gap) - (distance - radii_sum)).to_f64().abs();
+        discs = discs.max(error / (distance + radii_sum).to_f64());
+
+        let (q, v) = (vec![number(0), number(1), number(2)], vec![0.0; 3]);
+        let (sine, cosine) = (wide(0.484375).sin(), wide(0.484375).cos());
+        let (x, y) = (wide(q[0]), wide(q[1]));
+        let expected = x * sine + y * cosine - wide(radii[1][0]);
+        let size = (x.abs() + y.abs()).to_f64();
+        let gap = runners[1].call(Role::ConstraintPositions, &State { q, v, u: vec![] })[0];
+        turned = turned.max((wide(gap) - expected).to_f64().abs() / size);
+    }
+    let unit = 2f64.powi(-53);
+    println!(
+        "{:.2} and {:.2} units of 2^-53",
+        discs / unit,
+        turned / unit
+    );
+    assert!(discs <= 6.0 * unit, "{discs:e}");
+    assert!(turned <= 6.0 * unit, "{turned:e}");
+}
