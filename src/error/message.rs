@@ -424,7 +424,8 @@ fn no_inertia(f: &mut fmt::Formatter<'_>, coordinate: &str, ratio: f64, t: f64) 
     }
     write!(
         f,
-        ". Give a mass or a moment of inertia to what it moves; if the coordinate has no meaning at that pose, like the angle of polar \
-         coordinates at a radius of 0, start elsewhere or choose other coordinates, for polar ones in `charts` of the spec"
+        ". Give a mass or a moment of inertia to what it moves; if the coordinate has no meaning at that pose, start elsewhere or choose \
+         other coordinates: for the angle of polar coordinates at a radius of 0 in `charts` of the spec, and for one of three angles of a \
+         frame in space, of which two turn about one axis there, turn the frame by a quaternion"
     )
 }
