@@ -233,6 +233,13 @@ impl EnergyIntegrals {
         }
     }
 
+    /// By how much [`replace_last`](Self::replace_last) would change the integrals of the machine, in J.
+    #[cfg(feature = "std")]
+    pub(crate) fn change_of_last(&self, by: &[[f64; 3]]) -> [f64; 3] {
+        let by = by.first().copied().unwrap_or(self.own.last);
+        core::array::from_fn(|i| by[i] - self.own.last[i])
+    }
+
     #[cfg(feature = "std")]
     fn at_least(&mut self, contacts: usize) {
         if self.of_contacts.len() < contacts {

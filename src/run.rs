@@ -350,8 +350,8 @@ struct Record<M: Machine> {
     kinetic_energy: f64,
     /// The part of the residual of the energy balance that tolerance and rounding explain.
     explained: ExplainedResidual<VectorOf<M>>,
-    /// Whether a step had a residual that remained unexplained.
-    is_unexplained: bool,
+    /// The number of steps whose residual remained unexplained.
+    unexplained: usize,
 }
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
@@ -378,7 +378,7 @@ impl<M: Machine> Record<M> {
             handovers: Vec::new(),
             kinetic_energy: 0.0,
             explained: ExplainedResidual::default(),
-            is_unexplained: false,
+            unexplained: 0,
         }
     }
 

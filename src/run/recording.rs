@@ -12,6 +12,10 @@ use crate::solution::is_beyond;
 use crate::stepper::Stepper;
 use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion, System};
 
+/// After so many steps of an implicit method whose residual stays unexplained, the quadrature is not repeated any more. Of an explicit one
+/// it is a single step: its dense output represents all of the motion.
+const MOST_UNEXPLAINED: usize = 16;
+
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// Records and shows what the settings request of the last step.
     pub(super) fn record_last_step(
@@ -144,31 +148,49 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Repeats the quadrature of work and losses along the last step if its energy balance has an unexplained residual. The step may be too
-    /// long for the quadrature, since its length was chosen for the motion alone. Steps of implicit methods are excluded: they are longer
-    /// than fast transients that have decayed, which their dense output does not represent.
+    /// long for the quadrature, since its length was chosen for the motion alone. A step of an implicit method may also be longer than fast
+    /// transients that have decayed, which its dense output does not represent: there the quadrature along it counts only if it explains the
+    /// residual.
     fn explain_residual(
         &mut self,
         before: &Energies,
         explained: f64,
         interpolant: &mut LastInterpolant<M>,
     ) {
-        let is_unexplained =
-            |now: &Energies| now.are_finite() && now.residual_since(before).abs() > explained;
-        if self.record.is_unexplained
+        let Some(&now) = self.record.energies.last() else {
+            return;
+        };
+        let is_explained = |now: &Energies| now.residual_since(before).abs() <= explained;
+        let is_implicit = self.stepper.is_implicit();
+        if self.record.unexplained >= if is_implicit { MOST_UNEXPLAINED } else { 1 }
             || self.settings.method.has_fixed_steps()
             || self.is_stepped()
-            || self.stepper.is_implicit()
-            || !self.record.energies.last().is_some_and(is_unexplained)
+            || !now.are_finite()
+            || is_explained(&now)
         {
             return;
         }
         let bound = 0.1 * explained;
-        let known = step_motion(interpolant, &mut self.stepper, self.model.system)
-            .is_ok_and(|of_step| matches!(self.stepper.integrate_along(of_step, bound), Ok(true)));
-        // If this did not help once, it is not tried again: the residual stays, and the run reports it.
-        self.record.is_unexplained = !known;
-        if known
-            && let Some(integrals) = self.stepper.quadratures().integrals()
+        let counts = |work: f64, dissipated: f64| {
+            let (work, dissipated) = (now.work + work, now.dissipated + dissipated);
+            !is_implicit
+                || is_explained(&Energies {
+                    work,
+                    dissipated,
+                    ..now
+                })
+        };
+        let known =
+            step_motion(interpolant, &mut self.stepper, self.model.system).is_ok_and(|of_step| {
+                matches!(
+                    self.stepper.integrate_along(of_step, bound, counts),
+                    Ok(true)
+                )
+            });
+        // Where this does not help, the residual stays, and the run reports it.
+        if !known {
+            self.record.unexplained += 1;
+        } else if let Some(integrals) = self.stepper.quadratures().integrals()
             && let Some(now) = self.record.energies.last_mut()
         {
             (now.work, now.dissipated) = (integrals.work(), integrals.dissipated());

@@ -29,12 +29,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// losses change by at most `bound`, in J, and the integral of the absolute work rate by at most a hundredth.
     ///
     /// The step was as long as the motion allows. If the machine is at rest, a drive may turn many times during the step, and the
-    /// stages of the method do not represent its work. If no division of the step suffices, the integrals stay unchanged and the
-    /// result is false.
+    /// stages of the method do not represent its work. If no division of the step suffices, or if `counts` returns false for the changes of
+    /// work and losses, in J, the integrals stay unchanged and the result is false.
     pub(crate) fn integrate_along(
         &mut self,
         interpolant: &Interpolant<S::Vector>,
         bound: f64,
+        counts: impl FnOnce(f64, f64) -> bool,
     ) -> Result<bool, StepError> {
         let mut is_known = false;
         let mut before = std::vec![[f64::NAN; 3]];
@@ -45,9 +46,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             let (work, to_and_fro, lost) = (change(0), change(1), change(2));
             if work + lost <= bound && to_and_fro <= 0.01 * refined[0][1].abs() {
                 if let Some(integrals) = self.quadratures.integrals_mut() {
-                    integrals.replace_last(&refined);
+                    let [work, _, dissipated] = integrals.change_of_last(&refined);
+                    is_known = counts(work, dissipated);
+                    if is_known {
+                        integrals.replace_last(&refined);
+                    }
                 }
-                is_known = true;
                 break;
             }
             before = refined;

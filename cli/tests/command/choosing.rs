@@ -183,3 +183,27 @@ fn the_summary_says_what_was_chosen_and_why() {
     // There is no warning.
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
 }
+
+/// A mass in a carriage that is shaken up and down by y = A sin ωt, at rest in the carriage.
+const CARRIED: &str = "machine Carried in plane {
+    parameters { m: kg = 2, k: N/m = 50, A: m = 0.3, omega: rad/s = 2, g: m/s^2 = 9.81 }
+    coordinates { x: m }
+    bodies { a { mass: m, at: (x, A*sin(omega*t)) } }
+    springs { s { stiffness: k, stretch: x } }
+    gravity (0, -g);
+}";
+
+/// Steps of methods for stiff machines are as long as the motion in the coordinates allows, and there is none. The work of what shakes the carriage
+/// changes the energy by m/2 A²ω² (cos² ωt − 1) + m g A sin ωt.
+#[test]
+fn work_is_integrated_where_nothing_moves_in_the_coordinates() {
+    let scratch = Scratch::new("carried.machine", CARRIED);
+    for method in ["dop853", "radau5", "radau9", "radau13", "taylor"] {
+        let run = answer(&[scratch.path(), "--until", "3.3", "--method", method]);
+        assert_eq!(run["error"], Value::Null, "{method}: {run:#}");
+        let residual = run["energy_residual"].as_f64().expect("a number");
+        // The energies of a machine at rest are exact. The work may have an error of the tolerance, 1e-9, times the energies, of which there
+        // are 6 J.
+        assert!(residual.abs() < 6e-9, "{method}: {residual}");
+    }
+}
