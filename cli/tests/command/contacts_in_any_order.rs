@@ -79,10 +79,14 @@ fn two_orders_of_contacts_give_one_motion() {
 }
 
 /// Numbers between two bounds that look drawn at random.
-struct Drawn(u64);
+pub(crate) struct Drawn(u64);
 
 impl Drawn {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn new(seed: u64) -> Drawn {
+        Drawn(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
+    }
+
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -92,7 +96,7 @@ impl Drawn {
 
 /// Discs or boxes that are thrown into a box without a lid, each with its own restitution and friction, and the energy by which an error of the balance is measured.
 fn scene(seed: u64, boxes: bool) -> (String, f64) {
-    let mut drawn = Drawn(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+    let mut drawn = Drawn::new(seed);
     let (mut coordinates, mut bodies, mut circles, mut contacts) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut frames = Vec::new();

@@ -13,6 +13,7 @@ mod compliance;
 mod constraints;
 mod contacts;
 mod contacts_in_any_order;
+mod contacts_in_other_coordinates;
 mod derived_parameters;
 mod exported;
 mod fit;
