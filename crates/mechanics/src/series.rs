@@ -42,6 +42,9 @@ impl ProvedSeries {
     /// # Errors
     /// Why there is none.
     pub fn derive(model: &Model<'_>) -> Result<ProvedSeries, NoSeries> {
+        if !model.contacts.is_empty() {
+            return Err(NoSeries::Unilateral);
+        }
         let mut forms = lower::series(model)?.into_iter();
         let proved = forms.find_map(|series| ProvedSeries::new(series, model).ok());
         proved.ok_or(NoSeries::Unproved)
