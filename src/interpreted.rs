@@ -730,6 +730,20 @@ impl System for InterpretedSystem {
         }
     }
 
+    fn projection(
+        &self,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        numbers: &mut [f64],
+    ) -> Result<bool, Singular> {
+        if self.program.function(Role::Projection).is_none() {
+            return Ok(false);
+        }
+        self.call(Role::Projection, at(t, q, v, &[]), numbers)?;
+        Ok(true)
+    }
+
     fn contacts(&self) -> impl ExactSizeIterator<Item = &str> {
         self.program.contacts.iter().map(String::as_str)
     }

@@ -171,6 +171,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     ) -> Result<Self, StepError> {
         Self::check(system, &start)?;
         let system = BorrowedOrOwned::Borrowed(system);
+        let start = (start, None);
         Self::begun(system, law, quadratures, method, tolerance, start, end)
     }
 
@@ -187,14 +188,14 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         Ok(())
     }
 
-    /// [`new`](Self::new) for a run, which locates the events of unilateral contacts.
+    /// [`new`](Self::new) for a run, which locates the events of unilateral contacts, and may know the constraints at the start.
     pub(crate) fn begun(
         system: BorrowedOrOwned<'s, S>,
         law: L,
         quadratures: A,
         method: &'static Method,
         tolerance: Tolerance<S::Vector>,
-        (t, q, v): (f64, S::Vector, S::Vector),
+        ((t, q, v), known): ((f64, S::Vector, S::Vector), Option<Constraints<S::Vector>>),
         end: f64,
     ) -> Result<Self, StepError> {
         #[cfg(feature = "std")]
@@ -215,8 +216,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
         let zeros = q.zeros_like();
         let mut start = Point::new(t, q, v);
-        let mut constraints = None;
-        if S::MAY_BE_CONSTRAINED && system.constraints().len() != 0 {
+        let mut constraints = known;
+        if S::MAY_BE_CONSTRAINED && constraints.is_none() && system.constraints().len() != 0 {
             let known = constraints.insert(Constraints::new(system.get(), &start.q, &start.v));
             known.begin(system.get(), &mut start.place(), None)?;
         }

@@ -59,6 +59,8 @@ pub(crate) struct Taylor<V> {
     is_taken: bool,
     /// The length of the next step, once computed.
     length: Option<f64>,
+    /// The [part](part_for_all_sizes) of a tolerable error that is the bound on the last terms of a step, if it is the same for all coordinates.
+    part: Option<f64>,
     memory: SeriesMemory,
 }
 
@@ -69,11 +71,15 @@ impl<V: Vector> Taylor<V> {
         let absolute = tolerance.absolute.as_slice().iter();
         let least = absolute.fold(f64::INFINITY, |least, &x| least.min(x));
         let rows = rows(least + tolerance.relative);
+        let parts = tolerance.absolute.as_slice().iter();
+        let mut parts = parts.map(|absolute| part_for_all_sizes(*absolute, tolerance.relative));
+        let first = parts.next().flatten();
         Self {
             coefficients: [(); 2].map(|()| std::vec![zeros.clone(); rows]),
             beginning: 0,
             is_taken: false,
             length: None,
+            part: first.filter(|_| parts.all(|part| part == first)),
             memory: SeriesMemory::default(),
         }
     }
@@ -85,6 +91,7 @@ impl<V: Vector> Taylor<V> {
             beginning: 0,
             is_taken: false,
             length: None,
+            part: None,
             memory: SeriesMemory::default(),
         }
     }
@@ -176,19 +183,26 @@ impl<V: Vector> Taylor<V> {
         let coefficients = &self.coefficients[self.of_now()];
         let last = coefficients.len() - 1;
         let powers = [last - 1, last];
-        let [mut one, mut other] = [0.0_f64; 2];
         let (q, v) = (coefficients[0].as_slice(), coefficients[1].as_slice());
         let rows = [
             coefficients[last - 1].as_slice(),
             coefficients[last].as_slice(),
         ];
-        for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
-            let over = 1.0 / bound(size_of_rate(q[i], v[i]), *absolute, tolerance.relative);
-            one = larger_ratio(one, rows[0][i], (last - 1) as f64, over);
-            other = larger_ratio(other, rows[1][i], last as f64, over);
-        }
-        let worst = [one, other];
-        let by_rates = length(worst, powers);
+        let usual = self
+            .part
+            .and_then(|part| usual_ratios([q, v], rows, powers, (tolerance, part)));
+        let by_rates = match usual {
+            Some([one, other]) => usual_lengths([[one], [other]], powers)[0],
+            None => {
+                let [mut one, mut other] = [0.0_f64; 2];
+                for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
+                    let over = 1.0 / bound(size_of_rate(q[i], v[i]), *absolute, tolerance.relative);
+                    one = larger_ratio(one, rows[0][i], (last - 1) as f64, over);
+                    other = larger_ratio(other, rows[1][i], last as f64, over);
+                }
+                length([one, other], powers)
+            }
+        };
         if !is_slow(by_rates, last) {
             return by_rates;
         }
@@ -236,6 +250,30 @@ impl<V: Vector> Taylor<V> {
         }
         is_fine
     }
+}
+
+/// The largest ratios of both last terms of rates to their bounds, which are this part of the tolerable errors; `None` unless both are positive and finite.
+/// The same arithmetic as with [`larger_ratio`], without branches.
+#[inline(always)]
+fn usual_ratios<V: Vector>(
+    [q, v]: [&[f64]; 2],
+    rows: [&[f64]; 2],
+    powers: [usize; 2],
+    (tolerance, part): (&Tolerance<V>, f64),
+) -> Option<[f64; 2]> {
+    let powers = powers.map(|power| power as f64);
+    // The sum is not finite if a ratio is not; a maximum may lose it.
+    let (mut worst, mut sum) = ([0.0_f64; 2], 0.0);
+    for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
+        let size = size_of_rate(q[i], v[i]);
+        let over = 1.0 / (part * (absolute + tolerance.relative * size));
+        for k in 0..2 {
+            let ratio = (powers[k] * rows[k][i].abs()) * over;
+            sum += ratio;
+            worst[k] = worst[k].max(ratio);
+        }
+    }
+    (worst[0] > 0.0 && worst[1] > 0.0 && sum.is_finite()).then_some(worst)
 }
 
 /// Numbers that lie side by side in memory and fill a register.

@@ -278,7 +278,7 @@ impl Reading {
             }
             return Err(self.failure());
         }
-        let Some(compiled) = Compiled::new(model, &mut self.report) else {
+        let Some(compiled) = Compiled::for_runs(model, &mut self.report) else {
             return Err(self.failure());
         };
         self.warn();
@@ -292,7 +292,7 @@ impl Reading {
         };
         // Its warnings would be those of the spec, which are printed.
         let mut report = Report::new();
-        let cartesian = Compiled::new(*cartesian, &mut report);
+        let cartesian = Compiled::for_runs(*cartesian, &mut report);
         let is_same = |other: &Compiled<'_>| compiled.check_chart(other, &mut report).is_some();
         let cartesian = cartesian.filter(is_same);
         if cartesian.is_none() && chart_use == ChartUse::Required {

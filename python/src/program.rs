@@ -159,7 +159,7 @@ impl Derived {
             {
                 return Ok(derived);
             }
-            let compiled = model.and_then(|model| Compiled::new(model, &mut report));
+            let compiled = model.and_then(|model| Compiled::for_runs(model, &mut report));
             let diagnostics = errors::as_values(&report, &sources);
             let Some(compiled) = compiled else {
                 return Err(Trouble::Spec(

@@ -223,6 +223,19 @@ impl<V: Vector> Scales<V> {
         }
     }
 
+    /// Records the diagonal of the metric.
+    pub fn record_inertias(&mut self, diagonal: &[f64]) {
+        let [inertias, yields] = &mut self.inertia;
+        let both = inertias
+            .as_mut_slice()
+            .iter_mut()
+            .zip(yields.as_mut_slice());
+        for ((inertia, yields), of_metric) in both.zip(diagonal) {
+            *inertia = *of_metric;
+            *yields = if *inertia > 0.0 { 1.0 / *inertia } else { 0.0 };
+        }
+    }
+
     /// `√Σⱼ Gₖⱼ²/Mⱼⱼ`.
     fn length(&self, row: &[f64]) -> f64 {
         let by = row.iter().zip(self.inertia[1].as_slice());
@@ -242,10 +255,28 @@ impl<V: Vector> Scales<V> {
 
     /// The residuals of a row, of positions and rates, relative to their scales.
     pub fn relative(&self, k: usize, row: &[f64], left: [f64; 2], q: &V, v: &V) -> [Relative; 2] {
+        self.relative_within(k, row, left, (q, v, self.roundoff_of_rates(v)))
+    }
+
+    /// The same for a known [round-off](Self::roundoff_of_rates) of the rates.
+    #[inline(always)]
+    pub fn relative_within(
+        &self,
+        k: usize,
+        row: &[f64],
+        left: [f64; 2],
+        (q, v, inertial): (&V, &V, f64),
+    ) -> [Relative; 2] {
         [
             self.relative_of_positions(k, row, left[0], q),
-            self.relative_of_rates(k, row, left[1], v),
+            self.relative_of_rates_within(k, row, left[1], (v, inertial)),
         ]
+    }
+
+    /// The round-off of rates as a length in the metric of inertia, relative to the round-off unit: the same for all rows.
+    #[inline(always)]
+    pub fn roundoff_of_rates(&self, v: &V) -> f64 {
+        self.observed_roundoff[1] + self.speed(v)
     }
 
     /// The residual of the positions of a row, relative to its scale.
@@ -258,9 +289,19 @@ impl<V: Vector> Scales<V> {
     /// The residual of the rates of a row, relative to its scale.
     #[inline(always)]
     pub fn relative_of_rates(&self, k: usize, row: &[f64], left: f64, v: &V) -> Relative {
+        self.relative_of_rates_within(k, row, left, (v, self.roundoff_of_rates(v)))
+    }
+
+    #[inline(always)]
+    fn relative_of_rates_within(
+        &self,
+        k: usize,
+        row: &[f64],
+        left: f64,
+        (v, inertial): (&V, f64),
+    ) -> Relative {
         let by_rates: f64 = row.iter().zip(v.as_slice()).map(|(g, v)| g * v).sum();
         let rates = self.sum(row, v, 1) + (left - by_rates).abs();
-        let inertial = self.observed_roundoff[1] + self.speed(v);
         self.relative_to((k, 1), row, left, rates, inertial)
     }
 
@@ -270,11 +311,10 @@ impl<V: Vector> Scales<V> {
         positions + self.floor((k, 0), row, positions, self.observed_roundoff[0])
     }
 
-    /// What the residual of the rates of a row, `left`, is relative to now.
-    pub fn of_rates(&self, k: usize, row: &[f64], left: f64, v: &V) -> f64 {
+    /// What the residual of the rates of a row, `left`, is relative to now, for this [round-off](Self::roundoff_of_rates) of the rates.
+    pub fn of_rates(&self, k: usize, row: &[f64], left: f64, (v, inertial): (&V, f64)) -> f64 {
         let by_rates: f64 = row.iter().zip(v.as_slice()).map(|(g, v)| g * v).sum();
         let rates = self.sum(row, v, 1) + (left - by_rates).abs();
-        let inertial = self.observed_roundoff[1] + self.speed(v);
         rates + self.floor((k, 1), row, rates, inertial)
     }
 

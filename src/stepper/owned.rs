@@ -162,7 +162,7 @@ impl<S: System> StepperBuilder<S> {
         let law = HeldInputs(inputs);
         let own = BorrowedOrOwned::Own(system);
         let mut stepper =
-            ControlledStepper::begun(own, law, NoBalance, method, tolerance, start, state.t)?;
+            ControlledStepper::begun(own, law, NoBalance, method, tolerance, (start, None), state.t)?;
         stepper.set_longest_step(longest_step);
         stepper.set_max_steps(max_steps);
         let is_length = |step: &f64| step.is_finite();

@@ -12,6 +12,7 @@ pub mod dual;
 mod exact;
 #[doc(hidden)]
 pub mod friction;
+pub mod projection;
 pub mod interval;
 pub mod jet;
 mod kernel;

@@ -222,7 +222,7 @@ impl Sweep {
         };
         let mut with = with;
         let cartesian = with.as_mut().and_then(|model| model.cartesian.take());
-        let compiled = with.and_then(|model| Compiled::new(model, &mut report));
+        let compiled = with.and_then(|model| Compiled::for_runs(model, &mut report));
         let Some(compiled) = compiled else {
             return Err(PlanError::Spec(Box::new((report, sources))));
         };
@@ -766,7 +766,7 @@ fn in_cartesian(
         return None;
     }
     let mut report = Report::new();
-    let compiled = Compiled::new(model, &mut report)?;
+    let compiled = Compiled::for_runs(model, &mut report)?;
     polar.check_chart(&compiled, &mut report)?;
     let mut machine = InterpretedMachine::new(compiled.program.clone());
     machine.set_engine(engine).ok()?;
