@@ -789,8 +789,15 @@ mod tests {
 
     #[test]
     fn steps_of_every_order_end_where_their_polynomials_do() {
-        // Blocks of four, of two and of one coordinate, and each remainder of the order divided by four.
-        const N: usize = 7;
+        // Blocks of four, of two and of one coordinate.
+        steps_end_where_their_polynomials_do::<3>();
+        steps_end_where_their_polynomials_do::<5>();
+        steps_end_where_their_polynomials_do::<6>();
+        steps_end_where_their_polynomials_do::<7>();
+    }
+
+    /// With each remainder of the order divided by four.
+    fn steps_end_where_their_polynomials_do<const N: usize>() {
         let h = 0.7;
         for rows in 3..=24 {
             let number = |j: usize, i: usize| (1.0 + (j * N + i) as f64 * 0.618).sin();

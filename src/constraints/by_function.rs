@@ -100,7 +100,7 @@ impl<V: Vector> Constraints<V> {
         self.reduces_to_roundoff = false;
         let threshold = self.reduction_threshold();
         let residuals = self.residuals_of(layout, numbers, place);
-        let now = residuals.map(|of_level| of_level[0]);
+        let now = [residuals[0][0], residuals[1][0]];
         // The negation is true of NaN.
         if !(now[0] < NEAR && now[1] < NEAR) {
             return None;
@@ -132,7 +132,7 @@ impl<V: Vector> Constraints<V> {
                 return None;
             }
             left = self.residuals_of(layout, numbers, place);
-            self.chosen_residuals = left.map(|of_level| of_level[0]);
+            self.chosen_residuals = [left[0][0], left[1][0]];
         }
         self.residual = left[0][1].max(left[1][1]);
         for (k, row) in rows(layout, numbers).enumerate() {
@@ -158,8 +158,9 @@ impl<V: Vector> Constraints<V> {
         for (k, row) in rows(layout, numbers).enumerate() {
             let left = [positions[k], rates[k]];
             let relative = self.scales.relative_within(k, row, left, at);
-            for (most, relative) in most.iter_mut().zip(relative) {
-                for (most, now) in most.iter_mut().zip([relative.now, relative.guaranteed]) {
+            for level in 0..2 {
+                let of_level = [relative[level].now, relative[level].guaranteed];
+                for (most, now) in most[level].iter_mut().zip(of_level) {
                     if !(now <= *most || most.is_nan()) {
                         *most = now;
                     }
@@ -173,10 +174,14 @@ impl<V: Vector> Constraints<V> {
     #[inline(always)]
     fn holds_tightly(&self, layout: &ProjectionLayout, numbers: &[f64], q: &V) -> bool {
         let (pivots, compliances) = (&numbers[layout.pivots()], &numbers[layout.compliances()]);
-        rows(layout, numbers).enumerate().all(|(k, row)| {
-            let least = fork::TIGHT / self.scales.strength(k, row, q);
-            pivots[k] >= least * least * compliances[k]
-        })
+        let mut hold = true;
+        for (k, row) in rows(layout, numbers).enumerate() {
+            let [now, greatest] = self.scales.sizes_of_terms(k, row, q);
+            let least = fork::TIGHT * greatest;
+            // A pivot that is not a number holds nothing.
+            hold &= pivots[k] * (now * now) >= least * least * compliances[k];
+        }
+        hold
     }
 
     /// Corrects the coordinates until their residuals are reduced; `None` if a correction does not reduce them to a tenth.
@@ -257,6 +262,7 @@ impl<V: Vector> Constraints<V> {
 }
 
 /// The rows of the constraint matrix.
+#[inline(always)]
 fn rows<'n>(
     layout: &ProjectionLayout,
     numbers: &'n [f64],

@@ -194,13 +194,21 @@ impl<V: Vector> Scales<V> {
         rates.map(|(v, size)| v.abs() / size).fold(0.0, f64::max)
     }
 
-    /// The size of a row's terms in a pose relative to the largest: where it is small, the row is weak.
-    pub fn strength(&self, k: usize, row: &[f64], q: &V) -> f64 {
+    /// The size of a row's terms in a pose, and the largest.
+    #[inline(always)]
+    pub fn sizes_of_terms(&self, k: usize, row: &[f64], q: &V) -> [f64; 2] {
         let now = self.sum(row, q, 0);
         let greatest = now.max(self.terms[0].get(k)).max(self.curvatures.get(k));
+        [now, greatest]
+    }
+
+    /// The size of a row's terms in a pose relative to the largest: where it is small, the row is weak.
+    pub fn strength(&self, k: usize, row: &[f64], q: &V) -> f64 {
+        let [now, greatest] = self.sizes_of_terms(k, row, q);
         if greatest > 0.0 { now / greatest } else { 1.0 }
     }
 
+    #[inline(always)]
     fn sum(&self, row: &[f64], y: &V, level: usize) -> f64 {
         let sizes = self.sizes[level].as_slice().iter().zip(y.as_slice());
         let terms = row.iter().zip(sizes);
@@ -224,6 +232,7 @@ impl<V: Vector> Scales<V> {
     }
 
     /// Records the diagonal of the metric.
+    #[inline(always)]
     pub fn record_inertias(&mut self, diagonal: &[f64]) {
         let [inertias, yields] = &mut self.inertia;
         let both = inertias
@@ -237,12 +246,14 @@ impl<V: Vector> Scales<V> {
     }
 
     /// `√Σⱼ Gₖⱼ²/Mⱼⱼ`.
+    #[inline(always)]
     fn length(&self, row: &[f64]) -> f64 {
         let by = row.iter().zip(self.inertia[1].as_slice());
         sqrt(by.map(|(g, yields)| g * g * yields).sum())
     }
 
     /// `√Σⱼ Mⱼⱼ vⱼ²` with the largest rates so far.
+    #[inline(always)]
     fn speed(&self, v: &V) -> f64 {
         let by = (self.inertia[0].as_slice().iter()).zip(self.sizes[1].as_slice());
         let by = by.zip(v.as_slice());
@@ -306,12 +317,14 @@ impl<V: Vector> Scales<V> {
     }
 
     /// What the residual of the positions of a row is relative to now.
+    #[inline(always)]
     pub fn of_positions(&self, k: usize, row: &[f64], q: &V) -> f64 {
         let positions = self.sum(row, q, 0);
         positions + self.floor((k, 0), row, positions, self.observed_roundoff[0])
     }
 
     /// What the residual of the rates of a row, `left`, is relative to now, for this [round-off](Self::roundoff_of_rates) of the rates.
+    #[inline(always)]
     pub fn of_rates(&self, k: usize, row: &[f64], left: f64, (v, inertial): (&V, f64)) -> f64 {
         let by_rates: f64 = row.iter().zip(v.as_slice()).map(|(g, v)| g * v).sum();
         let rates = self.sum(row, v, 1) + (left - by_rates).abs();
