@@ -147,8 +147,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let (mut start, mut start_warnings, mut constraints) = (start, Vec::new(), None);
         if <M::System as System>::MAY_BE_CONSTRAINED && system.constraints().len() != 0 {
             let kept = settings.kept_start_values(&system, is_resumed)?;
-            (start_warnings, constraints) =
-                project_start(&system, start.t, &mut q, &mut v, kept)?;
+            (start_warnings, constraints) = project_start(&system, start.t, &mut q, &mut v, kept)?;
             start = state(&system, (start.t, q.clone(), v.clone()));
         }
         let ended = resumed.filter(|resumed| resumed.t == start.t);

@@ -279,7 +279,12 @@ fn agrees_in_f64<M: Machine + Default>(
             assert_eq!(emitted.is_ok(), interpreted.is_ok() || !has_projection);
             if let Ok(expected) = interpreted {
                 assert_eq!(emitted, Ok(has_projection));
-                assert_eq!(bits(&projection), bits(&expected), "{}", place("projection"));
+                assert_eq!(
+                    bits(&projection),
+                    bits(&expected),
+                    "{}",
+                    place("projection")
+                );
             }
         }
 

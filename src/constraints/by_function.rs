@@ -121,8 +121,8 @@ impl<V: Vector> Constraints<V> {
             if now[0] > threshold {
                 corrected = self.correct_coordinates(layout, numbers, scales, place, evaluate);
             }
-            corrected =
-                corrected.and_then(|()| self.correct_rates(layout, numbers, scales, place, evaluate));
+            corrected = corrected
+                .and_then(|()| self.correct_rates(layout, numbers, scales, place, evaluate));
             if corrected.is_none() {
                 let levels = [&mut place.q, &mut place.v];
                 for ([high, low], [high_before, low_before]) in levels.into_iter().zip(before) {
@@ -231,7 +231,10 @@ impl<V: Vector> Constraints<V> {
         for k in 0..m {
             let row = &numbers[layout.matrix()][k * layout.coordinates..][..layout.coordinates];
             let rate = numbers[layout.rates()][k];
-            scales[k] = share(1.0, self.scales.of_rates(k, row, rate, (&*place.v[0], inertial)));
+            scales[k] = share(
+                1.0,
+                self.scales.of_rates(k, row, rate, (&*place.v[0], inertial)),
+            );
         }
         let mut left = largest_share(&numbers[layout.rates()], scales);
         let mut is_first = true;

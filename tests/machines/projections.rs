@@ -82,14 +82,22 @@ fn corrections_remove_residuals_to_second_order() {
         let greatest = |of: &[f64]| of.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         // First onto the constraints, then away from them by two distances.
         let mut correct = |q: &mut Vec<f64>, v: &mut Vec<f64>| {
-            assert_eq!(system.projection(0.0, q, v, &mut numbers), Ok(true), "{file}");
+            assert_eq!(
+                system.projection(0.0, q, v, &mut numbers),
+                Ok(true),
+                "{file}"
+            );
             for (q, by) in q.iter_mut().zip(&numbers[layout.moves_of_coordinates()]) {
                 *q += by;
             }
             system.constraint_positions(0.0, q, &mut residuals);
             let positions = greatest(&residuals);
             // The rates are corrected in the pose that has been reached.
-            assert_eq!(system.projection(0.0, q, v, &mut numbers), Ok(true), "{file}");
+            assert_eq!(
+                system.projection(0.0, q, v, &mut numbers),
+                Ok(true),
+                "{file}"
+            );
             for (v, by) in v.iter_mut().zip(&numbers[layout.moves_of_rates()]) {
                 *v += by;
             }

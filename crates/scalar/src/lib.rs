@@ -12,10 +12,10 @@ pub mod dual;
 mod exact;
 #[doc(hidden)]
 pub mod friction;
-pub mod projection;
 pub mod interval;
 pub mod jet;
 mod kernel;
+pub mod projection;
 mod real;
 pub mod residue;
 #[doc(hidden)]

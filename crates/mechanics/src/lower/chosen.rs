@@ -76,7 +76,8 @@ impl<'c> ChosenFunctions<'c> {
         } else {
             multipliers(lowering, source, at_once)
         };
-        let projection = if lowering.constraints > 0 && model.projects && model.contacts.is_empty() {
+        let projection = if lowering.constraints > 0 && model.projects && model.contacts.is_empty()
+        {
             projection(lowering, source, at_once)
         } else {
             Vec::new()

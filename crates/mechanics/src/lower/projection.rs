@@ -69,7 +69,9 @@ fn function<'d>(
     }
     let removing = |residuals: &[Scaled]| -> Vec<Scaled> {
         let opposite = residuals.iter().map(|residual| residual.negated());
-        std::iter::repeat_n(Scaled::ZERO, n).chain(opposite).collect()
+        std::iter::repeat_n(Scaled::ZERO, n)
+            .chain(opposite)
+            .collect()
     };
     let of_rates = System {
         forces: removing(&rates),

@@ -158,7 +158,10 @@ fn damaged_projections_are_stopped() {
                 );
             }
             println!("{name}: {tried} tried, {idle} without effect");
-            assert!(tried >= 15 && 5 * idle <= tried, "{name}: {idle} of {tried}");
+            assert!(
+                tried >= 15 && 5 * idle <= tried,
+                "{name}: {idle} of {tried}"
+            );
         });
     }
 }
