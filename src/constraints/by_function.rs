@@ -16,13 +16,13 @@ use super::{Constraints, Level, NEAR, Unprojected, fork};
 use crate::compensated::two_sum;
 use crate::{System, Vector};
 
-/// The numbers that a projection takes beside those of the function: a scale for each row, on both levels.
+/// The length of the workspace: the numbers of the function, and the reciprocal of a scale for each row.
 pub(super) const fn workspace(coordinates: usize, constraints: usize) -> usize {
     let layout = ProjectionLayout {
         coordinates,
         constraints,
     };
-    layout.len() + 2 * constraints
+    layout.len() + constraints
 }
 
 impl<V: Vector> Constraints<V> {
@@ -228,13 +228,10 @@ impl<V: Vector> Constraints<V> {
         let threshold = self.reduction_threshold();
         let m = layout.constraints;
         let inertial = self.scales.roundoff_of_rates(place.v[0]);
-        for k in 0..m {
-            let row = &numbers[layout.matrix()][k * layout.coordinates..][..layout.coordinates];
+        for (k, (row, scale)) in rows(layout, numbers).zip(&mut *scales).enumerate() {
             let rate = numbers[layout.rates()][k];
-            scales[k] = share(
-                1.0,
-                self.scales.of_rates(k, row, rate, (&*place.v[0], inertial)),
-            );
+            let at = (&*place.v[0], inertial);
+            *scale = share(1.0, self.scales.of_rates(k, row, rate, at));
         }
         let mut left = largest_share(&numbers[layout.rates()], scales);
         let mut is_first = true;
