@@ -110,7 +110,7 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     taylor: Option<Box<Taylor<S::Vector>>>,
     /// `None` unless the method is time stepping.
     #[cfg(feature = "std")]
-    impulses: Option<Box<InImpulses<S::Vector>>>,
+    impulses: Option<Box<InImpulses<S::Vector, S::Matrix>>>,
     /// `None` for methods with steps of variable length, and for those that need no memory of their own.
     #[cfg(feature = "std")]
     fixed: Option<Box<Fixed<S::Vector, S::Matrix>>>,

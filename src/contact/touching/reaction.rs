@@ -316,7 +316,7 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
             let k = self.closed[place];
             let turns = part == 1 && touching.carrier[k].is_some() && !touching.across[k];
             let own = self.entry(2 * place + 1, 2 * place + 1);
-            // What it leans on stands before it.
+            // The contact that it leans on stands before it.
             let of_carrier = if turns {
                 self.entry(2 * place - 2, 2 * place - 2)
             } else {
@@ -654,7 +654,7 @@ impl UnilateralState {
         system.mass_matrix(t, q, &mut mass);
         system.forces(t, q, v, u, &mut forces);
         system.constraint_matrix(t, q, &mut rows);
-        // What of `M a − f` the contacts do not carry.
+        // This is the part of `M a − f` that the contacts do not carry.
         let mut open: Vec<f64> = (mass.as_slice().chunks_exact(n).zip(forces.as_slice()))
             .map(|(row, f)| row.iter().zip(&reaction.a).map(|(m, a)| m * a).sum::<f64>() - f)
             .collect();
