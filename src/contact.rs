@@ -17,8 +17,8 @@
 //!
 //! In time stepping contacts are asked once in each step for their impulses, whenever in it they meet (`stepping`).
 //!
-//! All of it is for runs, which may allocate. What is evaluated in every step does so only once, in memory of its own (`ContactMemory`), unless contacts
-//! share their load in several ways.
+//! All of it is for runs, which may allocate. What is evaluated in every step does so only once, in memory of its own (`ContactMemory`, and `SteppingMemory`
+//! in time stepping), unless contacts share their load in several ways.
 
 /// Writes [`Clone`] for a struct whose fields are all named here. In time stepping states are cloned in each step, into memory that is there.
 macro_rules! clone_into_memory {

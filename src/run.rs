@@ -250,7 +250,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let activity = ContactActivity::new(
             settings.hands_over && settings.method.kind == MethodKind::RungeKutta,
             (system.unilateral_contacts())
-                .map(|contact| contact.is_rolling_resistance || contact.is_second_tangent)
+                .map(|contact| contact.is_second_tangent)
                 .collect(),
         );
         let choosing = match *chosen {

@@ -293,7 +293,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// instant would stop the fastest closing gap, and at most the longest step. Nothing bounds the error of time stepping, whose order is
     /// 1; a smaller [`longest_step`](Self::longest_step) makes it smaller. When everything is at rest, steps become longer. Events are
     /// located again after 64 steps in which no contact changed, and after twice as many each time that this did not last, provided that
-    /// fewer than 16 contacts are closed or their forces are unique: in piles, which can share loads in several ways, events cost more.
+    /// fewer than 16 contacts are closed in space, or their forces are unique: in piles, which can share loads in several ways, events cost more.
     ///
     /// For explicit and Radau methods. Contacts whose law time stepping does not support are followed as before.
     pub fn hand_over(mut self) -> Self {

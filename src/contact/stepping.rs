@@ -17,15 +17,12 @@ mod penetration;
 
 use std::vec::Vec;
 
-use super::delassus::Inertia;
 use super::drives::{ActingContact, Drives, DrivesMemory};
 use super::impact::Meeting;
 use super::kinematics::ContactKinematics;
 use super::problem::SATURATED;
-use super::touching::Reaction;
 use super::{ContactTrouble, Impact, Mode, UnilateralState};
-use crate::at::At;
-use crate::{Singular, StepError, System, Vector};
+use crate::{StepError, System, Vector};
 use laws::{ContactsOfStep, ImpulsesOfStep, LawsMemory};
 use penetration::PenetrationMemory;
 
@@ -360,30 +357,5 @@ impl UnilateralState {
         } else {
             Mode::Sticks
         }
-    }
-
-    /// Accelerations with the forces of the last step.
-    pub(super) fn reaction_stepped<S: System>(
-        &self,
-        system: &S,
-        At { t, q, v, .. }: At<'_, S>,
-        mut a: Vec<f64>,
-        forces: &[[f64; 2]],
-    ) -> Result<Reaction, StepError> {
-        if forces.as_flattened().iter().any(|force| *force != 0.0) {
-            let here = self.kinematics(system, (t, q, v));
-            let singular = |singular: Singular| StepError::Singular { singular, t };
-            let inertia = Inertia::new(system, t, q).map_err(singular)?;
-            let acting = forces.as_flattened().iter().enumerate();
-            let acting: Vec<_> = acting.filter(|(_, force)| **force != 0.0).collect();
-            let images: Vec<Vec<f64>> = (acting.iter())
-                .map(|(direction, _)| inertia.image(here.row(*direction)))
-                .collect();
-            let by = inertia.response(&images, acting.iter().map(|(_, force)| **force));
-            for (a, by) in a.iter_mut().zip(by) {
-                *a += by;
-            }
-        }
-        Ok(Reaction::from_known_forces(a, forces.to_vec()))
     }
 }

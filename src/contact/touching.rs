@@ -1,6 +1,7 @@
 //! What is closed, slips and sticks: the state of contacts between two events.
 
 mod compliant;
+mod forces_of_step;
 mod held;
 mod margins;
 mod powers;
@@ -25,7 +26,7 @@ use compliant::ComplianceState;
 pub(crate) use held::Held;
 use held::HeldMemory;
 pub(crate) use margins::Margins;
-pub(crate) use reaction::{ContactMemory, Reaction};
+pub(crate) use reaction::ContactMemory;
 pub(super) use settled::Settled;
 
 /// Forces and accelerations below this, relative to the terms that they are the sum of, are rounding.

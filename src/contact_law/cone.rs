@@ -47,8 +47,12 @@ const ROUNDS_BEFORE_CONVEX_PROBLEMS: usize = 1;
 /// How often sweeps and Newton's method follow each other if that fails, which they seldom mend: 500 sweeps.
 const ROUNDS_AFTER_CONVEX_PROBLEMS: usize = 6;
 
-/// The most convex problems of a sequence.
+/// The most convex problems of a sequence, and at least this many if they are so large that these would take more than so many multiplications: each of them takes
+/// some sixty for the third power of the number of forces, those of Newton's method included.
 const CONVEX_PROBLEMS: usize = 40;
+const FEWEST_CONVEX_PROBLEMS: usize = 4;
+const MOST_MULTIPLICATIONS: f64 = 2e9;
+const MULTIPLICATIONS: f64 = 60.0;
 
 /// After so many rounds, with 120 sweeps in all, a solution is followed from a small friction.
 const ROUNDS_BEFORE_FRICTION_IS_FOLLOWED: usize = 4;
@@ -472,7 +476,9 @@ impl Problem {
         let mut z = core::mem::take(&mut work.start);
         z.clear();
         z.resize(self.n(), 0.0);
-        for round in 0..CONVEX_PROBLEMS {
+        let most = MOST_MULTIPLICATIONS / (MULTIPLICATIONS * (self.n() as f64).powi(3));
+        let most = most.clamp(FEWEST_CONVEX_PROBLEMS as f64, CONVEX_PROBLEMS as f64) as usize;
+        for round in 0..most {
             let known = work.missed;
             work.interior.next(&mut z, round == 0);
             self.polish(&z, (Pace::Bold, STEPS), work);

@@ -18,8 +18,9 @@ use crate::{ContactTrouble, Error, Machine, StepError, System};
 /// Number of instants of changes that are evaluated together.
 const WINDOW: usize = 128;
 
-/// If fewer contacts than this are closed, events cost less than steps even where they share loads in several ways.
-const MANY_CONTACTS: usize = 16;
+/// If fewer contacts than this are closed in space, where each step solves for friction cones, events cost less than steps even where contacts share loads in
+/// several ways.
+const MANY_IN_SPACE: usize = 16;
 
 /// Bounces of fewer contacts than this accumulate in geometric series, whose end is found otherwise.
 const FEWEST_CONTACTS: usize = 3;
@@ -51,8 +52,8 @@ pub(super) struct ContactActivity {
     /// The number of instants, and for each contact the number of its last.
     count: usize,
     last: Vec<usize>,
-    /// Which contacts lean on others: rolling resistance, and second tangents.
-    leans: Vec<bool>,
+    /// Which contacts are second tangents of others.
+    across: Vec<bool>,
     /// Number of consecutive steps of time stepping without a change of contacts, and the number required.
     quiet: usize,
     needed: usize,
@@ -62,9 +63,9 @@ pub(super) struct ContactActivity {
 }
 
 impl ContactActivity {
-    /// For a machine with these contacts, of which it is said which ones lean on others: what resists rolling, and second tangents.
-    pub fn new(is_free: bool, leans: Vec<bool>) -> Self {
-        let contacts = leans.len();
+    /// For a machine with these contacts, of which it is said which ones are second tangents of others.
+    pub fn new(is_free: bool, across: Vec<bool>) -> Self {
+        let contacts = across.len();
         Self {
             is_free: is_free && contacts >= FEWEST_CONTACTS,
             times: VecDeque::new(),
@@ -72,7 +73,7 @@ impl ContactActivity {
             is_same_instant: false,
             count: 0,
             last: vec![0; contacts],
-            leans,
+            across,
             quiet: 0,
             needed: QUIET_STEPS,
             step: 0.0,
@@ -279,7 +280,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.return_to_events_if_quiet()
     }
 
-    /// Returns to locating every event if contacts have been quiet for long enough, and few are closed or their forces are unique: if many contacts share loads in
+    /// Returns to locating every event if contacts have been quiet for long enough, and few are closed in space or their forces are unique: if contacts share loads in
     /// several ways, as in piles, events cost more than steps.
     fn return_to_events_if_quiet(&mut self) -> Result<(), Error> {
         if self.activity.quiet < self.activity.needed {
@@ -288,7 +289,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let (method, longest) = (self.settings.method, self.settings.longest_step);
         let step = self.stepper.last_step();
         self.activity.needed *= 2;
-        if !self.few_are_closed() && !self.stepper.contact_forces_are_unique() {
+        if !self.few_are_closed_in_space() && !self.stepper.contact_forces_are_unique() {
             return Ok(());
         }
         let Ok(changes_at_instant) =
@@ -323,12 +324,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
-    fn few_are_closed(&self) -> bool {
+    fn few_are_closed_in_space(&self) -> bool {
+        let across = &self.activity.across;
         let modes = self.stepper.touching().iter();
         let modes = modes.flat_map(|touching| touching.modes());
-        let closed = modes.zip(&self.activity.leans);
-        let closed = closed.filter(|(mode, leans)| **mode != Mode::Open && !**leans);
-        closed.count() < MANY_CONTACTS
+        let closed = modes.zip(across).filter(|(mode, across)| {
+            let is_own = !**across;
+            is_own && **mode != Mode::Open
+        });
+        across.contains(&true) && closed.count() < MANY_IN_SPACE
     }
 
     /// Records the present states of the contacts.
