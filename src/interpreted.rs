@@ -572,16 +572,23 @@ impl System for InterpretedSystem {
 
     fn mass_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut Vec<f64>) {
         let n = q.len();
-        let mut lower = vec![0.0; Shape::Symmetric(n).len()];
-        self.fill(Role::MassMatrix, at(t, q, &[], &[]), &mut lower);
-        let mut entries = lower.iter();
+        let Some(matrix) = matrix.get_mut(..n * n) else {
+            return;
+        };
+        // The lower triangle, row after row, goes to the beginning of the matrix. From the last entry on each is then moved to its place, which is not before that.
+        let lower = &mut matrix[..Shape::Symmetric(n).len()];
+        lower.fill(0.0);
+        self.fill(Role::MassMatrix, at(t, q, &[], &[]), lower);
+        let mut last = lower.len();
+        for i in (0..n).rev() {
+            for j in (0..=i).rev() {
+                last -= 1;
+                matrix[i * n + j] = matrix[last];
+            }
+        }
         for i in 0..n {
-            for (j, entry) in (0..=i).zip(&mut entries) {
-                for place in [i * n + j, j * n + i] {
-                    if let Some(place) = matrix.get_mut(place) {
-                        *place = *entry;
-                    }
-                }
+            for j in 0..i {
+                matrix[j * n + i] = matrix[i * n + j];
             }
         }
     }

@@ -144,3 +144,54 @@ fn boxes_in_space_come_to_rest() {
         close(residual, 0.0, (30.0 * h).powi(2) * lost);
     }
 }
+
+/// Three boxes that fall one onto the other rattle until they lie, by events in thousands of impacts. A run changes over to time stepping where these crowd, and
+/// returns to events when the twelve feet are quiet, although these share their loads in several ways.
+#[test]
+fn boxes_that_fall_onto_each_other_hand_over_and_return() {
+    let spec = Scratch::new(
+        "stack.machine",
+        "machine Stack in space {
+            constants { N = 3 }
+            parameters { m: kg = 0.8, a: m = 0.1, b: m = 0.06, c: m = 0.04, e: 1 = 0.2, mu: 1 = 0.4, g: m/s^2 = 9.81 }
+            coordinates {
+                x[i in 1..N]: m = 0.01*(i-1), y[i in 1..N]: m = 0.005*(i-1), z[i in 1..N]: m = 0.15 + 0.25*(i-1),
+                yaw[i in 1..N]: rad = 0.3*i, pitch[i in 1..N]: rad = 0.1, roll[i in 1..N]: rad = 0.15*i/N,
+                der(x[1]): m/s = 0.3, der(yaw[1]): rad/s = 2,
+            }
+            frames {
+                held[i in 1..N] = ground.shift(x[i], y[i], z[i]).turn(z, yaw[i]).turn(y, pitch[i]).turn(x, roll[i]),
+                top[i in 1..N] = held[i].shift(0, 0, c),
+            }
+            bodies { box[i in 1..N] { mass: m, inertia: (m/3*(b^2 + c^2), m/3*(a^2 + c^2), m/3*(a^2 + b^2)), frame: held[i] } }
+            gravity (0, 0, -g);
+            contacts {
+                floor { corners: ((a, b, -c), (a, -b, -c), (-a, b, -c), (-a, -b, -c)), on: held[1], along: ground, restitution: e, friction: mu },
+                second { corners: ((a, b, -c), (a, -b, -c), (-a, b, -c), (-a, -b, -c)), on: held[2], along: top[1], restitution: e, friction: mu },
+                third { corners: ((a, b, -c), (a, -b, -c), (-a, b, -c), (-a, -b, -c)), on: held[3], along: top[2], restitution: e, friction: mu },
+            }
+        }",
+    );
+    let run = simulate(spec.path(), 1.0, &[]);
+    assert_eq!(run["error"], Value::Null, "{run:#}");
+    let handovers = run["handovers"].as_array().expect("it changes over");
+    assert_eq!(handovers[0]["to"], "moreau", "{handovers:#?}");
+    let last = handovers.last().map(|handover| &handover["to"]);
+    assert_eq!(
+        last.and_then(Value::as_str),
+        Some("events"),
+        "{handovers:#?}"
+    );
+    for (i, height) in [(1, 0.04), (2, 0.12), (3, 0.2)] {
+        close(number(&run["q"][format!("z[{i}]")]), height, 1e-9);
+    }
+    for rate in run["v"].as_object().expect("rates").values() {
+        close(number(rate), 0.0, 1e-9);
+    }
+    // The longest steps are below 2 ms, in which nothing turns by more than 30 rad/s.
+    close(
+        number(&run["energy_residual"]),
+        0.0,
+        0.06_f64.powi(2) * number(&run["dissipated"]),
+    );
+}
