@@ -669,27 +669,26 @@ impl Local {
     /// The forces with which none of the directions moves.
     fn held(&self) -> [f64; 3] {
         let m = self.dimension;
-        // As a symmetric matrix whose rows are multiples: L U without exchanges.
+        // The matrix is a symmetric one with rows that are multiplied, so that no rows need to be exchanged.
         let mut u = self.w;
         let mut held = self.q.map(|q| -q);
         let is_regular = (0..m).all(|k| {
-            for i in k + 1..m {
-                let factor = u[i][k] / u[k][k];
-                for j in k + 1..m {
-                    u[i][j] -= factor * u[k][j];
+            let (pivot, of_pivot) = (u[k], held[k]);
+            for (row, right) in u[k + 1..m].iter_mut().zip(&mut held[k + 1..m]) {
+                let factor = row[k] / pivot[k];
+                for (x, above) in row.iter_mut().zip(pivot).skip(k + 1) {
+                    *x -= factor * above;
                 }
-                held[i] -= factor * held[k];
+                *right -= factor * of_pivot;
             }
-            u[k][k] > DEPENDENT * self.w[k][k]
+            pivot[k] > DEPENDENT * self.w[k][k]
         });
         if is_regular {
-            for i in (0..m).rev() {
-                for j in i + 1..m {
-                    held[i] -= u[i][j] * held[j];
-                }
-                held[i] /= u[i][i];
-            }
             held[m..].fill(0.0);
+            for i in (0..m).rev() {
+                let known = dot(&u[i][i + 1..m], &held[i + 1..m]);
+                held[i] = (held[i] - known) / u[i][i];
+            }
             return held;
         }
         let mut left: Vec<f64> = (0..m * m).map(|k| self.w[k / m][k % m]).collect();

@@ -104,9 +104,12 @@ impl ContactsOfStep<'_> {
             return Ok(());
         }
         let rests = &mut impulses.rests;
-        let has_impulses = self.whole(in_one_problem, rests, memory);
+        let mut has_impulses = self.whole(in_one_problem, rests, memory);
         let is_jammed = !has_impulses && in_one_problem;
-        if !has_impulses && !(is_jammed && self.whole(false, rests, memory)) {
+        if is_jammed {
+            has_impulses = self.whole(false, rests, memory);
+        }
+        if !has_impulses {
             return Err(self.unsettled());
         }
         let answer = &memory.answer;
