@@ -265,10 +265,14 @@ impl InterpretedMachine {
     }
 
     /// Whether [`run_interpreted_in_lanes`](crate::Simulation::run_interpreted_in_lanes) makes runs of this machine in lanes,
-    /// with any parameters, by an explicit method and with constant inputs: it does if the machine has machine code and no
+    /// with any parameters, by an explicit method or by Taylor series and with constant inputs: it does if the machine has machine code and no
     /// guides (`sliding`). With [`Engine::Auto`] it does so once code has paid off for one run.
     pub fn may_run_in_lanes(&self) -> bool {
-        self.program.contacts.is_empty() && self.machine_code.pays_in_lanes()
+        let by_series = || {
+            let known = self.series.if_known();
+            known.is_some_and(|known| known.code.pays_in_lanes(&self.machine_code))
+        };
+        self.program.contacts.is_empty() && (self.machine_code.pays_in_lanes() || by_series())
     }
 
     /// The program that is interpreted.

@@ -144,6 +144,12 @@ impl<V: Vector> Taylor<V> {
         system.series_with(memory, t, state, u, &mut self.coefficients[which])
     }
 
+    /// The coefficients of the motion through the end of the step that is being tried, to be set.
+    pub fn coefficients_ahead(&mut self) -> &mut [V] {
+        self.length = None;
+        &mut self.coefficients[1 - self.beginning]
+    }
+
     /// The accelerations at the last expanded state: the present one, or with `ahead` the end of the step that is being tried.
     pub fn accelerations(&self, ahead: bool, a: &mut V) {
         let which = if ahead {

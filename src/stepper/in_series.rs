@@ -64,6 +64,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Takes a step of length `h` from `before` to `now`. It needs no error estimate, since its length was chosen so that the
     /// error is tolerable. Its error is infinite if the motion is not the series at the end.
     pub(super) fn attempt_in_series(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
+        self.advance_in_series(h, last)?;
+        self.expand_ahead()?;
+        self.compare_in_series(h)
+    }
+
+    /// Goes to the end of a step, and integrates powers along it.
+    pub(super) fn advance_in_series(&mut self, h: f64, last: bool) -> Result<(), StepError> {
         let Self {
             method,
             model,
@@ -72,15 +79,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             now,
             k,
             stage,
-            control: Control { work, .. },
             taylor,
             end,
-            tolerance,
             ..
         } = self;
-        let Some(taylor) = taylor else {
-            return Ok(f64::INFINITY);
-        };
+        let Some(taylor) = taylor else { return Ok(()) };
         let stages = method.tableau.stages;
         let is_fine = taylor.advance(h, before, now, (*end, last), &mut stage.0);
         if !is_fine && let Some(coordinate) = not_finite(&now.q, &now.v, 0) {
@@ -101,10 +104,42 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             }
             crate::taylor::accelerations(taylor.of_step(), h, &mut stage.0);
         }
+        Ok(())
+    }
+
+    /// Expands the motion through the end of a step.
+    pub(super) fn expand_ahead(&mut self) -> Result<(), StepError> {
+        let Self {
+            model,
+            now,
+            control: Control { work, .. },
+            taylor,
+            ..
+        } = self;
+        let Some(taylor) = taylor else { return Ok(()) };
         work.evaluations += 1;
         taylor
             .expand(model.system.get(), now, &model.inputs, true)
-            .map_err(|singular| StepError::Singular { singular, t: now.t })?;
+            .map_err(|singular| StepError::Singular { singular, t: now.t })
+    }
+
+    /// Compares the accelerations of both series at the end of a step, of which that of the step left its own in `stage`. Returns the error of the step: 0, or
+    /// infinite if the motion is not the series.
+    pub(super) fn compare_in_series(&mut self, h: f64) -> Result<f64, StepError> {
+        let Self {
+            method,
+            before,
+            now,
+            k,
+            stage,
+            taylor,
+            tolerance,
+            ..
+        } = self;
+        let Some(taylor) = taylor else {
+            return Ok(f64::INFINITY);
+        };
+        let stages = method.tableau.stages;
         let accelerations = &mut k[stages];
         taylor.accelerations(true, accelerations);
         if are_finite(accelerations, accelerations) == [false]

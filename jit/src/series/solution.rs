@@ -115,7 +115,8 @@ impl Recorder<'_> {
         }
         let element =
             |i: usize, j: usize| X::Stored(Place::Fixed(block.matrix + (i * n + j) as u32));
-        if is_inverse(n) && n > MOST_IN_ONE_SUM {
+        let is_split = n > MOST_IN_ONE_SUM;
+        if is_inverse(n) && is_split && self.width > 1 {
             let matrix = Matrix {
                 place: block.matrix,
                 stride: n as u32,
@@ -127,11 +128,12 @@ impl Recorder<'_> {
         if is_inverse(n) {
             return (0..n)
                 .map(|i| {
-                    let mut sum = ZERO;
+                    let mut sums = [ZERO; 2];
                     for (j, known) in right.iter().enumerate() {
-                        sum = self.multiply_add(element(j, i), *known, sum);
+                        let sum = &mut sums[usize::from(is_split) * (j % 2)];
+                        *sum = self.multiply_add(element(j, i), *known, *sum);
                     }
-                    sum
+                    self.add(sums[0], sums[1])
                 })
                 .collect();
         }
@@ -236,8 +238,11 @@ impl Recorder<'_> {
     }
 
     /// Stores the effect of accelerations on forces as a matrix, if that takes fewer operations than each force by itself.
-    pub fn store_matrix_of_forces(&mut self, width: u32) {
-        let series = self.series;
+    pub fn store_matrix_of_forces(&mut self) {
+        let (series, width) = (self.series, self.width);
+        if width == 1 {
+            return;
+        }
         let forces = self.forces_in_sums();
         let gradients = forces.iter().map(|row| series.depends[row.index()].len());
         let (gradients, rows) = (gradients.sum::<usize>(), forces.len() as u32);
