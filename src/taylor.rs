@@ -568,11 +568,19 @@ impl<N: Real, V: Vector<N>> Coefficients<N> for Rows<'_, V> {
     }
 }
 
-/// `a·factor + c` for each number.
+/// `a·factor + c` for each number, `FUSED` where the arithmetic of the numbers fuses them, or with a rounding of the product.
 #[inline(always)]
-fn horner<const B: usize, N: Scalar>(mut a: [N; B], factor: N, c: [N; B]) -> [N; B] {
+fn horner<const B: usize, const FUSED: bool, N: Scalar>(
+    mut a: [N; B],
+    factor: N,
+    c: [N; B],
+) -> [N; B] {
     for i in 0..B {
-        a[i] = a[i].mul_add(factor, c[i]);
+        a[i] = if FUSED {
+            a[i].mul_add(factor, c[i])
+        } else {
+            a[i] * factor + c[i]
+        };
     }
     a
 }
@@ -589,17 +597,18 @@ fn times<const B: usize, N: Scalar>(factor: N, mut a: [N; B]) -> [N; B] {
 /// Adds the terms of one power of the time by Horner's rule to the sums of coordinates, of rates, and with `D` = 3 of accelerations.
 /// `step` is the ratio of the powers of successive terms.
 #[inline(always)]
-fn add_terms<const B: usize, const D: usize, N: Scalar>(
+fn add_terms<const B: usize, const D: usize, const FUSED: bool, N: Scalar>(
     sums: &mut [[N; B]; D],
     step: N,
     power: N,
     terms: [N; B],
 ) {
-    sums[0] = horner(sums[0], step, terms);
+    sums[0] = horner::<B, FUSED, N>(sums[0], step, terms);
     let weighted = times(power, terms);
-    sums[1] = horner(sums[1], step, weighted);
+    sums[1] = horner::<B, FUSED, N>(sums[1], step, weighted);
     if D == 3 {
-        sums[D - 1] = horner(sums[D - 1], step, times(power - N::ONE, weighted));
+        let weighted = times(power - N::ONE, weighted);
+        sums[D - 1] = horner::<B, FUSED, N>(sums[D - 1], step, weighted);
     }
 }
 
@@ -608,6 +617,25 @@ fn add_terms<const B: usize, const D: usize, N: Scalar>(
 /// Every fourth term belongs to the same sum, so no sum waits for another, and the dependency chain is a quarter as long as with one.
 #[inline(always)]
 pub(crate) fn motion<const B: usize, const D: usize, N: Scalar>(
+    coefficients: &impl Coefficients<N>,
+    start: usize,
+    tau: N,
+) -> [[N; B]; D] {
+    motion_with::<B, D, true, N>(coefficients, start, tau)
+}
+
+/// [`motion`] in registers of any kind, with the bits of plain `f64`, which do not fuse products and sums.
+#[inline(always)]
+pub(crate) fn motion_as_plain<const B: usize, const D: usize, N: Scalar>(
+    coefficients: &impl Coefficients<N>,
+    start: usize,
+    tau: N,
+) -> [[N; B]; D] {
+    motion_with::<B, D, false, N>(coefficients, start, tau)
+}
+
+#[inline(always)]
+fn motion_with<const B: usize, const D: usize, const FUSED: bool, N: Scalar>(
     coefficients: &impl Coefficients<N>,
     start: usize,
     tau: N,
@@ -630,7 +658,7 @@ pub(crate) fn motion<const B: usize, const D: usize, N: Scalar>(
     let [two, three] = [N::from_f64(2.0), N::from_f64(3.0)];
     macro_rules! add {
         ($sums:ident, $k:literal, $power:expr) => {
-            add_terms(
+            add_terms::<B, D, FUSED, N>(
                 &mut $sums,
                 step,
                 $power,
@@ -657,12 +685,12 @@ pub(crate) fn motion<const B: usize, const D: usize, N: Scalar>(
     }
     let mut motion = sums_0;
     for d in 0..D {
-        let near = horner(sums_1[d], tau, sums_0[d]);
-        let beyond = horner(sums_3[d], tau, sums_2[d]);
-        motion[d] = horner(beyond, square, near);
+        let near = horner::<B, FUSED, N>(sums_1[d], tau, sums_0[d]);
+        let beyond = horner::<B, FUSED, N>(sums_3[d], tau, sums_2[d]);
+        motion[d] = horner::<B, FUSED, N>(beyond, square, near);
     }
     let first = coefficients.block::<B>(1, start);
-    motion[0] = times(tau, horner(motion[0], tau, first));
+    motion[0] = times(tau, horner::<B, FUSED, N>(motion[0], tau, first));
     motion[1] = times(tau, motion[1]);
     motion
 }

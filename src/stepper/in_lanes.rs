@@ -207,7 +207,7 @@ impl Tries {
     }
 
     /// Whether a stepper is compatible with the one that this was made for: the same method and the same relative tolerance.
-    pub fn is_compatible_with<S: System, L, A: Quadratures<S>>(
+    pub fn is_compatible_with<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &self,
         of: &Stepper<'_, S, L, A>,
     ) -> bool {
