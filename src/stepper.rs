@@ -22,8 +22,6 @@ pub(crate) mod in_lanes;
 mod in_series;
 mod kernels;
 mod of_fixed_length;
-#[cfg(feature = "std")]
-mod series_in_lanes;
 mod trying;
 
 mod owned;

@@ -7,11 +7,12 @@
 //! With constraints, each new point is projected alone, and its error is estimated there. While a unilateral contact is closed, which
 //! other equations describe, a stepper tries its steps alone.
 //!
-//! Of a step by Taylor series only the expansion at its end is made for all of them (`series_in_lanes.rs`).
+//! Of a step by Taylor series only the expansion at its end is made for all of them (`in_lanes/series.rs`).
+
+mod series;
 
 use std::vec::Vec;
 
-use super::series_in_lanes::Expansions;
 use super::{StepLimits, Stepper};
 use crate::attempt;
 use crate::balance::Quadratures;
@@ -25,6 +26,7 @@ use crate::step_number::StepNumber;
 use crate::tolerance::Tolerance;
 use crate::{System, Vector};
 use lagrangian_native::{Lanes, Number};
+use series::Expansions;
 
 /// The number of lanes: as many as the widest registers have.
 pub(crate) const WIDTH: usize = 8;
@@ -417,14 +419,14 @@ fn bits(of: &[bool; WIDTH]) -> LaneMask {
 }
 
 #[inline(always)]
-pub(super) fn put(rows: &mut [Wide], lane: usize, vector: &impl Vector) {
+fn put(rows: &mut [Wide], lane: usize, vector: &impl Vector) {
     for (row, number) in rows.iter_mut().zip(vector.as_slice()) {
         row[lane] = *number;
     }
 }
 
 #[inline(always)]
-pub(super) fn take(vector: &mut impl Vector, lane: usize, rows: &[Wide]) {
+fn take(vector: &mut impl Vector, lane: usize, rows: &[Wide]) {
     for (number, row) in vector.as_mut_slice().iter_mut().zip(rows) {
         *number = row[lane];
     }

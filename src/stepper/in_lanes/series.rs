@@ -6,8 +6,8 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::Stepper;
-use super::in_lanes::{Evaluate, LaneMask, WIDTH, Wide, put, take};
+use super::super::Stepper;
+use super::{Evaluate, LaneMask, WIDTH, Wide, put, take};
 use crate::balance::Quadratures;
 use crate::inputs::InputLaw;
 use crate::methods::{MAX_STAGES, Method};
