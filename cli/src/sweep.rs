@@ -419,7 +419,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     };
     let method = call.method.as_deref().unwrap_or(AUTO);
     if method != AUTO {
-        methods::named(method)?;
+        methods::named_beside(method, &[AUTO])?;
     }
     let path = call.spec.path.to_string_lossy();
     let (_, text) = Disk

@@ -316,6 +316,17 @@ fn rows_of_long_and_of_stiff_runs_are_those_of_simulate() {
         said.out
     );
 
+    let said = sweep(
+        spec,
+        &at("wrong.csv"),
+        &["--until", "1", "--method", "atuo", "--vary", "m2=1,2"],
+    );
+    assert!(
+        said.status != 0 && said.error.contains("did you mean `auto`?"),
+        "{}",
+        said.error
+    );
+
     // A method that is given is not told in the rows.
     let said = sweep(
         spec,
