@@ -319,7 +319,7 @@ fn rows_of_long_and_of_stiff_runs_are_those_of_simulate() {
     let said = sweep(
         spec,
         &at("wrong.csv"),
-        &["--until", "1", "--method", "atuo", "--vary", "m2=1,2"],
+        &["--until", "1", "--method", "aut", "--vary", "m2=1,2"],
     );
     assert!(
         said.status != 0 && said.error.contains("did you mean `auto`?"),
