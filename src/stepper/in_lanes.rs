@@ -7,7 +7,7 @@
 //! With constraints, each new point is projected alone, and its error is estimated there. While a unilateral contact is closed, which
 //! other equations describe, a stepper tries its steps alone.
 //!
-//! Of a step by Taylor series only the expansion at its end is made for all of them (`in_lanes/series.rs`).
+//! Of a step by Taylor series the expansion at its end and the powers along it are computed for all of them (`in_lanes/series.rs`).
 
 mod series;
 
