@@ -62,7 +62,7 @@ pub(crate) fn run<M: Machine>(
     let mut run = prepared.begin()?;
     let ending = run.go_to_end();
     let finished = run.end(ending);
-    Ok(prepared.solution(finished))
+    Ok(prepared.results(finished))
 }
 
 /// A run before its first step. It owns everything that the run borrows.

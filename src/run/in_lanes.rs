@@ -56,7 +56,7 @@ pub(crate) fn run_tasks<M: Machine>(
     let ended = run_all(&mut all, machines);
     let solutions = all.into_iter().zip(ended);
     let mut solutions =
-        solutions.map(|(prepared, ended)| ended.map(|finished| prepared.solution(finished)));
+        solutions.map(|(prepared, ended)| ended.map(|finished| prepared.results(finished)));
     let results = results.into_iter();
     results
         .filter_map(|made| made.or_else(|| solutions.next()))
