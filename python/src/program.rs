@@ -549,7 +549,7 @@ impl Program {
                     "latex" => latex::text(&Document::new(&compiled)),
                     "html" => html::text(&Document::new(&compiled)),
                     "article" => html::article(&Document::new(&compiled)),
-                    "c" => lagrangian_emit::c::file(&compiled.program, &origin, &formulas()),
+                    "c" => lagrangian_languages::c::file(&compiled.program, &origin, &formulas()),
                     _ => compiled.program.to_string(),
                 })
             })
