@@ -4,7 +4,9 @@ use std::fmt;
 use std::io::IsTerminal;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use lagrangian::Error;
 use lagrangian_spec::diagnostic::{Diagnostic, Report, Severity};
+use lagrangian_spec::model::Model;
 use lagrangian_spec::source::{Sources, Span};
 use serde::Serialize;
 
@@ -58,13 +60,56 @@ impl fmt::Display for Entry {
     }
 }
 
-/// Prints a report to standard error, in colour on a terminal.
-pub fn print(report: &Report, sources: &Sources) {
-    let renderer = if std::io::stderr().is_terminal() {
+/// An error of a run whose reason the spec states.
+#[derive(Debug)]
+pub struct Placed {
+    /// The error.
+    pub message: String,
+    span: Span,
+    sources: Sources,
+}
+
+impl Placed {
+    /// An error of a run of this model; `None` if its reason is not a line of the spec.
+    pub fn of(error: &Error, model: &Model<'_>, sources: &Sources) -> Option<Placed> {
+        let Error::AssumptionEnded { assumption, .. } = error else {
+            return None;
+        };
+        let mut assumptions = model.assumptions.iter();
+        let stated = assumptions.find(|stated| stated.text == *assumption)?;
+        Some(Placed {
+            message: error.to_string(),
+            span: stated.span,
+            sources: sources.clone(),
+        })
+    }
+
+    /// The place in the spec: `swing.machine:7:14`.
+    pub fn place(&self) -> String {
+        let (line, column) = self.sources.line_column(self.span);
+        format!("{}:{line}:{column}", self.sources.name(self.span.source))
+    }
+
+    /// Prints the error to standard error, with the place underlined.
+    pub fn print(&self) {
+        let place = snippet(&self.sources, self.span, AnnotationKind::Primary, None);
+        let group = Group::with_title(Level::ERROR.primary_title(&self.message)).element(place);
+        output::print_error(renderer().render(&[group]));
+    }
+}
+
+/// Renders in colour on a terminal.
+fn renderer() -> Renderer {
+    if std::io::stderr().is_terminal() {
         Renderer::styled()
     } else {
         Renderer::plain()
-    };
+    }
+}
+
+/// Prints a report to standard error, in colour on a terminal.
+pub fn print(report: &Report, sources: &Sources) {
+    let renderer = renderer();
     for diagnostic in report.messages() {
         output::print_error(format_args!("{}\n", render(diagnostic, sources, &renderer)));
     }

@@ -49,6 +49,8 @@ pub struct InCharts<'d> {
     pub cartesian: Option<Compiled<'d>>,
     /// The texts from which the series of the machine that runs can be derived.
     pub series: SeriesText,
+    /// The source texts, for what a run reports about them.
+    pub sources: Sources,
 }
 
 /// Whether a run has to be made in the other charts that a spec names.
@@ -283,11 +285,13 @@ impl Reading {
         };
         self.warn();
         let Some(cartesian) = cartesian else {
+            let sources = self.sources.clone();
             let series = self.text_of_series(false);
             return Ok(InCharts {
                 compiled,
                 cartesian: None,
                 series,
+                sources,
             });
         };
         // Its warnings would be those of the spec, which are printed.
@@ -299,11 +303,13 @@ impl Reading {
             self.report = report;
             return Err(self.failure());
         }
+        let sources = self.sources.clone();
         let series = self.text_of_series(cartesian.is_some());
         Ok(InCharts {
             compiled,
             cartesian,
             series,
+            sources,
         })
     }
 
