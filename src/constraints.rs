@@ -11,6 +11,7 @@
 )]
 
 pub(crate) mod algebra;
+mod by_function;
 mod choice;
 #[cfg(feature = "std")]
 mod closest;
@@ -77,7 +78,13 @@ const MOST_ITERATIONS: usize = 50;
 pub const fn constraint_workspace(coordinates: usize, constraints: usize) -> usize {
     let (n, m) = (coordinates, constraints);
     let rank = if m < n { m } else { n };
-    m * n + rank * n + rank * rank + 3 * m + 3 * n
+    let by_matrices = m * n + rank * n + rank * rank + 3 * m + 3 * n;
+    let by_function = by_function::workspace(n, m);
+    if by_matrices < by_function {
+        by_function
+    } else {
+        by_matrices
+    }
 }
 
 /// Accelerations and multipliers at a state, even if constraints are dependent. Then the motion is still determined, and of all multipliers
@@ -249,6 +256,9 @@ impl<V: Vector> Constraints<V> {
         system: &S,
         place: &mut Unprojected<'_, V>,
     ) -> Result<bool, StepError> {
+        if let Some(moved) = self.project_by_function(system, place) {
+            return Ok(moved);
+        }
         in_workspace(system, place.t, place.q[0].as_slice().len(), |workspace| {
             let levels = [Level::Positions, Level::Rates];
             let (moved, left) = self.approach(system, workspace, place, &levels)?;
@@ -273,16 +283,7 @@ impl<V: Vector> Constraints<V> {
         }
         let residuals = self.residuals(system, workspace, place, Changed::All);
         let [positions, rates] = residuals.chosen;
-        self.chosen_residuals = [positions.0, rates.0];
-        for (level, roundoff) in self.scales.roundoff().into_iter().enumerate() {
-            let before = self.chosen_residuals_before[level] + roundoff;
-            let now = self.chosen_residuals[level];
-            self.own_share[level] = if now > before {
-                1.0 - before / now
-            } else {
-                0.0
-            };
-        }
+        self.record_residuals_of_step([positions.0, rates.0]);
         if positions.0 <= self.reduction_threshold() && rates.0 <= self.reduction_threshold() {
             return Ok((false, residuals));
         }
@@ -322,6 +323,20 @@ impl<V: Vector> Constraints<V> {
         done?;
         self.chosen_residuals = residuals.chosen.map(|(left, _)| left);
         Ok((true, residuals))
+    }
+
+    /// Records the residuals at the end of a step before its projection, and the share of them that arose in the step itself.
+    fn record_residuals_of_step(&mut self, residuals: [f64; 2]) {
+        self.chosen_residuals = residuals;
+        for (level, roundoff) in self.scales.roundoff().into_iter().enumerate() {
+            let before = self.chosen_residuals_before[level] + roundoff;
+            let now = self.chosen_residuals[level];
+            self.own_share[level] = if now > before {
+                1.0 - before / now
+            } else {
+                0.0
+            };
+        }
     }
 
     fn reduction_threshold(&self) -> f64 {

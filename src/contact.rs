@@ -17,8 +17,23 @@
 //!
 //! In time stepping contacts are asked once in each step for their impulses, whenever in it they meet (`stepping`).
 //!
-//! All of it is for runs, which may allocate. What is evaluated in every step does so only once, in memory of its own (`ContactMemory`), unless contacts
-//! share their load in several ways.
+//! All of it is for runs, which may allocate. What is evaluated in every step does so only once, in memory of its own (`ContactMemory`, and `SteppingMemory`
+//! in time stepping), unless contacts share their load in several ways.
+
+/// Writes [`Clone`] for a struct whose fields are all named here. In time stepping states are cloned in each step, into memory that is there.
+macro_rules! clone_into_memory {
+    ($name:ident { $($field:ident),* $(,)? }) => {
+        impl Clone for $name {
+            fn clone(&self) -> Self {
+                Self { $($field: self.$field.clone()),* }
+            }
+
+            fn clone_from(&mut self, from: &Self) {
+                $(self.$field.clone_from(&from.$field);)*
+            }
+        }
+    };
+}
 
 mod delassus;
 mod drives;
@@ -38,7 +53,7 @@ pub use force::{UnilateralForce, loads_shared_otherwise, penetrations, unilatera
 pub(crate) use impact::{Bounce, Impact, ParadoxResolution, Told};
 pub(crate) use kinematics::ROUNDING;
 pub(crate) use nearby::{StateBox, StepEnds};
-pub(crate) use stepping::SteppedContacts;
+pub(crate) use stepping::{SteppedContacts, SteppingMemory};
 pub use touching::Mode;
 pub(crate) use touching::{Clearance, ContactMemory, Margin, Margins, UnilateralState};
 

@@ -24,5 +24,5 @@ pub use contacts::{ContactPart, ContactParts, put};
 pub use pivots::Pivots;
 pub use values::{
     ConstraintRow, PreparedField, assumptions, constraint, fill, fill_ranges, hold, intervals,
-    rounded, side_by_side, values,
+    rounded, run_into, side_by_side, values,
 };

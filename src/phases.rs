@@ -5,7 +5,7 @@ use std::vec::Vec;
 
 use crate::balance::ContactShare;
 use crate::constraints::Constraints;
-use crate::contact::{Impact, Mode as ContactMode, UnilateralState};
+use crate::contact::{Impact, Mode as ContactMode, SteppedContacts, UnilateralState};
 use crate::stepper::Cause;
 use crate::{ContactEnergies, ContactEvent, ContactImpact, ContactTally, System, Warning};
 
@@ -153,6 +153,24 @@ impl<V> Phase<V> {
     }
 }
 
+/// The contacts of a list, each once.
+fn in_order(contacts: &[usize]) -> Vec<usize> {
+    let mut contacts = contacts.to_vec();
+    contacts.sort_unstable();
+    contacts.dedup();
+    contacts
+}
+
+/// Memory for the record of a step of time stepping: what happened in it, the states of the contacts before and after it, and the impacts of contacts that were
+/// open.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct StepRecord {
+    pub stepped: SteppedContacts,
+    pub before: Vec<ContactMode>,
+    pub after: Vec<ContactMode>,
+    pub hits: Vec<Impact>,
+}
+
 /// The record of the unilateral contacts of a run.
 #[derive(Clone, Debug)]
 pub(crate) struct UnilateralRecord<C, V> {
@@ -170,6 +188,7 @@ pub(crate) struct UnilateralRecord<C, V> {
     pub energy_entries: Vec<EnergyEntry>,
     /// In time stepping, for each contact whether it is closed permanently.
     pub last: Vec<bool>,
+    pub of_step: StepRecord,
     /// Impacts that created energy: their number, and the worst.
     pub energy_gains: usize,
     pub worst: Option<(usize, f64, f64)>,
@@ -193,6 +212,7 @@ impl<C, V> Default for UnilateralRecord<C, V> {
             losses: Vec::new(),
             energy_entries: Vec::new(),
             last: Vec::new(),
+            of_step: StepRecord::default(),
             energy_gains: 0,
             worst: None,
             shared_otherwise: 0,
@@ -204,39 +224,34 @@ impl<C, V> Default for UnilateralRecord<C, V> {
 }
 
 impl<C, V> UnilateralRecord<C, V> {
-    /// Adds a phase. Unless `keeps_all`, it replaces the one before, other than the first, if nothing needs that: no sample or event since it
-    /// began, of which the last was at `last_needed`.
-    pub fn push_phase(&mut self, phase: Phase<V>, keeps_all: bool, last_needed: f64) {
-        if !keeps_all
-            && self.phases.len() > 1
-            && let Some(forgotten) = self.phases.pop_if(|last| last_needed < last.since)
-            && let Some(known) = self.phases.last_mut()
-        {
-            known.until = known.until.min(forgotten.since);
+    /// Forgets the last phase, other than the first, before another one begins, unless it `keeps_all` or something needs it: a sample or event since it began, of
+    /// which the last was at `last_needed`.
+    pub fn forget_phase(&mut self, keeps_all: bool, last_needed: f64) -> Option<Phase<V>> {
+        if keeps_all || self.phases.len() < 2 {
+            return None;
         }
-        self.phases.push(phase);
+        let forgotten = self.phases.pop_if(|last| last_needed < last.since)?;
+        let known = self.phases.last_mut()?;
+        known.until = known.until.min(forgotten.since);
+        Some(forgotten)
     }
 
     /// Notes that contacts shared their load at an instant in another way than by the rule, if any did.
-    pub fn note_shared_otherwise(&mut self, t: f64, mut contacts: Vec<usize>) {
+    pub fn note_shared_otherwise(&mut self, t: f64, contacts: &[usize]) {
         if contacts.is_empty() {
             return;
         }
         self.shared_otherwise += 1;
-        contacts.sort_unstable();
-        contacts.dedup();
-        self.first_shared_otherwise.get_or_insert((t, contacts));
+        (self.first_shared_otherwise).get_or_insert_with(|| (t, in_order(contacts)));
     }
 
     /// Notes that contacts jammed at an instant, if any did.
-    pub fn note_jammed(&mut self, t: f64, mut contacts: Vec<usize>) {
+    pub fn note_jammed(&mut self, t: f64, contacts: &[usize]) {
         if contacts.is_empty() {
             return;
         }
         self.jammed += 1;
-        contacts.sort_unstable();
-        contacts.dedup();
-        self.first_jammed.get_or_insert((t, contacts));
+        (self.first_jammed).get_or_insert_with(|| (t, in_order(contacts)));
     }
 
     /// The warnings to be reported.

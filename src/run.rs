@@ -62,7 +62,7 @@ pub(crate) fn run<M: Machine>(
     let mut run = prepared.begin()?;
     let ending = run.go_to_end();
     let finished = run.end(ending);
-    Ok(prepared.solution(finished))
+    Ok(prepared.results(finished))
 }
 
 /// A run before its first step. It owns everything that the run borrows.
@@ -75,6 +75,8 @@ pub(crate) struct Prepared<'a, 'l, M: Machine> {
     start: State<Coordinates<M>>,
     q: VectorOf<M>,
     v: VectorOf<M>,
+    /// What is known of the constraints at the start, if it was on them as it was given.
+    constraints: Option<Constraints<VectorOf<M>>>,
     until: f64,
     tolerance: Tolerance<VectorOf<M>>,
     piece: Piece,
@@ -142,10 +144,10 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         let tolerance = settings.tolerance(&system)?;
         let (mut q, mut v) = (system.to_vector(&start.q), system.to_vector(&start.v));
         check_start(&system, start.t, &q, &v)?;
-        let (mut start, mut start_warnings) = (start, Vec::new());
+        let (mut start, mut start_warnings, mut constraints) = (start, Vec::new(), None);
         if <M::System as System>::MAY_BE_CONSTRAINED && system.constraints().len() != 0 {
             let kept = settings.kept_start_values(&system, is_resumed)?;
-            start_warnings = project_start(&system, start.t, &mut q, &mut v, kept)?;
+            (start_warnings, constraints) = project_start(&system, start.t, &mut q, &mut v, kept)?;
             start = state(&system, (start.t, q.clone(), v.clone()));
         }
         let ended = resumed.filter(|resumed| resumed.t == start.t);
@@ -170,6 +172,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             start,
             q,
             v,
+            constraints,
             until,
             tolerance,
             piece,
@@ -190,6 +193,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
             start,
             q,
             v,
+            constraints,
             until,
             tolerance,
             piece,
@@ -225,7 +229,7 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
                 quadratures.clone(),
                 method,
                 tolerance.clone(),
-                (start.t, q.clone(), v.clone()),
+                ((start.t, q.clone(), v.clone()), constraints.clone()),
                 until,
             )
         };
@@ -249,7 +253,9 @@ impl<'a, 'l, M: Machine> Prepared<'a, 'l, M> {
         }
         let activity = ContactActivity::new(
             settings.hands_over && settings.method.kind == MethodKind::RungeKutta,
-            system.unilateral_contacts().len(),
+            (system.unilateral_contacts())
+                .map(|contact| contact.is_second_tangent)
+                .collect(),
         );
         let choosing = match *chosen {
             Some(choice) => {

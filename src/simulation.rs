@@ -293,7 +293,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// instant would stop the fastest closing gap, and at most the longest step. Nothing bounds the error of time stepping, whose order is
     /// 1; a smaller [`longest_step`](Self::longest_step) makes it smaller. When everything is at rest, steps become longer. Events are
     /// located again after 64 steps in which no contact changed, and after twice as many each time that this did not last, provided that
-    /// the forces in the closed contacts are unique: in piles, which can share loads in several ways, events cost more.
+    /// fewer than 16 contacts are closed in space, or their forces are unique: in piles, which can share loads in several ways, events cost more.
     ///
     /// For explicit and Radau methods. Contacts whose law time stepping does not support are followed as before.
     pub fn hand_over(mut self) -> Self {
@@ -657,8 +657,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
             callbacks: self.callbacks,
             resumed: self.resumed,
         };
-        let (solution, error) = make(task, start)?;
-        Ok((solution.with_law(self.law), error))
+        let (results, error) = make(task, start)?;
+        Ok((results.with_law(self.law), error))
     }
 }
 
@@ -699,7 +699,7 @@ pub(crate) fn run_many_by<'a, M: Machine, L: InputLaw<M::System>>(
     });
     let results = make(tasks.collect());
     let with_law = |(made, law): (RunResult<M>, L)| {
-        made.map(|(solution, error)| (solution.with_law(law), error))
+        made.map(|(results, error)| (results.with_law(law), error))
     };
     results.into_iter().zip(laws).map(with_law).collect()
 }
@@ -743,21 +743,21 @@ impl<M: Machine, L> Solution<M, L> {
         M::System: Clone,
         L: Clone,
     {
-        let mut settings = self.settings.clone();
-        if self.next_step > 0.0 && self.next_step.is_finite() {
-            settings.first_step = Some(self.next_step);
+        let mut settings = self.results.settings.clone();
+        if self.results.next_step > 0.0 && self.results.next_step.is_finite() {
+            settings.first_step = Some(self.results.next_step);
         }
-        let event = match &self.ending {
+        let event = match &self.results.ending {
             Ending::Event(name) => Some(name.clone()),
             _ => None,
         };
         Simulation {
-            subject: Subject::System(self.system.clone()),
+            subject: Subject::System(self.results.system.clone()),
             law: self.law.clone(),
             settings,
             callbacks: Callbacks::default(),
             resumed: Some(Resumed {
-                t: self.end.t,
+                t: self.results.end.t,
                 event,
             }),
         }

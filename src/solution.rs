@@ -36,8 +36,13 @@ use crate::{
 /// Between the ends of a step the motion is as accurate as at them: [`at`](Self::at) evaluates the continuous extension of the method,
 /// which is kept unless [`forget_steps`](crate::Simulation::forget_steps) is called.
 pub struct Solution<M: Machine, L = DefaultInputs> {
-    pub(crate) system: M::System,
     pub(crate) law: L,
+    pub(crate) results: Results<M>,
+}
+
+/// The results of a run, apart from the law that drove it.
+pub(crate) struct Results<M: Machine> {
+    pub(crate) system: M::System,
     pub(crate) method: &'static Method,
     pub(crate) start: State<Coordinates<M>>,
     pub(crate) end: State<Coordinates<M>>,
@@ -70,8 +75,16 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
 impl<M: Machine<System: Clone>, L: Clone> Clone for Solution<M, L> {
     fn clone(&self) -> Self {
         Self {
-            system: self.system.clone(),
             law: self.law.clone(),
+            results: self.results.clone(),
+        }
+    }
+}
+
+impl<M: Machine<System: Clone>> Clone for Results<M> {
+    fn clone(&self) -> Self {
+        Self {
+            system: self.system.clone(),
             method: self.method,
             start: self.start.clone(),
             end: self.end.clone(),
@@ -132,60 +145,13 @@ pub struct Statistics {
     pub seconds: f64,
 }
 
-/// A run without its law and the error that ended it early, or an error if it could not begin.
-pub(crate) type RunResult<M> = Result<(Solution<M, ()>, Option<Error>), Error>;
+/// The results of a run and the error that ended it early, or an error if it could not begin.
+pub(crate) type RunResult<M> = Result<(Results<M>, Option<Error>), Error>;
 
-impl<M: Machine> Solution<M, ()> {
+impl<M: Machine> Results<M> {
     /// Adds the law that drove the run.
     pub(crate) fn with_law<L>(self, law: L) -> Solution<M, L> {
-        let Self {
-            system,
-            method,
-            start,
-            end,
-            steps,
-            samples,
-            events,
-            energies,
-            balance,
-            statistics,
-            warnings,
-            ending,
-            settings,
-            next_step,
-            constraints,
-            contacts,
-            sampled_inputs,
-            pieces,
-            unilateral,
-            handovers,
-            choices,
-            law: (),
-        } = self;
-        Solution {
-            system,
-            method,
-            start,
-            end,
-            steps,
-            samples,
-            events,
-            energies,
-            balance,
-            statistics,
-            warnings,
-            ending,
-            settings,
-            next_step,
-            constraints,
-            contacts,
-            sampled_inputs,
-            pieces,
-            unilateral,
-            handovers,
-            choices,
-            law,
-        }
+        Solution { law, results: self }
     }
 }
 
@@ -215,17 +181,17 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
                 needed: "greater than 0",
             });
         }
-        let interval = interval.copysign(self.end.t - self.start.t);
+        let interval = interval.copysign(self.results.end.t - self.results.start.t);
         let mut states = Vec::new();
         let mut sampler = self.sampler();
         for i in 0.. {
-            let t = self.start.t + f64::from(i) * interval;
-            if is_beyond(t, self.end.t, interval) {
+            let t = self.results.start.t + f64::from(i) * interval;
+            if is_beyond(t, self.results.end.t, interval) {
                 break;
             }
             states.push(sampler.at(t)?);
         }
-        states.push(self.end.clone());
+        states.push(self.results.end.clone());
         Ok(states)
     }
 
@@ -238,15 +204,15 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     /// of this run.
     pub fn observe_state(&self, state: &State<Coordinates<M>>) -> Result<Observation<M>, Error> {
         let (q, v) = (
-            self.system.to_vector(&state.q),
-            self.system.to_vector(&state.v),
+            self.results.system.to_vector(&state.q),
+            self.results.system.to_vector(&state.v),
         );
         let inputs = self.inputs(state.t, &q, &v);
-        if !self.unilateral.phases.is_empty() && self.phase_at(state.t).is_none() {
+        if !self.results.unilateral.phases.is_empty() && self.phase_at(state.t).is_none() {
             return Err(Error::ContactsForgotten { t: state.t });
         }
         self.constraint_state_at(state.t)
-            .observe::<M>(&self.system, state, inputs)
+            .observe::<M>(&self.results.system, state, inputs)
     }
 
     /// The energies at several times, if the simulation kept the energy balance; cheapest if the times are sorted.
@@ -272,36 +238,38 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         // With contacts the change is exactly at its instant, as that of the contacts is.
         let is_from = |since: f64| since <= t || (!self.has_contacts() && is_near(since, t));
         let after = self
+            .results
             .sampled_inputs
             .partition_point(|(since, _)| is_from(*since));
         let held = after
             .checked_sub(1)
-            .and_then(|at| self.sampled_inputs.get(at));
+            .and_then(|at| self.results.sampled_inputs.get(at));
         let mut inputs = match held {
             Some((_, held)) if !self.law.is_partial() => return held.clone(),
             Some((_, held)) => held.clone(),
-            None => self.system.default_inputs(),
+            None => self.results.system.default_inputs(),
         };
         let piece = self.piece_from(t);
-        self.law.set_in(piece, &self.system, t, q, v, &mut inputs);
+        self.law
+            .set_in(piece, &self.results.system, t, q, v, &mut inputs);
         inputs
     }
 
     /// Whether states of contacts are known, which change at exact instants.
     fn has_contacts(&self) -> bool {
-        !self.contacts.is_empty() || !self.unilateral.phases.is_empty()
+        !self.results.contacts.is_empty() || !self.results.unilateral.phases.is_empty()
     }
 
     /// The piece that contains a time. At the end of the run it is the one that follows there, so that the values after a jump hold as at every
     /// other instant; but forces of contacts are those of the state in which the run leaves them, with the inputs before the jump.
     fn piece_from(&self, t: f64) -> Piece {
         let piece = self.piece_at(t);
-        let forward = self.end.t >= self.start.t;
+        let forward = self.results.end.t >= self.results.start.t;
         let end = piece.end(forward);
-        if t != self.end.t || self.has_contacts() || !end.is_finite() || !is_near(end, t) {
+        if t != self.results.end.t || self.has_contacts() || !end.is_finite() || !is_near(end, t) {
             return piece;
         }
-        let order = self.method.tableau.order;
+        let order = self.results.method.tableau.order;
         let following = self.law.piece(end, forward, order).ok();
         // What is not known after the last row of a table is known at this row.
         let at_row = || self.law.piece(t, !forward, order).ok().map(|_| Piece::ALL);
@@ -311,12 +279,12 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     /// Whether inputs change during the run.
     #[cfg(feature = "interpreter")]
     pub(crate) fn is_driven(&self) -> bool {
-        !self.sampled_inputs.is_empty() || !self.law.is_constant()
+        !self.results.sampled_inputs.is_empty() || !self.law.is_constant()
     }
 
     /// The piece that contains a time; the later one if two pieces meet there to rounding.
     fn piece_at(&self, t: f64) -> Piece {
-        let pieces = &self.pieces;
+        let pieces = &self.results.pieces;
         let is_from = |piece: &Piece| piece.from <= t || is_near(piece.from, t);
         let is_forward = pieces.first().zip(pieces.last());
         let index = if is_forward.is_none_or(|(first, last)| first.from <= last.from) {
@@ -332,7 +300,7 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     /// The constraints and contacts that were in force at a time.
     fn constraint_state_at(&self, t: f64) -> ConstraintState<'_, VectorOf<M>> {
         ConstraintState {
-            constraints: &self.constraints,
+            constraints: &self.results.constraints,
             contacts: self.contacts_at(t),
             touching: self.phase_at(t).map(|phase| &phase.touching),
         }
@@ -346,15 +314,21 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         a: &mut VectorOf<M>,
     ) -> Result<Inputs<M>, StepError> {
         let u = self.inputs(t, q, v);
-        self.constraint_state_at(t)
-            .accelerations(&self.system, At { t, q, v, u: &u }, a)?;
+        self.constraint_state_at(t).accelerations(
+            &self.results.system,
+            At { t, q, v, u: &u },
+            a,
+        )?;
         Ok(u)
     }
 
     /// The states of the guided contacts at a time within the run.
     fn contacts_at(&self, t: f64) -> Option<&Contacts> {
-        let after = self.contacts.partition_point(|(since, _)| *since <= t);
-        let (_, known) = self.contacts.get(after.saturating_sub(1))?;
+        let after = self
+            .results
+            .contacts
+            .partition_point(|(since, _)| *since <= t);
+        let (_, known) = self.results.contacts.get(after.saturating_sub(1))?;
         Some(known)
     }
 
@@ -363,14 +337,20 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         if M::System::MAY_COLLIDE
             && let Some(phase) = self.phase_at(t)
         {
-            let constrained = phase.touching.machine(&self.system);
+            let constrained = phase.touching.machine(&self.results.system);
             project(&constrained, &phase.constraints, t, &mut q, &mut v)
-                .map_err(|error| phase.touching.explain(&self.system, error))
-                .map_err(|error| Error::of_step(error, &self.system))?;
+                .map_err(|error| phase.touching.explain(&self.results.system, error))
+                .map_err(|error| Error::of_step(error, &self.results.system))?;
             return Ok((q, v));
         }
-        project(&self.system, &self.constraints, t, &mut q, &mut v)
-            .map_err(|error| Error::of_step(error, &self.system))?;
+        project(
+            &self.results.system,
+            &self.results.constraints,
+            t,
+            &mut q,
+            &mut v,
+        )
+        .map_err(|error| Error::of_step(error, &self.results.system))?;
         Ok((q, v))
     }
 }
@@ -378,44 +358,53 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
 impl<M: Machine, L> Solution<M, L> {
     /// The state at the beginning.
     pub fn start(&self) -> &State<Coordinates<M>> {
-        &self.start
+        &self.results.start
     }
 
     /// The state at the end.
     pub fn end(&self) -> &State<Coordinates<M>> {
-        &self.end
+        &self.results.end
     }
 
     /// How the run ended.
     pub fn ending(&self) -> &Ending {
-        &self.ending
+        &self.results.ending
     }
 
     /// The states at the beginning and at the end of every step; empty if the steps were forgotten.
     pub fn steps(&self) -> impl Iterator<Item = State<Coordinates<M>>> {
-        let beginnings = self.steps.iter().flat_map(|steps| {
+        let beginnings = self.results.steps.iter().flat_map(|steps| {
             let is_step = |i: &usize| steps.times[*i].1 != 0.0;
             (0..steps.count()).filter(is_step).map(|i| {
                 let (q, v) = steps.beginning(i);
-                state(&self.system, (steps.times[i].0.high, q.clone(), v.clone()))
+                state(
+                    &self.results.system,
+                    (steps.times[i].0.high, q.clone(), v.clone()),
+                )
             })
         });
-        beginnings.chain(self.steps.is_some().then(|| self.end.clone()))
+        beginnings.chain(
+            self.results
+                .steps
+                .is_some()
+                .then(|| self.results.end.clone()),
+        )
     }
 
     /// The states requested by `every` of the simulation.
     pub fn samples(&self) -> &[State<Coordinates<M>>] {
-        &self.samples
+        &self.results.samples
     }
 
     /// The events, in order.
     pub fn events(&self) -> &[Event<Coordinates<M>>] {
-        &self.events
+        &self.results.events
     }
 
     /// The number of events of this name.
     pub fn event_count(&self, name: &str) -> usize {
-        self.events
+        self.results
+            .events
             .iter()
             .filter(|event| event.name == name)
             .count()
@@ -423,17 +412,17 @@ impl<M: Machine, L> Solution<M, L> {
 
     /// The events of the unilateral contacts, in order.
     pub fn contact_events(&self) -> &[ContactEvent<Coordinates<M>>] {
-        &self.unilateral.events
+        &self.results.unilateral.events
     }
 
     /// For each unilateral contact the number of its impacts and when it closed last, also if its events were not kept; empty if nothing happened.
     pub fn contact_tallies(&self) -> &[ContactTally] {
-        &self.unilateral.tallies
+        &self.results.unilateral.tallies
     }
 
     /// The phase of the unilateral contacts at a time within the run; at a change, the phase after it. Nothing if it was not kept.
     fn phase_at(&self, t: f64) -> Option<&Phase<VectorOf<M>>> {
-        let phases = &self.unilateral.phases;
+        let phases = &self.results.unilateral.phases;
         let after = phases.partition_point(|phase| phase.since <= t);
         let phase = phases.get(after.saturating_sub(1))?;
         (t < phase.until).then_some(phase)
@@ -441,7 +430,11 @@ impl<M: Machine, L> Solution<M, L> {
 
     /// The phases of the unilateral contacts, from one change to the next; those that were kept.
     pub fn contact_phases(&self) -> impl ExactSizeIterator<Item = ContactPhase<'_>> {
-        self.unilateral.phases.iter().map(Phase::public_view)
+        self.results
+            .unilateral
+            .phases
+            .iter()
+            .map(Phase::public_view)
     }
 
     /// The energy stored in compliant unilateral contacts, in J.
@@ -449,7 +442,7 @@ impl<M: Machine, L> Solution<M, L> {
         if M::System::MAY_COLLIDE
             && let Some(phase) = self.phase_at(t)
         {
-            return phase.touching.stored(&self.system, t, q, v);
+            return phase.touching.stored(&self.results.system, t, q, v);
         }
         0.0
     }
@@ -464,87 +457,92 @@ impl<M: Machine, L> Solution<M, L> {
     /// The times at which the run changed to time stepping and back to locating every event, in order; empty if
     /// [`hand_over`](crate::Simulation::hand_over) was not requested or not needed.
     pub fn handovers(&self) -> &[Handover] {
-        &self.handovers
+        &self.results.handovers
     }
 
     /// The methods that the run used, with times and reasons, in order; empty
     /// unless [`automatic`](crate::Simulation::automatic) was requested.
     pub fn choices(&self) -> &[MethodChoice] {
-        &self.choices
+        &self.results.choices
     }
 
     /// For each unilateral contact the energy lost in its impacts, in J.
     pub fn impact_losses(&self) -> &[f64] {
-        &self.unilateral.losses
+        &self.results.unilateral.losses
     }
 
     /// The energies of each unilateral contact, if the simulation kept the energy balance; otherwise empty.
     pub fn contact_energies(&self) -> &[ContactEnergies] {
-        (self.unilateral.energy_entries.last()).map_or(&[], |book| book.of_each.as_slice())
+        (self.results.unilateral.energy_entries.last()).map_or(&[], |book| book.of_each.as_slice())
     }
 
     /// For each unilateral contact the work that crushed its layer until the end, in J; 0 for contacts without a layer.
     pub fn crushing_work(&self) -> Vec<f64> {
-        let Some(phase) = self.unilateral.phases.last() else {
+        let Some(phase) = self.results.unilateral.phases.last() else {
             return Vec::new();
         };
         if !M::System::MAY_COLLIDE {
             return Vec::new();
         }
-        let system = &self.system;
-        let (q, v) = (system.to_vector(&self.end.q), system.to_vector(&self.end.v));
-        (phase.touching).crushing_works(system, (self.end.t, &q, &v))
+        let system = &self.results.system;
+        let (q, v) = (
+            system.to_vector(&self.results.end.q),
+            system.to_vector(&self.results.end.v),
+        );
+        (phase.touching).crushing_works(system, (self.results.end.t, &q, &v))
     }
 
     /// The energy balance of the run, if the simulation kept it.
     pub fn energy_balance(&self) -> Option<EnergyBalance> {
-        self.balance
+        self.results.balance
     }
 
     /// [`contact_energies`](Self::contact_energies) until a time within the run; at an impact, including it, but at the start before
     /// any. They are recorded at the ends of steps and interpolated between them by cubic Hermite polynomials. `None` if the energies
     /// at the ends of steps were not kept.
     pub fn contact_energies_at(&self, t: f64) -> Option<Vec<ContactEnergies>> {
-        let energy_entries = &self.unilateral.energy_entries;
-        if !self.settings.keep_energies || energy_entries.len() != self.energies.len() {
-            return (t == self.end.t && !energy_entries.is_empty())
+        let energy_entries = &self.results.unilateral.energy_entries;
+        if !self.results.settings.keep_energies
+            || energy_entries.len() != self.results.energies.len()
+        {
+            return (t == self.results.end.t && !energy_entries.is_empty())
                 .then(|| self.contact_energies().to_vec());
         }
-        if t == self.start.t {
+        if t == self.results.start.t {
             return energy_entries.first().map(|of| of.of_each.clone());
         }
-        let after = self.energies.partition_point(|of| of.t <= t);
+        let after = self.results.energies.partition_point(|of| of.t <= t);
         let (before, next) = (
             energy_entries.get(after.checked_sub(1)?)?,
             energy_entries.get(after),
         );
-        let from = self.energies[after - 1].t;
+        let from = self.results.energies[after - 1].t;
         let Some(next) = next else {
             return (from == t).then(|| before.of_each.clone());
         };
-        let h = self.energies[after].t - from;
+        let h = self.results.energies[after].t - from;
         let of_each = (0..before.of_each.len()).map(|k| before.towards(next, k, h, (t - from) / h));
         Some(of_each.collect())
     }
 
     /// The energies at the beginning and after every step, if the simulation kept the energy balance.
     pub fn energies(&self) -> &[Energies] {
-        &self.energies
+        &self.results.energies
     }
 
     /// The cost of the run.
     pub fn statistics(&self) -> Statistics {
-        self.statistics
+        self.results.statistics
     }
 
     /// Warnings about a run that did not fail.
     pub fn warnings(&self) -> &[Warning] {
-        &self.warnings
+        &self.results.warnings
     }
 
     /// The equations of motion that were integrated.
     pub fn system(&self) -> &M::System {
-        &self.system
+        &self.results.system
     }
 }
 
@@ -557,17 +555,17 @@ impl<M: Machine<System: System<Coordinates: serde::Serialize>>, L> serde::Serial
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
         let mut fields = serializer.serialize_struct("Solution", 11)?;
-        fields.serialize_field("method", self.method.tableau.name)?;
-        fields.serialize_field("start", &self.start)?;
-        fields.serialize_field("end", &self.end)?;
-        fields.serialize_field("ending", &self.ending)?;
-        fields.serialize_field("samples", &self.samples)?;
-        fields.serialize_field("events", &self.events)?;
-        fields.serialize_field("contact_events", &self.unilateral.events)?;
-        fields.serialize_field("energies", &self.energies)?;
-        fields.serialize_field("energy_balance", &self.balance)?;
-        fields.serialize_field("statistics", &self.statistics)?;
-        fields.serialize_field("warnings", &self.warnings)?;
+        fields.serialize_field("method", self.results.method.tableau.name)?;
+        fields.serialize_field("start", &self.results.start)?;
+        fields.serialize_field("end", &self.results.end)?;
+        fields.serialize_field("ending", &self.results.ending)?;
+        fields.serialize_field("samples", &self.results.samples)?;
+        fields.serialize_field("events", &self.results.events)?;
+        fields.serialize_field("contact_events", &self.results.unilateral.events)?;
+        fields.serialize_field("energies", &self.results.energies)?;
+        fields.serialize_field("energy_balance", &self.results.balance)?;
+        fields.serialize_field("statistics", &self.results.statistics)?;
+        fields.serialize_field("warnings", &self.results.warnings)?;
         fields.end()
     }
 }
@@ -575,13 +573,13 @@ impl<M: Machine<System: System<Coordinates: serde::Serialize>>, L> serde::Serial
 impl<M: Machine, L> Debug for Solution<M, L> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Solution")
-            .field("start", &self.start)
-            .field("end", &self.end)
-            .field("ending", &self.ending)
-            .field("events", &self.events)
-            .field("energy_balance", &self.balance)
-            .field("statistics", &self.statistics)
-            .field("warnings", &self.warnings)
+            .field("start", &self.results.start)
+            .field("end", &self.results.end)
+            .field("ending", &self.results.ending)
+            .field("events", &self.results.events)
+            .field("energy_balance", &self.results.balance)
+            .field("statistics", &self.results.statistics)
+            .field("warnings", &self.results.warnings)
             .finish_non_exhaustive()
     }
 }
@@ -594,9 +592,9 @@ struct Sampler<'a, M: Machine, L> {
 
 impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
     fn at(&mut self, t: f64) -> Result<State<Coordinates<M>>, Error> {
-        let Solution {
+        let Results {
             system, start, end, ..
-        } = self.run;
+        } = &self.run.results;
         if t == start.t {
             return Ok(start.clone());
         }
@@ -610,13 +608,13 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
 
     fn energies(&mut self, t: f64) -> Result<Energies, Error> {
         let run = self.run;
-        let [first, .., last] = run.energies.as_slice() else {
-            return match run.energies.first() {
+        let [first, .., last] = run.results.energies.as_slice() else {
+            return match run.results.energies.first() {
                 Some(only) if only.t == t => Ok(*only),
                 Some(_) => Err(Error::OutsideRun {
                     t,
-                    from: run.start.t,
-                    to: run.end.t,
+                    from: run.results.start.t,
+                    to: run.results.end.t,
                 }),
                 None => Err(Error::NoEnergyBalance),
             };
@@ -626,20 +624,20 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
         }
 
         let (index, interpolant) = self.interpolant(t)?;
-        let before = &run.energies[*index];
+        let before = &run.results.energies[*index];
         let (q, v) = run.project(t, interpolant.state(t))?;
         let u = run.inputs(t, &q, &v);
         let mut energies = Energies {
             t,
-            kinetic: run.system.kinetic_energy(t, &q, &v),
-            potential: run.system.potential_energy(t, &q, &u)
-                + run.system.state_energy(t, &q, &v)
+            kinetic: run.results.system.kinetic_energy(t, &q, &v),
+            potential: run.results.system.potential_energy(t, &q, &u)
+                + run.results.system.state_energy(t, &q, &v)
                 + run.stored(t, &q, &v),
             ..*before
         };
         // The motion within a step of a series has a higher degree, so the integral is taken in parts.
         let is_series = |of: &Steps<_>| of.method(*index).kind == MethodKind::Series;
-        let parts = if run.steps.as_ref().is_some_and(is_series) {
+        let parts = if run.results.steps.as_ref().is_some_and(is_series) {
             4
         } else {
             1
@@ -652,14 +650,15 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             let mut a = q.zeros_like();
             let u = run
                 .accelerations(t, &q, &v, &mut a)
-                .map_err(|error| Error::of_step(error, &run.system))?;
-            energies.work += half * weight * run.system.work_rate(t, &q, &v, &a, &u);
-            energies.dissipated += half * weight * run.system.dissipation_rate(t, &q, &v, &u);
+                .map_err(|error| Error::of_step(error, &run.results.system))?;
+            energies.work += half * weight * run.results.system.work_rate(t, &q, &v, &a, &u);
+            energies.dissipated +=
+                half * weight * run.results.system.dissipation_rate(t, &q, &v, &u);
             if M::System::MAY_SLIDE
                 && let Some(contacts) = run.contacts_at(t)
             {
                 let [work, lost] = contacts.power(
-                    &run.system,
+                    &run.results.system,
                     At {
                         t,
                         q: &q,
@@ -680,7 +679,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
                     u: &u,
                 };
                 let mut memory = ContactMemory::new(&phase.touching, &q);
-                let powers = phase.touching.powers(&run.system, at, &mut memory);
+                let powers = phase.touching.powers(&run.results.system, at, &mut memory);
                 energies.work += half * weight * powers.work;
                 energies.dissipated += half * weight * powers.lost;
             }
@@ -690,9 +689,9 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
 
     /// The step that contains `t`, and the motion within it.
     fn interpolant(&mut self, t: f64) -> Result<&(usize, Interpolant<VectorOf<M>>), Error> {
-        let Solution {
+        let Results {
             system, start, end, ..
-        } = self.run;
+        } = &self.run.results;
         if !(start.t.min(end.t) <= t && t <= start.t.max(end.t)) {
             return Err(Error::OutsideRun {
                 t,
@@ -700,7 +699,12 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
                 to: end.t,
             });
         }
-        let steps = self.run.steps.as_ref().ok_or(Error::StepsForgotten)?;
+        let steps = self
+            .run
+            .results
+            .steps
+            .as_ref()
+            .ok_or(Error::StepsForgotten)?;
         let index = steps.index(t);
         let known = self.interpolant.take().filter(|(known, _)| *known == index);
         let interpolant = match known {

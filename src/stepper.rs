@@ -70,6 +70,9 @@ use std::boxed::Box;
 /// A stiffness test is made every so many steps, as in DOP853.
 const STEPS_BETWEEN_STIFFNESS_TESTS: usize = 1000;
 
+/// Time, coordinates and velocities at the start of a run, and the constraints there, if they are known.
+type KnownStart<V> = ((f64, V, V), Option<Constraints<V>>);
+
 /// Advances the state of a system, step by step, with steps as long as the tolerance allows.
 ///
 /// State and time are compensated sums, so adding up steps contributes no round-off.
@@ -110,7 +113,7 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     taylor: Option<Box<Taylor<S::Vector>>>,
     /// `None` unless the method is time stepping.
     #[cfg(feature = "std")]
-    impulses: Option<Box<InImpulses<S::Vector>>>,
+    impulses: Option<Box<InImpulses<S::Vector, S::Matrix>>>,
     /// `None` for methods with steps of variable length, and for those that need no memory of their own.
     #[cfg(feature = "std")]
     fixed: Option<Box<Fixed<S::Vector, S::Matrix>>>,
@@ -171,6 +174,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     ) -> Result<Self, StepError> {
         Self::check(system, &start)?;
         let system = BorrowedOrOwned::Borrowed(system);
+        let start = (start, None);
         Self::begun(system, law, quadratures, method, tolerance, start, end)
     }
 
@@ -187,14 +191,14 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         Ok(())
     }
 
-    /// [`new`](Self::new) for a run, which locates the events of unilateral contacts.
+    /// [`new`](Self::new) for a run, which locates the events of unilateral contacts, and may know the constraints at the start.
     pub(crate) fn begun(
         system: BorrowedOrOwned<'s, S>,
         law: L,
         quadratures: A,
         method: &'static Method,
         tolerance: Tolerance<S::Vector>,
-        (t, q, v): (f64, S::Vector, S::Vector),
+        ((t, q, v), known): KnownStart<S::Vector>,
         end: f64,
     ) -> Result<Self, StepError> {
         #[cfg(feature = "std")]
@@ -215,8 +219,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
         let zeros = q.zeros_like();
         let mut start = Point::new(t, q, v);
-        let mut constraints = None;
-        if S::MAY_BE_CONSTRAINED && system.constraints().len() != 0 {
+        let mut constraints = known;
+        if S::MAY_BE_CONSTRAINED && constraints.is_none() && system.constraints().len() != 0 {
             let known = constraints.insert(Constraints::new(system.get(), &start.q, &start.v));
             known.begin(system.get(), &mut start.place(), None)?;
         }

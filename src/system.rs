@@ -433,6 +433,24 @@ pub trait System {
         Ok(())
     }
 
+    /// The projection of a state onto the constraints, to first order: the numbers that
+    /// [`ProjectionLayout`](lagrangian_scalar::projection::ProjectionLayout) lists. `false` if the machine has no such function; then
+    /// projections take more time.
+    ///
+    /// # Errors
+    /// If the constraints are linearly dependent at this state.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn projection(
+        &self,
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _numbers: &mut [f64],
+    ) -> Result<bool, Singular> {
+        Ok(false)
+    }
+
     /// The names of the guided contacts with friction. By default there are none, and then the methods that follow need not be implemented.
     ///
     /// A machine with contacts finds its accelerations by

@@ -59,6 +59,8 @@ pub(crate) struct Taylor<V> {
     is_taken: bool,
     /// The length of the next step, once computed.
     length: Option<f64>,
+    /// The [part](part_for_all_sizes) of a tolerable error that is the bound on the last terms of a step, if it is the same for all coordinates.
+    part: Option<f64>,
     memory: SeriesMemory,
 }
 
@@ -69,11 +71,15 @@ impl<V: Vector> Taylor<V> {
         let absolute = tolerance.absolute.as_slice().iter();
         let least = absolute.fold(f64::INFINITY, |least, &x| least.min(x));
         let rows = rows(least + tolerance.relative);
+        let parts = tolerance.absolute.as_slice().iter();
+        let mut parts = parts.map(|absolute| part_for_all_sizes(*absolute, tolerance.relative));
+        let first = parts.next().flatten();
         Self {
             coefficients: [(); 2].map(|()| std::vec![zeros.clone(); rows]),
             beginning: 0,
             is_taken: false,
             length: None,
+            part: first.filter(|_| parts.all(|part| part == first)),
             memory: SeriesMemory::default(),
         }
     }
@@ -85,6 +91,7 @@ impl<V: Vector> Taylor<V> {
             beginning: 0,
             is_taken: false,
             length: None,
+            part: None,
             memory: SeriesMemory::default(),
         }
     }
@@ -144,6 +151,12 @@ impl<V: Vector> Taylor<V> {
         system.series_with(memory, t, state, u, &mut self.coefficients[which])
     }
 
+    /// The coefficients of the motion through the end of the step that is being tried, to be set.
+    pub fn coefficients_ahead(&mut self) -> &mut [V] {
+        self.length = None;
+        &mut self.coefficients[1 - self.beginning]
+    }
+
     /// The accelerations at the last expanded state: the present one, or with `ahead` the end of the step that is being tried.
     pub fn accelerations(&self, ahead: bool, a: &mut V) {
         let which = if ahead {
@@ -176,19 +189,26 @@ impl<V: Vector> Taylor<V> {
         let coefficients = &self.coefficients[self.of_now()];
         let last = coefficients.len() - 1;
         let powers = [last - 1, last];
-        let [mut one, mut other] = [0.0_f64; 2];
         let (q, v) = (coefficients[0].as_slice(), coefficients[1].as_slice());
         let rows = [
             coefficients[last - 1].as_slice(),
             coefficients[last].as_slice(),
         ];
-        for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
-            let over = 1.0 / bound(size_of_rate(q[i], v[i]), *absolute, tolerance.relative);
-            one = larger_ratio(one, rows[0][i], (last - 1) as f64, over);
-            other = larger_ratio(other, rows[1][i], last as f64, over);
-        }
-        let worst = [one, other];
-        let by_rates = length(worst, powers);
+        let usual = self
+            .part
+            .and_then(|part| usual_ratios([q, v], rows, powers, (tolerance, part)));
+        let by_rates = match usual {
+            Some([one, other]) => usual_lengths([[one], [other]], powers)[0],
+            None => {
+                let [mut one, mut other] = [0.0_f64; 2];
+                for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
+                    let over = 1.0 / bound(size_of_rate(q[i], v[i]), *absolute, tolerance.relative);
+                    one = larger_ratio(one, rows[0][i], (last - 1) as f64, over);
+                    other = larger_ratio(other, rows[1][i], last as f64, over);
+                }
+                length([one, other], powers)
+            }
+        };
         if !is_slow(by_rates, last) {
             return by_rates;
         }
@@ -236,6 +256,30 @@ impl<V: Vector> Taylor<V> {
         }
         is_fine
     }
+}
+
+/// The largest ratios of both last terms of rates to their bounds, which are this part of the tolerable errors; `None` unless both are positive and finite.
+/// The same arithmetic as with [`larger_ratio`], without branches.
+#[inline(always)]
+fn usual_ratios<V: Vector>(
+    [q, v]: [&[f64]; 2],
+    rows: [&[f64]; 2],
+    powers: [usize; 2],
+    (tolerance, part): (&Tolerance<V>, f64),
+) -> Option<[f64; 2]> {
+    let powers = powers.map(|power| power as f64);
+    // The sum is not finite if a ratio is not; a maximum may lose it.
+    let (mut worst, mut sum) = ([0.0_f64; 2], 0.0);
+    for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
+        let size = size_of_rate(q[i], v[i]);
+        let over = 1.0 / (part * (absolute + tolerance.relative * size));
+        for k in 0..2 {
+            let ratio = (powers[k] * rows[k][i].abs()) * over;
+            sum += ratio;
+            worst[k] = worst[k].max(ratio);
+        }
+    }
+    (worst[0] > 0.0 && worst[1] > 0.0 && sum.is_finite()).then_some(worst)
 }
 
 /// Numbers that lie side by side in memory and fill a register.
@@ -562,11 +606,19 @@ impl<N: Real, V: Vector<N>> Coefficients<N> for Rows<'_, V> {
     }
 }
 
-/// `a·factor + c` for each number.
+/// `a·factor + c` for each number, `FUSED` where the arithmetic of the numbers fuses them, or with a rounding of the product.
 #[inline(always)]
-fn horner<const B: usize, N: Scalar>(mut a: [N; B], factor: N, c: [N; B]) -> [N; B] {
+fn horner<const B: usize, const FUSED: bool, N: Scalar>(
+    mut a: [N; B],
+    factor: N,
+    c: [N; B],
+) -> [N; B] {
     for i in 0..B {
-        a[i] = a[i].mul_add(factor, c[i]);
+        a[i] = if FUSED {
+            a[i].mul_add(factor, c[i])
+        } else {
+            a[i] * factor + c[i]
+        };
     }
     a
 }
@@ -583,17 +635,18 @@ fn times<const B: usize, N: Scalar>(factor: N, mut a: [N; B]) -> [N; B] {
 /// Adds the terms of one power of the time by Horner's rule to the sums of coordinates, of rates, and with `D` = 3 of accelerations.
 /// `step` is the ratio of the powers of successive terms.
 #[inline(always)]
-fn add_terms<const B: usize, const D: usize, N: Scalar>(
+fn add_terms<const B: usize, const D: usize, const FUSED: bool, N: Scalar>(
     sums: &mut [[N; B]; D],
     step: N,
     power: N,
     terms: [N; B],
 ) {
-    sums[0] = horner(sums[0], step, terms);
+    sums[0] = horner::<B, FUSED, N>(sums[0], step, terms);
     let weighted = times(power, terms);
-    sums[1] = horner(sums[1], step, weighted);
+    sums[1] = horner::<B, FUSED, N>(sums[1], step, weighted);
     if D == 3 {
-        sums[D - 1] = horner(sums[D - 1], step, times(power - N::ONE, weighted));
+        let weighted = times(power - N::ONE, weighted);
+        sums[D - 1] = horner::<B, FUSED, N>(sums[D - 1], step, weighted);
     }
 }
 
@@ -602,6 +655,25 @@ fn add_terms<const B: usize, const D: usize, N: Scalar>(
 /// Every fourth term belongs to the same sum, so no sum waits for another, and the dependency chain is a quarter as long as with one.
 #[inline(always)]
 pub(crate) fn motion<const B: usize, const D: usize, N: Scalar>(
+    coefficients: &impl Coefficients<N>,
+    start: usize,
+    tau: N,
+) -> [[N; B]; D] {
+    motion_with::<B, D, true, N>(coefficients, start, tau)
+}
+
+/// [`motion`] in registers of any kind, with the bits of plain `f64`, which do not fuse products and sums.
+#[inline(always)]
+pub(crate) fn motion_as_plain<const B: usize, const D: usize, N: Scalar>(
+    coefficients: &impl Coefficients<N>,
+    start: usize,
+    tau: N,
+) -> [[N; B]; D] {
+    motion_with::<B, D, false, N>(coefficients, start, tau)
+}
+
+#[inline(always)]
+fn motion_with<const B: usize, const D: usize, const FUSED: bool, N: Scalar>(
     coefficients: &impl Coefficients<N>,
     start: usize,
     tau: N,
@@ -624,7 +696,7 @@ pub(crate) fn motion<const B: usize, const D: usize, N: Scalar>(
     let [two, three] = [N::from_f64(2.0), N::from_f64(3.0)];
     macro_rules! add {
         ($sums:ident, $k:literal, $power:expr) => {
-            add_terms(
+            add_terms::<B, D, FUSED, N>(
                 &mut $sums,
                 step,
                 $power,
@@ -651,12 +723,12 @@ pub(crate) fn motion<const B: usize, const D: usize, N: Scalar>(
     }
     let mut motion = sums_0;
     for d in 0..D {
-        let near = horner(sums_1[d], tau, sums_0[d]);
-        let beyond = horner(sums_3[d], tau, sums_2[d]);
-        motion[d] = horner(beyond, square, near);
+        let near = horner::<B, FUSED, N>(sums_1[d], tau, sums_0[d]);
+        let beyond = horner::<B, FUSED, N>(sums_3[d], tau, sums_2[d]);
+        motion[d] = horner::<B, FUSED, N>(beyond, square, near);
     }
     let first = coefficients.block::<B>(1, start);
-    motion[0] = times(tau, horner(motion[0], tau, first));
+    motion[0] = times(tau, horner::<B, FUSED, N>(motion[0], tau, first));
     motion[1] = times(tau, motion[1]);
     motion
 }
@@ -751,8 +823,15 @@ mod tests {
 
     #[test]
     fn steps_of_every_order_end_where_their_polynomials_do() {
-        // Blocks of four, of two and of one coordinate, and each remainder of the order divided by four.
-        const N: usize = 7;
+        // Blocks of four, of two and of one coordinate.
+        steps_end_where_their_polynomials_do::<3>();
+        steps_end_where_their_polynomials_do::<5>();
+        steps_end_where_their_polynomials_do::<6>();
+        steps_end_where_their_polynomials_do::<7>();
+    }
+
+    /// With each remainder of the order divided by four.
+    fn steps_end_where_their_polynomials_do<const N: usize>() {
         let h = 0.7;
         for rows in 3..=24 {
             let number = |j: usize, i: usize| (1.0 + (j * N + i) as f64 * 0.618).sin();

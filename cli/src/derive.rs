@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use lagrangian_emit as emit;
+use lagrangian_languages as languages;
 use lagrangian_mechanics::Compiled;
 use lagrangian_print::document::Document;
 use lagrangian_program::{Candidate, Counts, Program};
@@ -102,7 +103,7 @@ fn text((compiled, cartesian): (&Compiled, Option<&Compiled>), call: &call::Deri
     let formulas = || compiled.formulas();
     match call.form {
         Form::Program => program.to_string(),
-        Form::Script(dialect) => emit::script::file(program, dialect, &origin, &formulas()),
+        Form::Script(dialect) => languages::script::file(program, dialect, &origin, &formulas()),
         Form::Rust => emit::rust::module(
             program,
             &emit::rust::Options {
@@ -110,7 +111,7 @@ fn text((compiled, cartesian): (&Compiled, Option<&Compiled>), call: &call::Deri
                 ..emit::rust::Options::of(compiled, cartesian)
             },
         ),
-        Form::C => emit::c::file(program, &origin, &formulas()),
+        Form::C => languages::c::file(program, &origin, &formulas()),
         Form::Markdown => lagrangian_print::markdown::text(&Document::new(compiled)),
         Form::Latex => lagrangian_print::latex::text(&Document::new(compiled)),
         Form::Html => lagrangian_print::html::text(&Document::new(compiled)),

@@ -9,6 +9,7 @@ use lagrangian_spec::source::{Sources, Span};
 use serde::Serialize;
 
 use crate::output;
+use crate::placed::Placed;
 
 /// One diagnostic in `check --json`.
 #[derive(Debug, Serialize)]
@@ -58,13 +59,25 @@ impl fmt::Display for Entry {
     }
 }
 
-/// Prints a report to standard error, in colour on a terminal.
-pub fn print(report: &Report, sources: &Sources) {
-    let renderer = if std::io::stderr().is_terminal() {
+/// Prints the error of a run to standard error, with its place in the spec underlined.
+pub fn print_placed(error: &Placed) {
+    let place = snippet(&error.sources, error.span, AnnotationKind::Primary, None);
+    let group = Group::with_title(Level::ERROR.primary_title(&error.message)).element(place);
+    output::print_error(renderer().render(&[group]));
+}
+
+/// Renders in colour on a terminal.
+fn renderer() -> Renderer {
+    if std::io::stderr().is_terminal() {
         Renderer::styled()
     } else {
         Renderer::plain()
-    };
+    }
+}
+
+/// Prints a report to standard error, in colour on a terminal.
+pub fn print(report: &Report, sources: &Sources) {
+    let renderer = renderer();
     for diagnostic in report.messages() {
         output::print_error(format_args!("{}\n", render(diagnostic, sources, &renderer)));
     }

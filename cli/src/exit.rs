@@ -24,6 +24,14 @@ impl Failure {
                 diagnostics::print(&report, &sources);
                 return 1;
             }
+            Failure::Placed(placed) => {
+                if json {
+                    let document = json!({ "error": placed.message, "place": placed.place() });
+                    output::line(format_args!("{document:#}"));
+                }
+                diagnostics::print_placed(&placed);
+                return 1;
+            }
             Failure::Run(message) => (1, message),
             Failure::Detailed(message, further) => {
                 fields = further;

@@ -6,6 +6,8 @@ use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::Sources;
 use serde_json::{Map, Value};
 
+use crate::placed::Placed;
+
 /// Why a command failed.
 #[derive(Debug)]
 pub enum Failure {
@@ -15,6 +17,8 @@ pub enum Failure {
     Run(String),
     /// Like [`Failure::Run`], with further fields for programs.
     Detailed(String, Map<String, Value>),
+    /// Like [`Failure::Run`], for a reason that the spec states.
+    Placed(Box<Placed>),
     /// Like [`Failure::Run`], but the message has been printed.
     AlreadyReported,
     /// The user interrupted it, and the message has been printed.
@@ -35,6 +39,7 @@ impl Failure {
             Failure::Run(message) | Failure::Call(message) | Failure::Detailed(message, _) => {
                 message
             }
+            Failure::Placed(placed) => placed.message,
             Failure::Spec(_) => "the spec is invalid".to_owned(),
             Failure::AlreadyReported | Failure::Interrupted => String::new(),
         }

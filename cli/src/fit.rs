@@ -330,7 +330,6 @@ fn sought(
     let names = call::names_of(&call.sought).map_err(Failure::Call)?;
     let start = machine.start();
     let mut sought: Vec<Sought> = Vec::new();
-    let mut bounds: Vec<bool> = vec![false; call.bounds.len()];
     for name in &names {
         let inside = |word: &str| {
             let rest = name.strip_prefix(word)?.trim_start().strip_prefix('(')?;
@@ -338,96 +337,129 @@ fn sought(
         };
         let of_start = inside("start").map(|q| (q, true));
         let of_start = of_start.or_else(|| inside("rate").map(|q| (q, false)));
-        let mut found = match of_start {
+        let found = match of_start {
             Some((coordinate, is_start)) => {
-                // The start of a state is that of the rate of its integral.
-                let states = places(&start.q, &integral_name(coordinate));
-                let is_state = is_start && !states.is_empty();
-                let is_start = is_start && !is_state;
-                let mut places = if is_state {
-                    states
-                } else {
-                    places(&start.q, coordinate)
-                };
-                let names: Vec<&str> = start.q.iter().map(|(name, _)| name).collect();
-                places.retain(|k| state_of(names[*k]).is_some() == is_state);
-                if places.is_empty() {
-                    let known = names.iter().map(|name| state_of(name));
-                    let known = known
-                        .zip(&names)
-                        .map(|(state, name)| state.unwrap_or((*name).to_owned()));
-                    let known: Vec<String> = known.collect();
-                    return Err(unknown(name, "coordinate", coordinate, &known));
-                }
+                let (places, is_start) = places_of_start(name, coordinate, is_start, &start.q)?;
                 of_starts(&start.q, &places, is_start, given, experiments)
             }
             None => of_parameters(name, machine, compiled, &start.q)?,
         };
-        for one in &mut found {
+        for one in found {
             if sought.iter().any(|other| other.name == one.name) {
                 return Err(Failure::Call(format!(
                     "--fit names `{}` more than once",
                     one.name
                 )));
             }
-            let short = one.name.split(" in ").next().unwrap_or_default().to_owned();
-            let family = match short.split_once('[') {
-                Some((before, rest)) => {
-                    let after = rest.split_once(']').map_or("", |(_, after)| after);
-                    format!("{before}{after}")
-                }
-                None => short.clone(),
-            };
-            // The bounds of a member take precedence over those of its family, in whichever order they are given.
-            let mut names = vec![family, short, one.name.clone()];
-            names.dedup();
-            for known in names {
-                for (place, bound) in call.bounds.iter().enumerate() {
-                    if bound.name == known {
-                        bounds[place] = true;
-                        one.bounds = ends(bound, &one.unit)?;
-                    }
+            sought.push(one);
+        }
+    }
+    set_bounds(call, &mut sought)?;
+    for one in &mut sought {
+        begin_within_bounds(one, experiments)?;
+    }
+    check_fixed(machine, &sought, given, experiments)?;
+    Ok(sought)
+}
+
+/// The places of the coordinates whose start or rate is fitted, and whether it is the start. The start of a state is that of the rate of
+/// its integral.
+fn places_of_start(
+    name: &str,
+    coordinate: &str,
+    is_start: bool,
+    q: &Named,
+) -> Result<(Vec<usize>, bool), Failure> {
+    let states = places(q, &integral_name(coordinate));
+    let is_state = is_start && !states.is_empty();
+    let mut places = if is_state {
+        states
+    } else {
+        places(q, coordinate)
+    };
+    let names: Vec<&str> = q.iter().map(|(name, _)| name).collect();
+    places.retain(|k| state_of(names[*k]).is_some() == is_state);
+    if places.is_empty() {
+        let known = names.iter();
+        let known = known.map(|name| state_of(name).unwrap_or((*name).to_owned()));
+        let known: Vec<String> = known.collect();
+        return Err(unknown(name, "coordinate", coordinate, &known));
+    }
+    Ok((places, is_start && !is_state))
+}
+
+/// Sets the bounds that the call gives. Those of a member take precedence over those of its family, in whichever order they are given.
+fn set_bounds(call: &call::Fit, sought: &mut [Sought]) -> Result<(), Failure> {
+    let mut is_used: Vec<bool> = vec![false; call.bounds.len()];
+    for one in sought {
+        let short = one.name.split(" in ").next().unwrap_or_default().to_owned();
+        let family = match short.split_once('[') {
+            Some((before, rest)) => {
+                let after = rest.split_once(']').map_or("", |(_, after)| after);
+                format!("{before}{after}")
+            }
+            None => short.clone(),
+        };
+        let mut names = vec![family, short, one.name.clone()];
+        names.dedup();
+        for known in names {
+            for (place, bound) in call.bounds.iter().enumerate() {
+                if bound.name == known {
+                    is_used[place] = true;
+                    one.bounds = ends(bound, &one.unit)?;
                 }
             }
         }
-        sought.extend(found);
     }
-    if let Some(place) = bounds.iter().position(|used| !used) {
-        return Err(Failure::Call(format!(
+    match is_used.iter().position(|used| !used) {
+        None => Ok(()),
+        Some(place) => Err(Failure::Call(format!(
             "--bounds {}: nothing with this name is fitted",
             call.bounds[place].name
+        ))),
+    }
+}
+
+/// Checks that the search begins within the bounds. A measurement may be outside of them by its error, so that a search that begins at one
+/// begins at the bound instead.
+fn begin_within_bounds(one: &mut Sought, experiments: &[Experiment]) -> Result<(), Failure> {
+    let [low, high] = one.bounds;
+    let measured = match one.subject {
+        Subject::Parameter(_) => None,
+        Subject::Start(e, k) => measured_at_start(&experiments[e], Quantity::Coordinate(k)),
+        Subject::Rate(e, k) => measured_at_start(&experiments[e], Quantity::Rate(k)),
+    };
+    if measured == Some(one.from) {
+        one.from = one.from.max(low).min(high);
+    }
+    if one.from < low || one.from > high {
+        return Err(Failure::Call(format!(
+            "the search for `{}` would begin at {}, outside its bounds {low} to {high}; set another initial value by {}",
+            one.name,
+            one.from,
+            match one.subject {
+                Subject::Parameter(_) => "--set",
+                Subject::Start(..) => "--start",
+                // The start of a state is the rate of its integral.
+                Subject::Rate(..) if one.name.starts_with("start(") => "--start",
+                Subject::Rate(..) => "--rate",
+            }
         )));
     }
-    for one in &mut sought {
-        let [low, high] = one.bounds;
-        let measured = match one.subject {
-            Subject::Parameter(_) => None,
-            Subject::Start(e, k) => measured_at_start(&experiments[e], Quantity::Coordinate(k)),
-            Subject::Rate(e, k) => measured_at_start(&experiments[e], Quantity::Rate(k)),
-        };
-        if measured == Some(one.from) {
-            // A measurement may be outside of the bounds by its error.
-            one.from = one.from.max(low).min(high);
-        }
-        if one.from < low || one.from > high {
-            return Err(Failure::Call(format!(
-                "the search for `{}` would begin at {}, outside its bounds {low} to {high}; set another initial value by {}",
-                one.name,
-                one.from,
-                match one.subject {
-                    Subject::Parameter(_) => "--set",
-                    Subject::Start(..) => "--start",
-                    // The start of a state is the rate of its integral.
-                    Subject::Rate(..) if one.name.starts_with("start(") => "--start",
-                    Subject::Rate(..) => "--rate",
-                }
-            )));
-        }
-    }
-    let sought_parameters = sought.iter();
-    let sought_parameters =
-        sought_parameters.filter(|one| matches!(one.subject, Subject::Parameter(_)));
-    let is_sought = |name: &str| sought_parameters.clone().any(|one| one.name == name);
+    Ok(())
+}
+
+/// Checks that no experiment gives a fixed value to what is fitted.
+fn check_fixed(
+    machine: &InterpretedMachine,
+    sought: &[Sought],
+    given: &[Given],
+    experiments: &[Experiment],
+) -> Result<(), Failure> {
+    let parameters = sought
+        .iter()
+        .filter(|one| matches!(one.subject, Subject::Parameter(_)));
+    let is_sought = |name: &str| parameters.clone().any(|one| one.name == name);
     let known: Vec<&str> = machine.parameters().map(|(of, _)| of.name).collect();
     for (one, experiment) in given.iter().zip(experiments) {
         for set in &one.sets {
@@ -443,7 +475,7 @@ fn sought(
             }
         }
     }
-    Ok(sought)
+    Ok(())
 }
 
 fn of_parameters(

@@ -17,7 +17,7 @@ use std::path::Path;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, Simulation, System, Warning};
-use lagrangian_emit::c::uniform::{self, Derivatives};
+use lagrangian_languages::c::uniform::{self, Derivatives};
 use lagrangian_mechanics::{Compiled, Unproved};
 use lagrangian_program::Program;
 use lagrangian_spec::diagnostic::most_similar;

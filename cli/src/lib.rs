@@ -36,6 +36,7 @@ mod numbers;
 mod orbit;
 mod output;
 mod peaks;
+mod placed;
 mod plot;
 mod precise;
 mod progress;

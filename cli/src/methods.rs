@@ -14,7 +14,12 @@ pub const AUTO: &str = "auto";
 /// # Errors
 /// If there is none, or if its steps have a fixed length.
 pub fn named(name: &str) -> Result<&'static Method, Failure> {
-    let method = found(name, &[], |method| !method.has_fixed_steps())?;
+    named_beside(name, &[])
+}
+
+/// [`named`], where `others` are also valid and listed in the error message.
+pub fn named_beside(name: &str, others: &[&'static str]) -> Result<&'static Method, Failure> {
+    let method = found(name, others, |method| !method.has_fixed_steps())?;
     if method.has_fixed_steps() {
         return Err(Failure::Call(format!(
             "--method {name}: its steps have a fixed length, which only `simulate` can be given, by --longest-step"

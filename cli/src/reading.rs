@@ -49,6 +49,8 @@ pub struct InCharts<'d> {
     pub cartesian: Option<Compiled<'d>>,
     /// The texts from which the series of the machine that runs can be derived.
     pub series: SeriesText,
+    /// The source texts, for what a run reports about them.
+    pub sources: Sources,
 }
 
 /// Whether a run has to be made in the other charts that a spec names.
@@ -278,32 +280,36 @@ impl Reading {
             }
             return Err(self.failure());
         }
-        let Some(compiled) = Compiled::new(model, &mut self.report) else {
+        let Some(compiled) = Compiled::for_runs(model, &mut self.report) else {
             return Err(self.failure());
         };
         self.warn();
         let Some(cartesian) = cartesian else {
+            let sources = self.sources.clone();
             let series = self.text_of_series(false);
             return Ok(InCharts {
                 compiled,
                 cartesian: None,
                 series,
+                sources,
             });
         };
         // Its warnings would be those of the spec, which are printed.
         let mut report = Report::new();
-        let cartesian = Compiled::new(*cartesian, &mut report);
+        let cartesian = Compiled::for_runs(*cartesian, &mut report);
         let is_same = |other: &Compiled<'_>| compiled.check_chart(other, &mut report).is_some();
         let cartesian = cartesian.filter(is_same);
         if cartesian.is_none() && chart_use == ChartUse::Required {
             self.report = report;
             return Err(self.failure());
         }
+        let sources = self.sources.clone();
         let series = self.text_of_series(cartesian.is_some());
         Ok(InCharts {
             compiled,
             cartesian,
             series,
+            sources,
         })
     }
 

@@ -13,6 +13,7 @@ use lagrangian_spec::model::stage;
 use lagrangian_spec::resolve::value_in;
 use lagrangian_spec::source::Sources;
 use lagrangian_sweep::charts::{self, ChartedPoints, Charts};
+use lagrangian_sweep::plan::Law;
 use lagrangian_sweep::{signals, verdict};
 use lagrangian_symbolic::{Dag, Stage};
 
@@ -21,6 +22,7 @@ use crate::evaluate::set_start;
 use crate::exactness::Exactness;
 use crate::failure::Failure;
 use crate::output::{self, Destination, MACHINE, TABLE, ending_is_one_of, keep_apart};
+use crate::placed::Placed;
 use crate::reading::{self, ChartUse, InCharts, Reading};
 use crate::recording::{ColumnKind, Recording, Run};
 use crate::{inputs, methods, progress, simulate};
@@ -454,6 +456,89 @@ fn run_spec(
     files: &[&Destination],
 ) -> Result<((Run, Option<Charts>), Recording), Failure> {
     let runs = options.runs;
+    let method = method(options)?;
+    let dag = Dag::new();
+    let (reading, laws) = read(options, looks, files)?;
+    let formulas = reading.formulas();
+    let compiled = reading.compile_in_charts(&dag, files.iter().copied(), ChartUse::IfPossible);
+    let compiled = compiled.map_err(inputs::as_call_failure)?;
+    let sources = compiled.sources.clone();
+    let MachineInChart {
+        compiled,
+        machine,
+        start,
+        charts,
+    } = MachineInChart::new(compiled, &options.start, &runs.keep)?;
+    let output_count = compiled.model.outputs.len() - formulas;
+    let mut numbers = output_count..;
+    let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(output_count));
+    let signals = signals.map_err(Failure::Call)?;
+    let mut simulation = signals
+        .drive(Simulation::new(&machine), &machine)
+        .tolerance(options.tolerance.unwrap_or(TOLERANCE))
+        .method(method)
+        .until(options.until)
+        .max_steps(runs.max_steps.unwrap_or(STEPS))
+        .energy_balance(true);
+    simulation = reading::keep(simulation, &runs.keep);
+    let interval = runs.every.unwrap_or(options.until / SAMPLES);
+    let width = simulate::width(&machine, output_count);
+    let mut period = None;
+    match looks {
+        SampleInstants::Even => {
+            simulate::check_samples("--every", interval, options.until, width)?;
+            simulation = simulation.every(interval).forget_steps();
+        }
+        SampleInstants::At(_) => {}
+        SampleInstants::Crossing(formula, direction, level) => {
+            check_crossing(formula, stage_of_last_output(&compiled))?;
+            let crossing = match direction {
+                call::Direction::Up => Crossing::Rising,
+                call::Direction::Down => Crossing::Falling,
+                call::Direction::Both => Crossing::Any,
+            };
+            let level =
+                level.and_then(|(name, value)| level_of(&machine, output_count, name, value));
+            let (place, level) = level.unwrap_or((compiled.model.outputs.len() - 1, 0.0));
+            simulation = simulation.event_on("crossing", crossing, move |seen| {
+                seen.outputs.values.get(place).copied().unwrap_or(f64::NAN) - level
+            });
+        }
+        SampleInstants::Period(formula) => {
+            check_period(formula, stage_of_last_output(&compiled))?;
+            let place = compiled.model.outputs.len() - 1;
+            let length = period_of(&machine, &start, place, "--every-period", formula)?;
+            simulate::check_samples("--every-period", length, options.until, width)?;
+            period = Some(length);
+        }
+    }
+    if let Some(charts) = &charts {
+        let marked_every = match looks {
+            SampleInstants::Even => interval,
+            // At instants that are not known before: then every mark is kept.
+            _ => 0.0,
+        };
+        simulation = simulation.each_step(move |step| charts.follow(step, marked_every));
+    }
+    progress::now("simulating");
+    let ran = simulation.run_interpreted(start).map_err(|error| {
+        match Placed::of(&error, &compiled.model, &sources) {
+            Some(placed) => Failure::Placed(Box::new(placed)),
+            None => Failure::Run(verdict::message_of(&error)),
+        }
+    })?;
+    if let Some(objection) = verdict::energy_error(&ran) {
+        return Err(Failure::Run(objection));
+    }
+    warn(&ran);
+    let states = states(&ran, looks, period.unwrap_or(f64::INFINITY))?;
+    let recording = charts::record(&ran, &states, charts.as_ref());
+    progress::now(ANALYSING);
+    Ok(((ran, charts), recording))
+}
+
+/// The method of a run.
+fn method(options: &Options<'_>) -> Result<&'static Method, Failure> {
     let method = methods::named(options.method.unwrap_or(<&Method>::default().tableau.name))?;
     if std::ptr::eq(method, &TAYLOR) {
         return Err(Failure::Call(
@@ -461,24 +546,28 @@ fn run_spec(
                 .into(),
         ));
     }
+    Ok(method)
+}
+
+/// Reads a spec with the laws of its inputs. The formula of the instants, if they have one, becomes the last output.
+fn read(
+    options: &Options<'_>,
+    looks: &SampleInstants<'_>,
+    files: &[&Destination],
+) -> Result<(Reading, Vec<(String, Law)>), Failure> {
+    let runs = options.runs;
     let written = inputs::parse(&runs.inputs)?;
     let read: Vec<_> = inputs::files(&written).collect();
     keep_apart(files.iter().copied(), &read)?;
+    let given = options.start.parameters.iter();
     let spec = call::Spec {
         path: options.path.clone(),
         constants: runs.constants.clone(),
-        given: options
-            .start
-            .parameters
-            .iter()
-            .map(|set| set.name.clone())
-            .collect(),
+        given: given.map(|set| set.name.clone()).collect(),
         json: runs.json,
     };
-    let dag = Dag::new();
     let mut reading = Reading::open(&spec)?;
     let laws = reading.drive(&written)?;
-    let driving = reading.formulas();
     match looks {
         SampleInstants::Crossing(formula, _, level) => {
             // A level is a number in the unit of its output, which the formula would not know.
@@ -491,89 +580,23 @@ fn run_spec(
         }
         SampleInstants::Even | SampleInstants::At(_) => {}
     }
-    let formulas = reading.formulas();
-    let compiled = reading.compile_in_charts(&dag, files.iter().copied(), ChartUse::IfPossible);
-    let compiled = compiled.map_err(inputs::as_call_failure)?;
-    let MachineInChart {
-        compiled,
-        machine,
-        start,
-        charts,
-    } = MachineInChart::new(compiled, &options.start, &runs.keep)?;
-    let output_count = compiled.model.outputs.len() - formulas;
-    let mut numbers = output_count..;
-    let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(output_count));
-    let signals = signals.map_err(Failure::Call)?;
-    let quantity_count = output_count + driving;
-    let mut simulation = signals
-        .drive(Simulation::new(&machine), &machine)
-        .tolerance(options.tolerance.unwrap_or(TOLERANCE))
-        .method(method)
-        .until(options.until)
-        .max_steps(runs.max_steps.unwrap_or(STEPS))
-        .energy_balance(true);
-    simulation = reading::keep(simulation, &runs.keep);
-    let interval = runs.every.unwrap_or(options.until / SAMPLES);
-    let width = simulate::width(&machine, output_count);
-    match looks {
-        SampleInstants::Even => {
-            simulate::check_samples("--every", interval, options.until, width)?;
-            simulation = simulation.every(interval).forget_steps();
-        }
-        SampleInstants::At(_) => {}
-        SampleInstants::Crossing(formula, direction, level) => {
-            check_crossing(
-                formula,
-                compiled.model.outputs[quantity_count].value.stage(),
-            )?;
-            let crossing = match direction {
-                call::Direction::Up => Crossing::Rising,
-                call::Direction::Down => Crossing::Falling,
-                call::Direction::Both => Crossing::Any,
-            };
-            let level =
-                level.and_then(|(name, value)| level_of(&machine, output_count, name, value));
-            let (place, level) = level.unwrap_or((quantity_count, 0.0));
-            simulation = simulation.event_on("crossing", crossing, move |seen| {
-                seen.outputs.values.get(place).copied().unwrap_or(f64::NAN) - level
-            });
-        }
-        SampleInstants::Period(_) => {}
+    Ok((reading, laws))
+}
+
+/// What the last output depends on, which is the formula of the instants.
+fn stage_of_last_output(compiled: &Compiled<'_>) -> Stage {
+    let last = compiled.model.outputs.last();
+    last.map_or(stage::CONSTANT, |output| output.value.stage())
+}
+
+/// Checks that a formula that depends on values of this stage may be a period.
+fn check_period(formula: &str, stage: Stage) -> Result<(), Failure> {
+    if stage > stage::PARAMETER {
+        return Err(Failure::Call(format!(
+            "--every-period {formula}: a period can depend only on numbers and parameters"
+        )));
     }
-    let period = match looks {
-        SampleInstants::Period(formula) => {
-            let stage = compiled.model.outputs[quantity_count].value.stage();
-            if stage > stage::PARAMETER {
-                return Err(Failure::Call(format!(
-                    "--every-period {formula}: a period can depend only on numbers and parameters"
-                )));
-            }
-            let period = period_of(&machine, &start, quantity_count, "--every-period", formula)?;
-            simulate::check_samples("--every-period", period, options.until, width)?;
-            Some(period)
-        }
-        _ => None,
-    };
-    if let Some(charts) = &charts {
-        let marked_every = match looks {
-            SampleInstants::Even => interval,
-            // At instants that are not known before: then every mark is kept.
-            _ => 0.0,
-        };
-        simulation = simulation.each_step(move |step| charts.follow(step, marked_every));
-    }
-    progress::now("simulating");
-    let ran = simulation
-        .run_interpreted(start)
-        .map_err(|error| Failure::Run(verdict::message_of(&error)))?;
-    if let Some(objection) = verdict::energy_error(&ran) {
-        return Err(Failure::Run(objection));
-    }
-    warn(&ran);
-    let states = states(&ran, looks, period.unwrap_or(f64::INFINITY))?;
-    let recording = charts::record(&ran, &states, charts.as_ref());
-    progress::now(ANALYSING);
-    Ok(((ran, charts), recording))
+    Ok(())
 }
 
 /// Checks that a formula that depends on values of this stage may cross 0 at an instant.

@@ -10,6 +10,7 @@ use lagrangian::{
 };
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_spec::source::Sources;
 use lagrangian_sweep::charts::{self, ChartedPoints, Charts};
 use lagrangian_sweep::signals::{self, InputArgument};
 use lagrangian_sweep::verdict;
@@ -28,6 +29,7 @@ use crate::interrupt::Interrupt;
 use crate::methods::{self, AUTO};
 use crate::numbers::{by_name, shortest, states};
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
+use crate::placed::Placed;
 use crate::precise;
 use crate::progress;
 use crate::reading::{self, ChartUse, InCharts, Reading};
@@ -119,8 +121,9 @@ impl Files {
 /// Why a run ended early, and which files could not be written.
 #[derive(Default)]
 struct Trouble<'a> {
-    /// The error that ended it.
+    /// The error that ended it, and its place in the spec, if it has one.
     error: Option<&'a Error>,
+    placed: Option<Placed>,
     /// Whether the user interrupted it by Ctrl-C.
     is_interrupted: bool,
     /// Further errors.
@@ -175,6 +178,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let (run, error) = prepared.run(call, &files, &watched, &interrupt)?;
     let mut trouble = Trouble {
         error: error.as_ref(),
+        placed: error.as_ref().and_then(|error| prepared.placed(error)),
         is_interrupted: matches!(run.ending(), Ending::Stopped),
         other: verdict::energy_error(&run).into_iter().collect(),
     };
@@ -264,6 +268,8 @@ struct Prepared<'d> {
     start: State<Named>,
     /// How the run is shown in the coordinates of the spec, if it is in others.
     charts: Option<Charts>,
+    /// The texts of the spec.
+    sources: Sources,
 }
 
 impl<'d> Prepared<'d> {
@@ -281,6 +287,7 @@ impl<'d> Prepared<'d> {
             mut compiled,
             cartesian,
             series: text_of_series,
+            sources,
         } = compiled.map_err(inputs::as_call_failure)?;
         let mut machine = reading::machine(&compiled, &call.start)?;
         reading::check_parameters(&machine)?;
@@ -346,7 +353,13 @@ impl<'d> Prepared<'d> {
             tolerance,
             start,
             charts,
+            sources,
         })
+    }
+
+    /// An error of the run with its place in the spec, if it has one.
+    fn placed(&self, error: &Error) -> Option<Placed> {
+        Placed::of(error, &self.compiled.model, &self.sources)
     }
 
     /// A state of the run in the coordinates of the spec.
@@ -440,7 +453,10 @@ impl<'d> Prepared<'d> {
         contacts
             .watch(simulation, !self.signals.is_empty())
             .run_interpreted_as_far_as_possible(self.start.clone())
-            .map_err(cause)
+            .map_err(|error| match self.placed(&error) {
+                Some(placed) => Failure::Placed(Box::new(placed)),
+                None => cause(error),
+            })
     }
 
     /// Estimates the error at the end of a run.
@@ -528,6 +544,9 @@ fn print(
         if let (Some(estimate), Value::Object(fields)) = (global_error, &mut document) {
             fields.insert("global_error".into(), estimate.json(run.end()));
         }
+        if let (Some(placed), Value::Object(fields)) = (&trouble.placed, &mut document) {
+            fields.insert("place".into(), placed.place().into());
+        }
         output::line(format_args!("{document:#}"));
     } else {
         print_summary(call, prepared, run, contacts);
@@ -541,7 +560,11 @@ fn print(
             output::line(format_args!("  {interruption}"));
         }
     }
-    for error in &errors {
+    if let Some(placed) = &trouble.placed {
+        crate::diagnostics::print_placed(placed);
+    }
+    // The error that ended the run is the first.
+    for error in errors.iter().skip(usize::from(trouble.placed.is_some())) {
         output::print_error(format_args!("error: {error}"));
     }
     match (errors.is_empty(), interruption) {

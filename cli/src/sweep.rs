@@ -28,7 +28,7 @@ use crate::failure::Failure;
 use crate::heading;
 use crate::inputs;
 use crate::interrupt;
-use crate::methods;
+use crate::methods::{self, AUTO};
 use crate::output::{self, Destination, TABLE, ending_is_one_of, keep_apart};
 use crate::progress;
 use crate::reading;
@@ -36,9 +36,6 @@ use crate::runs;
 use crate::table;
 use crate::text_table::TextTable;
 use reporter::Reporter;
-
-/// The default method.
-const METHOD: &str = "dop853";
 
 /// The destination of rows.
 struct Out {
@@ -200,18 +197,22 @@ fn print_summary(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u6
         runs,
         failed,
         first_errors,
+        methods,
     } = summary;
     if call.spec.json {
         let errors = first_errors
             .iter()
             .map(|(run, error)| json!({ "run": run, "error": error }));
-        let document = json!({
+        let mut document = json!({
             "runs": runs,
             "failed": failed,
             "seconds": seconds,
             "out": shown,
             "first_errors": errors.collect::<Vec<_>>(),
         });
+        if !methods.is_empty() {
+            document["methods"] = json!(methods);
+        }
         output::line(format_args!("{document:#}"));
         return;
     }
@@ -219,6 +220,12 @@ fn print_summary(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u6
     output::line(format_args!(
         "{runs} runs, {failed} failed, {seconds:.1} s ({speed:.0} runs per second), {shown}"
     ));
+    // If no run changed its method, the choice of methods is not mentioned, as by `simulate`.
+    if methods.keys().any(|names| names.contains(", ")) {
+        for (names, runs) in methods {
+            output::line(format_args!("  {names}: {runs} runs"));
+        }
+    }
     for (run, error) in first_errors {
         output::line(format_args!("  run {run}: {error}"));
     }
@@ -410,8 +417,10 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
             "give the end of each run: --until SECONDS".into(),
         ));
     };
-    let method = call.method.as_deref().unwrap_or(METHOD);
-    methods::named(method)?;
+    let method = call.method.as_deref().unwrap_or(AUTO);
+    if method != AUTO {
+        methods::named_beside(method, &[AUTO])?;
+    }
     let path = call.spec.path.to_string_lossy();
     let (_, text) = Disk
         .read(&path, None)

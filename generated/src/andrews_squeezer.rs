@@ -12,7 +12,7 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 56 | 19 | 4 | 0 | 0 | 79 |
+//! | `prepare` | 56 | 21 | 4 | 0 | 0 | 81 |
 //! | `mass_matrix` | 20 | 20 | 0 | 3 | 0 | 46 |
 //! | `bias` | 33 | 14 | 0 | 3 | 0 | 53 |
 //! | `applied` | 15 | 12 | 1 | 1 | 1 | 31 |
@@ -23,6 +23,7 @@
 //! | `constraint_bias` | 28 | 20 | 0 | 7 | 0 | 62 |
 //! | `accelerations` | 252 | 195 | 10 | 7 | 1 | 472 |
 //! | `multipliers` | 239 | 185 | 10 | 7 | 1 | 449 |
+//! | `projection` | 245 | 225 | 10 | 10 | 0 | 500 |
 //! | `kinetic_energy` | 51 | 22 | 0 | 4 | 0 | 81 |
 //! | `potential_energy` | 8 | 8 | 0 | 1 | 1 | 19 |
 //! | `work_rate` | 1 | 0 | 0 | 0 | 0 | 1 |
@@ -185,6 +186,8 @@ impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
         let k6 = S::from_f64(0.5) * t0;
         let k7 = S::from_f64(0.5) * (self.I5 + self.m5 * (t1 + t2));
         let k8 = S::from_f64(0.5) * (self.I7 + self.m7 * (t3 + t4));
+        let minus_d = -self.d;
+        let minus_zf = -self.zf;
         let k14 = k11 * k29;
         let k15 = m7_ub2_plus_m7_ua2 + (self.I7 + self.u * m6_u);
         let k16 = k12 * k27;
@@ -270,6 +273,8 @@ impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
             m7_ub2_plus_m7_ua2,
             m2_da_rr,
             k13,
+            minus_d,
+            minus_zf,
             k14,
             k15,
             k16,
@@ -293,6 +298,7 @@ impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
             k34,
             k35,
             k36,
+            k37: k33,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -464,6 +470,10 @@ pub struct Prepared<S = f64> {
     m2_da_rr: S,
     /// `I3 + m3*sb^2 + m3*sa^2`
     k13: S,
+    /// `-d`
+    minus_d: S,
+    /// `-zf`
+    minus_zf: S,
     /// `m6^2*u^2*(zf - fa)^2/(I6 + m6*(zf - fa)^2)`
     k14: S,
     /// `I7 + m7*ub^2 + m7*ua^2 + m6*u^2`
@@ -510,6 +520,8 @@ pub struct Prepared<S = f64> {
     k35: S,
     /// `m6*zf*(zf - fa)`
     k36: S,
+    /// `1/(I3 + m3*sb^2 + m3*sa^2)`
+    k37: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -1544,6 +1556,396 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     Ok(multipliers)
 }
 
+::lagrangian::emitted::fast_function! {
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
+    /// how independent these are. Only of machines whose constraints are independent.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 7], v: &'a [S; 7] })
+        -> Result<[S; 99], ::lagrangian::emitted::Singular> = projection_in;
+}
+
+#[inline(always)]
+fn projection_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: ProjectionCall<'_, S>,
+) -> Result<[S; 99], ::lagrangian::emitted::Singular> {
+    let ProjectionCall { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let beta = n(q[0]);
+    let Theta = n(q[1]);
+    let gamma = n(q[2]);
+    let Phi = n(q[3]);
+    let delta = n(q[4]);
+    let Omega = n(q[5]);
+    let epsilon = n(q[6]);
+    let beta_dot = n(v[0]);
+    let Theta_dot = n(v[1]);
+    let gamma_dot = n(v[2]);
+    let Phi_dot = n(v[3]);
+    let delta_dot = n(v[4]);
+    let Omega_dot = n(v[5]);
+    let epsilon_dot = n(v[6]);
+    let t0 = Theta + beta;
+    let t1 = delta + Phi;
+    let t2 = epsilon + Omega;
+    let angles = [Theta, beta, gamma, Phi, t0, delta, Omega, t1, epsilon, t2];
+    let circular = N::sin_cos_all(angles);
+    let (sin_Theta, cos_Theta) = circular[0];
+    let (sin_beta, cos_beta) = circular[1];
+    let (sin_gamma, cos_gamma) = circular[2];
+    let (sin_Phi, cos_Phi) = circular[3];
+    let (sin_t0, cos_t0) = circular[4];
+    let (sin_delta, cos_delta) = circular[5];
+    let (sin_Omega, cos_Omega) = circular[6];
+    let (sin_t1, cos_t1) = circular[7];
+    let (sin_epsilon, cos_epsilon) = circular[8];
+    let (sin_t2, cos_t2) = circular[9];
+    let t3 = Theta_dot + beta_dot;
+    let t4 = delta_dot + Phi_dot;
+    let t5 = epsilon_dot + Omega_dot;
+    let t6 = cos_Theta.neg_mul_add(n(p.da), n(p.rr));
+    let t7 = sin_beta * n(p.rr);
+    let t8 = cos_beta * n(p.rr);
+    let r14 = cos_gamma * n(p.ss);
+    let r21 = sin_gamma * n(p.ss);
+    let t9 = sin_t0 * n(p.d);
+    let r20 = cos_t0 * n(p.d);
+    let t10 = r14 * n(p.k37);
+    let t11 = sin_Phi.mul_add(n(p.e_minus_ea), n(p.zt));
+    let t12 = sin_Theta.mul_add(sin_Theta * n(p.m2_da2), n(p.I2));
+    let t13 = t6.neg_mul_add(cos_Theta * n(p.m2_da), t12);
+    let t14 = r21 * n(p.k37);
+    let r12 = t7 - t9;
+    let t15 = t8 - r20;
+    let t16 = sin_Phi.mul_add(n(p.k9), n(p.k1));
+    let t17 = cos_Phi.mul_add(cos_Phi * n(p.k0), n(p.I4));
+    let t18 = sin_delta * n(p.zt);
+    let r29 = cos_t1 * n(p.e);
+    let r36 = sin_t1 * n(p.e);
+    let t19 = n(p.k28) * t16;
+    let t20 = cos_delta * n(p.zt);
+    let t21 = sin_Omega.neg_mul_add(n(p.zf_minus_fa), n(p.u));
+    let r54 = t6.mul_add(n(p.m2_rr), n(p.m1_ra2)) + (t13 + n(p.I1));
+    let t22 = r29 * n(p.k28);
+    let r37 = r36 + t20;
+    let t23 = t11.mul_add(n(p.m4_zt), n(p.m5_ta2_plus_m5_tb2));
+    let r58 = t23 + (t11.mul_add(sin_Phi * n(p.k10), t17) + n(p.I5));
+    let t24 = r36 * n(p.k28);
+    let t25 = N::ONE / r54;
+    let t26 = t16.mul_add(t22, t18 - r29);
+    let t27 = cos_Omega.mul_add(cos_Omega * n(p.k2), n(p.I6));
+    let t28 = sin_Omega.neg_mul_add(n(p.k11), n(p.k3));
+    let t29 = t16.neg_mul_add(t19, r58);
+    let t30 = t16.neg_mul_add(t24, r37);
+    let t31 = sin_t2 * n(p.zf);
+    let t32 = cos_epsilon * n(p.u);
+    let t33 = n(p.k27) * t28;
+    let t34 = N::ONE / t29;
+    let r52 = cos_t2 * n(p.zf);
+    let t35 = sin_epsilon * n(p.u);
+    let r46 = t32 - t31;
+    let t36 = t31 * n(p.k27);
+    let t37 = t21.neg_mul_add(sin_Omega * n(p.k12), t27) + n(p.I7);
+    let r60 = t21.mul_add(n(p.m6_u), n(p.m7_ub2_plus_m7_ua2)) + t37;
+    let t38 = r52 * n(p.k27);
+    let t39 = r21 * gamma_dot;
+    let r53 = r52 + t35;
+    let t40 = t9.neg_mul_add(t3, t7 * beta_dot);
+    let t41 = t13 * t25;
+    let t42 = r12 * t25;
+    let t43 = t15 * t25;
+    let t44 = t28.neg_mul_add(t33, r60);
+    let t45 = t28.mul_add(t36, r46);
+    let t46 = t28.neg_mul_add(t38, r53);
+    let t47 = t13.neg_mul_add(t41, n(p.I2_plus_m2_da2));
+    let t48 = t13.mul_add(t42, t9);
+    let t49 = t13.mul_add(t43, r20);
+    let t50 = t34 * t26;
+    let t51 = N::ONE / t47;
+    let t52 = t34 * t30;
+    let t53 = N::ONE / t44;
+    let t54 = r20.neg_mul_add(t3, t8 * beta_dot);
+    let r6 = r14.mul_add(gamma_dot, t40);
+    let t55 = t26.mul_add(t50, r29 * t22);
+    let t56 = t30.mul_add(t52, r36 * t24);
+    let t57 = r21 + n(p.xb);
+    let t58 = n(p.yb) - r14;
+    let t59 = r36.mul_add(t4, t20 * delta_dot);
+    let t60 = r52.mul_add(t5, t35 * epsilon_dot);
+    let r8 = t40 - r29.neg_mul_add(t4, t18 * delta_dot);
+    let t61 = t15 - t57;
+    let t62 = t51 * t48;
+    let t63 = t51 * t49;
+    let t64 = t53 * t45;
+    let t65 = t53 * t46;
+    let r10 = t40 + t31.neg_mul_add(t5, t32 * epsilon_dot);
+    let t66 = t48.mul_add(t62, r12 * t42);
+    let t67 = t48.mul_add(t63, r12 * t43);
+    let t68 = t49.mul_add(t63, t15 * t43);
+    let t69 = t62.mul_add(t49, t15 * t42);
+    let t70 = t45.mul_add(t64, t31 * t36);
+    let t71 = t46.mul_add(t65, r52 * t38);
+    let t72 = r36 + (t20 + n(p.xa));
+    let r87 = r14.mul_add(t10, t66);
+    let t73 = r14.mul_sub(t14, t67);
+    let r94 = r21.mul_add(t14, t68);
+    let t74 = t18 + n(p.ya) - r29;
+    let t75 = r52 + (n(p.xa) + t35);
+    let t76 = t31 + (n(p.ya) - t32);
+    let t77 = N::ONE / r87;
+    let r13 = sin_t0 * n(p.minus_d);
+    let r19 = r20 - t8;
+    let r95 = t66 + t55;
+    let r96 = t68 + t56;
+    let r97 = t66 + t70;
+    let r98 = t68 + t71;
+    let t78 = t77 * t73;
+    let t79 = t66 * t77;
+    let t80 = t77 * t67;
+    let r88 = t73.neg_mul_add(t78, r94);
+    let t81 = t73.mul_add(t79, t69);
+    let t82 = t73.mul_add(t80, t68);
+    let t83 = r6.mul_add(t78, t54 - t39);
+    let t84 = N::ONE / r88;
+    let t85 = t61.neg_mul_add(t78, r12 - t58);
+    let t86 = t84 * t81;
+    let t87 = t84 * t82;
+    let t88 = t81.neg_mul_add(t86, t66.neg_mul_add(t79, t66));
+    let t89 = t87.neg_mul_add(t81, t66.neg_mul_add(t80, t67));
+    let t90 = t86.mul_add(t83, r6 * t79);
+    let t91 = t87.mul_add(t83, r6 * t80);
+    let t92 = t85.neg_mul_add(t86, t61 * t79);
+    let t93 = t85.neg_mul_add(t87, t61 * t80);
+    let r89 = t55 + t88;
+    let t94 = t26.neg_mul_add(t52, r29 * t24) - t89;
+    let t95 = t68 - t82.mul_add(t87, t67 * t80);
+    let t96 = r8 - t90;
+    let t97 = N::ONE / r89;
+    let t98 = t15 - t72 - t92;
+    let t99 = t97 * t94;
+    let t100 = t88 * t97;
+    let t101 = t97 * t89;
+    let r90 = t94.neg_mul_add(t99, t56 + t95);
+    let t102 = t82.neg_mul_add(t86, t67.neg_mul_add(t79, t69));
+    let t103 = t94.mul_add(t100, t102);
+    let t104 = t94.mul_add(t101, t95);
+    let t105 = t89 + t45.neg_mul_add(t65, t31 * t38);
+    let t106 = t99.mul_add(t96, t54 - t59 - t91);
+    let t107 = N::ONE / r90;
+    let t108 = t98.neg_mul_add(t99, r12 - t74 + t93);
+    let t109 = t107 * t103;
+    let t110 = t107 * t104;
+    let r91 = t103.neg_mul_add(t109, t88.neg_mul_add(t100, t88 + t70));
+    let t111 = t103.neg_mul_add(t110, t88.neg_mul_add(t101, t105));
+    let t112 = t109.neg_mul_add(t106, t100.neg_mul_add(t96, r10 - t90));
+    let t113 = t101.neg_mul_add(t96, t54 - t60 - t91);
+    let t114 = t108.mul_add(t109, t98.neg_mul_add(t100, t15 - t75 - t92));
+    let t115 = N::ONE / r91;
+    let t116 = t115 * t111;
+    let t117 = t115 * t112;
+    let t118 = t104.neg_mul_add(t110, t89.neg_mul_add(t101, t95 + t71));
+    let r92 = t111.neg_mul_add(t116, t118);
+    let t119 = t108.neg_mul_add(t110, t98.mul_add(t101, r12 - t76 + t93));
+    let t120 = N::ONE / r92;
+    let t121 = t116.neg_mul_add(t112, t110.neg_mul_add(t106, t113));
+    let r86 = t120 * t121;
+    let r80 = t114.mul_add(t116, t119) * t120;
+    let t122 = t116 * r86;
+    let r79 = t116.mul_add(r80, t114 * t115);
+    let t123 = t117 - t122;
+    let r84 = t109.neg_mul_add(t123, t110.neg_mul_add(r86, t107 * t106));
+    let r78 = t109.mul_add(r79, t110.neg_mul_add(r80, t108 * t107));
+    let t124 = t86.neg_mul_add(t123, t87.neg_mul_add(r86, t84 * t83));
+    let t125 = t100.neg_mul_add(t123, t101.neg_mul_add(r86, t97 * t96));
+    let t126 = t99.mul_add(r84, t125);
+    let t127 = t79.neg_mul_add(t123, t80.neg_mul_add(r86, r6 * t77));
+    let t128 = t79.neg_mul_add(r79, t80.mul_add(r80, t61 * t77));
+    let t129 = t100.neg_mul_add(r79, t101.mul_add(r80, t98 * t97));
+    let r77 = t99.neg_mul_add(r78, t129);
+    let t130 = t86.mul_add(r79, t87.neg_mul_add(r80, t85 * t84));
+    let r82 = t86.neg_mul_add(t126, t87.neg_mul_add(r84, t124));
+    let t131 = t63.mul_add(r84, t62.mul_add(t123, t63 * r86));
+    let t132 = t43.mul_add(r84, t42.mul_add(t123, t43 * r86));
+    let r76 = t86.mul_add(r77, t87.neg_mul_add(r78, t130));
+    let t133 = t63.neg_mul_add(r78, t62.mul_sub(r79, t63 * r80));
+    let t134 = t43.neg_mul_add(r78, t42.mul_sub(r79, t43 * r80));
+    let t135 = t79.neg_mul_add(t126, t80.neg_mul_add(r84, t127));
+    let t136 = t78.mul_add(r82, t135);
+    let t137 = t79.neg_mul_add(r77, t80.mul_add(r78, t128));
+    let r75 = t78.neg_mul_add(r76, t137);
+    let t138 = t50 * r77;
+    let t139 = t52 * r78;
+    let r67 = t64.mul_add(r79, t65 * r80);
+    let t140 = t63.mul_add(r82, t62.mul_add(t126, t131));
+    let r69 = t62.mul_add(t136, t140);
+    let t141 = t43.mul_add(r82, t42.mul_add(t126, t132));
+    let r72 = t50.mul_add(t126, t52 * r84);
+    let t142 = t64 * t123;
+    let t143 = t65 * r86;
+    let t144 = t63.neg_mul_add(r76, t62.mul_add(r77, t133));
+    let t145 = t62.mul_add(r75, t144);
+    let t146 = t43.neg_mul_add(r76, t42.mul_add(r77, t134));
+    let r0 = t57 - t15;
+    let r1 = t58 - r12;
+    let r2 = t72 - t15;
+    let r3 = t74 - r12;
+    let r4 = t75 - t15;
+    let r5 = t76 - r12;
+    let r7 = t39 - t54;
+    let r9 = t59 - t54;
+    let r11 = t60 - t54;
+    let zero = N::ZERO;
+    let r30 = r29 - t18;
+    let r45 = sin_t2 * n(p.minus_zf);
+    let r61 = t41.mul_add(t145, t42.mul_add(r75, t146));
+    let r62 = -t145;
+    let r63 = t10.mul_add(r75, t14 * r76);
+    let r64 = t19.mul_add(t138 - t139, t22.mul_add(r77, t24 * r78));
+    let r65 = t139 - t138;
+    let r66 = -t33.mul_add(r67, t36.mul_sub(r79, t38 * r80));
+    let r68 = -t41.mul_add(r69, t42.mul_add(t136, t141));
+    let r70 = t10.neg_mul_add(t136, t14 * r82);
+    let r71 = -t19.mul_add(r72, t22.mul_sub(t126, t24 * r84));
+    let r73 = t33.mul_add(t142 - t143, t36.mul_add(t123, t38 * r86));
+    let r74 = t143 - t142;
+    let r81 = -t136;
+    let r83 = -t126;
+    let r85 = t122 - t117;
+    let sound = PIVOTS.hold(n(p.k13), n(p.k13))
+        & PIVOTS.hold(t29, r58)
+        & PIVOTS.hold(t44, r60)
+        & PIVOTS.hold(r54, r54)
+        & PIVOTS.hold(t47, n(p.I2_plus_m2_da2))
+        & PIVOTS.hold(r87, r87)
+        & PIVOTS.hold(r88, r94)
+        & PIVOTS.hold(r89, r95)
+        & PIVOTS.hold(r90, r96)
+        & PIVOTS.hold(r91, r97)
+        & PIVOTS.hold(r92, r98)
+        & r68.is_finite();
+    if !sound {
+        let pivots = [
+            (2, n(p.k13), n(p.k13)),
+            (4, t29, r58),
+            (6, t44, r60),
+            (0, r54, r54),
+            (1, t47, n(p.I2_plus_m2_da2)),
+            (7, r87, r87),
+            (8, r88, r94),
+            (9, r89, r95),
+            (10, r90, r96),
+            (11, r91, r97),
+            (12, r92, r98),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let projection = [
+        r0.store(),
+        r1.store(),
+        r2.store(),
+        r3.store(),
+        r4.store(),
+        r5.store(),
+        r6.store(),
+        r7.store(),
+        r8.store(),
+        r9.store(),
+        r10.store(),
+        r11.store(),
+        r12.store(),
+        r13.store(),
+        r14.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        r19.store(),
+        r20.store(),
+        r21.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        r12.store(),
+        r13.store(),
+        zero.store(),
+        r29.store(),
+        r30.store(),
+        zero.store(),
+        zero.store(),
+        r19.store(),
+        r20.store(),
+        zero.store(),
+        r36.store(),
+        r37.store(),
+        zero.store(),
+        zero.store(),
+        r12.store(),
+        r13.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        r45.store(),
+        r46.store(),
+        r19.store(),
+        r20.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        r52.store(),
+        r53.store(),
+        r54.store(),
+        n(p.I2_plus_m2_da2).store(),
+        n(p.k13).store(),
+        n(p.k1).store(),
+        r58.store(),
+        n(p.k3).store(),
+        r60.store(),
+        r61.store(),
+        r62.store(),
+        r63.store(),
+        r64.store(),
+        r65.store(),
+        r66.store(),
+        r67.store(),
+        r68.store(),
+        r69.store(),
+        r70.store(),
+        r71.store(),
+        r72.store(),
+        r73.store(),
+        r74.store(),
+        r75.store(),
+        r76.store(),
+        r77.store(),
+        r78.store(),
+        r79.store(),
+        r80.store(),
+        r81.store(),
+        r82.store(),
+        r83.store(),
+        r84.store(),
+        r85.store(),
+        r86.store(),
+        r87.store(),
+        r88.store(),
+        r89.store(),
+        r90.store(),
+        r91.store(),
+        r92.store(),
+        r87.store(),
+        r94.store(),
+        r95.store(),
+        r96.store(),
+        r97.store(),
+        r98.store(),
+    ];
+    Ok(projection)
+}
+
 /// Kinetic energy `T`, in J.
 ///
 /// ```text
@@ -1682,8 +2084,8 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 7]) 
         sa, sb, sc, sd, zt, u, l0, mom, e_minus_ea, zf_minus_fa, m1_ra2, half_c0, m2_da2,
         I2_plus_m2_da2, k0, k1, k2, k3, m3_sa, m3_sb, sc_c0, sd_c0, da2, k4, k5, k6, k7, k8, m2_da,
         m2_rr, k9, k10, m4_zt, m5_ta2_plus_m5_tb2, k11, k12, m6_u, m7_ub2_plus_m7_ua2, m2_da_rr,
-        k13, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26, k27, k28, k29, k30,
-        k31, k32, k33, k34, k35, k36,
+        k13, minus_d, minus_zf, k14, k15, k16, k17, k18, k19, k20, k21, k22, k23, k24, k25, k26,
+        k27, k28, k29, k30, k31, k32, k33, k34, k35, k36, k37,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
@@ -1710,6 +2112,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 7]) 
             ("x6", "m", "N", true),
             ("y6", "m", "N", true),
         ];
+        solved_in_place projection(p, t, q, v) = ProjectionCall { p, q, v };
         solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(7, 6);
     }

@@ -21,6 +21,7 @@
 //! | `constraint_bias` | 205 | 185 | 0 | 5 | 0 | 400 |
 //! | `accelerations` | 806 | 603 | 10 | 5 | 0 | 1429 |
 //! | `multipliers` | 768 | 569 | 10 | 5 | 0 | 1357 |
+//! | `projection` | 595 | 432 | 10 | 5 | 0 | 1047 |
 //! | `kinetic_energy` | 86 | 48 | 0 | 4 | 0 | 142 |
 //! | `potential_energy` | 16 | 11 | 0 | 4 | 0 | 35 |
 //! | `output_x3` | 4 | 3 | 0 | 3 | 0 | 12 |
@@ -2439,6 +2440,523 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     Ok(multipliers)
 }
 
+::lagrangian::emitted::fast_function! {
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
+    /// how independent these are. Only of machines whose constraints are independent.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 70], ::lagrangian::emitted::Singular> = projection_in;
+}
+
+#[inline(always)]
+fn projection_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: ProjectionCall<'_, S>,
+) -> Result<[S; 70], ::lagrangian::emitted::Singular> {
+    let ProjectionCall { p, q, v } = call;
+    let n = N::load;
+    let q_1 = n(q[0]);
+    let q_2 = n(q[1]);
+    let q_3 = n(q[2]);
+    let q_4 = n(q[3]);
+    let q_5 = n(q[4]);
+    let q_1_dot = n(v[0]);
+    let q_2_dot = n(v[1]);
+    let q_3_dot = n(v[2]);
+    let q_4_dot = n(v[3]);
+    let q_5_dot = n(v[4]);
+    let angles = [q_2, q_1, q_3, q_4, q_5];
+    let circular = N::sin_cos_all(angles);
+    let (sin_q_2, cos_q_2) = circular[0];
+    let (sin_q_1, cos_q_1) = circular[1];
+    let (sin_q_3, cos_q_3) = circular[2];
+    let (sin_q_4, cos_q_4) = circular[3];
+    let (sin_q_5, cos_q_5) = circular[4];
+    let t0 = sin_q_2 * cos_q_1;
+    let t1 = t0.mul_add(sin_q_3, sin_q_1 * cos_q_3);
+    let t2 = cos_q_2 * cos_q_4;
+    let t3 = t1.neg_mul_add(sin_q_4, cos_q_1 * t2);
+    let t4 = t0.mul_sub(cos_q_3, sin_q_1 * sin_q_3);
+    let t5 = t3.mul_add(sin_q_5, cos_q_5 * t4);
+    let r0 = (t1 + (cos_q_1 + t0) - t3 - t5) * n(p.l);
+    let t6 = cos_q_2 * sin_q_4;
+    let t7 = sin_q_3.mul_add(t6, sin_q_2 * cos_q_4);
+    let t8 = cos_q_2 * sin_q_3;
+    let t9 = cos_q_2 * cos_q_3;
+    let r29 = sin_q_5.neg_mul_add(t7, cos_q_5 * t9);
+    let t10 = t7 + (cos_q_2 + t8) - r29;
+    let t11 = sin_q_2 * sin_q_1;
+    let t12 = sin_q_3.neg_mul_add(t11, cos_q_1 * cos_q_3);
+    let t13 = sin_q_4.mul_add(t12, sin_q_1 * t2);
+    let t14 = cos_q_3.mul_add(t11, cos_q_1 * sin_q_3);
+    let r34 = sin_q_5.mul_add(t13, cos_q_5 * t14);
+    let t15 = n(p.l).mul_add(sin_q_1 + t11 - t12 - t13 - r34, n(p.l));
+    let r3 = cos_q_5.mul_add(t7, sin_q_5 * t9);
+    let t16 = sin_q_5 * t14;
+    let t17 = cos_q_5 * t13;
+    let t18 = cos_q_1 * q_1_dot;
+    let t19 = sin_q_3 * q_3_dot;
+    let t20 = cos_q_3 * q_3_dot;
+    let t21 = sin_q_2.mul_add(t20, t8 * q_2_dot);
+    let t22 = t11 * q_1_dot;
+    let t23 = cos_q_1.neg_mul_add(t21, sin_q_3 * t22);
+    let t24 = cos_q_3.mul_sub(t18, sin_q_1 * t19) - t23;
+    let t25 = t1 * cos_q_4;
+    let t26 = sin_q_2 * q_2_dot;
+    let t27 = t6.mul_add(q_4_dot, cos_q_4 * t26);
+    let t28 = sin_q_1 * q_1_dot;
+    let t29 = sin_q_4.mul_add(t24, t25 * q_4_dot);
+    let t30 = t29 + cos_q_1.mul_add(t27, t2 * t28);
+    let t31 = cos_q_2 * q_2_dot;
+    let t32 = cos_q_5 * q_5_dot;
+    let t33 = sin_q_2.mul_sub(t19, t9 * q_2_dot);
+    let t34 = cos_q_1.mul_add(t33, cos_q_3 * t22);
+    let t35 = sin_q_5 * q_5_dot;
+    let t36 = sin_q_1.mul_add(t20, sin_q_3 * t18) + t34;
+    let t37 = cos_q_5.mul_add(t36, t4 * t35);
+    let t38 = t28 + cos_q_1.neg_mul_add(t31, t22) - t24 - t30;
+    let t39 = t38 - (sin_q_5.mul_sub(t30, t3 * t32) + t37);
+    let t40 = sin_q_2 * sin_q_4;
+    let t41 = sin_q_3 * t26;
+    let t42 = cos_q_4.mul_add(sin_q_3 * q_4_dot, sin_q_4 * t20);
+    let t43 = cos_q_2.neg_mul_add(t42, sin_q_4 * t41);
+    let t44 = t2.mul_sub(q_2_dot, q_4_dot * t40) - t43;
+    let t45 = cos_q_3 * sin_q_5;
+    let t46 = cos_q_3 * cos_q_5;
+    let t47 = q_5_dot.mul_add(t45, cos_q_5 * t19);
+    let t48 = cos_q_2.mul_add(t47, t26 * t46);
+    let t49 = t26 + t9.neg_mul_add(q_3_dot, t41) - t44;
+    let r6 = n(p.l) * (t49 - (sin_q_5.mul_add(t44, t7 * t32) + t48));
+    let t50 = t0 * q_1_dot;
+    let t51 = cos_q_1.mul_add(t19, cos_q_3 * t28);
+    let t52 = sin_q_1.mul_add(t21, sin_q_3 * t50) + t51;
+    let t53 = cos_q_4 * t12;
+    let t54 = sin_q_4.mul_sub(t52, q_4_dot * t53);
+    let t55 = sin_q_1.neg_mul_add(t27, t2 * t18) - t54;
+    let t56 = sin_q_1.neg_mul_add(t33, cos_q_3 * t50);
+    let t57 = t56 - sin_q_3.mul_sub(t28, cos_q_1 * t20);
+    let t58 = cos_q_5.mul_sub(t57, t14 * t35);
+    let t59 = t52 + (t18 + sin_q_1.mul_add(t31, t50)) - t55;
+    let t60 = t59 - (sin_q_5.mul_add(t55, t13 * t32) + t58);
+    let t61 = sin_q_5.mul_sub(t19, cos_q_3 * t32);
+    let t62 = cos_q_2.mul_add(t61, t26 * t45);
+    let r8 = cos_q_5.mul_sub(t44, t7 * t35) - t62;
+    let t63 = cos_q_5.mul_sub(t55, t13 * t35);
+    let r9 = sin_q_5.mul_add(t57, t14 * t32) - t63;
+    let t64 = sin_q_5.mul_add(n(p.l), n(p.l));
+    let t65 = sin_q_4 * t64;
+    let t66 = n(p.l) + t65;
+    let t67 = sin_q_3 * t66;
+    let t68 = cos_q_5 * n(p.l);
+    let t69 = cos_q_3 * t68;
+    let t70 = t2 * t64;
+    let t71 = sin_q_2 * n(p.l);
+    let t72 = n(p.l) + t71;
+    let t73 = sin_q_2.mul_add(t67 - t69, t72 - t70);
+    let t74 = cos_q_3.mul_add(t66, sin_q_3 * t68);
+    let r10 = sin_q_1.neg_mul_add(t73, cos_q_1 * t74);
+    let t75 = cos_q_4 * t64;
+    let t76 = t67 + (n(p.l) - t69);
+    let r11 = t76.mul_add(cos_q_2 * cos_q_1, t0 * t75);
+    let t77 = sin_q_3 * sin_q_1.mul_sub(t66, t0 * t68);
+    let r12 = cos_q_3.mul_sub(t0.mul_add(t66, sin_q_1 * t68), t77);
+    let r13 = t64 * cos_q_1.mul_add(t6, t25);
+    let t78 = t3.mul_sub(cos_q_5, sin_q_5 * t4);
+    let t79 = sin_q_3 * n(p.l);
+    let t80 = n(p.l) + t79;
+    let r16 = sin_q_2.mul_sub(sin_q_3.mul_add(t65, t80 - t69), t70);
+    let t81 = t9.mul_add(t66, t8 * t68);
+    let t82 = sin_q_3.mul_sub(t2, t40);
+    let t83 = t64 * t82;
+    let t84 = cos_q_1.mul_add(t73, sin_q_1 * t74);
+    let t85 = cos_q_2 * sin_q_1;
+    let t86 = t76.mul_add(t85, t11 * t75);
+    let t87 = cos_q_3 * t11.mul_sub(t66, cos_q_1 * t68);
+    let t88 = sin_q_3.mul_add(cos_q_1.mul_add(t66, t11 * t68), t87);
+    let t89 = sin_q_1.neg_mul_add(t6, t53);
+    let r23 = t64 * t89;
+    let t90 = t17 - t16;
+    let r24 = n(p.l) * t90;
+    let t91 = sin_q_4 * cos_q_5;
+    let t92 = sin_q_3.mul_add(t91, t45);
+    let r26 = sin_q_2.neg_mul_add(t92, t2 * cos_q_5);
+    let t93 = cos_q_3.mul_sub(t91, sin_q_3 * sin_q_5);
+    let r27 = cos_q_2 * t93;
+    let r28 = cos_q_5 * t82;
+    let r30 = cos_q_1.neg_mul_add(r26, sin_q_1 * t93);
+    let t94 = cos_q_4 * cos_q_5;
+    let r31 = t85.mul_add(t92, t11 * t94);
+    let t95 = cos_q_3 * t11.mul_add(t91, cos_q_1 * sin_q_5);
+    let r32 = sin_q_3.mul_add(cos_q_1.mul_sub(t91, sin_q_5 * t11), t95);
+    let t96 = cos_q_5 * t89;
+    let t97 = cos_q_3 * cos_q_4.mul_sub(t72, n(p.l) * t6);
+    let t98 = n(p.l).neg_mul_add(t9, t97);
+    let t99 = t98.neg_mul_add(n(p.half_l_m), r3 * n(p.k3));
+    let t100 = sin_q_3 * n(p.k15);
+    let t101 = sin_q_5 * n(p.half_l_m);
+    let t102 = t101 + n(p.k17);
+    let t103 = t82 * t102;
+    let t104 = t72.mul_add(t100, sin_q_2 * n(p.k6));
+    let t105 = sin_q_3.mul_add(t72, t71);
+    let t106 = t46 * sin_q_4.mul_add(t72, t2 * n(p.l));
+    let t107 = sin_q_5.neg_mul_add(n(p.l).neg_mul_add(t82, t105), t106);
+    let t108 = n(p.half_l_m).mul_add(t107, t82 * n(p.k1));
+    let t109 = sin_q_5 * n(p.half_l_squared_m);
+    let t110 = n(p.k17).neg_mul_add(t105, t82 * n(p.k5));
+    let t111 = t108 + t82.mul_add(t109, t110);
+    let t112 = t94.mul_add(t99, n(p.l).neg_mul_add(t103, t104));
+    let t113 = sin_q_4.neg_mul_add(t111, t112);
+    let t114 = r3.mul_add(n(p.half_l_m), t9 * n(p.k17));
+    let t115 = t82 * n(p.half_l_m);
+    let t116 = sin_q_3 * sin_q_2.neg_mul_add(n(p.k15), t103);
+    let t117 = cos_q_3.mul_add(cos_q_4.mul_sub(t114, t91 * t115), t116);
+    let t118 = t113 + sin_q_2.mul_add(n(p.k9), n(p.k20));
+    let t119 = t97.neg_mul_add(n(p.k17), t9 * n(p.k4));
+    let t120 = r3.mul_add(n(p.half_l_squared_m), t119);
+    let t121 = sin_q_5.mul_add(t99, t120);
+    let t122 = sin_q_4.mul_add(t114, t94 * t115);
+    let t123 = n(p.l).mul_add(t122, t9.mul_add(n(p.k7), t121));
+    let t124 = cos_q_4.mul_add(t111, t91 * t99);
+    let t125 = sin_q_2.neg_mul_add(n(p.k13), t117);
+    let t126 = cos_q_3.mul_add(t123, sin_q_3 * t124);
+    let t127 = cos_q_2.mul_add(t126, n(p.l).neg_mul_add(t125, n(p.k10)));
+    let r35 = sin_q_2.mul_add(n(p.l).neg_mul_add(t117, t118), t127);
+    let t128 = sin_q_4 * t80;
+    let t129 = n(p.half_l_m).mul_sub(t79 + t128, t93 * n(p.k3));
+    let t130 = n(p.k17).mul_add(t128, sin_q_3 * n(p.k4));
+    let t131 = t93.neg_mul_add(n(p.half_l_squared_m), t130);
+    let t132 = sin_q_5.mul_add(t129, t131);
+    let t133 = cos_q_3 * cos_q_4;
+    let t134 = t93.neg_mul_add(n(p.half_l_m), sin_q_3 * n(p.k17));
+    let t135 = sin_q_4.mul_sub(t134, t133 * (t94 * n(p.half_l_m)));
+    let t136 = t132 + sin_q_3.mul_add(n(p.k7), n(p.k21));
+    let t137 = cos_q_5.mul_sub(t80, n(p.l) * t45);
+    let t138 = t137.mul_sub(cos_q_4 * n(p.half_l_m), n(p.k1) * t133);
+    let t139 = t133.neg_mul_add(n(p.k5) + t109, t138);
+    let t140 = n(p.l).mul_add(t100 + t135, n(p.k8));
+    let t141 = cos_q_4.mul_add(t139, t91 * t129);
+    let t142 = cos_q_3.neg_mul_add(t141, t140);
+    let r36 = sin_q_3.mul_add(n(p.l).mul_add(t135, t136), t142);
+    let t143 = sin_q_4 * n(p.l);
+    let t144 = t101.mul_add(n(p.l) + t143, sin_q_4 * n(p.k1));
+    let t145 = sin_q_4.mul_add(t109, sin_q_4.mul_add(n(p.k5), n(p.k22)));
+    let t146 = t102.mul_add(t143, t94.mul_add(t94 * n(p.k3), n(p.k6)));
+    let r37 = sin_q_4.mul_add(t144 + t145, t146);
+    let t147 = sin_q_5.mul_add(n(p.k3), n(p.half_l_squared_m));
+    let r38 = sin_q_5.mul_add(n(p.half_l_squared_m) + t147, n(p.k4));
+    let t148 = N::ONE / r35;
+    let t149 = cos_q_3.mul_sub(t124, n(p.l) * t9.mul_add(n(p.k15), t122));
+    let t150 = sin_q_3.neg_mul_add(t123, t149);
+    let t151 = t148 * t150;
+    let t152 = t150.neg_mul_add(t151, r36);
+    let t153 = N::ONE / t152;
+    let t154 = t113 * t148;
+    let t155 = t94.mul_add(t129, t102 * (n(p.l) * t133));
+    let t156 = t150.mul_add(t154, sin_q_4.neg_mul_add(t139, t155));
+    let t157 = t153 * t156;
+    let t158 = t156.neg_mul_add(t157, t113.neg_mul_add(t154, r37));
+    let t159 = N::ONE / t158;
+    let t160 = t121 * t148;
+    let t161 = t150.mul_add(t160, t132);
+    let t162 = t153 * t161;
+    let t163 = t156.neg_mul_add(t162, t113.neg_mul_add(t160, t94 * t147));
+    let t164 = t159 * t163;
+    let t165 = t161.neg_mul_add(t162, t121.neg_mul_add(t160, r38));
+    let t166 = t163.neg_mul_add(t164, t165);
+    let t167 = N::ONE / t166;
+    let t168 = t108 * t148;
+    let t169 = t150.mul_add(t168, t138);
+    let t170 = t153 * t169;
+    let t171 = t156.mul_add(t170, t113.mul_add(t168, t144));
+    let t172 = t159 * t171;
+    let t173 = t163.neg_mul_add(t172, t161.mul_add(t170, t121 * t168));
+    let t174 = t167 * t173;
+    let t175 = t169.neg_mul_add(t170, t108.neg_mul_add(t168, n(p.k1)));
+    let t176 = t173.neg_mul_add(t174, t171.neg_mul_add(t172, t175));
+    let t177 = N::ONE / t176;
+    let t178 = r10 * t148;
+    let t179 = t150.mul_add(t178, r11);
+    let t180 = t153 * t179;
+    let t181 = t156.neg_mul_add(t180, t113.neg_mul_add(t178, r12));
+    let t182 = t159 * t181;
+    let t183 = t161.neg_mul_add(t180, t121.neg_mul_add(t178, r13));
+    let t184 = t163.neg_mul_add(t182, t183);
+    let t185 = t167 * t184;
+    let t186 = t108.neg_mul_add(t178, n(p.l) * t78);
+    let t187 = t171.mul_add(t182, t169.neg_mul_add(t180, t186));
+    let t188 = t173.mul_add(t185, t187);
+    let t189 = t177 * t188;
+    let t190 = t181.mul_add(t182, t179.mul_add(t180, r10 * t178));
+    let r60 = t188.mul_add(t189, t184.mul_add(t185, t190));
+    let t191 = N::ONE / r60;
+    let t192 = r16 * t153;
+    let t193 = t156.mul_add(t192, t81);
+    let t194 = t159 * t193;
+    let t195 = t163.neg_mul_add(t194, t161.mul_add(t192, t83));
+    let t196 = t167 * t195;
+    let t197 = t169.neg_mul_add(t192, n(p.l) * r3);
+    let t198 = t173.neg_mul_add(t196, t171.neg_mul_add(t194, t197));
+    let t199 = t177 * t198;
+    let t200 = t184.mul_add(t196, t181.mul_sub(t194, t179 * t192));
+    let t201 = t188.neg_mul_add(t199, t200);
+    let t202 = t191 * t201;
+    let t203 = t198.mul_add(t199, t195 * t196);
+    let r66 = t203 + t193.mul_add(t194, r16 * t192);
+    let r61 = t201.neg_mul_add(t202, r66);
+    let t204 = N::ONE / r61;
+    let t205 = t84 * t148;
+    let t206 = t150.mul_add(t205, t86);
+    let t207 = t153 * t206;
+    let t208 = t156.neg_mul_add(t207, t113.neg_mul_add(t205, t88));
+    let t209 = t159 * t208;
+    let t210 = t161.mul_add(t207, t121.mul_add(t205, r23));
+    let t211 = t163.mul_add(t209, t210);
+    let t212 = t167 * t211;
+    let t213 = t169.neg_mul_add(t207, t108.neg_mul_add(t205, r24));
+    let t214 = t173.neg_mul_add(t212, t171.mul_add(t209, t213));
+    let t215 = t177 * t214;
+    let t216 = t181.mul_add(t209, t179.mul_add(t207, r10 * t205));
+    let t217 = t188.mul_add(t215, t184.neg_mul_add(t212, t216));
+    let t218 = t191 * t217;
+    let t219 = t195.neg_mul_add(t212, t193.mul_sub(t209, r16 * t207));
+    let t220 = t201.neg_mul_add(t218, t198.neg_mul_add(t215, t219));
+    let t221 = t204 * t220;
+    let t222 = t214.mul_add(t215, t206.mul_add(t207, t84 * t205));
+    let r67 = t222 + t211.mul_add(t212, t208 * t209);
+    let r62 = t220.neg_mul_add(t221, t217.neg_mul_add(t218, r67));
+    let t223 = N::ONE / r62;
+    let t224 = r26 * t153;
+    let t225 = t156.neg_mul_add(t224, r27);
+    let t226 = t159 * t225;
+    let t227 = t163.neg_mul_add(t226, t161.neg_mul_add(t224, r28));
+    let t228 = t167 * t227;
+    let t229 = t171.neg_mul_add(t226, t169.mul_add(t224, r29));
+    let t230 = t173.neg_mul_add(t228, t229);
+    let t231 = t177 * t230;
+    let t232 = t184.mul_add(t228, t181.mul_add(t226, t179 * t224));
+    let t233 = t188.neg_mul_add(t231, t232);
+    let t234 = t191 * t233;
+    let t235 = t195.mul_add(t228, t193.mul_sub(t226, r16 * t224));
+    let t236 = t201.neg_mul_add(t234, t198.mul_add(t231, t235));
+    let t237 = t204 * t236;
+    let t238 = t211.neg_mul_add(t228, t208.mul_add(t226, t206 * t224));
+    let t239 = t217.neg_mul_add(t234, t214.neg_mul_add(t231, t238));
+    let t240 = t220.neg_mul_add(t237, t239);
+    let t241 = t223 * t240;
+    let t242 = t230.mul_add(t231, t227 * t228);
+    let r68 = t242 + t225.mul_add(t226, r26 * t224);
+    let t243 = t236.neg_mul_add(t237, t233.neg_mul_add(t234, r68));
+    let r63 = t240.neg_mul_add(t241, t243);
+    let t244 = N::ONE / r63;
+    let t245 = r30 * t148;
+    let t246 = t150.mul_add(t245, r31);
+    let t247 = t153 * t246;
+    let t248 = t156.neg_mul_add(t247, t113.neg_mul_add(t245, r32));
+    let t249 = t159 * t248;
+    let t250 = t161.mul_add(t247, t121.mul_add(t245, t96));
+    let t251 = t163.mul_add(t249, t250);
+    let t252 = t167 * t251;
+    let t253 = t169.mul_add(t247, t108.mul_add(t245, r34));
+    let t254 = t173.mul_add(t252, t171.neg_mul_add(t249, t253));
+    let t255 = t177 * t254;
+    let t256 = t181.mul_add(t249, t179.mul_add(t247, r10 * t245));
+    let t257 = t188.mul_add(t255, t184.mul_sub(t252, t256));
+    let t258 = t191 * t257;
+    let t259 = t195.neg_mul_add(t252, t193.mul_sub(t249, r16 * t247));
+    let t260 = t201.mul_add(t258, t198.mul_add(t255, t259));
+    let t261 = t204 * t260;
+    let t262 = t208.mul_add(t249, t206.mul_add(t247, t84 * t245));
+    let t263 = t214.mul_sub(t255, t211.mul_add(t252, t262));
+    let t264 = t220.mul_add(t261, t217.neg_mul_add(t258, t263));
+    let t265 = t223 * t264;
+    let t266 = t227.neg_mul_add(t252, t225.mul_add(t249, r26 * t247));
+    let t267 = t233.mul_add(t258, t230.mul_add(t255, t266));
+    let t268 = t240.mul_add(t265, t236.neg_mul_add(t261, t267));
+    let t269 = t244 * t268;
+    let t270 = r0.mul_sub(t202, n(p.l) * t10);
+    let t271 = t221.mul_add(t270, r0.neg_mul_add(t218, t15));
+    let t272 = t237.mul_add(t270, r0.neg_mul_add(t234, r3));
+    let t273 = t241.neg_mul_add(t271, t272);
+    let t274 = t261.neg_mul_add(t270, r0.neg_mul_add(t258, t90));
+    let t275 = t254.mul_add(t255, t246.mul_add(t247, r30 * t245));
+    let r69 = t275 + t251.mul_add(t252, t248 * t249);
+    let t276 = t260.neg_mul_add(t261, t257.neg_mul_add(t258, r69));
+    let r64 = t268.neg_mul_add(t269, t264.neg_mul_add(t265, t276));
+    let t277 = N::ONE / r64;
+    let r54 = t269.mul_add(t273, t265.neg_mul_add(t271, t274)) * t277;
+    let t278 = t269.mul_add(r54, t244 * t273);
+    let r52 = t241.neg_mul_add(t278, t265.neg_mul_add(r54, t223 * t271));
+    let t279 = t237.mul_add(t278, t261.neg_mul_add(r54, t204 * t270));
+    let t280 = t221.mul_add(r52, t279);
+    let t281 = t234.neg_mul_add(t278, t258.neg_mul_add(r54, r0 * t191));
+    let t282 = t202.mul_add(t280, t218.neg_mul_add(r52, t281));
+    let t283 = t215.mul_add(r52, t231.neg_mul_add(t278, t255 * r54));
+    let r44 = t189.mul_add(t282, t199.mul_add(t280, t283));
+    let t284 = t212.neg_mul_add(r52, t228.mul_add(t278, t252 * r54));
+    let t285 = t185.mul_add(t282, t196.neg_mul_add(t280, t284));
+    let t286 = t174.mul_add(r44, t285);
+    let t287 = t209.neg_mul_add(r52, t226.neg_mul_add(t278, t249 * r54));
+    let t288 = t182.neg_mul_add(t282, t194.mul_add(t280, t287));
+    let r42 = t164.mul_add(t286, t172.neg_mul_add(r44, t288));
+    let t289 = t207.mul_add(r52, t224.mul_sub(t278, t247 * r54));
+    let t290 = t180.mul_add(t282, t192.mul_add(t280, t289));
+    let t291 = t162.neg_mul_add(t286, t170.neg_mul_add(r44, t290));
+    let t292 = t157.mul_add(r42, t291);
+    let t293 = t178.mul_add(t282, t205.mul_sub(r52, t245 * r54));
+    let t294 = t160.neg_mul_add(t286, t168.neg_mul_add(r44, t293));
+    let t295 = n(p.l) * t39;
+    let t296 = t202.neg_mul_add(t295, r6);
+    let t297 = t221.mul_add(t296, t218.mul_add(t295, n(p.l) * t60));
+    let t298 = t237.mul_add(t296, t234.mul_add(t295, r8));
+    let t299 = t241.neg_mul_add(t297, t298);
+    let t300 = t261.neg_mul_add(t296, t258.mul_sub(t295, r9));
+    let r59 = t277 * t269.mul_add(t299, t265.neg_mul_add(t297, t300));
+    let t301 = t269.mul_add(r59, t244 * t299);
+    let r57 = t241.neg_mul_add(t301, t265.neg_mul_add(r59, t223 * t297));
+    let t302 = t234.mul_add(t301, t258.mul_add(r59, t191 * t295));
+    let t303 = t237.mul_add(t301, t261.neg_mul_add(r59, t204 * t296));
+    let t304 = t221.mul_add(r57, t303);
+    let r55 = t202.neg_mul_add(t304, t218.mul_add(r57, t302));
+    let t305 = t215.neg_mul_add(r57, t231.mul_sub(t301, t255 * r59));
+    let t306 = t189.mul_add(r55, t199.neg_mul_add(t304, t305));
+    let t307 = t212.mul_sub(r57, t228.mul_add(t301, t252 * r59));
+    let t308 = t185.mul_add(r55, t196.mul_add(t304, t307));
+    let r48 = t174.mul_add(t306, t308);
+    let t309 = t209.mul_add(r57, t226.mul_sub(t301, t249 * r59));
+    let t310 = t182.neg_mul_add(r55, t194.neg_mul_add(t304, t309));
+    let t311 = t164.mul_add(r48, t172.neg_mul_add(t306, t310));
+    let t312 = t207.neg_mul_add(r57, t224.neg_mul_add(t301, t247 * r59));
+    let t313 = t180.mul_add(r55, t192.neg_mul_add(t304, t312));
+    let t314 = t162.neg_mul_add(r48, t170.neg_mul_add(t306, t313));
+    let r46 = t157.mul_add(t311, t314);
+    let t315 = t178.mul_sub(r55, t205.mul_sub(r57, t245 * r59));
+    let t316 = t160.neg_mul_add(r48, t168.neg_mul_add(t306, t315));
+    let r1 = t10 * n(p.minus_l);
+    let r2 = -t15;
+    let r4 = t16 - t17;
+    let r5 = n(p.minus_l) * t39;
+    let r7 = n(p.minus_l) * t60;
+    let r14 = n(p.minus_l) * t78;
+    let zero = N::ZERO;
+    let r17 = -t81;
+    let r18 = -t83;
+    let r19 = n(p.minus_l) * r3;
+    let r20 = -t84;
+    let r21 = -t86;
+    let r22 = -t88;
+    let r33 = -t96;
+    let r40 = -t151.mul_add(t292, t154.mul_add(r42, t294));
+    let r41 = -t292;
+    let r43 = -t286;
+    let r45 = t151.mul_add(r46, t154.mul_add(t311, t316));
+    let r47 = -t311;
+    let r49 = -t306;
+    let r50 = -t282;
+    let r51 = -t280;
+    let r53 = -t278;
+    let r56 = -t304;
+    let r58 = -t301;
+    let sound = PIVOTS.hold(r35, r35)
+        & PIVOTS.hold(t152, r36)
+        & PIVOTS.hold(t158, r37)
+        & PIVOTS.hold(t166, r38)
+        & PIVOTS.hold(t176, n(p.k1))
+        & PIVOTS.hold(r60, r60)
+        & PIVOTS.hold(r61, r66)
+        & PIVOTS.hold(r62, r67)
+        & PIVOTS.hold(r63, r68)
+        & PIVOTS.hold(r64, r69)
+        & r40.is_finite();
+    if !sound {
+        let pivots = [
+            (0, r35, r35),
+            (1, t152, r36),
+            (2, t158, r37),
+            (3, t166, r38),
+            (4, t176, n(p.k1)),
+            (5, r60, r60),
+            (6, r61, r66),
+            (7, r62, r67),
+            (8, r63, r68),
+            (9, r64, r69),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let projection = [
+        r0.store(),
+        r1.store(),
+        r2.store(),
+        r3.store(),
+        r4.store(),
+        r5.store(),
+        r6.store(),
+        r7.store(),
+        r8.store(),
+        r9.store(),
+        r10.store(),
+        r11.store(),
+        r12.store(),
+        r13.store(),
+        r14.store(),
+        zero.store(),
+        r16.store(),
+        r17.store(),
+        r18.store(),
+        r19.store(),
+        r20.store(),
+        r21.store(),
+        r22.store(),
+        r23.store(),
+        r24.store(),
+        zero.store(),
+        r26.store(),
+        r27.store(),
+        r28.store(),
+        r29.store(),
+        r30.store(),
+        r31.store(),
+        r32.store(),
+        r33.store(),
+        r34.store(),
+        r35.store(),
+        r36.store(),
+        r37.store(),
+        r38.store(),
+        n(p.k1).store(),
+        r40.store(),
+        r41.store(),
+        r42.store(),
+        r43.store(),
+        r44.store(),
+        r45.store(),
+        r46.store(),
+        r47.store(),
+        r48.store(),
+        r49.store(),
+        r50.store(),
+        r51.store(),
+        r52.store(),
+        r53.store(),
+        r54.store(),
+        r55.store(),
+        r56.store(),
+        r57.store(),
+        r58.store(),
+        r59.store(),
+        r60.store(),
+        r61.store(),
+        r62.store(),
+        r63.store(),
+        r64.store(),
+        r60.store(),
+        r66.store(),
+        r67.store(),
+        r68.store(),
+        r69.store(),
+    ];
+    Ok(projection)
+}
+
 /// Kinetic energy `T`, in J.
 ///
 /// ```text
@@ -2633,6 +3151,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
             ("tips", "1", "N*m", true),
             ("turns", "1", "N*m", true),
         ];
+        solved_in_place projection(p, t, q, v) = ProjectionCall { p, q, v };
         solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(5, 5);
     }

@@ -17,6 +17,7 @@
 //! | `constraint_bias` | 4 | 1 | 0 | 1 | 0 | 7 |
 //! | `accelerations` | 22 | 8 | 1 | 1 | 0 | 33 |
 //! | `multipliers` | 10 | 4 | 1 | 1 | 0 | 17 |
+//! | `projection` | 20 | 11 | 2 | 1 | 0 | 35 |
 //! | `kinetic_energy` | 9 | 4 | 0 | 1 | 0 | 15 |
 //! | `output_along` | 2 | 1 | 0 | 1 | 0 | 5 |
 //!
@@ -339,6 +340,75 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     Ok(multipliers)
 }
 
+::lagrangian::emitted::fast_function! {
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
+    /// how independent these are. Only of machines whose constraints are independent.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 18], ::lagrangian::emitted::Singular> = projection_in;
+}
+
+#[inline(always)]
+fn projection_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: ProjectionCall<'_, S>,
+) -> Result<[S; 18], ::lagrangian::emitted::Singular> {
+    let ProjectionCall { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let phi = n(q[2]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let t0 = sin_phi * n(p.m_a);
+    let t1 = cos_phi * n(p.m_a);
+    let t2 = sin_phi * n(p.inverse_m);
+    let t3 = cos_phi * n(p.inverse_m);
+    let t4 = n(p.inverse_m) * t0;
+    let t5 = n(p.inverse_m) * t1;
+    let r1 = cos_phi.mul_sub(y_dot, sin_phi * x_dot);
+    let t6 = t1.mul_add(t3, t0 * t2);
+    let t7 = t0.neg_mul_add(t4, n(p.J_plus_m_a_squared));
+    let t8 = t1.neg_mul_add(t5, t7);
+    let t9 = t6 / t8;
+    let r16 = t6.mul_add(t9, cos_phi.mul_add(t3, sin_phi * t2));
+    let t10 = r1 / r16;
+    let r13 = t9 * t10;
+    let zero = N::ZERO;
+    let r2 = -sin_phi;
+    let r11 = t4.mul_add(r13, t2 * t10);
+    let r12 = -t5.mul_add(r13, t3 * t10);
+    let r15 = -t10;
+    let sound = PIVOTS.hold(t8, n(p.J_plus_m_a_squared)) & PIVOTS.hold(r16, r16) & r12.is_finite();
+    if !sound {
+        let pivots = [(2, t8, n(p.J_plus_m_a_squared)), (3, r16, r16)];
+        PIVOTS.check(pivots)?;
+    }
+    let projection = [
+        zero.store(),
+        r1.store(),
+        r2.store(),
+        cos_phi.store(),
+        zero.store(),
+        n(p.m).store(),
+        n(p.m).store(),
+        n(p.J_plus_m_a_squared).store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        r11.store(),
+        r12.store(),
+        r13.store(),
+        zero.store(),
+        r15.store(),
+        r16.store(),
+        r16.store(),
+    ];
+    Ok(projection)
+}
+
 /// Kinetic energy `T`, in J.
 ///
 /// ```text
@@ -417,6 +487,7 @@ pub fn outputs<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> Outp
         number dissipation_rate(p, t, q, v, u);
         outputs outputs(p, t, q, v, a, u) = outputs(q, v);
         constraints constraints(p) = [("blade", "m/s", "N", false)];
+        solved_in_place projection(p, t, q, v) = ProjectionCall { p, q, v };
         solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(3, 1);
     }

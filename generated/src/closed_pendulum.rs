@@ -19,6 +19,7 @@
 //! | `constraint_bias` | 17 | 8 | 0 | 5 | 0 | 35 |
 //! | `accelerations` | 258 | 179 | 6 | 5 | 0 | 453 |
 //! | `multipliers` | 205 | 125 | 6 | 5 | 0 | 346 |
+//! | `projection` | 185 | 123 | 6 | 5 | 0 | 324 |
 //! | `kinetic_energy` | 52 | 26 | 0 | 5 | 0 | 88 |
 //! | `potential_energy` | 10 | 11 | 0 | 5 | 0 | 26 |
 //!
@@ -1070,6 +1071,227 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     Ok(multipliers)
 }
 
+::lagrangian::emitted::fast_function! {
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
+    /// how independent these are. Only of machines whose constraints are independent.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 37], ::lagrangian::emitted::Singular> = projection_in;
+}
+
+#[inline(always)]
+fn projection_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: ProjectionCall<'_, S>,
+) -> Result<[S; 37], ::lagrangian::emitted::Singular> {
+    let ProjectionCall { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let q_1 = n(q[0]);
+    let q_2 = n(q[1]);
+    let q_3 = n(q[2]);
+    let q_4 = n(q[3]);
+    let q_5 = n(q[4]);
+    let q_1_dot = n(v[0]);
+    let q_2_dot = n(v[1]);
+    let q_3_dot = n(v[2]);
+    let q_4_dot = n(v[3]);
+    let q_5_dot = n(v[4]);
+    let angles = [q_2, q_1, q_3, q_4, q_5];
+    let circular = N::sin_cos_all(angles);
+    let (sin_q_2, cos_q_2) = circular[0];
+    let (sin_q_1, cos_q_1) = circular[1];
+    let (sin_q_3, cos_q_3) = circular[2];
+    let (sin_q_4, cos_q_4) = circular[3];
+    let (sin_q_5, cos_q_5) = circular[4];
+    let r9 = n(p.l) * cos_q_1;
+    let t0 = n(p.l) * sin_q_1;
+    let t1 = sin_q_2.mul_add(sin_q_1, cos_q_2 * cos_q_1) * n(p.k4);
+    let t2 = n(p.k3) * sin_q_3.mul_add(sin_q_1, cos_q_3 * cos_q_1);
+    let t3 = n(p.k2) * sin_q_4.mul_add(sin_q_1, cos_q_4 * cos_q_1);
+    let t4 = n(p.k19) * t1;
+    let t5 = sin_q_5.mul_add(sin_q_1, cos_q_5 * cos_q_1);
+    let t6 = n(p.half_l_squared_m) * t5;
+    let t7 = n(p.k19) * t2;
+    let t8 = sin_q_5.mul_add(sin_q_2, cos_q_5 * cos_q_2);
+    let t9 = n(p.k19) * t3;
+    let t10 = t1.neg_mul_add(t4, n(p.k6));
+    let t11 = n(p.k19) * t0;
+    let t12 = n(p.k19) * t6;
+    let t13 = n(p.k3) * sin_q_3.mul_add(sin_q_2, cos_q_3 * cos_q_2);
+    let t14 = t1.neg_mul_add(t7, t13);
+    let t15 = n(p.k2) * sin_q_4.mul_add(sin_q_2, cos_q_4 * cos_q_2);
+    let t16 = t1.neg_mul_add(t9, t15);
+    let t17 = n(p.k2) * sin_q_4.mul_add(sin_q_3, cos_q_4 * cos_q_3);
+    let t18 = N::ONE / t10;
+    let t19 = t1.neg_mul_add(t12, n(p.half_l_squared_m) * t8);
+    let t20 = sin_q_5.mul_add(sin_q_3, cos_q_5 * cos_q_3);
+    let t21 = t1.neg_mul_add(t11, n(p.l) * sin_q_2);
+    let r10 = n(p.l) * cos_q_2;
+    let t22 = sin_q_5.mul_add(sin_q_4, cos_q_5 * cos_q_4);
+    let t23 = r9 * n(p.k19);
+    let r11 = n(p.l) * cos_q_3;
+    let r12 = n(p.l) * cos_q_4;
+    let t24 = t1.neg_mul_add(t23, r10);
+    let r13 = n(p.l) * cos_q_5;
+    let t25 = t18 * t14;
+    let t26 = t18 * t16;
+    let t27 = t18 * t19;
+    let t28 = t18 * t21;
+    let t29 = t18 * t24;
+    let t30 = t14.neg_mul_add(t25, t2.neg_mul_add(t7, n(p.k7)));
+    let t31 = t14.neg_mul_add(t26, t2.neg_mul_add(t9, t17));
+    let t32 = t2.neg_mul_add(t12, n(p.half_l_squared_m) * t20);
+    let t33 = t14.neg_mul_add(t27, t32);
+    let t34 = t3.neg_mul_add(t12, n(p.half_l_squared_m) * t22);
+    let t35 = t2.neg_mul_add(t11, n(p.l) * sin_q_3);
+    let t36 = t14.neg_mul_add(t28, t35);
+    let t37 = t3.neg_mul_add(t11, n(p.l) * sin_q_4);
+    let t38 = N::ONE / t30;
+    let t39 = t6.neg_mul_add(t11, n(p.l) * sin_q_5);
+    let t40 = t14.neg_mul_add(t29, t2.neg_mul_add(t23, r11));
+    let t41 = sin_q_2.mul_add(q_2_dot, sin_q_1 * q_1_dot);
+    let t42 = cos_q_2.mul_add(q_2_dot, cos_q_1 * q_1_dot);
+    let t43 = t38 * t31;
+    let t44 = t38 * t33;
+    let t45 = t38 * t36;
+    let t46 = t38 * t40;
+    let t47 = t16.neg_mul_add(t26, t3.neg_mul_add(t9, n(p.k8)));
+    let t48 = t31.neg_mul_add(t43, t47);
+    let t49 = t31.neg_mul_add(t44, t16.neg_mul_add(t27, t34));
+    let t50 = t19.neg_mul_add(t27, t6.neg_mul_add(t12, n(p.k9)));
+    let t51 = t31.neg_mul_add(t45, t16.neg_mul_add(t28, t37));
+    let t52 = t16.neg_mul_add(t29, t3.neg_mul_add(t23, r12));
+    let t53 = t31.neg_mul_add(t46, t52);
+    let t54 = t19.neg_mul_add(t29, t6.neg_mul_add(t23, r13));
+    let t55 = N::ONE / t48;
+    let t56 = n(p.l) * (cos_q_5 + (cos_q_4 + (cos_q_3 + (cos_q_2 + cos_q_1))));
+    let t57 = sin_q_4.mul_add(q_4_dot, sin_q_3.mul_add(q_3_dot, t41));
+    let t58 = sin_q_5.mul_add(q_5_dot, t57);
+    let t59 = cos_q_4.mul_add(q_4_dot, cos_q_3.mul_add(q_3_dot, t42));
+    let t60 = n(p.d) - t56;
+    let r1 = n(p.l) * (sin_q_5 + (sin_q_4 + (sin_q_3 + (sin_q_2 + sin_q_1))));
+    let t61 = n(p.l) * t58;
+    let r3 = n(p.l) * cos_q_5.mul_add(q_5_dot, t59);
+    let t62 = t55 * t49;
+    let t63 = t55 * t51;
+    let t64 = t55 * t53;
+    let t65 = t49.neg_mul_add(t62, t33.neg_mul_add(t44, t50));
+    let t66 = t33.neg_mul_add(t45, t19.neg_mul_add(t28, t39));
+    let t67 = t49.neg_mul_add(t63, t66);
+    let t68 = t36.mul_add(t45, t21.mul_add(t28, t0 * t11));
+    let t69 = t49.neg_mul_add(t64, t33.neg_mul_add(t46, t54));
+    let t70 = t36.mul_add(t46, t21.mul_add(t29, t0 * t23));
+    let t71 = N::ONE / t65;
+    let t72 = t71 * t67;
+    let t73 = t71 * t69;
+    let r33 = t67.mul_add(t72, t51.mul_add(t63, t68));
+    let t74 = t67.mul_add(t73, t51.mul_add(t64, t70));
+    let t75 = N::ONE / r33;
+    let t76 = t69.mul_add(t73, t24.mul_add(t29, r9 * t23));
+    let r36 = t76 + t53.mul_add(t64, t40 * t46);
+    let t77 = t75 * t74;
+    let r34 = t74.neg_mul_add(t77, r36);
+    let t78 = N::ONE / r34;
+    let t79 = t60.neg_mul_add(t77, r1) * t78;
+    let t80 = t78 * t77.neg_mul_add(t61, r3);
+    let r29 = t77.neg_mul_add(t79, t60 * t75);
+    let r31 = t77.neg_mul_add(t80, t75 * t61);
+    let t81 = t72.mul_add(r29, t73 * t79);
+    let t82 = t72.mul_add(r31, t73 * t80);
+    let r22 = t62.mul_sub(t81, t63.mul_add(r29, t64 * t79));
+    let r27 = t62.mul_sub(t82, t63.mul_add(r31, t64 * t80));
+    let t83 = t44.neg_mul_add(t81, t45.mul_add(r29, t46 * t79));
+    let t84 = t43.mul_add(r22, t83);
+    let t85 = t27.mul_sub(t81, t28.mul_add(r29, t29 * t79));
+    let t86 = t12.neg_mul_add(t81, t11.mul_add(r29, t23 * t79));
+    let t87 = t44.neg_mul_add(t82, t45.mul_add(r31, t46 * t80));
+    let t88 = t43.mul_add(r27, t87);
+    let t89 = t27.mul_sub(t82, t28.mul_add(r31, t29 * t80));
+    let t90 = t12.neg_mul_add(t82, t11.mul_add(r31, t23 * t80));
+    let r20 = t25.mul_add(t84, t26.neg_mul_add(r22, t85));
+    let r25 = t25.mul_add(t88, t26.neg_mul_add(r27, t89));
+    let t91 = t4.mul_add(r20, t7.neg_mul_add(t84, t9.mul_add(r22, t86)));
+    let t92 = t4.mul_add(r25, t7.neg_mul_add(t88, t9.mul_add(r27, t90)));
+    let r0 = t56 - n(p.d);
+    let r2 = n(p.minus_l) * t58;
+    let r4 = sin_q_1 * n(p.minus_l);
+    let r5 = sin_q_2 * n(p.minus_l);
+    let r6 = sin_q_3 * n(p.minus_l);
+    let r7 = sin_q_4 * n(p.minus_l);
+    let r8 = sin_q_5 * n(p.minus_l);
+    let r19 = -t91;
+    let r21 = -t84;
+    let r23 = -t81;
+    let r24 = -t92;
+    let r26 = -t88;
+    let r28 = -t82;
+    let r30 = -t79;
+    let r32 = -t80;
+    let sound = PIVOTS.hold(n(p.k5), n(p.k5))
+        & PIVOTS.hold(t10, n(p.k6))
+        & PIVOTS.hold(t30, n(p.k7))
+        & PIVOTS.hold(t48, n(p.k8))
+        & PIVOTS.hold(t65, n(p.k9))
+        & PIVOTS.hold(r33, r33)
+        & PIVOTS.hold(r34, r36)
+        & r24.is_finite();
+    if !sound {
+        let pivots = [
+            (0, n(p.k5), n(p.k5)),
+            (1, t10, n(p.k6)),
+            (2, t30, n(p.k7)),
+            (3, t48, n(p.k8)),
+            (4, t65, n(p.k9)),
+            (5, r33, r33),
+            (6, r34, r36),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let projection = [
+        r0.store(),
+        r1.store(),
+        r2.store(),
+        r3.store(),
+        r4.store(),
+        r5.store(),
+        r6.store(),
+        r7.store(),
+        r8.store(),
+        r9.store(),
+        r10.store(),
+        r11.store(),
+        r12.store(),
+        r13.store(),
+        n(p.k5).store(),
+        n(p.k6).store(),
+        n(p.k7).store(),
+        n(p.k8).store(),
+        n(p.k9).store(),
+        r19.store(),
+        r20.store(),
+        r21.store(),
+        r22.store(),
+        r23.store(),
+        r24.store(),
+        r25.store(),
+        r26.store(),
+        r27.store(),
+        r28.store(),
+        r29.store(),
+        r30.store(),
+        r31.store(),
+        r32.store(),
+        r33.store(),
+        r34.store(),
+        r33.store(),
+        r36.store(),
+    ];
+    Ok(projection)
+}
+
 /// Kinetic energy `T`, in J.
 ///
 /// ```text
@@ -1189,6 +1411,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         number dissipation_rate(p, t, q, v, u);
         outputs outputs(p, t, q, v, a, u) = Outputs {};
         constraints constraints(p) = [("along", "m", "N", true), ("across", "m", "N", true)];
+        solved_in_place projection(p, t, q, v) = ProjectionCall { p, q, v };
         solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(5, 2);
     }

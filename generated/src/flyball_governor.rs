@@ -22,6 +22,7 @@
 //! | `constraint_bias` | 13 | 5 | 0 | 1 | 0 | 20 |
 //! | `accelerations` | 36 | 15 | 2 | 1 | 0 | 55 |
 //! | `multipliers` | 31 | 14 | 1 | 1 | 0 | 48 |
+//! | `projection` | 29 | 11 | 1 | 1 | 0 | 43 |
 //! | `kinetic_energy` | 8 | 3 | 0 | 1 | 0 | 12 |
 //! | `potential_energy` | 2 | 2 | 0 | 1 | 0 | 5 |
 //! | `work_rate` | 1 | 0 | 0 | 0 | 0 | 1 |
@@ -520,6 +521,83 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     Ok(multipliers)
 }
 
+::lagrangian::emitted::fast_function! {
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
+    /// how independent these are. Only of machines whose constraints are independent.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 18], ::lagrangian::emitted::Singular> = projection_in;
+}
+
+#[inline(always)]
+fn projection_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: ProjectionCall<'_, S>,
+) -> Result<[S; 18], ::lagrangian::emitted::Singular> {
+    let ProjectionCall { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let alpha = n(q[1]);
+    let s = n(q[2]);
+    let alpha_dot = n(v[1]);
+    let s_dot = n(v[2]);
+    let (sin_alpha, cos_alpha) = alpha.sin_cos();
+    let t0 = cos_alpha.neg_mul_add(n(p.l), s);
+    let t1 = sin_alpha * alpha_dot;
+    let t2 = cos_alpha * n(p.l_squared_over_b);
+    let r4 = t0 * n(p.inverse_b);
+    let t3 = sin_alpha * n(p.l_squared);
+    let t4 = cos_alpha * n(p.two_l_squared_m);
+    let r5 = cos_alpha.neg_mul_add(t4, n(p.J_plus_two_l_squared_m));
+    let r3 = sin_alpha * t0.mul_add(n(p.l_over_b), t2);
+    let t5 = r4 * n(p.inverse_M);
+    let t6 = t1 * (cos_alpha * n(p.two_l_squared));
+    let t7 = n(p.l).mul_add(t1, s_dot);
+    let t8 = sin_alpha.neg_mul_add(t3, n(p.b_squared));
+    let t9 = t0.neg_mul_add(t0, t8);
+    let t10 = r3 * n(p.k0);
+    let r1 = n(p.half_over_b) * t7.mul_add(t0 * N::from_f64(2.0), t6);
+    let r16 = r3.mul_add(t10, r4 * t5);
+    let t11 = N::ONE / r16;
+    let t12 = r1 * t11;
+    let r14 = t9 * n(p.half_over_b) * t11;
+    let r0 = t9 * n(p.minus_half_over_b);
+    let zero = N::ZERO;
+    let r9 = t10 * r14;
+    let r10 = t5 * r14;
+    let r12 = -(t10 * t12);
+    let r13 = -(t5 * t12);
+    let r15 = -t12;
+    let sound = PIVOTS.hold(r5, r5) & PIVOTS.hold(r16, r16) & r13.is_finite();
+    if !sound {
+        let pivots = [(0, r5, r5), (3, r16, r16)];
+        PIVOTS.check(pivots)?;
+    }
+    let projection = [
+        r0.store(),
+        r1.store(),
+        zero.store(),
+        r3.store(),
+        r4.store(),
+        r5.store(),
+        n(p.two_l_squared_m).store(),
+        n(p.M).store(),
+        zero.store(),
+        r9.store(),
+        r10.store(),
+        zero.store(),
+        r12.store(),
+        r13.store(),
+        r14.store(),
+        r15.store(),
+        r16.store(),
+        r16.store(),
+    ];
+    Ok(projection)
+}
+
 /// Kinetic energy `T`, in J.
 ///
 /// ```text
@@ -605,6 +683,7 @@ pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 3], u: &Inputs<S>) ->
         number dissipation_rate(p, t, q, v, u);
         outputs outputs(p, t, q, v, a, u) = Outputs {};
         constraints constraints(p) = [("links", "m", "N", true)];
+        solved_in_place projection(p, t, q, v) = ProjectionCall { p, q, v };
         solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(3, 1);
     }

@@ -20,6 +20,7 @@
 //! | `constraint_bias` | 12 | 4 | 0 | 3 | 0 | 22 |
 //! | `accelerations` | 68 | 35 | 3 | 3 | 0 | 112 |
 //! | `multipliers` | 58 | 27 | 3 | 3 | 0 | 94 |
+//! | `projection` | 61 | 38 | 3 | 3 | 0 | 108 |
 //! | `kinetic_energy` | 16 | 6 | 0 | 2 | 0 | 26 |
 //! | `potential_energy` | 5 | 3 | 0 | 3 | 0 | 11 |
 //!
@@ -77,7 +78,7 @@ impl<S: ::lagrangian::emitted::Scalar> FourBar<S> {
         let t7 = self.c * t3;
         let half_a_b_m2 = t2 * (self.a * S::from_f64(0.5));
         let t8 = S::from_ratio(1, 3);
-        let pivot_0 = t4 * t8 + self.m2 * t0;
+        let k6 = t4 * t8 + self.m2 * t0;
         let t9 = S::from_ratio(1, 12);
         let t10 = S::from_ratio(1, 6);
         let t11 = (self.m1 + self.m2 * S::from_f64(4.0)) * (t0 * S::from_f64(0.25));
@@ -91,14 +92,14 @@ impl<S: ::lagrangian::emitted::Scalar> FourBar<S> {
         let k4 = t6 * t8;
         let minus_a = -self.a;
         let minus_half_a_b_m2 = -half_a_b_m2;
-        let k6 = -(self.a * (m2_g + t5));
+        let k7 = -(self.a * (m2_g + t5));
         let minus_half_b_m2_g = -(t2 * t1);
         let minus_half_c_m3_g = -(t1 * t3);
         let minus_b = -self.b;
         let minus_c = -self.c;
-        let k7 = S::from_f64(3.0) / (self.m3 * (self.c * self.c));
-        let k8 = S::ONE / pivot_0;
-        let pivots = [(2, k5, k5), (0, pivot_0, pivot_0)];
+        let k8 = S::from_f64(3.0) / (self.m3 * (self.c * self.c));
+        let k9 = S::ONE / k6;
+        let pivots = [(2, k5, k5), (0, k6, k6)];
         Prepared {
             a: self.a,
             b: self.b,
@@ -115,15 +116,16 @@ impl<S: ::lagrangian::emitted::Scalar> FourBar<S> {
             k3,
             k4,
             k5,
+            k6,
             minus_a,
             minus_half_a_b_m2,
-            k6,
+            k7,
             minus_half_b_m2_g,
             minus_half_c_m3_g,
             minus_b,
             minus_c,
-            k7,
             k8,
+            k9,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -193,12 +195,14 @@ pub struct Prepared<S = f64> {
     k4: S,
     /// `(1/3)*c^2*m3`
     k5: S,
+    /// `a^2*m2 + (1/3)*a^2*m1`
+    k6: S,
     /// `-a`
     minus_a: S,
     /// `-0.5*a*b*m2`
     minus_half_a_b_m2: S,
     /// `-a*(m2*g + 0.5*m1*g)`
-    k6: S,
+    k7: S,
     /// `-0.5*b*m2*g`
     minus_half_b_m2_g: S,
     /// `-0.5*c*m3*g`
@@ -208,9 +212,9 @@ pub struct Prepared<S = f64> {
     /// `-c`
     minus_c: S,
     /// `3/c^2/m3`
-    k7: S,
-    /// `1/(a^2*m2 + (1/3)*a^2*m1)`
     k8: S,
+    /// `1/(a^2*m2 + (1/3)*a^2*m1)`
+    k9: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -271,7 +275,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     let cos_crank = crank.cos();
     let cos_coupler = coupler.cos();
     let cos_rocker = rocker.cos();
-    let q_crank = p.k6 * cos_crank;
+    let q_crank = p.k7 * cos_crank;
     let q_coupler = p.minus_half_b_m2_g * cos_coupler;
     let q_rocker = p.minus_half_c_m3_g * cos_rocker;
     [q_crank, q_coupler, q_rocker]
@@ -291,7 +295,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let t1 = crank_dot * crank_dot;
     let t2 = sin_coupler * (cos_crank * p.half_a_b_m2);
     let t3 = cos_coupler * (sin_crank * p.half_a_b_m2);
-    let f_crank = t0 * t2 - (t0 * t3 - cos_crank * p.k6);
+    let f_crank = t0 * t2 - (t0 * t3 - cos_crank * p.k7);
     let f_coupler = t1 * t3 - (t1 * t2 - cos_coupler * p.minus_half_b_m2_g);
     let f_rocker = cos_rocker * p.minus_half_c_m3_g;
     [f_crank, f_coupler, f_rocker]
@@ -455,24 +459,24 @@ fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     let t7 = cos_coupler * n(p.b);
     let t8 = cos_rocker * n(p.c);
     // Eliminates crank from row along: l[along, crank].
-    let t9 = t4 * n(p.k8);
+    let t9 = t4 * n(p.k9);
     // Eliminates rocker from row along: l[along, rocker].
-    let t10 = t6 * n(p.k7);
+    let t10 = t6 * n(p.k8);
     // Eliminates crank from row across: l[across, crank].
-    let t11 = t3 * n(p.k8);
+    let t11 = t3 * n(p.k9);
     // Eliminates rocker from row across: l[across, rocker].
-    let t12 = t8 * n(p.k7);
+    let t12 = t8 * n(p.k8);
     let t13 = cos_coupler.mul_add(cos_crank, sin_coupler * sin_crank);
     let t14 = n(p.half_a_b_m2) * t13;
     let t15 = cos_coupler.mul_sub(sin_crank, sin_coupler * cos_crank);
     // Eliminates crank from row coupler: l[coupler, crank].
-    let t16 = n(p.k8) * t14;
+    let t16 = n(p.k9) * t14;
     let t17 = t9.neg_mul_add(t14, t5);
     let t18 = t11.neg_mul_add(t14, t7);
     let t19 = cos_rocker * n(p.minus_half_c_m3_g);
     // Row coupler: pivot d[coupler].
     let t20 = t14.neg_mul_add(t16, n(p.k4));
-    let t21 = (t1 * n(p.half_a_b_m2)).mul_sub(t15, cos_crank * n(p.k6));
+    let t21 = (t1 * n(p.half_a_b_m2)).mul_sub(t15, cos_crank * n(p.k7));
     let t22 = cos_coupler * n(p.minus_half_b_m2_g);
     let t23 = t2.neg_mul_add(t8, t0.mul_add(t3, t1 * t7));
     let t24 = t2.neg_mul_add(t6, t0.mul_add(t4, t1 * t5));
@@ -503,12 +507,12 @@ fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     let t40 = t37.mul_add(t39, t33 * t36);
     // Back substitution: a[coupler].
     let t41 = t28.mul_sub(t40, t29.mul_add(t39, t25 * t27));
-    let t42 = t9.neg_mul_add(t40, t11.mul_sub(t39, n(p.k8) * t21));
+    let t42 = t9.neg_mul_add(t40, t11.mul_sub(t39, n(p.k9) * t21));
     // Back substitution: a[crank].
     let crank_ddot = t16.mul_add(t41, t42);
     let coupler_ddot = -t41;
     // Back substitution: a[rocker].
-    let rocker_ddot = t10.mul_sub(t40, t12.mul_sub(t39, n(p.k7) * t19));
+    let rocker_ddot = t10.mul_sub(t40, t12.mul_sub(t39, n(p.k8) * t19));
     let sound = PIVOTS.hold(t20, n(p.k4))
         & PIVOTS.hold(t30, t30)
         & PIVOTS.hold(t38, t35)
@@ -577,24 +581,24 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     let t7 = cos_coupler * n(p.b);
     let t8 = cos_rocker * n(p.c);
     // Eliminates crank from row along: l[along, crank].
-    let t9 = t4 * n(p.k8);
+    let t9 = t4 * n(p.k9);
     // Eliminates rocker from row along: l[along, rocker].
-    let t10 = t6 * n(p.k7);
+    let t10 = t6 * n(p.k8);
     // Eliminates crank from row across: l[across, crank].
-    let t11 = t3 * n(p.k8);
+    let t11 = t3 * n(p.k9);
     // Eliminates rocker from row across: l[across, rocker].
-    let t12 = t8 * n(p.k7);
+    let t12 = t8 * n(p.k8);
     let t13 = cos_coupler.mul_add(cos_crank, sin_coupler * sin_crank);
     let t14 = n(p.half_a_b_m2) * t13;
     let t15 = cos_coupler.mul_sub(sin_crank, sin_coupler * cos_crank);
     // Eliminates crank from row coupler: l[coupler, crank].
-    let t16 = n(p.k8) * t14;
+    let t16 = n(p.k9) * t14;
     let t17 = t9.neg_mul_add(t14, t5);
     let t18 = t11.neg_mul_add(t14, t7);
     let t19 = cos_rocker * n(p.minus_half_c_m3_g);
     // Row coupler: pivot d[coupler].
     let t20 = t14.neg_mul_add(t16, n(p.k4));
-    let t21 = (t1 * n(p.half_a_b_m2)).mul_sub(t15, cos_crank * n(p.k6));
+    let t21 = (t1 * n(p.half_a_b_m2)).mul_sub(t15, cos_crank * n(p.k7));
     let t22 = cos_coupler * n(p.minus_half_b_m2_g);
     let t23 = t2.neg_mul_add(t8, t0.mul_add(t3, t1 * t7));
     let t24 = t2.neg_mul_add(t6, t0.mul_add(t4, t1 * t5));
@@ -633,6 +637,124 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     }
     let multipliers = [lambda1.store(), lambda2.store()];
     Ok(multipliers)
+}
+
+::lagrangian::emitted::fast_function! {
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
+    /// how independent these are. Only of machines whose constraints are independent.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 27], ::lagrangian::emitted::Singular> = projection_in;
+}
+
+#[inline(always)]
+fn projection_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: ProjectionCall<'_, S>,
+) -> Result<[S; 27], ::lagrangian::emitted::Singular> {
+    let ProjectionCall { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let crank = n(q[0]);
+    let coupler = n(q[1]);
+    let rocker = n(q[2]);
+    let crank_dot = n(v[0]);
+    let coupler_dot = n(v[1]);
+    let rocker_dot = n(v[2]);
+    let angles = [coupler, crank, rocker];
+    let circular = N::sin_cos_all(angles);
+    let (sin_coupler, cos_coupler) = circular[0];
+    let (sin_crank, cos_crank) = circular[1];
+    let (sin_rocker, cos_rocker) = circular[2];
+    let r7 = cos_crank * n(p.a);
+    let t0 = sin_crank * n(p.a);
+    let t1 = sin_coupler * n(p.b);
+    let r6 = sin_rocker * n(p.c);
+    let t2 = cos_rocker * n(p.c);
+    let r8 = cos_coupler * n(p.b);
+    let t3 = r7 * n(p.k9);
+    let t4 = t0 * n(p.k9);
+    let t5 = r6 * n(p.k8);
+    let t6 = t2 * n(p.k8);
+    let t7 = sin_coupler.mul_add(sin_crank, cos_coupler * cos_crank);
+    let t8 = t7 * n(p.half_a_b_m2);
+    let r1 = t1 + t0 - r6;
+    let r0 = r8 + r7 - (t2 + n(p.d));
+    let t9 = n(p.k9) * t8;
+    let t10 = t8.neg_mul_add(t4, t1);
+    let t11 = t8.neg_mul_add(t3, r8);
+    let t12 = t1.mul_add(coupler_dot, t0 * crank_dot);
+    let t13 = r6 * rocker_dot;
+    let t14 = t8.neg_mul_add(t9, n(p.k4));
+    let t15 = t12 - t13;
+    let t16 = N::ONE / t14;
+    let t17 = r8.mul_add(coupler_dot, r7 * crank_dot);
+    let r3 = t2.neg_mul_add(rocker_dot, t17);
+    let t18 = t16 * t10;
+    let t19 = t16 * t11;
+    let r23 = t10.mul_add(t18, t0.mul_add(t4, r6 * t5));
+    let t20 = t10.mul_add(t19, t0.mul_add(t3, r6 * t6));
+    let r26 = t11.mul_add(t19, r7.mul_add(t3, t2 * t6));
+    let t21 = N::ONE / r23;
+    let t22 = t21 * t20;
+    let r24 = t20.neg_mul_add(t22, r26);
+    let t23 = N::ONE / r24;
+    let t24 = r0.mul_add(t22, r1) * t23;
+    let t25 = t23 * t15.neg_mul_add(t22, r3);
+    let t26 = t22.mul_add(t24, r0 * t21);
+    let r21 = t22.neg_mul_add(t25, t15 * t21);
+    let r14 = t18.mul_sub(t26, t19 * t24);
+    let t27 = t18.mul_add(r21, t19 * t25);
+    let r2 = t13 - t12;
+    let r4 = sin_crank * n(p.minus_a);
+    let r5 = sin_coupler * n(p.minus_b);
+    let r9 = cos_rocker * n(p.minus_c);
+    let r13 = -t9.mul_add(r14, t4.neg_mul_add(t26, t3 * t24));
+    let r15 = t5.neg_mul_add(t26, t6 * t24);
+    let r16 = t9.mul_sub(t27, t4.mul_add(r21, t3 * t25));
+    let r17 = -t27;
+    let r18 = t5.mul_add(r21, t6 * t25);
+    let r19 = -t26;
+    let r20 = -t24;
+    let r22 = -t25;
+    let sound =
+        PIVOTS.hold(t14, n(p.k4)) & PIVOTS.hold(r23, r23) & PIVOTS.hold(r24, r26) & r13.is_finite();
+    if !sound {
+        let pivots = [(1, t14, n(p.k4)), (3, r23, r23), (4, r24, r26)];
+        PIVOTS.check(pivots)?;
+    }
+    let projection = [
+        r0.store(),
+        r1.store(),
+        r2.store(),
+        r3.store(),
+        r4.store(),
+        r5.store(),
+        r6.store(),
+        r7.store(),
+        r8.store(),
+        r9.store(),
+        n(p.k6).store(),
+        n(p.k4).store(),
+        n(p.k5).store(),
+        r13.store(),
+        r14.store(),
+        r15.store(),
+        r16.store(),
+        r17.store(),
+        r18.store(),
+        r19.store(),
+        r20.store(),
+        r21.store(),
+        r22.store(),
+        r23.store(),
+        r24.store(),
+        r23.store(),
+        r26.store(),
+    ];
+    Ok(projection)
 }
 
 /// Kinetic energy `T`, in J.
@@ -699,8 +821,8 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} [], defined here
     outputs Outputs {} [], defined here
     prepared Prepared {
-        a, b, c, d, m2, half_b, k0, m2_g, half_a_m1_g, k1, k2, half_a_b_m2, k3, k4, k5, minus_a,
-        minus_half_a_b_m2, k6, minus_half_b_m2_g, minus_half_c_m3_g, minus_b, minus_c, k7, k8,
+        a, b, c, d, m2, half_b, k0, m2_g, half_a_m1_g, k1, k2, half_a_b_m2, k3, k4, k5, k6, minus_a,
+        minus_half_a_b_m2, k7, minus_half_b_m2_g, minus_half_c_m3_g, minus_b, minus_c, k8, k9,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
@@ -720,6 +842,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         number dissipation_rate(p, t, q, v, u);
         outputs outputs(p, t, q, v, a, u) = Outputs {};
         constraints constraints(p) = [("along", "m", "N", true), ("across", "m", "N", true)];
+        solved_in_place projection(p, t, q, v) = ProjectionCall { p, q, v };
         solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(3, 2);
     }

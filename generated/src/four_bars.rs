@@ -22,6 +22,7 @@
 //! | `constraint_bias` | 19 | 8 | 0 | 5 | 0 | 37 |
 //! | `accelerations` | 158 | 86 | 6 | 5 | 0 | 260 |
 //! | `multipliers` | 139 | 70 | 6 | 5 | 0 | 225 |
+//! | `projection` | 162 | 98 | 6 | 5 | 0 | 276 |
 //! | `kinetic_energy` | 27 | 12 | 0 | 4 | 0 | 47 |
 //! | `potential_energy` | 6 | 6 | 0 | 5 | 0 | 17 |
 //!
@@ -891,6 +892,246 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     Ok(multipliers)
 }
 
+::lagrangian::emitted::fast_function! {
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
+    /// how independent these are. Only of machines whose constraints are independent.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 59], ::lagrangian::emitted::Singular> = projection_in;
+}
+
+#[inline(always)]
+fn projection_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: ProjectionCall<'_, S>,
+) -> Result<[S; 59], ::lagrangian::emitted::Singular> {
+    let ProjectionCall { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let crank_0 = n(q[0]);
+    let crank_1 = n(q[1]);
+    let crank_2 = n(q[2]);
+    let coupler_1 = n(q[3]);
+    let coupler_2 = n(q[4]);
+    let crank_0_dot = n(v[0]);
+    let crank_1_dot = n(v[1]);
+    let crank_2_dot = n(v[2]);
+    let coupler_1_dot = n(v[3]);
+    let coupler_2_dot = n(v[4]);
+    let angles = [coupler_1, crank_0, crank_1, coupler_2, crank_2];
+    let circular = N::sin_cos_all(angles);
+    let (sin_coupler_1, cos_coupler_1) = circular[0];
+    let (sin_crank_0, cos_crank_0) = circular[1];
+    let (sin_crank_1, cos_crank_1) = circular[2];
+    let (sin_coupler_2, cos_coupler_2) = circular[3];
+    let (sin_crank_2, cos_crank_2) = circular[4];
+    let r18 = cos_crank_0 * n(p.l);
+    let r21 = cos_coupler_1 * n(p.l);
+    let t0 = sin_crank_0 * n(p.l);
+    let r9 = sin_crank_1 * n(p.l);
+    let t1 = sin_coupler_2 * n(p.l);
+    let t2 = cos_coupler_1 * cos_crank_0;
+    let r15 = sin_crank_2 * n(p.l);
+    let t3 = r18 * n(p.k6);
+    let r24 = cos_crank_1 * n(p.l);
+    let t4 = cos_crank_1 * cos_coupler_2;
+    let t5 = n(p.k6) * t0;
+    let t6 = n(p.k5) * t1;
+    let r27 = cos_coupler_2 * n(p.l);
+    let t7 = sin_coupler_1.mul_add(sin_crank_0, t2);
+    let t8 = n(p.half_l_squared_m) * t7;
+    let t9 = r15 * n(p.k5);
+    let t10 = sin_crank_1.mul_add(sin_coupler_2, t4);
+    let t11 = n(p.half_l_squared_m) * t10;
+    let t12 = r27 * n(p.k5);
+    let t13 = cos_crank_2 * n(p.l);
+    let t14 = n(p.k6) * t8;
+    let t15 = t8.neg_mul_add(t5, sin_coupler_1 * n(p.l));
+    let t16 = t8.neg_mul_add(t3, r21);
+    let t17 = n(p.k5) * t11;
+    let t18 = t11.neg_mul_add(t6, r9);
+    let t19 = t11.neg_mul_add(t12, r24);
+    let t20 = n(p.k5) * t13;
+    let t21 = t8.neg_mul_add(t14, n(p.k3));
+    let t22 = sin_crank_1 * crank_1_dot;
+    let t23 = t11.neg_mul_add(t17, n(p.k2));
+    let t24 = N::ONE / t21;
+    let t25 = cos_crank_1 * crank_1_dot;
+    let t26 = N::ONE / t23;
+    let t27 = sin_crank_0 * crank_0_dot;
+    let t28 = cos_crank_0 * crank_0_dot;
+    let t29 = cos_crank_1 + N::ONE - (cos_coupler_1 + cos_crank_0);
+    let t30 = N::ONE + cos_crank_2 - (cos_crank_1 + cos_coupler_2);
+    let t31 = sin_coupler_1.mul_add(coupler_1_dot, t27) - t22;
+    let t32 = sin_coupler_2.mul_add(coupler_2_dot, t22);
+    let t33 = sin_crank_2.neg_mul_add(crank_2_dot, t32);
+    let t34 = cos_coupler_2.mul_add(coupler_2_dot, t25);
+    let t35 = t29 * n(p.l);
+    let r2 = n(p.l) * (sin_coupler_1 + sin_crank_0 - sin_crank_1);
+    let t36 = t24 * t15;
+    let t37 = t24 * t16;
+    let r3 = n(p.l) * (sin_crank_1 + sin_coupler_2 - sin_crank_2);
+    let r6 = n(p.l) * (cos_coupler_1.mul_add(coupler_1_dot, t28) - t25);
+    let t38 = r9 * t26;
+    let t39 = t26 * t18;
+    let t40 = r24 * t26;
+    let t41 = t26 * t19;
+    let r7 = n(p.l) * cos_crank_2.neg_mul_add(crank_2_dot, t34);
+    let t42 = r9 * t39;
+    let r56 = t18.mul_add(t39, t1.mul_add(t6, r15 * t9));
+    let t43 = r9 * t41;
+    let r51 = r9.mul_add(t38, t15.mul_add(t36, t0 * t5));
+    let t44 = r9.mul_add(t40, t15.mul_add(t37, t0 * t3));
+    let r57 = r24.mul_add(t40, t16.mul_add(t37, r18 * t3));
+    let r58 = t19.mul_add(t41, r27.mul_add(t12, t13 * t20));
+    let t45 = n(p.l) * t31;
+    let t46 = N::ONE / r51;
+    let t47 = t46 * t42;
+    let t48 = t46 * t44;
+    let t49 = t46 * t43;
+    let r52 = t42.neg_mul_add(t47, r56);
+    let t50 = t42.neg_mul_add(t48, t18 * t40);
+    let t51 = t18.mul_add(t41, t1.mul_add(t12, r15 * t20));
+    let t52 = t42.neg_mul_add(t49, t51);
+    let t53 = t35.mul_add(t47, t30 * n(p.l));
+    let t54 = N::ONE / r52;
+    let t55 = t47.mul_add(t45, n(p.l) * t33);
+    let t56 = t54 * t50;
+    let t57 = t54 * t52;
+    let r53 = t50.neg_mul_add(t56, t44.neg_mul_add(t48, r57));
+    let t58 = t50.neg_mul_add(t57, t44.neg_mul_add(t49, r24 * t41));
+    let t59 = t53.mul_add(t56, t35.neg_mul_add(t48, r2));
+    let t60 = t56.mul_add(t55, t48.neg_mul_add(t45, r6));
+    let t61 = N::ONE / r53;
+    let t62 = t61 * t58;
+    let t63 = t52.neg_mul_add(t57, t43.neg_mul_add(t49, r58));
+    let r54 = t58.neg_mul_add(t62, t63);
+    let t64 = t53.neg_mul_add(t57, t35.mul_add(t49, r3));
+    let t65 = t57.neg_mul_add(t55, t49.mul_add(t45, r7));
+    let t66 = N::ONE / r54;
+    let t67 = t59.mul_add(t62, t64) * t66;
+    let t68 = t66 * t62.mul_add(t60, t65);
+    let t69 = t62.mul_add(t67, t59 * t61);
+    let t70 = t62.mul_add(t68, t61 * t60);
+    let r44 = t56.mul_add(t69, t57.neg_mul_add(t67, t53 * t54));
+    let r48 = t56.mul_add(t70, t57.neg_mul_add(t68, t54 * t55));
+    let t71 = t48.neg_mul_add(t69, t49.mul_add(t67, t35 * t46));
+    let r43 = t47.mul_add(r44, t71);
+    let t72 = t48.neg_mul_add(t70, t49.mul_add(t68, t46 * t45));
+    let r47 = t47.mul_add(r48, t72);
+    let t73 = t39.neg_mul_add(r44, t40.mul_sub(t69, t41 * t67));
+    let r34 = t38.mul_add(r43, t73);
+    let t74 = t36.mul_add(r43, t37 * t69);
+    let t75 = t39.neg_mul_add(r48, t40.mul_sub(t70, t41 * t68));
+    let r39 = t38.mul_add(r47, t75);
+    let t76 = t36.mul_add(r47, t37 * t70);
+    let r0 = n(p.minus_l) * t29;
+    let r1 = n(p.minus_l) * t30;
+    let r4 = n(p.minus_l) * t31;
+    let r5 = n(p.minus_l) * t33;
+    let r8 = n(p.minus_l) * sin_crank_0;
+    let zero = N::ZERO;
+    let r11 = n(p.minus_l) * sin_coupler_1;
+    let r14 = n(p.minus_l) * sin_crank_1;
+    let r17 = n(p.minus_l) * sin_coupler_2;
+    let r19 = n(p.minus_l) * cos_crank_1;
+    let r25 = n(p.minus_l) * cos_crank_2;
+    let r33 = t14.mul_sub(t74, t5.mul_add(r43, t3 * t69));
+    let r35 = t9.mul_add(r44, t20 * t67);
+    let r36 = -t74;
+    let r37 = -t17.mul_add(r34, t6.mul_add(r44, t12 * t67));
+    let r38 = t14.mul_sub(t76, t5.mul_add(r47, t3 * t70));
+    let r40 = t9.mul_add(r48, t20 * t68);
+    let r41 = -t76;
+    let r42 = -t17.mul_add(r39, t6.mul_add(r48, t12 * t68));
+    let r45 = -t69;
+    let r46 = -t67;
+    let r49 = -t70;
+    let r50 = -t68;
+    let sound = PIVOTS.hold(t21, n(p.k3))
+        & PIVOTS.hold(t23, n(p.k2))
+        & PIVOTS.hold(r51, r51)
+        & PIVOTS.hold(r52, r56)
+        & PIVOTS.hold(r53, r57)
+        & PIVOTS.hold(r54, r58)
+        & r42.is_finite();
+    if !sound {
+        let pivots = [
+            (3, t21, n(p.k3)),
+            (1, t23, n(p.k2)),
+            (5, r51, r51),
+            (6, r52, r56),
+            (7, r53, r57),
+            (8, r54, r58),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let projection = [
+        r0.store(),
+        r1.store(),
+        r2.store(),
+        r3.store(),
+        r4.store(),
+        r5.store(),
+        r6.store(),
+        r7.store(),
+        r8.store(),
+        r9.store(),
+        zero.store(),
+        r11.store(),
+        zero.store(),
+        zero.store(),
+        r14.store(),
+        r15.store(),
+        zero.store(),
+        r17.store(),
+        r18.store(),
+        r19.store(),
+        zero.store(),
+        r21.store(),
+        zero.store(),
+        zero.store(),
+        r24.store(),
+        r25.store(),
+        zero.store(),
+        r27.store(),
+        n(p.k2).store(),
+        n(p.k2).store(),
+        n(p.k3).store(),
+        n(p.k3).store(),
+        n(p.k3).store(),
+        r33.store(),
+        r34.store(),
+        r35.store(),
+        r36.store(),
+        r37.store(),
+        r38.store(),
+        r39.store(),
+        r40.store(),
+        r41.store(),
+        r42.store(),
+        r43.store(),
+        r44.store(),
+        r45.store(),
+        r46.store(),
+        r47.store(),
+        r48.store(),
+        r49.store(),
+        r50.store(),
+        r51.store(),
+        r52.store(),
+        r53.store(),
+        r54.store(),
+        r51.store(),
+        r56.store(),
+        r57.store(),
+        r58.store(),
+    ];
+    Ok(projection)
+}
+
 /// Kinetic energy `T`, in J.
 ///
 /// ```text
@@ -1000,6 +1241,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
             ("across[1]", "m", "N", true),
             ("across[2]", "m", "N", true),
         ];
+        solved_in_place projection(p, t, q, v) = ProjectionCall { p, q, v };
         solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(5, 4);
     }

@@ -16,6 +16,7 @@
 //! | `constraint_bias` | 6 | 4 | 0 | 0 | 0 | 10 |
 //! | `accelerations` | 37 | 19 | 2 | 0 | 0 | 58 |
 //! | `multipliers` | 32 | 18 | 2 | 0 | 0 | 52 |
+//! | `projection` | 54 | 32 | 2 | 0 | 0 | 88 |
 //! | `kinetic_energy` | 6 | 3 | 0 | 0 | 0 | 9 |
 //! | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 3 |
 //!
@@ -474,6 +475,123 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     Ok(multipliers)
 }
 
+::lagrangian::emitted::fast_function! {
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
+    /// how independent these are. Only of machines whose constraints are independent.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 4], v: &'a [S; 4] })
+        -> Result<[S; 32], ::lagrangian::emitted::Singular> = projection_in;
+}
+
+#[inline(always)]
+fn projection_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: ProjectionCall<'_, S>,
+) -> Result<[S; 32], ::lagrangian::emitted::Singular> {
+    let ProjectionCall { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let x1 = n(q[0]);
+    let y1 = n(q[1]);
+    let x2 = n(q[2]);
+    let y2 = n(q[3]);
+    let x1_dot = n(v[0]);
+    let y1_dot = n(v[1]);
+    let x2_dot = n(v[2]);
+    let y2_dot = n(v[3]);
+    let r4 = x1 * n(p.inverse_l1);
+    let r5 = y1 * n(p.inverse_l1);
+    let t0 = x1 - x2;
+    let t1 = y1 - y2;
+    let t2 = r4 * n(p.inverse_m1);
+    let t3 = r5 * n(p.inverse_m1);
+    let r8 = t0 * n(p.inverse_l2);
+    let r9 = t1 * n(p.inverse_l2);
+    let t4 = r8 * n(p.inverse_m1);
+    let t5 = r8 * n(p.inverse_m2);
+    let t6 = r9 * n(p.inverse_m1);
+    let t7 = r9 * n(p.inverse_m2);
+    let r28 = r5.mul_add(t3, r4 * t2);
+    let t8 = y1.mul_add(y1, x1.mul_sub(x1, n(p.l1_squared)));
+    let r0 = n(p.half_over_l1) * t8;
+    let r2 = n(p.inverse_l1) * y1.mul_add(y1_dot, x1 * x1_dot);
+    let t9 = t1.mul_add(t1, t0.mul_sub(t0, n(p.l2_squared)));
+    let r1 = n(p.half_over_l2) * t9;
+    let t10 = t1.mul_add(y1_dot - y2_dot, t0 * (x1_dot - x2_dot));
+    let r3 = n(p.inverse_l2) * t10;
+    let t11 = N::ONE / r28;
+    let t12 = r5.mul_add(t6, r4 * t4);
+    let r31 = r9.mul_add(t6, r8 * t4) + r9.mul_add(t7, r8 * t5);
+    let t13 = t11 * t12;
+    let t14 = r0 * t11;
+    let t15 = r2 * t11;
+    let r29 = t12.neg_mul_add(t13, r31);
+    let t16 = N::ONE / r29;
+    let t17 = r0.neg_mul_add(t13, r1) * t16;
+    let t18 = t16 * r2.neg_mul_add(t13, r3);
+    let t19 = t13 * t17;
+    let t20 = t13 * t18;
+    let t21 = t14 - t19;
+    let t22 = t15 - t20;
+    let zero = N::ZERO;
+    let r10 = t0 * n(p.minus_inverse_l2);
+    let r11 = t1 * n(p.minus_inverse_l2);
+    let r16 = -t2.mul_add(t21, t4 * t17);
+    let r17 = -t3.mul_add(t21, t6 * t17);
+    let r18 = t5 * t17;
+    let r19 = t7 * t17;
+    let r20 = -t2.mul_add(t22, t4 * t18);
+    let r21 = -t3.mul_add(t22, t6 * t18);
+    let r22 = t5 * t18;
+    let r23 = t7 * t18;
+    let r24 = t19 - t14;
+    let r25 = -t17;
+    let r26 = t20 - t15;
+    let r27 = -t18;
+    let sound = PIVOTS.hold(r28, r28) & PIVOTS.hold(r29, r31) & r21.is_finite();
+    if !sound {
+        let pivots = [(4, r28, r28), (5, r29, r31)];
+        PIVOTS.check(pivots)?;
+    }
+    let projection = [
+        r0.store(),
+        r1.store(),
+        r2.store(),
+        r3.store(),
+        r4.store(),
+        r5.store(),
+        zero.store(),
+        zero.store(),
+        r8.store(),
+        r9.store(),
+        r10.store(),
+        r11.store(),
+        n(p.m1).store(),
+        n(p.m1).store(),
+        n(p.m2).store(),
+        n(p.m2).store(),
+        r16.store(),
+        r17.store(),
+        r18.store(),
+        r19.store(),
+        r20.store(),
+        r21.store(),
+        r22.store(),
+        r23.store(),
+        r24.store(),
+        r25.store(),
+        r26.store(),
+        r27.store(),
+        r28.store(),
+        r29.store(),
+        r28.store(),
+        r31.store(),
+    ];
+    Ok(projection)
+}
+
 /// Kinetic energy `T`, in J.
 ///
 /// ```text
@@ -539,6 +657,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         number dissipation_rate(p, t, q, v, u);
         outputs outputs(p, t, q, v, a, u) = Outputs {};
         constraints constraints(p) = [("upper_rod", "m", "N", true), ("lower_rod", "m", "N", true)];
+        solved_in_place projection(p, t, q, v) = ProjectionCall { p, q, v };
         solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(4, 2);
     }

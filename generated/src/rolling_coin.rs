@@ -18,6 +18,7 @@
 //! | `constraint_bias` | 6 | 2 | 0 | 1 | 0 | 10 |
 //! | `accelerations` | 101 | 56 | 5 | 2 | 0 | 166 |
 //! | `multipliers` | 84 | 41 | 5 | 2 | 0 | 134 |
+//! | `projection` | 62 | 36 | 5 | 2 | 0 | 107 |
 //! | `kinetic_energy` | 20 | 10 | 0 | 2 | 0 | 34 |
 //! | `potential_energy` | 1 | 0 | 0 | 1 | 0 | 2 |
 //!
@@ -78,6 +79,7 @@ impl<S: ::lagrangian::emitted::Scalar> RollingCoin<S> {
         ];
         Prepared {
             m: self.m,
+            r: self.r,
             C: self.C,
             A: self.A,
             m_r_g,
@@ -135,6 +137,8 @@ pub struct Coordinates<S = f64> {
 pub struct Prepared<S = f64> {
     /// `m`
     m: S,
+    /// `r`
+    r: S,
     /// `C`
     C: S,
     /// `A`
@@ -672,6 +676,146 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     Ok(multipliers)
 }
 
+::lagrangian::emitted::fast_function! {
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
+    /// how independent these are. Only of machines whose constraints are independent.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 5], v: &'a [S; 5] })
+        -> Result<[S; 37], ::lagrangian::emitted::Singular> = projection_in;
+}
+
+#[inline(always)]
+fn projection_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: ProjectionCall<'_, S>,
+) -> Result<[S; 37], ::lagrangian::emitted::Singular> {
+    let ProjectionCall { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let heading = n(q[2]);
+    let lean = n(q[3]);
+    let x_dot = n(v[0]);
+    let y_dot = n(v[1]);
+    let roll_dot = n(v[4]);
+    let angles = [lean, heading];
+    let circular = N::sin_cos_all(angles);
+    let (sin_lean, cos_lean) = circular[0];
+    let (sin_heading, cos_heading) = circular[1];
+    let t0 = sin_lean * n(p.C);
+    let t1 = sin_heading * n(p.m_r);
+    let t2 = cos_heading * n(p.m_r);
+    let t3 = cos_lean * n(p.k0);
+    let r16 = cos_lean.neg_mul_add(t3, n(p.C_plus_m_r_squared));
+    let t4 = t0 * n(p.inverse_C);
+    let t5 = cos_lean * t1;
+    let t6 = sin_lean * t2;
+    let t7 = cos_lean * t2;
+    let t8 = sin_lean * t1;
+    let t9 = t0 * n(p.r_over_C);
+    let t10 = t0.neg_mul_add(t4, r16);
+    let r3 = cos_heading.mul_sub(y_dot, sin_heading * x_dot);
+    let t11 = n(p.k2) * t5;
+    let t12 = n(p.k2) * t7;
+    let t13 = sin_heading.mul_add(y_dot, cos_heading * x_dot);
+    let r2 = roll_dot.neg_mul_add(n(p.r), t13);
+    let t14 = N::ONE / t10;
+    let t15 = t14 * t6;
+    let t16 = t14 * t8;
+    let t17 = t14 * t9;
+    let t18 = t6.neg_mul_add(t15, t5.neg_mul_add(t11, n(p.m)));
+    let t19 = t6.neg_mul_add(t16, t5 * t12);
+    let t20 = t6.neg_mul_add(t17, cos_heading);
+    let t21 = N::ONE / t18;
+    let t22 = t21 * t19;
+    let t23 = t21 * t20;
+    let t24 = sin_heading * t21;
+    let t25 = t8.neg_mul_add(t16, t7.neg_mul_add(t12, n(p.m)));
+    let t26 = t19.neg_mul_add(t22, t25);
+    let t27 = t19.neg_mul_add(t23, t8.neg_mul_add(t17, sin_heading));
+    let t28 = t19.mul_add(t24, cos_heading);
+    let t29 = N::ONE / t26;
+    let t30 = t29 * t27;
+    let t31 = t29 * t28;
+    let t32 = t20.mul_add(t23, t9.mul_add(t17, n(p.r_squared_over_C)));
+    let r33 = t27.mul_add(t30, t32);
+    let t33 = t31.neg_mul_add(t27, t24 * t20);
+    let r36 = t28.mul_add(t31, sin_heading * t24);
+    let t34 = N::ONE / r33;
+    let t35 = t34 * t33;
+    let r34 = t33.neg_mul_add(t35, r36);
+    let t36 = r2.mul_add(t35, r3) / r34;
+    let t37 = t35.mul_add(t36, r2 * t34);
+    let t38 = t30.mul_add(t37, t31 * t36);
+    let r24 = t22.mul_add(t38, t23.neg_mul_add(t37, t24 * t36));
+    let t39 = t15.mul_add(r24, t16.neg_mul_add(t38, t17 * t37));
+    let zero = N::ZERO;
+    let r9 = -sin_heading;
+    let r25 = -t38;
+    let r26 = -t39;
+    let r27 = -t11.mul_add(r24, t12 * t38);
+    let r28 = t4.mul_add(t39, n(p.r_over_C) * t37);
+    let r31 = -t37;
+    let r32 = -t36;
+    let sound = PIVOTS.hold(t10, r16)
+        & PIVOTS.hold(t18, n(p.m))
+        & PIVOTS.hold(t26, n(p.m))
+        & PIVOTS.hold(r33, r33)
+        & PIVOTS.hold(r34, r36)
+        & r28.is_finite();
+    if !sound {
+        let pivots = [
+            (2, t10, r16),
+            (0, t18, n(p.m)),
+            (1, t26, n(p.m)),
+            (5, r33, r33),
+            (6, r34, r36),
+        ];
+        PIVOTS.check(pivots)?;
+    }
+    let projection = [
+        zero.store(),
+        zero.store(),
+        r2.store(),
+        r3.store(),
+        cos_heading.store(),
+        sin_heading.store(),
+        zero.store(),
+        zero.store(),
+        n(p.minus_r).store(),
+        r9.store(),
+        cos_heading.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        n(p.m).store(),
+        n(p.m).store(),
+        r16.store(),
+        n(p.A_plus_m_r_squared).store(),
+        n(p.C).store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        zero.store(),
+        r24.store(),
+        r25.store(),
+        r26.store(),
+        r27.store(),
+        r28.store(),
+        zero.store(),
+        zero.store(),
+        r31.store(),
+        r32.store(),
+        r33.store(),
+        r34.store(),
+        r33.store(),
+        r36.store(),
+    ];
+    Ok(projection)
+}
+
 /// Kinetic energy `T`, in J.
 ///
 /// ```text
@@ -736,7 +880,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
     inputs Inputs {} [], defined here
     outputs Outputs {} [], defined here
     prepared Prepared {
-        m, C, A, m_r_g, m_r, C_plus_m_r_squared, A_plus_m_r_squared, two_m_r, k0, k1, minus_m_r,
+        m, r, C, A, m_r_g, m_r, C_plus_m_r_squared, A_plus_m_r_squared, two_m_r, k0, k1, minus_m_r,
         minus_C, minus_r, k2, inverse_C, r_over_C, r_squared_over_C,
     }
     singular singular
@@ -757,6 +901,7 @@ pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[
         number dissipation_rate(p, t, q, v, u);
         outputs outputs(p, t, q, v, a, u) = Outputs {};
         constraints constraints(p) = [("ahead", "m/s", "N", false), ("across", "m/s", "N", false)];
+        solved_in_place projection(p, t, q, v) = ProjectionCall { p, q, v };
         solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(5, 2);
     }

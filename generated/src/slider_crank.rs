@@ -22,6 +22,7 @@
 //! | `constraint_bias` | 8 | 2 | 0 | 2 | 0 | 14 |
 //! | `accelerations` | 53 | 28 | 3 | 2 | 0 | 88 |
 //! | `multipliers` | 45 | 21 | 3 | 2 | 0 | 73 |
+//! | `projection` | 49 | 33 | 3 | 2 | 0 | 89 |
 //! | `kinetic_energy` | 16 | 6 | 0 | 2 | 0 | 26 |
 //! | `potential_energy` | 4 | 2 | 0 | 2 | 0 | 8 |
 //! | `assumption_0` | 0 | 0 | 0 | 1 | 0 | 1 |
@@ -78,7 +79,7 @@ impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
         let t3 = self.m1 * t0;
         let t4 = t1 * self.m1;
         let half_a_b_m2 = t2 * (self.a * S::from_f64(0.5));
-        let pivot_0 = t3 * S::from_f64(0.25) + (self.J1 + self.m2 * t0);
+        let k3 = t3 * S::from_f64(0.25) + (self.J1 + self.m2 * t0);
         let t5 = (self.m1 + self.m2 * S::from_f64(4.0)) * (t0 * S::from_f64(0.25));
         let half_b = self.b * S::from_f64(0.5);
         let half_a_m1_g = self.a * t4;
@@ -88,12 +89,12 @@ impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
         let k2 = self.J2 + t2 * (self.b * S::from_f64(0.25));
         let minus_a = -self.a;
         let minus_half_a_b_m2 = -half_a_b_m2;
-        let k3 = -(self.a * (m2_g + t4));
+        let k4 = -(self.a * (m2_g + t4));
         let minus_half_b_m2_g = -(t1 * t2);
         let minus_b = -self.b;
         let inverse_m3 = S::ONE / self.m3;
-        let k4 = S::ONE / pivot_0;
-        let pivots = [(2, self.m3, self.m3), (0, pivot_0, pivot_0)];
+        let k5 = S::ONE / k3;
+        let pivots = [(2, self.m3, self.m3), (0, k3, k3)];
         Prepared {
             a: self.a,
             b: self.b,
@@ -108,13 +109,14 @@ impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
             half_a_b_m2,
             k1,
             k2,
+            k3,
             minus_a,
             minus_half_a_b_m2,
-            k3,
+            k4,
             minus_half_b_m2_g,
             minus_b,
             inverse_m3,
-            k4,
+            k5,
             singular: PIVOTS.vanished(pivots),
         }
     }
@@ -176,12 +178,14 @@ pub struct Prepared<S = f64> {
     k1: S,
     /// `J2 + 0.25*b^2*m2`
     k2: S,
+    /// `J1 + a^2*m2 + 0.25*a^2*m1`
+    k3: S,
     /// `-a`
     minus_a: S,
     /// `-0.5*a*b*m2`
     minus_half_a_b_m2: S,
     /// `-a*(m2*g + 0.5*m1*g)`
-    k3: S,
+    k4: S,
     /// `-0.5*b*m2*g`
     minus_half_b_m2_g: S,
     /// `-b`
@@ -189,7 +193,7 @@ pub struct Prepared<S = f64> {
     /// `1/m3`
     inverse_m3: S,
     /// `1/(J1 + a^2*m2 + 0.25*a^2*m1)`
-    k4: S,
+    k5: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::emitted::Singular>,
 }
@@ -247,7 +251,7 @@ pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     let phi = q[1];
     let cos_theta = theta.cos();
     let cos_phi = phi.cos();
-    let q_theta = p.k3 * cos_theta;
+    let q_theta = p.k4 * cos_theta;
     let q_phi = p.minus_half_b_m2_g * cos_phi;
     let zero = S::ZERO;
     [q_theta, q_phi, zero]
@@ -265,7 +269,7 @@ pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: 
     let t1 = theta_dot * theta_dot;
     let t2 = sin_phi * (cos_theta * p.half_a_b_m2);
     let t3 = cos_phi * (sin_theta * p.half_a_b_m2);
-    let f_theta = t0 * t2 - (t0 * t3 - cos_theta * p.k3);
+    let f_theta = t0 * t2 - (t0 * t3 - cos_theta * p.k4);
     let f_phi = t1 * t3 - (t1 * t2 - cos_phi * p.minus_half_b_m2_g);
     let zero = S::ZERO;
     [f_theta, f_phi, zero]
@@ -409,16 +413,16 @@ fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     let t4 = sin_phi * n(p.b);
     let t5 = cos_phi * n(p.b);
     // Eliminates theta from row across: l[across, theta].
-    let t6 = t2 * n(p.k4);
+    let t6 = t2 * n(p.k5);
     // Eliminates theta from row along: l[along, theta].
-    let t7 = t3 * n(p.k4);
+    let t7 = t3 * n(p.k5);
     let t8 = cos_phi.mul_sub(sin_theta, sin_phi * cos_theta);
     let t9 = cos_phi.mul_add(cos_theta, sin_phi * sin_theta);
     let t10 = n(p.half_a_b_m2) * t9;
-    let t11 = (t0 * n(p.half_a_b_m2)).mul_sub(t8, cos_theta * n(p.k3));
+    let t11 = (t0 * n(p.half_a_b_m2)).mul_sub(t8, cos_theta * n(p.k4));
     let t12 = cos_phi * n(p.minus_half_b_m2_g);
     // Eliminates theta from row phi: l[phi, theta].
-    let t13 = n(p.k4) * t10;
+    let t13 = n(p.k5) * t10;
     let t14 = t7.neg_mul_add(t10, t4);
     let t15 = t6.neg_mul_add(t10, t5);
     // Row phi: pivot d[phi].
@@ -449,7 +453,7 @@ fn accelerations_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     let t31 = t28.mul_add(t30, t24 * t27);
     // Back substitution: a[phi].
     let t32 = t19.mul_sub(t31, t20.mul_add(t30, t17 * t18));
-    let t33 = t7.neg_mul_add(t31, t6.mul_sub(t30, n(p.k4) * t11));
+    let t33 = t7.neg_mul_add(t31, t6.mul_sub(t30, n(p.k5) * t11));
     // Back substitution: a[theta].
     let theta_ddot = t13.mul_add(t32, t33);
     let phi_ddot = -t32;
@@ -513,16 +517,16 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     let t4 = sin_phi * n(p.b);
     let t5 = cos_phi * n(p.b);
     // Eliminates theta from row across: l[across, theta].
-    let t6 = t2 * n(p.k4);
+    let t6 = t2 * n(p.k5);
     // Eliminates theta from row along: l[along, theta].
-    let t7 = t3 * n(p.k4);
+    let t7 = t3 * n(p.k5);
     let t8 = cos_phi.mul_sub(sin_theta, sin_phi * cos_theta);
     let t9 = cos_phi.mul_add(cos_theta, sin_phi * sin_theta);
     let t10 = n(p.half_a_b_m2) * t9;
-    let t11 = (t0 * n(p.half_a_b_m2)).mul_sub(t8, cos_theta * n(p.k3));
+    let t11 = (t0 * n(p.half_a_b_m2)).mul_sub(t8, cos_theta * n(p.k4));
     let t12 = cos_phi * n(p.minus_half_b_m2_g);
     // Eliminates theta from row phi: l[phi, theta].
-    let t13 = n(p.k4) * t10;
+    let t13 = n(p.k5) * t10;
     let t14 = t7.neg_mul_add(t10, t4);
     let t15 = t6.neg_mul_add(t10, t5);
     // Row phi: pivot d[phi].
@@ -561,6 +565,118 @@ fn multipliers_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
     }
     let multipliers = [lambda1.store(), lambda2.store()];
     Ok(multipliers)
+}
+
+::lagrangian::emitted::fast_function! {
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and
+    /// how independent these are. Only of machines whose constraints are independent.
+    ///
+    /// A pivot that vanishes is an error.
+    pub fn projection<'a, S>(ProjectionCall { p: &'a Prepared<S>, q: &'a [S; 3], v: &'a [S; 3] })
+        -> Result<[S; 27], ::lagrangian::emitted::Singular> = projection_in;
+}
+
+#[inline(always)]
+fn projection_in<S: Copy, N: ::lagrangian::emitted::Scalar<Stored = S>>(
+    call: ProjectionCall<'_, S>,
+) -> Result<[S; 27], ::lagrangian::emitted::Singular> {
+    let ProjectionCall { p, q, v } = call;
+    let n = N::load;
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let theta = n(q[0]);
+    let phi = n(q[1]);
+    let s = n(q[2]);
+    let theta_dot = n(v[0]);
+    let phi_dot = n(v[1]);
+    let s_dot = n(v[2]);
+    let angles = [phi, theta];
+    let circular = N::sin_cos_all(angles);
+    let (sin_phi, cos_phi) = circular[0];
+    let (sin_theta, cos_theta) = circular[1];
+    let r7 = cos_theta * n(p.a);
+    let t0 = sin_theta * n(p.a);
+    let t1 = sin_phi * n(p.b);
+    let r8 = cos_phi * n(p.b);
+    let t2 = r7 * n(p.k5);
+    let t3 = t0 * n(p.k5);
+    let t4 = r8 + r7;
+    let r1 = t1 + t0;
+    let t5 = sin_phi.mul_add(sin_theta, cos_phi * cos_theta);
+    let t6 = t5 * n(p.half_a_b_m2);
+    let r3 = r8.mul_add(phi_dot, r7 * theta_dot);
+    let t7 = s - t4;
+    let t8 = n(p.k5) * t6;
+    let t9 = t6.neg_mul_add(t3, t1);
+    let t10 = t6.neg_mul_add(t2, r8);
+    let t11 = t1.mul_add(phi_dot, t0 * theta_dot) + s_dot;
+    let t12 = t6.neg_mul_add(t8, n(p.k2));
+    let t13 = N::ONE / t12;
+    let t14 = t13 * t9;
+    let t15 = t13 * t10;
+    let r23 = t9.mul_add(t14, t0.mul_add(t3, n(p.inverse_m3)));
+    let t16 = t9.mul_add(t15, t0 * t2);
+    let r26 = t10.mul_add(t15, r7 * t2);
+    let t17 = N::ONE / r23;
+    let t18 = t17 * t16;
+    let r24 = t16.neg_mul_add(t18, r26);
+    let t19 = N::ONE / r24;
+    let t20 = t7.neg_mul_add(t18, r1) * t19;
+    let t21 = t19 * t11.neg_mul_add(t18, r3);
+    let r19 = t18.neg_mul_add(t20, t7 * t17);
+    let r21 = t18.neg_mul_add(t21, t11 * t17);
+    let t22 = t14.mul_add(r19, t15 * t20);
+    let t23 = t14.mul_add(r21, t15 * t21);
+    let r0 = t4 - s;
+    let r2 = -t11;
+    let r4 = sin_theta * n(p.minus_a);
+    let r5 = sin_phi * n(p.minus_b);
+    let zero = N::ZERO;
+    let r13 = t8.mul_sub(t22, t3.mul_add(r19, t2 * t20));
+    let r14 = -t22;
+    let r15 = -(n(p.inverse_m3) * r19);
+    let r16 = t8.mul_sub(t23, t3.mul_add(r21, t2 * t21));
+    let r17 = -t23;
+    let r18 = -(n(p.inverse_m3) * r21);
+    let r20 = -t20;
+    let r22 = -t21;
+    let sound =
+        PIVOTS.hold(t12, n(p.k2)) & PIVOTS.hold(r23, r23) & PIVOTS.hold(r24, r26) & r18.is_finite();
+    if !sound {
+        let pivots = [(1, t12, n(p.k2)), (3, r23, r23), (4, r24, r26)];
+        PIVOTS.check(pivots)?;
+    }
+    let projection = [
+        r0.store(),
+        r1.store(),
+        r2.store(),
+        r3.store(),
+        r4.store(),
+        r5.store(),
+        N::from_f64(-1.0).store(),
+        r7.store(),
+        r8.store(),
+        zero.store(),
+        n(p.k3).store(),
+        n(p.k2).store(),
+        n(p.m3).store(),
+        r13.store(),
+        r14.store(),
+        r15.store(),
+        r16.store(),
+        r17.store(),
+        r18.store(),
+        r19.store(),
+        r20.store(),
+        r21.store(),
+        r22.store(),
+        r23.store(),
+        r24.store(),
+        r23.store(),
+        r26.store(),
+    ];
+    Ok(projection)
 }
 
 /// Kinetic energy `T`, in J.
@@ -633,8 +749,8 @@ pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
     inputs Inputs {} [], defined here
     outputs Outputs {} [], defined here
     prepared Prepared {
-        a, b, m2, m3, J2, half_b, m2_g, half_a_m1_g, k0, half_m3, half_a_b_m2, k1, k2, minus_a,
-        minus_half_a_b_m2, k3, minus_half_b_m2_g, minus_b, inverse_m3, k4,
+        a, b, m2, m3, J2, half_b, m2_g, half_a_m1_g, k0, half_m3, half_a_b_m2, k1, k2, k3, minus_a,
+        minus_half_a_b_m2, k4, minus_half_b_m2_g, minus_b, inverse_m3, k5,
     }
     singular singular
     accelerations { (p, t, q, v, u) Accelerations { p, q, v } }
@@ -655,6 +771,7 @@ pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
         outputs outputs(p, t, q, v, a, u) = Outputs {};
         facts assumptions(p, t, q, v, u) = [("cos(phi) > 0", true, assumption_0(q))];
         constraints constraints(p) = [("along", "m", "N", true), ("across", "m", "N", true)];
+        solved_in_place projection(p, t, q, v) = ProjectionCall { p, q, v };
         solved multipliers(p, t, q, v, u) = multipliers(p, q, v);
         workspace with_workspace(p) = ::lagrangian::emitted::constraint_workspace(3, 2);
     }

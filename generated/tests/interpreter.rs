@@ -9,7 +9,7 @@ use lagrangian::{Machine, Number, Pivot, System};
 use lagrangian_machines as machines;
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Proved;
-use lagrangian_program::{Arguments, Interpreter, Program, Role, Singular};
+use lagrangian_program::{Arguments, Interpreter, Program, ProjectionLayout, Role, Singular};
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::Dag;
@@ -17,7 +17,7 @@ use lagrangian_symbolic::Dag;
 /// The number of states that are compared.
 const STATES: u64 = 20;
 
-/// The program of a machine of the library.
+/// The program of a machine of the library, as emitted code contains it.
 fn program(file: &str) -> Proved {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let path = format!("{}/../machines/{file}.machine", env!("CARGO_MANIFEST_DIR"));
@@ -31,8 +31,9 @@ fn program(file: &str) -> Proved {
         &mut sources,
         &mut report,
     )
-    .and_then(|model| Compiled::new(model, &mut report))
+    .and_then(|model| Compiled::in_charts(model, &mut report))
     .unwrap_or_else(|| panic!("{}", report.render_short(&sources)))
+    .0
     .program
 }
 
@@ -260,6 +261,29 @@ fn agrees_in_f64<M: Machine + Default>(
                     bits(&expected),
                     "{}",
                     place("multipliers")
+                );
+            }
+            let layout = ProjectionLayout {
+                coordinates: n,
+                constraints: m,
+            };
+            let mut projection = vec![0.0; layout.len()];
+            let emitted = system.projection(t, &q, &v, &mut projection);
+            let has_projection = program.function(Role::Projection).is_some();
+            let interpreted = f64::run(Interpreted {
+                interpreter: &mut Interpreter::new(&program, &parameters),
+                role: Role::Projection,
+                len: layout.len(),
+                arguments,
+            });
+            assert_eq!(emitted.is_ok(), interpreted.is_ok() || !has_projection);
+            if let Ok(expected) = interpreted {
+                assert_eq!(emitted, Ok(has_projection));
+                assert_eq!(
+                    bits(&projection),
+                    bits(&expected),
+                    "{}",
+                    place("projection")
                 );
             }
         }

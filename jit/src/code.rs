@@ -176,6 +176,18 @@ impl Workspace {
     }
 }
 
+impl Workspace {
+    /// The workspace as so many numbers of each of N states, which stay what they were.
+    pub(super) fn lanes<const N: usize>(&mut self, count: usize) -> &mut [Lanes<N>] {
+        let numbers = self
+            .at_least(count * size_of::<Lanes<N>>())
+            .cast::<Lanes<N>>();
+        // SAFETY: the lines hold at least this many rows of N numbers, for which any bits are valid, are aligned to more than these, and are borrowed as long as
+        // the result.
+        unsafe { std::slice::from_raw_parts_mut(numbers, count) }
+    }
+}
+
 /// Bytes of code that can be executed.
 #[derive(Debug)]
 pub(super) struct Executable {

@@ -52,14 +52,14 @@ mod work;
 #[cfg(not(target_arch = "x86_64"))]
 use nowhere as code;
 #[cfg(not(target_arch = "x86_64"))]
-pub use nowhere::{SeriesCode, SeriesRunning};
+pub use nowhere::{SeriesCode, SeriesRunning, SeriesSeveral};
 
 pub use arguments::SeveralArguments;
 pub use code::{Code, Layout, Workspace};
 pub use library::Library;
 pub use running::{Running, When};
 #[cfg(target_arch = "x86_64")]
-pub use series::{SeriesCode, SeriesRunning};
+pub use series::{SeriesCode, SeriesRunning, SeriesSeveral};
 pub use series_library::SeriesLibrary;
 pub use several::Several;
 pub use unavailable::Unavailable;

@@ -126,6 +126,22 @@ impl SeriesCode {
         Err(Unavailable::Processor)
     }
 
+    /// Compiles a series for several states at once.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn for_lanes(_: &Series, _: usize) -> Result<SeriesCode, Unavailable> {
+        Err(Unavailable::Processor)
+    }
+
+    /// Compiles a series for a layout.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn of(_: &Series, _: Layout) -> Result<SeriesCode, Unavailable> {
+        Err(Unavailable::Processor)
+    }
+
     /// The amount of work of compiling it.
     pub fn work(&self) -> Work {
         match self.0 {}
@@ -159,6 +175,37 @@ impl SeriesRunning {
 
     /// Expands the motion through a state.
     pub fn expand<V: AsMut<[f64]>>(&mut self, _: [f64; 2], _: [&[f64]; 3], _: &mut [V]) -> bool {
+        match self.0.0 {}
+    }
+}
+
+/// A series of several states, which cannot exist here.
+#[derive(Clone, Debug)]
+pub struct SeriesSeveral<const N: usize>(Arc<SeriesCode>);
+
+impl<const N: usize> SeriesSeveral<N> {
+    /// The series of an expander.
+    pub fn new(code: Arc<SeriesCode>, _: &Expander<f64>) -> Option<Self> {
+        Some(SeriesSeveral(code))
+    }
+
+    /// The number of coefficients of a coordinate.
+    pub fn width(&self) -> usize {
+        match self.0.0 {}
+    }
+
+    /// Replaces the parameters of a state.
+    pub fn put(&mut self, _: usize, _: &Expander<f64>) {
+        match self.0.0 {}
+    }
+
+    /// Expands the motions through states.
+    pub fn expand(
+        &mut self,
+        _: [Lanes<N>; 2],
+        _: [&[Lanes<N>]; 3],
+        _: &mut [Vec<Lanes<N>>],
+    ) -> u32 {
         match self.0.0 {}
     }
 }

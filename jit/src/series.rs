@@ -5,6 +5,7 @@
 //! | `series/record.rs`, `series/recurrences.rs`, `series/solution.rs` | the operations of the interpreter of series, recorded |
 //! | `series/memory.rs` | the places of numbers |
 //! | `emit/orders.rs` | the loop over orders, and the sums over orders in registers |
+//! | `series/several.rs` | calls of several states |
 //!
 //! The code consists of three parts, and the matrices of the unknowns are factored between the first two by the same function as in the
 //! interpreter. It does the operations of the interpreter in the same order, so coefficients have the same bits. Only sums and products with numbers that
@@ -13,6 +14,7 @@
 pub(crate) mod memory;
 mod record;
 mod recurrences;
+mod several;
 mod solution;
 
 use std::sync::Arc;
@@ -22,7 +24,7 @@ use lagrangian_program::series::{Expander, RowId, Series};
 use lagrangian_scalar::{Kernel, Scalar, series as steps};
 
 use super::Level;
-use super::code::{Executable, Workspace};
+use super::code::{Executable, Layout, Workspace};
 use super::emit::{HEADER, Orders, assemble, assemble_orders};
 use super::library::Library;
 use super::lower::Arithmetic;
@@ -30,13 +32,15 @@ use super::unavailable::Unavailable;
 use super::work::{Work, operations_of_series};
 use memory::NUMBERS;
 use record::{Factored, Recorded, record};
+pub use several::SeriesSeveral;
 
 /// The largest number of operations that are recorded.
 const MOST: usize = 100_000;
 
-/// The series of a machine as machine code, for any parameters and any number of orders.
+/// The series of a machine as machine code, for one state or several, any parameters and any number of orders.
 #[derive(Debug)]
 pub struct SeriesCode {
+    layout: Layout,
     /// Values, first accelerations, later orders.
     parts: [Executable; 3],
     blocks: Vec<Factored>,
@@ -69,14 +73,33 @@ impl SeriesCode {
     /// # Errors
     /// If the processor lacks the level, or the series is too long.
     pub fn at(series: &Series, level: Level) -> Result<SeriesCode, Unavailable> {
-        if !Level::all().any(|own| own == level) {
+        SeriesCode::of(series, Library::one(level))
+    }
+
+    /// Compiles a series for 4 or 8 states at once, each with its own parameters.
+    ///
+    /// # Errors
+    /// If machine code is not available here, or not for this number of states, or the series is too long.
+    pub fn for_lanes(series: &Series, lanes: usize) -> Result<SeriesCode, Unavailable> {
+        let level = Level::here().ok_or(Unavailable::Processor)?;
+        let layout = Library::several(level, lanes, false).ok_or(Unavailable::Processor)?;
+        SeriesCode::of(series, layout)
+    }
+
+    /// Compiles a series for a layout that [`Library::one`] or [`Library::several`] returned, where each state has its own parameters.
+    ///
+    /// # Errors
+    /// If the processor lacks the level, or the series is too long.
+    pub fn of(series: &Series, layout: Layout) -> Result<SeriesCode, Unavailable> {
+        let level = layout.level;
+        if layout.known_stride != layout.stride || !Level::all().any(|own| own == level) {
             return Err(Unavailable::Processor);
         }
         if operations_of_series(series) > MOST {
             return Err(Unavailable::TooLong);
         }
-        let layout = Library::one(level);
         let width = match level {
+            _ if layout.lanes > 1 => 1,
             Level::Avx512 => 8,
             Level::Avx2 => 4,
         };
@@ -118,6 +141,7 @@ impl SeriesCode {
             (memory.inputs(), series.inputs),
         ];
         Ok(SeriesCode {
+            layout,
             parts: [values, first, later],
             blocks,
             arguments: inputs.map(|(at, count)| (at as usize, count)),
@@ -171,17 +195,17 @@ impl Kernel<f64> for OfOrder {
     }
 }
 
-/// Factors the matrices of the unknowns; false if one is singular.
-struct Factor<'a> {
+/// Factors the matrices of the unknowns, of one state or of several; false if one is singular.
+struct Factor<'a, T> {
     blocks: &'a [Factored],
-    numbers: &'a mut [f64],
+    numbers: &'a mut [T],
 }
 
-impl Kernel<f64> for Factor<'_> {
+impl<T: Copy> Kernel<T> for Factor<'_, T> {
     type Output = bool;
 
     #[inline(always)]
-    fn run<N: Scalar<Stored = f64>>(self) -> bool {
+    fn run<N: Scalar<Stored = T>>(self) -> bool {
         for block in self.blocks {
             let matrix = &mut self.numbers[block.matrix as usize..][..block.count * block.count];
             if steps::factor::<N>(block.count, block.held, matrix).is_err() {
@@ -194,7 +218,11 @@ impl Kernel<f64> for Factor<'_> {
 
 impl SeriesRunning {
     /// The series of an expander, with its parameters and its number of orders.
+    ///
+    /// # Panics
+    /// If the code is for several states.
     pub fn new(code: Arc<SeriesCode>, expander: &Expander<f64>) -> SeriesRunning {
+        assert_eq!(code.layout.stride, 1, "code for one state");
         let width = expander.order() + 2;
         let mut memory = Workspace::default();
         let numbers = memory.numbers(code.records + code.stride * width);

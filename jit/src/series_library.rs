@@ -16,6 +16,8 @@ pub struct SeriesLibrary {
     calls: AtomicU32,
     /// `None` inside if machine code is not available.
     code: OnceLock<Option<Arc<SeriesCode>>>,
+    /// The same for several states at once.
+    of_lanes: OnceLock<Option<Arc<SeriesCode>>>,
 }
 
 impl SeriesLibrary {
@@ -26,7 +28,23 @@ impl SeriesLibrary {
             series,
             calls: AtomicU32::new(0),
             code: OnceLock::new(),
+            of_lanes: OnceLock::new(),
         }
+    }
+
+    /// Whether the code for one state has been compiled.
+    pub fn is_compiled(&self) -> bool {
+        matches!(self.code.get(), Some(Some(_)))
+    }
+
+    /// The code for 4 or 8 states at once, each with its own parameters, compiled by the first call; all calls must be for one number of states. `None`
+    /// if there can be none.
+    pub fn code_of_lanes(&self, lanes: usize) -> Option<Arc<SeriesCode>> {
+        let code = self.of_lanes.get_or_init(|| {
+            let code = SeriesCode::for_lanes(&self.series, lanes);
+            code.ok().map(Arc::new)
+        });
+        code.clone()
     }
 
     /// Counts an expansion, and returns the code for it: compiled now, or once enough expansions have been made. `None` if it is interpreted,

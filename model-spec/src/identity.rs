@@ -21,8 +21,8 @@ use lagrangian_symbolic::{
 /// The number of points that must agree.
 const POINTS: usize = 3;
 
-/// The number of points that must agree if an expression contains signs: a sign has two values, so each point
-/// leaves a probability of ½.
+/// The number of points that must agree if an expression contains signs or roots: a sign has two values, and so has the quotient of a number and the root
+/// of its square, so each point leaves a probability of ½.
 const POINTS_WITH_SIGNS: usize = 64;
 
 /// The number of points that are tried for each one that counts: a square root exists at every second point.
@@ -386,8 +386,15 @@ fn random_unless_parameter(dag: &Dag, seed: u64, symbol: Symbol) -> Residue {
 
 /// The number of points that prove something about the expressions.
 fn needed_points(dag: &Dag, expressions: &[Expr<'_>]) -> usize {
-    use Function::{Abs, Max, Min, Sign};
-    let is_sign = |id| matches!(dag.node(id), Node::Function(Abs | Max | Min | Sign, _));
+    use Function::{Abs, Acos, Asin, Atan2, Max, Min, Pow, Sign, Sqrt};
+    // The root of a square, as of the distance of two points on a line, is an absolute value, whatever its form.
+    let is_sign = |id| {
+        let with_roots = matches!(
+            dag.node(id),
+            Node::Function(Sqrt | Pow | Asin | Acos | Atan2, _)
+        );
+        with_roots || matches!(dag.node(id), Node::Function(Abs | Max | Min | Sign, _))
+    };
     let signs = reachable(dag, expressions).into_iter().any(is_sign);
     if signs { POINTS_WITH_SIGNS } else { POINTS }
 }

@@ -115,6 +115,8 @@ pub struct Model<'d> {
     pub stages: Stages,
     /// Where the spec asks for emitted code with the Taylor series of the motion, if it does.
     pub taylor: Option<Span>,
+    /// Whether the program is to have the projection of states onto the constraints, for code in which runs project the ends of their steps.
+    pub projects: bool,
     /// Points for which the spec names a second chart.
     pub charts: Vec<Charts>,
     /// This machine in the other charts, with the same coordinates in the same order except for the replaced ones; `None` if the spec

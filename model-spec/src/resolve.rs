@@ -361,6 +361,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 coordinates: stages.iter().any(|stages| stages.coordinates),
             },
             taylor: methods.into_iter().next(),
+            projects: false,
             charts,
             cartesian: None,
             uncharted: Vec::new(),

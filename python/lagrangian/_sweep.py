@@ -371,6 +371,7 @@ def sweep(
     * ``reduce``: a mapping from names to reductions, ``"max(abs(x))"``: ``max``, ``min``, ``range``, ``mean``, ``rms``,
       ``integral``, ``first``, ``last``, ``when_max``, ``when_min`` of an expression, ``count``, ``first``, ``last`` of an event;
       from ``after`` on, in s.
+    * ``method``: as for ``simulate``; with ``auto``, the default of the command, each run chooses its methods, and a column ``methods`` tells which.
     * ``inputs``, ``events``: numbers, formulas, tables and sampled formulas, as for ``simulate``. Functions in Python are
       rejected, since they are not portable.
     * ``out``: a ``.csv``, a ``.parquet``, or a folder, to which the rows go as they are computed: an interruption, by Ctrl-C, a full

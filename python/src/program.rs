@@ -159,7 +159,7 @@ impl Derived {
             {
                 return Ok(derived);
             }
-            let compiled = model.and_then(|model| Compiled::new(model, &mut report));
+            let compiled = model.and_then(|model| Compiled::for_runs(model, &mut report));
             let diagnostics = errors::as_values(&report, &sources);
             let Some(compiled) = compiled else {
                 return Err(Trouble::Spec(
@@ -549,7 +549,7 @@ impl Program {
                     "latex" => latex::text(&Document::new(&compiled)),
                     "html" => html::text(&Document::new(&compiled)),
                     "article" => html::article(&Document::new(&compiled)),
-                    "c" => lagrangian_emit::c::file(&compiled.program, &origin, &formulas()),
+                    "c" => lagrangian_languages::c::file(&compiled.program, &origin, &formulas()),
                     _ => compiled.program.to_string(),
                 })
             })

@@ -133,6 +133,7 @@ pub(super) fn solve_triangle(r: &[f64], rank: usize, x: &mut [f64]) {
 }
 
 /// Removes the component along a unit vector from `x`, and returns it.
+#[inline]
 pub(crate) fn remove(unit: &[f64], x: &mut [f64]) -> f64 {
     let along = dot(unit, x);
     for (x, unit) in x.iter_mut().zip(unit) {
@@ -141,10 +142,12 @@ pub(crate) fn remove(unit: &[f64], x: &mut [f64]) -> f64 {
     along
 }
 
+#[inline]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
+#[inline]
 pub(crate) fn length(x: &[f64]) -> f64 {
     sqrt(dot(x, x))
 }

@@ -55,6 +55,9 @@ impl<V: Vector> Constraints<V> {
     /// The strength of the weakest chosen row at a pose: its component orthogonal to the others, relative to its greatest length;
     /// 0 if it has none.
     pub fn strength<S: System<Vector = V>>(&self, system: &S, t: f64, q: &V) -> f64 {
+        if let Some(hold) = self.strength_by_function(system, t, q) {
+            return hold;
+        }
         let hold = in_workspace(system, t, q.as_slice().len(), |workspace| {
             self.prepare(system, workspace, (t, q), Level::Rates)?;
             Ok(self.factored_strength(workspace, q))

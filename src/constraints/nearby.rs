@@ -15,7 +15,7 @@ use crate::{StepError, System, Vector};
 const CHANGES_ROWS: f64 = 1e-6;
 
 /// The factor to which each correction must reduce the residuals.
-const CONTRACTION: f64 = 0.1;
+pub(super) const CONTRACTION: f64 = 0.1;
 
 impl<V: Vector> Constraints<V> {
     /// Newton's method on both levels for a state with these residuals of the chosen rows, relative to their scale, by the metric and the basis in the
@@ -107,11 +107,15 @@ impl<V: Vector> Constraints<V> {
         place: &Unprojected<'_, V>,
         level: Level,
     ) {
+        let inertial = self.scales.roundoff_of_rates(place.v[0]);
         for k in 0..workspace.m {
             let row = &workspace.matrix[k * workspace.n..][..workspace.n];
             let scale = match level {
                 Level::Positions => self.scales.of_positions(k, row, place.q[0]),
-                Level::Rates => (self.scales).of_rates(k, row, workspace.rates[k], place.v[0]),
+                Level::Rates => {
+                    let at = (&*place.v[0], inertial);
+                    self.scales.of_rates(k, row, workspace.rates[k], at)
+                }
             };
             workspace.lengths[k] = share(1.0, scale);
         }

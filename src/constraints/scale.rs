@@ -194,13 +194,21 @@ impl<V: Vector> Scales<V> {
         rates.map(|(v, size)| v.abs() / size).fold(0.0, f64::max)
     }
 
-    /// The size of a row's terms in a pose relative to the largest: where it is small, the row is weak.
-    pub fn strength(&self, k: usize, row: &[f64], q: &V) -> f64 {
+    /// The size of a row's terms in a pose, and the largest.
+    #[inline(always)]
+    pub fn sizes_of_terms(&self, k: usize, row: &[f64], q: &V) -> [f64; 2] {
         let now = self.sum(row, q, 0);
         let greatest = now.max(self.terms[0].get(k)).max(self.curvatures.get(k));
+        [now, greatest]
+    }
+
+    /// The size of a row's terms in a pose relative to the largest: where it is small, the row is weak.
+    pub fn strength(&self, k: usize, row: &[f64], q: &V) -> f64 {
+        let [now, greatest] = self.sizes_of_terms(k, row, q);
         if greatest > 0.0 { now / greatest } else { 1.0 }
     }
 
+    #[inline(always)]
     fn sum(&self, row: &[f64], y: &V, level: usize) -> f64 {
         let sizes = self.sizes[level].as_slice().iter().zip(y.as_slice());
         let terms = row.iter().zip(sizes);
@@ -223,13 +231,29 @@ impl<V: Vector> Scales<V> {
         }
     }
 
+    /// Records the diagonal of the metric.
+    #[inline(always)]
+    pub fn record_inertias(&mut self, diagonal: &[f64]) {
+        let [inertias, yields] = &mut self.inertia;
+        let both = inertias
+            .as_mut_slice()
+            .iter_mut()
+            .zip(yields.as_mut_slice());
+        for ((inertia, yields), of_metric) in both.zip(diagonal) {
+            *inertia = *of_metric;
+            *yields = if *inertia > 0.0 { 1.0 / *inertia } else { 0.0 };
+        }
+    }
+
     /// `√Σⱼ Gₖⱼ²/Mⱼⱼ`.
+    #[inline(always)]
     fn length(&self, row: &[f64]) -> f64 {
         let by = row.iter().zip(self.inertia[1].as_slice());
         sqrt(by.map(|(g, yields)| g * g * yields).sum())
     }
 
     /// `√Σⱼ Mⱼⱼ vⱼ²` with the largest rates so far.
+    #[inline(always)]
     fn speed(&self, v: &V) -> f64 {
         let by = (self.inertia[0].as_slice().iter()).zip(self.sizes[1].as_slice());
         let by = by.zip(v.as_slice());
@@ -242,10 +266,28 @@ impl<V: Vector> Scales<V> {
 
     /// The residuals of a row, of positions and rates, relative to their scales.
     pub fn relative(&self, k: usize, row: &[f64], left: [f64; 2], q: &V, v: &V) -> [Relative; 2] {
+        self.relative_within(k, row, left, (q, v, self.roundoff_of_rates(v)))
+    }
+
+    /// The same for a known [round-off](Self::roundoff_of_rates) of the rates.
+    #[inline(always)]
+    pub fn relative_within(
+        &self,
+        k: usize,
+        row: &[f64],
+        left: [f64; 2],
+        (q, v, inertial): (&V, &V, f64),
+    ) -> [Relative; 2] {
         [
             self.relative_of_positions(k, row, left[0], q),
-            self.relative_of_rates(k, row, left[1], v),
+            self.relative_of_rates_within(k, row, left[1], (v, inertial)),
         ]
+    }
+
+    /// The round-off of rates as a length in the metric of inertia, relative to the round-off unit: the same for all rows.
+    #[inline(always)]
+    pub fn roundoff_of_rates(&self, v: &V) -> f64 {
+        self.observed_roundoff[1] + self.speed(v)
     }
 
     /// The residual of the positions of a row, relative to its scale.
@@ -258,23 +300,34 @@ impl<V: Vector> Scales<V> {
     /// The residual of the rates of a row, relative to its scale.
     #[inline(always)]
     pub fn relative_of_rates(&self, k: usize, row: &[f64], left: f64, v: &V) -> Relative {
+        self.relative_of_rates_within(k, row, left, (v, self.roundoff_of_rates(v)))
+    }
+
+    #[inline(always)]
+    fn relative_of_rates_within(
+        &self,
+        k: usize,
+        row: &[f64],
+        left: f64,
+        (v, inertial): (&V, f64),
+    ) -> Relative {
         let by_rates: f64 = row.iter().zip(v.as_slice()).map(|(g, v)| g * v).sum();
         let rates = self.sum(row, v, 1) + (left - by_rates).abs();
-        let inertial = self.observed_roundoff[1] + self.speed(v);
         self.relative_to((k, 1), row, left, rates, inertial)
     }
 
     /// What the residual of the positions of a row is relative to now.
+    #[inline(always)]
     pub fn of_positions(&self, k: usize, row: &[f64], q: &V) -> f64 {
         let positions = self.sum(row, q, 0);
         positions + self.floor((k, 0), row, positions, self.observed_roundoff[0])
     }
 
-    /// What the residual of the rates of a row, `left`, is relative to now.
-    pub fn of_rates(&self, k: usize, row: &[f64], left: f64, v: &V) -> f64 {
+    /// What the residual of the rates of a row, `left`, is relative to now, for this [round-off](Self::roundoff_of_rates) of the rates.
+    #[inline(always)]
+    pub fn of_rates(&self, k: usize, row: &[f64], left: f64, (v, inertial): (&V, f64)) -> f64 {
         let by_rates: f64 = row.iter().zip(v.as_slice()).map(|(g, v)| g * v).sum();
         let rates = self.sum(row, v, 1) + (left - by_rates).abs();
-        let inertial = self.observed_roundoff[1] + self.speed(v);
         rates + self.floor((k, 1), row, rates, inertial)
     }
 

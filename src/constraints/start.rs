@@ -35,9 +35,22 @@ impl<V: Vector> Constraints<V> {
         let state_before = [place.q[0].clone(), place.v[0].clone()];
         self.kept = kept;
         let mut tried = Ok(false);
+        // How many passes in succession have chosen all rows and moved nothing.
+        let mut at_rest = 0;
         for independent in PASSES {
-            tried = self.pass(system, place, Rank::Revealed(independent));
+            tried = self.pass(system, place, Rank::Revealed(independent), at_rest > 0);
             if tried == Ok(false) && independent == INDEPENDENT {
+                break;
+            }
+            let are_all = self.kept.is_none() && self.choice.rank == system.constraints().len();
+            at_rest = if tried == Ok(false) && are_all {
+                at_rest + 1
+            } else {
+                0
+            };
+            // The next one would choose the same rows: a lower bound admits no further ones, and of rows that were all chosen before, none
+            // is preferred.
+            if at_rest == 2 {
                 break;
             }
         }
@@ -46,13 +59,16 @@ impl<V: Vector> Constraints<V> {
         if *place.q[0] != state_before[0] || *place.v[0] != state_before[1] {
             let projected = [place.q[0].clone(), place.v[0].clone()];
             set_state(place, &state_before);
-            if self.pass(system, place, Rank::Known).is_err() {
+            at_rest = 0;
+            if self.pass(system, place, Rank::Known, false).is_err() {
                 set_state(place, &projected);
-                self.pass(system, place, Rank::Revealed(INDEPENDENT))?;
+                self.pass(system, place, Rank::Revealed(INDEPENDENT), false)?;
             }
         }
         self.kept = None;
-        self.choose(system, place.t, place.q[0], Rank::Revealed(INDEPENDENT))?;
+        if at_rest < 2 {
+            self.choose(system, place.t, place.q[0], Rank::Revealed(INDEPENDENT))?;
+        }
         for (level, given) in state_before.iter().enumerate() {
             let now = [&*place.q[0], &*place.v[0]][level].as_slice();
             let moved = self.moved[level].as_mut_slice().iter_mut();
@@ -125,28 +141,38 @@ impl<V: Vector> Constraints<V> {
     }
 
     /// One move, with the rows that are independent where it begins; none if these have no solution
-    /// nearby. Returns whether it moved.
+    /// nearby. `is_known` says that how rows bend was recorded in this pose. Returns whether it moved.
     fn pass<S: System<Vector = V>>(
         &mut self,
         system: &S,
         place: &mut Unprojected<'_, V>,
         rank: Rank,
+        mut is_known: bool,
     ) -> Result<bool, StepError> {
         let n = place.q[0].as_slice().len();
         let before = [place.q[0].clone(), place.v[0].clone()];
-        let mut moved = false;
+        let (mut moved, was_known) = (false, is_known);
         // The smallest move of the rates is that at the pose to which the positions have moved. Also, positions and rates may have
         // different fixed numbers, so that different rows are independent.
         let known = self.choice.clone();
         for level in [Level::Positions, Level::Rates] {
-            let fixed = self.kept.as_ref().map(|kept| &kept[level as usize]);
-            let by = (&self.scales, fixed);
-            self.choice = known.choose(system, (place.t, place.q[0]), rank, by)?;
-            self.redundant = self.choice.rank < system.constraints().len();
+            // In the same pose, without fixed numbers, the same rows are chosen for the rates as for the positions, unless something became known
+            // of them in between.
+            let is_chosen = matches!(level, Level::Rates) && was_known && !moved;
+            let is_chosen = is_chosen && self.kept.is_none();
+            if !is_chosen {
+                let fixed = self.kept.as_ref().map(|kept| &kept[level as usize]);
+                let by = (&self.scales, fixed);
+                self.choice = known.choose(system, (place.t, place.q[0]), rank, by)?;
+                self.redundant = self.choice.rank < system.constraints().len();
+            }
             let approached = in_workspace(system, place.t, n, |workspace| {
-                self.record_curvatures(system, workspace, (place.t, place.q[0]));
+                if !is_known {
+                    self.record_curvatures(system, workspace, (place.t, place.q[0]));
+                }
                 self.approach(system, workspace, place, &[level])
             });
+            is_known = matches!(approached, Ok((false, _)));
             match approached {
                 Ok((has_moved, _)) => moved |= has_moved,
                 Err(error) => {

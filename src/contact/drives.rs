@@ -73,7 +73,7 @@ impl<'a, S: System> Drives<'a, S> {
             system,
             t,
             q,
-            // Not so if the energy is unknown, which is not a number.
+            // Nothing is known to move where the energy is not a number.
             is_moving: energy > 0.0 || (constraints_move && energy.is_finite()),
             constraints_move,
             memory,

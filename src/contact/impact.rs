@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::delassus::{Inertia, matrix};
+use super::delassus::{Inertia, matrix, write_matrix};
 use super::drives::{ActingContact, Drives, DrivesMemory};
 use super::kinematics::{ContactKinematics, ROUNDING};
 use super::problem::{Answer, ContactUnknowns};
@@ -84,11 +84,13 @@ pub(crate) struct Told {
 }
 
 /// Contacts that meet, and what inertia makes of their impulses.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Meeting {
     /// Which contacts, and their directions: two each.
     pub contacts: Vec<usize>,
     pub directions: Vec<usize>,
     pub inertia: Inertia,
+    /// The images of these, and perhaps others that were needed before.
     pub images: Vec<Vec<f64>>,
     /// The products of the images, row after row.
     pub g: Vec<f64>,
@@ -103,20 +105,46 @@ impl Meeting {
         here: &ContactKinematics,
         contacts: Vec<usize>,
     ) -> Result<Self, StepError> {
-        let singular = |singular: Singular| StepError::Singular { singular, t };
-        let inertia = Inertia::new(system, t, q).map_err(singular)?;
-        let directions: Vec<usize> = contacts.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
-        let images: Vec<Vec<f64>> = (directions.iter())
-            .map(|direction| inertia.image(here.row(*direction)))
-            .collect();
-        Ok(Self {
-            g: matrix(&images),
-            before: directions.iter().map(|d| here.rates[*d]).collect(),
+        let mut meeting = Self {
+            contacts,
+            ..Self::default()
+        };
+        let n = q.as_slice().len();
+        let memory = (&mut S::Matrix::zeros(n * n), &mut Vec::new());
+        meeting.evaluate(system, (t, q), here, memory)?;
+        Ok(meeting)
+    }
+
+    /// Evaluates all of it for its contacts, which are known. `matrix` and `entries` are memory.
+    pub fn evaluate<S: System>(
+        &mut self,
+        system: &S,
+        (t, q): (f64, &S::Vector),
+        here: &ContactKinematics,
+        (matrix, entries): (&mut S::Matrix, &mut Vec<usize>),
+    ) -> Result<(), StepError> {
+        let Self {
             contacts,
             directions,
             inertia,
             images,
-        })
+            g,
+            before,
+        } = self;
+        let singular = |singular: Singular| StepError::Singular { singular, t };
+        inertia.evaluate(system, (t, q), matrix).map_err(singular)?;
+        directions.clear();
+        directions.extend(contacts.iter().flat_map(|k| [2 * k, 2 * k + 1]));
+        if images.len() < directions.len() {
+            images.resize_with(directions.len(), Vec::new);
+        }
+        for (direction, image) in directions.iter().zip(&mut *images) {
+            inertia.write_image(here.row(*direction), image);
+        }
+        write_matrix(&images[..directions.len()], g, entries);
+        before.clear();
+        before.extend(directions.iter().map(|d| here.rates[*d]));
+        Ok(())
     }
 
     /// By how much impulses change the rate of a direction.
@@ -351,7 +379,7 @@ impl UnilateralState {
         told: &mut Told,
     ) -> Result<Vec<Impact>, StepError> {
         let here = self.kinematics(system, (t, q, v));
-        // What opens already has no part in it, nor has what yields: its force is finite.
+        // Contacts that open already take no part, nor do those that yield, whose force is finite.
         let colliding: Vec<usize> = self
             .in_order()
             .filter(|&k| touches[k] && !self.is_compliant(self.carrier(k).unwrap_or(k)))
@@ -387,7 +415,7 @@ impl UnilateralState {
                 friction,
                 known_normal: known_normal[place],
             },
-            // What it leans on comes before it.
+            // The contact that it leans on comes before it.
             Some(_) => ContactUnknowns::OnCarrier {
                 friction,
                 known_normal: known_normal[place - 1],
@@ -446,11 +474,11 @@ impl UnilateralState {
             ImpactLaw::PoissonGlocker => {
                 let compression = solved(&none, before)?.forces;
                 let middle = after(before, &compression);
-                // What the expansion gives at least, and what it adds to that.
+                // The expansion gives at least this, and the solution is what it adds to that.
                 let given: Vec<[f64; 2]> = (colliding.iter().zip(&compression))
                     .map(|(&k, impulse)| [here.restitution(k)[0] * impulse[0], 0.0])
                     .collect();
-                // Nothing is given along the normal of what leans, whose impulse there is none.
+                // Nothing is given along the normal of a contact that leans on another one: it has no impulse there.
                 let known_normal: Vec<f64> = given.iter().map(|given| given[0]).collect();
                 let Ok(expansion) = solved(&known_normal, &after(&middle, &given)) else {
                     told.jammed.extend_from_slice(colliding);
@@ -724,7 +752,7 @@ impl UnilateralState {
         }
         let [slip, _] = self.slip(&here, contact);
         let speed = slip[0].hypot(slip[1]);
-        // It has stopped if it does so before time goes on.
+        // The contact has stopped if it does so before time goes on.
         let a = self.reaction(system, at)?.a;
         let braked = [1, 3].map(|part| here.acceleration(2 * self.first(contact) + part, &a)[0]);
         let left = speed / braked[0].hypot(braked[1]);

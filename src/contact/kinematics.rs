@@ -395,7 +395,7 @@ impl ContactKinematics {
         if length == 0.0 {
             return 0.0;
         }
-        // The square of a rate at rest, and the round-off of squares of rates that cancel.
+        // These are the square of a rate at rest, and the round-off of squares of rates that cancel.
         let left = ROUNDING * rate * (ROUNDING * rate / length);
         let cancelled = 64.0 * f64::EPSILON * own * (own / length);
         (left + cancelled).min(self.most_of_squares)
@@ -405,7 +405,7 @@ impl ContactKinematics {
     pub fn work_of_walls(&self, contact: usize, forces: [f64; 2]) -> f64 {
         let (_, _, v) = &self.at;
         let of_direction = |part: usize| {
-            // The rate that there would be if the machine were at rest.
+            // This is the rate that there would be if the machine were at rest.
             let direction = 2 * contact + part;
             let by_machine = self.row(direction).iter().zip(v);
             let at_rest = self.rates[direction] - by_machine.map(|(w, v)| w * v).sum::<f64>();

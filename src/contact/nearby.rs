@@ -105,7 +105,7 @@ impl StateBox {
         let degree = coefficients.len().saturating_sub(1);
         let mut bezier = vec![0.0; degree + 1];
         let mut range = |i: usize| {
-            // Powers of the part of the step, each divided by a binomial coefficient.
+            // The coefficients of powers of the part of the step are each divided by a binomial coefficient.
             let (mut power, mut binomial) = (1.0, 1.0);
             for (k, (to, from)) in bezier.iter_mut().zip(coefficients).enumerate() {
                 *to = power * from.as_slice()[i] / binomial;
@@ -117,7 +117,7 @@ impl StateBox {
                     bezier[j] += bezier[j - 1];
                 }
             }
-            // What the step ends with is rounded in another way.
+            // The end of the step is rounded in another way.
             let all = bezier.iter().copied().chain([ends.after[0][i]]);
             let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
                 (low.min(x), high.max(x))
@@ -134,21 +134,18 @@ impl StateBox {
         }
     }
 
-    /// The box of a line from a state through another one in the middle of it.
-    pub fn of_line(t: [f64; 2], q: &[f64], middle: &[f64]) -> StateBox {
-        let ends = (q.iter().zip(middle)).map(|(q, middle)| (*q, 2.0 * middle - q));
-        let (low, high) = ends
-            .map(|(q, end)| {
-                let margin = MARGIN * (q - end).abs();
-                (q.min(end) - margin, q.max(end) + margin)
-            })
-            .unzip();
-        let [from, to] = t;
-        StateBox {
-            t: [from.min(to), from.max(to)],
-            low,
-            high,
+    /// Becomes the box of a line from a state through another one in the middle of it.
+    pub fn set_to_line(&mut self, t: [f64; 2], q: &[f64], middle: &[f64]) {
+        self.low.clear();
+        self.high.clear();
+        for (q, middle) in q.iter().zip(middle) {
+            let end = 2.0 * middle - q;
+            let margin = MARGIN * (q - end).abs();
+            self.low.push(q.min(end) - margin);
+            self.high.push(q.max(end) + margin);
         }
+        let [from, to] = t;
+        self.t = [from.min(to), from.max(to)];
     }
 
     /// Whether a state is in it. A number that is not one is not.
@@ -161,51 +158,67 @@ impl StateBox {
         self.contains(other.t[0], &other.low) && self.contains(other.t[1], &other.high)
     }
 
-    /// A box with room for this many steps like the one that stays in this. Coordinates and times that no gap depends on have any value.
-    pub fn widened<S: System>(&self, system: &S, gap_arguments: &[bool], steps: f64) -> StateBox {
-        let mut wide = self.clone();
-        // Of each unit the longest path and the greatest number: what is at rest may be hit by what moves.
-        let mut of_units: Vec<(&str, f64, f64)> = Vec::new();
-        let mut places = Vec::with_capacity(self.low.len());
+    /// Makes room for this many steps like the one that stays in it. Coordinates and times that no gap depends on have any value.
+    pub fn widen<S: System>(&mut self, system: &S, gap_arguments: &[bool], steps: f64) {
+        // Of each unit the longest path and the greatest number count: what is at rest may be hit by what moves.
+        let mut of_units = Units::default();
         for (i, coordinate) in system.coordinates().enumerate() {
-            let (path, size) = if gap_arguments[i] {
+            let own = of_units.get(coordinate.unit);
+            if gap_arguments[i] {
                 let size = self.low[i].abs().max(self.high[i].abs());
-                (self.high[i] - self.low[i], size)
-            } else {
-                (0.0, 0.0)
-            };
-            let known = of_units
-                .iter()
-                .position(|(unit, ..)| *unit == coordinate.unit);
-            let place = known.unwrap_or(of_units.len());
-            match of_units.get_mut(place) {
-                Some((_, longest, greatest)) => {
-                    (*longest, *greatest) = (longest.max(path), greatest.max(size));
-                }
-                None => of_units.push((coordinate.unit, path, size)),
+                let path = self.high[i] - self.low[i];
+                *own = (own.0.max(path), own.1.max(size));
             }
-            places.push(place);
         }
-        for (i, place) in places.into_iter().enumerate() {
+        for (i, coordinate) in system.coordinates().enumerate() {
             if !gap_arguments[i] {
-                (wide.low[i], wide.high[i]) = (f64::NEG_INFINITY, f64::INFINITY);
+                (self.low[i], self.high[i]) = (f64::NEG_INFINITY, f64::INFINITY);
                 continue;
             }
-            let (unit, path, size) = of_units[place];
+            let unit = coordinate.unit;
+            let (path, size) = *of_units.get(unit);
             let least = LEAST_REACH * if unit == "rad" { size.max(1.0) } else { size };
             let reach = (steps * path).max(least);
-            wide.low[i] -= reach;
-            wide.high[i] += reach;
+            self.low[i] -= reach;
+            self.high[i] += reach;
         }
         let length = self.t[1] - self.t[0];
-        wide.t = if gap_arguments.last() == Some(&true) {
+        self.t = if gap_arguments.last() == Some(&true) {
             let size = self.t[0].abs().max(self.t[1].abs());
             let reach = (steps * length).max(LEAST_REACH * size);
             [self.t[0] - reach, self.t[1] + reach]
         } else {
             [f64::NEG_INFINITY, f64::INFINITY]
         };
-        wide
+    }
+}
+
+/// Two numbers for each unit of coordinates: of the first few without an allocation.
+#[derive(Default)]
+struct Units<'a> {
+    first: [(&'a str, (f64, f64)); 4],
+    count: usize,
+    others: Vec<(&'a str, (f64, f64))>,
+}
+
+impl<'a> Units<'a> {
+    fn get(&mut self, unit: &'a str) -> &mut (f64, f64) {
+        let known = self.first[..self.count].iter();
+        if let Some(place) = known.clone().position(|(own, _)| *own == unit) {
+            return &mut self.first[place].1;
+        }
+        if self.count < self.first.len() {
+            let place = self.count;
+            self.count += 1;
+            self.first[place].0 = unit;
+            return &mut self.first[place].1;
+        }
+        let known = self.others.iter().position(|(own, _)| *own == unit);
+        let place = known.unwrap_or(self.others.len());
+        if known.is_none() {
+            self.others.push((unit, (0.0, 0.0)));
+        }
+        &mut self.others[place].1
     }
 }
 
@@ -232,13 +245,14 @@ impl Nearby {
             reach = (factor * known.reach).clamp(least, most);
             last_pause = known.last_pause;
         }
-        let within = step.widened(system, gap_arguments, reach);
+        let mut within = step.clone();
+        within.widen(system, gap_arguments, reach);
         let mut ends = [(); 2].map(|()| S::Vector::zeros(within.low.len()));
         ends[0].as_mut_slice().copy_from_slice(&within.low);
         ends[1].as_mut_slice().copy_from_slice(&within.high);
         let mut least = vec![f64::NEG_INFINITY; system.unilateral_contacts().len()];
         system.least_gaps(within.t, [&ends[0], &ends[1]], &mut least);
-        // What is not a number is no bound.
+        // A value that is not a number is no bound.
         let is_far = |least: &f64| *least > 0.0;
         let near = least.iter().enumerate();
         let near = near.filter(|(_, least)| !is_far(least)).map(|(k, _)| k);

@@ -36,9 +36,9 @@ pub(super) fn impulse(single_impact: SingleImpact, expansion: Expansion) -> Opti
     } = single_impact;
     let mut impulse = [0.0; 2];
     let mut work = 0.0;
-    // The normal impulse at which expansion ends, and the work, once compression is over.
+    // These are the normal impulse at which expansion ends, and the work, once compression is over.
     let mut until: Option<[f64; 2]> = None;
-    // Slips one way, rests, and slips the other way, in compression and beyond.
+    // The contact slips one way, rests, and slips the other way, in compression and beyond.
     for _ in 0..8 {
         let is_stuck = slip == 0.0 && tt > 0.0 && (nt / tt).abs() <= static_friction;
         let share = match slip {
@@ -60,7 +60,7 @@ pub(super) fn impulse(single_impact: SingleImpact, expansion: Expansion) -> Opti
             Some([end, work_end]) => match expansion {
                 Expansion::Impulse => end - impulse[0],
                 Expansion::Work => {
-                    // normal p + ½ normal_rate p² is the work that is missing.
+                    // The work that is missing is normal p + ½ normal_rate p².
                     let missing = (work_end - work).max(0.0);
                     let root = (normal * normal + 2.0 * normal_rate * missing).max(0.0);
                     match normal + root.sqrt() {

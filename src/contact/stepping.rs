@@ -15,22 +15,19 @@
 mod laws;
 mod penetration;
 
-use std::vec;
 use std::vec::Vec;
 
-use super::delassus::Inertia;
 use super::drives::{ActingContact, Drives, DrivesMemory};
 use super::impact::Meeting;
 use super::kinematics::ContactKinematics;
 use super::problem::SATURATED;
-use super::touching::Reaction;
 use super::{ContactTrouble, Impact, Mode, UnilateralState};
-use crate::at::At;
-use crate::{Singular, StepError, System, Vector};
-use laws::{ContactsOfStep, ImpulsesOfStep};
+use crate::{StepError, System, Vector};
+use laws::{ContactsOfStep, ImpulsesOfStep, LawsMemory};
+use penetration::PenetrationMemory;
 
 /// What contacts did in a step.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct SteppedContacts {
     /// The impulses that they gave.
     pub impacts: Vec<Impact>,
@@ -45,6 +42,77 @@ pub(crate) struct SteppedContacts {
     pub shared_otherwise: Vec<usize>,
     /// Contacts whose friction permitted no rates with their restitution: they met without.
     pub jammed: Vec<usize>,
+}
+
+clone_into_memory!(SteppedContacts {
+    impacts,
+    work,
+    lost,
+    penetrated,
+    energy_added,
+    shared_otherwise,
+    jammed,
+});
+
+impl SteppedContacts {
+    /// Nothing has happened.
+    pub fn clear(&mut self) {
+        self.impacts.clear();
+        self.penetrated.clear();
+        self.shared_otherwise.clear();
+        self.jammed.clear();
+        (self.work, self.lost, self.energy_added) = (0.0, 0.0, 0.0);
+    }
+}
+
+/// Memory of steps, which serves again from one to the next: they allocate only where they meet more contacts than ever before, where contacts share a load and
+/// slip, and in impacts by a law for an instant.
+#[derive(Clone, Debug)]
+pub(crate) struct SteppingMemory<V, M> {
+    /// The rates of all contacts at the end of the step without impulses.
+    free: Vec<f64>,
+    /// What the contacts do after the step, and their mean forces in it.
+    modes: Vec<Mode>,
+    forces: Vec<[f64; 2]>,
+    meeting: Meeting,
+    entries: Vec<usize>,
+    matrix: M,
+    /// The same rates of those that touch, those at which they may close that are beside what they touch, and the rates with impulses.
+    free_of_touching: Vec<f64>,
+    ways_back: Vec<f64>,
+    after: Vec<f64>,
+    impulses: ImpulsesOfStep,
+    laws: LawsMemory,
+    /// The change of the rates of coordinates by impulses, by those of one contact, and the mean of the rates.
+    change: Vec<f64>,
+    of_contact: Vec<f64>,
+    mean: V,
+    drives: DrivesMemory<V>,
+    penetration: PenetrationMemory,
+}
+
+impl<V: Vector, M: Vector> SteppingMemory<V, M> {
+    pub fn new(q: &V) -> Self {
+        let n = q.as_slice().len();
+        Self {
+            free: Vec::new(),
+            modes: Vec::new(),
+            forces: Vec::new(),
+            meeting: Meeting::default(),
+            entries: Vec::new(),
+            matrix: M::zeros(n * n),
+            free_of_touching: Vec::new(),
+            ways_back: Vec::new(),
+            after: Vec::new(),
+            impulses: ImpulsesOfStep::default(),
+            laws: LawsMemory::default(),
+            change: Vec::new(),
+            of_contact: Vec::new(),
+            mean: q.zeros_like(),
+            drives: DrivesMemory::new(q),
+            penetration: PenetrationMemory::default(),
+        }
+    }
 }
 
 impl UnilateralState {
@@ -64,7 +132,8 @@ impl UnilateralState {
     }
 
     /// Adds the impulses of the contacts in a step of length `h` to `v`, which on entry is what the rates would be at its
-    /// end without them. `middle` are time and place in the middle of the step, and `before` the rates at its beginning.
+    /// end without them. `middle` are time and place in the middle of the step, and `before` the rates at its beginning. What the contacts did is written to
+    /// `stepped`, which on entry says nothing.
     ///
     /// # Errors
     /// Where the mass matrix is singular, or no impulses obey the law.
@@ -72,14 +141,36 @@ impl UnilateralState {
         &mut self,
         system: &S,
         (t, q): (f64, &S::Vector),
-        before: &S::Vector,
-        v: &mut S::Vector,
+        (before, v): (&S::Vector, &mut S::Vector),
         h: f64,
-    ) -> Result<SteppedContacts, StepError> {
+        (stepped, memory): (
+            &mut SteppedContacts,
+            &mut SteppingMemory<S::Vector, S::Matrix>,
+        ),
+    ) -> Result<(), StepError> {
+        let SteppingMemory {
+            free,
+            modes,
+            forces,
+            meeting,
+            entries,
+            matrix,
+            free_of_touching,
+            ways_back,
+            after,
+            impulses,
+            laws,
+            change,
+            of_contact,
+            mean,
+            drives,
+            ..
+        } = memory;
         let here = self.kinematics(system, (t, q, before));
         let count = self.modes().len();
-        let mut free = vec![0.0; 2 * count];
-        system.contact_rates(t, q, v, &mut free);
+        free.clear();
+        free.resize(2 * count, 0.0);
+        system.contact_rates(t, q, v, free);
         // What was closed stays so until it opens, though a disc that rolls over a hump is beside it in the middle of a
         // step, by the square of its length: it may come back by as much.
         let lasts = |k: usize| self.modes()[k] != Mode::Open;
@@ -94,14 +185,38 @@ impl UnilateralState {
                 0.0
             }
         };
-        let active: Vec<usize> = self.in_order().filter(is_active).collect();
-        let mut modes = vec![Mode::Open; count];
-        let mut forces = vec![[0.0; 2]; count];
-        if active.is_empty() {
+        meeting.contacts.clear();
+        meeting.contacts.extend(self.in_order().filter(is_active));
+        modes.clear();
+        modes.resize(count, Mode::Open);
+        forces.clear();
+        forces.resize(count, [0.0; 2]);
+        if meeting.contacts.is_empty() {
             self.set_stepped(modes, forces);
-            return Ok(SteppedContacts::default());
+            return Ok(());
         }
-        let meeting = Meeting::new(system, (t, q), &here, active)?;
+        meeting.evaluate(system, (t, q), &here, (matrix, entries))?;
+        free_of_touching.clear();
+        free_of_touching.extend(meeting.directions.iter().map(|d| free[*d]));
+        ways_back.clear();
+        ways_back.extend(meeting.contacts.iter().map(|k| way_back(*k)));
+        let contacts_of_step = ContactsOfStep {
+            touching: self,
+            here: &here,
+            meeting,
+            t,
+            h,
+            free: free_of_touching,
+            ways_back,
+        };
+        contacts_of_step.write_impulses(impulses, laws)?;
+        let ImpulsesOfStep {
+            all: impulses,
+            last,
+            rests,
+            shared_otherwise,
+            jammed,
+        } = &*impulses;
         let Meeting {
             contacts: active,
             directions,
@@ -109,28 +224,10 @@ impl UnilateralState {
             images,
             g,
             ..
-        } = &meeting;
-        let free: Vec<f64> = directions.iter().map(|d| free[*d]).collect();
-        let ways_back: Vec<f64> = active.iter().map(|k| way_back(*k)).collect();
-        let contacts_of_step = ContactsOfStep {
-            touching: self,
-            here: &here,
-            meeting: &meeting,
-            t,
-            h,
-            free: &free,
-            ways_back: &ways_back,
-        };
-        let ImpulsesOfStep {
-            all: impulses,
-            last,
-            rests,
-            shared_otherwise,
-            jammed,
-        } = contacts_of_step.impulses()?;
+        } = &*meeting;
 
         let energy_free = system.kinetic_energy(t, q, v);
-        // The impulses along the changes of the rates that are not theirs.
+        // This is the work of the impulses along the changes of the rates that are not theirs.
         let mut known_normal = 0.0;
         for (&direction, impulse) in directions.iter().zip(impulses.as_flattened()) {
             let row = here.row(direction).iter();
@@ -140,31 +237,34 @@ impl UnilateralState {
                     .map(|(w, (before, free))| w * (before - free))
                     .sum::<f64>();
         }
-        let change = inertia.response(images, impulses.iter().flatten().copied());
-        for (v, by) in v.as_mut_slice().iter_mut().zip(change) {
+        inertia.write_response(images, impulses.iter().flatten().copied(), change);
+        for (v, by) in v.as_mut_slice().iter_mut().zip(&*change) {
             *v += by;
         }
 
-        let mut mean = before.clone();
+        mean.clone_from(before);
         for (mean, after) in mean.as_mut_slice().iter_mut().zip(v.as_slice()) {
             *mean = 0.5 * (*mean + after);
         }
-        let mut memory = DrivesMemory::new(q);
-        let mut drives = Drives::new(system, (t, q), &mut memory);
-        let contacts_at = |places: Vec<usize>| places.into_iter().map(|place| active[place]);
-        let mut stepped = SteppedContacts {
-            shared_otherwise: contacts_at(shared_otherwise).collect(),
-            jammed: contacts_at(jammed).collect(),
-            ..SteppedContacts::default()
+        let mut drives = Drives::new(system, (t, q), drives);
+        let contacts_at = |places: &[usize], contacts: &mut Vec<usize>| {
+            contacts.clear();
+            contacts.extend(places.iter().map(|place| active[*place]));
         };
-        // The rates of all directions with the impulses.
-        let after: Vec<f64> = (free.iter().zip(g.chunks_exact(directions.len())))
+        contacts_at(shared_otherwise, &mut stepped.shared_otherwise);
+        contacts_at(jammed, &mut stepped.jammed);
+        // These are the rates of all directions with the impulses.
+        after.clear();
+        after.extend(
+            (free_of_touching
+                .iter()
+                .zip(g.chunks_exact(directions.len())))
             .map(|(free, row)| {
                 let by = row.iter().zip(impulses.as_flattened());
                 free + by.map(|(g, i)| g * i).sum::<f64>()
-            })
-            .collect();
-        for (place, (&k, &impulse)) in active.iter().zip(&impulses).enumerate() {
+            }),
+        );
+        for (place, (&k, &impulse)) in active.iter().zip(impulses).enumerate() {
             let [gap_rate, slip] =
                 [0, 1].map(|part| [here.rates[2 * k + part], after[2 * place + part]]);
             // Of contacts that share a load some may press and some not, from step to step: what does not open is closed.
@@ -180,7 +280,7 @@ impl UnilateralState {
             } else if rests[place] {
                 Mode::Sticks
             } else {
-                self.mode_after_step(&here, (k, place), (&last, &after))
+                self.mode_after_step(&here, (k, place), (last, after))
             };
             forces[k] = impulse.map(|impulse| impulse / h);
             stepped.lost += loss;
@@ -189,24 +289,29 @@ impl UnilateralState {
                 forces: impulse,
                 rates: [gap_rate, slip].map(|[before, after]| 0.5 * (before + after)),
             };
-            let response = || inertia.response(&images[2 * place..][..2], impulse);
+            let of_contact = &mut *of_contact;
+            let response = move || {
+                let by = of_contact;
+                inertia.write_response(&images[2 * place..][..2], impulse, by);
+                &by[..]
+            };
             stepped.impacts.push(Impact {
                 contact: k,
                 gap_rate,
                 slip,
                 impulse,
                 loss,
-                work: drives.work(&here, &acting, &mean, response),
+                work: drives.work(&here, &acting, mean, response),
             });
         }
-        stepped.impacts.sort_by_key(|impact| impact.contact);
+        (stepped.impacts).sort_unstable_by_key(|impact| impact.contact);
         if !stepped.impacts.is_empty() {
-            // What the impulses did to the rates in the mean of the step; that beyond the losses is done by what moves.
+            // The impulses changed the energy by this with the mean rates of the step; what it is beyond the losses is done by what moves.
             let gained = system.kinetic_energy(t, q, v) - energy_free + 0.5 * known_normal;
             stepped.work = gained + stepped.lost;
         }
         self.set_stepped(modes, forces);
-        Ok(stepped)
+        Ok(())
     }
 
     /// What a contact did in a step that is not the second tangent of another one, with the impulses of those that touched, among which it has this place, and
@@ -252,30 +357,5 @@ impl UnilateralState {
         } else {
             Mode::Sticks
         }
-    }
-
-    /// Accelerations with the forces of the last step.
-    pub(super) fn reaction_stepped<S: System>(
-        &self,
-        system: &S,
-        At { t, q, v, .. }: At<'_, S>,
-        mut a: Vec<f64>,
-        forces: &[[f64; 2]],
-    ) -> Result<Reaction, StepError> {
-        if forces.as_flattened().iter().any(|force| *force != 0.0) {
-            let here = self.kinematics(system, (t, q, v));
-            let singular = |singular: Singular| StepError::Singular { singular, t };
-            let inertia = Inertia::new(system, t, q).map_err(singular)?;
-            let acting = forces.as_flattened().iter().enumerate();
-            let acting: Vec<_> = acting.filter(|(_, force)| **force != 0.0).collect();
-            let images: Vec<Vec<f64>> = (acting.iter())
-                .map(|(direction, _)| inertia.image(here.row(*direction)))
-                .collect();
-            let by = inertia.response(&images, acting.iter().map(|(_, force)| **force));
-            for (a, by) in a.iter_mut().zip(by) {
-                *a += by;
-            }
-        }
-        Ok(Reaction::from_known_forces(a, forces.to_vec()))
     }
 }

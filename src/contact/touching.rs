@@ -1,6 +1,7 @@
 //! What is closed, slips and sticks: the state of contacts between two events.
 
 mod compliant;
+mod forces_of_step;
 mod held;
 mod margins;
 mod powers;
@@ -25,7 +26,7 @@ use compliant::ComplianceState;
 pub(crate) use held::Held;
 use held::HeldMemory;
 pub(crate) use margins::Margins;
-pub(crate) use reaction::{ContactMemory, Reaction};
+pub(crate) use reaction::ContactMemory;
 pub(super) use settled::Settled;
 
 /// Forces and accelerations below this, relative to the terms that they are the sum of, are rounding.
@@ -71,7 +72,7 @@ impl Mode {
 pub(crate) use crate::contact_law::Margin;
 
 /// What a run knows of its unilateral contacts.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct UnilateralState {
     modes: Vec<Mode>,
     has_friction: Vec<bool>,
@@ -115,9 +116,40 @@ pub(crate) struct UnilateralState {
     stepped: Option<Vec<[f64; 2]>>,
 }
 
-/// The kinematics that were evaluated last, and whether only of the near contacts.
+clone_into_memory!(UnilateralState {
+    modes,
+    has_friction,
+    order_of_problems,
+    least_sizes,
+    with_face,
+    nearby,
+    latest,
+    carrier,
+    across,
+    compliance,
+    law,
+    order,
+    painleve,
+    held,
+    held_memory,
+    speed,
+    slip,
+    turning,
+    openings,
+    beginning_slips,
+    continues_through_rest,
+    taken_back,
+    stepped,
+});
+
+/// The kinematics that were evaluated last, and whether only of the near contacts, or whether they are no longer valid.
 #[derive(Debug, Default)]
-struct LatestKinematics(Option<(Arc<ContactKinematics>, bool)>);
+struct LatestKinematics {
+    here: Option<Arc<ContactKinematics>>,
+    of_near: Option<bool>,
+    /// Memory for the box of a step.
+    step: StateBox,
+}
 
 impl Clone for LatestKinematics {
     /// Nothing: states of contacts that a run keeps are seldom evaluated.
@@ -220,9 +252,11 @@ impl UnilateralState {
     }
 
     /// Takes note of what contacts did in a step of time stepping: none is a constraint.
-    pub(super) fn set_stepped(&mut self, modes: Vec<Mode>, forces: Vec<[f64; 2]>) {
-        self.modes = modes;
-        self.stepped = Some(forces);
+    pub(super) fn set_stepped(&mut self, modes: &[Mode], forces: &[[f64; 2]]) {
+        self.modes.copy_from_slice(modes);
+        let stepped = self.stepped.get_or_insert_default();
+        stepped.clear();
+        stepped.extend_from_slice(forces);
     }
 
     /// In time stepping the mean forces of the last step along normal and tangent, in N.
@@ -251,18 +285,23 @@ impl UnilateralState {
     ) -> Arc<ContactKinematics> {
         let near = self.near_at(t, q.as_slice());
         let mut latest = self.latest.lock();
-        if let Some((here, of_near)) = &latest.0
-            && *of_near == near.is_some()
+        if latest.of_near == Some(near.is_some())
+            && let Some(here) = &latest.here
             && here.is_at(t, q.as_slice(), v.as_slice())
         {
             return here.clone();
         }
+        latest.of_near = Some(near.is_some());
         // Its memory serves again if nothing else refers to it.
-        let known = latest.0.take().and_then(|(here, _)| Arc::into_inner(here));
-        let mut here = known.unwrap_or_else(|| self.memory_for_kinematics());
-        here.evaluate(system, (t, q, v), near);
-        let here = Arc::new(here);
-        latest.0 = Some((here.clone(), near.is_some()));
+        let known = latest.here.take();
+        let mut here = known.unwrap_or_else(|| Arc::new(self.memory_for_kinematics()));
+        if Arc::get_mut(&mut here).is_none() {
+            here = Arc::new(self.memory_for_kinematics());
+        }
+        if let Some(memory) = Arc::get_mut(&mut here) {
+            memory.evaluate(system, (t, q, v), near);
+        }
+        latest.here = Some(here.clone());
         here
     }
 
@@ -290,13 +329,13 @@ impl UnilateralState {
         all_are_near.then_some(near)
     }
 
-    /// Finds out which contacts are near in a step that stays in this box, and after it; and in what surrounds it by so many times its greatest width.
-    /// A layer presses only where its gap is not positive, however much of it has been crushed: the surface of it recedes.
+    /// Finds out which contacts are near in a step that stays in the box that `write_box` writes, and after it; and in what surrounds it by so many times its
+    /// greatest width. A layer presses only where its gap is not positive, however much of it has been crushed: the surface of it recedes.
     pub fn keep_near<S: System>(
         &mut self,
         system: &S,
         surroundings: f64,
-        step: impl FnOnce() -> StateBox,
+        write_box: impl FnOnce(&mut StateBox),
     ) {
         let Some(gap_arguments) = system.single_contacts() else {
             return;
@@ -304,16 +343,18 @@ impl UnilateralState {
         if self.nearby.as_mut().is_some_and(Nearby::pauses) {
             return;
         }
-        let mut step = step();
+        let mut latest = self.latest.lock();
+        let step = &mut latest.step;
+        write_box(step);
         if surroundings > 0.0 {
-            step = step.widened(system, gap_arguments, surroundings);
+            step.widen(system, gap_arguments, surroundings);
         }
         self.nearby = Some(Nearby::of_step(
             (system, gap_arguments),
             self.nearby.take(),
-            &step,
+            step,
         ));
-        self.latest.lock().0 = None;
+        latest.of_near = None;
     }
 
     /// The greatest rate of a contact so far, at which gaps closed or something began to slip: rates within rounding of it are rest.
@@ -495,6 +536,12 @@ impl UnilateralState {
             continues_through_rest: false,
             ..self.clone()
         }
+    }
+
+    /// The same, in memory that is there.
+    pub fn clone_for_later_observation(&mut self, now: &UnilateralState) {
+        self.clone_from(now);
+        self.continues_through_rest = false;
     }
 
     /// Takes note of the directions in which contacts slide where a step begins, and of how fast.

@@ -53,25 +53,64 @@ const HELD: f64 = 1e-9;
 /// With rates up to this a distribution is still one.
 const TOLERABLE: f64 = 1e-11;
 
+/// Memory for problems of contacts whose forces may be undetermined.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Memory {
+    problem: problem::Memory,
+    rates: Vec<f64>,
+    following: Vec<usize>,
+    sharing: SharingMemory,
+}
+
+#[derive(Clone, Debug, Default)]
+struct SharingMemory {
+    directions: Vec<usize>,
+    part: Vec<f64>,
+    scale: Vec<f64>,
+    none: Vec<f64>,
+    solution: Vec<f64>,
+    order: lcp::Order,
+}
+
 /// The forces that keep each other in equilibrium: a basis of the null space of `G = Wᵀ M⁻¹ W` for some directions of contacts.
 pub(super) fn in_equilibrium(g: &[f64], n: usize) -> Vec<Vec<f64>> {
-    // Of bodies with very different masses each contact is compared with its own terms.
-    let scale: Vec<f64> = (0..n)
-        .map(|i| g[i * n + i])
-        .map(|own| if own > 0.0 { 1.0 / own.sqrt() } else { 0.0 })
-        .collect();
-    let mut scaled: Vec<f64> = (0..n * n)
-        .map(|k| scale[k / n] * g[k] * scale[k % n])
-        .collect();
-    let (_, order) = lcp::eliminate(&mut scaled, &mut vec![0.0; n]);
-    let mut basis = order.null_space(&scaled);
-    for vector in &mut basis {
-        for (x, scale) in vector.iter_mut().zip(&scale) {
-            *x *= scale;
+    let mut memory = SharingMemory::default();
+    memory.part.extend_from_slice(g);
+    memory.in_equilibrium(n)
+}
+
+impl SharingMemory {
+    /// As [`in_equilibrium`], of the matrix `part`, which is overwritten.
+    fn in_equilibrium(&mut self, n: usize) -> Vec<Vec<f64>> {
+        let Self {
+            part,
+            scale,
+            none,
+            solution,
+            order,
+            ..
+        } = self;
+        // Of bodies with very different masses each contact is compared with its own terms.
+        scale.clear();
+        scale.extend((0..n).map(|i| {
+            let own = part[i * n + i];
+            if own > 0.0 { 1.0 / own.sqrt() } else { 0.0 }
+        }));
+        for (k, entry) in part.iter_mut().enumerate() {
+            *entry = scale[k / n] * *entry * scale[k % n];
         }
-        without_rounding(vector);
+        none.clear();
+        none.resize(n, 0.0);
+        lcp::eliminate_into(part, none, (solution, order));
+        let mut basis = order.null_space(part);
+        for vector in &mut basis {
+            for (x, scale) in vector.iter_mut().zip(&*scale) {
+                *x *= scale;
+            }
+            without_rounding(vector);
+        }
+        basis
     }
-    basis
 }
 
 /// Sets what is rounding beside the greatest entry to 0.
@@ -144,9 +183,14 @@ fn sharing_contacts(
     contacts: &[ContactUnknowns],
     g: &[f64],
     may_be_held: impl Fn(usize) -> bool,
+    memory: &mut SharingMemory,
 ) -> Vec<Vec<usize>> {
     let m = contacts.len();
-    let (mut directions, mut has_friction) = (Vec::new(), false);
+    let SharingMemory {
+        directions, part, ..
+    } = &mut *memory;
+    directions.clear();
+    let mut has_friction = false;
     for (k, unknowns) in contacts.iter().enumerate() {
         let (normal, tangent) = match unknowns {
             ContactUnknowns::Both { friction, .. } => (true, *friction > 0.0),
@@ -164,17 +208,17 @@ fn sharing_contacts(
         directions.extend((normal && may_be_held(2 * k)).then_some(2 * k));
         directions.extend((tangent && may_be_held(2 * k + 1)).then_some(2 * k + 1));
     }
-    let part: Vec<f64> = directions
-        .iter()
-        .flat_map(|i| directions.iter().map(move |j| g[i * 2 * m + j]))
-        .collect();
-    let basis: Vec<Vec<f64>> = in_equilibrium(&part, directions.len())
-        .into_iter()
-        .filter(|vector| {
-            let mut entries = directions.iter().zip(vector);
-            entries.any(|(direction, x)| direction % 2 == 0 && *x != 0.0)
-        })
-        .collect();
+    part.clear();
+    for i in &*directions {
+        part.extend(directions.iter().map(|j| g[i * 2 * m + j]));
+    }
+    let n = directions.len();
+    let mut basis = memory.in_equilibrium(n);
+    let directions = &memory.directions;
+    basis.retain(|vector| {
+        let mut entries = directions.iter().zip(vector);
+        entries.any(|(direction, x)| direction % 2 == 0 && *x != 0.0)
+    });
     let free = basis.len();
     if free == 0 {
         return Vec::new();
@@ -220,52 +264,60 @@ pub(super) fn solve(
     g: &[f64],
     b: &[f64],
 ) -> Result<Answer, Unsolved> {
-    let some = problem::solve(contacts, g, b, None);
-    let groups = sharing_contacts(contacts, g, |_| true);
+    let mut memory = Memory::default();
+    let mut answer = Answer::default();
+    let some = problem::solve_into(contacts, (g, b), None, (&mut answer, &mut memory.problem));
+    let groups = sharing_contacts(contacts, g, |_| true, &mut memory.sharing);
     if groups.is_empty() {
-        return some;
+        return some.map(|()| answer);
     }
-    let start = some.as_ref().ok().map(|answer| answer.forces.as_slice());
-    match distributed(contacts, (g, b), &groups, start, TOLERABLE) {
-        Some(answer) => Ok(answer),
-        None => some.map(|answer| Answer {
-            shared_otherwise: motion_depends_on(contacts, (g, b), &answer.forces),
-            ..answer
-        }),
+    let start = some.is_ok().then_some(answer.forces.as_slice());
+    let problem = (g, b, &groups[..]);
+    if let Some(found) = distributed(contacts, problem, (start, false), TOLERABLE, &mut memory) {
+        return Ok(found);
     }
+    some?;
+    answer.shared_otherwise = motion_depends_on(contacts, (g, b), &answer.forces, &mut memory);
+    Ok(answer)
 }
 
 /// As [`solve`], but with the distribution of the rule only if the motion depends on it. The search begins `near` these forces.
 pub(super) fn solve_for_motion(
     contacts: &[ContactUnknowns],
-    g: &[f64],
-    b: &[f64],
+    (g, b): (&[f64], &[f64]),
     near: &[[f64; 2]],
-) -> Result<Answer, Unsolved> {
-    let mut some = problem::solve(contacts, g, b, Some(near));
-    // In the plane that has looked for a solution anywhere.
+    answer: &mut Answer,
+    memory: &mut Memory,
+) -> Result<(), Unsolved> {
+    let mut some = problem::solve_into(
+        contacts,
+        (g, b),
+        Some(near),
+        (&mut *answer, &mut memory.problem),
+    );
+    // In the plane the first search has already looked for a solution anywhere.
     if some.is_err() && is_in_space(contacts) {
-        some = problem::solve(contacts, g, b, None);
+        some = problem::solve_into(contacts, (g, b), None, (&mut *answer, &mut memory.problem));
     }
     let mut depends = Vec::new();
-    if let Ok(answer) = &some {
-        depends = motion_depends_on(contacts, (g, b), &answer.forces);
+    if some.is_ok() {
+        depends = motion_depends_on(contacts, (g, b), &answer.forces, memory);
         if depends.is_empty() {
-            return some;
+            return Ok(());
         }
     }
-    let groups = sharing_contacts(contacts, g, |_| true);
+    let groups = sharing_contacts(contacts, g, |_| true, &mut memory.sharing);
     if groups.is_empty() {
         return some;
     }
-    let start = some.as_ref().ok().map(|answer| answer.forces.as_slice());
-    match distributed(contacts, (g, b), &groups, start, HELD) {
-        Some(answer) => Ok(answer),
-        None => some.map(|answer| Answer {
-            shared_otherwise: depends,
-            ..answer
-        }),
+    let start = some.is_ok().then_some(answer.forces.as_slice());
+    let problem = (g, b, &groups[..]);
+    if let Some(found) = distributed(contacts, problem, (start, true), HELD, memory) {
+        *answer = found;
+        return Ok(());
     }
+    answer.shared_otherwise = depends;
+    some
 }
 
 /// Whether some contact has a second tangent.
@@ -279,28 +331,39 @@ fn motion_depends_on(
     contacts: &[ContactUnknowns],
     (g, b): (&[f64], &[f64]),
     forces: &[[f64; 2]],
+    memory: &mut Memory,
 ) -> Vec<usize> {
     let (width, rate) = (b.len(), greatest(b));
     if rate == 0.0 {
         return Vec::new();
     }
-    let rates: Vec<f64> = (b.iter().zip(g.chunks_exact(width)))
-        .map(|(b, row)| b + dot(row, forces.as_flattened()))
-        .collect();
+    let Memory {
+        rates,
+        following,
+        sharing,
+        ..
+    } = memory;
+    rates.clear();
+    let rows = b.iter().zip(g.chunks_exact(width));
+    rates.extend(rows.map(|(b, row)| b + dot(row, forces.as_flattened())));
     let is_held = |direction: usize| rates[direction].abs() <= HELD * rate;
-    let following = following(contacts, is_held);
+    following.clear();
+    following.extend(contacts_that_are_followed(contacts, is_held));
     if following.is_empty() {
         return Vec::new();
     }
-    let groups = sharing_contacts(contacts, g, is_held).into_iter();
+    let groups = sharing_contacts(contacts, g, is_held, sharing).into_iter();
     let depends = |members: &Vec<usize>| members.iter().any(|k| following.contains(k));
     groups.filter(depends).flatten().collect()
 }
 
 /// The contacts whose normal force a friction force follows, because something slips there or would if the contact pressed.
-fn following(contacts: &[ContactUnknowns], is_held: impl Fn(usize) -> bool) -> Vec<usize> {
-    let slips = |k: usize| !is_held(2 * k + 1);
-    let follows = |k: usize| match contacts[k] {
+fn contacts_that_are_followed(
+    contacts: &[ContactUnknowns],
+    is_held: impl Fn(usize) -> bool,
+) -> impl Iterator<Item = usize> {
+    let slips = move |k: usize| !is_held(2 * k + 1);
+    let follows = move |k: usize| match contacts[k] {
         ContactUnknowns::Both { friction, .. } => (friction > 0.0 && slips(k)).then_some(k),
         ContactUnknowns::OnCarrier { friction, on, .. } => {
             (friction > 0.0 && slips(k)).then_some(on)
@@ -313,16 +376,17 @@ fn following(contacts: &[ContactUnknowns], is_held: impl Fn(usize) -> bool) -> V
         | ContactUnknowns::Guide { .. }
         | ContactUnknowns::SlidingGuide { .. } => None,
     };
-    (0..contacts.len()).filter_map(follows).collect()
+    (0..contacts.len()).filter_map(follows)
 }
 
-/// The solution with the distribution of the rule, if rounding permits it: if no rate that it leaves is above `tolerable`, relative to the greatest one.
+/// The solution with the distribution of the rule, if rounding permits it: if no rate that it leaves is above `tolerable`, relative to the greatest one. The search
+/// starts with these forces, if there are any, which may be near.
 fn distributed(
     contacts: &[ContactUnknowns],
-    (g, b): (&[f64], &[f64]),
-    groups: &[Vec<usize>],
-    start: Option<&[[f64; 2]]>,
+    (g, b, groups): (&[f64], &[f64], &[Vec<usize>]),
+    (start, is_near): (Option<&[[f64; 2]]>, bool),
     tolerable: f64,
+    memory: &mut Memory,
 ) -> Option<Answer> {
     if greatest(b) == 0.0 {
         return None;
@@ -333,13 +397,16 @@ fn distributed(
         b,
         inverse_masses: &inverse_masses(groups, g, contacts.len()),
     };
-    let in_space = is_in_space(contacts);
-    let is_good = |answer: &Answer| answer.residual <= tolerable;
-    let found = |returns| {
-        let found = yielding.stiffened(start, (in_space, returns), tolerable);
-        found.filter(is_good)
+    // Whether it is led from soft contacts to stiff ones, and whether it returns to the last better solution: only the search on friction cones may need that.
+    let searches: &[(bool, bool)] = match (is_in_space(contacts), is_near) {
+        (false, _) => &[(false, false)],
+        (true, false) => &[(true, false), (true, true)],
+        (true, true) => &[(false, false), (true, false), (true, true)],
     };
-    found(false).or_else(|| if in_space { found(true) } else { None })
+    searches.iter().find_map(|search| {
+        let found = yielding.stiffened(start, *search, tolerable, memory);
+        found.filter(|answer| answer.residual <= tolerable)
+    })
 }
 
 /// A problem of contacts that yield.
@@ -358,18 +425,18 @@ impl Yielding<'_> {
     fn stiffened(
         &self,
         start: Option<&[[f64; 2]]>,
-        (in_space, returns): (bool, bool),
+        (is_led, returns): (bool, bool),
         tolerable: f64,
+        memory: &mut Memory,
     ) -> Option<Answer> {
         let [first_part, share, last_part] = COMPLIANCE;
-        // Only the search on friction cones needs to be led from soft contacts to stiff ones.
-        let mut part = if in_space { first_part } else { last_part };
+        let mut part = if is_led { first_part } else { last_part };
         let mut c = vec![0.0; self.contacts.len()];
         let mut forces = start.map(<[_]>::to_vec);
         let (mut best, mut part_of_best): (Option<Answer>, f64) = (None, f64::INFINITY);
         for _ in 0..ROUNDS {
             let known = best.as_ref().map_or(f64::INFINITY, |best| best.residual);
-            let found = self.solve(part, &c, forces.as_deref());
+            let found = self.solve(part, &c, forces.as_deref(), memory);
             let Some((answer, next)) =
                 found.filter(|(answer, _)| !returns || answer.residual < known)
             else {
@@ -401,7 +468,13 @@ impl Yielding<'_> {
 
     /// A solution with contacts that yield by this part of the greatest compliance and press with c where they do not move, and c for the next problem. Its
     /// residual is that of rigid contacts.
-    fn solve(&self, part: f64, c: &[f64], near: Option<&[[f64; 2]]>) -> Option<(Answer, Vec<f64>)> {
+    fn solve(
+        &self,
+        part: f64,
+        c: &[f64],
+        near: Option<&[[f64; 2]]>,
+        memory: &mut Memory,
+    ) -> Option<(Answer, Vec<f64>)> {
         let Self { contacts, g, b, .. } = *self;
         let (width, rate) = (b.len(), greatest(b));
         let yields = || (0..c.len()).filter(|k| self.inverse_masses[*k] > 0.0);
@@ -411,13 +484,15 @@ impl Yielding<'_> {
             yielding[2 * k * width + 2 * k] += compliance(k);
             shifted[2 * k] -= compliance(k) * c[k];
         }
-        let mut answer = problem::solve(contacts, &yielding, &shifted, near).ok()?;
+        let mut answer = Answer::default();
+        let of_problem = (&mut answer, &mut memory.problem);
+        problem::solve_into(contacts, (&yielding, &shifted), near, of_problem).ok()?;
         let (mut left, mut next) = (0.0_f64, c.to_vec());
         for k in yields() {
             let row = &g[2 * k * width..][..width];
             let opens = b[2 * k] + dot(row, answer.forces.as_flattened());
             next[k] -= opens / compliance(k);
-            // One that does not press may open at any rate.
+            // A contact that does not press may open at any rate.
             let presses = answer.forces[k][0] > 0.0;
             left = left.max(if presses { opens.abs() } else { -opens });
         }
@@ -454,7 +529,7 @@ mod tests {
             let (contacts, g, b) = three_feet(x, 0.0);
             let answer = solve(&contacts, &g, &b).expect("solved");
             assert!(answer.shared_otherwise.is_empty(), "{size}: {answer:?}");
-            // 3 a + 0.3 b = 1 and 0.3 a + 2.09 b = 0 with b in units of 1/size.
+            // The forces solve 3 a + 0.3 b = 1 and 0.3 a + 2.09 b = 0, with b in units of 1/size.
             let (a, slope) = (2.09 / 6.18, -0.3 / 6.18);
             for (force, x) in answer.forces.iter().zip(x) {
                 let expected = a + slope * x / size;

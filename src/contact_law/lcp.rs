@@ -36,114 +36,174 @@ const MOST_PIVOTS: usize = 12;
 /// How often in succession a guess which numbers are positive is corrected without fewer wrong ones than ever before.
 const IN_VAIN: usize = 1;
 
+/// Memory for the search for a solution.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Memory {
+    /// The solution.
+    pub z: Vec<f64>,
+    /// The best of what was found along several paths, and what was found before.
+    best: Vec<f64>,
+    first: Vec<f64>,
+    /// The constants without rounding.
+    rounded: Vec<f64>,
+    wrong: Vec<bool>,
+    in_basis: Vec<bool>,
+    equations: Equations,
+    sums: Vec<f64>,
+    tableau: Tableau,
+}
+
+/// Memory for the equations of the numbers that are positive.
+#[derive(Clone, Debug, Default)]
+struct Equations {
+    chosen: Vec<usize>,
+    left: Vec<f64>,
+    right: Vec<f64>,
+    values: Vec<f64>,
+    order: Order,
+}
+
 /// Solves the problem of the matrix `m`, row after row, whose entries are about as large as 1.
 ///
 /// Where contacts depend on each other, most bases are singular, and rounding may lead a path of pivots astray. Then
 /// others are tried, each with its own covering vector, and the solution with the least residual is taken; so what is
 /// called unsolved has been tried along all of them.
 pub(crate) fn lemke(m: &[f64], q: &[f64]) -> Result<Solution, Unsolved> {
+    let mut memory = Memory::default();
+    let residual = lemke_into(m, q, &mut memory)?;
+    Ok(Solution {
+        z: memory.z,
+        residual,
+    })
+}
+
+/// Like [`lemke`], in memory that is there: writes the solution to it, and says its residual.
+pub(crate) fn lemke_into(m: &[f64], q: &[f64], memory: &mut Memory) -> Result<f64, Unsolved> {
     let n = q.len();
+    memory.z.clear();
+    memory.z.resize(n, 0.0);
     let size = q.iter().fold(0.0_f64, |size, q| size.max(q.abs()));
     if q.iter().all(|q| *q >= 0.0) {
-        return Ok(Solution {
-            z: vec![0.0; n],
-            residual: 0.0,
-        });
+        return Ok(0.0);
     }
     if !size.is_finite() || m.iter().any(|m| !m.is_finite()) {
         return Err(Unsolved);
     }
-    let found = along_paths(m, q, size);
-    if found.as_ref().is_some_and(|found| found.residual <= GOOD) {
-        return found.ok_or(Unsolved);
-    }
+    let found = along_paths(m, q, size, memory);
+    core::mem::swap(&mut memory.first, &mut memory.best);
     // Numbers of q that are rounding, where they are negative, may lead every path to infinity: as where contacts that
     // stick lift together.
-    let rounded: Vec<f64> = (q.iter())
-        .map(|q| if q.abs() <= ZERO * size { 0.0 } else { *q })
-        .collect();
-    if rounded == q {
-        return found.ok_or(Unsolved);
+    let mut rounded = core::mem::take(&mut memory.rounded);
+    rounded.clear();
+    rounded.extend((q.iter()).map(|q| if q.abs() <= ZERO * size { 0.0 } else { *q }));
+    let mut other = None;
+    if found.is_none_or(|found| found > GOOD) && rounded != q {
+        if rounded.iter().all(|q| *q >= 0.0) {
+            memory.best.clear();
+            memory.best.resize(n, 0.0);
+            other = Some(());
+        } else {
+            other = along_paths(m, &rounded, size, memory).map(|_| ());
+        }
     }
-    let z = if rounded.iter().all(|q| *q >= 0.0) {
-        Some(vec![0.0; n])
-    } else {
-        along_paths(m, &rounded, size).map(|found| found.z)
+    memory.rounded = rounded;
+    let other = other.map(|()| residual(m, q, &memory.best, &mut memory.sums));
+    let (z, residual) = match (found, other) {
+        (Some(found), Some(other)) if other < found => (&memory.best, other),
+        (Some(found), _) => (&memory.first, found),
+        (None, Some(other)) => (&memory.best, other),
+        (None, None) => return Err(Unsolved),
     };
-    let other = z.map(|z| Solution {
-        residual: residual(m, q, &z),
-        z,
-    });
-    let both = found.into_iter().chain(other);
-    both.min_by(|a, b| a.residual.total_cmp(&b.residual))
-        .ok_or(Unsolved)
+    memory.z.copy_from_slice(z);
+    Ok(residual)
 }
 
-/// The best of what is found along several paths of pivots.
-fn along_paths(m: &[f64], q: &[f64], size: f64) -> Option<Solution> {
-    let mut best: Option<Solution> = None;
+/// Writes the best of what is found along several paths of pivots, and says its residual.
+fn along_paths(m: &[f64], q: &[f64], size: f64, memory: &mut Memory) -> Option<f64> {
+    let mut best: Option<f64> = None;
     for path in 0..PATHS {
-        let Ok(found) = along(m, q, size, path) else {
+        let Ok(found) = along((m, q, size), path, memory) else {
             continue;
         };
-        if best
-            .as_ref()
-            .is_none_or(|best| found.residual < best.residual)
-        {
+        if best.is_none_or(|best| found < best) {
             best = Some(found);
+            core::mem::swap(&mut memory.best, &mut memory.z);
         }
-        if best.as_ref().is_some_and(|best| best.residual <= GOOD) {
+        if best.is_some_and(|best| best <= GOOD) {
             break;
         }
     }
+    memory.z.clear();
+    memory.z.resize(q.len(), 0.0);
     best
 }
 
-/// Solves the problem of [`lemke`] from a guess which numbers of `z` are positive, by principal pivoting of all wrong ones at once; none if that does not
-/// end soon, or if the numbers miss the conditions by more than rounding. `correct` is told which places are wrong, and changes the guess. Where a similar
-/// problem has been solved before, this takes a few eliminations in place of as many pivots as there are numbers.
+/// Solves the problem of [`lemke`] from a guess which numbers of `z` are positive, by principal pivoting of all wrong ones at once: writes the solution to the
+/// memory and says its residual; none if that does not end soon, or if the numbers miss the conditions by more than rounding. `correct` is told which places are
+/// wrong, and changes the guess. Where a similar problem has been solved before, this takes a few eliminations in place of as many pivots as there are numbers.
 ///
 /// (J. J. Júdice, F. M. Pires, *A block principal pivoting algorithm for large-scale strictly monotone linear complementarity problems*, Comput.
 /// Oper. Res. 21 (1994) 587–596.)
 pub(crate) fn from_guess(
     m: &[f64],
     q: &[f64],
-    mut is_positive: Vec<bool>,
-    correct: impl Fn(&[bool], &mut [bool]),
-) -> Option<Solution> {
+    is_positive: &mut [bool],
+    mut correct: impl FnMut(&[bool], &mut [bool]),
+    memory: &mut Memory,
+) -> Option<f64> {
     let n = q.len();
+    let Memory {
+        z,
+        wrong,
+        equations,
+        sums,
+        ..
+    } = memory;
     let (mut fewest, mut in_vain) = (usize::MAX, 0);
     while in_vain < IN_VAIN {
-        let (z, _) = with_positive(m, q, &is_positive);
+        equations.with_positive(m, q, is_positive, z);
         let greatest = z.iter().fold(0.0_f64, |most, z| most.max(z.abs()));
         let is_wrong = |(i, row): (usize, &[f64])| {
             if is_positive[i] {
                 return z[i] < -ZERO * greatest;
             }
-            let terms = row.iter().zip(&z).map(|(m, z)| m * z);
+            let terms = row.iter().zip(&*z).map(|(m, z)| m * z);
             let [sum, size] = terms.fold([q[i], q[i].abs()], |[sum, size], term| {
                 [sum + term, size.max(term.abs())]
             });
             sum < -ZERO * size
         };
-        let wrong: Vec<bool> = m.chunks_exact(n).enumerate().map(is_wrong).collect();
+        wrong.clear();
+        wrong.extend(m.chunks_exact(n).enumerate().map(is_wrong));
         let count = wrong.iter().filter(|wrong| **wrong).count();
         if count == 0 {
-            let z: Vec<f64> = z.iter().map(|z| z.max(0.0)).collect();
-            let residual = residual(m, q, &z);
-            return (residual <= GOOD).then_some(Solution { z, residual });
+            z.iter_mut().for_each(|z| *z = z.max(0.0));
+            let residual = residual(m, q, z, sums);
+            return (residual <= GOOD).then_some(residual);
         }
-        correct(&wrong, &mut is_positive);
+        correct(wrong, is_positive);
         in_vain = if count < fewest { 0 } else { in_vain + 1 };
         fewest = fewest.min(count);
     }
     None
 }
 
-/// One path of pivots, by a covering vector of its own.
-fn along(m: &[f64], q: &[f64], size: f64, path: usize) -> Result<Solution, Unsolved> {
+/// One path of pivots, by a covering vector of its own: writes the solution and says its residual.
+fn along(
+    (m, q, size): (&[f64], &[f64], f64),
+    path: usize,
+    memory: &mut Memory,
+) -> Result<f64, Unsolved> {
     let n = q.len();
-    let mut tableau = Tableau::new(m, q, size, path);
+    let Memory {
+        z,
+        in_basis,
+        equations,
+        sums,
+        tableau,
+        ..
+    } = memory;
+    tableau.begin(m, q, size, path);
     // The covering variable goes in where q is least.
     let mut leaving = tableau.least(2 * n);
     let mut entering = 2 * n;
@@ -151,9 +211,18 @@ fn along(m: &[f64], q: &[f64], size: f64, path: usize) -> Result<Solution, Unsol
         let left = tableau.basis[leaving];
         tableau.pivot(leaving, entering);
         if left == 2 * n {
-            let z = refined(m, q, &tableau.basis).unwrap_or_else(|| tableau.z(size));
-            let residual = residual(m, q, &z);
-            return Ok(Solution { z, residual });
+            // The numbers of the basis, from the problem itself, unless rounding has made it singular.
+            in_basis.clear();
+            in_basis.resize(n, false);
+            (tableau.basis.iter())
+                .filter(|variable| (n..2 * n).contains(*variable))
+                .for_each(|variable| in_basis[variable - n] = true);
+            if equations.with_positive(m, q, in_basis, z) {
+                z.iter_mut().for_each(|z| *z = z.max(0.0));
+            } else {
+                tableau.write_z(size, z);
+            }
+            return Ok(residual(m, q, z, sums));
         }
         // What has left is followed by its complement.
         entering = if left < n { left + n } else { left - n };
@@ -163,20 +232,24 @@ fn along(m: &[f64], q: &[f64], size: f64, path: usize) -> Result<Solution, Unsol
 }
 
 /// Rows `w − M z − d z₀ = q`, `d` the covering vector, solved for what is in the basis: columns of `w`, of `z`, of `z₀` and of `q`.
+#[derive(Clone, Debug, Default)]
 struct Tableau {
     n: usize,
     width: usize,
     numbers: Vec<f64>,
+    /// Memory for a row.
+    pivot: Vec<f64>,
     /// Which variable each row is solved for: `w` from 0, `z` from n, `z₀` last.
     basis: Vec<usize>,
 }
 
 impl Tableau {
-    fn new(m: &[f64], q: &[f64], size: f64, path: usize) -> Tableau {
+    fn begin(&mut self, m: &[f64], q: &[f64], size: f64, path: usize) {
         let n = q.len();
         let width = 2 * n + 2;
-        let mut numbers = vec![0.0; n * width];
-        for (i, row) in numbers.chunks_exact_mut(width).enumerate() {
+        self.numbers.clear();
+        self.numbers.resize(n * width, 0.0);
+        for (i, row) in self.numbers.chunks_exact_mut(width).enumerate() {
             row[i] = 1.0;
             for (to, m) in row[n..2 * n].iter_mut().zip(&m[i * n..][..n]) {
                 *to = -m;
@@ -186,12 +259,9 @@ impl Tableau {
             row[2 * n] = -(1.0 + cover.fract());
             row[2 * n + 1] = q[i] / size;
         }
-        Tableau {
-            n,
-            width,
-            numbers,
-            basis: (0..n).collect(),
-        }
+        (self.n, self.width) = (n, width);
+        self.basis.clear();
+        self.basis.extend(0..n);
     }
 
     fn row(&self, i: usize) -> &[f64] {
@@ -259,7 +329,9 @@ impl Tableau {
     fn pivot(&mut self, row: usize, column: usize) {
         let width = self.width;
         let by = self.numbers[row * width + column];
-        let pivot: Vec<f64> = self.row(row).iter().map(|x| x / by).collect();
+        let mut pivot = core::mem::take(&mut self.pivot);
+        pivot.clear();
+        pivot.extend(self.row(row).iter().map(|x| x / by));
         for (i, own) in self.numbers.chunks_exact_mut(width).enumerate() {
             let factor = own[column];
             if i == row {
@@ -271,55 +343,59 @@ impl Tableau {
                 own[column] = 0.0;
             }
         }
+        self.pivot = pivot;
         self.basis[row] = column;
     }
 
-    fn z(&self, size: f64) -> Vec<f64> {
-        let mut z = vec![0.0; self.n];
+    fn write_z(&self, size: f64, z: &mut Vec<f64>) {
+        z.clear();
+        z.resize(self.n, 0.0);
         for (i, &variable) in self.basis.iter().enumerate() {
             if (self.n..2 * self.n).contains(&variable) {
                 z[variable - self.n] = (size * self.row(i)[2 * self.n + 1]).max(0.0);
             }
         }
-        z
     }
 }
 
-/// The numbers of a basis, from the problem itself; none where rounding has made it singular.
-fn refined(m: &[f64], q: &[f64], basis: &[usize]) -> Option<Vec<f64>> {
-    let n = q.len();
-    let mut in_basis = vec![false; n];
-    basis
-        .iter()
-        .filter(|variable| (n..2 * n).contains(*variable))
-        .for_each(|variable| in_basis[variable - n] = true);
-    let (z, is_regular) = with_positive(m, q, &in_basis);
-    is_regular.then(|| z.iter().map(|z| z.max(0.0)).collect())
-}
-
-/// The numbers `z` with `w = 0` for those that are called positive, and 0 for the rest; whether they are the only ones.
-fn with_positive(m: &[f64], q: &[f64], is_positive: &[bool]) -> (Vec<f64>, bool) {
-    let n = q.len();
-    let chosen: Vec<usize> = (0..n).filter(|i| is_positive[*i]).collect();
-    let k = chosen.len();
-    let (mut a, mut b) = (vec![0.0; k * k], vec![0.0; k]);
-    for (row, &i) in chosen.iter().enumerate() {
-        for (column, &j) in chosen.iter().enumerate() {
-            a[row * k + column] = m[i * n + j];
+impl Equations {
+    /// Writes the numbers `z` with `w = 0` for those that are called positive, and 0 for the rest; whether they are the only ones.
+    fn with_positive(
+        &mut self,
+        m: &[f64],
+        q: &[f64],
+        is_positive: &[bool],
+        z: &mut Vec<f64>,
+    ) -> bool {
+        let n = q.len();
+        let Self {
+            chosen,
+            left,
+            right,
+            values,
+            order,
+        } = self;
+        chosen.clear();
+        chosen.extend((0..n).filter(|i| is_positive[*i]));
+        left.clear();
+        right.clear();
+        for &i in &*chosen {
+            left.extend(chosen.iter().map(|j| m[i * n + j]));
+            right.push(-q[i]);
         }
-        b[row] = -q[i];
+        eliminate_into(left, right, (values, order));
+        z.clear();
+        z.resize(n, 0.0);
+        for (&i, value) in chosen.iter().zip(&*values) {
+            z[i] = *value;
+        }
+        order.rank == chosen.len()
     }
-    let (values, rank) = solve(&mut a, &mut b);
-    let mut z = vec![0.0; n];
-    for (&i, value) in chosen.iter().zip(&values) {
-        z[i] = *value;
-    }
-    (z, rank == k)
 }
 
 /// By how much numbers miss `M z + q ≥ 0 ⊥ z ≥ 0`, relative to the greatest term of all: a row of which nothing is
 /// left but rounding is not held against terms of its own.
-fn residual(m: &[f64], q: &[f64], z: &[f64]) -> f64 {
+fn residual(m: &[f64], q: &[f64], z: &[f64], sums: &mut Vec<f64>) -> f64 {
     let n = q.len();
     let greatest = z
         .iter()
@@ -327,7 +403,8 @@ fn residual(m: &[f64], q: &[f64], z: &[f64]) -> f64 {
     let mut size = q
         .iter()
         .fold(f64::MIN_POSITIVE, |size, q| size.max(q.abs()));
-    let mut sums = q.to_vec();
+    sums.clear();
+    sums.extend_from_slice(q);
     for (sum, row) in sums.iter_mut().zip(m.chunks_exact(n)) {
         for (m, z) in row.iter().zip(z) {
             *sum += m * z;

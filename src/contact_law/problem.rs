@@ -26,11 +26,10 @@
 //!
 //! In space a contact has two tangents, and friction a disc: that problem is not linear, and `cone` solves it.
 
-use std::vec;
 use std::vec::Vec;
 
 use super::cone::{self, Part};
-use super::lcp::{Unsolved, from_guess, lemke};
+use super::lcp::{self, Unsolved, from_guess, lemke_into};
 
 /// Friction within this of the greatest that there is, relative to that, is used up.
 pub(crate) const SATURATED: f64 = 1e-10;
@@ -93,6 +92,15 @@ impl ContactUnknowns {
     }
 }
 
+/// Memory for problems, which serves again from one to the next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Memory {
+    plane: PlaneVectors,
+    space: SpaceMemory,
+    lcp: lcp::Memory,
+    guess: Vec<bool>,
+}
+
 /// Solves for normal and tangential forces or impulses of each contact: finds one solution where there are several. `g` has two rows and columns
 /// for each, its normal and its tangent, and so has `b`. The search begins `near` these forces, if they are given: in the plane with the states
 /// that they imply, which contacts press, slip and stick.
@@ -102,29 +110,44 @@ pub(crate) fn solve(
     b: &[f64],
     near: Option<&[[f64; 2]]>,
 ) -> Result<Answer, Unsolved> {
+    let mut answer = Answer::default();
+    let memory = &mut Memory::default();
+    solve_into(contacts, (g, b), near, (&mut answer, memory))?;
+    Ok(answer)
+}
+
+/// Like [`solve`], in memory that is there.
+pub(crate) fn solve_into(
+    contacts: &[ContactUnknowns],
+    (g, b): (&[f64], &[f64]),
+    near: Option<&[[f64; 2]]>,
+    (answer, memory): (&mut Answer, &mut Memory),
+) -> Result<(), Unsolved> {
+    answer.forces.clear();
+    answer.forces.resize(contacts.len(), [0.0; 2]);
+    answer.residual = 0.0;
+    answer.shared_otherwise.clear();
     if contacts
         .iter()
         .any(|contacts| matches!(contacts, ContactUnknowns::SecondTangent))
     {
-        return in_space(contacts, g, b, near);
+        answer.residual = in_space(
+            contacts,
+            (g, b),
+            near,
+            (&mut answer.forces, &mut memory.space),
+        )?;
+        return Ok(());
     }
-    let problem = PlaneProblem::new(contacts, g, b);
-    if problem.rate == 0.0 || problem.unknowns.is_empty() {
-        return Ok(Answer::new(vec![[0.0; 2]; contacts.len()], 0.0));
-    }
-    let (matrix, q) = problem.complementarity();
-    let near = near.filter(|_| !contacts.iter().any(ContactUnknowns::is_guide));
-    let guessed = near.and_then(|near| {
-        let guess = positive_near(contacts, &problem.unknowns, (g, b), near);
-        from_guess(&matrix, &q, guess, |wrong, guess| {
-            correct(contacts, &problem.unknowns, wrong, guess);
-        })
-    });
-    let solution = match guessed {
-        Some(solution) => solution,
-        None => lemke(&matrix, &q)?,
+    let vectors = core::mem::take(&mut memory.plane);
+    let mut problem = PlaneProblem::new(contacts, (g, b), vectors);
+    let solved = if problem.rate == 0.0 || problem.vectors.unknowns.is_empty() {
+        Ok(())
+    } else {
+        problem.solve(near, (answer, &mut memory.lcp, &mut memory.guess))
     };
-    Ok(Answer::new(problem.forces(&solution.z), solution.residual))
+    memory.plane = problem.vectors;
+    solved
 }
 
 /// A problem without second tangents, as a linear complementarity problem.
@@ -132,35 +155,42 @@ struct PlaneProblem<'a> {
     contacts: &'a [ContactUnknowns],
     g: &'a [f64],
     b: &'a [f64],
+    /// The unit of rates.
+    rate: f64,
+    vectors: PlaneVectors,
+}
+
+#[derive(Clone, Debug, Default)]
+struct PlaneVectors {
     /// What is unknown: of which contact, and its kind.
     unknowns: Vec<(usize, Kind)>,
     /// Which contact has which share of the normal force of another: the contact, the other one, and the share.
     shares_of_carriers: Vec<(usize, usize, f64)>,
     /// By what rates are multiplied along tangents: a rate of rotation becomes one in the units of the contact that rolls, with the same energy.
     along_tangents: Vec<f64>,
-    /// The unit of rates, and of the impulses of each contact.
-    rate: f64,
+    /// The unit of the impulses of each contact.
     unit: Vec<f64>,
+    /// The matrix, row after row, and the constants.
+    matrix: Vec<f64>,
+    q: Vec<f64>,
+    /// For each contact the place of its normal force among the unknowns.
+    normals: Vec<Option<usize>>,
 }
 
 impl<'a> PlaneProblem<'a> {
-    fn new(contacts: &'a [ContactUnknowns], g: &'a [f64], b: &'a [f64]) -> Self {
-        let mut problem = Self {
-            contacts,
-            g,
-            b,
-            unknowns: Vec::new(),
-            shares_of_carriers: Vec::new(),
-            along_tangents: Vec::new(),
-            rate: 0.0,
-            unit: Vec::new(),
-        };
+    fn new(
+        contacts: &'a [ContactUnknowns],
+        (g, b): (&'a [f64], &'a [f64]),
+        mut vectors: PlaneVectors,
+    ) -> Self {
+        vectors.unknowns.clear();
+        vectors.shares_of_carriers.clear();
         for (k, contact) in contacts.iter().enumerate() {
             if contact.has_normal() {
-                problem.unknowns.push((k, Kind::Normal));
+                vectors.unknowns.push((k, Kind::Normal));
             }
             if let ContactUnknowns::ShareOfCarrier { share, on } = contact {
-                problem.shares_of_carriers.push((k, *on, *share));
+                vectors.shares_of_carriers.push((k, *on, *share));
             }
             if contact.has_friction() {
                 let directions = match contact {
@@ -170,17 +200,62 @@ impl<'a> PlaneProblem<'a> {
                     _ => &[Kind::Forward, Kind::Backward],
                 };
                 let kinds = directions.iter().chain(&[Kind::Slip]);
-                problem.unknowns.extend(kinds.map(|kind| (k, *kind)));
+                vectors.unknowns.extend(kinds.map(|kind| (k, *kind)));
             }
         }
+        let mut problem = Self {
+            contacts,
+            g,
+            b,
+            rate: 0.0,
+            vectors,
+        };
         let places = 0..contacts.len();
-        let along_tangents = places.clone().map(|k| problem.multiple_along_tangent(k));
-        problem.along_tangents = along_tangents.collect();
+        problem.vectors.along_tangents.clear();
+        for k in places.clone() {
+            let multiple = problem.multiple_along_tangent(k);
+            problem.vectors.along_tangents.push(multiple);
+        }
         problem.rate = (b.iter().enumerate()).fold(0.0_f64, |size, (row, b)| {
             size.max((problem.multiple(row) * b).abs())
         });
-        problem.unit = places.map(|k| problem.unit_of_contact(k)).collect();
+        problem.vectors.unit.clear();
+        for k in places {
+            let unit = problem.unit_of_contact(k);
+            problem.vectors.unit.push(unit);
+        }
         problem
+    }
+
+    /// Writes forces that solve the problem.
+    fn solve(
+        &mut self,
+        near: Option<&[[f64; 2]]>,
+        (answer, memory, guess): (&mut Answer, &mut lcp::Memory, &mut Vec<bool>),
+    ) -> Result<(), Unsolved> {
+        self.write_complementarity();
+        let (contacts, of_problem) = (self.contacts, (self.g, self.b));
+        let PlaneVectors {
+            unknowns,
+            matrix,
+            q,
+            normals,
+            ..
+        } = &mut self.vectors;
+        let near = near.filter(|_| !contacts.iter().any(ContactUnknowns::is_guide));
+        let guessed = near.and_then(|near| {
+            write_positive_near(contacts, unknowns, of_problem, near, guess);
+            let correct = |wrong: &[bool], guess: &mut [bool]| {
+                correct(contacts, unknowns, wrong, guess, normals);
+            };
+            from_guess(matrix, q, guess, correct, memory)
+        });
+        answer.residual = match guessed {
+            Some(residual) => residual,
+            None => lemke_into(&self.vectors.matrix, &self.vectors.q, memory)?,
+        };
+        self.write_forces(&memory.z, &mut answer.forces);
+        Ok(())
     }
 
     /// `G` in the given units.
@@ -208,7 +283,7 @@ impl<'a> PlaneProblem<'a> {
         if row.is_multiple_of(2) {
             1.0
         } else {
-            self.along_tangents[row / 2]
+            self.vectors.along_tangents[row / 2]
         }
     }
 
@@ -216,7 +291,7 @@ impl<'a> PlaneProblem<'a> {
     fn unit_of_contact(&self, k: usize) -> f64 {
         let own = match self.contacts[k] {
             ContactUnknowns::OnCarrier { .. } => {
-                self.along_tangents[k] * self.product(2 * k + 1, 2 * k + 1)
+                self.vectors.along_tangents[k] * self.product(2 * k + 1, 2 * k + 1)
             }
             _ => self.product(2 * k, 2 * k),
         };
@@ -232,15 +307,15 @@ impl<'a> PlaneProblem<'a> {
                     ContactUnknowns::Normal { share } => share,
                     _ => 0.0,
                 };
-                let carried = self.shares_of_carriers.iter();
+                let carried = self.vectors.shares_of_carriers.iter();
                 let carried = carried.filter(|(_, on, _)| *on == k);
                 let carried = carried.fold(0.0, |sum, (other, _, share)| {
                     sum + share * entry(2 * other + 1)
                 });
-                self.unit[k] * (entry(2 * k) + share * entry(2 * k + 1) + carried)
+                self.vectors.unit[k] * (entry(2 * k) + share * entry(2 * k + 1) + carried)
             }
-            Kind::Forward => self.unit[k] * entry(2 * k + 1),
-            Kind::Backward => -self.unit[k] * entry(2 * k + 1),
+            Kind::Forward => self.vectors.unit[k] * entry(2 * k + 1),
+            Kind::Backward => -self.vectors.unit[k] * entry(2 * k + 1),
             Kind::Slip => 0.0,
         }
     }
@@ -248,7 +323,7 @@ impl<'a> PlaneProblem<'a> {
     /// The friction of a contact, the normal impulse that is known, in its unit, and of an impulse on another contact that one and how many of its units
     /// are one of these.
     fn limit(&self, k: usize) -> (f64, f64, Option<(usize, f64)>) {
-        let in_units = |normal: f64| normal / (self.unit[k] * self.rate);
+        let in_units = |normal: f64| normal / (self.vectors.unit[k] * self.rate);
         match self.contacts[k] {
             ContactUnknowns::Both {
                 friction,
@@ -261,7 +336,7 @@ impl<'a> PlaneProblem<'a> {
                 known_normal,
                 on,
             } => {
-                let carrier = Some((on, self.unit[on] / self.unit[k]));
+                let carrier = Some((on, self.vectors.unit[on] / self.vectors.unit[k]));
                 (friction, in_units(known_normal), carrier)
             }
             // What presses without unknown forces, in the same unit: that of a guide is 1/c.
@@ -276,14 +351,20 @@ impl<'a> PlaneProblem<'a> {
         }
     }
 
-    /// The matrix, row after row, and the constants.
-    fn complementarity(&self) -> (Vec<f64>, Vec<f64>) {
-        let n = self.unknowns.len();
-        let (mut matrix, mut q) = (vec![0.0; n * n], vec![0.0; n]);
-        for (i, &(k, kind)) in self.unknowns.iter().enumerate() {
+    /// Writes the matrix and the constants.
+    fn write_complementarity(&mut self) {
+        let mut matrix = core::mem::take(&mut self.vectors.matrix);
+        let mut q = core::mem::take(&mut self.vectors.q);
+        let unknowns = &self.vectors.unknowns;
+        let n = unknowns.len();
+        matrix.clear();
+        matrix.resize(n * n, 0.0);
+        q.clear();
+        q.resize(n, 0.0);
+        for (i, &(k, kind)) in unknowns.iter().enumerate() {
             let (friction, known_normal, carrier) = self.limit(k);
             let row = &mut matrix[i * n..][..n];
-            for (entry, &unknown) in row.iter_mut().zip(&self.unknowns) {
+            for (entry, &unknown) in row.iter_mut().zip(unknowns) {
                 let is_own = unknown.0 == k;
                 *entry = match (kind, unknown.1) {
                     (Kind::Normal, _) => self.effect(2 * k, unknown),
@@ -322,14 +403,13 @@ impl<'a> PlaneProblem<'a> {
                 Kind::Slip => friction * known_normal,
             };
         }
-        (matrix, q)
+        (self.vectors.matrix, self.vectors.q) = (matrix, q);
     }
 
-    /// The forces of each contact that belong to a solution.
-    fn forces(&self, z: &[f64]) -> Vec<[f64; 2]> {
-        let mut forces = vec![[0.0; 2]; self.contacts.len()];
-        for (&(k, kind), value) in self.unknowns.iter().zip(z) {
-            let value = value * self.unit[k] * self.rate;
+    /// Adds the forces of each contact that belong to a solution.
+    fn write_forces(&self, z: &[f64], forces: &mut [[f64; 2]]) {
+        for (&(k, kind), value) in self.vectors.unknowns.iter().zip(z) {
+            let value = value * self.vectors.unit[k] * self.rate;
             match kind {
                 Kind::Normal => {
                     forces[k][0] += value;
@@ -347,17 +427,17 @@ impl<'a> PlaneProblem<'a> {
                 forces[k][1] = share * forces[*on][0];
             }
         }
-        forces
     }
 }
 
-/// Which unknowns of a problem in the plane are positive if each contact does what it does with these forces.
-fn positive_near(
+/// Writes which unknowns of a problem in the plane are positive if each contact does what it does with these forces.
+fn write_positive_near(
     contacts: &[ContactUnknowns],
     unknowns: &[(usize, Kind)],
     (g, b): (&[f64], &[f64]),
     near: &[[f64; 2]],
-) -> Vec<bool> {
+    guess: &mut Vec<bool>,
+) {
     let width = b.len();
     // The direction of the friction force, and whether it is used up.
     let friction = |k: usize| {
@@ -393,7 +473,8 @@ fn positive_near(
         Kind::Backward => !friction(k).0,
         Kind::Slip => friction(k).1,
     };
-    unknowns.iter().map(is_positive).collect()
+    guess.clear();
+    guess.extend(unknowns.iter().map(is_positive));
 }
 
 /// Corrects a guess which unknowns of a problem in the plane are positive. As long as a contact sticks or slips, one of both directions is.
@@ -402,8 +483,10 @@ fn correct(
     unknowns: &[(usize, Kind)],
     wrong: &[bool],
     guess: &mut [bool],
+    normal_of: &mut Vec<Option<usize>>,
 ) {
-    let mut normal_of = vec![None; contacts.len()];
+    normal_of.clear();
+    normal_of.resize(contacts.len(), None);
     for (i, &(k, kind)) in unknowns.iter().enumerate() {
         match kind {
             Kind::Normal => {
@@ -445,13 +528,37 @@ fn correct_friction(opens: bool, wrong: &[bool], guess: &mut [bool]) {
     guess[backward] = !guess[forward];
 }
 
-/// As [`solve`], where some contacts have a second tangent.
+/// Memory for problems in space.
+#[derive(Clone, Debug, Default)]
+struct SpaceMemory {
+    /// The direction of each unknown force.
+    unknowns: Vec<usize>,
+    /// For each contact the place of its normal force among the unknowns.
+    normals: Vec<Option<usize>>,
+    /// The directions in which unknown forces act: the place of the force, the direction, and by what it is multiplied there. What slips in a known direction is a
+    /// share of the normal force.
+    terms: Vec<(usize, usize, f64)>,
+    problem: cone::Problem,
+    z: Vec<f64>,
+    work: cone::Workspace,
+}
+
+impl SpaceMemory {
+    fn push_unknown(&mut self, direction: usize) -> usize {
+        let place = self.unknowns.len();
+        self.unknowns.push(direction);
+        self.terms.push((place, direction, 1.0));
+        place
+    }
+}
+
+/// As [`solve_into`], where some contacts have a second tangent: adds to the forces, and says the residual.
 fn in_space(
     contacts: &[ContactUnknowns],
-    g: &[f64],
-    b: &[f64],
+    (g, b): (&[f64], &[f64]),
     near: Option<&[[f64; 2]]>,
-) -> Result<Answer, Unsolved> {
+    (forces, memory): (&mut [[f64; 2]], &mut SpaceMemory),
+) -> Result<f64, Unsolved> {
     // In space a guide has no sides.
     if contacts.iter().any(ContactUnknowns::is_guide) {
         return Err(Unsolved);
@@ -460,103 +567,113 @@ fn in_space(
     let entry = |i: usize, j: usize| g[i * 2 * m + j];
     let rate = b.iter().fold(0.0_f64, |size, b| size.max(b.abs()));
     if rate == 0.0 {
-        return Ok(Answer::new(vec![[0.0; 2]; m], 0.0));
+        return Ok(0.0);
     }
-    // The unknown forces, by direction, and of each by what it is multiplied in other directions: what slips in a known
-    // direction is a share of the normal force.
-    let mut unknowns: Vec<Vec<(usize, f64)>> = Vec::new();
-    let mut normals = vec![None; m];
+    memory.unknowns.clear();
+    memory.terms.clear();
+    memory.normals.clear();
+    memory.normals.resize(m, None);
+    memory.problem.parts.clear();
     for (k, contacts) in contacts.iter().enumerate() {
         match *contacts {
             ContactUnknowns::Both { .. } => {
-                normals[k] = Some(unknowns.len());
-                unknowns.push(vec![(2 * k, 1.0)]);
+                memory.normals[k] = Some(memory.push_unknown(2 * k));
             }
             ContactUnknowns::Normal { share } => {
-                normals[k] = Some(unknowns.len());
-                unknowns.push(vec![(2 * k, 1.0), (2 * k + 1, share)]);
+                let place = memory.push_unknown(2 * k);
+                memory.normals[k] = Some(place);
+                memory.terms.push((place, 2 * k + 1, share));
             }
             ContactUnknowns::ShareOfCarrier { share, on } => {
-                if let Some(normal) = normals[on] {
-                    unknowns[normal].push((2 * k + 1, share));
+                if let Some(normal) = memory.normals[on] {
+                    memory.terms.push((normal, 2 * k + 1, share));
                 }
             }
             _ => {}
         }
     }
-    let mut parts = Vec::new();
     for (k, contacts) in contacts.iter().enumerate() {
         let (friction, on, known_normal) = match *contacts {
             ContactUnknowns::Both {
                 friction,
                 known_normal,
-            } => (friction, normals[k], known_normal),
+            } => (friction, memory.normals[k], known_normal),
             ContactUnknowns::Tangent { friction, normal } => (friction, None, normal),
             ContactUnknowns::OnCarrier {
                 friction,
                 known_normal,
                 on,
-            } => (friction, normals[on], known_normal),
+            } => (friction, memory.normals[on], known_normal),
             ContactUnknowns::Normal { .. }
             | ContactUnknowns::ShareOfCarrier { .. }
             | ContactUnknowns::Nothing
             | ContactUnknowns::Guide { .. }
             | ContactUnknowns::SlidingGuide { .. }
             | ContactUnknowns::SecondTangent => {
-                parts.extend(normals[k].map(Part::Normal));
+                let normal = memory.normals[k].map(Part::Normal);
+                memory.problem.parts.extend(normal);
                 continue;
             }
         };
         if matches!(contacts, ContactUnknowns::Both { .. }) {
-            parts.extend(normals[k].map(Part::Normal));
+            let normal = memory.normals[k].map(Part::Normal);
+            memory.problem.parts.extend(normal);
         }
         if friction <= 0.0 || (on.is_none() && known_normal <= 0.0) {
             continue;
         }
-        let is_across = |next: &usize| {
-            matches!(
-                all_contacts.get(*next),
-                Some(ContactUnknowns::SecondTangent)
-            )
-        };
-        let tangents = [k].into_iter().chain([k + 1].into_iter().filter(is_across));
-        let mut places = Vec::new();
-        for tangent in tangents {
-            places.push(unknowns.len());
-            unknowns.push(vec![(2 * tangent + 1, 1.0)]);
+        let mut places = [memory.push_unknown(2 * k + 1); 2];
+        let mut count = 1;
+        if let Some(ContactUnknowns::SecondTangent) = all_contacts.get(k + 1) {
+            places[1] = memory.push_unknown(2 * k + 3);
+            count = 2;
         }
-        parts.push(Part::Disc {
+        memory.problem.parts.push(Part::Disc {
             places,
+            count,
             friction,
             on,
             known_normal,
         });
     }
+    let SpaceMemory {
+        unknowns,
+        terms,
+        problem,
+        z,
+        work,
+        ..
+    } = memory;
+    let n = unknowns.len();
+    let units = &mut problem.units;
+    units.clear();
+    units.extend(
+        unknowns
+            .iter()
+            .map(|direction| entry(*direction, *direction)),
+    );
     // Both tangents of a contact have one unit of impulse, so that its disc stays one.
-    let own = |unknown: &[(usize, f64)]| {
-        let (direction, _) = unknown[0];
-        entry(direction, direction)
-    };
-    let mut units: Vec<f64> = unknowns.iter().map(|unknown| own(unknown)).collect();
-    for part in &parts {
+    for part in &problem.parts {
         if let Part::Disc { places, .. } = part {
             let greatest = places.iter().fold(0.0_f64, |most, i| most.max(units[*i]));
             places.iter().for_each(|i| units[*i] = greatest);
         }
     }
-    for unit in &mut units {
+    for unit in units.iter_mut() {
         *unit = if *unit > 0.0 { 1.0 / *unit } else { 1.0 };
     }
-    let n = unknowns.len();
-    let mut problem = cone::Problem {
-        matrix: vec![0.0; n * n],
-        b: unknowns.iter().map(|u| b[u[0].0] / rate).collect(),
-        parts,
-    };
-    for (i, row) in unknowns.iter().enumerate() {
-        for (j, column) in unknowns.iter().enumerate() {
-            let terms = column.iter().map(|(d, share)| share * entry(row[0].0, *d));
-            problem.matrix[i * n + j] = units[j] * terms.sum::<f64>();
+    problem.b.clear();
+    problem
+        .b
+        .extend(unknowns.iter().map(|direction| b[*direction] / rate));
+    problem.matrix.clear();
+    problem.matrix.resize(n * n, 0.0);
+    for (&direction, row) in unknowns.iter().zip(problem.matrix.chunks_exact_mut(n)) {
+        for &(place, along, share) in terms.iter() {
+            row[place] += share * entry(direction, along);
+        }
+        for (entry, unit) in row.iter_mut().zip(&*units) {
+            *entry *= unit;
         }
     }
     for part in &mut problem.parts {
@@ -565,6 +682,7 @@ fn in_space(
             friction,
             on,
             known_normal,
+            ..
         } = part
         {
             let own = units[places[0]];
@@ -573,24 +691,23 @@ fn in_space(
             *known_normal /= pressing * rate;
         }
     }
-    let start = match near {
-        Some(near) => (unknowns.iter().zip(&units))
-            .map(|(unknown, unit)| near[unknown[0].0 / 2][unknown[0].0 % 2] / (unit * rate))
-            .collect(),
-        None => vec![0.0; n],
-    };
-    let (z, residual) = cone::solve(&problem, start)?;
-    let mut forces = vec![[0.0; 2]; m];
-    for ((unknown, z), unit) in unknowns.iter().zip(&z).zip(&units) {
-        for (direction, share) in unknown {
-            forces[direction / 2][direction % 2] += share * z * unit * rate;
-        }
+    z.clear();
+    match near {
+        Some(near) => z.extend(
+            (unknowns.iter().zip(&*units))
+                .map(|(direction, unit)| near[direction / 2][direction % 2] / (unit * rate)),
+        ),
+        None => z.resize(n, 0.0),
     }
-    Ok(Answer::new(forces, residual))
+    let residual = cone::solve(problem, z, work)?;
+    for &(place, direction, share) in terms.iter() {
+        forces[direction / 2][direction % 2] += share * z[place] * problem.units[place] * rate;
+    }
+    Ok(residual)
 }
 
 /// The forces or impulses of contacts, along normal and tangent.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Answer {
     pub forces: Vec<[f64; 2]>,
     /// By how much they miss the conditions, relative to the size of the terms.
@@ -599,17 +716,7 @@ pub(crate) struct Answer {
     pub shared_otherwise: Vec<usize>,
 }
 
-impl Answer {
-    fn new(forces: Vec<[f64; 2]>, residual: f64) -> Self {
-        Self {
-            forces,
-            residual,
-            shared_otherwise: Vec::new(),
-        }
-    }
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Normal,
     Forward,
@@ -619,6 +726,8 @@ enum Kind {
 
 #[cfg(test)]
 mod tests {
+    use std::vec;
+
     use super::*;
 
     /// Numbers between −1 and 1 that look drawn at random.
@@ -627,6 +736,125 @@ mod tests {
         *seed ^= *seed >> 7;
         *seed ^= *seed << 17;
         (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    /// Bodies that stand on four feet each, one on the other, and meet with restitution, slip and turn: the problem of the impulses of such a pile. Its second
+    /// tangents follow the first ones, as rows that are one contact more.
+    fn pile(seed: &mut u64, case: usize) -> (Vec<ContactUnknowns>, Vec<f64>, Vec<f64>) {
+        let bodies = 1 + case % 4;
+        let friction = 0.65 + 0.55 * drawn(seed);
+        let [a, b, c] = [0.3, 0.3, 0.2].map(|size| size * (1.0 + 0.6 * drawn(seed)));
+        let masses: Vec<f64> = (0..bodies).map(|_| (1.5 * drawn(seed)).exp()).collect();
+        let inverse = |i: usize| {
+            let squares = [b * b + c * c, a * a + c * c, a * a + b * b];
+            match i % 6 {
+                axis @ 3.. => 3.0 / masses[i / 6] / squares[axis - 3],
+                _ => 1.0 / masses[i / 6],
+            }
+        };
+        let mut rows: Vec<Vec<f64>> = Vec::new();
+        for k in 0..bodies {
+            let (sin, cos) = (3.0 * drawn(seed)).sin_cos();
+            for [x, y] in [[a, b], [a, -b], [-a, b], [-a, -b]] {
+                let [x, y] = [cos * x - sin * y, sin * x + cos * y];
+                // Along the normal and both tangents, at a height.
+                let at = |z: f64| {
+                    [
+                        [0.0, 0.0, 1.0, y, -x, 0.0],
+                        [1.0, 0.0, 0.0, 0.0, z, -y],
+                        [0.0, 1.0, 0.0, -z, 0.0, x],
+                    ]
+                };
+                for (own, below) in at(-c).into_iter().zip(at(c)) {
+                    let mut row = vec![0.0; 6 * bodies];
+                    row[6 * k..][..6].copy_from_slice(&own);
+                    if k > 0 {
+                        let below = below.map(|x| -x);
+                        row[6 * (k - 1)..][..6].copy_from_slice(&below);
+                    }
+                    rows.push(row);
+                }
+            }
+        }
+        // All bodies move at random, or the uppermost one falls onto others that rest, with an edge ahead.
+        let v: Vec<f64> = (0..6 * bodies)
+            .map(|i| match (case / 4 % 2, i / 6 == bodies - 1, i % 6) {
+                (0, ..) => drawn(seed),
+                (_, true, 2) => -0.3,
+                (_, true, _) => 0.2 * drawn(seed),
+                (_, false, 2) => -0.01,
+                (_, false, _) => 0.0,
+            })
+            .collect();
+        let restitution = [0.0, 0.2, 0.8][case / 8 % 3];
+        let place = |i: usize| 4 * (i / 3) + [0, 1, 3][i % 3];
+        let width = 4 * rows.len() / 3;
+        let (mut g, mut rates) = (vec![0.0; width * width], vec![0.0; width]);
+        for (i, row) in rows.iter().enumerate() {
+            for (j, other) in rows.iter().enumerate() {
+                let terms = row.iter().zip(other).enumerate();
+                g[place(i) * width + place(j)] = terms.map(|(l, (x, y))| x * y * inverse(l)).sum();
+            }
+            let rate: f64 = row.iter().zip(&v).map(|(x, v)| x * v).sum();
+            let is_normal = f64::from(u8::from(i % 3 == 0));
+            rates[place(i)] = rate + is_normal * restitution * rate.min(0.0);
+        }
+        let contact = [
+            ContactUnknowns::Both {
+                friction,
+                known_normal: 0.0,
+            },
+            ContactUnknowns::SecondTangent,
+        ];
+        (contact.repeat(rows.len() / 3), g, rates)
+    }
+
+    /// Where some motion opens all contacts there are impulses that obey the law (V. Acary, F. Cadoux, C. Lemaréchal, J. Malick, Z. Angew. Math. Mech. 91 (2011)
+    /// 155–175): they are found, however the feet depend on each other, and the conditions themselves hold.
+    #[test]
+    fn impulses_of_piles_on_four_feet_are_found() {
+        let mut seed = 0x2545_f491_4f6c_dd1d;
+        for case in 0..240 {
+            let (contacts, g, b) = pile(&mut seed, case);
+            let Ok(Answer { forces, .. }) = solve(&contacts, &g, &b, None) else {
+                panic!("case {case} of {} feet was not solved", contacts.len() / 2);
+            };
+            let rate = |i: usize| {
+                let row = g[i * b.len()..][..b.len()].iter();
+                let terms = row.zip(forces.as_flattened());
+                b[i] + terms.map(|(g, force)| g * force).sum::<f64>()
+            };
+            let fastest = b.iter().fold(0.0_f64, |most, b| most.max(b.abs()));
+            let hardest = forces
+                .iter()
+                .fold(0.0_f64, |most, force| most.max(force[0]));
+            for k in (0..contacts.len()).step_by(2) {
+                let ContactUnknowns::Both { friction, .. } = contacts[k] else {
+                    panic!("the first of two tangents");
+                };
+                let (normal, force) = (forces[k][0], [forces[k][1], forces[k + 1][1]]);
+                let (opens, slip) = (rate(2 * k), [rate(2 * k + 1), rate(2 * k + 3)]);
+                let size = force[0].hypot(force[1]);
+                let power = force[0] * slip[0] + force[1] * slip[1];
+                let lost = friction * normal * slip[0].hypot(slip[1]);
+                // Φ is at most 1e-10, and a power is a product of two numbers of which each may be off by that.
+                let within = 1e-9;
+                assert!(normal >= -within * hardest, "case {case}: {normal}");
+                assert!(opens >= -within * fastest, "case {case}: {opens}");
+                let closed = (normal * opens).abs();
+                assert!(
+                    closed <= within * hardest * fastest,
+                    "case {case}: {closed}"
+                );
+                let most = friction * normal + within * hardest;
+                assert!(size <= most, "case {case}: {size} of {most}");
+                let missed = (power + lost).abs();
+                assert!(
+                    missed <= within * hardest * fastest,
+                    "case {case}: {missed}"
+                );
+            }
+        }
     }
 
     /// Contacts in the plane are contacts in space that do not move across it: Lemke's method and that of cones say the same, whatever

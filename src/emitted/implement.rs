@@ -452,6 +452,20 @@ macro_rules! implement_method {
         }
     };
 
+    // The same in place, by a call as a value, of a function that not every machine has: whether it is there.
+    (
+        [$n:literal $Inputs:ident $Outputs:ident]
+        solved_in_place $method:ident($p:ident $(, $x:ident)*) = $value:expr
+    ) => {
+        fn $method(
+            &self $(, $x: $crate::implement_part!(argument $x $n $Inputs))*,
+            result: &mut [::core::primitive::f64],
+        ) -> ::core::result::Result<::core::primitive::bool, $crate::emitted::Singular> {
+            let $p = self;
+            $crate::emitted::run_into($value, result)
+        }
+    };
+
     // The multipliers of a machine with guided contacts.
     (
         [$n:literal $Inputs:ident $Outputs:ident]

@@ -3,8 +3,8 @@
 use core::array;
 use core::marker::PhantomData;
 
-use crate::scalar::Interval;
-use crate::{Assumption, Constraint, Lanes, Quantity, Singular};
+use crate::scalar::{Interval, Kernel};
+use crate::{Assumption, Constraint, Lanes, Number, Quantity, Singular};
 
 /// Values with their names and units.
 pub fn values<'a, const K: usize>(
@@ -18,6 +18,18 @@ pub fn values<'a, const K: usize>(
 pub fn fill(to: &mut [f64], from: &[f64]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = *from;
+    }
+}
+
+/// Runs a function that gives an array and writes it to a slice; `false` if the slice is too short.
+#[inline(always)]
+pub fn run_into<const N: usize, E, K>(kernel: K, to: &mut [f64]) -> Result<bool, E>
+where
+    K: Kernel<f64, Output = Result<[f64; N], E>>,
+{
+    match to.first_chunk_mut::<N>() {
+        Some(to) => f64::run_in_place(kernel, to).map(|()| true),
+        None => Ok(false),
     }
 }
 

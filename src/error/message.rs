@@ -332,7 +332,7 @@ impl Display for Error {
             Self::AssumptionEnded { assumption, t } => {
                 write!(
                     f,
-                    "the machine assumes `{assumption}`, which no longer holds at t = {t} s",
+                    "the machine assumes `{assumption}`, which does not hold at t = {t} s",
                     t = ShortNumber(*t)
                 )
             }

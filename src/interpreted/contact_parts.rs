@@ -8,7 +8,7 @@ use lagrangian_program::contact_parts::ContactParts;
 use lagrangian_program::{Arguments, Interpreter, Role, Source};
 
 use super::engine::MachineCode;
-use super::{Running, at};
+use super::running::{Running, at};
 use crate::ContactQuantity;
 
 /// The parts of the contacts of a machine, with the values of its parameters and memory for their arguments and results.

@@ -147,6 +147,30 @@ impl CodeOfSeries {
         }
     }
 
+    /// Whether runs in lanes are worth compiling: if machine code was requested, or has paid off for one state.
+    pub(super) fn pays_in_lanes(&self, engine: &MachineCode) -> bool {
+        use lagrangian_jit::When;
+        let engine = engine.library.as_ref().map(|(_, when)| *when);
+        engine
+            .zip(self.library.as_ref())
+            .is_some_and(|(when, library)| match when {
+                When::Always => true,
+                When::ItPays => library.is_compiled(),
+            })
+    }
+
+    /// The code for several states at once, each with its own parameters, if it is worth compiling.
+    pub(super) fn of_lanes(
+        &self,
+        engine: &MachineCode,
+        lanes: usize,
+    ) -> Option<Arc<lagrangian_jit::SeriesCode>> {
+        if !self.pays_in_lanes(engine) {
+            return None;
+        }
+        self.library.as_ref()?.code_of_lanes(lanes)
+    }
+
     /// Prepares the code for the engine of a machine.
     pub(super) fn prepared(&self, engine: &MachineCode) -> CompiledSeries {
         let when = engine.library.as_ref().map(|(_, when)| *when);
@@ -182,6 +206,10 @@ impl CompiledSeries {
 impl CodeOfSeries {
     pub(super) fn new(_: &Arc<Series>) -> CodeOfSeries {
         CodeOfSeries {}
+    }
+
+    pub(super) fn pays_in_lanes(&self, _: &MachineCode) -> bool {
+        false
     }
 
     pub(super) fn prepared(&self, _: &MachineCode) -> CompiledSeries {

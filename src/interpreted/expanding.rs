@@ -45,6 +45,12 @@ impl Expanding {
         }
     }
 
+    /// The interpreter of the series with the parameters of the machine, after the first expansion.
+    #[cfg(feature = "jit")]
+    pub(super) fn expander(&self) -> Option<&Expander<f64>> {
+        self.expander.as_ref()
+    }
+
     /// Expands the motion of a machine with these parameters through a state: time in two parts, coordinates, rates and inputs.
     pub(super) fn expand(
         &mut self,

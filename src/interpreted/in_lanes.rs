@@ -3,10 +3,11 @@
 use std::sync::Arc;
 use std::vec::Vec;
 
-use lagrangian_jit::{Library, Several, SeveralArguments};
+use lagrangian_jit::{Library, SeriesCode, SeriesSeveral, Several, SeveralArguments};
 use lagrangian_native::Lanes;
 use lagrangian_program::{Program, Role};
 
+use super::engine::MachineCode;
 use super::{InterpretedMachine, InterpretedSystem, Named, RunTask};
 use crate::run::in_lanes::{self, Machines};
 use crate::run::run;
@@ -16,10 +17,17 @@ use crate::stepper::in_lanes::{Evaluate, LaneMask, WIDTH, Wide};
 
 /// The machines of all lanes, executed by machine code.
 struct InLanes {
-    library: Arc<Library>,
+    /// The engine of the machines, from which the code comes.
+    engine: MachineCode,
+    /// `None` as long as it does not pay.
+    library: Option<Arc<Library>>,
+    /// The same for series, which may be derived while these runs are made.
+    code_of_series: Option<Arc<SeriesCode>>,
     program: Arc<Program>,
     /// Created with the first machine.
     several: Option<Several<WIDTH>>,
+    /// Created with the first machine whose run is by series.
+    series: Option<SeriesSeveral<WIDTH>>,
     inputs: Vec<Wide>,
     /// For work and losses: whether the program has a function for them that is not identically 0.
     has_powers: [bool; 2],
@@ -32,13 +40,13 @@ pub(super) fn run_tasks(tasks: Vec<RunTask<'_, '_>>) -> Vec<RunResult<Interprete
         Some(Subject::Machine(machine)) if machine.may_run_in_lanes() => *machine,
         _ => return run_one_by_one(tasks),
     };
-    let Some(library) = machine.machine_code.of_lanes(&machine.program, WIDTH) else {
-        return run_one_by_one(tasks);
-    };
     let mut machines = InLanes {
-        library,
+        engine: machine.machine_code.clone(),
+        library: None,
+        code_of_series: None,
         program: machine.program.clone(),
         several: None,
+        series: None,
         inputs: Vec::new(),
         has_powers: machine.program.has_powers(),
     };
@@ -55,19 +63,36 @@ impl Machines<InterpretedMachine> for InLanes {
         if !Arc::ptr_eq(&system.program, &self.program) {
             return false;
         }
-        let running = system.running.lock();
-        match &mut self.several {
-            Some(several) => several.put(lane, &running.interpreter),
-            // Lanes without a run have the numbers of the first one, so that they hold a valid machine.
-            none => {
-                self.inputs = inputs.values.iter().map(|u| Lanes::splat(*u)).collect();
-                *none = Several::each_from(self.library.clone(), &running.interpreter);
+        // Lanes without a run have the numbers of the first one, so that they hold a valid machine.
+        if self.several.is_none() && self.series.is_none() {
+            self.inputs = inputs.values.iter().map(|u| Lanes::splat(*u)).collect();
+        }
+        if self.library.is_none() {
+            self.library = self.engine.of_lanes(&self.program, WIDTH);
+        }
+        if self.code_of_series.is_none() {
+            let known = system.series.if_known();
+            let code = known.and_then(|known| known.code.of_lanes(&self.engine, WIDTH));
+            self.code_of_series = code;
+        }
+        if let Some(library) = &self.library {
+            let running = system.running.lock();
+            match &mut self.several {
+                Some(several) => several.put(lane, &running.interpreter),
+                none => *none = Several::each_from(library.clone(), &running.interpreter),
+            }
+        }
+        let expanding = system.expanding.lock();
+        if let (Some(code), Some(expander)) = (&self.code_of_series, expanding.expander()) {
+            match &mut self.series {
+                Some(series) => series.put(lane, expander),
+                none => *none = SeriesSeveral::new(code.clone(), expander),
             }
         }
         for (row, u) in self.inputs.iter_mut().zip(&inputs.values) {
             row[lane] = *u;
         }
-        self.several.is_some()
+        self.several.is_some() || self.series.is_some()
     }
 }
 
@@ -103,5 +128,15 @@ impl Evaluate for InLanes {
             }
         }
         (powers, mask)
+    }
+
+    fn series(
+        &mut self,
+        (t, q, v): ([Wide; 2], &[Wide], &[Wide]),
+        coefficients: &mut [Vec<Wide>],
+    ) -> LaneMask {
+        let state = [q, v, self.inputs.as_slice()];
+        let series = self.series.as_mut();
+        series.map_or(0, |series| series.expand(t, state, coefficients))
     }
 }

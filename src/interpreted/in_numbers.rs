@@ -6,7 +6,9 @@ use std::vec::Vec;
 use lagrangian_program::{Arguments, Interpreter, Program, Role};
 use lagrangian_scalar::Scalar;
 
-use super::{InterpretedMachine, Names, quantities, singular_row};
+use super::InterpretedMachine;
+use super::named::{Names, quantities};
+use super::system::singular_row;
 use crate::error::NoNumbers;
 use crate::shared_workspace::SharedWorkspace;
 use crate::{Quantity, Real, Singular, SystemIn};

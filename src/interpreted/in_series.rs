@@ -6,7 +6,8 @@ use std::vec::Vec;
 
 use lagrangian_program::series::Expander;
 
-use super::{InterpretedMachine, InterpretedSystem, singular_row};
+use super::system::singular_row;
+use super::{InterpretedMachine, InterpretedSystem};
 use crate::control::{MAX_STEPS, Work, check_count, shortest_step};
 use crate::error::NoNumbers;
 use crate::math::rough_log2;

@@ -98,6 +98,11 @@ impl MotionSeries {
         })
     }
 
+    /// The series, if it has been derived.
+    pub(super) fn if_known(&self) -> Option<&Known> {
+        self.0.known.get()
+    }
+
     /// The costs of its steps ([`System::series_cost`](crate::System::series_cost)), rounded as in emitted code.
     pub(super) fn cost(&self, program: &Program) -> Option<[f64; 2]> {
         let series = self.known().series.as_ref().ok()?;

@@ -192,7 +192,7 @@ impl Reading {
             &mut report,
         );
         let files = files.read;
-        match model.and_then(|model| Compiled::new(model, &mut report)) {
+        match model.and_then(|model| Compiled::for_runs(model, &mut report)) {
             Some(compiled) => {
                 let series = if self.series {
                     SeriesSource::Derived(ProvedSeries::derive(&compiled.model))

@@ -49,7 +49,8 @@ impl<L: InputLaw<InterpretedSystem>> Simulation<'_, InterpretedMachine, L> {
     /// next one, and each has its own steps, events and end. Returns the results in the order of the runs.
     ///
     /// All of them must be runs of one machine with any parameters, by one method with one relative tolerance; other runs are made
-    /// alone, and so are runs by methods that are not explicit, with guides, or with inputs that change. While constraints depend
+    /// alone, and so are runs by methods that are neither explicit nor by series, with guides, or with inputs that change. Runs that [change their
+    /// method](Self::automatic) go on with others that have changed to the same one. While constraints depend
     /// on each other or a unilateral contact is closed, the steps of a run are tried alone. Every run has the bits that it has alone. Callbacks are called by all
     /// runs alternately, and [`Statistics::seconds`](crate::Statistics::seconds) of each is the time of all.
     ///

@@ -204,8 +204,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.activity
             .record_changes(self.stepper.t(), &changes_at_instant);
         let told = changes_at_instant.told.clone();
-        (self.record.unilateral).note_shared_otherwise(self.stepper.t(), told.shared_otherwise);
-        (self.record.unilateral).note_jammed(self.stepper.t(), told.jammed);
+        (self.record.unilateral).note_shared_otherwise(self.stepper.t(), &told.shared_otherwise);
+        (self.record.unilateral).note_jammed(self.stepper.t(), &told.jammed);
         if let Some(before) = stored_before {
             // What is pressed at the start holds its energy from there on.
             let stored = self.stored_now() - before;
@@ -368,6 +368,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         ended: &[(usize, f64)],
     ) {
         let system = self.model.system;
+        let contacts = system.unilateral_contacts().len();
+        let tallies = &mut self.record.unilateral.tallies;
+        tallies.resize(contacts, ContactTally::default());
+        if reported.is_empty() {
+            return;
+        }
         let (q, v) = (self.stepper.q().clone(), self.stepper.v().clone());
         let now = state(system, (self.stepper.t(), q, v));
         let names: Vec<String> = (system.unilateral_contacts())
@@ -386,10 +392,6 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         reported.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         // Events that follow the end of bounces are not reported before it: their time is as uncertain.
         let mut latest = self.record.unilateral.last_event.unwrap_or(now.t);
-        self.record
-            .unilateral
-            .tallies
-            .resize(names.len(), ContactTally::default());
         for (left, (contact, kind, direction, impact)) in reported {
             let mut state = now.clone();
             latest = (now.t + left).min(self.until).max(latest);

@@ -8,14 +8,14 @@ use crate::balance::{Energies, EnergyBalance, Quadratures};
 use crate::event::{Event, Terminal, state};
 use crate::inputs::InputLaw;
 use crate::settings::Settings;
-use crate::solution::{Ending, Solution, Statistics, handover};
+use crate::solution::{Ending, Results, Statistics, handover};
 use crate::stepper::Stepper;
 use crate::tolerance::LEAST_RELATIVE_TOLERANCE;
 use crate::{Error, Machine, System, Vector, Warning};
 
 impl<M: Machine> Prepared<'_, '_, M> {
-    /// Makes the solution from a run that has ended.
-    pub(crate) fn solution(mut self, finished: Finished<M>) -> (Solution<M, ()>, Option<Error>) {
+    /// The results of a run that has ended.
+    pub(crate) fn results(mut self, finished: Finished<M>) -> (Results<M>, Option<Error>) {
         let Finished {
             end,
             ending,
@@ -41,7 +41,7 @@ impl<M: Machine> Prepared<'_, '_, M> {
             ..
         } = record;
         self.start_warnings.extend(warnings);
-        let solution = Solution {
+        let results = Results {
             method: self.settings.method,
             balance,
             statistics: Statistics {
@@ -65,10 +65,9 @@ impl<M: Machine> Prepared<'_, '_, M> {
             energies,
             ending,
             settings: self.settings,
-            law: (),
             system: self.system,
         };
-        (solution, error)
+        (results, error)
     }
 }
 

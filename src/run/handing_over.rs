@@ -18,6 +18,10 @@ use crate::{ContactTrouble, Error, Machine, StepError, System};
 /// Number of instants of changes that are evaluated together.
 const WINDOW: usize = 128;
 
+/// If fewer contacts than this are closed in space, where each step solves for friction cones, events cost less than steps even where contacts share loads in
+/// several ways.
+const MANY_IN_SPACE: usize = 16;
+
 /// Bounces of fewer contacts than this accumulate in geometric series, whose end is found otherwise.
 const FEWEST_CONTACTS: usize = 3;
 
@@ -48,6 +52,8 @@ pub(super) struct ContactActivity {
     /// The number of instants, and for each contact the number of its last.
     count: usize,
     last: Vec<usize>,
+    /// Which contacts are second tangents of others.
+    across: Vec<bool>,
     /// Number of consecutive steps of time stepping without a change of contacts, and the number required.
     quiet: usize,
     needed: usize,
@@ -57,8 +63,9 @@ pub(super) struct ContactActivity {
 }
 
 impl ContactActivity {
-    /// For a machine with this number of contacts.
-    pub fn new(is_free: bool, contacts: usize) -> Self {
+    /// For a machine with these contacts, of which it is said which ones are second tangents of others.
+    pub fn new(is_free: bool, across: Vec<bool>) -> Self {
+        let contacts = across.len();
         Self {
             is_free: is_free && contacts >= FEWEST_CONTACTS,
             times: VecDeque::new(),
@@ -66,6 +73,7 @@ impl ContactActivity {
             is_same_instant: false,
             count: 0,
             last: vec![0; contacts],
+            across,
             quiet: 0,
             needed: QUIET_STEPS,
             step: 0.0,
@@ -272,7 +280,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.return_to_events_if_quiet()
     }
 
-    /// Returns to locating every event if contacts have been quiet for long enough and their forces are unique: if contacts share loads in
+    /// Returns to locating every event if contacts have been quiet for long enough, and few are closed in space or their forces are unique: if contacts share loads in
     /// several ways, as in piles, events cost more than steps.
     fn return_to_events_if_quiet(&mut self) -> Result<(), Error> {
         if self.activity.quiet < self.activity.needed {
@@ -281,7 +289,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let (method, longest) = (self.settings.method, self.settings.longest_step);
         let step = self.stepper.last_step();
         self.activity.needed *= 2;
-        if !self.stepper.contact_forces_are_unique() {
+        if !self.few_are_closed_in_space() && !self.stepper.contact_forces_are_unique() {
             return Ok(());
         }
         let Ok(changes_at_instant) =
@@ -316,6 +324,17 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
+    fn few_are_closed_in_space(&self) -> bool {
+        let across = &self.activity.across;
+        let modes = self.stepper.touching().iter();
+        let modes = modes.flat_map(|touching| touching.modes());
+        let closed = modes.zip(across).filter(|(mode, across)| {
+            let is_own = !**across;
+            is_own && **mode != Mode::Open
+        });
+        across.contains(&true) && closed.count() < MANY_IN_SPACE
+    }
+
     /// Records the present states of the contacts.
     pub(super) fn keep_phase(&mut self, change: Change) {
         if let Some(touching) = self.stepper.touching() {
@@ -330,17 +349,53 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
     }
 
+    /// Records the present states of the contacts, which are so since the last step of time stepping began. In time stepping only the constraints of the machine
+    /// remain, which are those of the phase before.
+    pub(super) fn keep_phase_of_step(&mut self) {
+        let since = self.stepper.t_before();
+        let Some(touching) = self.stepper.touching() else {
+            return;
+        };
+        let (keeps_all, last_needed) = self.phases_needed();
+        let unilateral = &mut self.record.unilateral;
+        // A phase that is forgotten leaves its memory to the next one.
+        let phase = match unilateral.forget_phase(keeps_all, last_needed) {
+            Some(mut phase) => {
+                phase.touching.clone_for_later_observation(touching);
+                (phase.since, phase.until) = (since, f64::INFINITY);
+                phase.change = Change::default();
+                phase
+            }
+            None => Phase {
+                since,
+                until: f64::INFINITY,
+                touching: touching.for_later_observation(),
+                change: Change::default(),
+                constraints: self.stepper.constraints().clone(),
+            },
+        };
+        unilateral.phases.push(phase);
+    }
+
     /// Records the states of the contacts from some time on, and forgets those before if the settings allow it and nothing needs them.
     pub(super) fn push_phase(&mut self, phase: Phase<VectorOf<M>>) {
+        let (keeps_all, last_needed) = self.phases_needed();
+        let unilateral = &mut self.record.unilateral;
+        unilateral.forget_phase(keeps_all, last_needed);
+        unilateral.phases.push(phase);
+    }
+
+    /// Whether all phases are kept, and the time of the last sample or event, which needs that in which it is.
+    fn phases_needed(&self) -> (bool, f64) {
         let Record {
             samples,
             unilateral,
             ..
-        } = &mut self.record;
+        } = &self.record;
         let keeps_all = self.settings.keep_steps || self.settings.keep_contact_phases;
         let sampled = samples.last().map(|sample| sample.t);
         let last_needed =
             sampled.map_or(unilateral.last_watched, |t| t.max(unilateral.last_watched));
-        unilateral.push_phase(phase, keeps_all, last_needed);
+        (keeps_all, last_needed)
     }
 }

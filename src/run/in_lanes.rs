@@ -1,8 +1,10 @@
 //! Makes many runs, several at a time in vector lanes: a lane whose run is over takes the next one.
 //!
 //! A run in a lane is the same as alone, step by step; only the tries of steps are made for all lanes together
-//! (`src/stepper/in_lanes.rs`). So a run has the bits that it has alone, whatever its neighbours do. Each has its own events and contacts.
+//! (`src/stepper/in_lanes.rs`). So a run has the bits that it has alone, whatever its neighbours do. Each has its own events and contacts. A run
+//! that changes its method goes on with others that have changed to the same one; steps that are neither explicit nor by series are made alone.
 
+use std::collections::VecDeque;
 use std::iter::Enumerate;
 use std::slice::IterMut;
 use std::vec::Vec;
@@ -56,21 +58,25 @@ pub(crate) fn run_tasks<M: Machine>(
     let ended = run_all(&mut all, machines);
     let solutions = all.into_iter().zip(ended);
     let mut solutions =
-        solutions.map(|(prepared, ended)| ended.map(|finished| prepared.solution(finished)));
+        solutions.map(|(prepared, ended)| ended.map(|finished| prepared.results(finished)));
     let results = results.into_iter();
     results
         .filter_map(|made| made.or_else(|| solutions.next()))
         .collect()
 }
 
-/// The runs that have not begun, and the results of those that have ended.
+/// The runs that wait for a lane, and the results of those that have ended.
 struct Runs<'r, 'a, 'l, M: Machine> {
     queue: Enumerate<IterMut<'r, Prepared<'a, 'l, M>>>,
+    /// Runs that have begun and whose method is another one than that of the lanes now.
+    parked: VecDeque<Lane<'r, 'a, 'l, M>>,
     ended: Vec<Option<Ended<M>>>,
     tries: Option<Tries>,
 }
 
 /// Makes all these runs, and returns their results in the same order.
+///
+/// All lanes have one method at a time. A run that changes its method leaves its lane, and waits until no run by the method of the lanes is left.
 fn run_all<M: Machine>(
     prepared: &mut [Prepared<'_, '_, M>],
     machines: &mut impl Machines<M>,
@@ -78,6 +84,7 @@ fn run_all<M: Machine>(
     let mut runs = Runs {
         ended: prepared.iter().map(|_| None).collect(),
         queue: prepared.iter_mut().enumerate(),
+        parked: VecDeque::new(),
         tries: None,
     };
     let mut lanes: [_; WIDTH] = std::array::from_fn(|_| None);
@@ -85,20 +92,26 @@ fn run_all<M: Machine>(
         for (number, lane) in lanes.iter_mut().enumerate() {
             runs.refill((number, lane), machines);
         }
+        if lanes.iter().all(Option::is_none) {
+            match runs.parked.front() {
+                Some(Lane { run, .. }) => runs.tries = Some(Tries::new(&run.stepper)),
+                None => break,
+            }
+            continue;
+        }
         let Some(tries) = runs.tries.as_mut() else {
             break;
         };
         let mut together: LaneMask = 0;
-        for (number, lane) in lanes.iter().enumerate() {
+        for (number, lane) in lanes.iter_mut().enumerate() {
             if let Some(Lane { run, next, .. }) = lane
                 && let Some(next) = next
             {
-                tries.put(number, &run.stepper, *next);
+                tries.put(number, &mut run.stepper, *next);
                 together |= 1 << number;
             }
         }
         match together.count_ones() {
-            0 => break,
             few if few < FEWEST_RUNS => tries.skip(),
             _ => tries.attempt(together, machines),
         }
@@ -126,7 +139,7 @@ fn end<M: Machine>(
 
 impl<'r, 'a, 'l, M: Machine> Runs<'r, 'a, 'l, M> {
     /// Brings the run in a lane, or else the next ones, to a try that can be made together with others. Tries that have to be made alone are
-    /// made at once, so that lanes stay full. The lane is empty if no run is left.
+    /// made at once, so that lanes stay full. The lane is empty if no run is left for the method of the lanes.
     fn refill(
         &mut self,
         (number, lane): (usize, &mut Option<Lane<'r, 'a, 'l, M>>),
@@ -135,9 +148,23 @@ impl<'r, 'a, 'l, M: Machine> Runs<'r, 'a, 'l, M> {
         loop {
             if let Some(begun) = lane {
                 match begun.go_on_alone() {
-                    None => return,
                     Some(ending) => end(lane, ending, &mut self.ended),
+                    None if self.fits(begun) => return,
+                    None => self.parked.extend(lane.take()),
                 }
+            }
+            if let Some(place) = self.parked.iter().position(|run| self.fits(run)) {
+                let Some(mut parked) = self.parked.remove(place) else {
+                    return;
+                };
+                let (system, inputs) = (parked.run.model.system, parked.run.stepper.inputs());
+                if machines.put(number, system, inputs) {
+                    *lane = Some(parked);
+                } else {
+                    let ending = parked.go_to_end_alone();
+                    end(&mut Some(parked), ending, &mut self.ended);
+                }
+                continue;
             }
             let Some((index, prepared)) = self.queue.next() else {
                 return;
@@ -149,29 +176,30 @@ impl<'r, 'a, 'l, M: Machine> Runs<'r, 'a, 'l, M> {
                     continue;
                 }
             };
-            let is_plain =
-                run.sampling.is_none() && !run.settings.automatic && !run.settings.hands_over;
-            let steps = &run.stepper;
-            let goes = is_plain && steps.may_run_in_lanes() && {
-                let tries = self.tries.get_or_insert_with(|| Tries::new(steps));
-                tries.is_compatible_with(steps)
-                    && machines.put(number, run.model.system, steps.inputs())
-            };
-            if !goes {
+            if !(run.sampling.is_none() && run.stepper.may_run_in_lanes()) {
                 let ending = run.go_to_end();
                 self.ended[index] = Some(Ok(run.end(ending)));
                 continue;
             }
-            let begun = lane.insert(Lane {
+            // The first run decides with which method the lanes begin.
+            self.tries.get_or_insert_with(|| Tries::new(&run.stepper));
+            let mut begun = Lane {
                 index,
                 run,
                 between: BetweenSteps::new(),
                 next: None,
-            });
-            if let Some(ending) = begun.begin_step() {
-                end(lane, ending, &mut self.ended);
+            };
+            match begun.begin_step() {
+                Some(ending) => end(&mut Some(begun), ending, &mut self.ended),
+                None => self.parked.push_front(begun),
             }
         }
+    }
+
+    /// Whether the next try of a run is by the method of the lanes.
+    fn fits(&self, lane: &Lane<'_, '_, '_, M>) -> bool {
+        let tries = self.tries.as_ref();
+        tries.is_some_and(|tries| tries.is_compatible_with(&lane.run.stepper))
     }
 }
 
@@ -186,6 +214,13 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
             if let Err(error) = self.run.check_count() {
                 return Some(Err(error));
             }
+            if !self.run.stepper.may_run_in_lanes() {
+                let stepped = self.run.stepper.step();
+                if let Some(ending) = self.observe_step(stepped) {
+                    return Some(ending);
+                }
+                continue;
+            }
             match self.run.stepper.begin_in_lanes() {
                 Ok(next) => {
                     self.next = Some(next);
@@ -196,6 +231,22 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
                         return Some(ending);
                     }
                 }
+            }
+        }
+    }
+
+    /// Makes all further steps.
+    fn go_to_end_alone(&mut self) -> End {
+        loop {
+            let ended = match self.next.take() {
+                Some(of) => {
+                    let tried = self.run.stepper.end_alone(of);
+                    self.continue_after(tried)
+                }
+                None => self.begin_step(),
+            };
+            if let Some(ending) = ended {
+                return ending;
             }
         }
     }
@@ -214,7 +265,7 @@ impl<M: Machine> Lane<'_, '_, '_, M> {
     }
 
     /// Ends a try that was made in lanes; returns how the run ended if it did.
-    fn finish_try(&mut self, lane: usize, tries: &Tries) -> Option<End> {
+    fn finish_try(&mut self, lane: usize, tries: &mut Tries) -> Option<End> {
         let of = self.next.take()?;
         let tried = self.run.stepper.end_in_lanes(lane, of, tries);
         self.continue_after(tried)

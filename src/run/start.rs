@@ -17,14 +17,19 @@ use crate::{Error, Machine, Pivot, System, Vector, Warning};
 /// for a start value.
 const ROUNDING_OF_START: f64 = 1e-12;
 
-/// Projects the start of a run onto the constraints. Returns warnings: how far each number was moved, and which constraints are redundant.
+/// Warnings about the start of a run, and the constraints there, if they are known.
+type ProjectedStart<V> = (Vec<Warning>, Option<Constraints<V>>);
+
+/// Projects the start of a run onto the constraints. Returns warnings, how far each number was moved and which constraints are redundant; and what a
+/// stepper that begins there would find of the constraints, unless the start was moved.
 pub(super) fn project_start<S: System>(
     system: &S,
     t: f64,
     q: &mut S::Vector,
     v: &mut S::Vector,
     kept: Option<[S::Vector; 2]>,
-) -> Result<Vec<Warning>, Error> {
+) -> Result<ProjectedStart<S::Vector>, Error> {
+    let keeps = kept.is_some();
     let requested = [q.clone(), v.clone()];
     let mut known = Constraints::new(system, q, v);
     let mut start = Point::new(t, q.clone(), v.clone());
@@ -52,6 +57,7 @@ pub(super) fn project_start<S: System>(
         _ => contradiction(error, system, q, v),
     })?;
     (*q, *v) = (start.q, start.v);
+    let is_moved = keeps || *q != requested[0] || *v != requested[1];
 
     let mut found = Vec::new();
     for (constraint, with) in dependences(&known, system, t, q) {
@@ -67,7 +73,7 @@ pub(super) fn project_start<S: System>(
             found.push(Warning::StartMoved { name, from, to });
         }
     }
-    Ok(found)
+    Ok((found, (!is_moved).then_some(known)))
 }
 
 /// The error of a start whose kept numbers contradict the constraints; `best` is the state that violates them least. `None` if no kept

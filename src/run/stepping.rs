@@ -8,7 +8,7 @@ use super::contacts::ReportedEvent;
 use crate::balance::Quadratures;
 use crate::contact::{Impact, Mode, UnilateralState};
 use crate::inputs::InputLaw;
-use crate::phases::{Change, Phase};
+use crate::phases::{Change, Phase, StepRecord};
 use crate::{ContactEventKind, ContactImpact, Error, Machine};
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
@@ -37,16 +37,28 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let Some((stepped, before)) = self.stepper.stepped() else {
             return;
         };
-        let Some(now) = self.stepper.touching().clone() else {
+        let Some(now) = self.stepper.touching() else {
             return;
         };
-        let (stepped, before) = (stepped.clone(), before.modes().to_vec());
-        let impacts = stepped.impacts;
-        (self.record.unilateral).note_shared_otherwise(self.stepper.t(), stepped.shared_otherwise);
-        (self.record.unilateral).note_jammed(self.stepper.t(), stepped.jammed);
+        let mut of_step = core::mem::take(&mut self.record.unilateral.of_step);
+        of_step.stepped.clone_from(stepped);
+        of_step.before.clear();
+        of_step.before.extend_from_slice(before.modes());
+        of_step.after.clear();
+        of_step.after.extend_from_slice(now.modes());
+        let StepRecord {
+            stepped,
+            before,
+            after,
+            hits,
+        } = &mut of_step;
+        let impacts = &stepped.impacts;
+        let t = self.stepper.t();
+        (self.record.unilateral).note_shared_otherwise(t, &stepped.shared_otherwise);
+        (self.record.unilateral).note_jammed(t, &stepped.jammed);
         let energy_added = stepped.energy_added / stepped.penetrated.len().max(1) as f64;
-        for k in stepped.penetrated {
-            self.record.unilateral.losses[k] -= energy_added;
+        for k in &stepped.penetrated {
+            self.record.unilateral.losses[*k] -= energy_added;
         }
         let mut reported: Vec<ReportedEvent> = Vec::new();
         for (place, impact) in impacts.iter().enumerate() {
@@ -68,7 +80,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 reported.push((impact.contact, ContactEventKind::Impact, [0.0; 2], Some(of)));
             }
         }
-        for (k, (before, after)) in before.iter().zip(now.modes()).enumerate() {
+        for (k, (before, after)) in before.iter().zip(&*after).enumerate() {
             let (has_carrier, is_across) = (self.has_carrier(k), self.is_across(k));
             let lasts = &mut self.record.unilateral.last[k];
             let kind = match (before, after) {
@@ -92,20 +104,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             reported.push((k, kind.0, directions, None));
         }
         let is_new = |impact: &&Impact| before[impact.contact] == Mode::Open;
-        let hits: Vec<Impact> = impacts.iter().filter(is_new).copied().collect();
-        self.record_energy_gains(&hits, self.stepper.t());
+        hits.clear();
+        hits.extend(impacts.iter().filter(is_new));
+        self.record_energy_gains(hits, t);
         self.activity.count_quiet_step(reported.is_empty());
         self.enter_contact_events(reported, &[]);
-        let is_new = !impacts.is_empty() || before != now.modes();
-        if is_new {
-            self.push_phase(Phase {
-                since: self.stepper.t_before(),
-                until: f64::INFINITY,
-                touching: now.for_later_observation(),
-                change: Change::default(),
-                constraints: self.stepper.constraints().clone(),
-            });
+        if !impacts.is_empty() || before != after {
+            self.keep_phase_of_step();
         }
+        self.record.unilateral.of_step = of_step;
     }
 }
 

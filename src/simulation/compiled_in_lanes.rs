@@ -1,5 +1,6 @@
 //! Runs of compiled machines in lanes: the evaluation of their machines.
 
+use std::boxed::Box;
 use std::vec;
 use std::vec::Vec;
 
@@ -19,7 +20,8 @@ where
     /// machines with the same equations and different parameters or starts. A lane whose run is over takes the next one, and each has its
     /// own steps, events, contacts and end. Returns the results in the order of the runs.
     ///
-    /// Together are made runs by one explicit method, with one relative tolerance and constant inputs; other runs are made alone. While a
+    /// Together are made runs by one explicit method or by [`TAYLOR`](crate::TAYLOR), with one relative tolerance and constant inputs; other runs are made alone, and runs
+    /// that change their method go on with others that have changed to the same one. While a
     /// unilateral contact is closed or constraints depend on each other, the steps of a run are tried alone. Every run has the bits that it
     /// has alone. Callbacks are called by all runs alternately, and [`Statistics::seconds`](crate::Statistics::seconds) of each is the time
     /// of all. The powers of an [`energy_balance`](Self::energy_balance) are evaluated run by run.
@@ -64,6 +66,9 @@ struct CompiledMachines<S: Batched<WIDTH>> {
     lanes: Vec<(S, S::Inputs)>,
     /// These side by side, until one of them is replaced.
     side_by_side: Option<(Batch<S, WIDTH>, S::BatchInputs)>,
+    /// Memory for expansions of the motions.
+    lists: Box<S::SeriesLists>,
+    coefficients: Vec<S::Vectors>,
 }
 
 impl<S: Batched<WIDTH>> CompiledMachines<S> {
@@ -71,6 +76,8 @@ impl<S: Batched<WIDTH>> CompiledMachines<S> {
         Self {
             lanes: Vec::new(),
             side_by_side: None,
+            lists: Box::default(),
+            coefficients: Vec::new(),
         }
     }
 
@@ -135,5 +142,34 @@ impl<S: Batched<WIDTH>> Evaluate for CompiledMachines<S> {
             powers[1][lane] = system.dissipation_rate(t, &q, &v, u);
         }
         (powers, LaneMask::MAX)
+    }
+
+    fn series(
+        &mut self,
+        (t, q, v): ([Wide; 2], &[Wide], &[Wide]),
+        coefficients: &mut [Vec<Wide>],
+    ) -> LaneMask {
+        self.equations();
+        let Some((batch, inputs)) = &self.side_by_side else {
+            return 0;
+        };
+        let rows = |numbers: &[Wide]| {
+            let mut rows = S::Vectors::ZEROS;
+            rows.as_mut().copy_from_slice(numbers);
+            rows
+        };
+        let found = &mut self.coefficients;
+        found.resize(coefficients.len(), S::Vectors::ZEROS);
+        let expanded = batch.series(t, &rows(q), &rows(v), inputs, &mut self.lists, found);
+        for (to, row) in coefficients.iter_mut().zip(&*found) {
+            to.copy_from_slice(row.as_ref());
+        }
+        let Err(some) = expanded else {
+            return LaneMask::MAX;
+        };
+        let lanes = some.lanes.iter().enumerate();
+        lanes.fold(0, |fine, (lane, singular)| {
+            fine | LaneMask::from(singular.is_none()) << lane
+        })
     }
 }

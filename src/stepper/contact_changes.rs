@@ -95,9 +95,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             after: [&now.q, &now.v, &k[*newest]].map(S::Vector::as_slice),
         };
         if let Some(touching) = &mut model.touching {
-            touching.keep_near(model.system.get(), 0.0, || match taylor {
-                Some(taylor) => StateBox::of_series(&ends, taylor.of_step()),
-                None => StateBox::of_step(&ends),
+            touching.keep_near(model.system.get(), 0.0, |own| {
+                *own = match taylor {
+                    Some(taylor) => StateBox::of_series(&ends, taylor.of_step()),
+                    None => StateBox::of_step(&ends),
+                };
             });
         }
     }

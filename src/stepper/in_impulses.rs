@@ -6,7 +6,7 @@ use super::{Model, Stepper};
 use crate::attempt::not_finite;
 use crate::balance::{ContactShare, Quadratures};
 use crate::compensated::two_sum;
-use crate::contact::{Mode, StateBox, SteppedContacts, UnilateralState};
+use crate::contact::{Mode, SteppedContacts, SteppingMemory, UnilateralState};
 use crate::stages::Point;
 use crate::{InputLaw, StepError, System, Vector};
 
@@ -16,21 +16,23 @@ const AROUND: f64 = 16.0;
 
 /// The last step of time stepping.
 #[derive(Clone, Debug)]
-pub(crate) struct InImpulses<V> {
+pub(crate) struct InImpulses<V, M> {
     /// The motion within the step, in powers of the time since its beginning: of the second degree, through the rates
     /// at both ends.
     of_step: Vec<V>,
     stepped: SteppedContacts,
     /// The contacts at its beginning.
     before: Option<UnilateralState>,
+    memory: SteppingMemory<V, M>,
 }
 
-impl<V: Vector> InImpulses<V> {
+impl<V: Vector, M: Vector> InImpulses<V, M> {
     pub fn new(q: &V, v: &V) -> Self {
         Self {
             of_step: [q.clone(), v.clone(), q.zeros_like()].into(),
             stepped: SteppedContacts::default(),
             before: None,
+            memory: SteppingMemory::new(q),
         }
     }
 
@@ -127,12 +129,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             && let Some(touching) = &mut model.touching
         {
             // Impulses change the rates: where they lead out of the box, all contacts are evaluated.
-            let line =
-                || StateBox::of_line([before.t, before.t + h], before.q.as_slice(), q.as_slice());
-            touching.keep_near(model.system.get(), AROUND, line);
+            let ends = [before.t, before.t + h];
+            touching.keep_near(model.system.get(), AROUND, |own| {
+                own.set_to_line(ends, before.q.as_slice(), q.as_slice());
+            });
         }
         impulses.before.clone_from(&model.touching);
-        impulses.stepped = SteppedContacts::default();
+        impulses.stepped.clear();
 
         // The rates at the middle, for forces that depend on rates, and the rates at the end, as if nothing touched.
         let touching = model.touching.take();
@@ -155,7 +158,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             && let Some(touching) = &mut model.touching
         {
             let system = model.system.get();
-            impulses.stepped = touching.step(system, (t, q), &before.v, &mut now.v, h)?;
+            let of_step = (&mut impulses.stepped, &mut impulses.memory);
+            touching.step(system, (t, q), (&before.v, &mut now.v), h, of_step)?;
         }
         now.v_low.as_mut_slice().fill(0.0);
         for i in 0..q.as_slice().len() {
@@ -188,8 +192,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             let before = is_counted.then(|| energy(model, now));
             if let Some(touching) = &model.touching {
                 let system = model.system.get();
-                impulses.stepped.penetrated =
-                    touching.resolve_penetration(system, now.t, &mut now.q, &now.v)?;
+                touching.resolve_penetration(
+                    system,
+                    now.t,
+                    (&mut now.q, &now.v),
+                    &mut impulses.stepped.penetrated,
+                    &mut impulses.memory,
+                )?;
             }
             if !impulses.stepped.penetrated.is_empty() {
                 now.q_low.as_mut_slice().fill(0.0);

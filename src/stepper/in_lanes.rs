@@ -6,6 +6,10 @@
 //!
 //! With constraints, each new point is projected alone, and its error is estimated there. While a unilateral contact is closed, which
 //! other equations describe, a stepper tries its steps alone.
+//!
+//! Of a step by Taylor series the expansion at its end and the powers along it are computed for all of them (`in_lanes/series.rs`).
+
+mod series;
 
 use std::vec::Vec;
 
@@ -22,6 +26,7 @@ use crate::step_number::StepNumber;
 use crate::tolerance::Tolerance;
 use crate::{System, Vector};
 use lagrangian_native::{Lanes, Number};
+use series::Expansions;
 
 /// The number of lanes: as many as the widest registers have.
 pub(crate) const WIDTH: usize = 8;
@@ -39,6 +44,17 @@ pub(crate) trait Evaluate {
 
     /// Evaluates the power of the work on the machines and their losses, in W; returns the lanes in which these have values.
     fn powers(&mut self, at: (Wide, &[Wide], &[Wide]), a: &[Wide]) -> ([Wide; 2], LaneMask);
+
+    /// Expands the motions through states, whose times are sums of two numbers, as [`System::series`] does; returns the lanes in which they have
+    /// coefficients. By default none: each motion is expanded alone.
+    fn series(
+        &mut self,
+        at: ([Wide; 2], &[Wide], &[Wide]),
+        coefficients: &mut [Vec<Wide>],
+    ) -> LaneMask {
+        let _ = (at, coefficients);
+        0
+    }
 }
 
 /// A step that is being tried: the length of the try, whether it would be the last step, and the limits on its length.
@@ -68,16 +84,19 @@ pub(crate) struct Tries {
     have_constraints: bool,
     /// The lanes in which nothing exceptional happened in the last try.
     succeeded: LaneMask,
+    /// The ends of steps by series, if the method is that.
+    series: Option<Expansions>,
 }
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
-    /// Whether its steps consist of explicit stages only, with constant inputs.
+    /// Whether its steps consist of explicit stages only, or are by series, with constant inputs.
     pub(crate) fn may_run_in_lanes(&self) -> bool {
-        self.model.system.get().contacts().len() == 0
-            && self.method.kind == MethodKind::RungeKutta
-            && self.implicit.is_none()
-            && self.taylor.is_none()
-            && self.model.law.is_constant()
+        let is_explicit = match self.method.kind {
+            MethodKind::RungeKutta => self.implicit.is_none() && self.taylor.is_none(),
+            MethodKind::Series => self.taylor.is_some(),
+            _ => false,
+        };
+        is_explicit && self.model.system.get().contacts().len() == 0 && self.model.law.is_constant()
     }
 
     /// Whether its next try may be made in lanes: not while constraints are dependent or a unilateral contact is closed, which requires
@@ -94,6 +113,9 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if self.changed {
             self.refresh_acceleration()?;
         }
+        if self.taylor.is_some() {
+            self.choose_length()?;
+        }
         let limits = self.begin_tries()?;
         Ok(self.next_try(limits))
     }
@@ -108,8 +130,13 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         &mut self,
         lane: usize,
         of: Try,
-        tries: &Tries,
+        tries: &mut Tries,
     ) -> Result<Option<Try>, StepError> {
+        if let Some(series) = &mut tries.series {
+            let has_coefficients = tries.succeeded >> lane & 1 == 1;
+            let tried = series.end(lane, self, (of.h, has_coefficients));
+            return self.decide_on(of, tried);
+        }
         let tried = match tries.take(lane, self) {
             Some(_) if tries.have_constraints => self.finish(of.h),
             Some(error) => Ok(error),
@@ -120,7 +147,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
     /// Makes a try alone and ends it like [`end_in_lanes`](Self::end_in_lanes).
     pub(crate) fn end_alone(&mut self, of: Try) -> Result<Option<Try>, StepError> {
-        let tried = self.attempt(of.h, of.last);
+        let tried = if self.taylor.is_some() {
+            self.attempt_in_series(of.h, of.last)
+        } else {
+            self.attempt(of.h, of.last)
+        };
         self.decide_on(of, tried)
     }
 
@@ -173,11 +204,12 @@ impl Tries {
             errors: [0.0; WIDTH],
             have_constraints: has_constraints(of),
             succeeded: 0,
+            series: Expansions::new(of),
         }
     }
 
     /// Whether a stepper is compatible with the one that this was made for: the same method and the same relative tolerance.
-    pub fn is_compatible_with<S: System, L, A: Quadratures<S>>(
+    pub fn is_compatible_with<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &self,
         of: &Stepper<'_, S, L, A>,
     ) -> bool {
@@ -186,15 +218,22 @@ impl Tries {
             && self.before.q.len() == of.now.q.as_slice().len()
             && self.powers.is_some() == of.quadratures.integrals().is_some()
             && self.have_constraints == has_constraints(of)
+            && match &self.series {
+                Some(series) => series.are_compatible_with(of),
+                None => true,
+            }
     }
 
-    /// Puts the beginning of a step and the length of its try into a lane.
+    /// Puts the beginning of a step and the length of its try into a lane; a step by series goes to its end.
     pub fn put<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &mut self,
         lane: usize,
-        of: &Stepper<'_, S, L, A>,
+        of: &mut Stepper<'_, S, L, A>,
         next: Try,
     ) {
+        if let Some(series) = &mut self.series {
+            return series.put(lane, of, (next.h, next.last));
+        }
         let to = &mut self.before;
         (to.t[lane], to.t_low[lane]) = (of.before.t, of.before.t_low);
         put(&mut to.q, lane, &of.before.q);
@@ -215,6 +254,10 @@ impl Tries {
 
     /// Tries the steps of these lanes. The contents of the others have no effect.
     pub fn attempt(&mut self, which: LaneMask, machines: &mut impl Evaluate) {
+        if let Some(series) = &mut self.series {
+            self.succeeded = series.expand(which, machines);
+            return;
+        }
         self.succeeded = which;
         <Wide as Number>::run(Attempt(self, machines));
     }
@@ -270,6 +313,7 @@ impl Tries {
             errors,
             have_constraints,
             succeeded,
+            series: _,
         } = self;
         let stages = method.tableau.stages;
         let mut powers = powers.as_mut();

@@ -64,24 +64,28 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Takes a step of length `h` from `before` to `now`. It needs no error estimate, since its length was chosen so that the
     /// error is tolerable. Its error is infinite if the motion is not the series at the end.
     pub(super) fn attempt_in_series(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
+        self.advance_in_series(h, last)?;
+        self.take_powers_along_series(h);
+        self.expand_ahead()?;
+        let error = self.compare_in_series(h)?;
+        if error == 0.0 {
+            self.take_powers_at_end();
+        }
+        Ok(error)
+    }
+
+    /// Goes to the end of a step, and leaves the accelerations by its series there in `stage`.
+    pub(super) fn advance_in_series(&mut self, h: f64, last: bool) -> Result<(), StepError> {
         let Self {
-            method,
             model,
-            quadratures,
             before,
             now,
-            k,
             stage,
-            control: Control { work, .. },
             taylor,
             end,
-            tolerance,
             ..
         } = self;
-        let Some(taylor) = taylor else {
-            return Ok(f64::INFINITY);
-        };
-        let stages = method.tableau.stages;
+        let Some(taylor) = taylor else { return Ok(()) };
         let is_fine = taylor.advance(h, before, now, (*end, last), &mut stage.0);
         if !is_fine && let Some(coordinate) = not_finite(&now.q, &now.v, 0) {
             return Err(StepError::NotFinite {
@@ -91,20 +95,98 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         // The projection only removes truncation error and rounding.
         model.project(now)?;
-        if quadratures.integrals().is_some() && model.system.get().has_powers() {
-            for (i, k) in k.iter_mut().enumerate().take(stages).skip(1) {
-                let tau = method.tableau.c[i] * h;
-                let at_stage = [&mut stage.0, &mut stage.1, &mut *k];
-                crate::taylor::state_with_accelerations(taylor.of_step(), tau, at_stage);
-                let t = before.t + (before.t_low + tau);
-                model.take_rates(quadratures, i, (t, &stage.0, &stage.1, k));
-            }
-            crate::taylor::accelerations(taylor.of_step(), h, &mut stage.0);
+        if self.takes_powers() {
+            self.leave_accelerations(h);
         }
+        Ok(())
+    }
+
+    /// Whether powers are integrated along its steps.
+    pub(super) fn takes_powers(&self) -> bool {
+        self.quadratures.integrals().is_some() && self.model.system.get().has_powers()
+    }
+
+    /// Leaves the accelerations by the series of a step at its end in `stage`.
+    fn leave_accelerations(&mut self, h: f64) {
+        if let Some(taylor) = &self.taylor {
+            crate::taylor::accelerations(taylor.of_step(), h, &mut self.stage.0);
+        }
+    }
+
+    /// Evaluates the powers within a step of length `h`.
+    pub(super) fn take_powers_along_series(&mut self, h: f64) {
+        if !self.takes_powers() {
+            return;
+        }
+        let Self {
+            method,
+            model,
+            quadratures,
+            before,
+            k,
+            stage,
+            taylor,
+            ..
+        } = self;
+        let Some(taylor) = taylor else { return };
+        let stages = method.tableau.stages;
+        for (i, k) in k.iter_mut().enumerate().take(stages).skip(1) {
+            let tau = method.tableau.c[i] * h;
+            let at_stage = [&mut stage.0, &mut stage.1, &mut *k];
+            crate::taylor::state_with_accelerations(taylor.of_step(), tau, at_stage);
+            let t = before.t + (before.t_low + tau);
+            model.take_rates(quadratures, i, (t, &stage.0, &stage.1, k));
+        }
+        self.leave_accelerations(h);
+    }
+
+    /// Evaluates the powers at the end of a step.
+    pub(super) fn take_powers_at_end(&mut self) {
+        let Self {
+            method,
+            model,
+            quadratures,
+            now,
+            k,
+            ..
+        } = self;
+        let stages = method.tableau.stages;
+        model.take_rates(quadratures, stages, (now.t, &now.q, &now.v, &k[stages]));
+    }
+
+    /// Expands the motion through the end of a step.
+    pub(super) fn expand_ahead(&mut self) -> Result<(), StepError> {
+        let Self {
+            model,
+            now,
+            control: Control { work, .. },
+            taylor,
+            ..
+        } = self;
+        let Some(taylor) = taylor else { return Ok(()) };
         work.evaluations += 1;
         taylor
             .expand(model.system.get(), now, &model.inputs, true)
-            .map_err(|singular| StepError::Singular { singular, t: now.t })?;
+            .map_err(|singular| StepError::Singular { singular, t: now.t })
+    }
+
+    /// Compares the accelerations of both series at the end of a step, of which that of the step left its own in `stage`. Returns the error of the step: 0, or
+    /// infinite if the motion is not the series.
+    pub(super) fn compare_in_series(&mut self, h: f64) -> Result<f64, StepError> {
+        let Self {
+            method,
+            before,
+            now,
+            k,
+            stage,
+            taylor,
+            tolerance,
+            ..
+        } = self;
+        let Some(taylor) = taylor else {
+            return Ok(f64::INFINITY);
+        };
+        let stages = method.tableau.stages;
         let accelerations = &mut k[stages];
         taylor.accelerations(true, accelerations);
         if are_finite(accelerations, accelerations) == [false]
@@ -124,18 +206,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             let bound = bound(size_of_rates(ends, i), absolute[i], tolerance.relative);
             may_be_off |= counted * h.abs() > 0.5 * GREATEST_DEFECT * bound;
         }
-        if may_be_off && self.is_off(h)? {
-            return Ok(f64::INFINITY);
-        }
-        let Self {
-            model,
-            quadratures,
-            now,
-            k,
-            ..
-        } = self;
-        model.take_rates(quadratures, stages, (now.t, &now.q, &now.v, &k[stages]));
-        Ok(0.0)
+        let is_off = may_be_off && self.is_off(h)?;
+        Ok(if is_off { f64::INFINITY } else { 0.0 })
     }
 
     /// Whether the motion is not its series at the end of a step of length `h`, which was expanded there.

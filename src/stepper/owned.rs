@@ -161,8 +161,15 @@ impl<S: System> StepperBuilder<S> {
         ControlledStepper::check(&system, &start)?;
         let law = HeldInputs(inputs);
         let own = BorrowedOrOwned::Own(system);
-        let mut stepper =
-            ControlledStepper::begun(own, law, NoBalance, method, tolerance, start, state.t)?;
+        let mut stepper = ControlledStepper::begun(
+            own,
+            law,
+            NoBalance,
+            method,
+            tolerance,
+            (start, None),
+            state.t,
+        )?;
         stepper.set_longest_step(longest_step);
         stepper.set_max_steps(max_steps);
         let is_length = |step: &f64| step.is_finite();

@@ -143,7 +143,13 @@ mod tests {
     #[test]
     fn the_motion_within_a_step_is_within_its_bounds() {
         // Blocks of four, of two and of one coordinate.
-        const N: usize = 7;
+        motion_is_within_bounds::<3>();
+        motion_is_within_bounds::<5>();
+        motion_is_within_bounds::<6>();
+        motion_is_within_bounds::<7>();
+    }
+
+    fn motion_is_within_bounds<const N: usize>() {
         for rows in 3..=24 {
             let number = |j: usize, i: usize| (1.0 + (j * N + i) as f64 * 0.618).sin();
             let coefficients: Vec<[f64; N]> = (0..rows)

@@ -265,6 +265,54 @@ const ALLOCATIONS_OF_ENTRY: u64 = 3;
 const MORE_ENTRIES: u64 = 4;
 
 lagrangian::machine! {
+    /// A box that stands on four feet and is pushed, less than its friction can hold, while a weight falls beside it and comes to rest.
+    machine Standing in space {
+        parameters { m: kg = 2, a: m = 0.3, c: m = 0.1, mu: 1 = 0.5, push: N = 4, g: m/s^2 = 9.81 }
+        coordinates { x: m, y: m, z: m = c, yaw: rad, pitch: rad, roll: rad, h: m = 1 }
+        frames { held = ground.shift(x, y, z).turn(z, yaw).turn(y, pitch).turn(x, roll) }
+        bodies {
+            box { mass: m, inertia: (m/3*(a^2 + c^2), m/3*(a^2 + c^2), m/3*2*a^2), frame: held },
+            weight { mass: m/10, at: (2, 0, h) },
+        }
+        gravity (0, 0, -g);
+        forces { push { at: held.point(0, 0, 0), force: (push, push/2, 0) } }
+        contacts {
+            feet { corners: ((a, a, -c), (a, -a, -c), (-a, a, -c), (-a, -a, -c)), on: held, along: ground, restitution: 0, friction: mu },
+            floor { gap: h, restitution: 0 },
+        }
+    }
+}
+
+/// Steps of time stepping allocate nothing, whether contacts slip or stick on more feet than are needed, and whether constraints move: what a step needs is there from
+/// the steps before.
+#[test]
+fn time_stepping_allocates_nothing() {
+    fn allocations<M: Machine>(machine: &M) -> u64 {
+        let [(short, few), (long, many)] = [1.0, 3.0].map(|until| {
+            let mut steps = 0;
+            let counted = allocation_counter::measure(|| {
+                let run = Simulation::new(machine)
+                    .method(Method::MOREAU)
+                    .longest_step(2e-3)
+                    .forget_steps()
+                    .forget_contact_phases()
+                    .forget_contact_events()
+                    .until(until)
+                    .run(machine.start())
+                    .expect("it runs");
+                steps = run.statistics().steps;
+            });
+            (counted.count_total, steps)
+        });
+        assert_eq!(many - few, 1000);
+        long - short
+    }
+    assert_eq!(allocations(&Conveyed::default()), 0);
+    assert_eq!(allocations(&Puck::default()), 0);
+    assert_eq!(allocations(&Standing::default()), 0);
+}
+
+lagrangian::machine! {
     /// A disc that falls onto the floor while it turns as if it rolled, and is slowed down by rolling resistance.
     machine Rolling in plane {
         parameters { m: kg = 2, r: m = 0.1, speed: m/s = 1, rho: m = 0.004, h: m = 0.05, g: m/s^2 = 9.81 }

@@ -17,7 +17,7 @@ fn interpreted(text: &str) -> InterpretedMachine {
     let path = library::path("test");
     let (sources, files) = (&mut sources, &mut Disk);
     let model = lagrangian_spec::model(&dag, &path, text, &[], files, sources, &mut report);
-    match model.and_then(|model| Compiled::new(model, &mut report)) {
+    match model.and_then(|model| Compiled::for_runs(model, &mut report)) {
         Some(Compiled {
             program,
             series: Some(series),

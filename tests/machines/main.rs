@@ -13,6 +13,7 @@ mod mechanisms;
 mod motions;
 mod peers;
 mod piles;
+mod projections;
 mod series_on_demand;
 mod stress;
 #[path = "../support/mod.rs"]

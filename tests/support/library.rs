@@ -191,7 +191,7 @@ fn compile_by(
         &mut sources,
         &mut report,
     );
-    let compiled = model.and_then(|model| Compiled::new(model, &mut report));
+    let compiled = model.and_then(|model| Compiled::for_runs(model, &mut report));
     match compiled {
         Some(compiled) => program(&compiled),
         None => panic!("{}", report.render_short(&sources)),

@@ -231,6 +231,7 @@ fn quantities() -> String {
             (_, Needs::Contacts) => "with guided contacts",
             (_, Needs::Unilateral) => "with unilateral contacts",
             (_, Needs::Faces) => "with contacts of polygons",
+            (Role::Projection, _) => "with constraints, in emitted Rust",
             (Role::Derivatives, _) => "with `derivatives`",
             (Role::Adjoint, _) => "in functional mock-up units",
             (Role::Gradient(_), _) => "one for each output, in functional mock-up units",

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
-use lagrangian_emit::script::{DIALECTS, Dialect};
+use lagrangian_languages::script::{DIALECTS, Dialect};
 
 use super::Spec;
 use super::arguments::{Arguments, with_spec};

@@ -23,7 +23,8 @@ pub struct Sweep {
     /// Relative and absolute tolerance of each step; by default 1e-9.
     #[arg(long, value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: Option<f64>,
-    /// The integration method: dop853, the default, dopri5, bs32, radau5 for stiff machines, or taylor for smooth ones.
+    /// The integration method: auto, the default, with which each run chooses its methods as in `simulate`; dop853, dopri5, bs32, radau5 for stiff machines, or
+    /// taylor for smooth ones.
     #[arg(long, value_name = "NAME")]
     pub method: Option<String>,
     /// The maximum number of steps of each run; by default ten million.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use lagrangian::interpreted::Named;
 use lagrangian::methods::Method;
 use lagrangian::{Machine, State, System, Warning};
-use lagrangian_emit::script::{self, JAVASCRIPT};
+use lagrangian_languages::script::{self, JAVASCRIPT};
 use lagrangian_program::Program;
 use lagrangian_units::{rate_name, state_of};
 use serde_json::{Value, json};

@@ -972,3 +972,40 @@ fn names_and_values_from_outside_are_read_as_those_of_a_spec() {
     let output = lagrangian(&["check", same.path()]);
     assert_eq!(output.status.code(), Some(0));
 }
+
+/// An assumption that does not hold at the start, and one that ends within a run, are underlined in the spec.
+#[test]
+fn an_assumption_that_does_not_hold_is_underlined() {
+    const TOP: &str = "machines/heavy_top.machine";
+    let line = std::fs::read_to_string(root().join(TOP)).expect("a spec");
+    let line = line.lines().position(|line| line.contains("assume {"));
+    let place = format!("{TOP}:{}:14", line.expect("it assumes something") + 1);
+    let start = ["simulate", TOP, "--until", "1", "--start", "theta=0"];
+    // A ball that falls from half a metre.
+    let fall = "machine Fall in plane {
+    coordinates { x: m = 0.5 }
+    bodies { ball { mass: 1, at: (x, 0) } }
+    gravity (-9.81, 0);
+    assume { x > 0 }
+}";
+    let fall = Scratch::new("fall.machine", fall);
+    let end = ["simulate", fall.path(), "--until", "1"];
+    let peaks = ["peaks", TOP, "--until", "1", "--start", "theta=0"];
+    let fallen = format!("{}:5:14", fall.path());
+    for (call, assumption, place) in [
+        (&start[..], "sin(theta) > 0", &place),
+        (&peaks[..], "sin(theta) > 0", &place),
+        (&end[..], "x > 0", &fallen),
+    ] {
+        let output = lagrangian(call);
+        assert_eq!(status(&output), 1, "{call:?}");
+        let said = err(&output);
+        let message =
+            format!("error: the machine assumes `{assumption}`, which does not hold at t = ");
+        assert!(said.contains(&message), "{said}");
+        assert!(said.contains(place.as_str()), "{place} is not in {said}");
+        assert!(said.contains(&"^".repeat(assumption.len())), "{said}");
+        let output = lagrangian(&[call, &["--json"]].concat());
+        assert_eq!(json(&output)["place"], place.as_str(), "{call:?}");
+    }
+}

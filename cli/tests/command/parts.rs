@@ -431,3 +431,30 @@ fn a_rope_that_leaves_its_pulley_ends_the_run() {
         assert_eq!(dropped["error"], Value::Null, "{dropped:#}");
     }
 }
+
+/// An actuator between two masses on one line pushes them apart, whichever is ahead, with a constant force: x = x₀ ∓ F t²/(2 m). Its direction is a difference of
+/// coordinates over the root of its square, which depends on neither coordinate but for its sign. On a rail, the line is written with sines of a constant angle.
+#[test]
+fn an_actuator_on_a_line_pushes_apart_whichever_end_is_ahead() {
+    let places = [
+        ("(x, 0*m)", "(y, 0*m)"),
+        ("(3/5*x, 4/5*x)", "(3/5*y, 4/5*y)"),
+        ("rail.point(x, 0.1)", "rail.point(y, 0.1)"),
+    ];
+    for (a, b) in places {
+        for (x, y) in [(0.1, 0.6), (0.6, 0.1), (-0.6, -0.1)] {
+            let spec = format!(
+                "machine Line in plane {{
+                    coordinates {{ x: m = {x:?}, y: m = {y:?} }}
+                    frames {{ rail = ground.turn(25*deg) }}
+                    bodies {{ a {{ mass: 2, at: {a} }}, b {{ mass: 2, at: {b} }} }}
+                    actuators {{ push {{ from: a.at, to: b.at, force: 0.5 }} }}
+                }}"
+            );
+            let run = run("line", &spec, 1.0);
+            let moved = if x < y { -0.125 } else { 0.125 };
+            close(number(&run["q"]["x"]), x + moved, WITHIN);
+            close(number(&run["q"]["y"]), y - moved, WITHIN);
+        }
+    }
+}

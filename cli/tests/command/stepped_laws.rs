@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use crate::collisions::{close, events, number, simulate};
 use crate::support::{Scratch, lagrangian};
+use crate::time_stepping::step;
 
 const G: f64 = 9.81;
 
@@ -15,19 +16,6 @@ const SLOPE: &str = "machine Slope in plane {
     gravity (0, -g);
     contacts { slope { gap: y, slip: der(x), restitution: 0.4, friction: mu, static_friction: mu_0 } }
 }";
-
-fn step(spec: &str, until: f64, h: f64, more: &[&str]) -> Value {
-    let (until, h) = (format!("{until:?}"), format!("{h:?}"));
-    let mut arguments = vec!["simulate", spec, "--until", &until, "--json"];
-    arguments.extend(["--method", "moreau", "--longest-step", &h]);
-    arguments.extend(more);
-    let output = lagrangian(&arguments);
-    let text = String::from_utf8(output.stdout).expect("text");
-    let said = String::from_utf8_lossy(&output.stderr);
-    let run: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{e}: {text}{said}"));
-    assert_eq!(run["error"], Value::Null, "{run:#}");
-    run
-}
 
 /// Up to `tan α = μ₀` a block at rest stays, and one that slides down is accelerated by `g (sin α − μ cos α)`. One that slides up is braked by
 /// `g (sin α + μ cos α)` and stays where it comes to rest, also where its kinetic friction could not hold it. Forces are constant, so rates have no error but

@@ -247,6 +247,96 @@ fn rows_are_those_of_simulate_in_every_bit() {
     }
 }
 
+/// Runs choose their methods as `simulate` does, and rows tell which ones and why, whatever the engine and the number of threads.
+#[test]
+fn rows_of_long_and_of_stiff_runs_are_those_of_simulate() {
+    let spec = "machines/double_pendulum.machine";
+    let folder = Scratch::new("a", "");
+    let at = |name: &str| folder.0.with_file_name(name);
+    let design = [
+        "--until",
+        "150",
+        "--tolerance",
+        "1e-12",
+        "--vary",
+        "start(theta1)=0.2..0.6:9",
+    ];
+    let mut tables = Vec::new();
+    for (name, further) in [
+        ("one.csv", &["--threads", "1"][..]),
+        ("many.csv", &["--threads", "3"]),
+        ("compiled.csv", &["--engine", "jit"]),
+    ] {
+        let said = sweep(spec, &at(name), &[&design, further].concat());
+        assert_eq!(said.status, 0, "{}", said.error);
+        tables.push(std::fs::read(at(name)).expect("a table"));
+    }
+    assert!(tables.iter().all(|table| *table == tables[0]));
+    let rows = read(&at("one.csv"));
+    for run in [0, 5, 8] {
+        let theta = format!("theta1={}", rows["start(theta1)"][run]);
+        let output = lagrangian(&[
+            "simulate",
+            spec,
+            "--until",
+            "150",
+            "--tolerance",
+            "1e-12",
+            "--json",
+            "--start",
+            &theta,
+        ]);
+        let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        for (name, value) in [
+            ("theta1", &document["q"]["theta1"]),
+            ("der(theta2)", &document["v"]["theta2"]),
+            ("steps", &document["steps"]),
+            ("energy residual", &document["energy_residual"]),
+        ] {
+            let value = value.as_f64().expect("a number");
+            assert_eq!(numbers(&rows, name)[run], value, "{name} of run {run}");
+        }
+        let methods = document["methods"].as_array().expect("methods");
+        let told = &rows["methods"][run];
+        assert_eq!(methods[1]["method"], "taylor", "{document:#}");
+        let since = methods[1]["t"].as_f64().expect("a number");
+        let expected = format!("dop853, taylor from {since} s (");
+        assert!(told.starts_with(&expected) && told.ends_with(')'), "{told}");
+    }
+    let said = sweep(spec, &at("told.csv"), &[&design[..], &["--json"]].concat());
+    let document: Value = serde_json::from_str(&said.out).expect("JSON");
+    assert_eq!(
+        document["methods"],
+        serde_json::json!({"dop853, taylor": 9})
+    );
+    let said = sweep(spec, &at("told.csv"), &design);
+    assert!(
+        said.out.contains("  dop853, taylor: 9 runs"),
+        "{}",
+        said.out
+    );
+
+    let said = sweep(
+        spec,
+        &at("wrong.csv"),
+        &["--until", "1", "--method", "aut", "--vary", "m2=1,2"],
+    );
+    assert!(
+        said.status != 0 && said.error.contains("did you mean `auto`?"),
+        "{}",
+        said.error
+    );
+
+    // A method that is given is not told in the rows.
+    let said = sweep(
+        spec,
+        &at("given.csv"),
+        &["--until", "1", "--method", "dop853", "--vary", "m2=1,2"],
+    );
+    assert_eq!(said.status, 0, "{}", said.error);
+    assert!(!read(&at("given.csv")).contains_key("methods"));
+}
+
 /// Machines with friction, constraints and collisions use the same code path.
 #[test]
 fn every_kind_of_machine_is_swept_as_it_is_simulated() {

@@ -5,7 +5,8 @@ use serde_json::Value;
 use crate::collisions::{close, events, number};
 use crate::support::{Scratch, lagrangian};
 
-fn step(spec: &str, until: f64, h: f64, more: &[&str]) -> Value {
+/// A run by time stepping with steps of the length `h`.
+pub fn step(spec: &str, until: f64, h: f64, more: &[&str]) -> Value {
     let (until, h) = (format!("{until:?}"), format!("{h:?}"));
     let mut arguments = vec!["simulate", spec, "--until", &until, "--json"];
     arguments.extend(["--method", "moreau", "--longest-step", &h]);

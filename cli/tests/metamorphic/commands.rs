@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use lagrangian_emit as emit;
+use lagrangian_languages as languages;
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{FrictionLayout, FrictionResponse, Role};
 use lagrangian_scalar::{DoubleDouble, Scalar};
@@ -549,7 +550,7 @@ pub fn as_c() {
     for (k, (_, program, expected)) in list.iter().enumerate() {
         folder.write(
             &format!("machine{k}.c"),
-            &emit::c::file(program, &[], &BTreeMap::new()),
+            &languages::c::file(program, &[], &BTreeMap::new()),
         );
         folder.write(&format!("call{k}.c"), &c_call(k, program, expected));
         files.push(format!("call{k}.c"));

@@ -1,14 +1,11 @@
-//! Emitters of programs: [`rust`] writes what the macro expands to and what `generated/` contains, [`c`] writes the same
-//! in C, and [`script`] writes it in languages for computation and symbolic formulas.
+//! Emitters of programs: [`rust`] writes what the macro expands to and what `generated/` contains. The other modules are what it shares
+//! with the emitters of other languages.
 
-pub mod c;
+pub mod body;
+pub mod cut;
+pub mod formula_names;
 pub mod layout;
+pub mod names;
 pub mod rust;
-pub mod script;
-
-mod body;
-mod cut;
-mod formula_names;
-mod names;
 
 pub use names::{identifier, snake_case};

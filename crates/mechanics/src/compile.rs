@@ -78,6 +78,13 @@ impl<'d> Compiled<'d> {
         })
     }
 
+    /// [`new`](Self::new) for a program that runs are made with: it has the projection onto the constraints too, by which a run projects the ends of its
+    /// steps.
+    pub fn for_runs(mut model: Model<'d>, report: &mut Report) -> Option<Compiled<'d>> {
+        model.projects = true;
+        Compiled::new(model, report)
+    }
+
     /// Compiles a machine, and if its spec names another chart, the same machine in this one, proved to be the same: both are to be
     /// emitted. `None` if that fails, with the reasons in the report.
     pub fn in_charts(
@@ -88,14 +95,14 @@ impl<'d> Compiled<'d> {
         let cartesian = model.cartesian.take();
         let cartesian = cartesian.filter(|machine| machine.uncharted.is_empty());
         let taylor = model.taylor;
-        let compiled = Compiled::new(model, report)?;
+        let compiled = Compiled::for_runs(model, report)?;
         let Some(mut cartesian) = cartesian else {
             return Some((compiled, None));
         };
         cartesian.taylor = taylor;
         // Its warnings would be those of the spec once more.
         let mut again = Report::new();
-        let Some(cartesian) = Compiled::new(*cartesian, &mut again) else {
+        let Some(cartesian) = Compiled::for_runs(*cartesian, &mut again) else {
             for diagnostic in again.messages() {
                 report.push(diagnostic.clone());
             }

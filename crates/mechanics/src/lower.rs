@@ -8,6 +8,7 @@ mod chosen;
 mod closed;
 mod derivatives;
 mod friction;
+mod projection;
 mod slots;
 mod stages;
 pub(crate) mod states;
@@ -351,6 +352,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         | Role::Start
         | Role::Accelerations
         | Role::Multipliers
+        | Role::Projection
         | Role::Friction
         | Role::Derivatives
         | Role::Adjoint

@@ -10,6 +10,7 @@
 //! * accelerations, multipliers, and their dependence on friction forces, by substitution into
 //!   `M a = f + Gᵀλ + Σ τᵀF`, `G a = γ` and the equations of the displacements that would open
 //!   the guides;
+//! * the projection onto the constraints, by substitution into `M d = Gᵀμ`, `G d = −g`, and the same of rates;
 //! * derivatives, by running the accelerations over dual numbers;
 //! * accelerations in stages, and the guarded pivots.
 //!
@@ -39,6 +40,7 @@ mod contacts;
 pub(crate) mod derived;
 mod dynamics;
 pub(crate) mod number;
+mod projection;
 pub mod symbolic;
 mod unproved;
 
@@ -527,7 +529,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.has_had_accelerations = true;
         self.check_pivots(&state, &computed)?;
         if literal.sliding.is_empty() {
-            self.check_motion(&state, &computed)?
+            self.check_motion(&state, &computed)?;
+            self.check_projection(&state, &computed)?
         } else {
             self.check_friction(&state, &computed, &signs)?
         }

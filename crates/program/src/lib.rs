@@ -75,6 +75,7 @@ pub use tangent::is_differentiated;
 // The results of `Role::Friction`.
 #[doc(inline)]
 pub use lagrangian_scalar::friction::{FrictionLayout, FrictionPart, FrictionResponse};
+pub use lagrangian_scalar::projection::ProjectionLayout;
 
 /// A machine as straight-line arithmetic.
 #[derive(Clone, Debug, PartialEq)]

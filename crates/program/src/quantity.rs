@@ -255,6 +255,11 @@ quantities! {
         "multipliers", "lambda", "lambda*", Each(Constraint), [Time Coordinates Velocities Inputs], Constraints, Solves,
         "E31"
     }
+    /// Residuals of positions and rates, rows of `G`, the smallest moves onto the constraints, and how independent these are. Only of machines
+    /// whose constraints are independent.
+    Projection => {
+        "projection", "", "r*", Chosen, [Time Coordinates Velocities], Request, Solves, "E31"
+    }
     /// Slips `w` of the guided contacts, in m/s.
     Slips => { "slips", "w", "w*", Each(Contact), [Time Coordinates Velocities], Contacts, Seldom, "E32" }
     /// Slip matrix `tau`, the derivatives of the slips by the rates.

@@ -104,7 +104,11 @@ impl Program {
 fn is_requested(role: Role) -> bool {
     matches!(
         role,
-        Role::Derivatives | Role::AtTime | Role::AtPosition | Role::AccelerationsAt
+        Role::Derivatives
+            | Role::Projection
+            | Role::AtTime
+            | Role::AtPosition
+            | Role::AccelerationsAt
     )
 }
 

@@ -458,6 +458,16 @@ pub struct Elimination {
 impl Elimination {
     /// The order for a system.
     pub fn of(graph: &Graph, system: &System) -> Elimination {
+        Elimination::ordered(graph, system, false)
+    }
+
+    /// The order in which all coordinates are eliminated before the first constraint: the scales of the pivots of constraints are then the
+    /// diagonal of `G M⁻¹ Gᵀ`.
+    pub fn of_coordinates_first(graph: &Graph, system: &System) -> Elimination {
+        Elimination::ordered(graph, system, true)
+    }
+
+    fn ordered(graph: &Graph, system: &System, coordinates_first: bool) -> Elimination {
         let n = system.forces.len();
         let mut numbers = Numbers {
             lower: system.at_random(graph),
@@ -466,7 +476,9 @@ impl Elimination {
         let kinds = pattern.kinds.clone();
         // A constraint waits for all its coordinates.
         let is_ready = |k: usize, left: &[usize]| {
-            let waits_for = |&&i: &&usize| i < system.coordinates && kinds[k][i] != EntryKind::Zero;
+            let waits_for = |&&i: &&usize| {
+                i < system.coordinates && (coordinates_first || kinds[k][i] != EntryKind::Zero)
+            };
             k < system.coordinates || left.iter().find(waits_for).is_none()
         };
         let mut elimination = Elimination {

@@ -15,6 +15,7 @@ pub mod friction;
 pub mod interval;
 pub mod jet;
 mod kernel;
+pub mod projection;
 mod real;
 pub mod residue;
 #[doc(hidden)]

@@ -6,13 +6,14 @@
 //! lock                 locked while a process works here, with its number
 //! ```
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::plan::Plan;
-use crate::rows::{Rows, Values};
+use crate::rows::{ColumnType, Rows, Values};
 use crate::sweep::{Chunk, Sweep};
 use crate::table::{self, Format, Writer};
 
@@ -99,6 +100,8 @@ pub struct Summary {
     pub failed: u64,
     /// The first errors, each with the index of its run.
     pub first_errors: Vec<(u64, String)>,
+    /// How many runs used which methods, one after the other, if runs chose them: `dop853, taylor`.
+    pub methods: BTreeMap<String, u64>,
 }
 
 impl Folder {
@@ -390,6 +393,9 @@ impl Folder {
 impl Summary {
     fn count(&mut self, rows: &Rows) {
         self.runs += rows.len() as u64;
+        if let Some(Values::Text(methods)) = rows.column("methods") {
+            methods.iter().flatten().for_each(|of| self.add_methods(of));
+        }
         let (Some(Values::Text(errors)), Some(Values::Count(runs))) =
             (rows.column("error"), rows.column("run"))
         else {
@@ -403,18 +409,32 @@ impl Summary {
     }
 
     fn count_lines(&mut self, text: &str, like: &Rows) {
-        let place = like
-            .columns
-            .iter()
-            .position(|column| column.name == "error");
+        let place = |name: &str| {
+            let mut columns = like.columns.iter();
+            // Varied quantities, which may have any name, are numbers.
+            columns.position(|column| column.name == name && column.kind == ColumnType::Text)
+        };
+        let (place, of_methods) = (place("error"), place("methods"));
         for row in table::csv_cells(text).unwrap_or_default() {
             self.runs += 1;
+            let methods = of_methods.and_then(|place| row.get(place));
+            if let Some(methods) = methods.filter(|methods| !methods.is_empty()) {
+                self.add_methods(methods);
+            }
             let error = place.and_then(|place| row.get(place));
             if let Some(error) = error.filter(|error| !error.is_empty()) {
                 let run = row.first().and_then(|run| run.parse().ok());
                 self.add(run.unwrap_or(0), error);
             }
         }
+    }
+
+    /// Counts the methods of a run, without the times and reasons of their choice.
+    fn add_methods(&mut self, methods: &str) {
+        let names = methods.split(", ");
+        let names = names.map(|one| one.split(' ').next().unwrap_or_default());
+        let names: Vec<&str> = names.collect();
+        *self.methods.entry(names.join(", ")).or_default() += 1;
     }
 
     fn add(&mut self, run: u64, error: &str) {

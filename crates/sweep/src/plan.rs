@@ -13,6 +13,9 @@ use crate::design::{self, Factor};
 /// The version of the format.
 pub const VERSION: u32 = 1;
 
+/// The name of the method where each run chooses its methods.
+pub const AUTO: &str = "auto";
+
 /// The longest chunk, in runs.
 pub const LONGEST_CHUNK: u64 = 65_536;
 
@@ -37,7 +40,7 @@ pub struct Plan {
     pub until: f64,
     /// Relative and absolute tolerance of each step.
     pub tolerance: f64,
-    /// The method of integration.
+    /// The method of integration; [`AUTO`] if each run chooses its methods.
     pub method: String,
     /// The most steps of a run.
     pub max_steps: u64,
@@ -210,7 +213,7 @@ impl Function {
 }
 
 impl Plan {
-    /// One run of a spec from its own start until an instant, in s, with the defaults of the command: `dop853` with a tolerance
+    /// One run of a spec from its own start until an instant, in s, with the defaults of the command: by the methods that each run chooses ([`AUTO`]), with a tolerance
     /// of 1e-9, recording the end only.
     pub fn new(spec: SpecText, until: f64) -> Self {
         Plan {
@@ -222,7 +225,7 @@ impl Plan {
             keep: None,
             until,
             tolerance: 1e-9,
-            method: "dop853".into(),
+            method: AUTO.into(),
             max_steps: 10_000_000,
             inputs: Vec::new(),
             events: Vec::new(),

@@ -1,12 +1,13 @@
 //! A plan prepared for running, and its runs.
 
 mod checks;
+mod chosen;
 mod outcome;
 mod table;
 
 use crate::charts::{self, ChartedPoints, Charts};
 use crate::design;
-use crate::plan::{Function, Plan, RecordedFiles};
+use crate::plan::{AUTO, Function, Plan, RecordedFiles};
 use crate::reduce::{Formula, StateCache, Tracker};
 use crate::rows::{Cell, Column, Rows};
 use crate::signals::{self, without_series};
@@ -16,7 +17,7 @@ use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Nam
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{Crossing, Ending, Machine, Observation, Simulation, Solution, State, System};
 use lagrangian_mechanics::Compiled;
-use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_mechanics::series::{ProvedSeries, SeriesText};
 use lagrangian_spec::diagnostic::{Report, Severity, most_similar};
 use lagrangian_spec::model::{Coordinate, Model, stage};
 use lagrangian_spec::resolve::Formula as OutputFormula;
@@ -54,7 +55,8 @@ pub struct Sweep {
     machine: InterpretedMachine,
     /// The machine in the Cartesian coordinates that `charts` of the spec names, if it names any and they can express the plan.
     cartesian: Option<Cartesian>,
-    method: &'static Method,
+    /// The method of all runs; `None` if each of them chooses its methods.
+    method: Option<&'static Method>,
     /// Why another method is used than the plan asks for, as a sentence.
     warning: Option<String>,
     constants: Vec<(String, Rational)>,
@@ -222,7 +224,7 @@ impl Sweep {
         };
         let mut with = with;
         let cartesian = with.as_mut().and_then(|model| model.cartesian.take());
-        let compiled = with.and_then(|model| Compiled::new(model, &mut report));
+        let compiled = with.and_then(|model| Compiled::for_runs(model, &mut report));
         let Some(compiled) = compiled else {
             return Err(PlanError::Spec(Box::new((report, sources))));
         };
@@ -247,8 +249,13 @@ impl Sweep {
         machine
             .set_engine(engine)
             .map_err(|none| PlanError::Plan(none.to_string()))?;
+        let is_automatic = plan.method == AUTO;
         let mut method = method(&plan)?;
         let mut warning = None;
+        if is_automatic {
+            let text = text_of_series(&plan, false).map_err(PlanError::Plan)?;
+            machine = machine.with_series_on_demand(move || text.derive());
+        }
         if std::ptr::eq(method, &TAYLOR) {
             let series = ProvedSeries::derive(&compiled.model);
             if let Err(reason) = &series {
@@ -319,7 +326,7 @@ impl Sweep {
             group,
             machine,
             cartesian,
-            method,
+            method: (!is_automatic).then_some(method),
             warning,
             constants,
             varied: places,
@@ -420,7 +427,7 @@ impl Sweep {
                 }
                 chunk
                     .rows
-                    .push(self.row(*run, values, outcome.into_cells()));
+                    .push(self.row(*run, values, outcome.into_cells(self.method.is_none())));
             }
         }
         Some(chunk)
@@ -582,11 +589,14 @@ impl Sweep {
         };
         let simulation = Simulation::new(machine)
             .tolerance(plan.tolerance)
-            .method(self.method)
             .until(plan.until)
             .max_steps(usize::try_from(plan.max_steps).unwrap_or(usize::MAX))
             .energy_balance(true)
             .forget_steps();
+        let simulation = match self.method {
+            Some(method) => simulation.method(method),
+            None => simulation.automatic(),
+        };
         let asks_for_power = (plan.reduce.iter()).any(|of| of.function == Function::Power);
         let simulation = if asks_for_power && plan.after.is_some() {
             simulation
@@ -666,6 +676,9 @@ impl Sweep {
         };
         outcome.end = charts::shown(charts, solution.end());
         outcome.steps = solution.statistics().steps as u64;
+        if self.method.is_none() {
+            outcome.methods = Some(chosen::methods(solution.choices(), solution.handovers()));
+        }
         outcome.residual = solution.energy_balance().map(|balance| balance.residual());
         let start = charts::shown(charts, solution.start());
         recorder.record_ends(plan, (run, &start, &outcome.end));
@@ -766,7 +779,7 @@ fn in_cartesian(
         return None;
     }
     let mut report = Report::new();
-    let compiled = Compiled::new(model, &mut report)?;
+    let compiled = Compiled::for_runs(model, &mut report)?;
     polar.check_chart(&compiled, &mut report)?;
     let mut machine = InterpretedMachine::new(compiled.program.clone());
     machine.set_engine(engine).ok()?;
@@ -777,14 +790,29 @@ fn in_cartesian(
         }
         machine = machine.with_series(series);
     }
+    if plan.method == AUTO {
+        let text = text_of_series(plan, true).ok()?;
+        machine = machine.with_series_on_demand(move || text.derive());
+    }
     set_all(&mut machine, &plan.set).ok()?;
     Some(Cartesian { machine, points })
 }
 
-/// The method of a plan.
+/// The texts from which the series of a plan's machine is derived, or of that in Cartesian coordinates.
+fn text_of_series(plan: &Plan, in_charts: bool) -> Result<SeriesText, String> {
+    let mut text = plan.spec.of_series(in_charts)?;
+    text.given.extend(plan.given());
+    Ok(text)
+}
+
+/// The method of a plan; the default one if the sweep is to choose it.
 fn method(plan: &Plan) -> Result<&'static Method, PlanError> {
+    if plan.method == AUTO {
+        return Ok(<&Method>::default());
+    }
     let Some(method) = Method::named(&plan.method) else {
-        let names: Vec<_> = Method::all().map(|method| method.tableau.name).collect();
+        let mut names: Vec<_> = Method::all().map(|method| method.tableau.name).collect();
+        names.insert(0, AUTO);
         let message = format!(
             "no method named `{}`; there are: {}",
             plan.method,

@@ -421,3 +421,97 @@ fn inputs_that_stay_and_inputs_that_change() {
         assert_eq!(compare(&plan), 0);
     }
 }
+
+/// Each run by Taylor series has its own steps, with parameters of its own; some end earlier than others.
+#[test]
+fn steps_by_series_in_lanes() {
+    for (name, varied, until) in [
+        ("double_pendulum", grid("start(theta1)", 0.2, 3.0, 21), 4.0),
+        ("double_pendulum", grid("m2", 0.5, 1.5, 9), 4.0),
+        ("vibrating_crusher", grid("omega", 100.0, 180.0, 13), 0.2),
+        ("elastic_pendulum", grid("rate(theta)", 0.0, 1.0, 18), 3.0),
+        ("heavy_top", grid("rate(psi)", 0.0, 2.0, 11), 0.5),
+        ("spherical_pendulum", grid("rate(phi)", 0.1, 2.0, 11), 2.0),
+        ("spring_mass_train", grid("pull", 0.0, 300.0, 17), 1.0),
+        ("four_bar", grid("omega", 1.0, 8.0, 12), 0.6),
+        ("flyball_governor", grid("start(alpha)", 0.4, 0.6, 9), 0.3),
+    ] {
+        for tolerance in [1e-4, 1e-9, 1e-13] {
+            let mut plan = plan(&library(name), until, vec![varied.clone()]);
+            plan.method = "taylor".into();
+            plan.tolerance = tolerance;
+            plan.at = vec![0.3 * until, until];
+            compare_in_pieces(&plan, &[2, 8, plan.runs()]);
+        }
+    }
+}
+
+#[test]
+fn what_is_recorded_along_series_in_lanes() {
+    let text = library("double_pendulum");
+    let mut plan = plan(
+        &text,
+        4.0,
+        vec![grid("start(theta1)", 0.5, 3.0, 9), grid("m2", 0.5, 1.5, 3)],
+    );
+    plan.method = "taylor".into();
+    plan.events = vec![
+        watch("down", "theta1", false),
+        watch("over", "theta2^2 - 9.8", true),
+    ];
+    plan.reduce = vec![
+        reduce("fast", Function::Max, "abs(der(theta2))"),
+        reduce("downs", Function::Count, "down"),
+    ];
+    plan.every = Some(0.25);
+    assert_eq!(compare(&plan), 0);
+    plan.until = -2.0;
+    assert_eq!(compare(&plan), 0);
+
+    // Runs that come near an undefined state fail alone, and the others go on.
+    let mut falling = self::plan(FALLING, 3.0, vec![grid("rate(y)", -0.5, 0.5, 21)]);
+    falling.method = "taylor".into();
+    assert!(compare(&falling) >= 1);
+    falling.max_steps = 30;
+    compare(&falling);
+}
+
+/// Long runs go on by series, and so leave the lanes of `dop853` for those of series; stiff runs go on alone; neither depends on the others.
+#[test]
+fn runs_that_change_their_method_among_others() {
+    let mut long = plan(
+        &library("double_pendulum"),
+        150.0,
+        vec![grid("start(theta1)", 0.2, 0.8, 13)],
+    );
+    long.tolerance = 1e-12;
+    long.start = vec![("theta2".into(), 0.1)];
+    // The last runs are too short to change; all others stay below this angle by their energy.
+    long.events = vec![watch("below", "theta1 - 0.69", true)];
+    assert_eq!(compare_in_pieces(&long, &[5, 13]), 0);
+    let sweep = Sweep::new(long.clone(), Engine::Jit).expect("a plan");
+    let (all, _) = rows(&sweep, long.runs());
+    assert!(all.contains("dop853, taylor from "), "{all}");
+    assert!(all.contains("Some(\"dop853\")"), "{all}");
+
+    let stiff = plan(
+        "machine Damped in plane {
+            parameters { m: kg = 1, k: N/m = 1, c: N*s/m = 1 }
+            coordinates { x: m = 1 }
+            bodies { a { mass: m, at: (x, 0) } }
+            springs { s { stiffness: k, stretch: x } }
+            dampers { d { damping: c, stretch: x } }
+        }",
+        40.0,
+        vec![Factor::List {
+            names: vec!["c".into()],
+            rows: [1.0, 2.0, 3.0, 1e4, 4.0, 1e5, 5.0, 6.0, 7.0, 8.0]
+                .map(|c| vec![c])
+                .into(),
+        }],
+    );
+    assert_eq!(compare_in_pieces(&stiff, &[10]), 0);
+    let sweep = Sweep::new(stiff.clone(), Engine::Jit).expect("a plan");
+    let (all, _) = rows(&sweep, stiff.runs());
+    assert!(all.contains("dop853, radau"), "{all}");
+}

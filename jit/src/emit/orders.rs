@@ -1,4 +1,5 @@
-//! The loop over the orders of a series: sums of products over earlier orders, several in a register, followed by straight-line code.
+//! The loop over the orders of a series: sums of products over earlier orders, several of one state or one of several states in a register, followed by
+//! straight-line code.
 //!
 //! A sum `Σ aⱼ bₙ₋ⱼ` goes from the middle outwards, in two sums, one towards either end of the lists: the order of terms of
 //! `lagrangian_scalar::series::convolve_all`.
@@ -13,7 +14,7 @@ use crate::lower::{Arithmetic, Call, CallKind, Lowered};
 /// Sums over orders that a register holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pack {
-    /// How many: 4 or 8.
+    /// How many of one state: 4 or 8; 1 where a register holds one of each of several states.
     pub width: u32,
     /// Where their factors are in a record.
     pub slots: [u32; 2],
@@ -67,10 +68,6 @@ pub fn assemble_orders(
 #[derive(Default)]
 struct Jumps(Vec<(u64, u64)>);
 
-fn at(base: Register, slot: u32) -> MemoryOperand {
-    MemoryOperand::with_base_displ(base, 8 * i64::from(slot))
-}
-
 /// The registers of sums of one width: two sums, and one for a factor.
 struct Sums {
     table: &'static Encodings,
@@ -100,6 +97,16 @@ impl Sums {
 }
 
 impl Emitter<'_> {
+    /// A number of the states.
+    fn at(&self, base: Register, slot: u32) -> MemoryOperand {
+        MemoryOperand::with_base_displ(base, self.bytes(slot))
+    }
+
+    /// The length of so many numbers of the states.
+    fn bytes(&self, numbers: u32) -> i64 {
+        (8 * self.layout.stride) as i64 * i64::from(numbers)
+    }
+
     /// Writes the product of a matrix and the arguments of a call.
     pub(super) fn product(&mut self, call: &Call) -> Result<(), IcedError> {
         let CallKind::Matrix(matrix) = call.kind else {
@@ -130,7 +137,7 @@ impl Emitter<'_> {
                 }
                 let side = u32::from(matrix.is_split) * (column % 2);
                 for (sums, row) in &sums {
-                    let elements = at(NUMBERS, matrix.place + column * matrix.stride + row);
+                    let elements = self.at(NUMBERS, matrix.place + column * matrix.stride + row);
                     let to = sums.register(sums.down + side);
                     let factor = sums.register(first.spare);
                     let code = sums.table.fused[0][2];
@@ -200,8 +207,8 @@ impl Emitter<'_> {
             }
         }
         self.copy_results()?;
-        let stride = 8 * orders.stride;
-        self.put(Encoded::with2(Code::Add_rm64_imm32, RECORD, stride as i32)?)?;
+        let stride = self.bytes(orders.stride) as i32;
+        self.put(Encoded::with2(Code::Add_rm64_imm32, RECORD, stride)?)?;
         self.put(Encoded::with1(Code::Inc_rm64, TERMS)?)?;
         self.put(Encoded::with1(Code::Dec_rm64, LEFT)?)?;
         self.jump_back(Code::Jne_rel32_64, top)?;
@@ -230,11 +237,12 @@ impl Emitter<'_> {
     ) -> Result<(), IcedError> {
         let count = packs.len() as u32;
         let all = (0..).zip(packs).map(|(at, pack)| {
-            let sums = Sums::new(self.layout.level, pack.width, at, count);
+            let width = pack.width.max(self.layout.lanes as u32);
+            let sums = Sums::new(self.layout.level, width, at, count);
             (sums, *pack)
         });
         let all: Vec<(Sums, Pack)> = all.collect();
-        let stride = 8 * orders.stride as i32;
+        let stride = self.bytes(orders.stride) as i32;
         let count = MemoryOperand::with_base_displ(TERMS, more);
         self.put(Encoded::with2(Code::Lea_r64_m, COUNT, count)?)?;
         self.put(Encoded::with2(Code::Mov_r64_rm64, STEPS, COUNT)?)?;
@@ -249,7 +257,7 @@ impl Emitter<'_> {
             NUMBERS,
             LOW,
             1,
-            8 * i64::from(orders.second),
+            self.bytes(orders.second),
             8,
         );
         self.put(Encoded::with2(Code::Lea_r64_m, LOW, middle)?)?;
@@ -281,7 +289,7 @@ impl Emitter<'_> {
         for (sums, pack) in &all {
             let [down, up] = [0, 1].map(|side| sums.register(sums.down + side));
             self.put(Encoded::with3(sums.table.add, down, down, up)?)?;
-            let to = at(NUMBERS, pack.sums);
+            let to = self.at(NUMBERS, pack.sums);
             self.put(Encoded::with2(sums.table.store, to, down)?)?;
         }
         Ok(())
@@ -294,7 +302,7 @@ impl Emitter<'_> {
         to: u32,
         records: [Register; 2],
     ) -> Result<(), IcedError> {
-        let [a, b] = [0, 1].map(|side| at(records[side], pack.slots[side]));
+        let [a, b] = [0, 1].map(|side| self.at(records[side], pack.slots[side]));
         let spare = sums.register(sums.spare);
         self.put(Encoded::with2(sums.table.load, spare, a)?)?;
         let code = sums.table.fused[0][2];

@@ -5,10 +5,13 @@
 //! record of order n     factors of sums over orders; numbers that follow from n; coefficients of order n of positions, and of order n − 2
 //!                       of what depends on accelerations
 //! ```
+//!
+//! For one state a register holds several sums over orders, whose factors lie side by side. For several states it holds one sum of each of them, and
+//! each number here stands for one of every state; then a list of coefficients is stored once, however many sums it is a factor of.
 
 use std::collections::{HashMap, HashSet};
 
-use lagrangian_program::series::{Convolution, RowId, Series, TermOrder};
+use lagrangian_program::series::{Convolution, RowId, Series, Stream, TermOrder};
 
 use crate::emit::Pack;
 use crate::lower::{Base, Location};
@@ -72,6 +75,8 @@ pub struct Lane {
 pub struct Memory {
     lanes: Vec<(Convolution, Lane)>,
     lane_of: HashMap<Convolution, usize>,
+    /// Where the list of a factor is, of each kind of sums, if it is stored once.
+    list_of: HashMap<(usize, Stream), u32>,
     /// The packs of each kind.
     pub packs: [Vec<Pack>; 3],
     inputs: [u32; 4],
@@ -87,7 +92,7 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// For a series and registers of this number of numbers.
+    /// For a series and registers of this number of sums over orders: 1 for several states.
     pub fn new(series: &Series, width: u32) -> Memory {
         let n = series.dimension() as u32;
         let mut kinds: [Vec<Convolution>; 3] = Default::default();
@@ -106,6 +111,7 @@ impl Memory {
         let mut memory = Memory {
             lanes: Vec::new(),
             lane_of: HashMap::new(),
+            list_of: HashMap::new(),
             packs: Default::default(),
             inputs: [0; 4],
             fixed: 0,
@@ -131,6 +137,12 @@ impl Memory {
     }
 
     fn pack(&mut self, kind: usize, convolutions: &[Convolution], width: u32) {
+        if width == 1 {
+            for convolution in convolutions {
+                self.pack_alone(kind, *convolution);
+            }
+            return;
+        }
         let width = if convolutions.len() <= 4 { 4 } else { width };
         let [a, b] = [0, 1].map(|side| self.record + side * width);
         let sums = self.take(width);
@@ -148,6 +160,24 @@ impl Memory {
             width,
             slots: [a, b],
             sums,
+        });
+    }
+
+    /// A sum in a register of its own.
+    fn pack_alone(&mut self, kind: usize, convolution: Convolution) {
+        let slots = convolution.factors.map(|stream| {
+            let next = self.record;
+            let slot = *self.list_of.entry((kind, stream)).or_insert(next);
+            self.record += u32::from(slot == next);
+            slot
+        });
+        let sum = self.take(1);
+        self.lane_of.insert(convolution, self.lanes.len());
+        self.lanes.push((convolution, Lane { kind, slots, sum }));
+        self.packs[kind].push(Pack {
+            width: 1,
+            slots,
+            sums: sum,
         });
     }
 

@@ -9,7 +9,7 @@
 //! A part reads what an earlier one has computed from the memory of the step. In the last one, orders are relative: its code begins with `n` = 3,
 //! and so orders are counted here; what belongs to an earlier order is read from the [record](super::memory::Memory) of that order.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use lagrangian_program::Contracted;
 use lagrangian_program::series::{
@@ -117,6 +117,8 @@ pub struct Recorder<'s> {
     pub rates: Vec<X>,
     /// The effect of accelerations on forces, if it is a product.
     pub matrix_of_forces: Option<Matrix>,
+    /// How many sums over orders a register holds.
+    pub width: u32,
 }
 
 impl<'s> Recorder<'s> {
@@ -151,6 +153,7 @@ impl<'s> Recorder<'s> {
             kept_sums: vec![None; count],
             rates: Vec::new(),
             matrix_of_forces: None,
+            width,
         }
     }
 
@@ -484,7 +487,7 @@ impl<'s> Recorder<'s> {
     }
 }
 
-/// Records a series for sums over orders in registers of this number of numbers.
+/// Records a series for registers of this number of sums over orders: 1 for several states, each with a register for itself.
 pub fn record(series: &Series, width: u32) -> Recorded {
     let mut to = Recorder::new(series, width);
     let [positions, rates, forces] =
@@ -509,7 +512,7 @@ pub fn record(series: &Series, width: u32) -> Recorded {
     forces.iter().for_each(|row| to.advance(*row, 0));
     to.differentiate();
     let mut blocks = to.matrices();
-    to.store_matrix_of_forces(width);
+    to.store_matrix_of_forces();
 
     to.part = Part::First;
     to.compose(&mut blocks);
@@ -557,9 +560,13 @@ impl Recorder<'_> {
 
     /// Stores the coefficients that sums over orders read.
     fn store_lists(&mut self) {
+        let mut stored = HashSet::new();
         for (convolution, lane) in self.memory.lanes() {
             for (side, stream) in convolution.factors.into_iter().enumerate() {
                 let slot = lane.slots[side];
+                if !stored.insert(slot) {
+                    continue;
+                }
                 // The order of the coefficient, and how many records ahead of the first one that the part reads it stands.
                 let lead = self.series.lead(stream.row);
                 let (m, record) = match lane.kind {

@@ -1,8 +1,6 @@
 //! Gradients, the composition of unknowns, and the solution at each order: the operations of the interpreter of series, recorded.
 
-use lagrangian_program::series::{
-    Arithmetic as _, Composition, Level, MOST_IN_ONE_SUM, Row, RowId, Source, is_inverse,
-};
+use lagrangian_program::series::{Arithmetic as _, Level, MOST_IN_ONE_SUM, Row, RowId, is_inverse};
 
 use super::memory::{NUMBERS, Place};
 use super::record::{Block, Part, Recorder, X, ZERO};
@@ -26,17 +24,9 @@ impl Recorder<'_> {
         for members in series.blocks() {
             let count = members.len() as u32;
             let matrix = self.memory.take(count * count + BEHIND);
-            for (i, member) in (0..).zip(&members) {
-                let row = series.residuals[*member as usize];
-                let is_solved_for = series.level(row) == Level::Acceleration;
-                for (j, column) in (0..).zip(&members) {
-                    let at = series.depends[row.index()].binary_search(column);
-                    let entry = match at {
-                        Ok(at) if is_solved_for => self.gradients[row.index()][at],
-                        _ => ZERO,
-                    };
-                    self.store(entry, Place::Fixed(matrix + i * count + j));
-                }
+            let entries = series.matrix(&members, &self.gradients);
+            for (at, entry) in (matrix..).zip(entries) {
+                self.store(entry.unwrap_or(ZERO), Place::Fixed(at));
             }
             blocks.push(Block {
                 composition: series
@@ -57,52 +47,12 @@ impl Recorder<'_> {
                 continue;
             };
             for unknown in 0..count {
-                let mut derivatives = vec![ZERO; composition.derivatives];
-                for (i, place) in (0..).zip(&composition.residuals) {
-                    let element = X::Stored(Place::Fixed(matrix + i * count + unknown));
-                    derivatives[*place] = self.negate(element);
-                }
-                for step in &composition.steps {
-                    let [from, to] = [step.from, step.to].map(|at| derivatives[at]);
-                    derivatives[step.to] = match step.factor {
-                        None => self.add(to, from),
-                        Some(row) => {
-                            let factor = self.value_of(row);
-                            self.multiply_add(factor, from, to)
-                        }
-                    };
-                }
-                let places = composition.places.iter();
-                coefficients.push(places.map(|place| derivatives[*place]).collect());
-            }
-        }
-    }
-
-    /// An unknown as two sums of its sources, of every second one.
-    fn sum_of_sources(&mut self, composition: &Composition, coefficients: &[X]) -> X {
-        let series = self.series;
-        let mut sums = [ZERO; 2];
-        for (i, (sources, c)) in composition.sources.iter().zip(coefficients).enumerate() {
-            let (mut c, mut x) = (*c, ZERO);
-            for source in sources {
-                let more = match *source {
-                    Source::Known(row) => self.newest(row),
-                    Source::Sum(row) => self.kept_sums[row.index()].unwrap_or(ZERO),
-                    Source::Derivative(row) => {
-                        let [factor, x] = match series.rows[row.index()] {
-                            Row::Second(of) => self.second_factors(of),
-                            Row::First(of) => self.derivative_factors(of),
-                            _ => continue,
-                        };
-                        c = self.multiply(c, factor);
-                        x
-                    }
+                let element = |_: &mut Self, residual: usize| {
+                    X::Stored(Place::Fixed(matrix + residual as u32 * count + unknown))
                 };
-                x = self.add(x, more);
+                coefficients.push(composition.coefficients(self, element));
             }
-            sums[i % 2] = self.multiply_add(c, x, sums[i % 2]);
         }
-        self.add(sums[0], sums[1])
     }
 
     /// The solution for the unknowns of a block from its residuals.
@@ -115,7 +65,8 @@ impl Recorder<'_> {
         }
         let element =
             |i: usize, j: usize| X::Stored(Place::Fixed(block.matrix + (i * n + j) as u32));
-        if is_inverse(n) && n > MOST_IN_ONE_SUM {
+        let is_split = n > MOST_IN_ONE_SUM;
+        if is_inverse(n) && is_split && self.width > 1 {
             let matrix = Matrix {
                 place: block.matrix,
                 stride: n as u32,
@@ -127,11 +78,12 @@ impl Recorder<'_> {
         if is_inverse(n) {
             return (0..n)
                 .map(|i| {
-                    let mut sum = ZERO;
+                    let mut sums = [ZERO; 2];
                     for (j, known) in right.iter().enumerate() {
-                        sum = self.multiply_add(element(j, i), *known, sum);
+                        let sum = &mut sums[usize::from(is_split) * (j % 2)];
+                        *sum = self.multiply_add(element(j, i), *known, *sum);
                     }
-                    sum
+                    self.add(sums[0], sums[1])
                 })
                 .collect();
         }
@@ -159,7 +111,11 @@ impl Recorder<'_> {
             let found = match &block.composition {
                 Some((composition, coefficients)) if self.part == Part::Later => coefficients
                     .iter()
-                    .map(|of| self.sum_of_sources(composition, of))
+                    .map(|of| {
+                        let sum =
+                            |to: &mut Self, row: RowId| to.kept_sums[row.index()].unwrap_or(ZERO);
+                        composition.unknown(series, self, of, sum)
+                    })
                     .collect(),
                 _ => self.solution(block, m),
             };
@@ -236,8 +192,11 @@ impl Recorder<'_> {
     }
 
     /// Stores the effect of accelerations on forces as a matrix, if that takes fewer operations than each force by itself.
-    pub fn store_matrix_of_forces(&mut self, width: u32) {
-        let series = self.series;
+    pub fn store_matrix_of_forces(&mut self) {
+        let (series, width) = (self.series, self.width);
+        if width == 1 {
+            return;
+        }
         let forces = self.forces_in_sums();
         let gradients = forces.iter().map(|row| series.depends[row.index()].len());
         let (gradients, rows) = (gradients.sum::<usize>(), forces.len() as u32);

@@ -78,9 +78,15 @@ fn every_machine_of_the_library_has_the_bits_of_the_interpreter() {
                 .iter()
                 .flat_map(|of| Level::all().map(move |level| (level, of)))
             {
-                let compared = series::agrees(of_motion, &parameters, level, seed);
-                let compared = compared.unwrap_or_else(|difference| panic!("{file}: {difference}"));
-                assert!(compared > 0, "{file}: nothing was compared");
+                for compared in [
+                    series::agrees(of_motion, &parameters, level, seed),
+                    series::agrees_in_lanes::<4>(of_motion, &parameters, level, seed),
+                    series::agrees_in_lanes::<8>(of_motion, &parameters, level, seed),
+                ] {
+                    let compared =
+                        compared.unwrap_or_else(|difference| panic!("{file}: {difference}"));
+                    assert!(compared > 0, "{file}: nothing was compared");
+                }
             }
             has_series.fetch_add(usize::from(of_motion.is_some()), Ordering::Relaxed);
         }

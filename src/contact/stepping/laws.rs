@@ -61,6 +61,7 @@ pub(super) struct ContactsOfStep<'a> {
 }
 
 /// Impulses of the contacts that touch in a step.
+#[derive(Clone, Debug, Default)]
 pub(super) struct ImpulsesOfStep {
     pub all: Vec<[f64; 2]>,
     /// What of these acted last, from which follows what contacts do at the end of the step.
@@ -72,37 +73,54 @@ pub(super) struct ImpulsesOfStep {
     pub jammed: Vec<usize>,
 }
 
-/// Impulses with known cones of friction.
-struct Held {
+/// Memory for the impulses of a step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LawsMemory {
+    /// The rates without impulses, and with them.
+    b: Vec<f64>,
+    rates: Vec<f64>,
+    near: Vec<[f64; 2]>,
+    none: Vec<f64>,
+    may_stop: Vec<bool>,
+    unknowns: Vec<ContactUnknowns>,
     answer: Answer,
-    rests: Vec<bool>,
+    undetermined: undetermined::Memory,
 }
 
 impl ContactsOfStep<'_> {
-    /// The impulses by the laws of the machine.
+    /// Writes the impulses by the laws of the machine.
     ///
     /// # Errors
     /// Where none obey the law.
-    pub fn impulses(&self) -> Result<ImpulsesOfStep, StepError> {
+    pub fn write_impulses(
+        &self,
+        impulses: &mut ImpulsesOfStep,
+        memory: &mut LawsMemory,
+    ) -> Result<(), StepError> {
         let at_once = self.touching.order == ImpactOrder::AtOnce;
         let in_one_problem = at_once && self.touching.law == ImpactLaw::Newton;
         if !in_one_problem && self.meets() {
-            return self.in_halves();
+            *impulses = self.in_halves(memory)?;
+            return Ok(());
         }
-        let whole = |has_restitution| self.whole(in_one_problem && has_restitution);
-        let (held, is_jammed) = match whole(true) {
-            Some(held) => (held, false),
-            None if in_one_problem => (whole(false).ok_or_else(|| self.unsettled())?, true),
-            None => return Err(self.unsettled()),
-        };
-        let places = 0..self.meeting.contacts.len();
-        Ok(ImpulsesOfStep {
-            last: held.answer.forces.clone(),
-            all: held.answer.forces,
-            rests: held.rests,
-            shared_otherwise: held.answer.shared_otherwise,
-            jammed: places.filter(|_| is_jammed).collect(),
-        })
+        let rests = &mut impulses.rests;
+        let mut has_impulses = self.whole(in_one_problem, rests, memory);
+        let is_jammed = !has_impulses && in_one_problem;
+        if is_jammed {
+            has_impulses = self.whole(false, rests, memory);
+        }
+        if !has_impulses {
+            return Err(self.unsettled());
+        }
+        let answer = &memory.answer;
+        impulses.all.clone_from(&answer.forces);
+        impulses.last.clone_from(&answer.forces);
+        (impulses.shared_otherwise).clone_from(&answer.shared_otherwise);
+        impulses.jammed.clear();
+        if is_jammed {
+            impulses.jammed.extend(0..self.meeting.contacts.len());
+        }
+        Ok(())
     }
 
     fn unsettled(&self) -> StepError {
@@ -146,15 +164,21 @@ impl ContactsOfStep<'_> {
         own.max(ROUNDING * self.touching.greatest_rate())
     }
 
+    /// Writes rates changed by impulses.
+    fn write_after(&self, rates: &[f64], impulses: &[[f64; 2]], after: &mut Vec<f64>) {
+        let rows = self.meeting.g.chunks_exact(self.width());
+        after.clear();
+        after.extend((rates.iter().zip(rows)).map(|(rate, row)| {
+            let by = row.iter().zip(impulses.as_flattened());
+            rate + by.map(|(g, impulse)| g * impulse).sum::<f64>()
+        }));
+    }
+
     /// Rates changed by impulses.
     fn after(&self, rates: &[f64], impulses: &[[f64; 2]]) -> Vec<f64> {
-        let rows = self.meeting.g.chunks_exact(self.width());
-        (rates.iter().zip(rows))
-            .map(|(rate, row)| {
-                let by = row.iter().zip(impulses.as_flattened());
-                rate + by.map(|(g, impulse)| g * impulse).sum::<f64>()
-            })
-            .collect()
+        let mut after = Vec::new();
+        self.write_after(rates, impulses, &mut after);
+        after
     }
 
     /// The slip of a contact along both of its tangents.
@@ -164,8 +188,8 @@ impl ContactsOfStep<'_> {
         [rates[2 * place + 1], across]
     }
 
-    /// Which contacts have more static than kinetic friction and rest when the step begins.
-    fn resting(&self) -> Vec<bool> {
+    /// Writes which contacts have more static than kinetic friction and rest when the step begins.
+    fn write_resting(&self, resting: &mut Vec<bool>) {
         let rests = |place: usize| {
             let k = self.meeting.contacts[place];
             let [kinetic, at_rest] = self.here.friction(k);
@@ -174,7 +198,7 @@ impl ContactsOfStep<'_> {
             }
             match self.touching.modes()[k] {
                 Mode::Sticks => true,
-                // It touches and does not move.
+                // The contact touches and does not move.
                 Mode::Open => {
                     let rest = self.rate_rounding(place);
                     let slip = self.slip(&self.meeting.before, place);
@@ -184,24 +208,30 @@ impl ContactsOfStep<'_> {
                 Mode::Slides(_) | Mode::SlidesAlong(_) => false,
             }
         };
-        (0..self.meeting.contacts.len()).map(rests).collect()
+        resting.clear();
+        resting.extend((0..self.meeting.contacts.len()).map(rests));
     }
 
-    /// The impulses of the whole step in one problem.
-    fn whole(&self, has_restitution: bool) -> Option<Held> {
+    /// Writes the impulses of the whole step in one problem; whether there are any that obey the law.
+    fn whole(&self, has_restitution: bool, rests: &mut Vec<bool>, memory: &mut LawsMemory) -> bool {
         let share = f64::from(u8::from(has_restitution));
         let directions = self.meeting.directions.iter();
-        let mut b: Vec<f64> = (directions.zip(self.free).zip(&self.meeting.before))
-            .map(|((d, free), before)| free + share * self.here.restitution(d / 2)[d % 2] * before)
-            .collect();
+        let mut b = core::mem::take(&mut memory.b);
+        b.clear();
+        b.extend((directions.zip(self.free).zip(&self.meeting.before)).map(
+            |((d, free), before)| free + share * self.here.restitution(d / 2)[d % 2] * before,
+        ));
         for (normal, way_back) in b.iter_mut().step_by(2).zip(self.ways_back) {
             *normal += way_back;
         }
-        self.held(&b, (&self.meeting.before, 1.0), self.resting(), |_| true)
+        self.write_resting(rests);
+        let has_impulses = self.held(&b, (&self.meeting.before, 1.0), rests, |_| true, memory);
+        memory.b = b;
+        has_impulses
     }
 
     /// The impulses of a step in which something meets by a law for an instant.
-    fn in_halves(&self) -> Result<ImpulsesOfStep, StepError> {
+    fn in_halves(&self, memory: &mut LawsMemory) -> Result<ImpulsesOfStep, StepError> {
         let meeting = self.meeting;
         let of_forces: Vec<f64> = (self.free.iter().zip(&meeting.before))
             .map(|(free, before)| 0.5 * (free - before))
@@ -210,12 +240,15 @@ impl ContactsOfStep<'_> {
             let pairs = rates.iter().zip(&of_forces);
             pairs.map(|(rate, by)| rate + by).collect()
         };
-        let resting = self.resting();
+        let mut rests = Vec::new();
+        self.write_resting(&mut rests);
         let was_closed = |place: usize| self.was_closed(self.carrier(place));
         let b = with_forces(&meeting.before);
-        let first = self.held(&b, (&meeting.before, 0.5), resting, was_closed);
-        let first = first.ok_or_else(|| self.unsettled())?;
-        let rates = self.after(&b, &first.answer.forces);
+        if !self.held(&b, (&meeting.before, 0.5), &mut rests, was_closed, memory) {
+            return Err(self.unsettled());
+        }
+        let first = memory.answer.clone();
+        let rates = self.after(&b, &first.forces);
 
         let mut told = Told::default();
         let of_impact = self.impact(&rates, &mut told)?;
@@ -225,28 +258,30 @@ impl ContactsOfStep<'_> {
         for (normal, way_back) in b.iter_mut().step_by(2).zip(self.ways_back) {
             *normal += way_back;
         }
-        // What the impact made slip does not rest any more.
+        // A contact that the impact made slip does not rest any more.
         let still = HELD * greatest(&rates);
-        let rests = (0..meeting.contacts.len()).map(|place| {
+        for (place, rests) in rests.iter_mut().enumerate() {
             let slip = self.slip(&rates, place);
-            first.rests[place] && slip[0].hypot(slip[1]) <= still
-        });
-        let last = self.held(&b, (&rates, 0.5), rests.collect(), |_| true);
-        let last = last.ok_or_else(|| self.unsettled())?;
+            *rests &= slip[0].hypot(slip[1]) <= still;
+        }
+        if !self.held(&b, (&rates, 0.5), &mut rests, |_| true, memory) {
+            return Err(self.unsettled());
+        }
+        let last = memory.answer.clone();
 
-        let parts = (first.answer.forces.iter().zip(&of_impact)).zip(&last.answer.forces);
+        let parts = (first.forces.iter().zip(&of_impact)).zip(&last.forces);
         let all = parts.map(|((a, b), c)| [a[0] + b[0] + c[0], a[1] + b[1] + c[1]]);
         let place_of = |k: &usize| meeting.contacts.iter().position(|own| own == k);
         let mut shared_otherwise: Vec<usize> =
             told.shared_otherwise.iter().filter_map(place_of).collect();
-        shared_otherwise.extend(first.answer.shared_otherwise);
-        shared_otherwise.extend(last.answer.shared_otherwise);
+        shared_otherwise.extend(first.shared_otherwise);
+        shared_otherwise.extend(last.shared_otherwise);
         shared_otherwise.sort_unstable();
         shared_otherwise.dedup();
         Ok(ImpulsesOfStep {
             all: all.collect(),
-            last: last.answer.forces,
-            rests: last.rests,
+            last: last.forces,
+            rests,
             shared_otherwise,
             jammed: told.jammed.iter().filter_map(place_of).collect(),
         })
@@ -266,7 +301,7 @@ impl ContactsOfStep<'_> {
             let all = (&meeting.contacts[..], &meeting.g[..], rates);
             return Ok(match touching.impulses((t, here), all, told) {
                 Ok(impulses) => impulses,
-                // Without restitution, by the second half.
+                // They are stopped without restitution, by the second half.
                 Err(_) => {
                     told.jammed.extend_from_slice(&meeting.contacts);
                     vec![[0.0; 2]; meeting.contacts.len()]
@@ -287,7 +322,7 @@ impl ContactsOfStep<'_> {
             let Some(place) = fastest else {
                 break;
             };
-            // With it what leans on it, which follows it.
+            // The contacts that lean on it follow it, and are asked with it.
             let end = (place + 1..count).find(|next| self.is_own(*next));
             let own = 2 * place..2 * end.unwrap_or(count);
             let g: Vec<f64> = (own.clone())
@@ -313,15 +348,16 @@ impl ContactsOfStep<'_> {
         Ok(impulses)
     }
 
-    /// Impulses of the contacts that take part, with the rates `b` without these, over a part of the step; `before` are the rates before the forces that act in
-    /// it. `rests` says which contacts may stick with their static friction. None if no impulses obey the law.
+    /// Writes the impulses of the contacts that take part, with the rates `b` without these, over a part of the step; `before` are the rates before the forces that
+    /// act in it. `rests` says which contacts may stick with their static friction, and then which do. Whether there are impulses that obey the law.
     fn held(
         &self,
         b: &[f64],
         (before, part): (&[f64], f64),
-        mut rests: Vec<bool>,
+        rests: &mut [bool],
         takes_part: impl Fn(usize) -> bool,
-    ) -> Option<Held> {
+        memory: &mut LawsMemory,
+    ) -> bool {
         let Self {
             touching,
             here,
@@ -329,70 +365,79 @@ impl ContactsOfStep<'_> {
             h,
             ..
         } = *self;
-        let places = || 0..meeting.contacts.len();
+        let LawsMemory {
+            rates,
+            near,
+            none,
+            may_stop,
+            unknowns,
+            answer,
+            undetermined,
+            ..
+        } = memory;
+        let contacts = &meeting.contacts;
+        let places = || 0..contacts.len();
         // Most contacts do what they did in the step before.
-        let near: Vec<[f64; 2]> = (meeting.contacts.iter())
-            .map(|k| match touching.stepped() {
-                Some(forces) => forces[*k].map(|force| part * h * force),
-                None => [0.0; 2],
-            })
-            .collect();
-        let none = vec![0.0; meeting.contacts.len()];
-        // What slips, has more static friction, and may come to rest within the step.
-        let mut may_stop: Vec<bool> = places()
-            .map(|place| {
-                let k = meeting.contacts[place];
-                let [kinetic, at_rest] = here.friction(k);
-                let is_first = touching.first(k) == k;
-                is_first && at_rest > kinetic && self.was_closed(place) && !rests[place]
-            })
-            .collect();
+        near.clear();
+        near.extend(contacts.iter().map(|k| match touching.stepped() {
+            Some(forces) => forces[*k].map(|force| part * h * force),
+            None => [0.0; 2],
+        }));
+        none.clear();
+        none.resize(contacts.len(), 0.0);
+        // These contacts slip, have more static friction, and may come to rest within the step.
+        may_stop.clear();
+        may_stop.extend(places().map(|place| {
+            let k = contacts[place];
+            let [kinetic, at_rest] = here.friction(k);
+            let is_first = touching.first(k) == k;
+            is_first && at_rest > kinetic && self.was_closed(place) && !rests[place]
+        }));
         let still = HELD * greatest(b);
         loop {
-            let unknowns: Vec<ContactUnknowns> = places()
-                .map(|place| {
-                    if !takes_part(place) {
-                        return ContactUnknowns::Nothing;
-                    }
-                    let own =
-                        touching.unknowns_of_impact(here, (place, meeting.contacts[place]), &none);
-                    if rests[place] {
-                        with_friction(own, here.friction(meeting.contacts[place])[1])
-                    } else {
-                        own
-                    }
-                })
-                .collect();
-            let answer = undetermined::solve_for_motion(&unknowns, &meeting.g, b, &near).ok()?;
-            if answer.residual > MOST_RESIDUAL {
-                return None;
+            unknowns.clear();
+            unknowns.extend(places().map(|place| {
+                let contact = contacts[place];
+                if !takes_part(place) {
+                    return ContactUnknowns::Nothing;
+                }
+                let own = touching.unknowns_of_impact(here, (place, contact), none);
+                if rests[place] {
+                    with_friction(own, here.friction(contact)[1])
+                } else {
+                    own
+                }
+            }));
+            let of_motion = (&meeting.g[..], b);
+            let solved =
+                undetermined::solve_for_motion(unknowns, of_motion, near, answer, undetermined);
+            if solved.is_err() || answer.residual > MOST_RESIDUAL {
+                return false;
             }
-            let has_cones = |cones: &[bool]| cones.contains(&true);
-            if !has_cones(&rests) && !has_cones(&may_stop) {
-                return Some(Held { answer, rests });
+            if !rests.contains(&true) && !may_stop.contains(&true) {
+                return true;
             }
-            let rates = self.after(b, &answer.forces);
+            self.write_after(b, &answer.forces, rates);
             let mut changes = false;
-            for place in places().filter(|place| rests[*place]).collect::<Vec<_>>() {
-                let slip = self.slip(&rates, place);
-                if slip[0].hypot(slip[1]) > still && self.is_used_up(&answer, place) {
-                    rests[place] = false;
+            for (place, rests) in rests.iter_mut().enumerate().filter(|(_, rests)| **rests) {
+                let slip = self.slip(rates, place);
+                if slip[0].hypot(slip[1]) > still && self.is_used_up(answer, place) {
+                    *rests = false;
                     changes = true;
                 }
             }
             if !changes {
-                for place in places()
-                    .filter(|place| may_stop[*place])
-                    .collect::<Vec<_>>()
-                {
-                    let [was, is] = [before, &rates].map(|rates| self.slip(rates, place));
+                let slipping = may_stop.iter_mut().enumerate();
+                for (place, may_stop) in slipping.filter(|(_, may_stop)| **may_stop) {
+                    let was = self.slip(before, place);
+                    let is = self.slip(rates, place);
                     if was[0] * is[0] + was[1] * is[1] < 0.0 {
-                        (rests[place], may_stop[place], changes) = (true, false, true);
+                        (rests[place], *may_stop, changes) = (true, false, true);
                     }
                 }
             }
             if !changes {
-                return Some(Held { answer, rests });
+                return true;
             }
         }
     }

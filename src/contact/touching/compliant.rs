@@ -183,7 +183,7 @@ impl UnilateralState {
         }
         let which = [contact];
         if !self.is_compliant(contact) && !self.with_face.contains(&contact) {
-            // Searches ask often: this takes no memory for the other contacts.
+            // Searches ask for this often, so that it takes no memory for the other contacts.
             let (mut gap, mut rates) = ([0.0], [0.0; 2]);
             system.of_contacts(ContactQuantity::Gap, &which, place, &mut gap);
             system.of_contacts(ContactQuantity::Rates, &which, place, &mut rates);
@@ -434,7 +434,7 @@ mod tests {
         ] {
             let mut own = ComplianceState::new(law);
             own.is_loaded = law == Compliance::Layer;
-            // d = 0.1 sin t, from 0 to a quarter of a turn.
+            // The depth is d = 0.1 sin t, from 0 to a quarter of a turn.
             let steps = 20_000_u32;
             let at = |i: u32| {
                 let t = core::f64::consts::FRAC_PI_2 * f64::from(i) / f64::from(steps);

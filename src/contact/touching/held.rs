@@ -201,7 +201,7 @@ impl<S: System> System for Held<'_, S> {
     type Coordinates = S::Coordinates;
     type Inputs = S::Inputs;
     type Outputs = S::Outputs;
-    // What touches is among the constraints.
+    // Contacts that touch are among the constraints.
     const MAY_SLIDE: bool = false;
     const MAY_COLLIDE: bool = false;
 
@@ -228,7 +228,7 @@ impl<S: System> System for Held<'_, S> {
     );
 
     fn constraints(&self) -> impl ExactSizeIterator<Item = Constraint<'_>> {
-        // How many there are is asked often, what they are called seldom.
+        // The number of constraints is asked for often, and their names seldom.
         let mut own = self.system.constraints();
         let mut held = self.directions.iter();
         (0..own.len() + held.len()).map(move |_| {
@@ -273,7 +273,7 @@ impl<S: System> System for Held<'_, S> {
     fn constraint_bias(&self, t: f64, q: &S::Vector, v: &S::Vector, drift: &mut [f64]) {
         let own = |to: &mut [f64]| self.system.constraint_bias(t, q, v, to);
         let biases = (ContactQuantity::Bias, (t, q, v));
-        // A constraint says what `G a` is to be, a contact what its rate is without it.
+        // A constraint says what `G a` is to be, and a contact says what its rate is without it.
         self.with_contacts(1, drift, own, biases, -1.0);
     }
 

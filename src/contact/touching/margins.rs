@@ -54,7 +54,7 @@ impl UnilateralState {
         let rest = self.rest(here, self.greatest_rate(), is_closed);
         let rest_of_turning = self.rest_of_turning(here, is_closed);
         for (k, margin) in margins.each.iter_mut().enumerate() {
-            // What a contact does along both tangents is asked of the first.
+            // The first tangent says what a contact does along both.
             if self.modes[k] != Mode::Open && !self.across[k] {
                 let rest = if self.is_turning(k) {
                     rest_of_turning
@@ -188,7 +188,7 @@ impl UnilateralState {
         t: f64,
         Margins { each, shares }: &mut Margins,
     ) -> Result<(), StepError> {
-        // The margins of a contact that depend on how the load is shared.
+        // These are the margins of a contact that depend on how the load is shared.
         let shared_kinds = |k: usize| {
             let kinds = [!self.is_compliant(k), self.modes[k] == Mode::Sticks];
             kinds.map(|is_shared| is_shared && shares[k])

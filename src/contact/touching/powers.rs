@@ -27,7 +27,7 @@ impl UnilateralState {
         memory: &'a mut ContactMemory<S::Vector, S::Matrix>,
     ) -> Powers<'a> {
         let At { t, q, v, .. } = at;
-        // What impulses did is booked with each step.
+        // The work of impulses is booked with each step.
         if self.is_free() || self.stepped.is_some() {
             return Powers::default();
         }

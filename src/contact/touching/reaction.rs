@@ -9,6 +9,7 @@ use super::super::kinematics::ContactKinematics;
 use super::super::undetermined::{self, OpenForces};
 use super::super::{ContactTrouble, lcp};
 use super::compliant::{Clearance, ComplianceState};
+use super::forces_of_step::ForcesOfStep;
 use super::{Mode, ROUNDING_OF_FORCES, UnilateralState};
 use crate::at::At;
 use crate::balance::ContactShare;
@@ -89,6 +90,8 @@ pub(crate) struct ContactMemory<V, M> {
     /// Whether forces are known, and of what state of the contacts.
     is_evaluated: bool,
     evaluated_for: StateOfContacts,
+    /// Of time stepping.
+    forces_of_step: ForcesOfStep<M>,
 }
 
 /// What the forces of contacts depend on, besides place and rates.
@@ -127,6 +130,7 @@ impl<V: Vector, M: Vector> ContactMemory<V, M> {
             shares: Vec::new(),
             is_evaluated: false,
             evaluated_for: StateOfContacts::default(),
+            forces_of_step: ForcesOfStep::new(q.as_slice().len()),
         }
     }
 
@@ -316,7 +320,7 @@ impl<V: Vector, M: Vector> ContactEquations<V, M> {
             let k = self.closed[place];
             let turns = part == 1 && touching.carrier[k].is_some() && !touching.across[k];
             let own = self.entry(2 * place + 1, 2 * place + 1);
-            // What it leans on stands before it.
+            // The contact that it leans on stands before it.
             let of_carrier = if turns {
                 self.entry(2 * place - 2, 2 * place - 2)
             } else {
@@ -521,8 +525,11 @@ impl UnilateralState {
     /// Accelerations and forces while everything stays as it is.
     pub fn reaction<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Reaction, StepError> {
         if let Some(forces) = &self.stepped {
-            let a = Self::free(system, at)?;
-            return self.reaction_stepped(system, at, a, forces);
+            let mut a = Self::free(system, at)?;
+            let here = self.kinematics(system, (at.t, at.q, at.v));
+            let mut forces_of_step = ForcesOfStep::new(a.len());
+            forces_of_step.add_accelerations(system, (at.t, at.q), &here, forces, &mut a)?;
+            return Ok(Reaction::from_known_forces(a, forces.clone()));
         }
         let mut memory = ContactMemory::new(self, at.q);
         self.react(system, at, &mut memory)?;
@@ -608,10 +615,12 @@ impl UnilateralState {
         memory: &mut ContactMemory<S::Vector, S::Matrix>,
         a: &mut S::Vector,
     ) -> Result<(), StepError> {
-        if self.stepped.is_some() {
-            let reaction = self.reaction(system, at)?;
-            a.as_mut_slice().copy_from_slice(&reaction.a);
-            return Ok(());
+        if let Some(forces) = &self.stepped {
+            Self::write_free(system, at, a)?;
+            let here = self.kinematics(system, (at.t, at.q, at.v));
+            let (place, a) = ((at.t, at.q), a.as_mut_slice());
+            let of_step = &mut memory.forces_of_step;
+            return of_step.add_accelerations(system, place, &here, forces, a);
         }
         if self.is_free() {
             return Self::write_free(system, at, a);
@@ -654,7 +663,7 @@ impl UnilateralState {
         system.mass_matrix(t, q, &mut mass);
         system.forces(t, q, v, u, &mut forces);
         system.constraint_matrix(t, q, &mut rows);
-        // What of `M a − f` the contacts do not carry.
+        // This is the part of `M a − f` that the contacts do not carry.
         let mut open: Vec<f64> = (mass.as_slice().chunks_exact(n).zip(forces.as_slice()))
             .map(|(row, f)| row.iter().zip(&reaction.a).map(|(m, a)| m * a).sum::<f64>() - f)
             .collect();

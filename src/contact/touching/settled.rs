@@ -493,7 +493,7 @@ impl<'a> Settling<'a> {
         if own == 0.0 {
             return Err(trouble(ContactTrouble::NotHeld));
         }
-        // Pressed, it would be pressed the more: none or several motions.
+        // If it were pressed, it would be pressed the more: there is no motion, or there are several.
         if own + coupled <= ROUNDING_OF_FORCES * own {
             return Err(trouble(ContactTrouble::Paradox));
         }
@@ -557,7 +557,7 @@ impl<'a> Settling<'a> {
             self.modes[k] = if self.opens(solved, place) {
                 Mode::Open
             } else if self.touching.across[k] {
-                // It is said with the first tangent what is done along both.
+                // The first tangent says what is done along both.
                 self.modes[k - 1]
             } else {
                 match (self.slipping[place], self.touching.second(k)) {
@@ -607,7 +607,7 @@ impl<'a> Settling<'a> {
         // while others hold it; and if it has just stopped, or starts exactly at its limit, what follows decides. A slip
         // that begins later is found by its friction, one that is assumed here and does not begin would stop at once.
         let is_held = slips.abs() <= rounding;
-        // What has friction left sticks, whatever rounding makes of its slip.
+        // A contact with friction left sticks, whatever rounding makes of its slip.
         let has_friction_left = tangential.abs() < most * (1.0 - SATURATED);
         if is_held || has_friction_left {
             if !has_friction_left && tangential != 0.0 {

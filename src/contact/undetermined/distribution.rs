@@ -76,7 +76,7 @@ impl OpenForces<'_> {
         let is_shared = |i: &usize| pressing.iter().any(|kappa| kappa[*i] != 0.0);
         let shared: Vec<usize> = (0..n).filter(is_shared).collect();
         let (m, d) = (shared.len(), self.by.len());
-        // Rows of Kᵀ B and of Kᵀ, in units in which the greatest entry of each κ and of each column of B is 1.
+        // Rows of Kᵀ B and of Kᵀ are in units in which the greatest entry of each κ and of each column of B is 1.
         let kappas: Vec<Vec<f64>> = (pressing.iter())
             .map(|kappa| {
                 let scale = 1.0 / greatest(kappa);
@@ -95,7 +95,7 @@ impl OpenForces<'_> {
         let products: Vec<f64> = (0..d * d)
             .map(|k| rows.iter().map(|row| row[k / d] * row[k % d]).sum())
             .collect();
-        // What `x` makes of the forces that are shared where Kᵀ B x is to be this, by least squares.
+        // This is what `x` makes of the forces that are shared where Kᵀ B x is to be this, by least squares.
         let response = |wanted: &[f64]| -> Vec<f64> {
             let (mut left, mut right) = (products.clone(), vec![0.0; d]);
             for (row, wanted) in rows.iter().zip(wanted) {
@@ -147,7 +147,7 @@ impl OpenForces<'_> {
                 pressing = self.pressing(&opens);
                 continue;
             }
-            // What the small motion of the others makes of the penetration of an open one.
+            // This is what the small motion of the others makes of the penetration of an open one.
             let penetration = |i: usize| {
                 let mut others = opens.clone();
                 others[i] = false;
@@ -249,7 +249,7 @@ mod tests {
         let height = -0.4;
         for _ in 0..count {
             let [x, y] = [0; 2].map(|_| drawn(seed));
-            // Of forces along z, x and y: the forces and the moments about the centre of mass.
+            // These are forces along z, x and y, and their moments about the centre of mass.
             rows.push([0.0, 0.0, 1.0, y, -x, 0.0]);
             is_normal.push(true);
             if sticks {
@@ -306,7 +306,7 @@ mod tests {
                 g: &g,
                 is_normal: &is_normal,
             };
-            // Forces that press, and so can be distributed, and then some that may not.
+            // Most forces press, and so can be distributed, and some may not.
             let mut given: Vec<f64> = (0..n)
                 .map(|i| {
                     if is_normal[i] {

@@ -180,13 +180,13 @@ impl Plan {
     }
 
     /// The number of statements that are written.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         let saved = self.repeats.iter().map(|r| r.period * (r.count - 1));
         self.statements.statements.len() - saved.sum::<usize>()
     }
 
     /// The number of statements without loops.
-    pub fn len_straight(&self) -> usize {
+    pub(crate) fn len_straight(&self) -> usize {
         self.statements.statements.len()
     }
 

@@ -417,6 +417,14 @@ impl Emitter<'_> {
             });
             let rows = Layout::nested(rows);
             self.row("constraints", "constraints", &["p"], Some(rows));
+            if let Some(function) = self.emitted(Role::Projection) {
+                let [call, _] = self.names(Role::Projection);
+                let arguments = self.arguments(self.needs(function));
+                let fields: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
+                let call = Layout::Atom(format!("{call} {{ {} }}", fields.join(", ")));
+                let arguments = ["p", "t", "q", "v"];
+                self.row("solved_in_place", "projection", &arguments, Some(call));
+            }
             let arguments = ["p", "t", "q", "v", "u"];
             if program.contacts.is_empty() {
                 let call = self.called_role(Role::Multipliers);

@@ -430,42 +430,84 @@ fn padded(lanes: usize) -> usize {
     }
 }
 
+/// The rows of a series, by what they depend on.
+struct RowsByLevel {
+    positions: Vec<RowId>,
+    rates: Vec<RowId>,
+    forces: Vec<RowId>,
+}
+
+impl RowsByLevel {
+    fn of(series: &Series) -> RowsByLevel {
+        let at = |level: Level| -> Vec<RowId> {
+            let rows = (0..series.rows.len() as u32).map(RowId);
+            rows.filter(|row| series.level(*row) == level).collect()
+        };
+        RowsByLevel {
+            positions: at(Level::Position),
+            rates: at(Level::Rate),
+            forces: at(Level::Acceleration),
+        }
+    }
+}
+
+impl Recorder<'_> {
+    /// The rows up to the order 2 of the coordinates.
+    fn first_orders(&mut self, series: &Series, rows: &RowsByLevel) {
+        let RowsByLevel {
+            positions,
+            rates,
+            forces,
+        } = rows;
+        self.values_of_positions(positions);
+        self.begin(Part::Start, 1);
+        for row in positions {
+            self.coefficient(*row, Order::First);
+        }
+        self.linear = self.newest.clone();
+        if series.rates_are_ahead {
+            self.begin_rates(0);
+            rates.iter().for_each(|row| self.value(*row));
+        }
+        self.begin(Part::Start, 2);
+        for row in positions {
+            self.coefficient(*row, Order::Later);
+        }
+        if series.rates_are_ahead {
+            self.begin_rates(1);
+            let order = Order::First;
+            rates.iter().for_each(|row| self.coefficient(*row, order));
+        } else {
+            self.begin_rates(0);
+            rates.iter().for_each(|row| self.value(*row));
+        }
+        self.begin_forces(0);
+        forces.iter().for_each(|row| self.value(*row));
+        self.differentiate();
+    }
+
+    /// The rows of any higher order.
+    fn later_orders(&mut self, rows: &RowsByLevel) {
+        self.begin(Part::Order, 3);
+        for row in &rows.positions {
+            self.coefficient(*row, Order::Later);
+        }
+        self.begin_rates(3);
+        for row in &rows.rates {
+            self.coefficient(*row, Order::Later);
+        }
+        self.begin_forces(3);
+        for row in &rows.forces {
+            self.coefficient(*row, Order::Later);
+        }
+    }
+}
+
 /// Generates the code of a series.
 fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
     let mut to = Recorder::new(series, number, inputs);
-    let rows = || (0..series.rows.len() as u32).map(RowId);
-    let at = |level: Level| -> Vec<RowId> {
-        let rows = rows().filter(|row| series.level(*row) == level);
-        rows.collect()
-    };
-    let [positions, rates, forces] = [Level::Position, Level::Rate, Level::Acceleration].map(at);
-
-    // Orders 0, 1 and 2.
-    to.values_of_positions(&positions);
-    to.begin(Part::Start, 1);
-    for row in &positions {
-        to.coefficient(*row, Order::First);
-    }
-    to.linear = to.newest.clone();
-    if series.rates_are_ahead {
-        to.begin_rates(0);
-        rates.iter().for_each(|row| to.value(*row));
-    }
-    to.begin(Part::Start, 2);
-    for row in &positions {
-        to.coefficient(*row, Order::Later);
-    }
-    if series.rates_are_ahead {
-        to.begin_rates(1);
-        let order = Order::First;
-        rates.iter().for_each(|row| to.coefficient(*row, order));
-    } else {
-        to.begin_rates(0);
-        rates.iter().for_each(|row| to.value(*row));
-    }
-    to.begin_forces(0);
-    forces.iter().for_each(|row| to.value(*row));
-    to.differentiate();
+    let rows = RowsByLevel::of(series);
+    to.first_orders(series, &rows);
     let matrices = to.matrices();
     let a = to.accelerations(&matrices);
     let applied = to.matrix_of_forces();
@@ -495,19 +537,7 @@ fn written(series: &Series, number: &str, inputs: &[String]) -> SeriesCode {
         carried.insert(which, to.carried_by(which, &start, 2));
     }
 
-    // All higher orders.
-    to.begin(Part::Order, 3);
-    for row in &positions {
-        to.coefficient(*row, Order::Later);
-    }
-    to.begin_rates(3);
-    for row in &rates {
-        to.coefficient(*row, Order::Later);
-    }
-    to.begin_forces(3);
-    for row in &forces {
-        to.coefficient(*row, Order::Later);
-    }
+    to.later_orders(&rows);
     let a = to.accelerations(&matrices);
     let over_v = to.constructed("from_ratio(1, order as i64 - 1)");
     let over_q = to.constructed("from_ratio(1, order as i64)");

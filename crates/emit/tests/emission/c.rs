@@ -10,6 +10,7 @@ use std::path::Path;
 use std::process::Command;
 
 use lagrangian_emit as emit;
+use lagrangian_languages as languages;
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{Arguments, Interpreter, Program, Role};
@@ -41,7 +42,7 @@ fn compiled(machine: &str, constants: &[(String, Rational)]) -> (String, Proved)
     .unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
     let origin = ["@generated for a test */ that ends no comment".to_owned()];
     (
-        emit::c::file(&compiled.program, &origin, &compiled.formulas()),
+        languages::c::file(&compiled.program, &origin, &compiled.formulas()),
         compiled.program,
     )
 }
@@ -336,7 +337,7 @@ fn names_of_macros_in_c() {
     let compiled = model
         .and_then(|model| Compiled::new(model, &mut report))
         .unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
-    let c = emit::c::file(&compiled.program, &[], &compiled.formulas());
+    let c = languages::c::file(&compiled.program, &[], &compiled.formulas());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("c-names");
     fs::create_dir_all(&folder).expect("cargo made the folder above");
     fs::write(folder.join("names.c"), c).expect("the folder can be written");

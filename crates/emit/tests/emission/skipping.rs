@@ -8,6 +8,7 @@
 use std::path::Path;
 
 use lagrangian_emit as emit;
+use lagrangian_languages as languages;
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{Counts, Op, Program, Role, Source};
@@ -56,7 +57,7 @@ fn made(text: &str) -> Made {
     };
     Made {
         rust: emit::rust::module(program, &emit::rust::Options::default()),
-        c: emit::c::file(program, &[], &Default::default()),
+        c: languages::c::file(program, &[], &Default::default()),
         program: program.clone(),
     }
 }

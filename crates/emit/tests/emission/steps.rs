@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use lagrangian_emit as emit;
+use lagrangian_languages as languages;
 use lagrangian_mechanics::{Compiled, Proved};
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
@@ -60,7 +61,7 @@ fn steps_stand_before_their_statements() {
         solutions[0].starts_with("let theta1_ddot = "),
         "{solutions:?}"
     );
-    let c = emit::c::file(&program, &[], &BTreeMap::new());
+    let c = languages::c::file(&program, &[], &BTreeMap::new());
     for step in ["pivot d[theta2]", "from row theta2: l[theta2, theta1]"] {
         assert_eq!(after(&rust, step).len(), 1, "{step}");
         assert!(!after(&c, step).is_empty(), "{step}");

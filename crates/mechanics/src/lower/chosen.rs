@@ -3,6 +3,7 @@
 use super::{Lowering, LoweringInput};
 use crate::lower::accelerations::{derivatives, multipliers};
 use crate::lower::choosing::{Draft, chosen_draft};
+use crate::lower::projection::projection;
 use crate::lower::{stages, states};
 use lagrangian_program::choose::{Candidate, Choice};
 use lagrangian_program::graph::Graph;
@@ -43,7 +44,7 @@ impl<'c> ChosenFunctions<'c> {
     }
 
     /// Adds the functions that are made from the accelerations, which were taken last: the accelerations in stages, their
-    /// derivatives, and the multipliers.
+    /// derivatives, the multipliers, and the projection onto the constraints.
     pub fn add_functions_of_accelerations<'d>(
         &mut self,
         lowering: &mut Lowering<'_, 'd>,
@@ -75,7 +76,14 @@ impl<'c> ChosenFunctions<'c> {
         } else {
             multipliers(lowering, source, at_once)
         };
+        let projection = if lowering.constraints > 0 && model.projects && model.contacts.is_empty()
+        {
+            projection(lowering, source, at_once)
+        } else {
+            Vec::new()
+        };
         self.take(multipliers, &lowering.graph);
+        self.take(projection, &lowering.graph);
         self.drafts.extend(derivatives);
         self.drafts.extend(staged);
         self.choices.extend(staged_choice);

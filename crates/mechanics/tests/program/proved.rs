@@ -120,6 +120,52 @@ fn an_output_that_lacks_its_value_is_stopped() {
     }
 }
 
+/// The projection onto constraints of positions, and onto constraints of rates alone.
+#[test]
+fn damaged_projections_are_stopped() {
+    for (name, stride) in [
+        ("four_bar", 3),
+        ("flyball_governor", 1),
+        ("chaplygin_sleigh", 1),
+    ] {
+        machine(name, &[], |machine| {
+            let made = Compiled::for_runs(machine.model.clone(), &mut Report::new());
+            let Some(Compiled {
+                model,
+                equations,
+                program,
+                ..
+            }) = made
+            else {
+                panic!("{name} compiles");
+            };
+            assert!(machine.program.function(Role::Projection).is_none());
+            let (mut tried, mut idle) = (0, 0);
+            let of_role = Role::Projection.name();
+            for mutant in mutants(&program, stride) {
+                if !mutant.change.starts_with(&of_role) {
+                    continue;
+                }
+                tried += 1;
+                if Proved::new(mutant.program.clone(), &model, &equations).is_err() {
+                    continue;
+                }
+                idle += 1;
+                assert!(
+                    same_values(&model, &program, &mutant.program),
+                    "{name}: let through: {}",
+                    mutant.change
+                );
+            }
+            println!("{name}: {tried} tried, {idle} without effect");
+            assert!(
+                tried >= 15 && 5 * idle <= tried,
+                "{name}: {idle} of {tried}"
+            );
+        });
+    }
+}
+
 /// A quantity that is added to programs but not to the proof is unproved, and the
 /// gate stops a program with it.
 #[test]

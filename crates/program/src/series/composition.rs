@@ -9,6 +9,7 @@
 
 use std::collections::HashMap;
 
+use super::recurrence::Arithmetic;
 use super::{Level, MOST_IN_ONE_SUM, Row, RowId, Series};
 
 /// Something that an order begins with, and that residuals are sums of.
@@ -98,6 +99,85 @@ impl Series {
             }
         }
         needed
+    }
+}
+
+impl Composition {
+    /// The coefficients of the sources of an unknown, to be written or compiled: `element` gives the element of the inverse matrix in the column of the unknown
+    /// and in the row of a residual.
+    pub fn coefficients<A: Arithmetic>(
+        &self,
+        to: &mut A,
+        mut element: impl FnMut(&mut A, usize) -> A::X,
+    ) -> Vec<A::X> {
+        let mut derivatives = vec![to.zero(); self.derivatives];
+        for (i, place) in self.residuals.iter().enumerate() {
+            let element = element(to, i);
+            derivatives[*place] = to.negate(element);
+        }
+        for step in &self.steps {
+            let [from, onto] = [step.from, step.to].map(|at| derivatives[at]);
+            derivatives[step.to] = match step.factor {
+                None => to.add(onto, from),
+                Some(row) => {
+                    let factor = to.first(row);
+                    to.multiply_add(factor, from, onto)
+                }
+            };
+        }
+        self.places
+            .iter()
+            .map(|place| derivatives[*place])
+            .collect()
+    }
+
+    /// An unknown with these coefficients at the present order: two sums of its sources, of every second one. `sum` gives the sum over orders of a product.
+    pub fn unknown<A: Arithmetic>(
+        &self,
+        series: &Series,
+        to: &mut A,
+        coefficients: &[A::X],
+        mut sum: impl FnMut(&mut A, RowId) -> A::X,
+    ) -> A::X {
+        let mut sums = [to.zero(), to.zero()];
+        for (i, (sources, c)) in self.sources.iter().zip(coefficients).enumerate() {
+            let (mut c, mut x) = (*c, to.zero());
+            for source in sources {
+                let more = match *source {
+                    Source::Known(row) => to.newest(row),
+                    Source::Sum(row) => sum(to, row),
+                    Source::Derivative(row) => {
+                        let [factor, x] = match series.rows[row.index()] {
+                            Row::Second(of) => to.second_factors(of),
+                            Row::First(of) => to.derivative_factors(of),
+                            _ => continue,
+                        };
+                        c = to.multiply(c, factor);
+                        x
+                    }
+                };
+                x = to.add(x, more);
+            }
+            sums[i % 2] = to.multiply_add(c, x, sums[i % 2]);
+        }
+        let [even, odd] = sums;
+        to.add(even, odd)
+    }
+}
+
+impl Series {
+    /// The matrix of a [group](Self::blocks) of unknowns, row by row, from the gradients of all rows: the gradients of its residuals by its unknowns. `None` is 0.
+    pub fn matrix<X: Copy>(&self, members: &[u32], gradients: &[Vec<X>]) -> Vec<Option<X>> {
+        let mut entries = Vec::with_capacity(members.len() * members.len());
+        for member in members {
+            let row = self.residuals[*member as usize];
+            let is_solved_for = self.level(row) == Level::Acceleration;
+            entries.extend(members.iter().map(|column| {
+                let at = self.depends[row.index()].binary_search(column).ok()?;
+                is_solved_for.then(|| gradients[row.index()][at])
+            }));
+        }
+        entries
     }
 }
 

@@ -99,6 +99,8 @@ pub(super) struct Outcome {
     pub(super) at: Vec<Option<State<Named>>>,
     pub(super) reductions: Vec<Option<f64>>,
     pub(super) steps: u64,
+    /// The methods of the run, if it chose them.
+    pub(super) methods: Option<String>,
     pub(super) residual: Option<f64>,
     pub(super) samples: Option<Rows>,
 }
@@ -113,12 +115,14 @@ impl Outcome {
             at: vec![None; instants],
             reductions: vec![None; reductions],
             steps: 0,
+            methods: None,
             residual: None,
             samples: None,
         }
     }
 
-    pub(super) fn into_cells(self) -> Vec<Cell> {
+    /// The cells of a row behind those of the design. `with_methods` says that the rows tell which methods runs chose.
+    pub(super) fn into_cells(self, with_methods: bool) -> Vec<Cell> {
         let dimension = self.end.q.values.len();
         let State { t, q, v } = self.end;
         let mut cells = vec![Cell::Text(Some(self.status)), Cell::Text(self.error)];
@@ -136,6 +140,9 @@ impl Outcome {
         cells.extend(self.reductions.into_iter().map(Cell::Number));
         cells.push(Cell::Count(self.steps));
         cells.push(Cell::Number(self.residual));
+        if with_methods {
+            cells.push(Cell::Text(self.methods));
+        }
         cells
     }
 }

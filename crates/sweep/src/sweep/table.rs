@@ -6,7 +6,7 @@ use lagrangian_spec::model::Model;
 use lagrangian_spec::unit::{rate_name, rate_unit};
 
 use super::{ReductionSource, unit_of};
-use crate::plan::{Function, Plan, Reduction};
+use crate::plan::{AUTO, Function, Plan, Reduction};
 use crate::reduce::{Formula, Tracker};
 use crate::rows::{Column, ColumnType};
 
@@ -176,6 +176,9 @@ pub(super) fn columns(
     }
     columns.push(other("steps", ColumnType::Count));
     columns.push(number("energy residual".into(), "J"));
+    if plan.method == AUTO {
+        columns.push(other("methods", ColumnType::Text));
+    }
     let samples = plan.has_samples().then(|| {
         let mut columns = vec![other("run", ColumnType::Count), number("t".into(), "s")];
         columns.extend(state(""));

@@ -4,7 +4,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use lagrangian_program::series::{
     Arithmetic, Coefficient, Composition, Convolution, Level, MOST_IN_ONE_SUM, Order, Row, RowId,
-    Series, Source, Stream, TermOrder, is_inverse,
+    Series, Stream, TermOrder, is_inverse,
 };
 use lagrangian_symbolic::{Function as Call, Rational};
 
@@ -295,18 +295,10 @@ impl<'s> Recorder<'s> {
     pub fn matrices(&mut self) -> Vec<Block> {
         let mut matrices = Vec::new();
         for members in self.series.blocks() {
-            let mut entries = Vec::new();
-            for row in &members {
-                let row = self.series.residuals[*row as usize];
-                for column in &members {
-                    let is_solved_for = self.series.level(row) == Level::Acceleration;
-                    let depends = &self.series.depends[row.index()];
-                    entries.push(match depends.binary_search(column) {
-                        Ok(at) if is_solved_for => self.gradients[row.index()][at],
-                        _ => Operand::Zero,
-                    });
-                }
-            }
+            let entries = self.series.matrix(&members, &self.gradients).into_iter();
+            let entries = entries
+                .map(|entry| entry.unwrap_or(Operand::Zero))
+                .collect();
             let held = members
                 .iter()
                 .filter(|row| (**row as usize) < self.series.dimension());
@@ -314,9 +306,13 @@ impl<'s> Recorder<'s> {
             let matrix = self.push(op);
             let composition = self.series.composition(&members);
             let composition = composition.map(|composition| {
-                let unknowns = 0..members.len();
-                let coefficients = unknowns.map(|i| self.coefficients_of(&composition, matrix, i));
-                let coefficients = coefficients.collect();
+                let count = members.len();
+                let of_unknown = |unknown: usize| {
+                    composition.coefficients(self, |to, residual| {
+                        to.push(Op::Element(matrix, residual * count + unknown))
+                    })
+                };
+                let coefficients = (0..count).map(of_unknown).collect();
                 (composition, coefficients)
             });
             matrices.push(Block {
@@ -326,59 +322,6 @@ impl<'s> Recorder<'s> {
             });
         }
         matrices
-    }
-
-    /// Records the coefficients of the sources of an unknown, given by its index in its group.
-    fn coefficients_of(
-        &mut self,
-        composition: &Composition,
-        matrix: Operand,
-        unknown: usize,
-    ) -> Vec<Operand> {
-        let count = composition.residuals.len();
-        let mut derivatives = vec![Operand::Zero; composition.derivatives];
-        for (i, place) in composition.residuals.iter().enumerate() {
-            let element = self.push(Op::Element(matrix, i * count + unknown));
-            derivatives[*place] = self.negate(element);
-        }
-        for step in &composition.steps {
-            let [from, to] = [step.from, step.to].map(|at| derivatives[at]);
-            derivatives[step.to] = match step.factor {
-                None => self.add(to, from),
-                Some(row) => {
-                    let factor = self.first(row);
-                    self.multiply_add(factor, from, to)
-                }
-            };
-        }
-        let places = composition.places.iter();
-        places.map(|place| derivatives[*place]).collect()
-    }
-
-    /// Records an unknown of the current order as two sums of its sources, of every second one.
-    fn sum_of_sources(&mut self, composition: &Composition, coefficients: &[Operand]) -> Operand {
-        let mut sums = [Operand::Zero; 2];
-        for (i, (sources, c)) in composition.sources.iter().zip(coefficients).enumerate() {
-            let (mut c, mut sum) = (*c, Operand::Zero);
-            for source in sources {
-                let x = match *source {
-                    Source::Known(row) => self.newest(row),
-                    Source::Sum(row) => self.convolution(row, 0),
-                    Source::Derivative(row) => {
-                        let [factor, x] = match self.series.rows[row.index()] {
-                            Row::Second(of) => self.second_factors(of),
-                            Row::First(of) => self.derivative_factors(of),
-                            _ => continue,
-                        };
-                        c = self.multiply(c, factor);
-                        x
-                    }
-                };
-                sum = self.add(sum, x);
-            }
-            sums[i % 2] = self.multiply_add(c, sum, sums[i % 2]);
-        }
-        self.add(sums[0], sums[1])
     }
 
     /// Records the solution for the accelerations of the current order.
@@ -392,7 +335,9 @@ impl<'s> Recorder<'s> {
                 && self.part == Part::Order
             {
                 for (member, coefficients) in members.iter().zip(coefficients) {
-                    all[*member as usize] = self.sum_of_sources(composition, coefficients);
+                    let sum = |to: &mut Self, row| to.convolution(row, 0);
+                    all[*member as usize] =
+                        composition.unknown(self.series, self, coefficients, sum);
                 }
                 continue;
             }

@@ -9,7 +9,7 @@ use lagrangian_mechanics::Proved;
 use lagrangian_program::{Function, Program, Reads, Role, Shape, Slot, is_differentiated};
 
 use super::{Emitter, sign, sum_error};
-use crate::layout::Writer;
+use lagrangian_emit::layout::Writer;
 
 /// Functions with more operations than this are not differentiated: a C compiler would need minutes for the derivatives.
 pub const MOST_OPERATIONS: usize = 20_000;

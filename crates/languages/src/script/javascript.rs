@@ -4,7 +4,7 @@
 use lagrangian_symbolic::Function;
 
 use super::{Dialect, Syntax, Table, quoted};
-use crate::layout::Writer;
+use lagrangian_emit::layout::Writer;
 
 /// JavaScript.
 pub const JAVASCRIPT: Dialect = Dialect {

@@ -16,9 +16,9 @@ use lagrangian_program::quantity::{Argument, Extent};
 use lagrangian_program::{EliminationStep, Function, Guard, Program, Role, Shape, Slot, Source};
 use lagrangian_symbolic::{self as symbolic, Rational};
 
-use super::body::{self, Expression, Language, Precedence, Rounded};
-use super::layout::Writer;
-use super::names::{Scope, ascii, flat, output_functions, snake_case};
+use lagrangian_emit::body::{self, Expression, Language, Precedence, Rounded};
+use lagrangian_emit::layout::Writer;
+use lagrangian_emit::names::{Scope, ascii, flat, output_functions, snake_case};
 
 pub use javascript::JAVASCRIPT;
 

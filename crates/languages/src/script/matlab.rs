@@ -3,7 +3,7 @@
 use lagrangian_symbolic::Function;
 
 use super::{Dialect, Entries, Syntax, Table};
-use crate::layout::Writer;
+use lagrangian_emit::layout::Writer;
 
 pub(super) const MATLAB: Dialect = Dialect {
     name: "matlab",

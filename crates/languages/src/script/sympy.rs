@@ -6,8 +6,8 @@
 use lagrangian_symbolic::{Function, Rational};
 
 use super::{Dialect, Syntax, Table, quoted};
-use crate::body::{Expression, Precedence, Rounded};
-use crate::layout::Writer;
+use lagrangian_emit::body::{Expression, Precedence, Rounded};
+use lagrangian_emit::layout::Writer;
 
 /// What the functions use of SymPy, with constants as floats, and the decorator that chooses between the two forms of a function.
 const PRELUDE: &str = r#"import functools

@@ -7,11 +7,13 @@ use std::fmt::Write as _;
 
 use lagrangian_symbolic::{self as symbolic, Rational};
 
-use super::body::{self, Expression, Language, Precedence, Rounded};
-use super::cut::{self, Cut, CutResult, Piece};
-use super::formula_names;
-use super::layout::{Writer, width};
-use super::names::{Field, Scope, ascii, fields, flat, output_functions, snake_case};
+use lagrangian_emit::body::{self, Expression, Language, Precedence, Rounded};
+use lagrangian_emit::cut::{self, Cut, CutResult, Piece};
+use lagrangian_emit::formula_names;
+use lagrangian_emit::layout::{Writer, width};
+use lagrangian_emit::names::{
+    self, Field, Scope, ascii, fields, flat, output_functions, snake_case,
+};
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{
     EliminationStep, Function, Guard, Op, Program, Reads, Role, Shape, Slot, Source,
@@ -815,5 +817,5 @@ fn paths(slots: &[Slot]) -> Vec<String> {
     for (field, name) in groups.iter_mut().zip(names) {
         field.ident = name;
     }
-    super::names::paths(&groups)
+    names::paths(&groups)
 }
