@@ -10,20 +10,15 @@
 //! `D` is the total time derivative (E8), so explicit time is in `φ` and in `γ`. Circles that roll on each
 //! other give one constraint of each kind: they touch, and the touching points have the same velocity.
 
-use lagrangian_symbolic::{Expr, normal, substitute};
+use lagrangian_symbolic::{Expr, substitute};
 
-use super::kinematics::Variables;
-use super::kinematics::gradient;
+use super::kinematics::{Variables, gradient, shorter};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::{self, RelativeMotion};
 use lagrangian_spec::model::element::Rolling;
 use lagrangian_spec::model::{Model, stage};
 use lagrangian_spec::source::Span;
 use lagrangian_spec::unit::Unit;
-
-/// The largest number of terms of a constraint that is multiplied out to find what cancels: the
-/// distance of two circles in polar coordinates has a dozen.
-const TERMS: usize = 200;
 
 /// A bilateral constraint.
 #[derive(Clone, Debug)]
@@ -173,10 +168,9 @@ fn of_rolling<'d>(
 ) -> [ConstraintEquation<'d>; 2] {
     let RelativeMotion { gap, slip } =
         circles::contact_motion(model, &rolling.circles, &mut x.without_acceleration(model));
-    let plain = |e: Expr<'d>| normal::readable(e, TERMS);
     let part = |part: &str| format!("{}.{part}", rolling.name);
-    let gap = Statement::Position(plain(gap));
-    let slip = Statement::Rate(plain(slip));
+    let gap = Statement::Position(shorter(gap));
+    let slip = Statement::Rate(shorter(slip));
     [
         equation(model, x, part("gap"), gap, Unit::METRE),
         equation(model, x, part("slip"), slip, Unit::METRE.rate()),

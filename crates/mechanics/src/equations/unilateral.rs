@@ -13,10 +13,9 @@
 //! `D` is the total time derivative (E8), so a moving wall is in `γ` and in `δ`. Contact forces,
 //! sticking, and the rates after an impact are found by the run.
 
-use lagrangian_symbolic::{Expr, Tangent, normal};
+use lagrangian_symbolic::{Expr, Tangent};
 
-use super::kinematics::Variables;
-use super::kinematics::gradient;
+use super::kinematics::{Variables, gradient, shorter};
 use super::refusal::refuse_large_contact;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::identity;
@@ -25,9 +24,6 @@ use lagrangian_spec::model::{
     self, Circle, Compliance, ContactGeometry, ImpactLaw, ImpactOrder, Model, Painleve, Space,
     Surface, polygons, spheres,
 };
-
-/// The largest number of terms of a gap that is multiplied out to find what cancels.
-const TERMS: usize = 200;
 
 /// A unilateral contact.
 #[derive(Clone, Debug)]
@@ -186,9 +182,9 @@ fn of_contact<'d>(
             if has_friction { touch.slip } else { zero },
         ),
         None => {
-            let gap = plain(touch.gap);
+            let gap = shorter(touch.gap);
             let slip = if has_friction {
-                plain(touch.slip)
+                shorter(touch.slip)
             } else {
                 zero
             };
@@ -218,11 +214,11 @@ fn of_contact<'d>(
     };
     let further = match (touch.across, &contact.geometry, contact.rolling_resistance) {
         (Some(across), ..) if has_friction => {
-            let across = direction(model, (x, &mut *coasting), plain(across));
+            let across = direction(model, (x, &mut *coasting), shorter(across));
             Some(second_tangent(&own, across))
         }
         (_, ContactGeometry::Circles(touching), Some(resistance)) => {
-            let rate = plain(circles::rolling_rate(model, touching, coasting));
+            let rate = shorter(circles::rolling_rate(model, touching, coasting));
             let turning = direction(model, (x, &mut *coasting), rate);
             Some(rolling(&own, turning, resistance))
         }
@@ -266,11 +262,6 @@ fn rolling<'d>(
         is_rolling_resistance: true,
         ..contact.clone()
     }
-}
-
-/// The expression multiplied out, if that is short.
-fn plain(e: Expr<'_>) -> Expr<'_> {
-    normal::readable(e, TERMS)
 }
 
 fn direction<'d>(
