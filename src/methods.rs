@@ -64,8 +64,8 @@ pub static MOREAU: Method = Method::of_kind(moreau::TABLEAU, MethodKind::Impulse
 ///
 /// * `rk4`, of order 4, and `semi-implicit-euler`, of order 1: a fixed number of evaluations in each step, for loops of a fixed rate.
 ///   They need no allocator.
-/// * `gauss4`, `gauss6`, `gauss8`, of orders 4, 6 and 8, and `rattle`, of order 2, which also satisfies constraints of positions:
-///   symplectic and symmetric, so that the energy of a conservative machine does not drift, however long the run.
+/// * `gauss4`, `gauss6`, `gauss8`, of orders 4, 6 and 8, and `rattle`, of order 2, all with constraints of positions: symplectic and
+///   symmetric, so that the energy of a conservative machine does not drift, however long the run.
 /// * `generalized-alpha`, of order 2: the implicit method of structural dynamics, which damps motions that are too fast for the step.
 pub static FIXED_STEP_METHODS: [Method; 7] = [
     Method::of_kind(rk4::TABLEAU, MethodKind::Fixed(Rule::Explicit)),

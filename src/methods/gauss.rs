@@ -6,7 +6,8 @@ use super::{Method, MethodKind, Rule, Tableau};
 ///
 /// E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006: section II.1.3 (table 1.1 has orders 4 and 6),
 /// section VI.4 (symplectic), section V.2 (symmetric). The stages are those of the equations in momenta, for which the step is
-/// symplectic (`stepper/of_fixed_length/gauss.rs`).
+/// symplectic (`stepper/of_fixed_length/gauss.rs`); constraints of positions hold at the nodes of Lobatto's quadrature
+/// (`stepper/of_fixed_length/lobatto.rs`).
 const fn of(tableau: Tableau) -> Method {
     Method::of_kind(tableau, MethodKind::Fixed(Rule::Gauss))
 }

@@ -7,7 +7,11 @@ mod gauss;
 #[cfg(feature = "std")]
 mod generalized_alpha;
 #[cfg(feature = "std")]
+mod lobatto;
+#[cfg(feature = "std")]
 mod rattle;
+#[cfg(feature = "std")]
+mod reactions;
 
 use super::Stepper;
 use crate::attempt::not_finite;
@@ -55,23 +59,11 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     pub(super) fn begin_fixed(&mut self, rule: Rule) -> Result<(), StepError> {
         let Self { model, now, .. } = self;
         let system = model.system.get();
+        let redundant = (model.constraints.as_ref()).is_some_and(|known| known.redundant);
         let fixed = match rule {
             Rule::Explicit | Rule::SemiImplicitEuler => return Ok(()),
-            Rule::Gauss => {
-                if system.constraints().len() != 0 {
-                    let reason = if system.constraints().all(|one| one.holonomic) {
-                        "it has constraints, which `rattle` enforces"
-                    } else {
-                        "it has constraints on rates, which `generalized-alpha` enforces in steps of a fixed length"
-                    };
-                    return Err(StepError::Unsuited { reason, t: now.t });
-                }
-                Fixed::Gauss(Gauss::new(system, now, self.method)?)
-            }
-            Rule::Rattle => {
-                let redundant = (model.constraints.as_ref()).is_some_and(|known| known.redundant);
-                Fixed::Rattle(Rattle::new(system, now, redundant)?)
-            }
+            Rule::Gauss => Fixed::Gauss(Gauss::new(system, now, (self.method, redundant))?),
+            Rule::Rattle => Fixed::Rattle(Rattle::new(system, now, redundant)?),
             Rule::GeneralizedAlpha => {
                 Fixed::GeneralizedAlpha(GeneralizedAlpha::new(system, LEFT_AT_INFINITY))
             }

@@ -185,18 +185,9 @@ impl ConvergenceTest {
         before: f64::INFINITY,
     };
 
-    /// Whether that was the last iteration, given its change and the size of the changed quantity; `None` if the change is not finite or
-    /// there were too many iterations.
-    pub fn is_last(&mut self, change: f64, size: f64) -> Option<bool> {
-        self.is_last_with_rounding(change, (size, 0.0))
-    }
-
-    /// [`is_last`](Self::is_last) with a given change by rounding alone.
-    pub fn is_last_with_rounding(
-        &mut self,
-        change: f64,
-        (size, rounding): (f64, f64),
-    ) -> Option<bool> {
+    /// Whether that was the last iteration, given its change, the size of the changed quantity, and the change by rounding alone; `None` if the
+    /// change is not finite or there were too many iterations.
+    pub fn is_last(&mut self, change: f64, (size, rounding): (f64, f64)) -> Option<bool> {
         self.count += 1;
         let before = core::mem::replace(&mut self.before, change);
         let is_close = change <= CONVERGED * size + rounding;

@@ -9,14 +9,12 @@
 //! E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, 2nd ed., 2006, section VII.1.4, eq. (1.26). `F` is dp/dt
 //! without the forces of constraints.
 
-use std::vec::Vec;
-
 use super::canonical::{Canonical, ConvergenceTest};
 use super::gauss::dot;
+use super::reactions::Reactions;
 use super::{Fixed, Stepper, add};
 use crate::at::At;
 use crate::balance::Quadratures;
-use crate::constraints::algebra::{backward, cholesky, forward};
 use crate::stages::Point;
 use crate::stepper::Model;
 use crate::{InputLaw, Singular, StepError, System, Vector};
@@ -32,21 +30,8 @@ pub(crate) struct Rattle<V, M> {
     momenta: V,
     half_way: V,
     scratch: V,
-    constraints: EndConstraints,
-}
-
-/// The constraints at both ends.
-#[derive(Clone, Debug)]
-struct EndConstraints {
-    /// `G`, row after row.
-    rows: [Vec<f64>; 2],
-    /// `G M⁻¹` at the beginning, then at the end.
-    by_force: Vec<f64>,
-    /// `G(q₁) M⁻¹ Gᵀ`, symmetric except for the change of `G` in a step, and its factor.
-    matrix: Vec<f64>,
-    shares: Vec<f64>,
-    multipliers: Vec<f64>,
-    residuals: Vec<f64>,
+    /// The constraints at both ends.
+    reactions: Reactions,
 }
 
 impl<V: Vector, M: Vector> Rattle<V, M> {
@@ -55,17 +40,9 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
         now: &Point<V>,
         redundant: bool,
     ) -> Result<Self, StepError> {
-        let unsuited = |reason| Err(StepError::Unsuited { reason, t: now.t });
-        if !system.constraints().all(|constraint| constraint.holonomic) {
-            return unsuited("it has constraints on rates that are not constraints on positions");
-        }
-        if redundant {
-            return unsuited("it has constraints that depend on each other");
-        }
+        let reactions = Reactions::new(system, now, (redundant, 2))?;
         let canonical = Canonical::new(system, (now.t, &now.q))?;
         let zeros = now.q.zeros_like();
-        let (n, m) = (zeros.as_slice().len(), system.constraints().len());
-        let numbers = |count: usize| std::vec![0.0; count];
         Ok(Self {
             ends: [canonical.clone(), canonical],
             rates: [zeros.clone(), zeros.clone()],
@@ -73,60 +50,8 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
             momenta: zeros.clone(),
             half_way: zeros.clone(),
             scratch: zeros,
-            constraints: EndConstraints {
-                rows: [numbers(m * n), numbers(m * n)],
-                by_force: numbers(m * n),
-                matrix: numbers(m * m),
-                shares: numbers(m),
-                multipliers: numbers(m),
-                residuals: numbers(m),
-            },
+            reactions,
         })
-    }
-}
-
-impl EndConstraints {
-    fn is_empty(&self) -> bool {
-        self.multipliers.is_empty()
-    }
-
-    /// Factorizes `scale G M⁻¹ Gᵀ` at one end. Returns whether it is invertible.
-    fn factor<V: Vector, M: Vector>(
-        &mut self,
-        end: usize,
-        canonical: &Canonical<V, M>,
-        scale: f64,
-    ) -> bool {
-        let m = self.multipliers.len();
-        let n = self.by_force.len() / m;
-        let rows = &self.rows[end];
-        self.by_force.copy_from_slice(rows);
-        for row in self.by_force.chunks_exact_mut(n) {
-            canonical.to_rates(row);
-        }
-        for (i, by_force) in self.by_force.chunks_exact(n).enumerate() {
-            for (j, row) in rows.chunks_exact(n).enumerate() {
-                let product: f64 = row.iter().zip(by_force).map(|(a, b)| a * b).sum();
-                self.matrix[i * m + j] = scale * product;
-            }
-        }
-        cholesky(&mut self.matrix, &mut self.shares).is_ok()
-    }
-
-    /// Computes the multipliers that make the residuals vanish, in `residuals`.
-    fn solve(&mut self) {
-        forward(&self.matrix, &mut self.residuals);
-        backward(&self.matrix, &mut self.residuals);
-    }
-
-    /// Adds `scale Gᵀ x` at one end to `p`.
-    fn add_forces<V: Vector>(&self, end: usize, scale: f64, of: &[f64], p: &mut V) {
-        let p = p.as_mut_slice();
-        for (row, x) in self.rows[end].chunks_exact(p.len()).zip(of) {
-            for (p, g) in p.iter_mut().zip(row) {
-                *p += scale * g * x;
-            }
-        }
     }
 }
 
@@ -144,24 +69,13 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
         self.momenta.as_mut_slice().fill(0.0);
         start.add_momenta(1.0, &before.v, &mut self.momenta);
         start.add_momenta(1.0, &before.v_low, &mut self.momenta);
-        let constraints = &mut self.constraints;
-        if constraints.is_empty() {
+        let reactions = &mut self.reactions;
+        if reactions.is_empty() {
             return Ok(true);
         }
-        system.constraint_matrix(before.t, &before.q, &mut constraints.rows[0]);
-        constraints.multipliers.fill(0.0);
-        Ok(constraints.factor(0, start, 0.5 * h * h))
-    }
-
-    /// The effect of round-off in the constraints on the rates, in the metric of inertia: they change however slow they are, and from rest it is
-    /// their only change.
-    fn rounding(&mut self, before: &Point<V>, h: f64) -> f64 {
-        if self.constraints.is_empty() {
-            return 0.0;
-        }
-        self.scratch.as_mut_slice().fill(0.0);
-        self.ends[0].add_momenta(1.0, &before.q, &mut self.scratch);
-        16.0 * f64::EPSILON * f64::EPSILON * dot(&self.scratch, &before.q).abs() / (h * h)
+        system.constraint_matrix(before.t, &before.q, &mut reactions.rows[0]);
+        reactions.multipliers[0].fill(0.0);
+        Ok(reactions.factor(0, start, 0.5 * h * h))
     }
 
     /// Takes the rates half a step ahead with the accelerations at the beginning, where the iterations start.
@@ -188,7 +102,7 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
             momenta,
             half_way,
             scratch,
-            constraints,
+            reactions,
         } = self;
         model.set_inputs(before.t, &before.q, here);
         let system = model.system.get();
@@ -203,7 +117,7 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
         for (p, force) in half_way.as_mut_slice().iter_mut().zip(force.as_slice()) {
             *p += half * force;
         }
-        constraints.add_forces(0, half, &constraints.multipliers, half_way);
+        reactions.add(0, half, &reactions.multipliers[0], half_way);
         let mut change = 0.0;
         let mut size = dot(half_way, here).abs();
         // The resulting change of the rates at the beginning, then of those at the end.
@@ -216,17 +130,17 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
         ahead.go_to(system, now.t, &now.q)?;
         size += dot(half_way, there).abs();
         set_rates(ahead, half_way, there, scratch, &mut change);
-        if !constraints.is_empty() {
-            system.constraint_positions(now.t, &now.q, &mut constraints.residuals);
-            constraints.solve();
-            let residuals = constraints.residuals.iter();
-            for (multiplier, residual) in constraints.multipliers.iter_mut().zip(residuals) {
+        if !reactions.is_empty() {
+            system.constraint_positions(now.t, &now.q, &mut reactions.residuals[0]);
+            reactions.solve(0);
+            let residuals = reactions.residuals[0].iter();
+            for (multiplier, residual) in reactions.multipliers[0].iter_mut().zip(residuals) {
                 *multiplier -= residual;
             }
             // The resulting change of the rates at both ends, so that the next iteration begins on the constraints.
             for (at, rates) in [(&*start, &mut *here), (&*ahead, &mut *there)] {
                 scratch.as_mut_slice().fill(0.0);
-                constraints.add_forces(0, -half, &constraints.residuals, scratch);
+                reactions.add(0, -half, &reactions.residuals[0], scratch);
                 force.clone_from(scratch);
                 at.to_rates(scratch.as_mut_slice());
                 change += dot(force, scratch).abs();
@@ -251,7 +165,7 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
             force,
             half_way,
             scratch,
-            constraints,
+            reactions,
             ..
         } = self;
         model.set_inputs(now.t, &now.q, there);
@@ -272,21 +186,18 @@ impl<V: Vector, M: Vector> Rattle<V, M> {
         for (j, by) in half_way.as_slice().iter().enumerate() {
             add(&mut now.v, &mut now.v_low, j, *by);
         }
-        if constraints.is_empty() {
+        if reactions.is_empty() {
             return true;
         }
-        system.constraint_matrix(now.t, &now.q, &mut constraints.rows[1]);
-        if !constraints.factor(1, ahead, 1.0) {
+        system.constraint_matrix(now.t, &now.q, &mut reactions.rows[1]);
+        if !reactions.factor(1, ahead, 1.0) {
             return false;
         }
-        system.constraint_rates(now.t, &now.q, &now.v, &mut constraints.residuals);
-        constraints.solve();
-        scratch.as_mut_slice().fill(0.0);
-        constraints.add_forces(1, 1.0, &constraints.residuals, scratch);
-        ahead.to_rates(scratch.as_mut_slice());
-        for (j, by) in scratch.as_slice().iter().enumerate() {
+        system.constraint_rates(now.t, &now.q, &now.v, &mut reactions.residuals[1]);
+        reactions.solve(1);
+        reactions.subtract_rates(1, ahead, scratch, |j, by| {
             add(&mut now.v, &mut now.v_low, j, -by);
-        }
+        });
         true
     }
 }
@@ -316,14 +227,20 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         if !is_regular.map_err(singular)? {
             return Err(not_solved);
         }
-        let rounding = rattle.rounding(before, h);
+        let Rattle {
+            ends: [start, _],
+            scratch,
+            reactions,
+            ..
+        } = &mut *rattle;
+        let rounding = reactions.rounding(start, (before, h), scratch);
         rattle.predict(before, &k[0], half);
         let mut rounds = ConvergenceTest::START;
         loop {
             control.work.evaluations += 1;
             let iterated = rattle.iterate(model, (&*before, &mut *now), half);
             let [change, size] = iterated.map_err(singular)?;
-            match rounds.is_last_with_rounding(change, (size, rounding)) {
+            match rounds.is_last(change, (size, rounding)) {
                 Some(true) => break,
                 Some(false) => {}
                 None => return Err(not_solved),
