@@ -194,6 +194,102 @@ pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
     Err(format!("no {kind} named `{wanted}`; {help}"))
 }
 
+/// The formulas of a plan as outputs of the model, which come after its own.
+///
+/// # Errors
+/// If one that may not depend on accelerations does.
+fn formulas(model: &Model<'_>, asked: &[OutputFormula<'_>]) -> Result<Vec<Formula>, PlanError> {
+    let own = model.outputs.len() - asked.len();
+    let outputs = (own..).zip(&model.outputs[own..]);
+    let formulas = outputs.zip(asked).map(|((output, formula), asked)| {
+        let reads_accelerations = formula.value.stage() == stage::ACCELERATION;
+        if reads_accelerations && !asked.source_name.starts_with("--reduce") {
+            return Err(PlanError::Plan(format!(
+                "{}: `{}` depends on accelerations, which depend on it in turn or jump where contacts change; only reductions may",
+                asked.source_name, asked.text
+            )));
+        }
+        Ok(Formula {
+            output,
+            reads_accelerations,
+        })
+    });
+    formulas.collect()
+}
+
+/// The machine of a plan with its series, the method of its runs, and a warning if that is not the one that the plan asks for.
+fn machine(
+    plan: &Plan,
+    compiled: &Compiled<'_>,
+    engine: Engine,
+) -> Result<(InterpretedMachine, &'static Method, Option<String>), PlanError> {
+    let mut machine = InterpretedMachine::new(compiled.program.clone());
+    machine
+        .set_engine(engine)
+        .map_err(|none| PlanError::Plan(none.to_string()))?;
+    let mut method = method(plan)?;
+    let mut warning = None;
+    if plan.method == AUTO {
+        let text = text_of_series(plan, false).map_err(PlanError::Plan)?;
+        machine = machine.with_series_on_demand(move || text.derive());
+    }
+    if std::ptr::eq(method, &TAYLOR) {
+        let series = ProvedSeries::derive(&compiled.model);
+        if let Err(reason) = &series {
+            method = <&Method>::default();
+            warning = Some(without(method, reason));
+        }
+        machine = machine.with_series(series);
+    }
+    Ok((machine, method, warning))
+}
+
+/// The warning that another method is used, since there is no series for this reason.
+fn without(method: &Method, reason: impl std::fmt::Display) -> String {
+    let name = method.tableau.name;
+    format!("no Taylor series: {reason}; {name} is used")
+}
+
+/// Checks that every parameter has a value, or is varied.
+fn check_parameters(
+    machine: &InterpretedMachine,
+    varied: &[VariedQuantity],
+) -> Result<(), PlanError> {
+    let mut probe = machine.clone();
+    for place in varied {
+        if let VariedQuantity::Set(name) = place {
+            let _ = probe.set(name, 1.0); // the name was checked
+        }
+    }
+    probe.check_parameters().map_err(|missing| {
+        PlanError::Plan(format!(
+            "{missing}; set them with --set {}=…",
+            missing.names.join("=… --set ")
+        ))
+    })
+}
+
+fn check_column_names(columns: &[Column]) -> Result<(), PlanError> {
+    let mut seen = std::collections::BTreeSet::new();
+    let twice = columns
+        .iter()
+        .find(|column| !seen.insert(column.name.as_str()));
+    match twice {
+        Some(twice) => Err(PlanError::Plan(format!(
+            "two columns would be named `{}`: give the reduction another name",
+            twice.name
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// How many runs are started together where they may run in lanes.
+fn group_size(compiled: &Compiled<'_>) -> u64 {
+    let functions = compiled.program.all_functions();
+    let operations: usize = functions.map(|function| function.code.len()).sum();
+    (OPERATIONS_AT_ONCE / operations.max(1) as u64).clamp(LEAST_GROUP, MOST_GROUP)
+}
+
 impl Sweep {
     /// Derives the machine of a plan with its formulas, and checks everything that can be checked before the first run.
     ///
@@ -228,43 +324,8 @@ impl Sweep {
         let Some(compiled) = compiled else {
             return Err(PlanError::Spec(Box::new((report, sources))));
         };
-        let own = compiled.model.outputs.len() - output_formulas.len();
-        let formulas: Vec<Formula> = (own..)
-            .zip(&compiled.model.outputs[own..])
-            .map(|(output, formula)| Formula {
-                output,
-                reads_accelerations: formula.value.stage() == stage::ACCELERATION,
-            })
-            .collect();
-        for ((_, source_name, text, _), formula) in names.iter().zip(&formulas) {
-            if formula.reads_accelerations && !source_name.starts_with("--reduce") {
-                return Err(PlanError::Plan(format!(
-                    "{source_name}: `{text}` depends on accelerations, which depend on it in turn or jump where contacts change; only \
-                     reductions may"
-                )));
-            }
-        }
-
-        let mut machine = InterpretedMachine::new(compiled.program.clone());
-        machine
-            .set_engine(engine)
-            .map_err(|none| PlanError::Plan(none.to_string()))?;
-        let is_automatic = plan.method == AUTO;
-        let mut method = method(&plan)?;
-        let mut warning = None;
-        if is_automatic {
-            let text = text_of_series(&plan, false).map_err(PlanError::Plan)?;
-            machine = machine.with_series_on_demand(move || text.derive());
-        }
-        if std::ptr::eq(method, &TAYLOR) {
-            let series = ProvedSeries::derive(&compiled.model);
-            if let Err(reason) = &series {
-                method = <&Method>::default();
-                let name = method.tableau.name;
-                warning = Some(format!("no Taylor series: {reason}; {name} is used"));
-            }
-            machine = machine.with_series(series);
-        }
+        let formulas = formulas(&compiled.model, &output_formulas)?;
+        let (mut machine, mut method, mut warning) = machine(&plan, &compiled, engine)?;
         set_all(&mut machine, &plan.set).map_err(PlanError::Plan)?;
         let points = ChartedPoints::of(&compiled.model);
         let cartesian = cartesian
@@ -274,18 +335,7 @@ impl Sweep {
                     .is_none_or(|names| points.check_kept(names).is_ok())
             })
             .and_then(|model| in_cartesian(&plan, &compiled, (*model, points), engine, method));
-        let mut probe = machine.clone();
-        for place in &places {
-            if let VariedQuantity::Set(name) = place {
-                let _ = probe.set(name, 1.0); // the name was checked
-            }
-        }
-        probe.check_parameters().map_err(|missing| {
-            PlanError::Plan(format!(
-                "{missing}; set them with --set {}=…",
-                missing.names.join("=… --set ")
-            ))
-        })?;
+        check_parameters(&machine, &places)?;
 
         let mut formulas = formulas.into_iter();
         let mut next = || {
@@ -300,33 +350,17 @@ impl Sweep {
             && let Some(reason) = without_series(&signals, &machine)
         {
             method = <&Method>::default();
-            let name = method.tableau.name;
-            warning = Some(format!("no Taylor series: {reason}; {name} is used"));
+            warning = Some(without(method, reason));
         }
         let events: Vec<usize> = plan.events.iter().map(|_| next().output).collect();
         let (reductions, units) = reductions(&plan, &compiled.model, next);
         let (columns, sample_columns) = columns(&plan, &compiled.model, &machine, &units);
-        let mut seen = std::collections::BTreeSet::new();
-        if let Some(twice) = columns
-            .iter()
-            .find(|column| !seen.insert(column.name.as_str()))
-        {
-            return Err(PlanError::Plan(format!(
-                "two columns would be named `{}`: give the reduction another name",
-                twice.name
-            )));
-        }
-        let operations: usize = compiled
-            .program
-            .all_functions()
-            .map(|function| function.code.len())
-            .sum();
-        let group = (OPERATIONS_AT_ONCE / operations.max(1) as u64).clamp(LEAST_GROUP, MOST_GROUP);
+        check_column_names(&columns)?;
         Ok(Sweep {
-            group,
+            group: group_size(&compiled),
             machine,
             cartesian,
-            method: (!is_automatic).then_some(method),
+            method: (plan.method != AUTO).then_some(method),
             warning,
             constants,
             varied: places,
