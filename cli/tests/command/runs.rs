@@ -949,3 +949,46 @@ fn what_gaps_of_a_table_hide_is_told() {
         assert!(!said.contains("`y` has no value"), "{said}");
     }
 }
+
+/// In short steps round-off in the constraints, divided by the length of the step, is the greatest change of the rates at the stages: steps of
+/// Gauss methods must not wait for smaller ones. The bounds are 100 times `(ω h)^p` with ω = 10 rad/s, or round-off of 250 steps.
+#[test]
+fn short_steps_of_gauss_methods_are_solved_with_constraints() {
+    let spec = Scratch::new(
+        "four_bar.machine",
+        "machine FourBar in plane {
+            coordinates {
+                crank: rad = 1.3683266141045787, coupler: rad = 0.18755703835531493, rocker: rad = -1.2625303635637894,
+                der(crank): rad/s = -0.6425629613598558, der(coupler): rad/s = 0.1617152327823428, der(rocker): rad/s = -0.41102161738496235,
+            }
+            frames {
+                one = ground.turn(crank),
+                two = one.shift(0.71875, 0).turn(coupler - crank),
+                three = two.shift(1.40625, 0).turn(rocker - coupler),
+                tip = three.shift(1.046875, 0),
+            }
+            bodies {
+                a { mass: 1.5, inertia: 0.625, frame: one, at: one.point(0.609375, -0.03125) },
+                b { mass: 1.5, inertia: 0.453125, frame: two, at: two.point(0.4375, -0.25) },
+                c { mass: 1.5, frame: three, at: three.point(0.640625, 0.0625) },
+            }
+            gravity (-2.46875, -3.4375);
+            define { gap = tip.origin - (1.84375, -0.03125) }
+            constraints { across: dot(gap, (1, 0)) = 0, up: dot(gap, (0, 1)) = 0 }
+        }",
+    );
+    let at_end = |settings: &[&str]| {
+        let call = ["simulate", spec.path(), "--until", "0.25"];
+        let run = answer(&[&call, settings].concat());
+        let of = |kind: &str| ["crank", "coupler", "rocker"].map(|name| number(&run[kind][name]));
+        [of("q"), of("v")].concat()
+    };
+    let exact = at_end(&["--tolerance", "1e-13"]);
+    for (method, bound) in [("gauss4", 1e-6), ("gauss6", 1e-10), ("gauss8", 1e-12)] {
+        let found = at_end(&["--method", method, "--longest-step", "0.001"]);
+        for (found, exact) in found.iter().zip(&exact) {
+            let error = (found - exact).abs();
+            assert!(error < bound, "{method}: {error:e}");
+        }
+    }
+}

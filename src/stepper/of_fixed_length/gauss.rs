@@ -182,7 +182,7 @@ impl<V: Vector, M: Vector> Gauss<V, M> {
             return Ok(None);
         }
         let rounding = reactions.rounding(&self.canonical, (before, h), &mut self.scratch);
-        Ok(Some(rounding))
+        Ok(Some(constraints.lobatto.amplification * rounding))
     }
 
     /// An iteration for the rates at the stages. Returns their change and their size, in the metric of inertia.

@@ -49,6 +49,8 @@ pub(super) struct Lobatto {
     pub reactions: Vec<Vec<f64>>,
     /// The effect `Σᵢ ā(k, i) ã(i, j)` of reactions at the nodes 0 to s − 1 on the places at the nodes 1 to s, factorized.
     pub effect: Lu<1>,
+    /// The square of the norm of the matrix by which residuals of the constraints, in units of length over `h`, change the rates at the stages.
+    pub amplification: f64,
 }
 
 impl Lobatto {
@@ -85,7 +87,18 @@ impl Lobatto {
                 *entry = products.sum();
             }
         });
+        let mut amplification = 0.0;
+        for node in 0..s {
+            let mut reaction = std::vec![0.0; s];
+            reaction[node] = 1.0;
+            effect.solve([&mut reaction]);
+            for of_stage in &reactions {
+                let products = of_stage.iter().zip(&reaction).map(|(a, x)| a * x);
+                amplification += products.sum::<f64>().powi(2);
+            }
+        }
         is_regular.then_some(Self {
+            amplification,
             nodes,
             weights,
             places,
