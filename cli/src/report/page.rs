@@ -5,6 +5,7 @@ use lagrangian_mechanics::Compiled;
 use lagrangian_print::document::{Block, Document};
 use lagrangian_print::html as derivation;
 use lagrangian_program::{Program, Role};
+use lagrangian_spec::model::{Constant, DerivedParameter};
 
 use super::Report;
 use super::html::{self, Cell, text as safe};
@@ -236,17 +237,34 @@ fn omitted(names: &[String]) -> String {
 }
 
 fn parameters(report: &Report<'_, '_>) -> String {
-    let Report {
-        asked,
-        compiled,
-        machine,
-        run,
-        ..
-    } = report;
-    let program = &compiled.program;
-    let mut html = String::new();
-    let slots = program.parameters.iter().zip(machine.parameter_values());
-    let rows: Vec<Vec<Cell>> = slots
+    let tables = [
+        ("Parameters", declared_parameters(report)),
+        ("Derived parameters", derived_parameters(report)),
+        ("Constants", constants(report)),
+        (
+            if report.asked.inputs.is_empty() {
+                "Inputs, held constant"
+            } else {
+                "Inputs"
+            },
+            inputs(report),
+        ),
+    ];
+    let head = ["name", "value", "unit", "meaning"];
+    let filled = tables.iter().filter(|(_, rows)| !rows.is_empty());
+    let html: String = filled
+        .map(|(title, rows)| html::table(title, &head, rows))
+        .collect();
+    if html.is_empty() {
+        return "<p>The machine has no parameters.</p>".to_owned();
+    }
+    html
+}
+
+fn declared_parameters(report: &Report<'_, '_>) -> Vec<Vec<Cell>> {
+    let slots = report.compiled.program.parameters.iter();
+    slots
+        .zip(report.machine.parameter_values())
         .map(|(slot, value)| {
             let default = slot.default.as_ref().map(|default| default.value);
             vec![
@@ -256,70 +274,62 @@ fn parameters(report: &Report<'_, '_>) -> String {
                 words(&slot.docs),
             ]
         })
-        .collect();
-    let head = ["name", "value", "unit", "meaning"];
-    if !rows.is_empty() {
-        html.push_str(&html::table("Parameters", &head, &rows));
-    }
-    let model = &compiled.model;
+        .collect()
+}
+
+fn derived_parameters(report: &Report<'_, '_>) -> Vec<Vec<Cell>> {
+    let model = &report.compiled.model;
     let known = |symbol| {
-        let mut known = model.parameters.iter().zip(machine.parameter_values());
+        let values = report.machine.parameter_values();
+        let mut known = model.parameters.iter().zip(values);
         let found = known.find(|(parameter, _)| parameter.symbol.as_symbol() == Some(symbol));
         found.map_or(f64::NAN, |(_, value)| *value)
     };
-    let derived: Vec<Vec<Cell>> = model
-        .derived_parameters
-        .iter()
-        .map(|parameter| {
-            let value = lagrangian_symbolic::evaluate(model.dag, &[parameter.value], known);
-            vec![
-                name(&parameter.name),
-                figure(value[0]),
-                Cell::Words(unit(&parameter.unit_text)),
-                words(&parameter.docs),
-            ]
-        })
-        .collect();
-    if !derived.is_empty() {
-        html.push_str(&html::table("Derived parameters", &head, &derived));
-    }
-    let constants: Vec<Vec<Cell>> = compiled
-        .model
-        .constants
-        .iter()
-        .map(|constant| {
-            let value =
-                lagrangian_symbolic::evaluate(compiled.model.dag, &[constant.value], |_| f64::NAN);
-            let set = asked.constants.contains(&constant.name.base);
-            vec![
-                name(&constant.name),
-                if set {
-                    Cell::Raw(format!(
-                        "<strong class=\"changed\">{}</strong> <span class=\"default\">set</span>",
-                        safe(&shortest(value[0]).replace('-', "−"))
-                    ))
-                } else {
-                    figure(value[0])
-                },
-                Cell::Words(unit(&constant.unit_text)),
-                words(&constant.docs),
-            ]
-        })
-        .collect();
-    if !constants.is_empty() {
-        html.push_str(&html::table("Constants", &head, &constants));
-    }
-    let system = run.system;
-    let inputs = system.default_inputs();
-    let inputs: Vec<Vec<Cell>> = program
-        .inputs
-        .iter()
-        .zip(system.input_values(&inputs))
+    let row = |parameter: &DerivedParameter<'_>| {
+        let value = lagrangian_symbolic::evaluate(model.dag, &[parameter.value], known);
+        vec![
+            name(&parameter.name),
+            figure(value[0]),
+            Cell::Words(unit(&parameter.unit_text)),
+            words(&parameter.docs),
+        ]
+    };
+    model.derived_parameters.iter().map(row).collect()
+}
+
+fn constants(report: &Report<'_, '_>) -> Vec<Vec<Cell>> {
+    let model = &report.compiled.model;
+    let row = |constant: &Constant<'_>| {
+        let value = lagrangian_symbolic::evaluate(model.dag, &[constant.value], |_| f64::NAN);
+        let is_set = report.asked.constants.contains(&constant.name.base);
+        vec![
+            name(&constant.name),
+            if is_set {
+                Cell::Raw(format!(
+                    "<strong class=\"changed\">{}</strong> <span class=\"default\">set</span>",
+                    safe(&shortest(value[0]).replace('-', "−"))
+                ))
+            } else {
+                figure(value[0])
+            },
+            Cell::Words(unit(&constant.unit_text)),
+            words(&constant.docs),
+        ]
+    };
+    model.constants.iter().map(row).collect()
+}
+
+fn inputs(report: &Report<'_, '_>) -> Vec<Vec<Cell>> {
+    let system = report.run.system;
+    let values = system.default_inputs();
+    let slots = report.compiled.program.inputs.iter();
+    slots
+        .zip(system.input_values(&values))
         .map(|(slot, (_, value))| {
             let default = slot.default.as_ref().map_or(0.0, |default| default.value);
             let input = slot.name.to_string();
             let family = input.split_once('[').map(|(family, _)| family);
-            let mut given = asked.inputs.iter();
+            let mut given = report.asked.inputs.iter();
             let driven = given.find(|(name, _)| *name == input || Some(name.as_str()) == family);
             vec![
                 name(&slot.name),
@@ -331,19 +341,7 @@ fn parameters(report: &Report<'_, '_>) -> String {
                 words(&slot.docs),
             ]
         })
-        .collect();
-    if !inputs.is_empty() {
-        let title = if asked.inputs.is_empty() {
-            "Inputs, held constant"
-        } else {
-            "Inputs"
-        };
-        html.push_str(&html::table(title, &head, &inputs));
-    }
-    if html.is_empty() {
-        html.push_str("<p>The machine has no parameters.</p>");
-    }
-    html
+        .collect()
 }
 
 /// A table of the start and the end of the run.
