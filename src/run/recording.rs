@@ -171,6 +171,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return;
         }
         let bound = 0.1 * explained;
+        let failed = self.record.unexplained;
         let counts = |work: f64, dissipated: f64| {
             let (work, dissipated) = (now.work + work, now.dissipated + dissipated);
             !is_implicit
@@ -183,7 +184,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let known =
             step_motion(interpolant, &mut self.stepper, self.model.system).is_ok_and(|of_step| {
                 matches!(
-                    self.stepper.integrate_along(of_step, bound, counts),
+                    self.stepper
+                        .integrate_along(of_step, (bound, failed), counts),
                     Ok(true)
                 )
             });

@@ -26,7 +26,8 @@ const FREE: usize = 1;
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Integrates the powers over the last step along its dense output, by the Gauss–Legendre rule in 1, 2, 4 … parts, until work and
-    /// losses change by at most `bound`, in J, and the integral of the absolute work rate by at most a hundredth.
+    /// losses change by at most `bound`, in J, and the integral of the absolute work rate by at most as much or a hundredth. After each
+    /// attempt that `failed` in this run half as many parts are the most, so that all of them together cost no more than twice the first.
     ///
     /// The step was as long as the motion allows. If the machine is at rest, a drive may turn many times during the step, and the
     /// stages of the method do not represent its work. If no division of the step suffices, or if `counts` returns false for the changes of
@@ -34,17 +35,17 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     pub(crate) fn integrate_along(
         &mut self,
         interpolant: &Interpolant<S::Vector>,
-        bound: f64,
+        (bound, failed): (f64, usize),
         counts: impl FnOnce(f64, f64) -> bool,
     ) -> Result<bool, StepError> {
         let mut is_known = false;
         let mut before = std::vec![[f64::NAN; 3]];
         let mut parts = 1;
-        while parts <= MOST_PARTS {
+        while parts <= MOST_PARTS >> failed.min(MOST_PARTS.ilog2() as usize) {
             let refined = self.integrals_in_parts(interpolant, parts)?;
             let change = |i: usize| (refined[0][i] - before[0][i]).abs();
             let (work, to_and_fro, lost) = (change(0), change(1), change(2));
-            if work + lost <= bound && to_and_fro <= 0.01 * refined[0][1].abs() {
+            if work + lost <= bound && to_and_fro <= bound.max(0.01 * refined[0][1].abs()) {
                 if let Some(integrals) = self.quadratures.integrals_mut() {
                     let [work, _, dissipated] = integrals.change_of_last(&refined);
                     is_known = counts(work, dissipated);
