@@ -25,6 +25,8 @@ pub enum Failure {
     Interrupted,
     /// The call is invalid.
     Call(String),
+    /// Like [`Failure::Call`], for a value that does not fit a declaration in the spec.
+    PlacedCall(Box<Placed>),
 }
 
 impl Failure {
@@ -39,7 +41,7 @@ impl Failure {
             Failure::Run(message) | Failure::Call(message) | Failure::Detailed(message, _) => {
                 message
             }
-            Failure::Placed(placed) => placed.message,
+            Failure::Placed(placed) | Failure::PlacedCall(placed) => placed.message,
             Failure::Spec(_) => "the spec is invalid".to_owned(),
             Failure::AlreadyReported | Failure::Interrupted => String::new(),
         }

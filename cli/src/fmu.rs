@@ -161,7 +161,7 @@ pub fn run(call: &call::Fmu) -> Result<(), Failure> {
         _ => Version::Three,
     };
     let dag = Dag::new();
-    let mut reading = Reading::open(&call.spec)?;
+    let mut reading = Reading::open(&call.spec)?.with_values(&call.start);
     for event in &call.events {
         check_name(&event.name)?;
         reading.add_formula(&format!("--event {}", event.name), &event.value, None);

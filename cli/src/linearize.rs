@@ -47,7 +47,8 @@ struct Linearization {
 pub fn run(call: &call::Linearize) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
-    let compiled = modes::compiled(&call.spec, &dag, files.all(), "linear model")?;
+    let spec = (&call.spec, &call.search.start);
+    let compiled = modes::compiled(spec, &dag, files.all(), "linear model")?;
     let varied = ("--along", call.along.as_ref());
     let machine = modes::prepare(&compiled, &call.search, varied)?;
     if let Some(range) = &call.along {

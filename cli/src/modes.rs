@@ -15,6 +15,7 @@ use lagrangian_linear::steady::{self, Options};
 use lagrangian_linear::{Complex, model};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::model::Model;
+use lagrangian_spec::source::Sources;
 use lagrangian_symbolic::Dag;
 use lagrangian_units::{rate_name, rate_unit as unit_of_rate, state_of};
 use serde_json::{Map, Value, json};
@@ -62,7 +63,7 @@ impl Files {
 pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
-    let compiled = compiled(&call.spec, &dag, files.all(), "modes")?;
+    let compiled = compiled((&call.spec, &call.search.start), &dag, files.all(), "modes")?;
     let machine = prepare(&compiled, &call.search, ("--vary", call.vary.as_ref()))?;
     if let Some(vary) = &call.vary {
         let trace = vary::trace(&call.search, ("--vary", vary), &compiled, &machine)?;
@@ -162,7 +163,7 @@ pub fn motion(
 
 /// Compiles a spec for a purpose, `modes` or a `linear model`, and refuses machines without support for it.
 pub fn compiled<'d, 'a>(
-    spec: &call::Spec,
+    (spec, start): (&call::Spec, &call::Start),
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
     noun: &str,
@@ -171,49 +172,39 @@ pub fn compiled<'d, 'a>(
         "friction can hold a machine at rest anywhere within a range, and sliding friction has no linearization at rest: a \
          machine with `sliding` has no {noun}; use a variant without friction, with a constraint in place of each guide"
     );
-    let with_contacts = format!(
-        "collisions have no linearization: a machine with `contacts` has no {noun}; use a variant without them"
-    );
-    let refused = (with_sliding, Some(with_contacts));
-    compile(Reading::open(spec)?, dag, files, refused, |_| Ok(()))
+    let reading = Reading::open(spec)?.with_values(start);
+    compile(reading, dag, files, with_sliding, |_| Ok(())).map(|(compiled, _)| compiled)
 }
 
-/// Compiles an opened spec for derivatives of motions; `change` modifies its model before it is derived.
+/// Compiles an opened spec for derivatives of motions, and gives its source texts too; `change` modifies its model before it is derived.
 pub fn compiled_with<'d, 'a>(
     reading: Reading,
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
     noun: &str,
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
-) -> Result<Compiled<'d>, Failure> {
+) -> Result<(Compiled<'d>, Sources), Failure> {
     let with_sliding = format!(
         "finding the {noun} of a machine with `sliding` requires derivatives of its motion, which do not exist where it begins to stick or to \
          slide; use a variant without friction, with a constraint in place of each guide"
     );
-    // Derivatives can be continued across impacts.
-    compile(reading, dag, files, (with_sliding, None), change)
+    compile(reading, dag, files, with_sliding, change)
 }
 
-/// Compiles an opened spec; `change` modifies its model before it is derived. The messages explain why `sliding` and, if refused,
-/// `contacts` are not supported.
+/// Compiles an opened spec; `change` modifies its model before it is derived. The message explains why `sliding` is not supported.
 fn compile<'d, 'a>(
     mut reading: Reading,
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
-    (with_sliding, with_contacts): (String, Option<String>),
+    with_sliding: String,
     change: impl FnOnce(&mut Model<'d>) -> Result<(), Failure>,
-) -> Result<Compiled<'d>, Failure> {
+) -> Result<(Compiled<'d>, Sources), Failure> {
     let mut model = reading.model(dag);
     reading.keep_from(files)?;
-    if let Some(model) = &model {
-        if !model.sliding().is_empty() {
-            return Err(Failure::Run(with_sliding));
-        }
-        if let Some(refused) = with_contacts
-            && !model.contacts.is_empty()
-        {
-            return Err(Failure::Run(refused));
-        }
+    if let Some(model) = &model
+        && !model.sliding().is_empty()
+    {
+        return Err(Failure::Run(with_sliding));
     }
     if let Some(model) = &mut model {
         let derivatives = model.derivatives.clone();
@@ -227,7 +218,7 @@ fn compile<'d, 'a>(
     match compiled {
         Some(compiled) => {
             reading.warn();
-            Ok(compiled)
+            Ok((compiled, reading.sources))
         }
         None => Err(reading.failure()),
     }

@@ -10,6 +10,7 @@ use lagrangian_linear::DMatrix;
 use lagrangian_linear::orbit::{self, Multiplier, NoOrbit, Orbit, Period, Sought, Stability};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::model::{Variable, stage};
+use lagrangian_spec::source::Sources;
 use lagrangian_symbolic::Dag;
 use lagrangian_units::{integral_name, rate_name, rate_unit, state_of};
 use serde_json::{Value, json};
@@ -47,6 +48,8 @@ const SAME: f64 = 1e-5;
 /// A machine with its period.
 struct Ready<'d> {
     compiled: Compiled<'d>,
+    /// The source texts of the spec, for errors of runs.
+    sources: Sources,
     machine: InterpretedMachine,
     /// The formula of the period, and the index of its output.
     period: Option<(String, usize)>,
@@ -67,10 +70,20 @@ pub fn run(call: &call::Orbit) -> Result<(), Failure> {
     keep_apart(all.iter().copied(), &[(&call.spec.path, "the spec")])?;
     let dag = Dag::new();
     let ready = prepare(call, &dag, &all)?;
-    let sought = sought(call, &ready)?;
+    let found = search(call, &ready, &files);
+    found.map_err(|failure| failure.placed(&ready.compiled.model, &ready.sources))
+}
+
+/// Searches for the orbit, and writes and prints it.
+fn search(
+    call: &call::Orbit,
+    ready: &Ready<'_>,
+    files: &[Option<Destination>; 2],
+) -> Result<(), Failure> {
+    let sought = sought(call, ready)?;
     progress::now("searching for the orbit");
     if let Some(vary) = &call.along {
-        return along(call, &ready, &sought, vary, &files);
+        return along(call, ready, &sought, vary, files);
     }
     let orbit = orbit::find(&ready.machine, &sought).map_err(|none| {
         no_orbit_failure(
@@ -154,7 +167,7 @@ fn prepare<'d>(
     dag: &'d Dag,
     files: &[&Destination],
 ) -> Result<Ready<'d>, Failure> {
-    let mut reading = Reading::open(&call.spec)?;
+    let mut reading = Reading::open(&call.spec)?.with_values(&call.start);
     if let Some(period) = &call.period {
         reading.add_formula("--period TIME", period, Some("s"));
     }
@@ -179,7 +192,7 @@ fn prepare<'d>(
             Ok(())
         },
     );
-    let compiled = compiled.map_err(inputs::as_call_failure)?;
+    let (compiled, sources) = compiled.map_err(inputs::as_call_failure)?;
     let mut machine = reading::machine(&compiled, &call.start)?;
     reading::set_first(&mut machine, &call.start, ("--along", call.along.as_ref()))?;
     reading::check_parameters(&machine)?;
@@ -190,6 +203,7 @@ fn prepare<'d>(
         .map(|formula| (formula, compiled.model.outputs.len() - 1));
     Ok(Ready {
         compiled,
+        sources,
         machine,
         period,
     })

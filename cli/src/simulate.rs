@@ -279,7 +279,7 @@ impl<'d> Prepared<'d> {
         (files, written): (&Files, &[(String, InputArgument)]),
         (mut method, tolerance): (&'static Method, f64),
     ) -> Result<Prepared<'d>, Failure> {
-        let mut reading = Reading::open(&call.spec)?;
+        let mut reading = Reading::open(&call.spec)?.with_values(&call.start);
         let laws = reading.drive(written)?;
         let formulas = reading.formulas();
         let compiled = reading.compile_in_charts(dag, files.all(), ChartUse::Required);

@@ -32,26 +32,15 @@ type Steady = (Vec<bool>, Vec<bool>);
 type Labels = Vec<(String, String)>;
 
 impl Machine {
-    /// The machine with these values of its inputs. Machines with friction or contacts are refused, because they
-    /// have no linearization.
+    /// The machine with these values of its inputs. Machines with guided contacts are refused, because sticking friction has no
+    /// linearization.
     fn linear(&self, py: Python<'_>, inputs: &[f64]) -> PyResult<InterpretedMachine> {
         self.check_parameters(py)?;
         let system = self.system();
-        for (count, what) in [
-            (
-                system.contacts().len(),
-                "sticking friction cannot be linearized: a machine with `sliding`",
-            ),
-            (
-                system.unilateral_contacts().len(),
-                "collisions cannot be linearized: a machine with `contacts`",
-            ),
-        ] {
-            if count > 0 {
-                return Err(PyValueError::new_err(format!(
-                    "{what} has no modes and no linear model"
-                )));
-            }
+        if system.contacts().len() > 0 {
+            return Err(PyValueError::new_err(
+                "sticking friction cannot be linearized: a machine with `sliding` has no modes and no linear model",
+            ));
         }
         let mut machine = self.machine.clone();
         for (slot, value) in self.machine.program().inputs.iter().zip(inputs) {
