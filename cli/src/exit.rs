@@ -30,7 +30,11 @@ impl Failure {
                     output::line(format_args!("{document:#}"));
                 }
                 diagnostics::print_placed(placed);
-                return if matches!(self, Failure::Placed(_)) { 1 } else { 2 };
+                return if matches!(self, Failure::Placed(_)) {
+                    1
+                } else {
+                    2
+                };
             }
             Failure::Run(message) => (1, message),
             Failure::Detailed(message, further) => {

@@ -173,8 +173,7 @@ pub fn run(call: &call::Fit) -> Result<(), Failure> {
     progress::now("fitting");
     let count = usize::try_from(call.starts.min(MOST_SEARCHES)).unwrap_or(1);
     let searched = search(&mut fit, count, sigmas);
-    let searched =
-        searched.map_err(|failed| failure(failed).placed(&compiled.model, &sources))?;
+    let searched = searched.map_err(|failed| failure(failed).placed(&compiled.model, &sources))?;
     let mut result = Fitted {
         call,
         machine: &machine,

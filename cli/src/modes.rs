@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
-use lagrangian::{Machine, Simulation, System};
+use lagrangian::{Machine, Simulation, State, System};
 use lagrangian_linear::motion::SteadyMotion;
 use lagrangian_linear::search::{self, Wanted};
 use lagrangian_linear::spectrum::{Mode, Modes, damping};
@@ -23,6 +23,7 @@ use serde_json::{Map, Value, json};
 use crate::call;
 use crate::evaluate::{ended_assumptions, set_start};
 use crate::failure::Failure;
+use crate::other_chart::{self, OtherChart};
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading};
 use crate::table;
@@ -63,13 +64,22 @@ impl Files {
 pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
-    let compiled = compiled((&call.spec, &call.search.start), &dag, files.all(), "modes")?;
+    let (compiled, cartesian) =
+        compiled((&call.spec, &call.search.start), &dag, files.all(), "modes")?;
     let machine = prepare(&compiled, &call.search, ("--vary", call.vary.as_ref()))?;
     if let Some(vary) = &call.vary {
         let trace = vary::trace(&call.search, ("--vary", vary), &compiled, &machine)?;
         return show(call, &machine, &trace, &files);
     }
-    let Reached { q, wanted, motion } = find_motion(&machine, &call.search)?;
+    let start = start(&machine, &call.search)?;
+    let found = find_motion(&machine, start.clone(), &call.search);
+    let found = found.map(|reached| (machine, reached));
+    let (machine, Reached { q, wanted, motion }) = other_chart::search(found, || {
+        let given = (&call.search.start, &call.search.keep);
+        let chart = OtherChart::of(&compiled, cartesian, given, &start)?;
+        let found = find_motion(&chart.machine, chart.start, &call.search);
+        Some(found.map(|reached| (chart.machine, reached)))
+    })?;
     let system = machine.prepare();
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     if call.spec.json {
@@ -103,13 +113,19 @@ pub struct Reached {
     pub motion: SteadyMotion,
 }
 
-/// The steady motion that the search reaches from the start of a call.
-pub fn find_motion(
-    machine: &InterpretedMachine,
-    search: &call::Search,
-) -> Result<Reached, Failure> {
+/// The start of a call.
+pub fn start(machine: &InterpretedMachine, search: &call::Search) -> Result<State<Named>, Failure> {
     let mut start = machine.start();
     set_start(&mut start, &search.start)?;
+    Ok(start)
+}
+
+/// The steady motion that the search reaches from a start.
+pub fn find_motion(
+    machine: &InterpretedMachine,
+    mut start: State<Named>,
+    search: &call::Search,
+) -> Result<Reached, Failure> {
     let wanted = wanted(search, &mut start.v)?;
     let q = start.q.values.clone();
     refuse_drives(machine, &q, &wanted)?;
@@ -131,7 +147,7 @@ pub fn warn_of_ended(machine: &InterpretedMachine, state: (f64, &Vec<f64>, &Vec<
 fn on_constraints(
     machine: &InterpretedMachine,
     keep: &call::Keep,
-    start: lagrangian::State<Named>,
+    start: State<Named>,
 ) -> Result<Vec<f64>, Failure> {
     let system = machine.prepare();
     let is_kept = match reading::kept_names(keep) {
@@ -161,19 +177,25 @@ pub fn motion(
     Ok(motion)
 }
 
-/// Compiles a spec for a purpose, `modes` or a `linear model`, and refuses machines without support for it.
+/// Compiles a spec for a purpose, `modes` or a `linear model`, and refuses machines without support for it. Also gives the model in the
+/// other chart, if the spec names one.
 pub fn compiled<'d, 'a>(
     (spec, start): (&call::Spec, &call::Start),
     dag: &'d Dag,
     files: impl IntoIterator<Item = &'a Destination>,
     noun: &str,
-) -> Result<Compiled<'d>, Failure> {
+) -> Result<(Compiled<'d>, Option<Box<Model<'d>>>), Failure> {
     let with_sliding = format!(
         "friction can hold a machine at rest anywhere within a range, and sliding friction has no linearization at rest: a \
          machine with `sliding` has no {noun}; use a variant without friction, with a constraint in place of each guide"
     );
     let reading = Reading::open(spec)?.with_values(start);
-    compile(reading, dag, files, with_sliding, |_| Ok(())).map(|(compiled, _)| compiled)
+    let mut cartesian = None;
+    let (compiled, _) = compile(reading, dag, files, with_sliding, |model| {
+        cartesian = model.cartesian.take();
+        Ok(())
+    })?;
+    Ok((compiled, cartesian))
 }
 
 /// Compiles an opened spec for derivatives of motions, and gives its source texts too; `change` modifies its model before it is derived.

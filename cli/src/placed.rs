@@ -31,7 +31,10 @@ impl Placed {
         let mut assumptions = model.assumptions.iter();
         // These are the words of `Error::AssumptionEnded`.
         let stated = assumptions.find(|stated| {
-            let words = format!("the machine assumes `{}`, which does not hold at t", stated.text);
+            let words = format!(
+                "the machine assumes `{}`, which does not hold at t",
+                stated.text
+            );
             message.contains(&words)
         })?;
         Some(Placed {

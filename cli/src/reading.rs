@@ -196,7 +196,10 @@ impl Reading {
         );
         *files = recorder.read;
         let model = model?;
-        self.misfit = self.values.iter().find_map(|given| self.misfit_of(given, &model));
+        self.misfit = self
+            .values
+            .iter()
+            .find_map(|given| self.misfit_of(given, &model));
         self.misfit.is_none().then_some(model)
     }
 

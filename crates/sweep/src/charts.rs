@@ -147,6 +147,17 @@ impl Charts {
         shown
     }
 
+    /// The state of the run with these coordinates and rates of the spec.
+    pub fn in_run(&self, t: f64, q: &[f64], v: &[f64]) -> State<Named> {
+        let mut state = self.start.clone();
+        state.t = t;
+        state.q.values.copy_from_slice(q);
+        state.v.values.copy_from_slice(v);
+        let places = self.points.places();
+        to_cartesian(&places, &mut state.q.values, &mut state.v.values);
+        state
+    }
+
     /// A recording of these states with the polar coordinates in the places of the Cartesian ones.
     pub fn in_polar(&self, recording: &Recording, states: &[State<Named>]) -> Recording {
         let mut shown = recording.clone();

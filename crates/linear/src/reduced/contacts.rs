@@ -229,7 +229,11 @@ impl Reduced<'_> {
     }
 
     /// The first contact that prevents a linear model at a state, with the reason.
-    pub(crate) fn barred_by(&mut self, q: &[Number], v: &[Number]) -> Option<(usize, ContactFault)> {
+    pub(crate) fn barred_by(
+        &mut self,
+        q: &[Number],
+        v: &[Number],
+    ) -> Option<(usize, ContactFault)> {
         let (n, count, t) = (q.len(), self.contacts.len(), self.time);
         if count == 0 {
             return None;
@@ -265,8 +269,7 @@ impl Reduced<'_> {
                 Some(_) => {
                     let holds = |(slips, friction): (Vec<usize>, usize)| {
                         value(&coefficients[friction]) != 0.0
-                            && (slips.iter())
-                                .all(|&d| value(&rates[d]).abs() <= margin(d, v, 0.0))
+                            && (slips.iter()).all(|&d| value(&rates[d]).abs() <= margin(d, v, 0.0))
                     };
                     if !self.slipping(k).into_iter().any(holds) {
                         return None;

@@ -73,11 +73,7 @@ fn assert_near(found: f64, exact: f64) {
 #[test]
 fn a_ball_on_a_linear_floor_oscillates_as_on_a_spring() {
     for y in [5.0, 0.1001, 0.05] {
-        let (q, modes) = at_rest(&ball(
-            y,
-            "compliance: linear(k, b)",
-        ))
-        .expect("an equilibrium");
+        let (q, modes) = at_rest(&ball(y, "compliance: linear(k, b)")).expect("an equilibrium");
         assert_near(q[0], 0.1 - 20.0 / 800.0);
         let [(re, im)] = modes[..] else {
             panic!("{modes:?}")
@@ -90,10 +86,7 @@ fn a_ball_on_a_linear_floor_oscillates_as_on_a_spring() {
 /// `N = K d^(3/2) (1 + c ḋ)`: d = (m g/K)^(2/3), the stiffness is 3/2 K √d, and the damping m g c.
 #[test]
 fn a_ball_on_a_curved_floor_has_the_stiffness_of_its_depth() {
-    for (law, damping) in [
-        ("hertz(K)", 0.0),
-        ("hunt_crossley(K, c)", 4.0),
-    ] {
+    for (law, damping) in [("hertz(K)", 0.0), ("hunt_crossley(K, c)", 4.0)] {
         for y in [1.0, 0.09] {
             let (q, modes) = at_rest(&ball(y, &format!("compliance: {law}"))).expect("one");
             let depth = (20.0_f64 / 1e6).powf(2.0 / 3.0);
@@ -201,8 +194,13 @@ fn a_contact_that_slips_steadily_has_a_model() {
     let back = about(&machine, (0.0, &[0.4, 0.7], &[0.0, -10.0]), &nothing).expect("it slips");
     assert_near(back.a[(3, 0)] / 1000.0, 1.2);
     let stuck = about(&machine, (0.0, &[0.4, 0.7], &[0.0, 0.0]), &nothing);
-    let words = stuck.expect_err("it may stick").in_words(&machine.prepare(), OPTIONS);
-    assert!(words.contains("the contact `pad` presses and does not slip there"), "{words}");
+    let words = stuck
+        .expect_err("it may stick")
+        .in_words(&machine.prepare(), OPTIONS);
+    assert!(
+        words.contains("the contact `pad` presses and does not slip there"),
+        "{words}"
+    );
 }
 
 #[test]
@@ -231,7 +229,10 @@ fn what_has_no_linearization_names_the_contact() {
         )
     };
     for (wall, words) in [
-        ("gap: x, restitution: 0.5", "the rigid contact `wall` is closed there"),
+        (
+            "gap: x, restitution: 0.5",
+            "the rigid contact `wall` is closed there",
+        ),
         (
             "gap: x - A, restitution: 0.5",
             "the rigid contact `wall`, which counts as open, would be penetrated by 1.000e-2 m there",
@@ -244,14 +245,21 @@ fn what_has_no_linearization_names_the_contact() {
             "gap: x - A, slip: der(y), compliance: linear(k, c), friction: 0.1",
             "the contact `wall` presses and does not slip there",
         ),
-        ("gap: x + A*cos(w*t) + 2*A, restitution: 0.5", "driven: [\"A\", \"w\"]"),
+        (
+            "gap: x + A*cos(w*t) + 2*A, restitution: 0.5",
+            "driven: [\"A\", \"w\"]",
+        ),
     ] {
         check(at_rest(&between(wall)), words);
     }
     // The stiffness of Hertz's law is 0 where it begins to press.
     let (q, modes) = at_rest(&between("gap: x, compliance: hertz(K)")).expect("a model");
     assert_eq!(q[0], 0.0);
-    assert!(modes.iter().all(|(re, im)| *re == 0.0 && (im - 20.0).abs() < 1e-12));
+    assert!(
+        modes
+            .iter()
+            .all(|(re, im)| *re == 0.0 && (im - 20.0).abs() < 1e-12)
+    );
 }
 
 /// Along a steady motion the gap of an open contact must not change.
@@ -271,7 +279,10 @@ fn a_gap_that_changes_along_a_steady_motion_is_named() {
     };
     assert!(rotor("x + A").is_ok());
     let said = rotor("x + A*(2 + cos(phi))").expect_err("it may close");
-    assert!(said.contains("the gap of the contact `wall` changes along the steady motion"), "{said}");
+    assert!(
+        said.contains("the gap of the contact `wall` changes along the steady motion"),
+        "{said}"
+    );
 }
 
 /// The derivatives of accelerations are those with all contacts open, with `derivatives` in the spec and without.
