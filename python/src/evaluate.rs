@@ -388,24 +388,6 @@ pub fn linearize<'py>(
     let n = machine.dimension();
     let mut inputs = machine.inputs.clone();
     inputs.values.copy_from_slice(&u);
-    if machine.system().unilateral_contacts().len() > 0 {
-        let system = machine.system();
-        let at = At {
-            t,
-            q: &q,
-            v: &v,
-            u: &inputs,
-        };
-        let found = Evaluation::of(&*system, at);
-        let found = found.map_err(|error| machine.raised(py, error, 0))?;
-        let mut contacts = system.unilateral_contacts().zip(&found.unilateral);
-        if let Some((contact, _)) = contacts.find(|(_, found)| found.closed) {
-            return Err(PyValueError::new_err(format!(
-                "the contact `{}` is closed there: derivatives of accelerations are those with all contacts open",
-                contact.name
-            )));
-        }
-    }
     let (mut a, mut by_q, mut by_v) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
     let system = machine.system();
     match system.linearize(t, &q, &v, &inputs, &mut a, &mut by_q, &mut by_v) {

@@ -115,3 +115,28 @@ def test_plots_show_the_response():
     plt.close("all")
     with pytest.raises(ValueError, match="from an input"):
         lg.load(ROOT / "machines" / "double_pendulum.machine").linearize(steady={}).bode()
+
+
+BALL = """machine Ball in plane {
+    parameters { m: kg = 2, g: m/s^2 = 10, r: m = 0.1, k: N/m = 800, b: N*s/m = 4 }
+    coordinates { y: m = 1 }
+    bodies { ball { mass: m, at: (0, y) } }
+    gravity (0, -g);
+    contacts { floor { gap: y - r, LAW } }
+}"""
+
+
+def test_a_ball_on_a_floor_that_yields_has_modes():
+    m = lg.loads(BALL.replace("LAW", "compliance: linear(k, b)"))
+    modes = m.modes()
+    assert m.equilibrium().q["y"] == pytest.approx(0.1 - 20 / 800, rel=1e-14)
+    assert modes.eigenvalues == pytest.approx([-1 + 1j * np.sqrt(399)], rel=1e-12)
+    # In the air it falls.
+    falling = m.linearize()
+    assert falling.A.tolist() == [[0.0, 1.0], [0.0, 0.0]]
+    assert falling.drift.tolist() == [0.0, -10.0]
+    rigid = lg.loads(BALL.replace("LAW", "restitution: 0.5"))
+    with pytest.raises(ValueError, match="rigid contacts, as `floor`, count as open"):
+        rigid.modes()
+    with pytest.raises(ValueError, match="the rigid contact `floor` is closed there"):
+        rigid.linearize(start={"y": 0.1})

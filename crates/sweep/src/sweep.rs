@@ -55,6 +55,8 @@ pub struct Sweep {
     machine: InterpretedMachine,
     /// The machine in the Cartesian coordinates that `charts` of the spec names, if it names any and they can express the plan.
     cartesian: Option<Cartesian>,
+    /// For each fact that the spec assumes its text and its place in the spec: `swing.machine:7:14`.
+    assumptions: Vec<(String, String)>,
     /// The method of all runs; `None` if each of them chooses its methods.
     method: Option<&'static Method>,
     /// Why another method is used than the plan asks for, as a sentence.
@@ -228,6 +230,14 @@ impl Sweep {
         let Some(compiled) = compiled else {
             return Err(PlanError::Spec(Box::new((report, sources))));
         };
+        let stated = compiled.model.assumptions.iter();
+        let assumptions = stated
+            .map(|stated| {
+                let (line, column) = sources.line_column(stated.span);
+                let file = sources.name(stated.span.source);
+                (stated.text.clone(), format!("{file}:{line}:{column}"))
+            })
+            .collect();
         let own = compiled.model.outputs.len() - output_formulas.len();
         let formulas: Vec<Formula> = (own..)
             .zip(&compiled.model.outputs[own..])
@@ -326,6 +336,7 @@ impl Sweep {
             group,
             machine,
             cartesian,
+            assumptions,
             method: (!is_automatic).then_some(method),
             warning,
             constants,
@@ -375,6 +386,19 @@ impl Sweep {
     /// Makes the runs of a chunk, the unit of work, which depends only on the plan and the chunk's index. `None` once `stop` is set.
     pub fn run_chunk(&self, chunk: u64, stop: &AtomicBool) -> Option<Chunk> {
         self.run(self.plan.runs_of(chunk), stop, &|_| ())
+    }
+
+    /// The message of an error of a run, followed by the place in the spec if that states its reason.
+    fn message_of(&self, error: &lagrangian::Error) -> String {
+        let message = verdict::message_of(error);
+        let lagrangian::Error::AssumptionEnded { assumption, .. } = error else {
+            return message;
+        };
+        let mut stated = self.assumptions.iter();
+        match stated.find(|(text, _)| text == assumption) {
+            Some((_, place)) => format!("{message} ({place})"),
+            None => message,
+        }
     }
 
     /// Makes these runs; `done` is called after each with whether it failed.
@@ -475,7 +499,7 @@ impl Sweep {
                     self.outcome(*run, (&solution, error), (begun.recorder, charts), failed)
                 }
                 Err(error) => {
-                    let error = Some(verdict::message_of(&error));
+                    let error = Some(self.message_of(&error));
                     Some(Outcome { error, ..failed })
                 }
             }
@@ -667,7 +691,7 @@ impl Sweep {
         if *solution.ending() == Ending::Stopped {
             return None;
         }
-        let error = error.as_ref().map(verdict::message_of);
+        let error = error.as_ref().map(|error| self.message_of(error));
         outcome.error = error.or_else(|| verdict::energy_error(solution));
         outcome.status = match (&outcome.error, solution.ending()) {
             (Some(_), _) => "failed".to_owned(),

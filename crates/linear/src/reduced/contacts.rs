@@ -262,8 +262,6 @@ impl Reduced<'_> {
                 _ if gap > margin_of_gap => return None,
                 None if is_near => ContactFault::Rigid,
                 None => ContactFault::Penetrated(-gap),
-                // The stiffness of these falls to 0 with their depth.
-                Some(Compliance::Hertz | Compliance::HuntCrossley) if is_near => return None,
                 Some(_) if is_near => ContactFault::Boundary,
                 Some(Compliance::Layer) => ContactFault::Layer,
                 Some(_) => {

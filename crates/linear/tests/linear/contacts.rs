@@ -98,7 +98,9 @@ fn a_ball_on_a_curved_floor_has_the_stiffness_of_its_depth() {
             let half = damping / 4.0;
             assert_near(re, -half);
             let exact = (stiffness / 2.0 - half * half).sqrt();
-            assert!((im / exact - 1.0).abs() < 1e-13, "{im:?}, not {exact:?}");
+            // The search leaves what is within four roundings of the coordinates, and ω changes with the fourth root of the depth.
+            let rounding = 2.0 * f64::EPSILON / depth;
+            assert!((im / exact - 1.0).abs() < rounding, "{im:?}, not {exact:?}");
         }
     }
 }
