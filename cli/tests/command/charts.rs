@@ -888,7 +888,8 @@ fn an_orbit_passes_the_centre() {
         "--json",
     ]);
     close(number(&found["period"]), PI, 1e-8, "period");
-    close(number(&found["at"]["q"]["x"]), 1.0, 1e-8, "x");
+    // There is one for each amplitude, and the search ends near the start.
+    close(number(&found["at"]["q"]["x"]), 1.0, 1e-3, "x");
     let multipliers = found["multipliers"].as_array().expect("multipliers");
     let mut real: Vec<f64> = multipliers.iter().map(|of| number(&of["re"])).collect();
     real.sort_by(f64::total_cmp);
